@@ -156,8 +156,8 @@ Result<void> TakeStack() {
   limit.rlim_cur = std::min(limit.rlim_max, kUsual);
   ::setrlimit(RLIMIT_STACK, &limit);
   if (limit.rlim_cur >= kLeast) return {};
-  return Fail({kThisMachine}, "the stack may hold {} KiB; at least {} are needed (ulimit -s)", limit.rlim_cur >> 10,
-              kLeast >> 10);
+  return FailOfMachine("the stack may hold {} KiB; at least {} are needed (ulimit -s)", limit.rlim_cur >> 10,
+                       kLeast >> 10);
 }
 
 int Main(int argc, char** argv) {
@@ -208,7 +208,7 @@ int main(int argc, char** argv) {
     if (std::fflush(stdout) == 0) return code;
     return etude::Complain(etude::CannotWrite("standard output", "cannot be written", errno).value());
   } catch (const std::bad_alloc&) {
-    return etude::Complain({{etude::kThisMachine, 0, 0}, "there is no more memory"});
+    return etude::Complain(etude::FailOfMachine("there is no more memory").value());
   } catch (const std::filesystem::filesystem_error& error) {
     return etude::Complain({{}, error.what()});
   } catch (const std::system_error& error) {  // fmt's, of an output that takes nothing more

@@ -56,7 +56,7 @@ std::string CheckSample(const std::string& text) {
 /// Throws dice that nobody can foresee; of so many bits as every reader of JSON keeps.
 Result<std::uint64_t> FreshDice() {
   std::uint64_t dice = 0;
-  if (::getrandom(&dice, sizeof dice, 0) != sizeof dice) return Fail({kThisMachine}, "gives no random numbers");
+  if (::getrandom(&dice, sizeof dice, 0) != sizeof dice) return FailOfMachine("gives no random numbers");
   return dice >> 11;
 }
 

@@ -10,6 +10,7 @@
 
 #include "engine/base/csv.h"
 #include "io/drawing/escape.h"
+#include "io/drawing/table.h"
 #include "reports/badge.h"
 #include "reports/words/figures.h"
 #include "reports/words/judged.h"
@@ -71,38 +72,29 @@ Line LineOf(const ConditionSummary& condition, const Comparison& c, SamplingUnit
   return line;
 }
 
-/// Writes one comparison as a row. What only experts look for is marked "more": the page's script shows it when asked.
-std::string RowHtml(const ScenarioSummary& scenario, const Shown& shown, bool swept) {
+/// Gives one comparison as a row of the page.
+TableRow RowOf(const ScenarioSummary& scenario, const Shown& shown, bool swept) {
   const Comparison& c = *shown.comparison;
   const Line line = LineOf(*shown.condition, c, scenario.unit);
   const std::string place = fmt::format("{}/{}/000/", scenario.name, CompactLabel(shown.condition->condition));
   std::string cells = place + c.method;  // those of the first trial, to begin with
   for (const std::string& baseline : BaselinesOf({&c, shown.condition})) cells += "\n" + place + baseline;
-  std::string html = fmt::format("<tr data-ids=\"{}\"><td>{}</td>", EscapeMarkup(cells), EscapeMarkup(line.methods));
-  if (swept) html += fmt::format("<td>{}</td>", EscapeMarkup(line.condition));
-  const auto number = [&](const std::string& text, std::optional<double> value, const char* style = "n") {
-    html += fmt::format("<td class=\"{}\" data-v=\"{}\">{}</td>", style, ExactText(value), EscapeMarkup(text));
-  };
-  number(line.difference, c.difference);
-  number(line.interval, c.ci_low);
   const auto& beyond = c.beyond.verdict;
-  html += fmt::format("<td>{}</td><td>{}</td>", VerdictBadge(c.verdict),
-                      beyond ? VerdictBadge(*beyond) : std::string(kNoValue));
-  number(line.pairs, c.pairs, "n more");
-  number(line.p, c.p_holm, "n more");
-  number(line.effect, c.effect_size, "n more");
-  return html + fmt::format("<td class=\"more\">{}</td></tr>", EscapeMarkup(line.notes));
+  TableRow row{.cells = {line.methods}, .attributes = fmt::format(" data-ids=\"{}\"", EscapeMarkup(cells))};
+  if (swept) row.cells.emplace_back(line.condition);
+  row.cells.insert(row.cells.end(), {{line.difference, c.difference},
+                                     {line.interval, c.ci_low},
+                                     {"", {}, VerdictBadge(c.verdict)},
+                                     {"", {}, beyond ? VerdictBadge(*beyond) : std::string(kNoValue)},
+                                     {line.pairs, c.pairs},
+                                     {line.p, c.p_holm},
+                                     {line.effect, c.effect_size},
+                                     line.notes});
+  return row;
 }
 
 std::string Legend(const ScenarioSummary& scenario) {
   return fmt::format("p is corrected over this scenario’s {} (Holm).", Plural(scenario.family, "comparison"));
-}
-
-std::string BeyondCsv(const Beyond& beyond) {
-  return fmt::format("{},{},{},{},{},{},{},{},{}\n", beyond.units, ExactText(beyond.difference), ExactText(beyond.low),
-                     ExactText(beyond.high), ExactText(beyond.test.p), CsvText(beyond.test.how),
-                     ExactText(beyond.p_holm), beyond.verdict ? VerdictName(*beyond.verdict) : "",
-                     CsvText(beyond.why_open));
 }
 
 /// Visits every condition's comparisons with baselines, then those with the strongest other method.
@@ -138,34 +130,33 @@ std::vector<Shown> DistinctOf(const ScenarioSummary& scenario) {
 }
 
 /// Writes comparisons as a table, a body per metric. `left` rows may be written at most, and are counted down.
-std::string TableHtml(const ScenarioSummary& scenario, std::span<const Shown> shown, std::size_t& left) {
+std::string ShownHtml(const ScenarioSummary& scenario, std::span<const Shown> shown, std::size_t& left) {
   const bool swept = scenario.conditions.size() > 1;
-  std::string html =
-      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Comparisons\"><table class=\"data\"><thead>"
-      "<tr><th scope=\"col\">Methods</th>";
-  if (swept) html += "<th scope=\"col\">Condition</th>";
-  html += fmt::format(
-      "<th scope=\"col\" class=\"n\">Difference</th><th scope=\"col\" class=\"n\">95 % interval</th>"
-      "<th scope=\"col\">On {}</th><th scope=\"col\">For {}</th>",
-      TheseUnits(scenario.unit), OtherUnits(scenario.unit));
-  for (const char* head : {"Worlds", "p (Holm)", "Effect"}) {
-    html += fmt::format("<th scope=\"col\" class=\"n more\">{}</th>", head);
-  }
-  html += "<th scope=\"col\" class=\"more\">Mind</th></tr></thead>";
+  Table table{.label = "Comparisons", .style = "data", .columns = {{"Methods"}}};
+  if (swept) table.columns.push_back({"Condition"});
+  const auto number = [](const char* head, bool is_detail) {
+    return TableColumn{.head = head, .is_number = true, .is_detail = is_detail, .is_sortable = true};
+  };
+  table.columns.insert(table.columns.end(), {number("Difference", false),
+                                             number("95 % interval", false),
+                                             {fmt::format("On {}", TheseUnits(scenario.unit))},
+                                             {fmt::format("For {}", OtherUnits(scenario.unit))},
+                                             number("Worlds", true),
+                                             number("p (Holm)", true),
+                                             number("Effect", true),
+                                             {.head = "Mind", .is_detail = true}});
   const std::string* metric = nullptr;
   for (const Shown& one : shown) {
     if (left == 0) break;
     --left;
     if (metric == nullptr || *metric != one.comparison->metric) {
-      html += fmt::format(
-          "{}<tbody data-group=\"{}\"><tr class=\"group\"><th scope=\"rowgroup\" colspan=\"{}\">{}</th></tr>",
-          metric == nullptr ? "" : "</tbody>", EscapeMarkup(WordsFor(one.comparison->metric).label), swept ? 10 : 9,
-          EscapeMarkup(MetricHeading(one.comparison->metric)));
       metric = &one.comparison->metric;
+      table.rows.push_back({.group = MetricHeading(*metric),
+                            .attributes = fmt::format(" data-group=\"{}\"", EscapeMarkup(WordsFor(*metric).label))});
     }
-    html += RowHtml(scenario, one, swept);
+    table.rows.push_back(RowOf(scenario, one, swept));
   }
-  return html + "</tbody></table></div>";
+  return TableHtml(table);
 }
 
 /// Says "holds", or why no common verdict counts.
@@ -189,17 +180,20 @@ std::string EachText(const AcrossVerdict& across, const AcrossVerdict::Each& eac
   return fmt::format("{} {}", ShortDifference(*each.difference, words), VerdictName(each.verdict));
 }
 
-std::vector<std::string> HeadingsOf(const ScenarioSummary& scenario) {
-  std::vector<std::string> headings = {"metric", "methods", "condition"};
-  for (const AcrossVerdict::Each& each : scenario.across.front().each) headings.push_back(each.value);
-  headings.emplace_back("under all");
-  return headings;
-}
-
-std::vector<std::string> CellsOf(const AcrossVerdict& across) {
-  std::vector<std::string> cells = {across.metric, MethodsOf(across), ConditionLabel(across.condition)};
-  for (const AcrossVerdict::Each& each : across.each) cells.push_back(EachText(across, each));
-  return cells;
+Table AcrossTable(const ScenarioSummary& scenario) {
+  Table table{.label = "What holds under all", .style = "data", .columns = {{"metric"}, {"methods"}, {"condition"}}};
+  for (const AcrossVerdict::Each& each : scenario.across.front().each) table.columns.push_back({each.value});
+  table.columns.push_back({"under all"});
+  for (const AcrossVerdict& across : scenario.across) {
+    std::vector<TableCell> cells = {across.metric, MethodsOf(across), ConditionLabel(across.condition)};
+    for (const AcrossVerdict::Each& each : across.each) cells.emplace_back(EachText(across, each));
+    const std::string holds = WhatHolds(across);
+    cells.push_back({fmt::format("{}: {}", VerdictName(across.verdict), holds),
+                     {},
+                     fmt::format("{} {}", VerdictBadge(across.verdict), holds)});
+    table.rows.push_back({std::move(cells)});
+  }
+  return table;
 }
 
 }  // namespace
@@ -227,10 +221,10 @@ std::string ComparisonTableHtml(const ScenarioSummary& scenario) {
       all, [&](const Shown& shown) { return shown.comparison->metric != all.front().comparison->metric; });
   const std::span<const Shown> lead(all.begin(), others), rest(others, all.end());
   std::size_t left = kMostTableRows;
-  std::string html = TableHtml(scenario, lead, left);
+  std::string html = ShownHtml(scenario, lead, left);
   if (!rest.empty() && left > 0) {
     html += fmt::format("<details><summary>and {} more, by the other metrics</summary>{}</details>", rest.size(),
-                        TableHtml(scenario, rest, left));
+                        ShownHtml(scenario, rest, left));
   }
   return html + LeftOutHtml(all.size(), kMostTableRows, "comparisons", kAllComparisons) +
          fmt::format("<p class=\"quiet legend\">{}</p>", EscapeMarkup(Legend(scenario)));
@@ -239,80 +233,92 @@ std::string ComparisonTableHtml(const ScenarioSummary& scenario) {
 std::string ComparisonTableMarkdown(const ScenarioSummary& scenario) {
   const std::vector<Shown> all = DistinctOf(scenario);
   if (all.empty()) return "";
-  std::string text = fmt::format(
-      "\n<details><summary>Every comparison ({})</summary>\n\n"
-      "| metric | methods | condition | difference (95 % interval) | on {} | for {} | worlds | p (Holm) | effect | "
-      "mind "
-      "|\n"
-      "|---|---|---|---|---|---|---|---|---|---|\n",
-      all.size(), TheseUnits(scenario.unit), OtherUnits(scenario.unit));
+  Table table{.columns = {{"metric"},
+                          {"methods"},
+                          {"condition"},
+                          {"difference (95 % interval)"},
+                          {fmt::format("on {}", TheseUnits(scenario.unit))},
+                          {fmt::format("for {}", OtherUnits(scenario.unit))},
+                          {"worlds"},
+                          {"p (Holm)"},
+                          {"effect"},
+                          {"mind"}}};
   for (const Shown& shown : std::span(all).first(std::min(all.size(), kMostTableRows))) {
-    const Comparison& c = *shown.comparison;
-    const Line line = LineOf(*shown.condition, c, scenario.unit);
-    text += fmt::format("| {} | {}{} | {} | {} ({}) | {} | {} | {} | {} | {} | {} |\n", EscapeMarkdown(line.metric),
-                        EscapeMarkdown(line.methods), shown.against == Against::kRival ? " (strongest other)" : "",
-                        EscapeMarkdown(line.condition), line.difference, line.interval, VerdictName(c.verdict),
-                        line.beyond, line.pairs, EscapeMarkdown(line.p), line.effect, EscapeMarkdown(line.notes));
+    const Line line = LineOf(*shown.condition, *shown.comparison, scenario.unit);
+    table.rows.push_back(
+        {{line.metric, line.methods + (shown.against == Against::kRival ? " (strongest other)" : ""), line.condition,
+          fmt::format("{} ({})", line.difference, line.interval), VerdictName(shown.comparison->verdict), line.beyond,
+          line.pairs, line.p, line.effect, line.notes}});
   }
   const std::string rest = LeftOutWords(all.size(), kMostTableRows, "comparisons", kAllComparisons);
-  if (!rest.empty()) text += fmt::format("\n{}\n", EscapeMarkdown(rest));
-  return text + fmt::format("\n{}\n\n</details>\n", EscapeMarkdown(Legend(scenario)));
+  return fmt::format("\n<details><summary>Every comparison ({})</summary>\n{}{}\n{}\n\n</details>\n", all.size(),
+                     TableMarkdown(table), rest.empty() ? "" : fmt::format("\n{}\n", EscapeMarkdown(rest)),
+                     EscapeMarkdown(Legend(scenario)));
 }
 
 std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
-  std::string csv =
-      "scenario,condition,metric,baseline,method,pairs,differing,only_baseline,only_method,neither,difference,ci95_low,"
-      "ci95_high,interval,mean_difference,mean_ci95_low,mean_ci95_high,p_signed_rank,signed_rank_how,p_sign_flip,"
-      "sign_flip_how,p_holm,effect_size,share_better,verdict,notes,against,unit,units,beyond_mean,beyond_ci95_low,"
-      "beyond_ci95_high,beyond_p,beyond_how,beyond_p_holm,beyond_verdict,beyond_why_open\n";
+  Table table;
+  for (const char* head : {"scenario",        "condition",        "metric",        "baseline",        "method",
+                           "pairs",           "differing",        "only_baseline", "only_method",     "neither",
+                           "difference",      "ci95_low",         "ci95_high",     "interval",        "mean_difference",
+                           "mean_ci95_low",   "mean_ci95_high",   "p_signed_rank", "signed_rank_how", "p_sign_flip",
+                           "sign_flip_how",   "p_holm",           "effect_size",   "share_better",    "verdict",
+                           "notes",           "against",          "unit",          "units",           "beyond_mean",
+                           "beyond_ci95_low", "beyond_ci95_high", "beyond_p",      "beyond_how",      "beyond_p_holm",
+                           "beyond_verdict",  "beyond_why_open"}) {
+    table.columns.push_back({head});
+  }
   ForEachComparison(scenario, [&](const ConditionSummary& condition, const Comparison& c, Against against) {
-    csv += fmt::format("{},{},{},{},{},", CsvText(scenario.name), CsvText(ConditionLabel(condition.condition)),
-                       CsvText(c.metric), CsvText(c.baseline), CsvText(c.method));
-    csv += fmt::format("{},{},{},{},{},", c.pairs, c.differing, c.only_baseline, c.only_method, c.neither);
-    csv += fmt::format("{},{},{},{},{},{},{},", ExactText(c.difference), ExactText(c.ci_low), ExactText(c.ci_high),
-                       IntervalKindName(c.interval), ExactText(c.mean), ExactText(c.mean_low), ExactText(c.mean_high));
-    csv += fmt::format("{},{},{},{},{},", ExactText(c.signed_rank.p), CsvText(c.signed_rank.how),
-                       ExactText(c.sign_flip.p), CsvText(c.sign_flip.how), ExactText(c.p_holm));
-    csv += fmt::format("{},{},{},{},", ExactText(c.effect_size),
-                       ExactText(c.pairs > 0 ? std::optional(c.share_better) : std::nullopt), VerdictName(c.verdict),
-                       CsvText(Notes(c)));
-    csv += fmt::format("{},{},", against == Against::kRival ? "rival" : "baseline", SamplingUnitName(scenario.unit));
-    csv += BeyondCsv(c.beyond);
+    const Beyond& beyond = c.beyond;
+    table.rows.push_back({{scenario.name,
+                           ConditionLabel(condition.condition),
+                           c.metric,
+                           c.baseline,
+                           c.method,
+                           c.pairs,
+                           c.differing,
+                           c.only_baseline,
+                           c.only_method,
+                           c.neither,
+                           c.difference,
+                           c.ci_low,
+                           c.ci_high,
+                           IntervalKindName(c.interval),
+                           c.mean,
+                           c.mean_low,
+                           c.mean_high,
+                           c.signed_rank.p,
+                           c.signed_rank.how,
+                           c.sign_flip.p,
+                           c.sign_flip.how,
+                           c.p_holm,
+                           c.effect_size,
+                           c.pairs > 0 ? std::optional(c.share_better) : std::nullopt,
+                           VerdictName(c.verdict),
+                           Notes(c),
+                           against == Against::kRival ? "rival" : "baseline",
+                           SamplingUnitName(scenario.unit),
+                           beyond.units,
+                           beyond.difference,
+                           beyond.low,
+                           beyond.high,
+                           beyond.test.p,
+                           beyond.test.how,
+                           beyond.p_holm,
+                           beyond.verdict ? VerdictName(*beyond.verdict) : "",
+                           beyond.why_open}});
   });
-  return csv;
+  return TableCsv(table);
 }
 
 std::string AcrossTableHtml(const ScenarioSummary& scenario) {
   if (scenario.across.empty()) return "";
-  std::string html =
-      "<p class=\"quiet legend\">What holds under all of them:</p><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
-      "aria-label=\"What holds under all\"><table class=\"data\"><thead><tr>";
-  for (const std::string& heading : HeadingsOf(scenario)) {
-    html += fmt::format("<th scope=\"col\">{}</th>", EscapeMarkup(heading));
-  }
-  html += "</tr></thead><tbody>";
-  for (const AcrossVerdict& across : scenario.across) {
-    html += "<tr>";
-    for (const std::string& cell : CellsOf(across)) html += fmt::format("<td>{}</td>", EscapeMarkup(cell));
-    html += fmt::format("<td>{} {}</td></tr>", VerdictBadge(across.verdict), WhatHolds(across));
-  }
-  return html + "</tbody></table></div>";
+  return "<p class=\"quiet legend\">What holds under all of them:</p>" + TableHtml(AcrossTable(scenario));
 }
 
 std::string AcrossTableMarkdown(const ScenarioSummary& scenario) {
   if (scenario.across.empty()) return "";
-  std::string text = "\nA verdict counts only when it is the same under all of them:\n\n|", rule = "\n|";
-  for (const std::string& heading : HeadingsOf(scenario)) {
-    text += fmt::format(" {} |", EscapeMarkdown(heading));
-    rule += "---|";
-  }
-  text += rule + '\n';
-  for (const AcrossVerdict& across : scenario.across) {
-    text += "|";
-    for (const std::string& cell : CellsOf(across)) text += fmt::format(" {} |", EscapeMarkdown(cell));
-    text += fmt::format(" {}: {} |\n", VerdictName(across.verdict), WhatHolds(across));
-  }
-  return text;
+  return "\nA verdict counts only when it is the same under all of them:\n" + TableMarkdown(AcrossTable(scenario));
 }
 
 }  // namespace etude

@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "io/drawing/escape.h"
+#include "io/drawing/escape.h"
+#include "io/drawing/table.h"
 #include "reports/junit.h"
 
 namespace etude {
@@ -95,7 +97,7 @@ std::string ValuesText(const TailWorld& world, const std::string& metric) {
 
 }  // namespace
 
-GateTableRow TableRow(const MetricMove& move) {
+GateTableRow GateRowOf(const MetricMove& move) {
   const MetricWords words = GateWordsFor(move.identity.metric);
   return {.scenario = move.identity.scenario,
           .condition = move.identity.condition,
@@ -116,7 +118,7 @@ std::vector<GateTableRow> MovedRows(const SnapshotComparison& comparison) {
   std::vector<GateTableRow> rows;
   for (Movement movement : kOrder) {
     for (const MetricMove& move : comparison.moves) {
-      if (move.movement == movement) rows.push_back(TableRow(move));
+      if (move.movement == movement) rows.push_back(GateRowOf(move));
     }
   }
   return rows;
@@ -222,19 +224,17 @@ constexpr std::size_t kMostRows = 100;
 constexpr std::size_t kMostWorldsEach = 5, kMostWorlds = 40;
 
 std::string MoveTable(const std::vector<GateTableRow>& rows) {
-  std::string text =
-      "\n| | scenario | condition | method | metric | baseline | now | difference (95 %) | p | worlds |\n"
-      "|---|---|---|---|---|---:|---:|---:|---:|---:|\n";
+  Table table{.columns = {{}, {"scenario"}, {"condition"}, {"method"}, {"metric"}}};
+  for (const char* head : {"baseline", "now", "difference (95 %)", "p", "worlds"}) {
+    table.columns.push_back({.head = head, .is_number = true});
+  }
   for (std::size_t i = 0; i < std::min(kMostRows, rows.size()); ++i) {
     const GateTableRow& row = rows[i];
-    const std::string verdict = row.fails ? "**" + row.verdict + "**" : row.verdict;
-    text += "| " + verdict;
-    for (const std::string& cell : {row.scenario, row.condition, row.method, row.metric, row.before, row.after,
-                                    row.difference, row.p, row.worlds}) {
-      text += " | " + EscapeMarkdown(cell);
-    }
-    text += " |\n";
+    table.rows.push_back({{row.verdict, row.scenario, row.condition, row.method, row.metric, row.before, row.after,
+                           row.difference, row.p, row.worlds}});
+    table.rows.back().cells.front().is_strong = row.fails;
   }
+  std::string text = TableMarkdown(table);
   if (rows.size() > kMostRows) text += fmt::format("\n… and {} more rows, in gate.xml.\n", rows.size() - kMostRows);
   return text;
 }
@@ -284,7 +284,7 @@ Ruling RulingOf(const MetricMove& move) {
 constexpr std::size_t kMostWorldsOfCase = 20;
 
 JunitCase CaseOf(const MetricMove& move, const GateReport& report) {
-  const GateTableRow row = TableRow(move);
+  const GateTableRow row = GateRowOf(move);
   std::string detail = fmt::format("{}: {} -> {}, difference {}, p {}, in {} worlds", row.verdict, row.before,
                                    row.after, row.difference, row.p, row.worlds);
   for (const TailLine& line : TailLines({&move}, report, kMostWorldsOfCase)) {

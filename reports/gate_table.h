@@ -21,7 +21,7 @@ struct GateTableRow {
 
 /// Gives one row per move that is not kSame: regressions first, each group in the order of the run.
 std::vector<GateTableRow> MovedRows(const SnapshotComparison& comparison);
-GateTableRow TableRow(const MetricMove& move);
+GateTableRow GateRowOf(const MetricMove& move);
 
 /// Writes how a time rule reads: "processor time of fixed over …".
 std::string RatioClaim(const RatioResult& ratio);

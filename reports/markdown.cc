@@ -4,6 +4,7 @@
 #include <span>
 
 #include "io/drawing/escape.h"
+#include "io/drawing/table.h"
 #include "reports/comparison_table.h"
 #include "reports/overview_table.h"
 #include "reports/page.h"
@@ -29,22 +30,6 @@ std::string AnswerText(const ScenarioFindings& findings) {
   return HasOtherRival(findings) ? text + "\nThe strongest other: " + FindingText(findings.rival) + "\n" : text;
 }
 
-std::string FiguresText(const KeyFigures& figures) {
-  if (figures.methods.empty()) return "";
-  std::string text = "\n| |", rule = "|---|";
-  for (const std::string& label : figures.labels) {
-    text += fmt::format(" {} |", EscapeMarkdown(label));
-    rule += "--:|";
-  }
-  text += "\n" + rule + "\n";
-  for (const KeyFigures::Method& method : figures.methods) {
-    text += fmt::format("| {} |", EscapeMarkdown(method.name));
-    for (const std::string& value : method.values) text += fmt::format(" {} |", EscapeMarkdown(value));
-    text += "\n";
-  }
-  return text;
-}
-
 /// Tells what the worlds are, and what each method is in a sentence; "" where nobody said.
 std::string WhatIsComparedText(const ScenarioSummary& scenario) {
   std::string text = scenario.description.empty() ? "" : "\n" + EscapeMarkdown(scenario.description) + "\n";
@@ -62,7 +47,8 @@ std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
   const ScenarioFindings findings = FindingsOf(run, scenario);
   std::string text = fmt::format("\n## {}\n\n{}\n\n{}", EscapeMarkdown(scenario.name),
                                  EscapeMarkdown(scenario.question), AnswerText(findings));
-  text += FiguresText(findings.figures) + WhatIsComparedText(scenario) + OverviewTableMarkdown(scenario);
+  if (!findings.figures.methods.empty()) text += TableMarkdown(FiguresTable(findings.figures, true));
+  text += WhatIsComparedText(scenario) + OverviewTableMarkdown(scenario);
   text += ComparisonTableMarkdown(scenario) + AcrossTableMarkdown(scenario) + '\n';
   for (const ExpectationResult& e : scenario.expectations) {
     const std::string_view ruling = e.ruling == Ruling::kMet     ? "met"

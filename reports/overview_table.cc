@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/drawing/escape.h"
+#include "io/drawing/table.h"
 #include "reports/badge.h"
 #include "reports/words/cell_series.h"
 #include "reports/words/figures.h"
@@ -96,10 +97,6 @@ class ExampleCells {
   std::map<std::pair<std::string, std::string>, std::string> cells_;
 };
 
-bool HasRivals(const ScenarioSummary& scenario) {
-  return std::ranges::any_of(scenario.conditions, [](const ConditionSummary& c) { return !c.rivals.empty(); });
-}
-
 std::vector<OverviewRow> RowsOf(const RunData& run, const ScenarioSummary& scenario,
                                 std::span<const std::string> metrics) {
   std::vector<OverviewRow> rows;
@@ -126,17 +123,48 @@ std::string_view ArrowOf(Direction direction) {
                                                 : "<span role=\"img\" aria-label=\"; higher is better\">↑</span>";
 }
 
-std::string CellHtml(const OverviewCell& cell, bool is_headline, bool has_rivals, SamplingUnit unit) {
-  std::string html = fmt::format("<td class=\"n{}\" data-v=\"{}\">{}", is_headline ? "" : " more",
-                                 ExactText(cell.sorted_by), EscapeMarkup(cell.value));
+TableCell TableCellOf(const OverviewCell& cell, bool has_rivals, SamplingUnit unit) {
+  std::string text = cell.value, html = EscapeMarkup(cell.value);
   if (cell.IsCompared()) {
+    const auto sign = [](const Comparison* c) { return c == nullptr ? "·" : ComparisonSign(*c); };
     const auto mark = [&](const Comparison* c) { return c == nullptr ? "·" : ComparisonMark(*c, unit); };
+    text += " " + sign(cell.baseline) + (has_rivals ? " " + sign(cell.rival) : "");
     html += fmt::format(" <span class=\"mark\">{}</span>", mark(cell.baseline));
     if (has_rivals) html += fmt::format(" <span class=\"mark\">{}</span>", mark(cell.rival));
   }
   if (!cell.interval.empty()) html += fmt::format(" <small>{}</small>", cell.interval);
   if (!cell.counted.empty()) html += fmt::format(" <small>{}</small>", cell.counted);
-  return html + "</td>";
+  return {text, cell.sorted_by, html};
+}
+
+/// Gives every method by the given metrics, the first of which are the scenario's own; no rows when there are none.
+Table OverviewTable(const ScenarioSummary& scenario, std::span<const std::string> metrics,
+                    std::span<const OverviewRow> rows, std::string_view method_head, std::string_view condition_head) {
+  const bool swept = scenario.conditions.size() > 1;
+  const bool has_rivals =
+      std::ranges::any_of(scenario.conditions, [](const ConditionSummary& c) { return !c.rivals.empty(); });
+  Table table{.label = "Every method by every metric",
+              .style = "data glance",
+              .columns = {{.head = std::string(method_head), .is_row_head = true}}};
+  if (swept) table.columns.push_back({std::string(condition_head)});
+  for (std::size_t i = 0; i < metrics.size(); ++i) {
+    const MetricWords words = WordsFor(metrics[i]);
+    table.columns.push_back({.head = words.label,
+                             .is_number = true,
+                             .is_detail = i >= scenario.headline_metrics.size(),
+                             .is_sortable = true,
+                             .title = metrics[i],
+                             .sign = std::string(ArrowOf(words.direction))});
+  }
+  for (const OverviewRow& row : rows.first(std::min(rows.size(), kMostTableRows))) {
+    TableRow shown{.cells = {row.method},
+                   .attributes = fmt::format("{} data-ids=\"{}\"{}", row.is_yardstick ? " class=\"yardstick\"" : "",
+                                             EscapeMarkup(row.cell), row.kept)};
+    if (swept) shown.cells.emplace_back(row.condition);
+    for (const OverviewCell& cell : row.cells) shown.cells.push_back(TableCellOf(cell, has_rivals, scenario.unit));
+    table.rows.push_back(std::move(shown));
+  }
+  return table;
 }
 
 /// Lists which values are missing and why, those of one reason together.
@@ -171,11 +199,6 @@ constexpr std::string_view kLegend =
     "Apart: the worst joint, once headings and hips are laid onto each other. ✗: called alike, though a joint is more "
     "than 20 cm off. Beside it what the method measured: the fuzzy distance, or centimetres.";
 
-struct PosePair {
-  std::string name, gap;
-  std::vector<std::string> verdicts;  ///< one per method
-};
-
 std::string VerdictOf(const Row& row) {
   const auto alike = ValueOf(row, "called_alike");
   if (!alike) return std::string(kNoValue);
@@ -190,27 +213,35 @@ std::string VerdictOf(const Row& row) {
   return is_false && *is_false > 0 ? "✗ " + text : text;
 }
 
-std::vector<PosePair> PairsOf(const RunData& run, const ScenarioSummary& scenario) {
-  std::vector<PosePair> pairs;
+/// Gives each pair of poses and what every method calls it, all of them; no rows where there is nothing to show.
+Table PosePairs(const RunData& run, const ScenarioSummary& scenario, std::string_view poses, std::string_view apart) {
+  Table table{
+      .label = "Pair by pair",
+      .style = "data glance",
+      .columns = {{.head = std::string(poses), .is_row_head = true}, {.head = std::string(apart), .is_number = true}}};
+  for (const std::string& method : scenario.methods) table.columns.push_back({.head = method, .is_number = true});
   // Under a sweep, or with many pairs a world, a pair has no single verdict.
-  if (scenario.task != "pose-distance" || scenario.conditions.size() != 1) return pairs;
+  if (scenario.task != "pose-distance" || scenario.conditions.size() != 1) return table;
   for (const Row& row : run.rows) {
     if (row.scenario != scenario.name) continue;
     const auto alike = ValueOf(row, "called_alike");
     if (alike && *alike > 0 && *alike < 1) return {};
     const auto method = std::ranges::find(scenario.methods, row.method);
     if (row.clip.empty() || method == scenario.methods.end()) continue;
-    const bool is_first = method == scenario.methods.begin();
-    if (is_first && std::ranges::find(pairs, row.clip, &PosePair::name) == pairs.end()) {
+    const auto find = [&] {
+      return std::ranges::find(table.rows, row.clip, [](const TableRow& pair) { return pair.cells[0].text; });
+    };
+    if (method == scenario.methods.begin() && find() == table.rows.end()) {
       const auto gap = ValueOf(row, "pose_gap_cm");
-      pairs.push_back({row.clip, gap ? FormatNumber(*gap) + " cm" : std::string(kNoValue),
-                       std::vector<std::string>(scenario.methods.size(), std::string(kNoValue))});
+      table.rows.push_back({std::vector<TableCell>(table.columns.size(), kNoValue)});
+      table.rows.back().cells[0] = row.clip;
+      if (gap) table.rows.back().cells[1] = FormatNumber(*gap) + " cm";
     }
-    const auto pair = std::ranges::find(pairs, row.clip, &PosePair::name);
-    if (pair == pairs.end()) continue;
-    pair->verdicts[static_cast<std::size_t>(method - scenario.methods.begin())] = VerdictOf(row);
+    const auto pair = find();
+    if (pair == table.rows.end()) continue;
+    pair->cells[2 + static_cast<std::size_t>(method - scenario.methods.begin())] = VerdictOf(row);
   }
-  return pairs;
+  return table;
 }
 
 }  // namespace
@@ -219,95 +250,36 @@ std::string OverviewTableHtml(const RunData& run, const ScenarioSummary& scenari
   const std::vector<std::string> metrics = AllMetricsOf(scenario);
   const std::vector<OverviewRow> rows = RowsOf(run, scenario, metrics);
   if (rows.empty() || metrics.empty()) return "";
-  const bool swept = scenario.conditions.size() > 1, has_rivals = HasRivals(scenario);
-  const std::size_t headline = scenario.headline_metrics.size();
-  std::string html =
-      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Every method by every metric\"><table "
-      "class=\"data glance\"><thead><tr><th scope=\"col\">Method</th>";
-  if (swept) html += "<th scope=\"col\">Condition</th>";
-  for (std::size_t i = 0; i < metrics.size(); ++i) {
-    const MetricWords words = WordsFor(metrics[i]);
-    html += fmt::format("<th scope=\"col\" class=\"n{}\" title=\"{}\">{}{}</th>", i < headline ? "" : " more",
-                        EscapeMarkup(metrics[i]), EscapeMarkup(words.label), ArrowOf(words.direction));
-  }
-  html += "</tr></thead><tbody>";
-  for (const OverviewRow& row : std::span(rows).first(std::min(rows.size(), kMostTableRows))) {
-    html +=
-        fmt::format("<tr{} data-ids=\"{}\"{}><th scope=\"row\">{}</th>", row.is_yardstick ? " class=\"yardstick\"" : "",
-                    EscapeMarkup(row.cell), row.kept, EscapeMarkup(row.method));
-    if (swept) html += fmt::format("<td>{}</td>", EscapeMarkup(row.condition));
-    for (std::size_t i = 0; i < metrics.size(); ++i)
-      html += CellHtml(row.cells[i], i < headline, has_rivals, scenario.unit);
-    html += "</tr>";
-  }
-  return html + "</tbody></table></div>" + LeftOutHtml(rows.size(), kMostTableRows, "rows", kAllNumbers) +
-         MissingHtml(run, scenario);
+  return TableHtml(OverviewTable(scenario, metrics, rows, "Method", "Condition")) +
+         LeftOutHtml(rows.size(), kMostTableRows, "rows", kAllNumbers) + MissingHtml(run, scenario);
 }
 
 std::string OverviewTableMarkdown(const ScenarioSummary& scenario) {
   if (scenario.headline_metrics.size() < 2) return "";
   const std::vector<OverviewRow> rows = RowsOf({}, scenario, scenario.headline_metrics);
   if (rows.empty()) return "";
-  const bool swept = scenario.conditions.size() > 1, has_rivals = HasRivals(scenario);
-  std::string head = "| method |", rule = "|---|";
-  if (swept) head += " condition |", rule += "---|";
-  for (const std::string& metric : scenario.headline_metrics) {
-    head += fmt::format(" {} |", EscapeMarkdown(WordsFor(metric).label));
-    rule += "--:|";
-  }
-  std::string text = fmt::format("\n{}\n{}\n", head, rule);
-  for (const OverviewRow& row : std::span(rows).first(std::min(rows.size(), kMostTableRows))) {
-    text += fmt::format("| {} |", EscapeMarkdown(row.method));
-    if (swept) text += fmt::format(" {} |", EscapeMarkdown(row.condition));
-    for (const OverviewCell& cell : row.cells) {
-      const auto sign = [](const Comparison* c) { return c == nullptr ? "·" : ComparisonSign(*c); };
-      text += " " + EscapeMarkdown(cell.value);
-      if (cell.IsCompared()) text += " " + sign(cell.baseline) + (has_rivals ? " " + sign(cell.rival) : "");
-      text += " |";
-    }
-    text += '\n';
-  }
+  const std::string text =
+      TableMarkdown(OverviewTable(scenario, scenario.headline_metrics, rows, "method", "condition"));
   const std::string rest = LeftOutWords(rows.size(), kMostTableRows, "rows", kAllNumbers);
   return rest.empty() ? text : fmt::format("{}\n{}\n", text, rest);
 }
 
 std::string PosePairsHtml(const RunData& run, const ScenarioSummary& scenario) {
-  const std::vector<PosePair> pairs = PairsOf(run, scenario);
-  if (pairs.empty()) return "";
-  std::string html =
-      "<details><summary>Pair by pair</summary><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
-      "aria-label=\"Pair by pair\"><table class=\"data glance\"><thead><tr><th scope=\"col\">Poses</th>"
-      "<th scope=\"col\" class=\"n\">Apart</th>";
-  for (const std::string& method : scenario.methods) {
-    html += fmt::format("<th scope=\"col\" class=\"n\">{}</th>", EscapeMarkup(method));
-  }
-  html += "</tr></thead><tbody>";
-  for (std::size_t i = 0; i < std::min(pairs.size(), kMostListed); ++i) {
-    html +=
-        fmt::format("<tr><th scope=\"row\">{}</th><td class=\"n\">{}</td>", EscapeMarkup(pairs[i].name), pairs[i].gap);
-    for (const std::string& verdict : pairs[i].verdicts) html += fmt::format("<td class=\"n\">{}</td>", verdict);
-    html += "</tr>";
-  }
-  return html + "</tbody></table></div>" + LeftOutHtml(pairs.size(), kMostListed, "pairs", "cells.jsonl") +
-         fmt::format("<p class=\"quiet legend\">{}</p></details>", kLegend);
+  Table pairs = PosePairs(run, scenario, "Poses", "Apart");
+  const std::size_t all = pairs.rows.size();
+  if (all == 0) return "";
+  pairs.rows.resize(std::min(all, kMostListed));
+  return fmt::format("<details><summary>Pair by pair</summary>{}{}<p class=\"quiet legend\">{}</p></details>",
+                     TableHtml(pairs), LeftOutHtml(all, kMostListed, "pairs", "cells.jsonl"), kLegend);
 }
 
 std::string PosePairsMarkdown(const RunData& run, const ScenarioSummary& scenario) {
-  const std::vector<PosePair> pairs = PairsOf(run, scenario);
-  if (pairs.empty()) return "";
-  std::string head = "| poses | apart |", rule = "|---|--:|";
-  for (const std::string& method : scenario.methods) {
-    head += fmt::format(" {} |", EscapeMarkdown(method));
-    rule += "--:|";
-  }
-  std::string text = fmt::format("\n{}\n{}\n", head, rule);
-  for (std::size_t i = 0; i < std::min(pairs.size(), kMostListed); ++i) {
-    text += fmt::format("| {} | {} |", EscapeMarkdown(pairs[i].name), pairs[i].gap);
-    for (const std::string& verdict : pairs[i].verdicts) text += fmt::format(" {} |", verdict);
-    text += '\n';
-  }
-  const std::string rest = LeftOutWords(pairs.size(), kMostListed, "pairs", "cells.jsonl");
-  return fmt::format("{}\n{}{}{}\n", text, rest, rest.empty() ? "" : " ", kLegend);
+  Table pairs = PosePairs(run, scenario, "poses", "apart");
+  const std::size_t all = pairs.rows.size();
+  if (all == 0) return "";
+  pairs.rows.resize(std::min(all, kMostListed));
+  const std::string rest = LeftOutWords(all, kMostListed, "pairs", "cells.jsonl");
+  return fmt::format("{}\n{}{}{}\n", TableMarkdown(pairs), rest, rest.empty() ? "" : " ", kLegend);
 }
 
 }  // namespace etude

@@ -3,11 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 
 #include "io/drawing/assets/assets.h"
 #include "io/drawing/escape.h"
 #include "io/drawing/marks.h"
+#include "io/drawing/table.h"
 #include "reports/badge.h"
 #include "reports/comparison_table.h"
 #include "reports/overview_table.h"
@@ -25,46 +25,34 @@ namespace {
 
 constexpr const char* kMetric = "mpjpe_mm";
 
-std::string TakeRow(std::string_view style, const std::array<std::string, 5>& cells) {
-  std::string html = fmt::format("<tr{}>", style);
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    html += fmt::format("<td{}>{}</td>", i < 3 ? "" : " class=\"n\"", EscapeMarkup(cells[i]));
-  }
-  return html + "</tr>";
-}
-
 std::string Millimetres(std::optional<double> mm) { return mm ? FormatNumber(*mm) : std::string(kNoValue); }
 
 /// Names what a take measures: error, or agreement when its reference may have been made of the same keypoints.
 std::string MeasureOf(const RealTake& take) { return take.recovery == "keypoints" ? "agreement" : "error"; }
 
-std::string RealRows(const RealTake& take) {
-  std::string html;
+void AddRealRows(const RealTake& take, Table& table) {
   for (const RealDistance& distance : take.distances) {
     const std::string cameras = distance.cameras == "all" ? fmt::format("all {}", take.films.size()) : distance.cameras;
-    html += TakeRow("", {fmt::format("real: {}, {}", take.name, Plural(take.frames, "frame")),
-                         fmt::format("{} ({})", take.recovery, MeasureOf(take)), cameras,
-                         Millimetres(distance.median_mm), Millimetres(distance.p95_mm)});
+    table.rows.push_back({{fmt::format("real: {}, {}", take.name, Plural(take.frames, "frame")),
+                           fmt::format("{} ({})", take.recovery, MeasureOf(take)), cameras,
+                           Millimetres(distance.median_mm), Millimetres(distance.p95_mm)}});
   }
-  return html;
 }
 
 /// Writes the rows of simulated takes; `rows` counts on from scenario to scenario.
-std::string SimulatedRows(const ScenarioSummary& scenario, std::size_t& rows) {
-  std::string html;
+void AddSimulatedRows(const ScenarioSummary& scenario, std::size_t& rows, Table& table) {
   for (const ConditionSummary& condition : scenario.conditions) {
     for (const MethodSummary& method : condition.methods) {
       const MetricSummary* metric = FindSummary(method, kMetric);
       if (metric == nullptr || !metric->median) continue;
       if (++rows > kMostTableRows) continue;
       const std::string label = ConditionLabel(condition.condition);
-      html += TakeRow(" class=\"quiet\"",
-                      {fmt::format("simulated: {}{}{}", scenario.name, label.empty() ? "" : ", ", label),
-                       MethodLabel(scenario, method.method) + " (error)", std::string(kNoValue),
-                       Millimetres(metric->median), std::string(kNoValue)});
+      table.rows.push_back({.cells = {fmt::format("simulated: {}{}{}", scenario.name, label.empty() ? "" : ", ", label),
+                                      MethodLabel(scenario, method.method) + " (error)", kNoValue,
+                                      Millimetres(metric->median), kNoValue},
+                            .attributes = " class=\"quiet\""});
     }
   }
-  return html;
 }
 
 // A second line of defence behind the escaping: the page may load nothing from anywhere but the motions beside it.
@@ -155,22 +143,25 @@ std::string Footer(const RunData& run) {
 /// Writes captures of real films beside the simulated takes of a run, as a section of its page; "" when there are none.
 std::string RealTakesSection(const RunData& run, std::span<const RealTake> takes) {
   if (takes.empty()) return "";
-  std::string html =
+  const std::string html =
       "<section class=\"card\"><h2>On real films</h2><p>How far captures of real films are from a reference "
       "(<code>etude capture --reference</code>), beside the simulated takes of this run. Of a real take: median and "
       "95th "
       "percentile over joints and frames. <b>Error</b> is error as far as the reference itself is right; what comes of "
       "keypoints is <b>agreement</b> where the reference was made of the same ones. Of simulated takes: the median "
-      "over takes of the mean over joints and frames, from the true joints.</p><div class=\"scroll\" tabindex=\"0\" "
-      "role=\"region\" aria-label=\"On real films\"><table><thead><tr><th scope=\"col\">Takes</th><th scope=\"col\">"
-      "Recovery</th><th scope=\"col\">Cameras</th><th scope=\"col\" class=\"n\">Median, mm</th><th scope=\"col\" "
-      "class=\"n\">95 %, mm</th></tr></thead><tbody>";
-  for (const RealTake& take : takes) html += RealRows(take);
+      "over takes of the mean over joints and frames, from the true joints.</p>";
+  Table table{.label = "On real films",
+              .columns = {{"Takes"},
+                          {"Recovery"},
+                          {"Cameras"},
+                          {.head = "Median, mm", .is_number = true},
+                          {.head = "95 %, mm", .is_number = true}}};
+  for (const RealTake& take : takes) AddRealRows(take, table);
   std::size_t rows = 0;
   for (const ScenarioSummary& scenario : run.scenarios) {
-    if (scenario.task == "capture") html += SimulatedRows(scenario, rows);
+    if (scenario.task == "capture") AddSimulatedRows(scenario, rows, table);
   }
-  return html + "</tbody></table></div>" + LeftOutHtml(rows, kMostTableRows, "rows", "the CSV files in report/tables") +
+  return html + TableHtml(table) + LeftOutHtml(rows, kMostTableRows, "rows", "the CSV files in report/tables") +
          "</section>\n";
 }
 

@@ -11,6 +11,7 @@
 #include "engine/base/base64.h"
 #include "io/drawing/escape.h"
 #include "io/drawing/marks.h"
+#include "io/drawing/table.h"
 #include "io/files/json.h"
 #include "reports/badge.h"
 #include "reports/comparison_table.h"
@@ -292,15 +293,9 @@ std::string Answer(const ScenarioFindings& findings) {
 /// Writes a few figures of the method in question, its baseline and the strongest other one.
 std::string FiguresHtml(const KeyFigures& figures) {
   if (figures.methods.empty()) return "";
-  std::string html = "<table class=\"figures\"><thead><tr><td></td>";
-  for (const std::string& label : figures.labels) html += fmt::format("<th scope=\"col\">{}</th>", EscapeMarkup(label));
-  html += "</tr></thead><tbody>";
-  for (const KeyFigures::Method& method : figures.methods) {
-    html += fmt::format("<tr><th scope=\"row\">{}</th>", EscapeMarkup(method.name));
-    for (const std::string& value : method.values) html += fmt::format("<td>{}</td>", EscapeMarkup(value));
-    html += "</tr>";
-  }
-  return html + "</tbody></table>";
+  Table table = FiguresTable(figures, false);
+  table.style = "figures";
+  return TableHtml(table);
 }
 
 /// Links every file that tells more of a scenario.

@@ -4,6 +4,7 @@
 
 #include "engine/base/csv.h"
 #include "io/drawing/escape.h"
+#include "io/drawing/table.h"
 #include "reports/comparison_table.h"
 #include "reports/page.h"
 #include "reports/paper/paper_a.h"
@@ -16,19 +17,13 @@
 namespace etude {
 namespace {
 
-constexpr int kRowsPerFloat = 50;  // so many fit a page of A4
-constexpr int kColumns = 8;
-// A method may be compared with several others: its own figures stand in the first row only.
-const std::string kNoFigures = " & & ";
+constexpr std::size_t kRowsPerFloat = 50;  // so many fit a page of A4
 
 constexpr std::string_view kHead =
     "% Needs \\usepackage{booktabs}. The same figures with all their digits: the CSV files beside this one.\n";
 
-/// The rows of one metric.
-struct Group {
-  std::string latex;
-  int rows = 0;
-};
+/// The rows of one metric, below its head.
+using Group = std::vector<TableRow>;
 
 /// Marks a p value with stars.
 std::string_view Stars(const Comparison& c) {
@@ -38,7 +33,7 @@ std::string_view Stars(const Comparison& c) {
 
 std::string WithInterval(const std::string& value, const std::optional<double>& low, const std::optional<double>& high,
                          const MetricWords& words) {
-  return EscapeLatex(low && high ? fmt::format("{} [{}]", value, FormatInterval(low, high, words)) : value);
+  return low && high ? fmt::format("{} [{}]", value, FormatInterval(low, high, words)) : value;
 }
 
 std::string CountText(int present, int attempted) {
@@ -46,32 +41,25 @@ std::string CountText(int present, int attempted) {
                               : fmt::format("{} of {}", FormatCount(present), FormatCount(attempted));
 }
 
-void Begin(Group& group, const std::string& heading) {
-  group.latex =
-      fmt::format("\\midrule\n\\multicolumn{{{}}}{{l}}{{\\emph{{{}}}}} \\\\\n", kColumns, EscapeLatex(heading));
-  group.rows = 1;
-}
-
 Group EndedOk(const ScenarioSummary& scenario, const ConditionSummary& condition) {
   const MetricWords share{.label = "", .suffix = " %", .difference_suffix = "", .scale = 100, .is_share = true};
-  Group group;
-  Begin(group, "cells that ended ok");
+  Group group = {{.group = "cells that ended ok"}};
   for (const MethodSummary& method : condition.methods) {
     if (method.attempted == 0) continue;
-    group.latex +=
-        fmt::format("{} & {} & {} & & & & & \\\\\n", EscapeLatex(MethodLabel(scenario, method.method)),
-                    FormatCount(method.attempted),
-                    WithInterval(FormatShare(method.ok, method.attempted), method.ok_low, method.ok_high, share));
-    ++group.rows;
+    group.push_back({{MethodLabel(scenario, method.method), FormatCount(method.attempted),
+                      WithInterval(FormatShare(method.ok, method.attempted), method.ok_low, method.ok_high, share), "",
+                      "", "", "", ""}});
   }
   return group;
 }
 
-std::string ComparisonCells(const Comparison& c, const MetricWords& words) {
+std::vector<TableCell> ComparisonCells(const Comparison& c, const MetricWords& words) {
   const std::string difference = c.difference ? ShortDifference(*c.difference, words) : std::string(kNoValue);
-  return fmt::format("{} & {}{} & {} & {} & {}", EscapeLatex(c.baseline),
-                     WithInterval(difference, c.ci_low, c.ci_high, words), Stars(c), EscapeLatex(FormatP(c.p_holm)),
-                     VerdictName(c.verdict), c.beyond.verdict ? VerdictName(*c.beyond.verdict) : "--");
+  std::vector<TableCell> cells = {c.baseline, WithInterval(difference, c.ci_low, c.ci_high, words), FormatP(c.p_holm),
+                                  VerdictName(c.verdict), c.beyond.verdict ? VerdictName(*c.beyond.verdict) : ""};
+  cells[1].latex_sign = Stars(c);
+  if (!c.beyond.verdict) cells.back().latex_sign = "--";
+  return cells;
 }
 
 /// Gives the comparisons with baselines, then with the strongest other method where that is none of them.
@@ -90,24 +78,22 @@ std::vector<const Comparison*> ComparisonsOf(const ConditionSummary& condition, 
 
 Group OfMetric(const ScenarioSummary& scenario, const ConditionSummary& condition, const std::string& metric) {
   const MetricWords words = WordsFor(metric);
-  Group group;
-  Begin(group, MetricHeading(metric));
+  Group group = {{.group = MetricHeading(metric)}};
   for (const MethodSummary& method : condition.methods) {
     const MetricSummary* summary = FindSummary(method, metric);
     if (summary == nullptr) continue;
-    std::string figures = fmt::format(
-        "{} & {} & {}", EscapeLatex(MethodLabel(scenario, method.method)),
-        CountText(summary->present, summary->present + summary->missing),
-        WithInterval(FormatValue(TypicalValue(*summary, words), words), summary->ci_low, summary->ci_high, words));
+    std::vector<TableCell> cells = {
+        MethodLabel(scenario, method.method), CountText(summary->present, summary->present + summary->missing),
+        WithInterval(FormatValue(TypicalValue(*summary, words), words), summary->ci_low, summary->ci_high, words)};
     const std::vector<const Comparison*> comparisons = ComparisonsOf(condition, method.method, metric);
     for (const Comparison* c : comparisons) {
-      const std::string& before = c == comparisons.front() ? figures : kNoFigures;
-      group.latex += fmt::format("{} & {} \\\\\n", before, ComparisonCells(*c, words));
-      ++group.rows;
+      std::ranges::move(ComparisonCells(*c, words), std::back_inserter(cells));
+      group.push_back({std::move(cells)});
+      cells = {"", "", ""};  // the method's own figures stand in its first row only
     }
     if (!comparisons.empty()) continue;
-    group.latex += figures + " & & & & & \\\\\n";
-    ++group.rows;
+    cells.resize(cells.size() + 5);
+    group.push_back({std::move(cells)});
   }
   return group;
 }
@@ -134,13 +120,11 @@ constexpr std::string_view kStarsCaption =
     "$^{*}$~$p \\le 0.05$, $^{**}$~$p \\le 0.01$, $^{***}$~$p \\le 0.001$. Better and worse also need an interval on "
     "one side of zero and a difference that matters; no difference, an interval within what matters.";
 
-std::string Float(const std::string& caption, const std::string& heads, const std::string& rows) {
+std::string Float(const std::string& caption, const Table& table) {
   return fmt::format(
       "\n\\begin{{table}}[!htbp]\n\\centering\\scriptsize\\setlength{{\\tabcolsep}}{{3pt}}\n\\caption{{{}}}"
-      "\n\\smallskip\n"
-      "\\begin{{tabular}}{{lrrlrrll}}\n\\toprule\nmethod & n & value & against & difference & $p$ & {} \\\\\n{}"
-      "\\bottomrule\n\\end{{tabular}}\n\\end{{table}}\n",
-      caption, heads, rows);
+      "\n\\smallskip\n{}\\end{{table}}\n",
+      caption, TableLatex(table));
 }
 
 /// Writes as many floats as the rows of this condition need.
@@ -148,21 +132,25 @@ std::string ConditionFloats(const ScenarioSummary& scenario, const ConditionSumm
   std::vector<Group> groups{EndedOk(scenario, condition)};
   for (const std::string& metric : scenario.headline_metrics) groups.push_back(OfMetric(scenario, condition, metric));
 
-  std::string text, rows;
+  std::string text;
   std::string caption = EscapeLatex(Caption(scenario, condition)) + std::string(kStarsCaption);
-  const std::string heads = fmt::format("on {} & for {}", TheseUnits(scenario.unit), OtherUnits(scenario.unit));
-  int count = 0;
-  for (const Group& group : groups) {
-    if (count > 0 && count + group.rows > kRowsPerFloat) {
-      text += Float(caption, heads, rows);
+  Table table{.columns = {{"method"},
+                          {.head = "n", .is_number = true},
+                          {.head = "value", .is_number = true},
+                          {"against"},
+                          {.head = "difference", .is_number = true},
+                          {.head = "p", .is_number = true, .latex = "$p$"},
+                          {fmt::format("on {}", TheseUnits(scenario.unit))},
+                          {fmt::format("for {}", OtherUnits(scenario.unit))}}};
+  for (Group& group : groups) {
+    if (!table.rows.empty() && table.rows.size() + group.size() > kRowsPerFloat) {
+      text += Float(caption, table);
       caption = EscapeLatex(fmt::format("{} (continued)", scenario.name));
-      rows.clear();
-      count = 0;
+      table.rows.clear();
     }
-    rows += group.latex;
-    count += group.rows;
+    std::ranges::move(group, std::back_inserter(table.rows));
   }
-  return text + Float(caption, heads, rows);
+  return text + Float(caption, table);
 }
 
 }  // namespace
@@ -184,29 +172,28 @@ std::string MissingText(const RunData& run, const ScenarioSummary& scenario, con
 }  // namespace
 
 std::string NumberTableCsv(const RunData& run, const ScenarioSummary& scenario) {
-  std::string csv =
-      "scenario,condition,method,metric,unit_label,median,ci95_low,ci95_high,mean,present,missing,missing_why,"
-      "interval\n";
+  Table table;
+  for (const char* head : {"scenario", "condition", "method", "metric", "unit_label", "median", "ci95_low", "ci95_high",
+                           "mean", "present", "missing", "missing_why", "interval"}) {
+    table.columns.push_back({head});
+  }
   for (const ConditionSummary& condition : scenario.conditions) {
+    const std::string label = ConditionLabel(condition.condition);
     for (const MethodSummary& method : condition.methods) {
       if (method.attempted > 0) {
-        csv +=
-            fmt::format("{},{},{},ok_share,,,{},{},{},{},0,,wilson\n", CsvText(scenario.name),
-                        CsvText(ConditionLabel(condition.condition)), CsvText(method.method), ExactText(method.ok_low),
-                        ExactText(method.ok_high), static_cast<double>(method.ok) / method.attempted, method.attempted);
+        table.rows.push_back({{scenario.name, label, method.method, "ok_share", "", "", method.ok_low, method.ok_high,
+                               static_cast<double>(method.ok) / method.attempted, method.attempted, 0, "", "wilson"}});
       }
       for (const MetricSummary& metric : method.metrics) {
         const MetricInfo* info = FindMetric(metric.id);
-        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", CsvText(scenario.name),
-                           CsvText(ConditionLabel(condition.condition)), CsvText(method.method), CsvText(metric.id),
-                           CsvText(info == nullptr ? "" : info->unit), ExactText(metric.median),
-                           ExactText(metric.ci_low), ExactText(metric.ci_high), ExactText(metric.mean), metric.present,
-                           metric.missing, CsvText(MissingText(run, scenario, condition, method, metric)),
-                           IntervalKindName(metric.interval));
+        table.rows.push_back(
+            {{scenario.name, label, method.method, metric.id, info == nullptr ? "" : info->unit, metric.median,
+              metric.ci_low, metric.ci_high, metric.mean, metric.present, metric.missing,
+              MissingText(run, scenario, condition, method, metric), IntervalKindName(metric.interval)}});
       }
     }
   }
-  return csv;
+  return TableCsv(table);
 }
 
 }  // namespace etude

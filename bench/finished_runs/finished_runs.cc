@@ -172,7 +172,7 @@ Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed)
       for (std::size_t m = 0; m < scenario.methods.size(); ++m) {
         FinishedCell cell = runner.Run(m);
         if (!cell.is_measured) cell = runner.Measure(condition, std::move(cell));
-        if (!cell.why_not_run.empty()) return Fail({kThisMachine}, "{}", cell.why_not_run);
+        if (!cell.why_not_run.empty()) return FailOfMachine("{}", cell.why_not_run);
         run.data.rows.push_back(std::move(cell.row));
       }
     }

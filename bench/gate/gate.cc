@@ -7,6 +7,7 @@
 
 #include "bench/gate/finished_run.h"
 #include "bench/statistics/bootstrap.h"
+#include "engine/base/order_statistics.h"
 
 namespace etude {
 namespace {

@@ -45,7 +45,36 @@ Json ConditionSchema(const KeyInfo& key, std::span<const KeyInfo> keys, bool say
   return schema;
 }
 
+/// Is true where a value holds the description of a key below its own level.
+bool HoldsKeys(const Json& value) {
+  return std::ranges::any_of(value, [](const Json& item) {
+    return (item.is_object() && item.contains("description")) || (item.is_structured() && HoldsKeys(item));
+  });
+}
+
+std::string Text(const Json& value, const std::string& indent, bool in_one_line) {
+  if (!value.is_structured() || value.empty()) return value.dump();
+  const std::string inner = indent + ' ';
+  const std::string_view between = in_one_line ? ", " : ",\n";
+  std::string text;
+  for (const auto& [key, item] : value.items()) {
+    text += text.empty() ? "" : between;
+    if (!in_one_line) text += inner;
+    if (value.is_object()) text += Json(key).dump() + ": ";
+    text += in_one_line ? Text(item, inner, true) : SchemaText(item, inner);
+  }
+  if (!in_one_line) text = '\n' + text + '\n' + indent;
+  return value.is_object() ? '{' + text + '}' : '[' + text + ']';
+}
+
 }  // namespace
+
+std::string SchemaText(const Json& schema, const std::string& indent) {
+  constexpr std::size_t kLongest = 600;
+  if (schema.is_structured() && HoldsKeys(schema)) return Text(schema, indent, false);
+  std::string line = Text(schema, indent, true);
+  return schema.is_structured() && line.size() > kLongest ? Text(schema, indent, false) : line;
+}
 
 Json ToJson(const Node& node) {
   switch (node.kind) {

@@ -19,6 +19,9 @@ Json KeySchema(const KeyInfo& key);
 /// conditions each.
 Json MappingSchema(std::span<const KeyInfo> keys);
 
+/// A schema as text, a key a line: only what holds described keys, or would be a very long line, takes several.
+std::string SchemaText(const Json& schema, const std::string& indent = {});
+
 /// The conditions between keys and the values of others, as `dependencies`. `says_all`: an absent key has its default;
 /// else another part of the file may say it.
 Json ConditionSchemas(std::span<const KeyInfo> keys, bool says_all);

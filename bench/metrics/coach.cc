@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "bench/metrics/percentile.h"
 #include "bench/metrics/transition_smoothness.h"
 #include "bench/statistics/curves/curves.h"
+#include "engine/base/order_statistics.h"
 
 namespace etude {
 namespace {
@@ -105,13 +105,12 @@ std::optional<double> BeatErrorMs(std::span<const double> errors_s) {
   if (errors_s.empty()) return std::nullopt;
   std::vector<double> sizes;
   for (const double error : errors_s) sizes.push_back(1000 * std::abs(error));
-  return Percentile95(std::move(sizes));
+  return Quantile(sizes, 0.95);
 }
 
 std::optional<double> MedianOf(std::vector<double> values) {
   if (values.empty()) return std::nullopt;
-  std::ranges::sort(values);
-  return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
+  return Median(std::move(values));
 }
 
 std::optional<double> NaturalShare(std::span<const double> jumps_cm, const std::vector<double>& natural_jumps_cm) {

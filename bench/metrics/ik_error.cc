@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "bench/metrics/percentile.h"
 #include "bench/statistics/curves/curves.h"
 #include "engine/base/angles.h"
+#include "engine/base/order_statistics.h"
 
 namespace etude {
 namespace {
@@ -94,7 +94,7 @@ FrameIterations SummariseIterations(std::span<const int> iterations) {
   assert(!iterations.empty());
   const std::vector<double> counts(iterations.begin(), iterations.end());
   const double sum = std::accumulate(counts.begin(), counts.end(), 0.0);
-  return {sum / static_cast<double>(counts.size()), Percentile95(counts)};
+  return {sum / static_cast<double>(counts.size()), Quantile(counts, 0.95)};
 }
 
 std::optional<double> AngleJerkRatio(std::span<const std::vector<double>> found,

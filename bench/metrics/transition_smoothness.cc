@@ -6,9 +6,9 @@
 #include <glm/gtc/quaternion.hpp>
 #include <utility>
 
-#include "bench/metrics/percentile.h"
 #include "engine/base/angles.h"
 #include "engine/base/directions.h"
+#include "engine/base/order_statistics.h"
 
 namespace etude {
 namespace {
@@ -109,7 +109,7 @@ std::vector<double> NaturalJumpsCm(const BodyMotion& clip) {
   return jumps;
 }
 
-double NaturalLimitCm(std::vector<double> natural_jumps) { return Percentile95(std::move(natural_jumps)); }
+double NaturalLimitCm(std::vector<double> natural_jumps) { return Quantile(natural_jumps, 0.95); }
 
 bool IsNatural(std::optional<double> jump_cm, std::vector<double> natural_jumps_cm) {
   // The percentile of few windows is one of them: without the slack, rounding would judge motion against itself.

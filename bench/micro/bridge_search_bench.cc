@@ -16,6 +16,9 @@
 #include "bench/micro/search_peers.h"
 #include "engine/transitions/search/frame_matches.h"
 #include "engine/transitions/search/grade_index.h"
+#ifdef ETUDE_HAS_NANOFLANN
+#include "bench/peers/nanoflann_peer.h"
+#endif
 
 namespace etude {
 namespace {

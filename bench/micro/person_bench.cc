@@ -10,7 +10,7 @@
 #include "engine/vision/person_finder.h"
 #include "sim/random/stream.h"
 #ifdef ETUDE_HAS_OPENCV
-#include "bench/micro/opencv_peer.h"
+#include "bench/peers/opencv_peer.h"
 #endif
 
 namespace etude {

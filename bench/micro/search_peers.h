@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -42,24 +41,5 @@ class VectorLoopPeer {
   int frame_count_ = 0;
   std::vector<FrameBlock> blocks_;
 };
-
-#ifdef ETUDE_HAS_NANOFLANN
-/// nanoflann's k-d tree over the points, in double.
-class NanoflannPeer {
- public:
-  NanoflannPeer(std::span<const Grades> frames, const FeatureWeights& weights, int leaf_size);
-  ~NanoflannPeer();
-  /// The least frame of all within, kept while searching.
-  std::optional<Neighbour> First(const Grades& query, double threshold) const;
-  std::vector<Neighbour> Within(const Grades& query, double threshold) const;
-  std::vector<Neighbour> Nearest(const Grades& query, int k) const;
-  std::size_t Bytes() const;
-
- private:
-  struct Tree;
-  GradePoint roots_;
-  std::unique_ptr<Tree> tree_;
-};
-#endif
 
 }  // namespace etude

@@ -1,10 +1,10 @@
 #include "bench/results/npy.h"
 
 #include <fcntl.h>
-#include <fmt/ranges.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 
+#include <cerrno>
 #include <utility>
 
 #include "engine/base/machine.h"
@@ -12,31 +12,19 @@
 namespace etude {
 namespace {
 
-constexpr std::string_view kMagic("\x93NUMPY\x01\x00", 8);
-
-/// The head of a file: magic, the length of what follows, and a Python dictionary, filled up with spaces.
-std::string HeadOf(std::string_view type, std::span<const std::size_t> shape) {
-  std::string text = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}{}), }}", type,
-                                 fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
-  const std::size_t length = NpyFile::kHead - kMagic.size() - 2;
-  text.resize(length, ' ');
-  text.back() = '\n';
-  return std::string(kMagic) + static_cast<char>(length & 0xff) + static_cast<char>(length >> 8) + text;
-}
-
 std::size_t SizeOf(std::string_view type) { return static_cast<std::size_t>(type.back() - '0'); }
 
 }  // namespace
 
 Result<NpyWriter> NpyWriter::Begin(const FilePath& path, std::string_view type) {
   ASSIGN_OR_RETURN(auto file, AtomicFile::Begin(path));
-  RETURN_IF_ERROR(file.Write(std::string(NpyFile::kHead, ' ')));
+  RETURN_IF_ERROR(file.Write(std::string(kNpyHead, ' ')));
   return NpyWriter(std::move(file), type);
 }
 
 Result<void> NpyWriter::Finish(std::vector<std::size_t> shape) {
   if (shape.empty()) shape = {count_};
-  RETURN_IF_ERROR(file_.Overwrite(0, HeadOf(type_, shape)));
+  RETURN_IF_ERROR(file_.Overwrite(0, NpyHead(type_, shape)));
   return file_.Finish(OnDisk::kLater);
 }
 
@@ -44,23 +32,23 @@ Result<NpyFile> NpyFile::Open(const FilePath& path, std::string_view type) {
   const Place place{path.string()};
   ASSIGN_OR_RETURN(const auto file, OpenFile(path, O_RDONLY));
   struct stat status {};
-  const bool is_large = ::fstat(file.number(), &status) == 0 && static_cast<std::size_t>(status.st_size) >= kHead;
+  const bool is_large = ::fstat(file.number(), &status) == 0 && static_cast<std::size_t>(status.st_size) >= kNpyHead;
   const auto size = is_large ? static_cast<std::size_t>(status.st_size) : 0;
   void* const memory = is_large ? ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.number(), 0) : MAP_FAILED;
   if (!is_large) return Fail(place, "is no column: it is too short");
   if (memory == MAP_FAILED) return CannotRead(path.string(), "cannot read this file", errno);
   NpyFile opened(static_cast<const char*>(memory), size);
-  const std::string_view head(opened.data_, kHead);
-  const std::string wanted = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': (", type);
-  if (!head.starts_with(kMagic) || !head.substr(kMagic.size() + 2).starts_with(wanted) ||
-      (size - kHead) % SizeOf(type) != 0) {
+  const std::string_view head(opened.data_, kNpyHead);
+  const std::string wanted = NpyHead(type, {});
+  if (!head.starts_with(std::string_view(wanted).substr(0, wanted.find("), }"))) ||
+      (size - kNpyHead) % SizeOf(type) != 0) {
     return Fail(place, "is no column of numbers of type {}", type);
   }
   return opened;
 }
 
 bool NpyFile::HasShape(std::string_view type, std::span<const std::size_t> shape) const {
-  return std::string_view(data_, kHead) == HeadOf(type, shape);
+  return std::string_view(data_, kNpyHead) == NpyHead(type, shape);
 }
 
 NpyFile::NpyFile(NpyFile&& other) noexcept { *this = std::move(other); }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/npy_head.h"
 #include "io/files/files.h"
 
 namespace etude {
@@ -61,10 +62,8 @@ class NpyFile {
 
   template <typename Number>
   std::span<const Number> Numbers() const {
-    return {reinterpret_cast<const Number*>(data_ + kHead), (size_ - kHead) / sizeof(Number)};
+    return {reinterpret_cast<const Number*>(data_ + kNpyHead), (size_ - kNpyHead) / sizeof(Number)};
   }
-
-  static constexpr std::size_t kHead = 192;  ///< a multiple of 64, and room for any shape
 
  private:
   NpyFile(const char* data, std::size_t size) : data_(data), size_(size) {}

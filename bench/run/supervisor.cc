@@ -98,7 +98,7 @@ class Supervisor {
       RETURN_IF_ERROR(Step());
     }
     if (not_run_ == 0) return true;
-    return Fail({kThisMachine}, "{} cells were not run: {}", not_run_, why_not_run_);
+    return FailOfMachine("{} cells were not run: {}", not_run_, why_not_run_);
   }
 
  private:
@@ -257,7 +257,7 @@ class Supervisor {
   }
 
   void CountNotRun(std::size_t cells, const std::string& why) {
-    const std::string prefix = std::string(kThisMachine) + ": ";  // which stands before it anyway
+    const std::string prefix = ToString(FailOfMachine("").value());  // which stands before it anyway
     if (not_run_ == 0) why_not_run_ = why.starts_with(prefix) ? why.substr(prefix.size()) : why;
     not_run_ += cells;
   }
@@ -312,7 +312,7 @@ class Supervisor {
   Result<void> Replace(Worker& worker, std::optional<Status> status, const std::string& reason) {
     worker.process.Finish();
     if (!worker.ready && ++deaths_in_setup_ == kMostDeathsInSetup) {
-      return Fail({kThisMachine}, "{} workers in a row failed in their set-up: {}", kMostDeathsInSetup, reason);
+      return FailOfMachine("{} workers in a row failed in their set-up: {}", kMostDeathsInSetup, reason);
     }
     if (!worker.orders.empty()) {
       Order order = std::move(worker.orders.front());

@@ -36,7 +36,7 @@ int GiveUp(const Error& error) {
 /// Says a line at once. Fails when it cannot be said: whoever waits for it would wait for ever.
 Result<void> Say(const std::string& line, std::ostream& out) {
   if (out << line << '\n' << std::flush) return {};
-  return Fail({kThisMachine}, "a worker's answer cannot be written: {}", std::strerror(errno));
+  return FailOfMachine("a worker's answer cannot be written: {}", std::strerror(errno));
 }
 
 Result<void> Answer(std::size_t number, FinishedCell cell, std::ostream& out) {
@@ -98,7 +98,7 @@ Result<void> Work(std::istream& in, std::ostream& out) {
     ASSIGN_OR_RETURN(const auto order, ReadJson(line, "a worker's orders"));
     RETURN_IF_ERROR(Execute(order, runners, out));
   }
-  if (&in == &std::cin && std::ferror(stdin) != 0) return Fail({kThisMachine}, "a worker's orders cannot be read");
+  if (&in == &std::cin && std::ferror(stdin) != 0) return FailOfMachine("a worker's orders cannot be read");
   return {};
 }
 
@@ -115,7 +115,7 @@ int RunWorker(std::istream& in, std::ostream& out) {
     const auto done = Work(in, out);
     return done ? 0 : GiveUp(done.error());
   } catch (const std::bad_alloc&) {
-    return GiveUp({{kThisMachine}, "there is no more memory for a worker"});
+    return GiveUp(FailOfMachine("there is no more memory for a worker").value());
   } catch (const std::exception& error) {
     return GiveUp({{"a worker's orders"}, error.what()});
   }

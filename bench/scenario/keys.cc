@@ -224,7 +224,7 @@ std::string KeysAsSchema() {
        "methods, conditions and files there are."}};
   schema.update(ScenarioSchema());
   schema["definitions"] = std::move(definitions);
-  return schema.dump(1) + "\n";
+  return SchemaText(schema) + "\n";
 }
 
 }  // namespace etude

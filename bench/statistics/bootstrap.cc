@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bench/statistics/distributions.h"
+#include "engine/base/order_statistics.h"
 #include "sim/random/stream.h"
 
 namespace etude {
@@ -134,17 +135,6 @@ RandomStream DiceOf(std::uint64_t seed, const std::string& purpose) {
 }
 
 }  // namespace
-
-double Quantile(std::span<const double> values, double q) {
-  std::vector<double> copy(values.begin(), values.end());
-  const double position = q * static_cast<double>(copy.size() - 1);
-  const auto below = static_cast<std::size_t>(position);
-  std::nth_element(copy.begin(), copy.begin() + below, copy.end());
-  const double low = copy[below];
-  if (below + 1 == copy.size()) return low;
-  const double high = *std::min_element(copy.begin() + below + 1, copy.end());
-  return low + (position - static_cast<double>(below)) * (high - low);
-}
 
 double Mean(std::span<const double> values) {
   double sum = 0;

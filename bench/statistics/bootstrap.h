@@ -10,9 +10,6 @@
 
 namespace etude {
 
-/// The q-quantile of the values, 0 ≤ q ≤ 1, linear between order statistics (Hyndman & Fan 1996,
-/// type 7: numpy's and R's default). `values` must not be empty.
-double Quantile(std::span<const double> values, double q);
 double Mean(std::span<const double> values);
 
 /// Median or mean, as the metric is aggregated.

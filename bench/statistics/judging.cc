@@ -12,6 +12,7 @@
 #include "bench/statistics/compare.h"
 #include "bench/statistics/paired_tests.h"
 #include "bench/statistics/scenario_table.h"
+#include "engine/base/order_statistics.h"
 
 namespace etude {
 namespace {

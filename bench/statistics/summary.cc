@@ -9,6 +9,7 @@
 #include "bench/statistics/beyond.h"
 #include "bench/statistics/bootstrap.h"
 #include "bench/statistics/interval.h"
+#include "engine/base/order_statistics.h"
 
 namespace etude {
 namespace {

@@ -2,18 +2,22 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "engine/base/result.h"
 
 namespace etude {
 
-/// The place of errors that the machine caused rather than the input or a method: no process can be started, the disk
-/// is full. Such an error is not an answer of the method.
-constexpr const char* kThisMachine = "this machine";
+/// Makes the failed state of any Result for an error that the machine caused rather than the input or a method: no
+/// process can be started, the disk is full. Such an error is not an answer of the method.
+template <typename... Args>
+tl::unexpected<Error> FailOfMachine(fmt::format_string<Args...> format, Args&&... args) {
+  return tl::unexpected<Error>(Error{{}, fmt::format(format, std::forward<Args>(args)...), ErrorKind::kMachine});
+}
 
-/// Returns the same error, attributed to this machine.
-inline Error OfThisMachine(const Error& error) { return {{kThisMachine, 0, 0}, ToString(error)}; }
-inline bool IsOfThisMachine(const Error& error) { return error.place.file == kThisMachine; }
+/// Returns the same error, attributed to this machine; its place becomes part of its message.
+inline Error OfThisMachine(const Error& error) { return {{}, ToString(error), ErrorKind::kMachine}; }
+inline bool IsOfThisMachine(const Error& error) { return error.kind == ErrorKind::kMachine; }
 
 /// Returns the error for a file or folder that cannot be written, from an errno: "PATH: WHAT: No space left on device".
 /// It is attributed to the machine (full, limited, read-only, forbidden), unless the name is at fault: a file where a

@@ -3,12 +3,35 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace etude {
 
+/// Returns the median: for an even number of values the midpoint of the two middle ones. `values` must not be empty or
+/// contain NaN.
+inline double Median(std::vector<double> values) {
+  assert(!values.empty());
+  const auto upper = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), upper, values.end());
+  return values.size() % 2 == 1 ? *upper : 0.5 * (*std::max_element(values.begin(), upper) + *upper);
+}
+
+/// Returns the value below which `share` (0 to 1) of all values lie, interpolated linearly between neighbours in
+/// ascending order (rank share·(n − 1)). `values` must not be empty or contain NaN.
+inline double Quantile(std::span<const double> values, double share) {
+  assert(!values.empty());
+  std::vector<double> copy(values.begin(), values.end());
+  const double rank = share * static_cast<double>(copy.size() - 1);
+  const auto below = copy.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(copy.begin(), below, copy.end());
+  if (below + 1 == copy.end()) return *below;
+  const double above = *std::min_element(below + 1, copy.end());
+  return *below + (rank - static_cast<double>(below - copy.begin())) * (above - *below);
+}
+
 /// Returns the value of rank size/2 in ascending order, counted from 0: for an even number of values the upper of the
-/// two middle ones, never their mean. `values` must not be empty or contain NaN.
+/// two middle ones, never their mean; cheaper than `Median`. `values` must not be empty or contain NaN.
 template <class T>
 T UpperMedian(std::vector<T> values) {
   assert(!values.empty());

@@ -12,7 +12,8 @@ std::string ToString(const Place& place) {
 
 std::string ToString(const Error& error) {
   const std::string where = ToString(error.place);
-  return Visible(where.empty() ? error.message : where + ": " + error.message);
+  return Visible((error.kind == ErrorKind::kMachine ? "this machine: " : "") + (where.empty() ? "" : where + ": ") +
+                 error.message);
 }
 
 }  // namespace etude

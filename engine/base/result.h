@@ -15,13 +15,21 @@ struct Place {
   int column = 0;
 };
 
+/// What caused an error.
+enum class ErrorKind {
+  kInput,
+  kMachine,  ///< neither the input nor a method: no process can be started, the disk is full (machine.h)
+};
+
 /// An error of bad input, for people: where it is, what was found, what is allowed.
 struct Error {
   Place place;
   std::string message;
+  ErrorKind kind = ErrorKind::kInput;
 };
 
-/// Formats "file:line:column: message" without the unknown parts, on one line and safe to show (Visible).
+/// Formats "file:line:column: message" without the unknown parts, with "this machine: " before an error of the machine, on
+/// one line and safe to show (Visible).
 std::string ToString(const Error& error);
 std::string ToString(const Place& place);
 

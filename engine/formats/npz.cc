@@ -3,21 +3,20 @@
 #include <zip.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <new>
 #include <optional>
 
 #include "engine/base/names.h"
+#include "engine/base/npy_head.h"
 
 namespace etude {
 namespace {
 
-constexpr std::string_view kMagic = "\x93NUMPY";
 constexpr std::size_t kMostMembers = 1000;
 constexpr std::uint64_t kMostUnpacked = std::uint64_t{512} << 20;
 constexpr std::uint64_t kMostOfAByte = 1032;  ///< DEFLATE makes no more of one
@@ -79,7 +78,7 @@ std::vector<double> InOrderOfC(const std::vector<double>& values, const std::vec
 /// Reads an .npy file; nothing when it holds no plain numbers.
 Result<std::optional<NumberArray>> ReadMember(std::string_view bytes, const std::string& file) {
   const Place place{file};
-  if (!bytes.starts_with(kMagic) || bytes.size() < 12) return Fail(place, "is no .npy file");
+  if (!bytes.starts_with(kNpyMagic) || bytes.size() < 12) return Fail(place, "is no .npy file");
   const bool is_first = bytes[6] == 1;  // later versions tell the header's length by four bytes
   const std::size_t length_bytes = is_first ? 2 : 4, head = 8 + length_bytes;
   std::size_t length = 0;
@@ -133,7 +132,7 @@ Result<std::string> Unpack(zip_t* archive, zip_uint64_t member, std::uint64_t& l
 
 }  // namespace
 
-bool IsNpy(std::string_view bytes) { return bytes.starts_with(kMagic); }
+bool IsNpy(std::string_view bytes) { return bytes.starts_with(kNpyMagic); }
 
 Result<NumberArray> ReadNpy(std::string_view bytes, const std::string& file) {
   ASSIGN_OR_RETURN(auto array, ReadMember(bytes, file));
@@ -186,72 +185,39 @@ Result<Npz> ReadNpz(std::string_view bytes, const std::string& file) {
 
 namespace {
 
-void Put(std::string& bytes, std::uint64_t value, int count) {
-  for (int i = 0; i < count; ++i) bytes += static_cast<char>((value >> (8 * i)) & 0xffU);
-}
-
-/// The sum that ZIP files check members by.
-std::uint32_t Crc32(std::string_view bytes) {
-  static const std::array<std::uint32_t, 256> table = [] {
-    std::array<std::uint32_t, 256> made{};
-    for (std::uint32_t i = 0; i < 256; ++i) {
-      std::uint32_t value = i;
-      for (int bit = 0; bit < 8; ++bit) value = (value >> 1U) ^ ((value & 1U) != 0 ? 0xedb88320U : 0U);
-      made[i] = value;
-    }
-    return made;
-  }();
-  std::uint32_t sum = 0xffffffffU;
-  for (const char c : bytes) sum = table[(sum ^ static_cast<unsigned char>(c)) & 0xffU] ^ (sum >> 8U);
-  return ~sum;
-}
-
-std::string Npy(const std::string& type, const std::vector<std::size_t>& shape, std::string_view data) {
-  std::string header = "{'descr': '" + type + "', 'fortran_order': False, 'shape': (";
-  for (const std::size_t size : shape) header += std::to_string(size) + ", ";
-  header += "), }";
-  constexpr std::size_t kAligned = 64, kBefore = 10;
-  header.resize((kBefore + header.size() + 1 + kAligned - 1) / kAligned * kAligned - kBefore - 1, ' ');
-  header += '\n';
-  std::string bytes("\x93NUMPY\x01\x00", 8);
-  Put(bytes, header.size(), 2);
-  return bytes + header + std::string(data);
+template <typename Number>
+void Put(std::string& bytes, Number number) {
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
 }
 
 std::string NpyOfNumbers(const NumberArray& array) {
-  std::string data;
-  data.reserve(8 * array.values.size());
-  for (const double value : array.values) Put(data, std::bit_cast<std::uint64_t>(value), 8);
-  return Npy("<f8", array.shape, data);
+  std::string bytes = NpyHead("<f8", array.shape);
+  bytes.reserve(bytes.size() + 8 * array.values.size());
+  for (const double value : array.values) Put(bytes, value);
+  return bytes;
 }
 
 /// Texts of ASCII, as NumPy has them: four bytes a letter, all of one length.
 std::string NpyOfTexts(const std::vector<std::string>& texts) {
   std::size_t width = 1;
   for (const std::string& text : texts) width = std::max(width, text.size());
-  std::string data;
+  std::string bytes = NpyHead("<U" + std::to_string(width), std::vector{texts.size()});
   for (const std::string& text : texts) {
-    for (std::size_t i = 0; i < width; ++i) Put(data, i < text.size() ? static_cast<unsigned char>(text[i]) : 0, 4);
+    for (std::size_t i = 0; i < width; ++i) {
+      Put<std::uint32_t>(bytes, i < text.size() ? static_cast<unsigned char>(text[i]) : 0);
+    }
   }
-  return Npy("<U" + std::to_string(width), {texts.size()}, data);
+  return bytes;
 }
 
-/// Returns what a member's own head and the directory both say of it.
-std::string MemberFacts(const std::string& name, std::string_view bytes) {
-  constexpr std::uint64_t kVersion = 20, kFirstDay = 0x21;  // 1 January 1980: no clock is read
-  std::string facts;
-  Put(facts, kVersion, 2);
-  Put(facts, 0, 2);  // flags
-  Put(facts, 0, 2);  // stored
-  Put(facts, 0, 2);
-  Put(facts, kFirstDay, 2);
-  Put(facts, Crc32(bytes), 4);
-  Put(facts, bytes.size(), 4);
-  Put(facts, bytes.size(), 4);
-  Put(facts, name.size(), 2);
-  Put(facts, 0, 2);
-  return facts;
+/// Nothing but memory can be missing where an archive is written into memory.
+template <typename Made>
+Made Needed(Made made) {
+  if (!made) throw std::bad_alloc();
+  return made;
 }
+
+using Source = std::unique_ptr<zip_source_t, decltype(&zip_source_free)>;
 
 }  // namespace
 
@@ -260,25 +226,27 @@ std::string WriteNpz(const std::map<std::string, NumberArray>& numbers,
   std::map<std::string, std::string> members;
   for (const auto& [name, array] : numbers) members[name + ".npy"] = NpyOfNumbers(array);
   for (const auto& [name, array] : texts) members[name + ".npy"] = NpyOfTexts(array);
-  std::string file, directory;
+
+  const Source whole(Needed(zip_source_buffer_create(nullptr, 0, 0, nullptr)), &zip_source_free);
+  zip_source_keep(whole.get());  // the archive frees one, and what was written is read from the other
+  Archive archive(Needed(zip_open_from_source(whole.get(), ZIP_CREATE | ZIP_TRUNCATE, nullptr)), &zip_discard);
   for (const auto& [name, bytes] : members) {
-    const std::string facts = MemberFacts(name, bytes);
-    directory += "PK\x01\x02";
-    Put(directory, 20, 2);
-    directory += facts;
-    directory.append(2 + 2 + 2 + 4, '\0');  // no remark, first disk, no attributes
-    Put(directory, file.size(), 4);
-    directory += name;
-    file += "PK\x03\x04" + facts + name + bytes;
+    zip_source_t* const member = Needed(zip_source_buffer(archive.get(), bytes.data(), bytes.size(), 0));
+    const zip_int64_t at = zip_file_add(archive.get(), name.c_str(), member, ZIP_FL_ENC_UTF_8);
+    constexpr zip_uint16_t kFirstDay = 0x21;  // 1 January 1980: no clock is read
+    const auto index = static_cast<zip_uint64_t>(at);
+    Needed(at >= 0 && zip_set_file_compression(archive.get(), index, ZIP_CM_STORE, 0) == 0 &&
+           zip_file_set_dostime(archive.get(), index, 0, kFirstDay, 0) == 0);
   }
-  const std::size_t start = file.size();
-  file += directory + "PK\x05\x06";
-  Put(file, 0, 4);
-  Put(file, members.size(), 2);
-  Put(file, members.size(), 2);
-  Put(file, directory.size(), 4);
-  Put(file, start, 4);
-  Put(file, 0, 2);
+  Needed(zip_close(archive.get()) == 0);
+  archive.release();  // closed, it is gone
+
+  zip_stat_t status;
+  zip_stat_init(&status);
+  Needed(zip_source_stat(whole.get(), &status) == 0 && zip_source_open(whole.get()) == 0);
+  std::string file(status.size, '\0');
+  Needed(zip_source_read(whole.get(), file.data(), file.size()) == static_cast<zip_int64_t>(file.size()));
+  zip_source_close(whole.get());
   return file;
 }
 

@@ -110,10 +110,10 @@ std::optional<glm::dvec3> MiddleOf(const SightLine& a, const SightLine& b) {
   return 0.5 * (a.camera_W + along_a * a.direction_W + b.camera_W + along_b * b.direction_W);
 }
 
-class Joiner {
+class PersonMatcher {
  public:
-  Joiner(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people, const MatchOptions& options,
-         std::vector<Track> tracks)
+  PersonMatcher(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
+                const MatchOptions& options, std::vector<Track> tracks)
       : cameras_(cameras), people_(people), options_(options), tracks_(std::move(tracks)), group_(tracks_.size()) {
     for (std::size_t i = 0; i < group_.size(); ++i) group_[i] = i;
   }
@@ -266,7 +266,7 @@ std::vector<MatchedPerson> MatchPeople(std::span<const ProjectionMatrix> cameras
   // A track of a few frames cannot be compared over time. In a very short film, half of the frames are enough.
   const std::size_t shortest = std::min<std::size_t>(5, (people.front().size() + 1) / 2);
   std::erase_if(tracks, [&](const Track& track) { return track.entries.size() < shortest; });
-  return Joiner(cameras, people, options, std::move(tracks)).Join();
+  return PersonMatcher(cameras, people, options, std::move(tracks)).Join();
 }
 
 }  // namespace etude

@@ -81,13 +81,25 @@ struct IkProblem {
   std::vector<AngleRange> limits;       ///< one per degree of freedom, e.g. the tree's own
 };
 
+/// The settings of single solvers. A solver reads its own only; its header has their meanings and defaults.
+struct SolverSettings {
+  std::optional<int> first_sweeps;      ///< gauss-newton
+  std::optional<int> memory;            ///< ccd-anderson
+  std::optional<double> damping_share;  ///< levenberg-marquardt
+  std::optional<double> first_radius;   ///< ceres-lm
+  std::optional<double> damping;        ///< damped-least-squares, damped-least-squares-active-set
+  std::optional<double> pinv_damping;   ///< jacobian-pinv
+  std::optional<double> gain;           ///< jacobian-transpose
+
+  bool operator==(const SolverSettings&) const = default;
+};
+
 /// Options that all solvers share. Each solver's own options are in its header.
 struct IkOptions {
   WeightRule weights = WeightRule::kAdaptive;  ///< CCD solvers only
   WeightRefresh refresh = WeightRefresh::kSweep;
-  /// The solver's own settings for `IkSolver::solve`, one value for each of `IkSolver::settings`; empty: its defaults.
-  std::vector<double> solver_settings;
-  bool limits = true;  ///< paper B, section 3.7.1; false leaves all angles free
+  SolverSettings solver_settings;  ///< of single solvers, for `IkSolver::solve`
+  bool limits = true;              ///< paper B, section 3.7.1; false leaves all angles free
   /// Maximum difference between an angle and its start angle, radians (paper B, section 3.7.2). Empty: unlimited.
   std::optional<double> angle_change_tolerance;
   int max_iterations = 200;

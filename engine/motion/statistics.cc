@@ -6,21 +6,13 @@
 #include <initializer_list>
 #include <vector>
 
+#include "engine/base/order_statistics.h"
 #include "engine/motion/support.h"
 
 namespace etude {
 namespace {
 
 using enum Role;
-
-/// Returns the value below which `share` of all values lie, interpolated linearly.
-double Quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  const double rank = share * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(rank);
-  const std::size_t above = std::min(below + 1, values.size() - 1);
-  return std::lerp(values[below], values[above], rank - static_cast<double>(below));
-}
 
 double Horizontal(const glm::dvec3& step) { return std::hypot(step.x, step.z); }
 
@@ -77,7 +69,7 @@ MotionStatistics ComputeStatistics(const BodyMotion& motion) {
   MotionStatistics found;
   std::vector<double> statures;
   for (const BodyPose& pose : motion.poses) statures.push_back(Stature(pose));
-  found.stature_m = Quantile(std::move(statures), 0.5);
+  found.stature_m = Quantile(statures, 0.5);
   MeasureSpeeds(motion, found);
   found.foot_slide = MeasureFootSlide(motion);
   found.lowest_foot_m = LowestPoint(motion, {kLeftFoot, kLeftAnkle, kRightFoot, kRightAnkle});

@@ -273,6 +273,13 @@ Result<BoostedTrees> ReadTrees(Fields& file, const std::string& key) {
 Result<LearntModel> ReadLearntModel(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(const Node node, ParseYaml(text, file));
   Fields fields(node, "a recogniser's model");
+  constexpr int kUnsaid = 1;  // the first version's files did not say it
+  const auto version = static_cast<int>(fields.OptionalWhole("measures", {1, 1e6}).value_or(kUnsaid));
+  if (version != kMeasuresVersion) {
+    return Fail(fields.Raw("measures")->place,
+                "a model of version {} of the measures; this program's are of version {}: train it anew", version,
+                kMeasuresVersion);
+  }
   LearntModel model;
   ASSIGN_OR_RETURN(model.asked, ReadTrees(fields, "asked"));
   ASSIGN_OR_RETURN(model.spotted, ReadTrees(fields, "spotted"));
@@ -281,7 +288,8 @@ Result<LearntModel> ReadLearntModel(std::string_view text, const std::string& fi
 }
 
 std::string WriteLearntModel(const LearntModel& model) {
-  return WriteTrees("asked", model.asked) + WriteTrees("spotted", model.spotted);
+  return fmt::format("measures: {}\n", kMeasuresVersion) + WriteTrees("asked", model.asked) +
+         WriteTrees("spotted", model.spotted);
 }
 
 namespace {

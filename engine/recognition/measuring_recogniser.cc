@@ -154,12 +154,12 @@ class MeasuringFollower final : public StepFollower {
     PerformanceMeasures measures =
         Measure({.path = path, .seen = seen, .pattern = example.pattern, .cost = aligner.Cost(), .other_cost = other});
     if (window != nullptr) {
-      std::ranges::copy(window->clock.Measure(usual_.Shift()).All(), measures.begin() + kFirstClockMeasure);
-      std::ranges::copy(window->rigid.Measure(usual_.Shift()), measures.begin() + kFirstRigidMeasure);
+      std::ranges::copy(window->clock.Measure(usual_.Shift()).All(), measures.begin() + kClockSlice.first);
+      std::ranges::copy(window->rigid.Measure(usual_.Shift()), measures.begin() + kRigidSlice.first);
     }
     // Add each measure's difference from what is usual of this person.
     usual_.Relate(measures);
-    if (window == nullptr) std::fill(measures.begin() + kFirstClockMeasure, measures.end(), 0.0);
+    if (window == nullptr) std::fill(measures.begin() + kClockSlice.first, measures.end(), 0.0);
     return measures;
   }
 

@@ -207,9 +207,9 @@ namespace {
 /// Calls `relate(own, beyond)` with the index of every measure and the index of its difference from the usual.
 template <typename Relate>
 void ForEachOwn(const Relate& relate) {
-  for (std::size_t m = 0; m < kOwnMeasures; ++m) relate(m, kOwnMeasures + m);
-  for (std::size_t m = kFirstClockMeasure; m < kFirstClockMeasure + kClockMeasures; ++m) relate(m, kClockMeasures + m);
-  for (std::size_t m = kFirstRigidMeasure; m < kFirstRigidMeasure + kRigidMeasures; ++m) relate(m, kRigidMeasures + m);
+  for (const MeasureSlice& slice : {kOwnMeasures, kClockSlice, kRigidSlice}) {
+    for (std::size_t i = 0; i < slice.count; ++i) relate(slice.first + i, slice.Beyond().first + i);
+  }
 }
 
 }  // namespace
@@ -301,7 +301,7 @@ void PersonBaseline::Relate(PerformanceMeasures& performance) const {
 double PersonBaseline::Shift() const {
   // A window opens one reaction time after the coach begins, and people follow slightly later than that (ours).
   constexpr double kUnknown = -0.1;
-  return latest_.empty() ? kUnknown : usual_[kFirstClockMeasure];
+  return latest_.empty() ? kUnknown : usual_[kClockSlice.first];
 }
 
 }  // namespace etude

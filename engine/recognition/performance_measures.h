@@ -89,19 +89,35 @@ class RigidComparison {
   std::array<std::array<Sum, kLatest - kEarliest + 1>, kPaces.size()> sums_{};
 };
 
-/// The number of measures of one performance against one example, of any move: per limb how far it is off, how far once
-/// its mean direction is forgiven, and what share of its amplitude is missing; left and right as the larger and the
-/// smaller of both; how far the body is off in each third of the example; the clock; the nearest other move.
-constexpr std::size_t kOwnMeasures = 47;
-constexpr std::size_t kDistanceMeasure = 36;  ///< among them: the root of the path's cost
-/// Then the same once more, each beyond what is usual of this person: 0 as long as nothing is known of them. Then how
-/// the performance keeps to the clock of who asks for it (ClockMeasures), and that beyond the usual, too: 0 for what
-/// nobody asked for.
-constexpr std::size_t kFirstClockMeasure = 2 * kOwnMeasures;
-/// Then how the performance lies on an example that is moved and stretched in time as a whole (RigidComparison), and
-/// that beyond the usual, too: likewise.
-constexpr std::size_t kFirstRigidMeasure = kFirstClockMeasure + 2 * kClockMeasures;
-constexpr std::size_t kMeasureCount = kFirstRigidMeasure + 2 * kRigidMeasures;
+/// Neighbouring measures of a performance, by their places.
+struct MeasureSlice {
+  std::size_t first = 0, count = 0;
+
+  constexpr std::size_t end() const { return first + count; }
+  /// What follows, as large: each of these measures beyond what is usual of this person.
+  constexpr MeasureSlice Beyond() const { return {end(), count}; }
+};
+
+/// The places of a performance's measures. Models that were learnt name measures by place: whoever moves, adds or takes
+/// one raises kMeasuresVersion, and the shipped models are trained anew (`etude train --recogniser`).
+constexpr int kMeasuresVersion = 1;
+/// Per limb how far it is off, how far once its mean direction is forgiven, and what share of its amplitude is missing;
+/// left and right as the larger and the smaller of both.
+constexpr MeasureSlice kLimbMeasures{0, 36};
+/// The root of the path's cost, then of each third of the example; the worst limb, the mean limb.
+constexpr MeasureSlice kDistanceMeasures{kLimbMeasures.end(), 6};
+/// Lag, stretch, unsteadiness and worst moment of the path.
+constexpr MeasureSlice kPathClockMeasures{kDistanceMeasures.end(), 4};
+/// The path's cost as a share of it and of the nearest other move's.
+constexpr MeasureSlice kOtherMoveMeasure{kPathClockMeasures.end(), 1};
+/// All four, of one performance against one example, of any move.
+constexpr MeasureSlice kOwnMeasures{0, kOtherMoveMeasure.end()};
+/// How the performance keeps to the clock of who asks for it (ClockMeasures); 0 for what nobody asked for.
+constexpr MeasureSlice kClockSlice{kOwnMeasures.Beyond().end(), kClockMeasures};
+/// How the performance lies on an example that is moved and stretched in time as a whole (RigidComparison); likewise.
+constexpr MeasureSlice kRigidSlice{kClockSlice.Beyond().end(), kRigidMeasures};
+constexpr std::size_t kMeasureCount = kRigidSlice.Beyond().end();
+constexpr std::size_t kDistanceMeasure = kDistanceMeasures.first;
 using PerformanceMeasures = std::array<double, kMeasureCount>;
 
 /// A performance as it went along an example.

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "engine/base/names.h"
+#include "engine/base/order_statistics.h"
 #include "engine/retargeting/rig.h"
 
 namespace etude {
@@ -66,8 +67,7 @@ double UnitOfSpread(const MarkerMotion& motion) {
     if (low.x <= high.x) spreads.push_back(std::max({high.x - low.x, high.y - low.y, high.z - low.z}));
   }
   if (spreads.empty()) return 1;
-  std::ranges::nth_element(spreads, spreads.begin() + static_cast<std::ptrdiff_t>(spreads.size() / 2));
-  const double spread = spreads[spreads.size() / 2];
+  const double spread = UpperMedian(std::move(spreads));
   for (const double unit : {1.0, 0.01, 0.001}) {
     if (spread * unit >= 0.8 && spread * unit <= 2.3) return unit;
   }

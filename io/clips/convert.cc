@@ -79,8 +79,8 @@ Result<BodyConversion> FindUnit(const SourceClip& source, const OpenOptions& opt
     told.unit = "given";
     return told;
   }
-  return Fail(opened.error().place, "{}; GLB is in metres: without roles --unit must say what the file is in",
-              opened.error().message);
+  opened.error().message += "; GLB is in metres: without roles --unit must say what the file is in";
+  return tl::unexpected(std::move(opened.error()));
 }
 
 Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFormat format,

@@ -34,12 +34,12 @@ Result<Child> StartReading(const Words& words, const Place& place) {
   child.log.reset(std::tmpfile());
   int ends[2];
   if (!child.log || pipe2(ends, O_CLOEXEC) != 0)
-    return Fail({kThisMachine}, "{} cannot be talked to: {}", words[0], std::strerror(errno));
+    return FailOfMachine("{} cannot be talked to: {}", words[0], std::strerror(errno));
   const int error = SpawnProgram(words, kNowhere, ends[1], child.log.get(), child.pid);
   close(ends[1]);
   child.output.reset(fdopen(ends[0], "rb"));
   if (error != 0 && error != ENOENT) {
-    return Fail({kThisMachine}, "{} cannot be started: {}", words[0], std::strerror(error));
+    return FailOfMachine("{} cannot be started: {}", words[0], std::strerror(error));
   }
   if (error != 0) {
     return Fail(place, "{} could not be started ({}); the Debian package ffmpeg brings it", words[0],

@@ -44,11 +44,11 @@ Result<Encoder> Encoder::Start(const FilePath& path, int width, int height, int 
   const Place place{.file = path.string()};
   ASSIGN_OR_RETURN(auto film, PartialFile::Claim(path));
   Log log(std::tmpfile(), std::fclose);
-  if (!log) return Fail({kThisMachine}, "no temporary file can be made: {}", std::strerror(errno));
+  if (!log) return FailOfMachine("no temporary file can be made: {}", std::strerror(errno));
   // A socket instead of a pipe: writing to a reader that has gone is then an error, not a signal.
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
-    return Fail({kThisMachine}, "{} cannot be talked to: {}", program, std::strerror(errno));
+    return FailOfMachine("{} cannot be talked to: {}", program, std::strerror(errno));
   }
   pid_t child = -1;
   const int error =
@@ -56,7 +56,7 @@ Result<Encoder> Encoder::Start(const FilePath& path, int width, int height, int 
   close(ends[1]);
   if (error != 0) close(ends[0]);
   if (error != 0 && error != ENOENT) {
-    return Fail({kThisMachine}, "{} cannot be started: {}", program, std::strerror(error));
+    return FailOfMachine("{} cannot be started: {}", program, std::strerror(error));
   }
   if (error != 0) {
     return Fail(place, "{} could not be started ({}); the Debian package of that name brings it", program,

@@ -53,8 +53,7 @@ struct Pipe {
 
 Result<Pipe> MakePipe() {
   std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-    return Fail({kThisMachine}, "no pipe can be made: {}", std::strerror(errno));
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return FailOfMachine("no pipe can be made: {}", std::strerror(errno));
   return Pipe{Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
@@ -155,7 +154,7 @@ bool SettleIn(const Becoming& child) {
 Result<Descriptor> MakeFile(const std::string& text) {
   Descriptor file(::memfd_create("text", MFD_CLOEXEC));
   if (file.number() < 0 || ::write(file.number(), text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
-    return Fail({kThisMachine}, "no file in memory can be made: {}", std::strerror(errno));
+    return FailOfMachine("no file in memory can be made: {}", std::strerror(errno));
   }
   return file;
 }
@@ -246,7 +245,7 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
   const std::vector<char*> argv = Pointers(argument_texts);
   const std::vector<char*> envp = Pointers(environment_texts);
   const Descriptor ourselves(static_cast<int>(::syscall(SYS_pidfd_open, ::getpid(), 0)));
-  if (ourselves.number() < 0) return Fail({kThisMachine}, "no process can be watched: {}", std::strerror(errno));
+  if (ourselves.number() < 0) return FailOfMachine("no process can be watched: {}", std::strerror(errno));
   Becoming child{
       .path = path.c_str(),
       .argv = argv.data(),
@@ -272,7 +271,7 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
   if (pid < 0 && options.control_group >= 0) pid = ForkContained(-1);
   if (pid == 0) BecomeProgram(child);
   if (pid < 0 && options.contained && errno != EAGAIN && errno != ENOMEM) return StartUncontained(options);
-  if (pid < 0) return Fail({kThisMachine}, "no process can be started: {}", std::strerror(errno));
+  if (pid < 0) return FailOfMachine("no process can be started: {}", std::strerror(errno));
   ManagedChildren().insert(pid);
   report->write.Close();
   int reason = 0;

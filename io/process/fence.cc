@@ -165,7 +165,7 @@ Result<void> Fence::Try() const {
   if (!IsUp()) return {};
   const std::string said = FirstLineOf(*this, {program_, "--version"});
   if (said.starts_with("bubblewrap ")) return {};
-  return Fail({kThisMachine}, "nothing can be run in the fence: {}", said.empty() ? "it says nothing" : said);
+  return FailOfMachine("nothing can be run in the fence: {}", said.empty() ? "it says nothing" : said);
 }
 
 ScratchUse Fence::MeasureScratch(pid_t inside) const {

@@ -10,6 +10,7 @@
 #include "engine/fuzzy/membership.h"
 #include "io/drawing/escape.h"
 #include "io/drawing/panel.h"
+#include "io/drawing/table.h"
 
 namespace etude {
 namespace {
@@ -130,39 +131,42 @@ std::string FigureHtml(const PaperAFigure& figure, const FuzzySystem& system, bo
 }
 
 std::string RoundTripHtml(const FuzzySystem& system) {
-  std::string html =
-      "<p class=\"quiet legend\">Back from the grades: the mean difference between what went in and what each method "
-      "of "
-      "defuzzification gives back, over the whole axis.</p><table class=\"printed\"><thead><tr><th>feature</th>";
+  const std::string_view legend =
+      "Back from the grades: the mean difference between what went in and what each method of defuzzification gives "
+      "back, over the whole axis.";
+  Table table{.label = fmt::format("Back from the grades of {}", system.name),
+              .style = "printed",
+              .columns = {{.head = "feature", .is_row_head = true}}};
   for (Defuzzification method : AllDefuzzifications()) {
-    html += fmt::format("<th class=\"n\">{}</th>", DefuzzificationName(method));
+    table.columns.push_back({.head = std::string(DefuzzificationName(method)), .is_number = true});
   }
-  html += "</tr></thead><tbody>";
   for (const PaperAFigure& figure : PaperAFigures()) {
-    html += fmt::format("<tr><th>{}</th>", FeatureNames(figure.feature));
+    table.rows.push_back({{FeatureNames(figure.feature)}});
     for (Defuzzification method : AllDefuzzifications()) {
-      html +=
-          fmt::format("<td class=\"n\">{:.1f}</td>", MeanRoundTripError(figure.feature, system.memberships, method));
+      const double error = MeanRoundTripError(figure.feature, system.memberships, method);
+      table.rows.back().cells.emplace_back(fmt::format("{:.1f}", error));
     }
-    html += "</tr>";
   }
-  return html + "</tbody></table>";
+  return fmt::format("<p class=\"quiet legend\">{}</p>{}", legend, TableHtml(table));
 }
 
-/// Gives one line per term: figure, feature, term, shape, equation.
-std::vector<std::array<std::string, 5>> PaperLines() {
-  std::vector<std::array<std::string, 5>> lines;
+/// Gives one row per term.
+Table PaperTerms() {
+  Table table{.columns = {{.head = "figure", .is_number = true},
+                          {"feature"},
+                          {"term"},
+                          {"shape"},
+                          {.head = "equation", .is_number = true}}};
   for (const PaperAFigure& figure : PaperAFigures()) {
     std::size_t t = 0;
     for (const Term& term : TermsOf(figure.feature)) {
-      const Shape& shape = PaperMemberships().shapes[FirstTermOf(figure.feature) + t];
-      std::string words = WriteShape(shape);
+      std::string words = WriteShape(PaperMemberships().shapes[FirstTermOf(figure.feature) + t]);
       words = words.substr(1, words.size() - 2);  // without braces
-      lines.push_back({fmt::format("{}", figure.number), FeatureNames(figure.feature), std::string(term.name), words,
-                       fmt::format("{}", figure.equations[t++])});
+      table.rows.push_back({{fmt::format("{}", figure.number), FeatureNames(figure.feature), term.name, words,
+                             fmt::format("{}", figure.equations[t++])}});
     }
   }
-  return lines;
+  return table;
 }
 
 constexpr std::string_view kMisprints =
@@ -249,29 +253,16 @@ std::string PaperAHtml(const ScenarioSummary& scenario) {
 
 std::string PaperAMarkdown(const ScenarioSummary& scenario) {
   if (!ShowsPaperA(scenario)) return "";
-  std::string text = fmt::format(
-      "\n<details><summary>Paper A's figures 5 to 10: membership functions</summary>\n\n{}\n\n"
-      "| figure | feature | term | shape | equation |\n|---|---|---|---|---|\n",
-      EscapeMarkdown(std::string(kMisprints)));
-  for (const auto& line : PaperLines()) {
-    for (const std::string& cell : line) text += fmt::format("| {} ", EscapeMarkdown(cell));
-    text += "|\n";
-  }
-  return text + "\n</details>\n";
+  return fmt::format(
+      "\n<details><summary>Paper A's figures 5 to 10: membership functions</summary>\n\n{}\n{}\n</details>\n",
+      EscapeMarkdown(kMisprints), TableMarkdown(PaperTerms()));
 }
 
 std::string PaperALatex(const ScenarioSummary& scenario) {
   if (!ShowsPaperA(scenario)) return "";
-  std::string text = fmt::format(
-      "\n\\begin{{table}}[!htbp]\n\\centering\\small\n\\caption{{{}. {}}}\n\\begin{{tabular}}{{rlllr}}\n\\toprule\n"
-      "figure & feature & term & shape & equation \\\\\n\\midrule\n",
-      EscapeLatex("Membership functions of paper A's figures 5 to 10"), EscapeLatex(std::string(kMisprints)));
-  for (const auto& line : PaperLines()) {
-    std::string cells;
-    for (const std::string& cell : line) cells += (cells.empty() ? "" : " & ") + EscapeLatex(cell);
-    text += cells + " \\\\\n";
-  }
-  return text + "\\bottomrule\n\\end{tabular}\n\\end{table}\n";
+  return fmt::format("\n\\begin{{table}}[!htbp]\n\\centering\\small\n\\caption{{{}. {}}}\n{}\\end{{table}}\n",
+                     EscapeLatex("Membership functions of paper A's figures 5 to 10"), EscapeLatex(kMisprints),
+                     TableLatex(PaperTerms()));
 }
 
 }  // namespace etude

@@ -126,7 +126,7 @@ std::string Note(const PaperBSet& set) {
 std::string TablesHtml(const std::vector<PaperTable>& tables, std::string_view shape) {
   if (tables.empty()) return "";
   std::string html = fmt::format("<div class=\"tables {}\">", shape);
-  for (const PaperTable& table : tables) html += PaperTableHtml(table);
+  for (const PaperTable& table : tables) html += TableHtml(TableOf(table));
   return html + "</div>";
 }
 
@@ -163,7 +163,7 @@ std::string FloatsLatex(const std::vector<PaperTable>& tables, std::size_t most,
     text += fmt::format("\n\\begin{{table}}[!htbp]\n\\centering\\small\n\\caption{{{}{}}}\n", EscapeLatex(caption),
                         begin == 0 ? ". " + EscapeLatex(note) : " (continued)");
     for (std::size_t i = begin; i < std::min(begin + most, tables.size()); ++i) {
-      text += "\\par\\medskip\n" + PaperTableLatex(tables[i]);
+      text += "\\par\\medskip\n" + TableLatex(TableOf(tables[i]));
     }
     text += "\\end{table}\n";
   }
@@ -223,10 +223,10 @@ std::string PaperBMarkdown(const RunData& run, const ScenarioSummary& scenario) 
       text += fmt::format("\n<details><summary>Paper B's {}: {}{}</summary>\n\n{}\n", TableName(set),
                           EscapeMarkup(set.title), EscapeMarkup(Under(condition)), EscapeMarkdown(Note(set)));
       if (!set.replay.empty()) text += fmt::format("\nThe trial again: {}\n", EscapeMarkdown(set.replay));
-      for (const PaperTable& table : set.errors) text += PaperTableMarkdown(table);
+      for (const PaperTable& table : set.errors) text += TableMarkdown(TableOf(table));
       text += '\n';
       for (const std::string& outcome : set.outcomes) text += fmt::format("- {}\n", EscapeMarkdown(outcome));
-      for (const PaperTable& table : set.angles) text += PaperTableMarkdown(table);
+      for (const PaperTable& table : set.angles) text += TableMarkdown(TableOf(table));
       text += "\n</details>\n";
     }
   }
@@ -248,16 +248,27 @@ std::string PaperBLatex(const RunData& run, const ScenarioSummary& scenario) {
 }
 
 std::string PaperBCsv(const RunData& run, const ScenarioSummary& scenario) {
-  std::string csv;
+  Table csv;
+  for (const char* head : {"scenario", "condition", "trials", "table", "row", "quantity", "axis", "value"}) {
+    csv.columns.push_back({head});
+  }
   for (const PaperBCondition& condition : PaperBTables(run, scenario)) {
+    const std::string label = ConditionLabel(condition.condition);
     for (const PaperBSet& set : condition.sets) {
-      const std::string prefix = fmt::format("{},{},{},", CsvText(scenario.name),
-                                             CsvText(ConditionLabel(condition.condition)), CsvText(set.title));
-      for (const PaperTable& table : set.errors) csv += PaperTableCsv(table, prefix);
-      for (const PaperTable& table : set.angles) csv += PaperTableCsv(table, prefix);
+      for (const auto* tables : {&set.errors, &set.angles}) {
+        for (const PaperTable& table : *tables) {
+          const Table shown = TableOf(table);
+          for (const TableRow& row : shown.rows) {
+            for (std::size_t i = 1; i < row.cells.size(); ++i) {
+              csv.rows.push_back({{scenario.name, label, set.title, table.caption, row.cells.front().text,
+                                   shown.columns[i].over, shown.columns[i].head, row.cells[i].number}});
+            }
+          }
+        }
+      }
     }
   }
-  return csv.empty() ? "" : "scenario,condition,trials,table,row,quantity,axis,value\n" + csv;
+  return csv.rows.empty() ? "" : TableCsv(csv);
 }
 
 }  // namespace etude

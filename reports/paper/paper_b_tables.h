@@ -8,6 +8,7 @@
 #include "bench/model/run_data.h"
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/tree.h"
+#include "io/drawing/table.h"
 
 namespace etude {
 
@@ -33,16 +34,8 @@ struct PaperTable {
 /// Gives "(a)", "(b)", …, "(z)", "(27)", …
 std::string PaperLetter(std::size_t index);
 
-std::string PaperTableHtml(const PaperTable& table);
-
-std::string PaperTableMarkdown(const PaperTable& table);
-
-/// Writes a caption line and a tabular of the package booktabs, without a float around them.
-std::string PaperTableLatex(const PaperTable& table);
-
-/// Writes a line per figure, full precision: caption, row, columns' head, column, value. No header line; `prefix`
-/// stands before each line.
-std::string PaperTableCsv(const PaperTable& table, const std::string& prefix);
+/// Gives the table as what all writers take: the caption, two rows of heads, values beside their six decimals.
+Table TableOf(const PaperTable& table);
 
 /// A row of paper B's tables of errors, in its order and under its name.
 struct PaperBEffector {

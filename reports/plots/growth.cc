@@ -7,7 +7,9 @@
 #include <optional>
 #include <set>
 
+#include "engine/base/order_statistics.h"
 #include "io/drawing/escape.h"
+#include "io/drawing/table.h"
 #include "reports/plots/curve_plot.h"
 #include "reports/words/cell_series.h"
 #include "reports/words/figures.h"
@@ -102,27 +104,25 @@ std::string CellText(const GrowthCurve& curve, double frames) {
   return point == curve.points.end() ? std::string(kNoValue) : FormatNumber(point->value);
 }
 
-std::string Table(const Growth& growth, const std::vector<std::string>& methods) {
+std::string FiguresHtml(const Growth& growth, const std::vector<std::string>& methods) {
   std::set<double> sizes;
   for (const auto* curves : {&growth.distances, &growth.microseconds}) {
     for (const GrowthCurve& curve : *curves) {
       for (const GrowthPoint& point : curve.points) sizes.insert(point.frames);
     }
   }
-  std::string html =
-      "<div class=\"scroll\"><table class=\"printed\"><caption>Distances computed per query, and processor time "
-      "(µs)</caption><thead><tr><th scope=\"col\">frames</th>";
-  for (const double size : sizes) html += fmt::format("<th scope=\"col\" class=\"n\">{}</th>", FormatNumber(size));
-  html += "</tr></thead><tbody>";
+  const std::string caption = "Distances computed per query, and processor time (µs)";
+  Table table{
+      .label = caption, .style = "printed", .caption = caption, .columns = {{.head = "frames", .is_row_head = true}}};
+  for (const double size : sizes) table.columns.push_back({.head = FormatNumber(size), .is_number = true});
   for (std::size_t m = 0; m < methods.size(); ++m) {
-    html += fmt::format("<tr><th scope=\"row\">{}</th>", EscapeMarkup(methods[m]));
+    table.rows.push_back({{methods[m]}});
     for (const double size : sizes) {
-      html += fmt::format("<td class=\"n\">{} · {} µs</td>", CellText(growth.distances[m], size),
-                          CellText(growth.microseconds[m], size));
+      table.rows.back().cells.emplace_back(
+          fmt::format("{} · {} µs", CellText(growth.distances[m], size), CellText(growth.microseconds[m], size)));
     }
-    html += "</tr>";
   }
-  return html + "</tbody></table></div>";
+  return TableHtml(table);
 }
 
 }  // namespace
@@ -189,7 +189,7 @@ std::string GrowthHtml(const RunData& run, const ScenarioSummary& scenario) {
     html += "<div class=\"growth\">";
     html += Figure("Distances computed per query", growth.distances, scenario.methods);
     html += Figure("Processor time per query, µs (this machine’s)", growth.microseconds, scenario.methods);
-    html += fmt::format("</div>{}</details>", Table(growth, scenario.methods));
+    html += fmt::format("</div>{}</details>", FiguresHtml(growth, scenario.methods));
   }
   return html;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/base/order_statistics.h"
 #include "io/drawing/escape.h"
 #include "io/drawing/marks.h"
 #include "io/drawing/panel.h"
@@ -31,13 +32,6 @@ struct StripRow {
   std::size_t total = 0;
   double low = 0, typical = 0, high = 0;  ///< quartiles, and median or mean
 };
-
-double Quantile(const std::vector<double>& sorted, double share) {
-  const double rank = share * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(rank);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (rank - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
 
 StripRow RowOf(std::size_t method, const std::vector<Dot>& dots, const MetricWords& words) {
   std::vector<double> sorted;

@@ -19,7 +19,7 @@ constexpr std::size_t kMostMoves = 60;  // of a confusion: its cells grow with t
 
 using Verdicts = std::map<std::size_t, MethodVerdicts>;
 
-std::string Table(const std::string& caption, const std::string& head, const std::string& body) {
+std::string Framed(const std::string& caption, const std::string& head, const std::string& body) {
   return fmt::format(
       "<figure><figcaption>{}</figcaption><div class=\"scroll\" tabindex=\"0\"><table class=\"verdict-table\"><thead>"
       "<tr>{}</tr></thead><tbody>{}</tbody></table></div></figure>",
@@ -59,7 +59,7 @@ std::string FaultTable(const ScenarioSummary& scenario, const std::string& prefi
     }
     body += "</tr>";
   }
-  return Table(
+  return Framed(
       prefix + "faulty performances not called right, per cent, by their worst fault: slight (severity to 0.5) · bad",
       head, body);
 }
@@ -85,8 +85,8 @@ std::string SessionTable(const RunData& run, const ScenarioSummary& scenario, co
                         EscapeMarkup(SessionName(run, scenario, session.person)), session.missed, session.right,
                         session.praised, session.wrong);
   }
-  return Table(fmt::format("{}the sessions that {} judged worst", prefix, scenario.methods[method->first]),
-               Head("session", false) + Head("right ones missed") + Head("wrong ones praised"), body);
+  return Framed(fmt::format("{}the sessions that {} judged worst", prefix, scenario.methods[method->first]),
+                Head("session", false) + Head("right ones missed") + Head("wrong ones praised"), body);
 }
 
 std::string ConfusionTable(const std::string& caption, const MoveConfusion& confusion) {
@@ -109,7 +109,7 @@ std::string ConfusionTable(const std::string& caption, const MoveConfusion& conf
     }
     body += "</tr>";
   }
-  return Table(caption, head, body);
+  return Framed(caption, head, body);
 }
 
 std::string Confusions(const ScenarioSummary& scenario, const std::string& prefix, const Verdicts& verdicts) {

@@ -9,22 +9,27 @@
 #include <span>
 
 #include "io/drawing/escape.h"
+#include "io/drawing/table.h"
 #include "reports/words/figures.h"
 
 namespace etude {
 namespace {
 
+TableColumn NumberColumn(std::string head) { return {.head = std::move(head), .is_number = true}; }
+
 /// Draws a bar of the share of the threshold's square that this feature alone takes up.
-std::string Bar(double partial, double full, bool has_threshold) {
+TableCell Bar(double partial, double full, bool has_threshold) {
   const double share = full > 0 ? std::clamp(partial / full, 0.0, 1.0) : 0;
   const bool alone = has_threshold && partial >= full;
-  return fmt::format("<td class=\"n\">{}<i class=\"{}\" style=\"width:{:.0f}%\"></i></td>",
-                     partial < kLeastShown ? "0" : FormatFixed(partial, 3), alone ? "over" : "", 100 * share);
+  return {"",
+          {},
+          fmt::format("{}<i class=\"{}\" style=\"width:{:.0f}%\"></i>",
+                      partial < kLeastShown ? "0" : FormatFixed(partial, 3), alone ? "over" : "", 100 * share)};
 }
 
 std::string DistanceWords(double distance, std::optional<double> threshold) {
   if (!threshold) return FormatFixed(distance, 3);
-  return fmt::format("{} {} {}", FormatFixed(distance, 3), distance < *threshold ? "&lt;" : "≥",
+  return fmt::format("{} {} {}", FormatFixed(distance, 3), distance < *threshold ? "<" : "≥",
                      fmt::format("{:g}", *threshold));
 }
 
@@ -69,23 +74,25 @@ std::string PairsOf(const TransitionFacts& facts) {
 
 std::string Dashed(const std::string& text) { return text.empty() ? std::string(kNoValue) : text; }
 
+std::string WaitOf(const TransitionFacts& facts) {
+  return facts.wait_s ? FormatFixed(*facts.wait_s, 2) + " s" : std::string(kNoValue);
+}
+
 std::string WaysTable(const RecordedRequest& world) {
-  std::string html =
-      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Which way each method "
-      "took\"><table><thead><tr>"
-      "<th scope=\"col\">Method</th><th scope=\"col\">Branch</th><th scope=\"col\">Frames, left → entered</th>"
-      "<th scope=\"col\" class=\"n\">Wait</th><th scope=\"col\" class=\"n\">d</th>"
-      "<th scope=\"col\" class=\"n\">Pairs matched</th><th scope=\"col\">Why</th></tr></thead><tbody>";
+  Table table{.label = "Which way each method took",
+              .columns = {{"Method"},
+                          {"Branch"},
+                          {"Frames, left → entered"},
+                          NumberColumn("Wait"),
+                          NumberColumn("d"),
+                          NumberColumn("Pairs matched"),
+                          {"Why"}}};
   for (const RecordedTransition& taken : Shown(world)) {
     const TransitionFacts& facts = taken.facts;
-    html += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
-        "<td>{}</td></tr>",
-        EscapeMarkup(taken.row->method), EscapeMarkup(Dashed(facts.branch)), EscapeMarkup(WayOf(facts)),
-        facts.wait_s ? FormatFixed(*facts.wait_s, 2) + " s" : std::string(kNoValue), NumberOr(WorstDistance(facts), 3),
-        PairsOf(facts), EscapeMarkup(Dashed(facts.why)));
+    table.rows.push_back({{taken.row->method, Dashed(facts.branch), WayOf(facts), WaitOf(facts),
+                           NumberOr(WorstDistance(facts), 3), PairsOf(facts), Dashed(facts.why)}});
   }
-  return html + "</tbody></table></div>";
+  return TableHtml(table);
 }
 
 std::string Distances(const RecordedRequest& world) {
@@ -102,7 +109,7 @@ std::string Distances(const RecordedRequest& world) {
 
 /// Writes a frame: "clap 28", or the frame alone.
 std::string FrameIn(const std::string& clip, int frame) {
-  return clip.empty() ? std::to_string(frame) : fmt::format("{} {}", EscapeMarkup(clip), frame);
+  return clip.empty() ? std::to_string(frame) : fmt::format("{} {}", clip, frame);
 }
 
 /// Gives the transition point that a candidate was looked at for: through an in-between there are two. Its clips are
@@ -113,18 +120,15 @@ PointFacts PointOf(const CandidateFacts& candidate, const TransitionFacts& facts
   return is_told ? facts.points[static_cast<std::size_t>(point)] : PointFacts{};
 }
 
-std::string CandidateRow(const CandidateFacts& candidate, const TransitionFacts& facts, bool has_costs) {
+TableRow CandidateRow(const CandidateFacts& candidate, const TransitionFacts& facts, bool has_costs) {
   const bool taken = candidate.outcome == "taken";
   const PointFacts point = PointOf(candidate, facts);
-  std::string html =
-      fmt::format("<tr{}><td>{}{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>",
-                  taken ? " class=\"taken\"" : "", taken ? "✓ " : "", EscapeMarkup(Dashed(candidate.outcome)),
-                  FrameIn(point.from, candidate.from_frame), FrameIn(point.to, candidate.to_frame),
-                  FormatFixed(candidate.distance, 3));
-  if (has_costs)
-    html += fmt::format("<td class=\"n\">{}</td>", candidate.cost ? FormatNumber(*candidate.cost) : kNoValue);
-  return html +
-         fmt::format("<td>{}</td></tr>", candidate.partials ? MostlyBy(*candidate.partials) : std::string(kNoValue));
+  TableRow row{.cells = {(taken ? "✓ " : "") + Dashed(candidate.outcome), FrameIn(point.from, candidate.from_frame),
+                         FrameIn(point.to, candidate.to_frame), FormatFixed(candidate.distance, 3)},
+               .attributes = taken ? " class=\"taken\"" : ""};
+  if (has_costs) row.cells.emplace_back(candidate.cost ? FormatNumber(*candidate.cost) : std::string(kNoValue));
+  row.cells.emplace_back(candidate.partials ? MostlyBy(*candidate.partials) : std::string(kNoValue));
+  return row;
 }
 
 /// Says how many of all pairs of frames are listed.
@@ -138,20 +142,16 @@ std::string HowMany(const TransitionFacts& facts) {
 std::string CandidatesTable(const std::string& methods, const TransitionFacts& facts) {
   if (facts.candidates.empty()) return "";
   const bool has_costs = std::ranges::any_of(facts.candidates, [](const auto& c) { return c.cost.has_value(); });
-  std::string html = fmt::format(
-      "<h4>What {} looked at</h4>{}<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Candidates of "
-      "{}\">"
-      "<table><thead><tr><th scope=\"col\">Outcome</th><th scope=\"col\" class=\"n\">Leaves at</th>"
-      "<th scope=\"col\" class=\"n\">Enters at</th><th scope=\"col\" class=\"n\">d</th>",
-      EscapeMarkup(methods), HowMany(facts), EscapeMarkup(methods));
+  Table table{.label = "Candidates of " + methods,
+              .columns = {{"Outcome"}, NumberColumn("Leaves at"), NumberColumn("Enters at"), NumberColumn("d")}};
   if (has_costs) {
-    const std::string unit = facts.cost_unit.empty() ? "" : fmt::format(" ({})", facts.cost_unit);
-    html += fmt::format("<th scope=\"col\" class=\"n\">Cost{}</th>", EscapeMarkup(unit));
+    table.columns.push_back(NumberColumn(facts.cost_unit.empty() ? "Cost" : fmt::format("Cost ({})", facts.cost_unit)));
   }
-  html += "<th scope=\"col\">d² is mostly</th></tr></thead><tbody>";
+  table.columns.push_back({"d² is mostly"});
   const std::size_t shown = std::min(facts.candidates.size(), kMostCandidates);
-  for (std::size_t i = 0; i < shown; ++i) html += CandidateRow(facts.candidates[i], facts, has_costs);
-  return html + "</tbody></table></div>" + LeftOutHtml(facts.candidates.size(), shown, "candidates", "the recording");
+  for (std::size_t i = 0; i < shown; ++i) table.rows.push_back(CandidateRow(facts.candidates[i], facts, has_costs));
+  return fmt::format("<h4>What {} looked at</h4>{}{}{}", EscapeMarkup(methods), HowMany(facts), TableHtml(table),
+                     LeftOutHtml(facts.candidates.size(), shown, "candidates", "the recording"));
 }
 
 /// Writes the candidates of all methods; those that differ in the join alone share theirs.
@@ -183,21 +183,18 @@ std::string WorldHtml(const RecordedRequest& world) {
 }
 
 std::string WorldMarkdown(const RecordedRequest& world) {
-  std::string text = fmt::format(
-      "\n{}, {}:\n\n| method | branch | frames, left → entered | wait | d | d² is mostly | why |\n"
-      "|---|---|---|---|---|---|---|\n",
-      EscapeMarkdown(world.Request()), EscapeMarkdown(world.Name()));
+  Table table{
+      .columns = {{"method"}, {"branch"}, {"frames, left → entered"}, {"wait"}, {"d"}, {"d² is mostly"}, {"why"}}};
   for (const RecordedTransition& taken : Shown(world)) {
     const TransitionFacts& facts = taken.facts;
     const auto worst =
         std::ranges::max_element(facts.points, {}, [](const PointFacts& m) { return m.distance.value_or(-1); });
-    text += fmt::format(
-        "| {} | {} | {} | {} | {} | {} | {} |\n", EscapeMarkdown(taken.row->method),
-        EscapeMarkdown(Dashed(facts.branch)), EscapeMarkdown(WayOf(facts)),
-        facts.wait_s ? FormatFixed(*facts.wait_s, 2) + " s" : std::string(kNoValue), NumberOr(WorstDistance(facts), 3),
-        worst->partials ? MostlyBy(*worst->partials) : std::string(kNoValue), EscapeMarkdown(Dashed(facts.why)));
+    table.rows.push_back(
+        {{taken.row->method, Dashed(facts.branch), WayOf(facts), WaitOf(facts), NumberOr(WorstDistance(facts), 3),
+          worst->partials ? MostlyBy(*worst->partials) : std::string(kNoValue), Dashed(facts.why)}});
   }
-  return text;
+  return fmt::format("\n{}, {}:\n{}", EscapeMarkdown(world.Request()), EscapeMarkdown(world.Name()),
+                     TableMarkdown(table));
 }
 
 }  // namespace
@@ -217,35 +214,33 @@ void DistanceTable::AddPoint(const std::string& method, const PointFacts& point,
 
 std::string DistanceTable::Html() const {
   if (points_.empty()) return "";
-  std::string html =
-      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Partial distances\"><table class=\"partials\">"
-      "<thead><tr><th scope=\"col\">Partial distances S·Δ²</th>";
-  for (const Feature feature : AllFeatures()) {
-    html += fmt::format("<th scope=\"col\" class=\"n\">{}</th>", FeatureName(feature));
-  }
-  html += "<th scope=\"col\" class=\"n\">Sum d²</th><th scope=\"col\" class=\"n\">d</th></tr></thead><tbody>";
+  Table table{.label = "Partial distances", .style = "partials", .columns = {{"Partial distances S·Δ²"}}};
+  for (const Feature feature : AllFeatures()) table.columns.push_back(NumberColumn(std::string(FeatureName(feature))));
+  table.columns.insert(table.columns.end(), {NumberColumn("Sum d²"), NumberColumn("d")});
   for (const auto& [methods, weights] : weights_) {
-    const bool shared_by_all = weights_.size() == 1;
-    html +=
-        fmt::format("<tr class=\"weights\"><td>weight S{}</td>", shared_by_all ? "" : EscapeMarkup(" of " + methods));
-    for (const double weight : weights) html += fmt::format("<td class=\"n\">{:.3g}</td>", weight);
-    html += fmt::format("<td class=\"n\">{}</td><td></td></tr>",
-                        fmt::format("{:.3g}", std::accumulate(weights.begin(), weights.end(), 0.0)));
+    TableRow row{.cells = {weights_.size() == 1 ? "weight S" : "weight S of " + methods},
+                 .attributes = " class=\"weights\""};
+    for (const double weight : weights) row.cells.emplace_back(fmt::format("{:.3g}", weight));
+    row.cells.emplace_back(fmt::format("{:.3g}", std::accumulate(weights.begin(), weights.end(), 0.0)));
+    row.cells.emplace_back("");
+    table.rows.push_back(std::move(row));
   }
   for (const Point& point : points_) {
     const PerFeature& partials = *point.facts.partials;
     const double sum = std::accumulate(partials.begin(), partials.end(), 0.0);
     const double full = point.threshold ? *point.threshold * *point.threshold : std::ranges::max(partials);
     const std::string clips = point.facts.from.empty() ? "" : fmt::format("{} → {}", point.facts.from, point.facts.to);
-    html += fmt::format("<tr><td>{}<small>{}</small></td>", EscapeMarkup(point.method), EscapeMarkup(clips));
-    for (const double partial : partials) html += Bar(partial, full, point.threshold.has_value());
-    html += fmt::format("<td class=\"n\">{}</td><td class=\"n\">{}</td></tr>", FormatFixed(sum, 3),
-                        DistanceWords(point.facts.distance.value_or(std::sqrt(sum)), point.threshold));
+    TableRow row{
+        .cells = {{"", {}, fmt::format("{}<small>{}</small>", EscapeMarkup(point.method), EscapeMarkup(clips))}}};
+    for (const double partial : partials) row.cells.push_back(Bar(partial, full, point.threshold.has_value()));
+    row.cells.emplace_back(FormatFixed(sum, 3));
+    row.cells.emplace_back(DistanceWords(point.facts.distance.value_or(std::sqrt(sum)), point.threshold));
+    table.rows.push_back(std::move(row));
   }
-  return html + fmt::format(
-                    "</tbody></table></div><p class=\"quiet legend\">They sum to d². A full bar alone reaches the "
-                    "threshold; without one, it is the largest of its row. {}</p>",
-                    EscapeMarkup(std::string(kFeatureLegend)));
+  return TableHtml(table) + fmt::format(
+                                "<p class=\"quiet legend\">They sum to d². A full bar alone reaches the threshold; "
+                                "without one, it is the largest of its row. {}</p>",
+                                EscapeMarkup(kFeatureLegend));
 }
 
 std::string MostlyBy(const PerFeature& partials) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/base/order_statistics.h"
 #include "io/drawing/escape.h"
 
 namespace etude {
@@ -69,12 +70,6 @@ std::vector<std::pair<const Row*, const CellRecording*>> RecordedRows(const RunD
     if (const auto row = rows.find(recording.cell); row != rows.end()) recorded.emplace_back(row->second, &recording);
   }
   return recorded;
-}
-
-double Median(std::vector<double> values) {
-  std::ranges::sort(values);
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
 std::vector<double> MedianCurve(const std::vector<const std::vector<double>*>& curves) {

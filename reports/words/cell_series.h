@@ -46,9 +46,6 @@ std::vector<const Row*> RowsUnder(const RunData& run, const std::string& scenari
 /// Gives, of all recordings whose cell has a row, in order, both.
 std::vector<std::pair<const Row*, const CellRecording*>> RecordedRows(const RunData& run);
 
-/// Computes the middle value, or the mean of the middle two. `values` must not be empty.
-double Median(std::vector<double> values);
-
 /// Computes the median of each step over several curves of different lengths: a curve that ended keeps its last value,
 /// as a solver that stopped keeps its answer.
 std::vector<double> MedianCurve(const std::vector<const std::vector<double>*>& curves);

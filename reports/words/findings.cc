@@ -7,6 +7,7 @@
 #include <map>
 #include <tuple>
 
+#include "engine/base/order_statistics.h"
 #include "reports/words/answer.h"
 #include "reports/words/cell_series.h"
 #include "reports/words/figures.h"
@@ -88,12 +89,9 @@ class Times {
     if (const auto seconds = CpuSecondsOf(run, row, place)) seconds_[row.method].push_back(*seconds);
   }
 
-  std::optional<double> MedianOf(const std::string& method) {
+  std::optional<double> MedianOf(const std::string& method) const {
     const auto found = seconds_.find(method);
-    if (found == seconds_.end()) return std::nullopt;
-    const auto middle = found->second.begin() + static_cast<std::ptrdiff_t>(found->second.size() / 2);
-    std::ranges::nth_element(found->second, middle);
-    return *middle;
+    return found == seconds_.end() ? std::nullopt : std::optional(Median(found->second));
   }
 
  private:
@@ -315,6 +313,18 @@ std::string MissingReasons(const RunData& run, const std::string& scenario, cons
   std::string text;
   for (const auto& [reason, count] : counts) text += fmt::format("{}{} × {}", text.empty() ? "" : "; ", count, reason);
   return text;
+}
+
+Table FiguresTable(const KeyFigures& figures, bool has_number_columns) {
+  Table table{.columns = {{.is_row_head = true}}};
+  for (const std::string& label : figures.labels) {
+    table.columns.push_back({.head = label, .is_number = has_number_columns});
+  }
+  for (const KeyFigures::Method& method : figures.methods) {
+    table.rows.push_back({{method.name}});
+    for (const std::string& value : method.values) table.rows.back().cells.emplace_back(value);
+  }
+  return table;
 }
 
 }  // namespace etude

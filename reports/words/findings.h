@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/model/run_data.h"
+#include "io/drawing/table.h"
 #include "reports/words/judged.h"
 
 namespace etude {
@@ -45,6 +46,9 @@ struct KeyFigures {
   std::vector<std::string> labels;  ///< headline metric, success, processor time, worlds lost; what is known
   std::vector<Method> methods;      ///< the one in question first; empty where nothing is compared
 };
+
+/// Writes the figures as a table: in columns of numbers, where the place that it stands in does not align them itself.
+Table FiguresTable(const KeyFigures& figures, bool has_number_columns);
 
 /// The count of cells that ended in one way for one reason.
 struct ReasonCount {

@@ -31,8 +31,10 @@ Result<GlLibrary> Load() {
   auto by_egl = LoadEgl();
   if (by_egl) return by_egl;
   const bool is_short = IsOfThisMachine(by_osmesa.error()) || IsOfThisMachine(by_egl.error());
-  return Fail({is_short ? kThisMachine : ""}, "nothing can be drawn: {}; {}", by_osmesa.error().message,
-              by_egl.error().message);
+  return tl::unexpected(
+      Error{{},
+            fmt::format("nothing can be drawn: {}; {}", by_osmesa.error().message, by_egl.error().message),
+            is_short ? ErrorKind::kMachine : ErrorKind::kInput});
 }
 
 }  // namespace
@@ -41,7 +43,8 @@ Result<void*> OpenGlLibrary(const char* name, const char* file) {
   if (void* const library = ::dlopen(file, RTLD_LAZY | RTLD_LOCAL)) return library;
   const std::string why = ::dlerror();
   const bool is_installed = why.find(std::strerror(ENOENT)) == std::string::npos;
-  return Fail({is_installed ? kThisMachine : ""}, "{} cannot be loaded: {}", name, why);
+  return tl::unexpected(Error{
+      {}, fmt::format("{} cannot be loaded: {}", name, why), is_installed ? ErrorKind::kMachine : ErrorKind::kInput});
 }
 
 Result<void> CheckGlChoice() {

@@ -6,7 +6,7 @@ import pathlib
 import re
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-ANY = ["cli", "bench/micro"]  # programs: they may include whatever they like
+ANY = ["cli", "bench/micro", "bench/peers"]  # programs: they may include whatever they like
 
 
 def may_include(root=ROOT):

@@ -9,6 +9,7 @@
 #include "io/drawing/escape.h"
 #include "io/drawing/marks.h"
 #include "io/drawing/panel.h"
+#include "io/drawing/table.h"
 
 namespace etude {
 namespace {
@@ -61,20 +62,12 @@ std::string CurvesHtml(const std::vector<TakeCurve>& curves, double rate_hz, std
       EscapeMarkup(caption), svg, legend);
 }
 
-std::string TableHtml(const std::vector<std::string>& heads, const std::vector<std::vector<std::string>>& rows) {
-  std::string html = "<div class=\"scroll\" tabindex=\"0\"><table><thead><tr>";
-  for (std::size_t i = 0; i < heads.size(); ++i) {
-    html += fmt::format("<th scope=\"col\"{}>{}</th>", i == 0 ? "" : " class=\"n\"", EscapeMarkup(heads[i]));
-  }
-  html += "</tr></thead><tbody>";
-  for (const auto& row : rows) {
-    html += "<tr>";
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      html += fmt::format("<td{}>{}</td>", i == 0 ? "" : " class=\"n\"", EscapeMarkup(row[i]));
-    }
-    html += "</tr>";
-  }
-  return html + "</tbody></table></div>";
+/// Writes a table of which all columns but the first hold numbers.
+std::string NumbersHtml(const std::vector<std::string>& heads, const std::vector<std::vector<std::string>>& rows) {
+  Table table{.label = heads.front()};
+  for (const std::string& head : heads) table.columns.push_back({.head = head, .is_number = !table.columns.empty()});
+  for (const auto& row : rows) table.rows.push_back({{row.begin(), row.end()}});
+  return TableHtml(table);
 }
 
 std::string FilmHtml(const CapturePage& page) {
@@ -128,7 +121,7 @@ std::string ResidualsHtml(const CameraResiduals& residuals, double rate_hz) {
     rows.push_back({camera.name, fmt::format("{}", values.size()), rank(kMedian), rank(kMost)});
     if (has_keypoints) rows.back().push_back(fmt::format("{:.1f} %", kPercent * camera.left_out.value_or(0)));
   }
-  return CurvesHtml(curves, rate_hz, residuals.caption) + TableHtml(heads, rows);
+  return CurvesHtml(curves, rate_hz, residuals.caption) + NumbersHtml(heads, rows);
 }
 
 std::string CamerasHtml(const CapturePage& page) {
@@ -146,10 +139,10 @@ std::string BodyHtml(const CapturePage& page) {
          CurvesHtml(page.feet_cm, page.rate_hz,
                     "Height of each foot's lowest joint above the floor, cm, over seconds") +
          "</section>\n<section class=\"card\"><h2>The body</h2><p>" + EscapeMarkup(page.limbs) + "</p>" +
-         TableHtml({"Limb", "Length, cm"}, lengths) +
+         NumbersHtml({"Limb", "Length, cm"}, lengths) +
          (fit.empty() ? ""
                       : "<p>The skeleton's joints, from the points that they were fitted to:</p>" +
-                            TableHtml({"Joint", "Median, mm", "95 %, mm"}, fit)) +
+                            NumbersHtml({"Joint", "Median, mm", "95 %, mm"}, fit)) +
          "</section>\n";
 }
 

@@ -34,8 +34,13 @@ std::vector<Field<Method>> IkSolverFields(const IkSolver* Method::*solver, IkOpt
     RefuseFormerName(fields);
     read(fields, method);
   };
-  const auto settings = Path(options, &IkOptions::solver_settings);
-  for (const auto& setting : SettingFields<Method>("solver", AllIkSolvers(), settings)) rows.push_back(setting);
+  for (const IkSolver& one : AllIkSolvers()) {
+    for (const IkSolverSetting& setting : one.settings) {
+      rows.push_back(SettingField<Method>("solver", one.name, setting.number, [=](Method& method, double value) {
+        setting.set((method.*options).solver_settings, value);
+      }));
+    }
+  }
   return rows;
 }
 

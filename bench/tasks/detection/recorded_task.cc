@@ -132,9 +132,9 @@ namespace {
 constexpr double kGrace = 0.5;  // seconds, as after a simulated performance
 
 /// The world grows by one recording, of which `parts` are the labels.
-class Joiner {
+class StreamJoiner {
  public:
-  explicit Joiner(DetectionWorld& world) : world_(world) {}
+  explicit StreamJoiner(DetectionWorld& world) : world_(world) {}
 
   void Add(const BodyMotion& motion, const SkeletonStream& stream, std::span<const LabelledPart> parts) {
     const auto begin = static_cast<int>(world_.stream.frames.size());
@@ -195,7 +195,7 @@ std::span<const LabelledPart> PartsOf(const LabelledStreams& set, std::size_t st
 DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person, const DetectionOptions& options,
                                  const WorldKey& key) {
   DetectionWorld world{.motion = {}, .events = {}, .stream = {}, .person = set.people[person].name};
-  Joiner joiner(world);
+  StreamJoiner joiner(world);
   const auto add = [&](const NamedStream& recording, std::size_t s, std::string_view fault) {
     if (!recording.motion) return joiner.Add(MotionOf(recording.stream), recording.stream, PartsOf(set, s));
     const std::string scenario = fmt::format("{}/{}{}", key.scenario, recording.name, fault);

@@ -1,6 +1,7 @@
 #include "engine/kinematics/solvers/ik_solver.h"
 
 #include <array>
+#include <type_traits>
 #include <utility>
 
 #include "engine/kinematics/solvers/ccd.h"
@@ -19,27 +20,41 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 1> kRenamed 
 template <typename Own>
 using SolveWithOwn = IkSolution (*)(const KinematicTree&, const IkProblem&, const IkOptions&, const Own&);
 
-// A solver with options of its own: `table` tells which of them can be set, by which key, in which range.
 template <typename Own>
-IkSolver WithSettings(IkSolver solver, SolveWithOwn<Own> solve, const SettingTable<Own>& table) {
-  solver.settings = table.Describe();
-  solver.solve = [solve, table](const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
-    return solve(tree, problem, options, table.Apply(options.solver_settings));
+Own OwnOptions(const SolverSettings& settings, auto SolverSettings::*told, auto Own::*member) {
+  Own own;
+  own.*member = (settings.*told).value_or(own.*member);
+  return own;
+}
+
+/// Makes a solver of one that has options of its own: `told` sets `member` of them. `number.fallback` is found there.
+template <typename Own, typename Number>
+IkSolver WithSetting(IkSolver solver, SolveWithOwn<Own> solve, std::optional<Number> SolverSettings::*told,
+                     Number Own::*member, NumberSetting number) {
+  number.fallback = Own().*member;
+  number.is_whole = std::is_same_v<Number, int>;
+  solver.settings.push_back({std::move(number), [told](SolverSettings& settings, double value) {
+                               settings.*told = static_cast<Number>(value);
+                             }});
+  solver.solve = [=](const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
+    return solve(tree, problem, options, OwnOptions<Own>(options.solver_settings, told, member));
   };
   return solver;
 }
 
-const SettingTable<GaussNewtonOptions>& GaussNewtonSettings() {
-  static const SettingTable<GaussNewtonOptions> table = {
-      {{"first_sweeps", &GaussNewtonOptions::first_sweeps, 0, 100, "Sweeps before the first Gauss-Newton step."}}};
-  return table;
+NumberSetting Between(std::string key, double lowest, double largest, std::string meaning) {
+  return {.key = std::move(key), .lowest = lowest, .largest = largest, .meaning = std::move(meaning)};
+}
+
+GaussNewtonOptions GaussNewtonOptionsOf(const IkOptions& options) {
+  return OwnOptions(options.solver_settings, &SolverSettings::first_sweeps, &GaussNewtonOptions::first_sweeps);
 }
 
 class PreparedGaussNewton final : public PreparedIkSolver {
  public:
   explicit PreparedGaussNewton(const KinematicTree& tree) : solver_(tree) {}
   IkSolution Solve(const IkProblem& problem, const IkOptions& options) const override {
-    return solver_.Solve(problem, options, GaussNewtonSettings().Apply(options.solver_settings));
+    return solver_.Solve(problem, options, GaussNewtonOptionsOf(options));
   }
 
  private:
@@ -60,15 +75,15 @@ class Unprepared final : public PreparedIkSolver {
 };
 
 IkSolver GaussNewton() {
-  IkSolver solver = WithSettings<GaussNewtonOptions>(
+  IkSolver solver = WithSetting(
       {.name = "gauss-newton",
        .description = "Gauss-Newton steps that stay near the start, sweeps where they get stuck (the default)",
        .step = "steps"},
-      SolveGaussNewton, GaussNewtonSettings());
+      SolveWithOwn<GaussNewtonOptions>(SolveGaussNewton), &SolverSettings::first_sweeps,
+      &GaussNewtonOptions::first_sweeps, Between("first_sweeps", 0, 100, "Sweeps before the first Gauss-Newton step."));
   solver.prepare = [](const KinematicTree& tree) { return std::make_unique<PreparedGaussNewton>(tree); };
   solver.solve_batch = [](const KinematicTree& tree, std::span<const IkProblem> problems, const IkOptions& options) {
-    return SolveGaussNewtonBatch(tree, problems, options, Precision::kDouble,
-                                 GaussNewtonSettings().Apply(options.solver_settings));
+    return SolveGaussNewtonBatch(tree, problems, options, Precision::kDouble, GaussNewtonOptionsOf(options));
   };
   return solver;
 }
@@ -78,13 +93,6 @@ IkSolution SolveDampedLeastSquaresActiveSet(const KinematicTree& tree, const IkP
   DampedLeastSquaresOptions within = own;
   within.bounds = Bounds::kActiveSet;
   return SolveDampedLeastSquares(tree, problem, options, within);
-}
-
-IkSolution SolveJacobianPinvActiveSet(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
-                                      const JacobianPinvOptions& own) {
-  JacobianPinvOptions within = own;
-  within.bounds = Bounds::kActiveSet;
-  return SolveJacobianPinv(tree, problem, options, within);
 }
 
 }  // namespace
@@ -102,64 +110,57 @@ std::span<const IkSolver> AllIkSolvers() {
        .uses_weights = true,
        .step = "sweeps",
        .solve = SolveCcdHinges},
-      WithSettings<CcdAndersonOptions>(
-          {.name = "ccd-anderson",
-           .description = "the sweeps of ccd-hinges, extrapolated from the last ones",
-           .uses_weights = true,
-           .step = "sweeps"},
-          SolveCcdAnderson,
-          {{{"memory", &CcdAndersonOptions::memory, 1, 20, "How many former sweeps the extrapolation uses."}}}),
+      WithSetting({.name = "ccd-anderson",
+                   .description = "the sweeps of ccd-hinges, extrapolated from the last ones",
+                   .uses_weights = true,
+                   .step = "sweeps"},
+                  SolveWithOwn<CcdAndersonOptions>(SolveCcdAnderson), &SolverSettings::memory,
+                  &CcdAndersonOptions::memory,
+                  Between("memory", 1, 20, "How many former sweeps the extrapolation uses.")),
       GaussNewton(),
-      WithSettings<LevenbergMarquardtOptions>(
+      WithSetting(
           {.name = "levenberg-marquardt",
            .description =
                "dense Levenberg-Marquardt steps, limits as an active set, restarts: what one should use today",
            .step = "steps"},
-          SolveLevenbergMarquardt,
-          {{{"damping_share", &LevenbergMarquardtOptions::damping_share, 1e-6, 1e3,
-             "The damping of the first step as a share of the sum of squares."}}}),
-      WithSettings<CeresLmOptions>(
-          {.name = "ceres-lm",
-           .description = "the Levenberg-Marquardt method of Ceres Solver, limits as bounds",
-           .step = "steps"},
-          SolveCeresLm,
-          {{{"first_radius", &CeresLmOptions::first_radius, 1e-6, 1e12, "The trust region it begins with."}}}),
-      WithSettings<DampedLeastSquaresOptions>(
-          {.name = "damped-least-squares",
-           .description = "damped Gauss-Newton steps, limits by clamping",
-           .step = "steps"},
-          SolveDampedLeastSquares,
-          {{{"damping", &DampedLeastSquaresOptions::first_damping, 1e-9, 1e6, "The damping of the first step."}}}),
-      WithSettings<DampedLeastSquaresOptions>(
-          {.name = "damped-least-squares-active-set",
-           .description = "the same, limits by an active set: other angles make up for those at their limits",
-           .step = "steps"},
-          SolveDampedLeastSquaresActiveSet,
-          {{{"damping", &DampedLeastSquaresOptions::first_damping, 1e-9, 1e6, "The damping of the first step."}}}),
+          SolveWithOwn<LevenbergMarquardtOptions>(SolveLevenbergMarquardt), &SolverSettings::damping_share,
+          &LevenbergMarquardtOptions::damping_share,
+          Between("damping_share", 1e-6, 1e3, "The damping of the first step as a share of the sum of squares.")),
+      WithSetting({.name = "ceres-lm",
+                   .description = "the Levenberg-Marquardt method of Ceres Solver, limits as bounds",
+                   .step = "steps"},
+                  SolveWithOwn<CeresLmOptions>(SolveCeresLm), &SolverSettings::first_radius,
+                  &CeresLmOptions::first_radius,
+                  Between("first_radius", 1e-6, 1e12, "The trust region it begins with.")),
+      WithSetting({.name = "damped-least-squares",
+                   .description = "damped Gauss-Newton steps, limits by clamping",
+                   .step = "steps"},
+                  SolveWithOwn<DampedLeastSquaresOptions>(SolveDampedLeastSquares), &SolverSettings::damping,
+                  &DampedLeastSquaresOptions::first_damping,
+                  Between("damping", 1e-9, 1e6, "The damping of the first step.")),
+      WithSetting({.name = "damped-least-squares-active-set",
+                   .description = "the same, limits by an active set: other angles make up for those at their limits",
+                   .step = "steps"},
+                  SolveWithOwn<DampedLeastSquaresOptions>(SolveDampedLeastSquaresActiveSet), &SolverSettings::damping,
+                  &DampedLeastSquaresOptions::first_damping,
+                  Between("damping", 1e-9, 1e6, "The damping of the first step.")),
       {.name = "fabrik",
        .description = "joints as points that reach forward and backward, positions only",
        .uses_axes = false,
        .step = "passes",
        .solve = SolveFabrik},
-      WithSettings<JacobianPinvOptions>(
-          {.name = "jacobian-pinv",
-           .description =
-               "paper B's: the Jacobian's pseudo-inverse, the start as preferred posture, limits by clamping",
-           .step = "steps"},
-          SolveJacobianPinv,
-          {{{"pinv_damping", &JacobianPinvOptions::damping, 0, 100, "Damping of the inverse; 0 is paper B's."}}}),
-      WithSettings<JacobianPinvOptions>(
-          {.name = "jacobian-pinv-active-set",
-           .description = "the same, limits by an active set: other angles make up for those at their limits",
-           .step = "steps"},
-          SolveJacobianPinvActiveSet,
-          {{{"pinv_damping", &JacobianPinvOptions::damping, 0, 100, "Damping of the inverse; 0 is paper B's."}}}),
-      WithSettings<JacobianTransposeOptions>(
-          {.name = "jacobian-transpose",
-           .description = "the Jacobian's transpose, steps of the length that is best to first order",
-           .step = "steps"},
-          SolveJacobianTranspose,
-          {{{"gain", &JacobianTransposeOptions::gain, 0.01, 2, "Multiplies the length of every step."}}}),
+      WithSetting({.name = "jacobian-pinv",
+                   .description =
+                       "paper B's: the Jacobian's pseudo-inverse, the start as preferred posture, limits by clamping",
+                   .step = "steps"},
+                  SolveWithOwn<JacobianPinvOptions>(SolveJacobianPinv), &SolverSettings::pinv_damping,
+                  &JacobianPinvOptions::damping,
+                  Between("pinv_damping", 0, 100, "Damping of the inverse; 0 is paper B's.")),
+      WithSetting({.name = "jacobian-transpose",
+                   .description = "the Jacobian's transpose, steps of the length that is best to first order",
+                   .step = "steps"},
+                  SolveWithOwn<JacobianTransposeOptions>(SolveJacobianTranspose), &SolverSettings::gain,
+                  &JacobianTransposeOptions::gain, Between("gain", 0.01, 2, "Multiplies the length of every step.")),
   };
   return solvers;
 }

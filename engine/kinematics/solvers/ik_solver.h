@@ -21,6 +21,12 @@ class PreparedIkSolver {
   virtual IkSolution Solve(const IkProblem& problem, const IkOptions& options) const = 0;
 };
 
+/// A number by which a solver can be set.
+struct IkSolverSetting {
+  NumberSetting number;
+  std::function<void(SolverSettings& settings, double value)> set;
+};
+
 /// A solver of IkProblems, by the name that scenario files use.
 struct IkSolver {
   std::string name;
@@ -28,8 +34,7 @@ struct IkSolver {
   bool uses_weights = false;  ///< true if IkOptions::weights and refresh apply
   bool uses_axes = true;      ///< true if it aligns the axes of effectors; false if it uses positions only
   std::string_view step;      ///< what one iteration is called: "sweeps", "steps"
-  /// The settings that `IkOptions::solver_settings` holds values for, in this order.
-  std::vector<NumberSetting> settings = {};
+  std::vector<IkSolverSetting> settings = {};  ///< those of `IkOptions::solver_settings` that it reads
   std::function<IkSolution(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options)> solve = {};
   /// Prepares the solver for problems of one tree that come one after the other; empty if there is nothing to prepare.
   /// Callers use the function `Prepare` instead.

@@ -130,7 +130,6 @@ void ComputeStep(const LinearTargets& linear, std::span<const double> angles, st
 }
 
 // Damps the active set's steps where an undamped one within the limits cannot meet the targets.
-constexpr double kFallbackDamping = 0.1;
 
 // The range of λ in damped least squares, and the factor by which it changes.
 constexpr double kMinDamping = 1e-9;
@@ -168,13 +167,7 @@ IkSolution SolveJacobianPinv(const KinematicTree& tree, const IkProblem& problem
       linear.Build(frames);
       inverse.Build(linear);
       for (std::size_t i = 0; i < to_preferred.size(); ++i) to_preferred[i] = run.start_angles()[i] - state.angles[i];
-      const auto step_within = [&](double damping) {
-        return inverse.StepWithin(damping, to_preferred, state.angles, run.ranges(), step);
-      };
-      const bool has_step = own.bounds == Bounds::kClamped ? inverse.Step(own.damping, to_preferred, step)
-                                                           : (step_within(own.damping) && inverse.is_exact()) ||
-                                                                 step_within(std::max(own.damping, kFallbackDamping));
-      if (!has_step) return run.Stall();
+      if (!inverse.Step(own.damping, to_preferred, step)) return run.Stall();
       Shorten(step);
       if (MoveWithin(run.ranges(), state.angles, step, state.angles) < options.stall_change) run.Stall();
       ComputeFrames(tree, state, frames);

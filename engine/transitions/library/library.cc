@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/base/order_statistics.h"
 #include "engine/motion/support.h"
 
 namespace etude {
@@ -97,10 +98,7 @@ double UsualAcceleration(const BodyMotion& motion) {
       here = std::max(here, glm::length(at(f + 1) - 2.0 * at(f) + at(f - 1)));
     }
   }
-  if (largest.empty()) return 0;
-  const auto usual = largest.begin() + static_cast<std::ptrdiff_t>(kUsual * static_cast<double>(largest.size() - 1));
-  std::ranges::nth_element(largest, usual);
-  return *usual;
+  return largest.empty() ? 0 : LowerPercentile(std::move(largest), kUsual);
 }
 
 Stance StanceOf(const BodyPose& pose, double standing_hip_height) {

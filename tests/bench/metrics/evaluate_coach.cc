@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "bench/metrics/coach.h"
-#include "bench/metrics/percentile.h"
 #include "bench/metrics/transition_smoothness.h"
 #include "bench/statistics/curves/curves.h"
 #include "tests/bench/metrics/evaluators.h"

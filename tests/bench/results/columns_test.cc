@@ -158,11 +158,11 @@ TEST_F(ColumnsTest, GiveWholeWorldsAtEqualSteps) {
 
 TEST_F(ColumnsTest, AreWhatNumPySays) {
   const std::string file = *ReadWholeFile(folder() / "columns" / "poses" / "position_error_cm.npy");
-  ASSERT_EQ(file.size(), NpyFile::kHead + 16 * sizeof(double));
+  ASSERT_EQ(file.size(), kNpyHead + 16 * sizeof(double));
   EXPECT_EQ(file.substr(0, 8), std::string("\x93NUMPY\x01\x00", 8));
-  EXPECT_EQ(static_cast<unsigned char>(file[8]) + 256 * static_cast<unsigned char>(file[9]), NpyFile::kHead - 10);
+  EXPECT_EQ(static_cast<unsigned char>(file[8]) + 256 * static_cast<unsigned char>(file[9]), kNpyHead - 10);
   EXPECT_THAT(file.substr(10), testing::StartsWith("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 4, 2), }"));
-  EXPECT_EQ(file[NpyFile::kHead - 1], '\n');
+  EXPECT_EQ(file[kNpyHead - 1], '\n');
   const std::string flat = *ReadWholeFile(folder() / "columns" / "poses" / "series" / "position_error_cm.npy");
   EXPECT_THAT(flat.substr(10), HasSubstr("'shape': (19,), }"));
 }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "engine/base/order_statistics.h"
 #include "sim/random/stream.h"
 
 namespace etude {
@@ -41,17 +42,6 @@ std::vector<double> Jackknife(const std::vector<double>& values, double (*statis
     left_out.push_back(statistic(others));
   }
   return left_out;
-}
-
-TEST(Quantile, IsNumpysDefault) {
-  // numpy.quantile([3, 1, 4, 1, 5, 9, 2, 6], q)
-  const std::vector<double> values = {3, 1, 4, 1, 5, 9, 2, 6};
-  EXPECT_DOUBLE_EQ(Quantile(values, 0), 1);
-  EXPECT_DOUBLE_EQ(Quantile(values, 0.25), 1.75);
-  EXPECT_DOUBLE_EQ(Quantile(values, 0.5), 3.5);
-  EXPECT_DOUBLE_EQ(Quantile(values, 0.95), 7.95);
-  EXPECT_DOUBLE_EQ(Quantile(values, 1), 9);
-  EXPECT_DOUBLE_EQ(Quantile(std::vector<double>{7}, 0.5), 7);
 }
 
 TEST(BcaInterval, IsThatOfEfronAndTibshiranisVariance) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/statistics/bootstrap.h"
+#include "engine/base/order_statistics.h"
 #include "sim/random/stream.h"
 
 namespace etude {

@@ -20,6 +20,12 @@ TEST(CannotWrite, BlamesTheMachineButForTheName) {
             "this machine: a/b: cannot be written: No space left on device");
 }
 
+TEST(FailOfMachine, IsAKindOfErrorAndNoNameOfAFile) {
+  EXPECT_TRUE(IsOfThisMachine(FailOfMachine("no {}", "pipe").value()));
+  EXPECT_EQ(ToString(FailOfMachine("no {}", "pipe").value()), "this machine: no pipe");
+  EXPECT_FALSE(IsOfThisMachine(Fail({"this machine"}, "no pipe").value()));
+}
+
 TEST(CannotRead, BlamesTheMachineForWhatItLacks) {
   for (const int reason : {EIO, ENOMEM, EMFILE}) EXPECT_TRUE(IsOfThisMachine(CannotRead("a", "no", reason).value()));
   for (const int reason : {ENOENT, EACCES, EISDIR})

@@ -192,8 +192,8 @@ TEST(Recognition, GoldenComparisonsByTheClock) {
                                               .pattern = made.pattern,
                                               .cost = aligner.Cost(),
                                               .other_cost = trial % 3 == 0 ? INFINITY : 0.1});
-      std::ranges::copy(clock.Measure(0).All(), measures.begin() + kFirstClockMeasure);
-      std::ranges::copy(rigid.Measure(0), measures.begin() + kFirstRigidMeasure);
+      std::ranges::copy(clock.Measure(0).All(), measures.begin() + kClockSlice.first);
+      std::ranges::copy(rigid.Measure(0), measures.begin() + kRigidSlice.first);
       person.Relate(measures);
       person.Add(measures);
       path_print.Add(measures).Add(person.Shift());

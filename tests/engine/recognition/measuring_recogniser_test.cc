@@ -47,7 +47,7 @@ TEST(MeasuringRecogniser, LaysAPerformanceOnTheExampleAtItsPaceAndLag) {
   // A seventh longer and 0.4 s late; then in time, but with an arm that stays down; then as taught.
   const auto measured =
       NearestMeasures({{0, Lagging(Swing(2, 2, 2.3), 0.4)}, {0, Swing(2, 0, 2)}, {0, Swing(2, 2, 2)}});
-  const auto rigid = [&](std::size_t i, std::size_t which) { return measured[i][kFirstRigidMeasure + which]; };
+  const auto rigid = [&](std::size_t i, std::size_t which) { return measured[i][kRigidSlice.first + which]; };
   enum : std::size_t { kUpperArmMore = 4, kUpperArmLess = 5, kLag = 36, kPace = 37, kDistance = 38 };
   EXPECT_NEAR(rigid(0, kLag), 0.4, 0.15);
   EXPECT_NEAR(rigid(0, kPace), std::log(1.15), 1e-9);

@@ -77,13 +77,13 @@ TEST(PersonBaseline, KnowsWhenAPersonKeepsTheClock) {
   PersonBaseline usual;
   const double unknown = usual.Shift();
   PerformanceMeasures measures{};
-  measures[kFirstClockMeasure] = 0.2;
+  measures[kClockSlice.first] = 0.2;
   usual.Add(measures);
   EXPECT_NE(unknown, 0.2);
   EXPECT_EQ(usual.Shift(), 0.2);
-  measures[kFirstClockMeasure] = 0.5;
+  measures[kClockSlice.first] = 0.5;
   usual.Relate(measures);
-  EXPECT_NEAR(measures[kFirstClockMeasure + kClockMeasures], 0.3, 1e-12);
+  EXPECT_NEAR(measures[kClockSlice.Beyond().first], 0.3, 1e-12);
 }
 
 }  // namespace

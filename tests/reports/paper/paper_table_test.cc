@@ -1,8 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "reports/paper/paper_b_tables.h"
 
 namespace etude {
@@ -18,31 +16,30 @@ PaperTable Small() {
 }
 
 TEST(PaperTable, PrintsSixDecimalsAndADashForWhatIsNot) {
-  EXPECT_THAT(PaperTableHtml(Small()), HasSubstr("<th scope=\"row\">R_hand</th><td class=\"n\">−1.500000</td>"
-                                                 "<td class=\"n\">—</td><td class=\"n\">0.000000</td>"));
-  EXPECT_THAT(PaperTableMarkdown(Small()), HasSubstr("| R\\_hand | −1.500000 | — | 0.000000 |\n"));
-  EXPECT_THAT(PaperTableLatex(Small()), HasSubstr("R\\_hand & $-$1.500000 & --- & 0.000000 \\\\\n"));
-  EXPECT_THAT(PaperTableLatex(Small()), HasSubstr("head & 1,234.250000 & 0.000000 & 0.666667 \\\\\n"));
+  EXPECT_THAT(TableHtml(TableOf(Small())), HasSubstr("<th scope=\"row\">R_hand</th><td class=\"n\">−1.500000</td>"
+                                                     "<td class=\"n\">—</td><td class=\"n\">0.000000</td>"));
+  EXPECT_THAT(TableMarkdown(TableOf(Small())), HasSubstr("| R\\_hand | −1.500000 | — | 0.000000 |\n"));
+  EXPECT_THAT(TableLatex(TableOf(Small())), HasSubstr("R\\_hand & $-$1.500000 & --- & 0.000000 \\\\\n"));
+  EXPECT_THAT(TableLatex(TableOf(Small())), HasSubstr("head & 1,234.250000 & 0.000000 & 0.666667 \\\\\n"));
 }
 
 TEST(PaperTable, LeavesNothingUnescaped) {
-  EXPECT_THAT(PaperTableHtml(Small()), Not(HasSubstr("<me>")));
-  EXPECT_THAT(PaperTableMarkdown(Small()), Not(HasSubstr(" <me>")));
-  EXPECT_THAT(PaperTableLatex(Small()), HasSubstr("(b) after \\textless{}me\\textgreater{} \\& 50 \\%\\\\"));
+  EXPECT_THAT(TableHtml(TableOf(Small())), Not(HasSubstr("<me>")));
+  EXPECT_THAT(TableMarkdown(TableOf(Small())), Not(HasSubstr(" <me>")));
+  EXPECT_THAT(TableLatex(TableOf(Small())), HasSubstr("(b) after \\textless{}me\\textgreater{} \\& 50 \\%\\\\"));
 }
 
 TEST(PaperTable, HeadsOfLatexSpanTheirColumns) {
-  const std::string latex = PaperTableLatex(Small());
+  const std::string latex = TableLatex(TableOf(Small()));
   EXPECT_THAT(latex, HasSubstr("\\begin{tabular}{lrrr}"));
   EXPECT_THAT(latex, HasSubstr(" & \\multicolumn{2}{c}{position error (cm)} & \\multicolumn{1}{c}{orientation"));
   EXPECT_THAT(latex, HasSubstr("\\cmidrule(lr){2-3}\\cmidrule(lr){4-4}"));
 }
 
-TEST(PaperTable, IsALinePerFigureInCsvWithAllDigits) {
-  const std::string csv = PaperTableCsv(Small(), "ik,-,Trial 0,");
-  EXPECT_EQ(std::ranges::count(csv, '\n'), 6);
-  EXPECT_THAT(csv, HasSubstr("ik,-,Trial 0,(b) after <me> & 50 %,R_hand,position error (cm),Y,\n"));
-  EXPECT_THAT(csv, HasSubstr(",head,orientation error (degrees),X,0.6666666666666666\n"));
+TEST(PaperTable, KeepsAllDigitsBesideTheSixThatItShows) {
+  const Table table = TableOf(Small());
+  EXPECT_EQ(table.rows[1].cells[3].number, 2.0 / 3);
+  EXPECT_EQ(table.rows[0].cells[2].number, std::nullopt);
 }
 
 TEST(PaperLetter, GoesOnWithNumbersAfterZ) {

@@ -42,10 +42,10 @@ TEST(SolverFields, ReadTheSettingsOfASolver) {
   EXPECT_THAT(weighing.complaint, IsEmpty());
   EXPECT_EQ(weighing.options.weights, WeightRule::kFixedTuned);
   EXPECT_EQ(weighing.options.refresh, WeightRefresh::kJoint);
-  EXPECT_THAT(weighing.options.solver_settings, ElementsAre(3));
+  EXPECT_EQ(weighing.options.solver_settings, SolverSettings{.memory = 3});
   const Reading by_default = Read("{first_sweeps: 4}");
   EXPECT_THAT(by_default.complaint, IsEmpty());
-  EXPECT_THAT(by_default.options.solver_settings, ElementsAre(4));
+  EXPECT_EQ(by_default.options.solver_settings, SolverSettings{.first_sweeps = 4});
 }
 
 TEST(SolverFields, RefuseWhatASolverDoesNotHaveAndSayWhichOnesDo) {

@@ -207,42 +207,6 @@ TEST(JacobianPinv, StaysNearerToTheStartThanStepsWithoutAPreferredPosture) {
   EXPECT_LT(with_posture, without);
 }
 
-// Near their limits clamped angles are not made up for by others.
-TEST(JacobianPinv, ByAnActiveSetSolvesWhereLimitsBind) {
-  const KinematicTree tree = MakeBodyTree({});
-  IkOptions options;
-  options.position_goal = 1e-5;
-  options.axis_goal = Radians(1e-3);
-  options.max_iterations = 100;
-  const auto solved_by = [&](Bounds bounds) {
-    int solved = 0;
-    for (int trial = 0; trial < 100; ++trial) {
-      const IkProblem problem = DisturbedProblem(tree, RandomPose(tree, trial, 1.0), trial, 15);
-      const IkSolution solution = SolveJacobianPinv(tree, problem, options, {.bounds = bounds});
-      solved += solution.status == IkStatus::kConverged;
-      for (int i = 0; i < 29; ++i) {
-        EXPECT_TRUE(solution.angles[i] >= tree.limits[i].lower && solution.angles[i] <= tree.limits[i].upper);
-      }
-    }
-    return solved;
-  };
-  EXPECT_GE(solved_by(Bounds::kActiveSet), 88);
-  EXPECT_LE(solved_by(Bounds::kClamped), 60) << "else the active set is not what solves them";
-}
-
-TEST(JacobianPinv, StepsAlikeWithAndWithoutAnActiveSetFarFromTheLimits) {
-  const KinematicTree tree = MakeBodyTree({});
-  IkOptions options;
-  options.limits = false;
-  for (int trial = 0; trial < 10; ++trial) {
-    const IkProblem problem = DisturbedProblem(tree, RandomPose(tree, trial, 0.5), trial, 15);
-    const IkSolution clamped = SolveJacobianPinv(tree, problem, options);
-    const IkSolution active = SolveJacobianPinv(tree, problem, options, {.bounds = Bounds::kActiveSet});
-    EXPECT_EQ(active.iterations, clamped.iterations);
-    for (int i = 0; i < 29; ++i) EXPECT_NEAR(active.angles[i], clamped.angles[i], 1e-6);
-  }
-}
-
 // The sum of squares after every iteration.
 std::vector<double> Costs(const KinematicTree& tree, const IkProblem& problem, IkOptions options, double gain = 1) {
   options.trace = true;

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <limits>
 
-#include "bench/micro/ik_peers.h"
+#include "bench/peers/ik_peers.h"
 #include "engine/kinematics/sine_cosine.h"
 #include "engine/kinematics/solvers/gauss_newton.h"
 #include "engine/kinematics/solvers/gauss_newton_vectors.h"

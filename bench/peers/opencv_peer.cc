@@ -1,4 +1,4 @@
-#include "bench/micro/opencv_peer.h"
+#include "bench/peers/opencv_peer.h"
 
 #include <cmath>
 #include <opencv2/core.hpp>

@@ -16,7 +16,7 @@
 #include <ranges>
 #include <string_view>
 
-#include "bench/micro/ik_peers.h"
+#include "bench/peers/ik_peers.h"
 #include "bench/tasks/ik/world.h"
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/gauss_newton.h"
@@ -87,9 +87,9 @@ Method OneByOne(std::string name, Solve solve) {
           }};
 }
 
-Method Ours(const std::string& solver, int max_iterations, std::vector<double> settings = {}, std::string name = {}) {
+Method Ours(const std::string& solver, int max_iterations, const SolverSettings& settings = {}, std::string name = {}) {
   IkOptions options = Tightly(max_iterations);
-  options.solver_settings = std::move(settings);
+  options.solver_settings = settings;
   return OneByOne(name.empty() ? solver : name, [options, found = FindIkSolver(solver)](const IkProblem& problem) {
     IkSolution solution = found->solve(Body(), problem, options);
     return IkPeerAnswer{std::move(solution.angles), solution.iterations};
@@ -169,7 +169,7 @@ std::vector<Method> AllMethods() {
   methods.push_back(Ours("levenberg-marquardt", 200));
   methods.push_back(Ours("damped-least-squares-active-set", 1000));
   for (const double radius : {1.0, 10.0, 100.0}) {
-    methods.push_back(Ours("ceres-lm", 1000, {radius}, fmt::format("ceres-lm, radius {}", radius)));
+    methods.push_back(Ours("ceres-lm", 1000, {.first_radius = radius}, fmt::format("ceres-lm, radius {}", radius)));
   }
   methods.push_back(Peer("KDL online", MakeKdlOnline(Body(), {}), 1000));
   methods.push_back(Peer("KDL Newton", MakeKdlNewton(Body(), {.damping = 0.03, .position_weight = 1}), 1000));

@@ -1,4 +1,4 @@
-#include "bench/micro/ik_peers.h"
+#include "bench/peers/ik_peers.h"
 
 namespace etude {
 namespace {

@@ -1,10 +1,10 @@
+#include "bench/peers/nanoflann_peer.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nanoflann.hpp>
 #include <numeric>
-
-#include "bench/micro/search_peers.h"
 
 namespace etude {
 namespace {

@@ -1,4 +1,4 @@
-#include "bench/micro/simbody_model.h"
+#include "bench/peers/simbody_model.h"
 
 #include <Simbody.h>
 

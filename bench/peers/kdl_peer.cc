@@ -6,7 +6,7 @@
 #include <kdl/treeiksolverpos_online.hpp>
 #include <kdl/treeiksolvervel_wdls.hpp>
 
-#include "bench/micro/ik_peers.h"
+#include "bench/peers/ik_peers.h"
 #include "engine/kinematics/solvers/ik_run.h"
 
 namespace etude {

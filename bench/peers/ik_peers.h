@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/micro/simbody_model.h"
+#include "bench/peers/simbody_model.h"
 #include "engine/kinematics/ik_problem.h"
 #include "engine/kinematics/tree.h"
 
