@@ -53,9 +53,9 @@ ChildProcess Shell(const std::string& script, const std::string& error_file = ""
   return std::move(*child);
 }
 
-/// Whether it is gone within a minute; a zombie is.
-bool VanishesSoon(pid_t process) {
-  for (int i = 0; i < 6000; ++i, ::usleep(10000)) {
+/// Whether it is gone within so many hundredths of a second; a zombie is.
+bool VanishesSoon(pid_t process, int most = 6000) {
+  for (int i = 0; i < most; ++i, ::usleep(10000)) {
     std::ifstream file("/proc/" + std::to_string(process) + "/stat");
     const std::string stat{std::istreambuf_iterator<char>(file), {}};
     if (stat.empty() || stat.find(") Z ") != std::string::npos) return true;
@@ -211,7 +211,7 @@ bool IsEndedWithTheChild(bool contained) {
   const std::vector<pid_t> ours = ChildrenOf(::getpid());
   EXPECT_EQ(ours.size(), 1u);
   ::kill(ours.at(0), SIGKILL);
-  const bool is_ended = VanishesSoon(other);
+  const bool is_ended = VanishesSoon(other, contained ? 6000 : 200);
   ::kill(other, SIGKILL);
   return is_ended;
 }

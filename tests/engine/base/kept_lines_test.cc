@@ -23,10 +23,10 @@ TEST(ComplaintLines, HoldOneComplaintOfAKind) {
   ComplaintLines complaints;
   complaints.Add("numbers", std::vector{1, 2, 30, 4, 5}, [](int number) -> Result<int> {
     if (number == 1) return number;
-    return number < 5 ? Fail({"f", number}, "'{}' is odd", number) : Fail({"f", number}, "is five");
+    return number < 5 ? Fail({"f", number}, "'{}' is odd", number) : Fail({"f", number}, "is large");
   });
   EXPECT_EQ(complaints.lines(), (std::vector<std::string>{"numbers: 1 of 5 are read", "  f:2: '2' is odd",
-                                                          "  f:5: is five"}));
+                                                          "  f:30: is large"}));
 }
 
 }  // namespace

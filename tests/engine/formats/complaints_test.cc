@@ -79,7 +79,7 @@ TEST(Formats, BvhIsReadUpToItsLimits) {
     for (int joint = 0; joint < joints; ++joint) text += fmt::format("JOINT j{}\n{{\nOFFSET 0 1 0\n}}\n", joint);
     return text + "}\nMOTION\nFrames: 1\nFrame Time: 1\n0\n";
   };
-  for (const int levels : {126, 127, 128, 129}) EXPECT_EQ(ReadBvhText(nested(levels)).has_value(), levels < 127) << levels;
+  for (const int levels : {126, 127, 128, 129}) EXPECT_EQ(ReadBvhText(nested(levels)).has_value(), levels < 128) << levels;
   for (const int joints : {1022, 1023, 1024}) EXPECT_EQ(ReadBvhText(wide(joints)).has_value(), joints < 1024) << joints;
   for (const std::size_t length : {499u, 500u, 501u}) {
     std::string text = wide(1);
