@@ -17,8 +17,8 @@
 namespace etude::testing {
 
 /// Compares lines, such as complaints, with those of a text file beside the test. A failure shows the first that
-/// differs. `ETUDE_RENEW=<path, or what it begins with>` writes the file anew; the test fails all the same, and `git diff`
-/// shows what changed. Who commits that says why.
+/// differs. `ETUDE_RENEW=<path, or what it begins with>` writes the file anew; the test fails all the same, and `git
+/// diff` shows what changed. Who commits that says why.
 inline ::testing::AssertionResult AreKept(const std::vector<std::string>& lines, const std::string& path) {
   const char* const renewed = std::getenv("ETUDE_RENEW");
   if (renewed != nullptr && *renewed != 0 && path.starts_with(renewed)) {

@@ -25,8 +25,8 @@ TEST(ComplaintLines, HoldOneComplaintOfAKind) {
     if (number == 1) return number;
     return number < 5 ? Fail({"f", number}, "'{}' is odd", number) : Fail({"f", number}, "is large");
   });
-  EXPECT_EQ(complaints.lines(), (std::vector<std::string>{"numbers: 1 of 5 are read", "  f:2: '2' is odd",
-                                                          "  f:30: is large"}));
+  EXPECT_EQ(complaints.lines(),
+            (std::vector<std::string>{"numbers: 1 of 5 are read", "  f:2: '2' is odd", "  f:30: is large"}));
 }
 
 }  // namespace

@@ -18,8 +18,8 @@ namespace {
 
 using testing::ComplaintLines;
 
-/// The text, then it without each of its lines in turn, with each cut off or doubled, with each of its numbers replaced by
-/// others.
+/// The text, then it without each of its lines in turn, with each cut off or doubled, with each of its numbers replaced
+/// by others.
 std::vector<std::string> Spoilt(const std::string& text) {
   std::vector<std::string> spoilt = {text};
   const auto read = [&](const std::string& changed) { spoilt.push_back(changed); };
@@ -53,8 +53,10 @@ std::vector<NamedCamera> CamerasOfAllKinds() {
       {.k1 = 0.15, .tau_x = 0.06, .tau_y = -0.09},
       {.k1 = 0.08, .k2 = -0.02, .k3 = 0.01, .k4 = 0.006, .is_fisheye = true}};
   for (std::size_t i = 0; i < lenses.size(); ++i) {
-    const Intrinsics in{.width = 640, .height = 480, .fx = 610.5, .fy = 588.25, .cx = 318, .cy = 236.5, .skew = i % 2 ? 3. : 0};
-    cameras.push_back({fmt::format("{} cam-{}", i, i), LookAt(in, EyeAt(-60 + 40. * static_cast<double>(i)), {0, 0.9, 0})});
+    const Intrinsics in{
+        .width = 640, .height = 480, .fx = 610.5, .fy = 588.25, .cx = 318, .cy = 236.5, .skew = i % 2 ? 3. : 0};
+    cameras.push_back(
+        {fmt::format("{} cam-{}", i, i), LookAt(in, EyeAt(-60 + 40. * static_cast<double>(i)), {0, 0.9, 0})});
     cameras.back().camera.distortion = lenses[i];
   }
   return cameras;
@@ -78,12 +80,13 @@ TEST(RigFile, ComplaintsAboutOwnFormatsAreAsTheyWere) {
   ComplaintLines complaints;
   complaints.Add("rig.yaml", Spoilt(NineDecimals(WriteRig(two))), ReadRigText);
   complaints.Add("OpenCV", Spoilt(NineDecimals(WriteOpenCvCamera(cameras[5].camera))), ReadRigText);
-  complaints.Add("Pose2Sim",
-                 Spoilt("# by hand\n" + NineDecimals(WritePose2SimCalibration(two.first(1))) +
-                        "[cameras.3]\nignore = true\nmatrix = [ [1, 0,\n 2],[0, 3, 4], # K\n [0, 0, 1]]\nsize = [9, 8]\n"
-                        "distortions = []\nrotation = [[1.0001, 0, 0], [0, 1, 0], [0, 0, 1]]\ntranslation = [0, \"#\", "
-                        "1]\nfisheye = true\n"),
-                 ReadRigText);
+  complaints.Add(
+      "Pose2Sim",
+      Spoilt("# by hand\n" + NineDecimals(WritePose2SimCalibration(two.first(1))) +
+             "[cameras.3]\nignore = true\nmatrix = [ [1, 0,\n 2],[0, 3, 4], # K\n [0, 0, 1]]\nsize = [9, 8]\n"
+             "distortions = []\nrotation = [[1.0001, 0, 0], [0, 1, 0], [0, 0, 1]]\ntranslation = [0, \"#\", "
+             "1]\nfisheye = true\n"),
+      ReadRigText);
   complaints.Add("Caliscope", Spoilt(caliscope), ReadRigText);
   std::vector<NamedCamera> many;
   while (many.size() < 65) many.push_back({fmt::format("c{}", many.size()), cameras[0].camera});
@@ -158,7 +161,8 @@ TEST(RigFile, ComplaintsAboutFilesOfOthersAreAsTheyWere) {
   for (const std::string cameras : {"", "<cameras/>", "<cameras><camera/></cameras>"}) {
     complaints.Add("'" + cameras + "'", std::vector{"<calibration>" + cameras + "</calibration>"}, ReadRigText);
   }
-  complaints.Add("a camera", std::vector<std::string>{"1", "1 PINHOLE 640", "1 PINHOLE 640 480", "1 PINHOLE 640 480 600"},
+  complaints.Add("a camera",
+                 std::vector<std::string>{"1", "1 PINHOLE 640", "1 PINHOLE 640 480", "1 PINHOLE 640 480 600"},
                  [&](const std::string& text) { return ReadRigPair(text, colmap_out, "pair"); });
   EXPECT_TRUE(testing::AreKept(complaints.lines(), "tests/engine/cameras/complaints_of_others.txt"));
 }
@@ -180,11 +184,11 @@ TEST(PointPairs, ComplaintsAreAsTheyWere) {
     complaints.Add(fmt::format("{} cameras", count), std::vector{text}, read);
   }
   for (const std::string text :
-       {"", "camera,x,y,z,u,v", "- 1", "7", "a: 1", "a: {size: [2, 3]}",
-        "a: {size: [2, 3], pairs: 4}", "a: {size: [2, 3], pairs: [5]}", "a: {size: [2, 3], pairs: [[1, 2, 3, 4]]}",
-        "a: {size: [2, 3], pairs: []}", "a: {size: [2, 3], pairs: [[1, 2, 3, 4, 5, 6]]}",
-        "a: {size: [2, 3.5], pairs: []}", "a: {size: [2.5, 3], pairs: []}", "a: {pairs: []}",
-        "a: {size: [2], pairs: []}", "a: {size: [2, 65537], pairs: []}"})
+       {"", "camera,x,y,z,u,v", "- 1", "7", "a: 1", "a: {size: [2, 3]}", "a: {size: [2, 3], pairs: 4}",
+        "a: {size: [2, 3], pairs: [5]}", "a: {size: [2, 3], pairs: [[1, 2, 3, 4]]}", "a: {size: [2, 3], pairs: []}",
+        "a: {size: [2, 3], pairs: [[1, 2, 3, 4, 5, 6]]}", "a: {size: [2, 3.5], pairs: []}",
+        "a: {size: [2.5, 3], pairs: []}", "a: {pairs: []}", "a: {size: [2], pairs: []}",
+        "a: {size: [2, 65537], pairs: []}"})
     complaints.Add("'" + text + "'", std::vector{text}, read);
   const std::string long_comment = "camera,x,y,z,u,v\nleft,1,2,3,4,5\n#";
   for (const std::size_t size : {1 << 20, (1 << 20) + 1}) {

@@ -1,4 +1,5 @@
-// The golden value of calibration: cameras and boards refined from noisy views. What is right is said by the tests beside.
+// The golden value of calibration: cameras and boards refined from noisy views. What is right is said by the tests
+// beside.
 #include <gtest/gtest.h>
 
 #include <vector>

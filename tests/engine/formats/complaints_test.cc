@@ -79,7 +79,8 @@ TEST(Formats, BvhIsReadUpToItsLimits) {
     for (int joint = 0; joint < joints; ++joint) text += fmt::format("JOINT j{}\n{{\nOFFSET 0 1 0\n}}\n", joint);
     return text + "}\nMOTION\nFrames: 1\nFrame Time: 1\n0\n";
   };
-  for (const int levels : {126, 127, 128, 129}) EXPECT_EQ(ReadBvhText(nested(levels)).has_value(), levels < 128) << levels;
+  for (const int levels : {126, 127, 128, 129})
+    EXPECT_EQ(ReadBvhText(nested(levels)).has_value(), levels < 128) << levels;
   for (const int joints : {1022, 1023, 1024}) EXPECT_EQ(ReadBvhText(wide(joints)).has_value(), joints < 1024) << joints;
   for (const std::size_t length : {499u, 500u, 501u}) {
     std::string text = wide(1);
@@ -156,8 +157,14 @@ TEST(Formats, MarkerComplaintsAreAsTheyWere) {
   for (const std::string& text : {WriteTrc(OddMarkers(), "a\tb"), WriteTrc(SomeBody(24), "b")}) {
     complaints.Add("trc", SpoiltTexts(text, 9, 300), From("a.trc", ReadTrc));
   }
-  for (const auto& [step, rows] : {std::pair{0.0158, 40}, {0.0159, 40}, {0.0175, 40}, {0.0176, 40}, {0.03, 17}, {0.03, 30},
-                                   {0.0, 30}, {-0.02, 30}}) {
+  for (const auto& [step, rows] : {std::pair{0.0158, 40},
+                                   {0.0159, 40},
+                                   {0.0175, 40},
+                                   {0.0176, 40},
+                                   {0.03, 17},
+                                   {0.03, 30},
+                                   {0.0, 30},
+                                   {-0.02, 30}}) {
     const std::vector frames(rows, std::vector{std::optional(glm::dvec3(1))});
     const std::string text = WriteTrc(MarkerMotion{.rate_hz = 60, .names = {"a"}, .frames = frames}, "a");
     std::string told = text.substr(0, text.find("\n1\t") + 1);
@@ -225,7 +232,8 @@ TEST(Formats, ComplaintsAboutArraysAndRowsAreAsTheyWere) {
   for (const char* type : {"<f8", "<f4", "<i8", "<i4", "<u4", "<i2", "<u2", "|u1", "|i1", "|b1", ">f8", "<f2", "|O"}) {
     std::vector<std::string> files;
     for (const char* shape : {"3,", "", "2, 2", "1, 2, 2", "1000000000000, 9", "-1,", "x"}) {
-      const std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}\n", type, shape);
+      const std::string header =
+          fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}\n", type, shape);
       std::string npy = std::string("\x93NUMPY\1\0", 8) + static_cast<char>(header.size()) + '\0' + header;
       for (int i = 0; i < 32; ++i) npy += static_cast<char>(i == 7 || i == 15 ? 64 : 5 * i);
       files.push_back(npy);

@@ -1,5 +1,5 @@
-// The golden value of people by keypoints that err, are mistaken, or are not there: followed, matched, mended, recovered
-// and adjusted. What is right is said by the tests beside.
+// The golden value of people by keypoints that err, are mistaken, or are not there: followed, matched, mended,
+// recovered and adjusted. What is right is said by the tests beside.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -20,7 +20,8 @@ void AddRecovered(Fingerprint& print, const Result<RecoveredPerson>& person) {
   print.Add(person->people.size()).Add(person->report.rejected).Add(person->report.residual_px);
   print.Add(person->report.found).Add(person->mends.size()).Add(person->outlier_px).Add(person->is_held);
   print.Add(person->body.bones);
-  for (const TreeState& state : person->states) print.Add(state.root_position).Add(state.root_frame[0]).Add(state.angles);
+  for (const TreeState& state : person->states)
+    print.Add(state.root_position).Add(state.root_frame[0]).Add(state.angles);
   for (const BodyPose& pose : person->motion.poses) print.Add(pose.joints);
   for (const auto& joint : person->clip.skeleton.joints) print.Add(joint.name);
   print.Add(person->clip.frames.size());

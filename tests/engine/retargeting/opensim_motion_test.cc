@@ -244,7 +244,8 @@ TEST(JointArrays, AreUnderstoodAsTheyWere) {
         std::string note;
         const auto motion = JointsOfArray(array, layout, "a.npy", note);
         if (!motion) lines.push_back(ToString(motion.error()));
-        if (motion) lines.push_back(fmt::format("{}; the last is {} at {} Hz", note, motion->names.back(), motion->rate_hz));
+        if (motion)
+          lines.push_back(fmt::format("{}; the last is {} at {} Hz", note, motion->names.back(), motion->rate_hz));
       }
     }
   }

@@ -305,10 +305,10 @@ TEST(Labels, AreUnderstoodAsTheyWere) {
     const auto labels = ReadLabels(text, "l", "take");
     if (!labels) told.push_back(ToString(labels.error()));
     for (const Label& label : labels.value_or(std::vector<Label>())) {
-      told.push_back(fmt::format("line {}: '{}' {} to {}{}, '{}', '{}' by '{}'{}{}", label.line, label.clip, label.from_s.value_or(-1),
-                                 label.to_s.value_or(-1), label.by_own_clock ? " by its own clock" : "", label.move, label.fault,
-                                 label.person, label.IsRight() ? ", right" : "",
-                                 label.IsActionPoint() ? ", an action point" : ""));
+      told.push_back(fmt::format("line {}: '{}' {} to {}{}, '{}', '{}' by '{}'{}{}", label.line, label.clip,
+                                 label.from_s.value_or(-1), label.to_s.value_or(-1),
+                                 label.by_own_clock ? " by its own clock" : "", label.move, label.fault, label.person,
+                                 label.IsRight() ? ", right" : "", label.IsActionPoint() ? ", an action point" : ""));
       for (const char* name : {"take", "a", "joints_s01_e01.txt", "s02_e03", "seq-1", "seq-11"}) {
         if (IsLabelOf(label, name)) told.push_back(std::string("  of ") + name);
       }

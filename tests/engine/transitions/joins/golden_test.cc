@@ -59,21 +59,21 @@ TEST(JoinsGolden, OfEveryJoinAlongWaysOfEveryKind) {
   };
   const std::vector<BodyMotion> clips = JoinedClips();
   Fingerprint print;
-  for (const auto& [name, preferred, settings] : std::vector<Joined>{
-           {"cut", {}, {}},
-           {"crossfade", {}, {}},
-           {"crossfade", {}, {0.51}},
-           {"inertialised-quintic", {}, {}},
-           {"inertialised-quintic", {}, {0.2}},
-           {"inertialised-spring", {}, {}},
-           {"minimum-jerk", {}, {}},
-           {"minimum-jerk", {}, {0.31, 1, 0}},
-           {"minimum-jerk", {}, {0.7, 1, 1}},
-           {"minimum-jerk", {}, {0, 0, 0}},
-           {"planted-feet", {}, {}},
-           {"planted-feet", {}, {0.8, 1, 0}},
-           {"planted-feet", {}, {0.04, 0, 0}},
-           {"planted-feet", PreferredJoin{.blend_s = 1.2, .way = JoinWay::kDirect}, {}}}) {
+  for (const auto& [name, preferred, settings] :
+       std::vector<Joined>{{"cut", {}, {}},
+                           {"crossfade", {}, {}},
+                           {"crossfade", {}, {0.51}},
+                           {"inertialised-quintic", {}, {}},
+                           {"inertialised-quintic", {}, {0.2}},
+                           {"inertialised-spring", {}, {}},
+                           {"minimum-jerk", {}, {}},
+                           {"minimum-jerk", {}, {0.31, 1, 0}},
+                           {"minimum-jerk", {}, {0.7, 1, 1}},
+                           {"minimum-jerk", {}, {0, 0, 0}},
+                           {"planted-feet", {}, {}},
+                           {"planted-feet", {}, {0.8, 1, 0}},
+                           {"planted-feet", {}, {0.04, 0, 0}},
+                           {"planted-feet", PreferredJoin{.blend_s = 1.2, .way = JoinWay::kDirect}, {}}}) {
     for (const std::vector<Segment>& way : Ways(clips, preferred)) {
       AddTo(print, SpliceSegments(clips, way, *FindJoin(name), settings));
     }

@@ -14,7 +14,6 @@
 namespace etude {
 namespace {
 
-
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
