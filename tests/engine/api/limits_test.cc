@@ -15,8 +15,10 @@
 
 #include "engine/cameras/rig_file.h"
 #include "engine/formats/trc.h"
+#include "tests/engine/coaching/small_dance.h"
 #include "tests/engine/keypoints/walkers.h"
 #include "tests/support/kept_lines.h"
+#include "tests/support/random_clip.h"
 
 namespace etude::engine {
 namespace {

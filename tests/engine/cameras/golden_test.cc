@@ -2,6 +2,7 @@
 // beside.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "engine/cameras/planes.h"
@@ -13,16 +14,22 @@ namespace {
 
 using testing::Fingerprint;
 
+/// Within ±1000, so that rigs that are far off after few iterations hide none of the others.
+double Bounded(double x) { return x / (1 + 0.001 * std::abs(x)); }
+glm::dvec3 Bounded(const glm::dvec3& p) { return {Bounded(p.x), Bounded(p.y), Bounded(p.z)}; }
+
 void AddRig(Fingerprint& print, const Result<RefinedRig>& rig) {
   print.Add(rig.has_value());
   if (!rig) return;
   for (const auto& [in, R_CW, p_WC, d] : rig->cameras) {
-    print.Add(in.fx).Add(in.fy).Add(in.cx).Add(in.cy).Add(100 * d.k1).Add(100 * d.k2).Add(100 * d.k3);
-    print.Add(R_CW[0]).Add(R_CW[1]).Add(p_WC);
+    for (const double x : {in.fx, in.fy, in.cx, in.cy, 100 * d.k1, 100 * d.k2, 100 * d.k3}) print.Add(Bounded(x));
+    print.Add(R_CW[0]).Add(R_CW[1]).Add(Bounded(p_WC));
   }
-  for (const TargetPlace& t : rig->targets) print.Add(t.R_WT[0]).Add(t.R_WT[1]).Add(t.R_WT[2]).Add(t.p_WT);
-  print.Add(rig->camera_rms_px).Add(rig->rms_px).Add(rig->points).Add(rig->parameters);
-  for (const IntrinsicsDeviation& d : rig->deviations) print.Add(d.fx).Add(d.fy).Add(d.cx).Add(d.cy);
+  for (const TargetPlace& t : rig->targets) print.Add(t.R_WT[0]).Add(t.R_WT[1]).Add(t.R_WT[2]).Add(Bounded(t.p_WT));
+  print.Add(Bounded(rig->rms_px)).Add(rig->points).Add(rig->parameters);
+  for (const IntrinsicsDeviation& d : rig->deviations) {
+    for (const double x : {d.fx, d.fy, d.cx, d.cy}) print.Add(Bounded(x));
+  }
 }
 
 /// Boards of 6 × 4 corners as three cameras show them, with noise; some views are missing or cut off.
@@ -71,7 +78,7 @@ TEST(CamerasGolden, RigsFromBoards) {
     guess.cameras[1].p_WC += 0.02;
     AddRig(print, RefineRig(guess, std::span(views).first(2), {.hold_intrinsics = true}));
   }
-  EXPECT_TRUE(print.Is(0, 0));
+  EXPECT_TRUE(print.Is(1863, -978.733190004));
 }
 
 }  // namespace

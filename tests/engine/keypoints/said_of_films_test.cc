@@ -57,10 +57,12 @@ TEST(GuessSession, SaysWhatItSaid) {
     if (k == 8) std::swap(films[0].camera, films[2].camera);
     if (k == 9) films[1].camera.intrinsics.fx *= 0.93, films[1].camera.intrinsics.fy *= 0.93;
     lines.push_back(fmt::format("session {}, off by {:.4f} px", k, MissOfPictures(films, 0.3)));
-    for (const PictureGuess& guess : GuessPictures(films, 0.1)) lines.push_back("  picture: " + guess.told);
+    for (const PictureGuess& guess : GuessPictures(films, 0.1)) {
+      if (!guess.told.empty()) lines.push_back("  picture: " + guess.told);
+    }
     const SessionGuess session =
         GuessSession(films, std::span(names).first(count), glm::dmat3(0, 0, 1, 1, 0, 0, 0, 1, 0), 0.1);
-    lines.push_back("  session: " + session.mended);
+    if (!session.mended.empty()) lines.push_back("  session: " + session.mended);
   }
   EXPECT_TRUE(testing::AreKept(lines, "tests/engine/keypoints/sessions.txt"));
 }
