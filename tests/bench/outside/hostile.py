@@ -103,6 +103,7 @@ def answers_again_after_the_next_question(problem, asked=[]):
 def repeats_itself_without_end(problem, asked=[]):
     asked.append(problem["id"])
     while len(asked) > 1:
+        time.sleep(0.001)
         say(type="answer", id=asked[0], answer=ANSWER)
     answer(problem)
 
@@ -195,6 +196,14 @@ def says_no_number(message):
 
 def gives_up(problem):
     say(type="no_answer", id=problem["id"], reason="no way\nout")
+
+
+def works_a_while(problem):
+    """Until the kernel has counted 0.05 s more of its processor time."""
+    end = sum(os.times()[:2]) + 0.05
+    while sum(os.times()[:2]) < end:
+        pass
+    answer(problem)
 
 
 def is_good(problem):

@@ -46,14 +46,14 @@ std::string ReadText(const std::string& path) {
 }
 
 TEST(OutsideMethod, AnswersManyProblemsInOneLife) {
-  OutsideMethod method(Behaving("is_good"));
+  OutsideMethod method(Behaving("works_a_while"));
   double cpu_s = 0;
   for (const char* setting : {"s", "s", "t", "s"}) {
     const OutsideReply reply = Ask(method, "p", setting);
     ASSERT_EQ(reply.status, Status::kOk) << reply.reason;
     EXPECT_EQ(reply.answer->dump(), R"({"number":1})");
     EXPECT_GT(reply.peak_mb, 1);
-    EXPECT_GE(reply.cpu_s, 0);  // a single answer may take less than the kernel's clock counts
+    EXPECT_GE(reply.cpu_s, 0);  // it may be looked at again with the next answer only
     cpu_s += reply.cpu_s;
   }
   EXPECT_GT(cpu_s, 0);
@@ -180,7 +180,7 @@ TEST(OutsideMethod, AnAnswerGivenAgainIsPassedOverWheneverItComes) {
 
 TEST(OutsideMethod, WhoOnlyRepeatsItselfTakesTooLong) {
   OutsideOptions options = Behaving("repeats_itself_without_end");
-  options.time_s = 0.5;
+  options.time_s = 3;
   OutsideMethod method(options);
   EXPECT_EQ(Ask(method, "first").status, Status::kOk);
   EXPECT_EQ(Ask(method, "second").status, Status::kTimeout);
@@ -194,7 +194,7 @@ TEST(OutsideMethod, WhoNeverReadsIsNotWaitedForLongerThanAllowed) {
   const OutsideReply reply = method.Ask("s", Show({{"text", std::string(5000000, 'x')}}), "p", Show({{"question", 2}}));
   EXPECT_EQ(reply.status, Status::kTimeout);
   EXPECT_EQ(reply.reason, "in its start: took longer than 0.1 s");
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(500)) << "it would sleep for 1000";
 }
 
 TEST(OutsideMethod, AProblemAfterACrashIsAnsweredByANewProgram) {

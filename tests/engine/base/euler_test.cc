@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/angles.h"
+#include "engine/base/directions.h"
 
 namespace etude {
 namespace {
@@ -69,6 +70,20 @@ TEST(Euler, SmallestRotationOfOppositeVectorsTurnsAboutTheCoordinateAxisLeastAlo
   EXPECT_LT(glm::length(axis_of({0, 0.6, 0.8}) - glm::dvec3(1, -1, -1)), 1e-14);
   EXPECT_LT(glm::length(axis_of({0.6, 0, 0.8}) - glm::dvec3(-1, 1, -1)), 1e-14);
   EXPECT_LT(glm::length(axis_of({0.6, 0.8, 0}) - glm::dvec3(-1, -1, 1)), 1e-14);
+}
+
+TEST(Directions, AreOfLengthOneAndTheOtherOneBelowABillionth) {
+  for (const double length : {0.0, 0.9e-9, 1.1e-9, 3.0}) {
+    EXPECT_EQ(UnitOr({0, -length, 0}, {1, 0, 0}), length > 1e-9 ? glm::dvec3(0, -1, 0) : glm::dvec3(1, 0, 0)) << length;
+  }
+}
+
+TEST(UnitNormalPart, IsAtARightAngleToTheOneInThePlaneOfBoth) {
+  const glm::dvec3 a = glm::normalize(glm::dvec3(1, -2, 0.5)), b(0.3, 0.7, -4), part = UnitNormalPart(b, a);
+  EXPECT_NEAR(glm::dot(part, a), 0, 1e-12);
+  EXPECT_NEAR(glm::length(part), 1, 1e-12);
+  EXPECT_NEAR(glm::dot(part, glm::cross(a, b)), 0, 1e-12);
+  EXPECT_GT(glm::dot(part, b), 0);
 }
 
 }  // namespace

@@ -23,5 +23,14 @@ TEST(Srgb, LightBeyondTheScreensIsClamped) {
   EXPECT_EQ(SrgbOfLinear(7), 255);
 }
 
+TEST(Image, ContainsItsPixelsAndNoneBeyond) {
+  ColourImage image(3, 2, {1, 2, 3});
+  for (int y = -1; y <= 2; ++y) {
+    for (int x = -1; x <= 3; ++x) EXPECT_EQ(image.Contains(x, y), x >= 0 && x < 3 && y >= 0 && y < 2) << x << ", " << y;
+  }
+  image.At(2, 1).g = 9;
+  EXPECT_EQ(image.pixels[5].g, 9) << "row after row";
+}
+
 }  // namespace
 }  // namespace etude

@@ -4,9 +4,6 @@
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
-#include <limits>
-
-#include "tests/support/fingerprint.h"
 
 namespace etude {
 namespace {
@@ -241,43 +238,6 @@ TEST(AdjustBundle, IsNotSolvedWithoutFrames) {
   const BundleSolution nothing = AdjustBundle({.body = Arm(), .start = {}, .marks = {}});
   EXPECT_FALSE(nothing.is_solved);
   EXPECT_EQ(nothing.lengths, Arm().lengths) << "as they were";
-}
-
-/// Golden values of searches that are cut off early, of marks that err: whatever changes a step is noticed.
-TEST(AdjustBundle, IsAsItWasForEveryOption) {
-  testing::Dice dice(1);
-  testing::Fingerprint print;
-  for (int k = 0; k < 12; ++k) {
-    auto marks = ExactMarks(Arm(0.55, 0.33), Poses(5, 0.2));
-    for (BundleMark& mark : marks) {
-      const double px = dice.Below(9) ? 2 : 80;
-      mark.pixel += px * glm::dvec2(dice.Vector());
-      mark.information =
-          dice.Below(5) ? glm::dmat2(0.3, 0.1, 0.1, 0.2 + 0.1 * dice.Signed()) : glm::dmat2(1, 0.5, 0.5, 0.25);
-      if (dice.Below(20) == 0) mark.information = glm::dmat2(0, 0, 0, 1);
-    }
-    MeasurableBody arm = Arm();
-    arm.point_shares = {{5, 1, {0.1, 0, 0.5}}, {1, 0, {0.3, 0.1, 0}}};
-    arm.tree.limits.assign(7, {-0.4, 0.3});
-    BundleOptions options;
-    options.loss = static_cast<RobustLoss>(k % 3);
-    options.adjusts_lengths = k % 2 == 1;
-    options.max_iterations = k < 6 ? 1 + k % 3 : 25;
-    if (k % 4 > 1) options.smoothness.emplace(), options.smoothness->points = {0, 2, 5};
-    if (k == 6) options.smoothness = BundleSmoothness{20, 5, {1, 3, 4}, {2, 9}, 10};
-    if (k == 7) options.smoothness->angle_acceleration = std::numeric_limits<double>::infinity();
-    if (k > 8) options.loss_scale = 0.7, options.limit_deviation = 0.3, options.smallest_decrease = 0.02;
-    auto start = Poses(5, 0.2, 0.2);
-    if (k == 8) start[1].root_position = {2.95, 0.95, 3}, start[3].root_position = {9, 9, 9};
-    const BundleSolution found = AdjustBundle({.body = arm, .start = start, .marks = marks}, options);
-    print.Add(found.is_solved).Add(found.lengths).Add(found.first_cost).Add(found.last_cost).Add(found.iterations);
-    for (const TreeState& state : found.states)
-      print.Add(state.root_position).Add(state.root_frame[1]).Add(state.angles);
-    PlacedPoints placed;
-    PlacePoints(WithLengths(arm, found.lengths), found.states[2], true, placed);
-    print.Add(placed.positions).Add(placed.gains).Add(placed.columns);
-  }
-  EXPECT_TRUE(print.Is(4416, 4896.83531548));
 }
 
 }  // namespace

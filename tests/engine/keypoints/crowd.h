@@ -6,13 +6,9 @@
 
 #include "engine/keypoints/mend_people.h"
 #include "tests/engine/keypoints/walkers.h"
-#include "tests/support/fingerprint.h"
+#include "tests/support/random_clip.h"
 
 namespace etude {
-
-inline void AddSeen(testing::Fingerprint& print, const SeenPerson& person) {
-  for (const Keypoint& keypoint : person.keypoints) print.Add(keypoint.pixel).Add(keypoint.confidence);
-}
 
 /// Two people before four cameras, in an order that changes; some keypoints are unsure, far off, or of the other side,
 /// some people are not seen for a while.

@@ -9,12 +9,13 @@
 #include <sstream>
 
 #include "engine/base/angles.h"
+#include "engine/base/names.h"
 #include "engine/retargeting/joint_arrays.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
 #include "tests/engine/formats/spoilt.h"
-#include "tests/engine/retargeting/prints.h"
 #include "tests/engine/retargeting/turned_bodies.h"
+#include "tests/support/kept_lines.h"
 
 namespace etude {
 namespace {
@@ -207,39 +208,32 @@ std::string OneReplaced(std::string text, const std::string& from, const std::st
   return text.replace(at, from.size(), to);
 }
 
-TEST(RetargetingGolden, OfOpenSimsAnglesAndComplaints) {
+TEST(OpenSimMotion, ComplaintsAreAsTheyWere) {
   BodyMotion motion = LoadBuiltinMove("jump").value().motion;
   motion.poses.resize(12);
   motion.rate_hz = 59.94;
-  for (const auto& [frame, angle] : {std::pair{3, 0.5 * kPi}, {4, -0.5 * kPi}, {5, 1.2 * kPi}, {7, 2.5 * kPi}}) {
-    const glm::dquat turn = glm::angleAxis(angle, glm::dvec3(0, 0, 1));  // where two turns of three are one
-    motion.poses[frame] = Turned(Turned(AtAttention(), Role::kLeftHip, turn), Role::kRightShoulder, turn);
-  }
   const std::string text = WriteOpenSimMotion(motion, StandingPose(), "a\tjump\x7f");
-  testing::Fingerprint print;
-  print.Add(text).Add(HasModelOfAngles(text)).Add(HasModelOfAngles(text.substr(0, 300)));
   const std::string changes =
       "inDegrees=yes>inDegrees=no^part hip_centre>part hip^part left_knee>part left_hip^after ground>behind ground^"
       "after hip_centre>after head^bone>limb^bone 0 0 0>bone 0 0^turns>turn^+Z>*Z^+Z>+W^-X>-XX^\ntime>\ntimes^"
       "\tpelvis_tx>\tpelvis_t^\nendheader>\nendheader\n^\nendheader>\nend^\n0.000000>\n0.000000\t1^"
       "\n0.000000>\n0.0x^\n0.016683>\n0.018^\n0.016683>\n0.0167";
+  const auto read = [](const std::string& mot) { return ReadOpenSimMotion(mot, "a.mot"); };
+  testing::ComplaintLines complaints;
   for (const std::string& change : testing::Parts(changes)) {
     const std::vector<std::string> both = testing::Parts(change, '>');
-    const auto read = ReadOpenSimMotion(OneReplaced(text, both[0], both[1]), "a.mot");
-    if (!AddedError(print, read)) print.Add(read->rate_hz).Add(JointsOfAll(read->poses));
+    complaints.Add(Quote(change), std::vector{OneReplaced(text, both[0], both[1])}, read);
   }
   for (const double rate : {0.05, 0.1, 30.0, 29.97, 10000.0, 20000.0}) {
     motion.rate_hz = rate;
-    const auto read = ReadOpenSimMotion(WriteOpenSimMotion(motion, StandingPose(), "a"), "a.mot");
-    if (!AddedError(print, read)) print.Add(read->rate_hz);
+    complaints.Add(fmt::format("{} Hz", rate), std::vector{WriteOpenSimMotion(motion, StandingPose(), "a")}, read);
   }
-  EXPECT_TRUE(print.Is(14843, 4778.19390252));
+  EXPECT_TRUE(testing::AreKept(complaints.lines(), "tests/engine/retargeting/opensim_complaints.txt"));
 }
 
-TEST(RetargetingGolden, OfArraysOfJoints) {
-  testing::Fingerprint print;
+TEST(JointArrays, AreUnderstoodAsTheyWere) {
+  std::vector<std::string> lines = {JointLayoutNames()};
   testing::Dice dice(9);
-  print.Add(JointLayoutNames());
   for (const std::size_t joints : {16u, 17u, 20u, 22u, 24u, 25u, 26u}) {
     for (const std::optional<std::string>& layout :
          {std::optional<std::string>(), std::optional<std::string>("coco"), std::optional<std::string>("smpl")}) {
@@ -249,34 +243,32 @@ TEST(RetargetingGolden, OfArraysOfJoints) {
         array.values[4] = std::numeric_limits<double>::quiet_NaN();
         std::string note;
         const auto motion = JointsOfArray(array, layout, "a.npy", note);
-        if (AddedError(print, motion)) continue;
-        print.Add(note).Add(motion->names).Add(motion->rate_hz);
-        for (const auto& frame : motion->frames) print.Add(frame);
+        if (!motion) lines.push_back(ToString(motion.error()));
+        if (motion)
+          lines.push_back(fmt::format("{}; the last is {} at {} Hz", note, motion->names.back(), motion->rate_hz));
       }
     }
   }
-  for (const std::vector<std::size_t>& shape : std::vector<std::vector<std::size_t>>{{}, {3}, {0, 20, 3}, {1, 20, 2}}) {
-    std::string note;
-    AddedError(print, JointsOfArray({.shape = shape, .values = std::vector<double>(60)}, {}, "a.npy", note));
-  }
+  EXPECT_TRUE(testing::AreKept(lines, "tests/engine/retargeting/joint_arrays.txt"));
+}
+
+TEST(BodyNpz, IsRefusedBeyondItsLimits) {
   const BodyMotion motion = LoadBuiltinMove("clap").value().motion;
-  const std::string bytes = WriteBodyNpz(motion, AtAttention());
-  Npz arrays = ReadNpz(bytes, "a.npz").value();
-  for (const auto& [name, array] : arrays.arrays) print.Add(name).Add(array.shape).Add(array.values);
-  print.Add(IsBodyNpz(arrays)).Add(IsBodyNpz({})).Add(JointsOfAll(ReadBodyNpz(arrays, "a.npz")->poses));
-  for (const double rate : {0.0, 0.1, 0.09, 10000.0, 10001.0}) {
-    arrays.arrays["rate_hz"].values = {rate};
-    const auto body = ReadBodyNpz(arrays, "a.npz");
-    if (!AddedError(print, body)) print.Add(body->rate_hz);
-  }
-  arrays.arrays["rate_hz"].values = {30, 30};
-  AddedError(print, ReadBodyNpz(arrays, "a.npz"));
-  arrays.arrays["positions"].values[7] = 2e9;
-  arrays.arrays["rate_hz"].values = {30};
-  AddedError(print, ReadBodyNpz(arrays, "a.npz"));
-  arrays.arrays["positions"].shape[1] = 19;
-  AddedError(print, ReadBodyNpz(arrays, "a.npz"));
-  EXPECT_TRUE(print.Is(46076, 13613.0611294));
+  const Npz arrays = ReadNpz(WriteBodyNpz(motion, AtAttention()), "a.npz").value();
+  EXPECT_FALSE(IsBodyNpz({}));
+  const auto complaint = [&](const std::vector<double>& rate, double place, std::size_t joints) {
+    Npz changed = arrays;
+    changed.arrays["rate_hz"].values = rate;
+    changed.arrays["positions"].values[7] = place;
+    changed.arrays["positions"].shape[1] = joints;
+    const auto body = ReadBodyNpz(changed, "a.npz");
+    return body ? "none" : ToString(body.error());
+  };
+  for (const double rate : {0.1, 10000.0}) EXPECT_EQ(complaint({rate}, 0, 20), "none") << rate;
+  for (const double rate : {0.0, 0.09, 10001.0}) EXPECT_NE(complaint({rate}, 0, 20), "none") << rate;
+  EXPECT_NE(complaint({30, 30}, 0, 20), "none");
+  EXPECT_NE(complaint({30}, 2e9, 20), "none");
+  EXPECT_NE(complaint({30}, 0, 19), "none");
 }
 
 }  // namespace

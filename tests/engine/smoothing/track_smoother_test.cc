@@ -6,8 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "tests/support/fingerprint.h"
-
 namespace etude {
 namespace {
 
@@ -165,34 +163,6 @@ TEST(LikeliestAccelerationDensity, IsLargeForAPointThatTurnsAndSmallForOneThatTr
   };
   EXPECT_GE(likelihood(of_swinging), likelihood(4 * of_swinging));
   EXPECT_GE(likelihood(of_swinging), likelihood(of_swinging / 4));
-}
-
-/// Golden values of tracks with gaps, lines of sight and every kind of motion.
-TEST(SmoothTrack, IsAsItWasForEveryMotion) {
-  testing::Dice dice(1);
-  testing::Fingerprint tracks, covariances, densities;
-  for (int k = 0; k < 20; ++k) {
-    std::vector<PointMeasurement> measurements;
-    for (int i = 0; i < 3 + 2 * k; ++i) {
-      PointMeasurement& m = measurements.emplace_back();
-      m.position = glm::dvec3(0.1 * i, std::sin(0.3 * i), 2) + 0.03 * dice.Vector();
-      const glm::dvec3 a = dice.Vector(), b = dice.Vector();
-      if (dice.Below(4)) m.information = 4000.0 * (glm::outerProduct(a, a) + glm::outerProduct(b, b));
-      if (dice.Below(2)) m.information += glm::dmat3(900);
-    }
-    PointMotion motion;
-    if (k % 4 == 1) motion = {.frame_s = 0.02, .acceleration_density = 0.5, .velocity_memory_s = 19.9};
-    if (k % 4 == 2)
-      motion = {.frame_s = 0.1, .velocity_memory_s = 100.1, .first_position_m = 3, .first_velocity_mps = 1};
-    const SmoothedTrack track = SmoothTrack(measurements, motion);
-    tracks.Add(track.positions).Add(track.velocities).Add(track.log_likelihood);
-    for (const glm::dmat3& c : track.covariances) covariances.Add(c[0]).Add(c[1]).Add(c[2]);
-    densities.Add(LikeliestAccelerationDensity(measurements, motion));
-  }
-  densities.Add(LikeliestAccelerationDensity({}, {}));
-  EXPECT_TRUE(tracks.Is(2700, -6139.09658185));
-  EXPECT_TRUE(covariances.Is(3960, -0.000528452966813));
-  EXPECT_TRUE(densities.Is(21, -443.187272872));
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/settings.h"
 #include "engine/transitions/library/library.h"
 #include "engine/transitions/transition_record.h"
 #include "sim/choreography/canonical_body.h"
@@ -41,13 +40,6 @@ inline void AddTo(testing::Fingerprint& print, const TransitionRecord& record) {
     print.Add(candidate.outcome).Add(candidate.point);
   }
   print.Add(record.pairs_seen).Add(record.pairs_matched).Add(record.wait_s).Add(record.cost_unit).Add(record.why);
-}
-
-inline void AddTo(testing::Fingerprint& print, std::span<const NumberSetting> settings) {
-  for (const NumberSetting& setting : settings) {
-    print.Add(setting.key).Add(setting.fallback).Add(setting.lowest).Add(setting.largest).Add(setting.is_whole);
-    print.Add(setting.meaning);
-  }
 }
 
 /// A dance that takes up a few poses again and again, of grades in steps of an eighth: nearly everything in it ties.

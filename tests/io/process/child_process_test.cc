@@ -53,9 +53,9 @@ ChildProcess Shell(const std::string& script, const std::string& error_file = ""
   return std::move(*child);
 }
 
-/// Whether it is gone within two seconds; a zombie is.
-bool VanishesSoon(pid_t process) {
-  for (int i = 0; i < 200; ++i, ::usleep(10000)) {
+/// Whether it is gone within so many hundredths of a second; a zombie is.
+bool VanishesSoon(pid_t process, int most = 6000) {
+  for (int i = 0; i < most; ++i, ::usleep(10000)) {
     std::ifstream file("/proc/" + std::to_string(process) + "/stat");
     const std::string stat{std::istreambuf_iterator<char>(file), {}};
     if (stat.empty() || stat.find(") Z ") != std::string::npos) return true;
@@ -136,7 +136,7 @@ TEST(ChildProcess, ADeadChildsGroupIsKilledToo) {
   const pid_t grandchild = std::stoi(ReadLine(child));
   EXPECT_FALSE(child.HasEnded());
   child.Send("end");
-  for (int i = 0; i < 2000 && !child.HasEnded(); ++i) ::usleep(1000);
+  for (int i = 0; i < 60000 && !child.HasEnded(); ++i) ::usleep(1000);
   EXPECT_TRUE(child.HasEnded());
   EXPECT_TRUE(child.Receive()) << "its output is still held open";
   EXPECT_EQ(child.Finish(), "exit code 1");
@@ -211,7 +211,7 @@ bool IsEndedWithTheChild(bool contained) {
   const std::vector<pid_t> ours = ChildrenOf(::getpid());
   EXPECT_EQ(ours.size(), 1u);
   ::kill(ours.at(0), SIGKILL);
-  const bool is_ended = VanishesSoon(other);
+  const bool is_ended = VanishesSoon(other, contained ? 6000 : 200);
   ::kill(other, SIGKILL);
   return is_ended;
 }
@@ -281,7 +281,7 @@ TEST(ChildProcess, SendingToADeadChildFailsInsteadOfKillingUs) {
   ChildProcess child = Shell("exit 0");
   LinesUntilEnd(child);
   bool listens = true;  // its input closes a moment before or after its output
-  for (int i = 0; i < 2000 && listens; ++i, ::usleep(1000)) listens = child.Send("x");
+  for (int i = 0; i < 60000 && listens; ++i, ::usleep(1000)) listens = child.Send("x");
   EXPECT_FALSE(listens);
   EXPECT_FALSE(child.HasUnsent());
 }

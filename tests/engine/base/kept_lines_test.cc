@@ -1,0 +1,33 @@
+#include "tests/support/kept_lines.h"
+
+#include <filesystem>
+
+namespace etude::testing {
+namespace {
+
+TEST(KeptLines, NameTheFirstLineThatDiffersAndAreNotWrittenUnasked) {
+  const std::string path = ::testing::TempDir() + "kept_lines.txt";
+  std::ofstream(path) << "one\ntwo\n";
+  EXPECT_TRUE(AreKept({"one", "two"}, path));
+  for (const std::vector<std::string>& other :
+       {std::vector<std::string>{"one", "three"}, {"one"}, {"one", "two", "three"}, {}}) {
+    EXPECT_FALSE(AreKept(other, path)) << other.size();
+  }
+  EXPECT_EQ(std::string(AreKept({"one", "three"}, path).message()).find(path + ":2: is  'three'\n  was 'two'"), 0u);
+  EXPECT_TRUE(AreKept({"one", "two"}, path)) << "the file is as it was";
+  std::filesystem::remove(path);
+  EXPECT_FALSE(AreKept({}, path)) << "there is no file";
+}
+
+TEST(ComplaintLines, HoldOneComplaintOfAKind) {
+  ComplaintLines complaints;
+  complaints.Add("numbers", std::vector{1, 2, 30, 4, 5}, [](int number) -> Result<int> {
+    if (number == 1) return number;
+    return number < 5 ? Fail({"f", number}, "'{}' is odd", number) : Fail({"f", number}, "is large");
+  });
+  EXPECT_EQ(complaints.lines(),
+            (std::vector<std::string>{"numbers: 1 of 5 are read", "  f:2: '2' is odd", "  f:30: is large"}));
+}
+
+}  // namespace
+}  // namespace etude::testing
