@@ -9,6 +9,7 @@
 #include "reports/badge.h"
 #include "reports/comparison_table.h"
 #include "reports/overview_table.h"
+#include "reports/page_check.h"
 #include "reports/paper/paper_a.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/plots/growth.h"
@@ -165,7 +166,9 @@ std::string RealTakesSection(const RunData& run, std::span<const RealTake> takes
       "role=\"region\" aria-label=\"On real films\"><table><thead><tr><th scope=\"col\">Takes</th><th scope=\"col\">"
       "Recovery</th><th scope=\"col\">Cameras</th><th scope=\"col\" class=\"n\">Median, mm</th><th scope=\"col\" "
       "class=\"n\">95 %, mm</th></tr></thead><tbody>";
+  html += kTakesBegin;
   for (const RealTake& take : takes) html += RealRows(take);
+  html += kTakesEnd;
   std::size_t rows = 0;
   for (const ScenarioSummary& scenario : run.scenarios) {
     if (scenario.task == "capture") html += SimulatedRows(scenario, rows);
@@ -187,7 +190,7 @@ std::string WritePage(const RunData& run, const Media& media, std::span<const Re
       MarkDefsSvg(), CardAnchor(0), EscapeMarkup(run.suite),
       EscapeMarkup(FindingsOf(run).sentence + LeftOutSentence(run)));
   html += Answers(run, findings);
-  html += FilmElement(media.film, true);
+  html += fmt::format("{}{}{}", kMediaBegin, FilmElement(media.film, true), kMediaEnd);
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) html += WriteScenarioCard(run, i, findings[i], media);
   html += RealTakesSection(run, real);
   html += HowToRead();
