@@ -2,9 +2,13 @@
 
 #include <fcntl.h>
 #include <fmt/ranges.h>
+#include <signal.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <atomic>
+#include <cstdlib>
 #include <utility>
 
 #include "engine/base/machine.h"
@@ -22,6 +26,55 @@ std::string HeadOf(std::string_view type, std::span<const std::size_t> shape) {
   text.resize(length, ' ');
   text.back() = '\n';
   return std::string(kMagic) + static_cast<char>(length & 0xff) + static_cast<char>(length >> 8) + text;
+}
+
+/// A file that is mapped, for the signal that tells that it was cut. Entries stay, and serve one file after the other.
+struct Mapped {
+  std::atomic<const char*> data = nullptr;  ///< null: of no file now
+  std::size_t size = 0;
+  std::string complaint;
+  Mapped* next = nullptr;
+};
+std::atomic<Mapped*> all_mapped = nullptr;
+
+/// What somebody cuts off a file that we have mapped is not there when we look at it. Nothing can be computed from the
+/// rest: ends this process with a complaint.
+void OnCut(int signal, siginfo_t* info, void*) {
+  const char* const at = static_cast<const char*>(info->si_addr);
+  for (const Mapped* one = all_mapped; one != nullptr; one = one->next) {
+    const char* const data = one->data;
+    if (data == nullptr || at < data || at >= data + one->size) continue;
+    constexpr int kOfMachine = 3;  // the exit status of commands that the machine has stopped
+    std::ignore = ::write(STDERR_FILENO, one->complaint.data(), one->complaint.size());
+    ::_exit(kOfMachine);
+  }
+  ::signal(signal, SIG_DFL);  // it comes again when we return
+}
+
+/// Tells of a file that is mapped, from before it is looked at until `Forget`.
+void Tell(const char* data, std::size_t size, const std::string& path) {
+  [[maybe_unused]] static const bool is_heard = [] {
+    struct sigaction action {};
+    action.sa_sigaction = OnCut;
+    action.sa_flags = SA_SIGINFO;
+    return ::sigaction(SIGBUS, &action, nullptr) == 0;
+  }();
+  Mapped* entry = all_mapped;
+  while (entry != nullptr && entry->data != nullptr) entry = entry->next;
+  const bool is_new = entry == nullptr;
+  if (is_new) entry = new Mapped;  // for as long as the process lives
+  entry->size = size;
+  entry->complaint = fmt::format("etude: {}: was cut short while it was read\n", path);
+  entry->data = data;
+  if (!is_new) return;
+  entry->next = all_mapped;
+  all_mapped = entry;
+}
+
+void Forget(const char* data) {
+  for (Mapped* one = all_mapped; one != nullptr; one = one->next) {
+    if (one->data == data) one->data = nullptr;
+  }
 }
 
 std::size_t SizeOf(std::string_view type) { return static_cast<std::size_t>(type.back() - '0'); }
@@ -50,6 +103,7 @@ Result<NpyFile> NpyFile::Open(const FilePath& path, std::string_view type) {
   if (!is_large) return Fail(place, "is no column: it is too short");
   if (memory == MAP_FAILED) return CannotRead(path.string(), "cannot read this file", errno);
   NpyFile opened(static_cast<const char*>(memory), size);
+  Tell(opened.data_, size, path.string());
   const std::string_view head(opened.data_, kHead);
   const std::string wanted = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': (", type);
   if (!head.starts_with(kMagic) || !head.substr(kMagic.size() + 2).starts_with(wanted) ||
@@ -72,7 +126,9 @@ NpyFile& NpyFile::operator=(NpyFile&& other) noexcept {
 }
 
 NpyFile::~NpyFile() {
-  if (data_ != nullptr) ::munmap(const_cast<char*>(data_), size_);
+  if (data_ == nullptr) return;
+  Forget(data_);
+  ::munmap(const_cast<char*>(data_), size_);
 }
 
 }  // namespace etude
