@@ -218,6 +218,22 @@ TEST_F(ColumnsTest, ThatAreNotAsTheyWereWrittenAreRefused) {
   EXPECT_THAT(Complaint(), HasSubstr("digest_world.npy: no such file"));
 }
 
+TEST_F(ColumnsTest, ThatAreCutWhileTheyAreReadEndTheProcessWithAComplaint) {
+  const TemporaryFolder place = *TemporaryFolder::Make("columns-test");
+  const fs::path path = place.path() / "long.npy";
+  auto writer = NpyWriter::Begin(path, kNpyType<double>);
+  ASSERT_TRUE(writer);
+  for (int i = 0; i < 100'000; ++i) ASSERT_TRUE(writer->Add(1.0));
+  ASSERT_TRUE(writer->Finish());
+  EXPECT_EXIT(
+      {
+        const auto file = NpyFile::Open(path, kNpyType<double>);
+        fs::resize_file(path, 4096);
+        std::exit(file->Numbers<double>()[99'999] == 1.0 ? 0 : 1);
+      },
+      testing::ExitedWithCode(3), "long.npy: was cut short while it was read");
+}
+
 TEST_F(ColumnsTest, AreNotReadThroughLinksNorOutsideOfTheirRun) {
   const fs::path own = folder() / "columns" / "poses", elsewhere = folder() / "elsewhere";
   fs::rename(own, elsewhere);
