@@ -119,7 +119,7 @@ Json FactsOf(const CellChoice& choice) {
 Result<void> AddReport(const std::string& folder, std::vector<Verified>& all, std::vector<std::string>& not_verified) {
   ASSIGN_OR_RETURN(auto run, LoadFinishedRun(folder, Sealing::kIgnored));
   if (run.scenarios.empty()) return {};  // it has not ended
-  run.data.unsealed.clear();  // which a report of the run would tell
+  run.data.unsealed.clear();             // which a report of the run would tell
   ASSIGN_OR_RETURN(auto check, CheckReport(run.data, folder));
   ASSIGN_OR_RETURN(auto gate, CheckGate(run, folder));
   check.files += gate.files;

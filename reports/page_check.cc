@@ -57,9 +57,8 @@ bool IsAllowedValue(std::string_view name, std::string_view value) {
   if (name == "alt" || name == "aria-label") return true;
   if (name == "width" || name == "height") return value.size() <= kMostDigits && IsOf(kDigits, value);
   if (name == "href") return value.starts_with(kFilms) && value.find('/', kFilms.size()) == std::string_view::npos;
-  return std::ranges::any_of(
-      std::array{"data:image/png;base64,", "data:image/jpeg;base64,", "data:video/mp4;base64,"},
-      [&](const char* type) { return IsData(value, type); });
+  return std::ranges::any_of(std::array{"data:image/png;base64,", "data:image/jpeg;base64,", "data:video/mp4;base64,"},
+                             [&](const char* type) { return IsData(value, type); });
 }
 
 /// Takes the next attribute, ' name="value"' or ' name', off the text of a tag; nothing when it is written otherwise.

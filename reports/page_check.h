@@ -11,7 +11,7 @@ constexpr std::string_view kTakesBegin = "<!--takes-->", kTakesEnd = "<!--/takes
 
 /// A page held against what its run makes.
 struct PageCheck {
-  bool same = false;                           ///< outside of the marks, by the byte
+  bool same = false;                          ///< outside of the marks, by the byte
   bool has_media = false, has_takes = false;  ///< something stands between such marks, which nobody has compared
 };
 

@@ -119,7 +119,8 @@ Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path&
     if (!film_names.contains(name.string())) check.differences.push_back((films / name).string() + kStranger);
   }
   if (has_media || !filmed.empty()) {
-    check.not_compared.push_back("report/ and video/: pictures and films, with their captions; etude report makes them");
+    check.not_compared.push_back(
+        "report/ and video/: pictures and films, with their captions; etude report makes them");
   }
   return check;
 }

@@ -17,9 +17,9 @@ struct JsonFault {
 
 /// A text that somebody else wrote, parsed.
 struct JsonText {
-  Json value;                                        ///< of a key that stands twice, both
-  std::optional<std::string> repeated_key = {};      ///< the first that stands twice in one object
-  std::optional<JsonFault> fault = {};               ///< then the rest says nothing
+  Json value;                                    ///< of a key that stands twice, both
+  std::optional<std::string> repeated_key = {};  ///< the first that stands twice in one object
+  std::optional<JsonFault> fault = {};           ///< then the rest says nothing
 };
 
 /// Parses a text in time proportional to its length, whatever stands in it: nlohmann's own parser looks up every key

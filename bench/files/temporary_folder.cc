@@ -22,7 +22,6 @@ constexpr const char* kPrefix = "etude-temporary-";  // nobody calls a folder of
 constexpr const char* kKeptPrefix = "etude-kept-";
 constexpr std::size_t kOwnLetters = 7;  // "-XXXXXX" at the end of a name
 
-
 /// Locks a folder until we end; -1 when another process has it, or the folder is not ours.
 int Lock(const fs::path& folder) {
   const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);

@@ -19,7 +19,8 @@ Result<Json> ReadMessage(const std::string& line) {
   }
   if (line.find('\0') != std::string::npos) return Fail({}, "said something that is not JSON: a zero byte");
   JsonText parsed = ParseJsonText(line);
-  if (parsed.fault && parsed.fault->is_large_number) return Fail({}, "said a number that is too large: {}", Printable(line));
+  if (parsed.fault && parsed.fault->is_large_number)
+    return Fail({}, "said a number that is too large: {}", Printable(line));
   if (parsed.fault) {
     const std::size_t start = parsed.fault->byte > 40 ? parsed.fault->byte - 40 : 0;
     const std::string where = start == 0 ? "" : fmt::format(" near byte {}", parsed.fault->byte);

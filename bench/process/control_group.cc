@@ -103,8 +103,8 @@ OwnGroup OwnGroup::Read(const std::string& groups, const std::string& mounts) {
 
 double HeldMbIn(const std::string& memory_stat, const std::string& swapped) {
   const std::string stat = "\n" + memory_stat;
-  double bytes = NumberOf(stat, "anon") + NumberOf(stat, "shmem") + NumberOf(stat, "sock") +
-                 std::strtod(swapped.c_str(), nullptr);
+  double bytes =
+      NumberOf(stat, "anon") + NumberOf(stat, "shmem") + NumberOf(stat, "sock") + std::strtod(swapped.c_str(), nullptr);
   if (const double kernel = NumberOf(stat, "kernel"); kernel > 0) {
     bytes += kernel - NumberOf(stat, "slab_reclaimable");
   } else {  // before Linux 5.18

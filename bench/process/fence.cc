@@ -40,10 +40,12 @@ constexpr std::array kSystem = {"/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib
 /// name with a * stands for all that begin so.
 constexpr const char* kSettings = "/etc";
 constexpr std::array kShownSettings = {
-    "ld.so.*",       "alternatives", "localtime",   "timezone", "locale.alias", "os-release", "debian_version",
-    "nsswitch.conf", "protocols",    "services",    "fonts",    "mime.types",   "magic*",     "ssl/certs",
-    "ssl/openssl.cnf", "pki/tls/certs", "python*",  "java-*",   "R",            "julia*",     "octave*",
-    "ImageMagick-*", "OpenCL",       "vulkan",      "glvnd",    "matplotlibrc", "papersize",  "static"};
+    "ld.so.*",       "alternatives",   "localtime",     "timezone",  "locale.alias",
+    "os-release",    "debian_version", "nsswitch.conf", "protocols", "services",
+    "fonts",         "mime.types",     "magic*",        "ssl/certs", "ssl/openssl.cnf",
+    "pki/tls/certs", "python*",        "java-*",        "R",         "julia*",
+    "octave*",       "ImageMagick-*",  "OpenCL",        "vulkan",    "glvnd",
+    "matplotlibrc",  "papersize",      "static"};
 /// Folders to write to, empty at first.
 constexpr std::array kScratch = {"/tmp", "/var/tmp", "/dev/shm"};
 

@@ -139,8 +139,7 @@ Result<void> NoteKey(const std::string& target, const SuiteSetup& suite, std::sp
 Result<ReplayOutcome> ReplayRun(const ReplayOptions& options) {
   const FolderBegun begun(options.folder);
   ASSIGN_OR_RETURN(const auto run, LoadRun(options.folder, options.sealing));
-  ASSIGN_OR_RETURN(const auto prepared,
-                   begun.Tell(PrepareRun(Inside(options.folder) / "manifest.json", options.key)));
+  ASSIGN_OR_RETURN(const auto prepared, begun.Tell(PrepareRun(Inside(options.folder) / "manifest.json", options.key)));
   return begun.Tell(ReplayPrepared(options, run, prepared));
 }
 

@@ -59,14 +59,13 @@ Result<Verified> VerifySummary(const FilePath& folder, const FinishedRun& run, i
   return verified;
 }
 
-/// The part of a value that a program on another machine, or another version of it, may say otherwise: of the same kind,
-/// for other readers.
+/// The part of a value that a program on another machine, or another version of it, may say otherwise: of the same
+/// kind, for other readers.
 constexpr std::array kSaidByMachine = {"etude", "compiler", "packages", "glibc", "libraries", "environment"};
 
 bool IsTextOrTexts(const Json& value) {
-  return value.is_string() || (value.is_object() && std::ranges::all_of(value, [](const Json& one) {
-                                 return one.is_string();
-                               }));
+  return value.is_string() ||
+         (value.is_object() && std::ranges::all_of(value, [](const Json& one) { return one.is_string(); }));
 }
 
 /// True if a scenario, or another text of the suite, names a text.
@@ -82,8 +81,8 @@ bool IsNamed(const std::string& name, const SuiteSetup& suite) {
          });
 }
 
-/// Compares the manifest with the one that a run of these scenarios writes, but for what it says of its machine. Without
-/// `scenarios`, which are prepared, it may say of clips what it likes.
+/// Compares the manifest with the one that a run of these scenarios writes, but for what it says of its machine.
+/// Without `scenarios`, which are prepared, it may say of clips what it likes.
 Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, const SuiteSetup& suite,
                                 std::span<const PreparedScenario> scenarios) {
   Verified verified{"manifest.json: what such a run writes", {}};

@@ -99,7 +99,8 @@ TEST_F(FenceTest, NamesNothingOfOurs) {
 // Bubblewrap's own process knows all mounts, those that are hidden by name.
 TEST_F(FenceTest, TheFirstProcessRemembersNoMounts) {
   const std::string look =
-      "python3 -c \"\nimport re\nmounts = words = 0\nmemory = open('/proc/1/mem', 'rb', 0)\nfor line in open('/proc/1/maps'):\n"
+      "python3 -c \"\nimport re\nmounts = words = 0\nmemory = open('/proc/1/mem', 'rb', 0)\nfor line in "
+      "open('/proc/1/maps'):\n"
       "  start, end = (int(n, 16) for n in line.split()[0].split('-'))\n  try:\n    memory.seek(start)\n"
       "    bytes = memory.read(end - start)\n    mounts += len(re.findall(b'--ro-bin[d]', bytes))\n"
       "    words += len(re.findall(b'/bin/s[h]', bytes))\n  except (OSError, OverflowError):\n"
@@ -109,7 +110,8 @@ TEST_F(FenceTest, TheFirstProcessRemembersNoMounts) {
 
 TEST_F(FenceTest, OfTheSettingsItShowsThoseOfLibrariesAndOfUsersOneWithoutAName) {
   EXPECT_EQ(Say(TheFence(), "id -un; id -gn; cat /etc/passwd | wc -l; cat /etc/group | wc -l"), "user\nuser\n1\n1\n");
-  const std::string others = "for f in hostname machine-id shadow passwd- ssl/private; do test -e /etc/$f && echo $f; done";
+  const std::string others =
+      "for f in hostname machine-id shadow passwd- ssl/private; do test -e /etc/$f && echo $f; done";
   EXPECT_EQ(Say(TheFence(), others), "");
   EXPECT_NE(Say(Fence(), others), "") << "the control";
   EXPECT_EQ(Say(TheFence(), "python3 -c 'import ssl, encodings.idna; print(1)'"), "1\n");
@@ -131,9 +133,9 @@ TEST_F(FenceTest, SocketsAndPipesInAFolderThatIsShownAreFoundAndCanBeHidden) {
   address.sun_family = AF_UNIX;
   (folder / "socket").string().copy(address.sun_path, sizeof address.sun_path - 1);
   ASSERT_EQ(::bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
-  EXPECT_THAT(Fence::PipesBelow(folder),
-              ::testing::UnorderedElementsAre(folder / "below" / "pipe", folder / "socket"));
-  const std::string look = "test -p " + folder_ + "/below/pipe && echo pipe; test -S " + folder_ + "/socket && echo socket";
+  EXPECT_THAT(Fence::PipesBelow(folder), ::testing::UnorderedElementsAre(folder / "below" / "pipe", folder / "socket"));
+  const std::string look =
+      "test -p " + folder_ + "/below/pipe && echo pipe; test -S " + folder_ + "/socket && echo socket";
   EXPECT_EQ(Say(TheFence(), look, {folder}), "pipe\nsocket\n") << "the control";
   Fence fence = TheFence();
   for (const fs::path& one : Fence::PipesBelow(folder)) fence.Hide(one);
