@@ -8,8 +8,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "bench/finished_runs/finished_runs.h"
 #include "bench/replay/verify.h"
-#include "bench/results/folder.h"
 #include "bench/results/seal.h"
 #include "bench/results/signature.h"
 #include "cli/commands.h"
@@ -115,16 +115,19 @@ Json FactsOf(const CellChoice& choice) {
           {"missed", std::move(missed)}};
 }
 
-/// The report, if there is one.
+/// The report, and what a gate left there, if they are there.
 Result<void> AddReport(const std::string& folder, std::vector<Verified>& all, std::vector<std::string>& not_verified) {
-  ASSIGN_OR_RETURN(auto run, LoadRun(folder, Sealing::kIgnored));
-  run.unsealed.clear();  // which a report of the run would tell
-  ASSIGN_OR_RETURN(auto check, CheckReport(run, folder));
-  if (check.files > 0) {
+  ASSIGN_OR_RETURN(auto run, LoadFinishedRun(folder, Sealing::kIgnored));
+  if (run.scenarios.empty()) return {};  // it has not ended
+  run.data.unsealed.clear();             // which a report of the run would tell
+  ASSIGN_OR_RETURN(auto check, CheckReport(run.data, folder));
+  ASSIGN_OR_RETURN(auto gate, CheckGate(run, folder));
+  check.files += gate.files;
+  std::ranges::move(gate.differences, std::back_inserter(check.differences));
+  std::ranges::move(gate.not_compared, std::back_inserter(check.not_compared));
+  std::ranges::move(check.not_compared, std::back_inserter(not_verified));
+  if (check.files > 0 || !check.differences.empty()) {
     all.push_back({fmt::format("report: {} files, made again", check.files), std::move(check.differences)});
-    not_verified.emplace_back(
-        "report/ and video/: pictures, films, what a gate wrote, and whatever stands beside the tables; etude report "
-        "makes them anew");
   }
   return {};
 }

@@ -11,6 +11,7 @@
 #include "reports/badge.h"
 #include "reports/comparison_table.h"
 #include "reports/overview_table.h"
+#include "reports/page_check.h"
 #include "reports/paper/paper_a.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/plots/growth.h"
@@ -156,7 +157,9 @@ std::string RealTakesSection(const RunData& run, std::span<const RealTake> takes
                           {"Cameras"},
                           {.head = "Median, mm", .is_number = true},
                           {.head = "95 %, mm", .is_number = true}}};
+  table.rows.push_back({.mark = std::string(kTakesBegin)});
   for (const RealTake& take : takes) AddRealRows(take, table);
+  table.rows.push_back({.mark = std::string(kTakesEnd)});
   std::size_t rows = 0;
   for (const ScenarioSummary& scenario : run.scenarios) {
     if (scenario.task == "capture") AddSimulatedRows(scenario, rows, table);
@@ -178,7 +181,7 @@ std::string WritePage(const RunData& run, const Media& media, std::span<const Re
       MarkDefsSvg(), CardAnchor(0), EscapeMarkup(run.suite),
       EscapeMarkup(FindingsOf(run).sentence + LeftOutSentence(run)));
   html += Answers(run, findings);
-  html += FilmElement(media.film, true);
+  html += fmt::format("{}{}{}", kMediaBegin, FilmElement(media.film, true), kMediaEnd);
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) html += WriteScenarioCard(run, i, findings[i], media);
   html += RealTakesSection(run, real);
   html += HowToRead();

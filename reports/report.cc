@@ -9,8 +9,10 @@
 #include "io/files/files.h"
 #include "reports/comparison_table.h"
 #include "reports/films/media.h"
+#include "reports/gate_table.h"
 #include "reports/junit.h"
 #include "reports/page.h"
+#include "reports/page_check.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/viewer/world_script.h"
 #include "reports/words/cell_series.h"
@@ -22,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr const char *kReportFolder = "report", *kFilmsFolder = "video", *kPicturesFolder = "pictures";
 constexpr const char* kPage = "index.html";
-constexpr const char* kStranger = " belongs to no report of this run";
+constexpr const char *kStranger = " belongs to no report of this run", *kOtherwise = " is not what the run says";
 
 /// A file of a report that is text, by its path below `report`.
 struct ReportText {
@@ -61,23 +63,6 @@ Result<std::vector<ReportText>> TextsOf(const RunData& run) {
   return texts;
 }
 
-/// True if one page is another without its pictures and films, without what it says of those that it lacks, and without
-/// captures of real films: element by element, in the order of the page.
-bool HoldsAll(std::string_view page, std::string_view without_pictures) {
-  std::size_t at = 0;
-  while (!without_pictures.empty()) {
-    const std::size_t end = std::min(without_pictures.find('<', 1), without_pictures.size());
-    const std::string_view element = without_pictures.substr(0, end);
-    do {
-      at = page.find(element, at);
-      if (at == std::string_view::npos) return false;
-      at += end;
-    } while (at < page.size() && page[at] != '<');  // else it only begins like that
-    without_pictures.remove_prefix(end);
-  }
-  return true;
-}
-
 }  // namespace
 
 Result<bool> WriteReport(const RunData& run, const std::filesystem::path& run_folder, const ReportOptions& options) {
@@ -109,23 +94,53 @@ Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path&
     if (!Exists(folder / path)) continue;
     ++check.files;
     ASSIGN_OR_RETURN(const auto found, ReadWholeFile(folder / path));
-    if (found != text) check.differences.push_back((folder / path).string() + " is not what the run says");
+    if (found != text) check.differences.push_back((folder / path).string() + kOtherwise);
   }
+  bool has_media = false;
   if (const FilePath page = folder / kPage; Exists(page)) {
     ++check.files;
     ASSIGN_OR_RETURN(const auto found, ReadWholeFile(page));
-    if (!HoldsAll(found, WritePage(run, {}, {})))
-      check.differences.push_back(page.string() + " is not what the run says");
+    // Takes are of no run: where a page shows some, the rest of their section is compared.
+    std::vector<RealTake> takes(found.find(kTakesBegin) == std::string::npos ? 0 : 1);
+    const PageCheck compared = CheckPage(found, WritePage(run, {}, takes));
+    if (!compared.same) check.differences.push_back(page.string() + kOtherwise);
+    if (compared.has_takes) check.not_compared.push_back(page.string() + ": rows of captures of real films");
+    has_media = compared.has_media;
   }
   ASSIGN_OR_RETURN(const auto beside, PlainFilesBelow(folder));
   for (const fs::path& name : beside) {
     const bool is_picture = name.parent_path() == kPicturesFolder && name.extension() == ".exr";
+    has_media = has_media || is_picture;
     if (!is_picture && !names.contains(name)) check.differences.push_back((folder / name).string() + kStranger);
   }
   ASSIGN_OR_RETURN(const auto filmed, PlainFilesBelow(films));
   const std::set<std::string> film_names = FilmNames(run);
   for (const fs::path& name : filmed) {
     if (!film_names.contains(name.string())) check.differences.push_back((films / name).string() + kStranger);
+  }
+  if (has_media || !filmed.empty()) {
+    check.not_compared.push_back(
+        "report/ and video/: pictures and films, with their captions; etude report makes them");
+  }
+  return check;
+}
+
+Result<ReportCheck> CheckGate(const FinishedRun& run, const std::filesystem::path& run_folder) {
+  ReportCheck check;
+  const FilePath folder = Inside(run_folder) / kReportFolder;
+  ASSIGN_OR_RETURN(const auto report, JudgeRun(run, nullptr, ""));
+  bool has_baseline = false;
+  for (const auto& [name, text] :
+       {std::pair(kGateMarkdown, WriteGateMarkdown(report)), std::pair(kGateJunit, WriteGateJunit(report))}) {
+    if (!Exists(folder / name)) continue;
+    ASSIGN_OR_RETURN(const auto found, ReadWholeFile(folder / name));
+    has_baseline = has_baseline || found.find("\nBaseline ") != std::string::npos;
+    if (has_baseline) {
+      check.not_compared.push_back((folder / name).string() + ": a gate with a baseline, which is not here");
+      continue;
+    }
+    ++check.files;
+    if (found != text) check.differences.push_back((folder / name).string() + kOtherwise);
   }
   return check;
 }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "bench/gate/finished_run.h"
 #include "bench/model/run_data.h"
 #include "engine/base/result.h"
 #include "io/drawing/film.h"
@@ -32,11 +33,16 @@ constexpr const char *kGateMarkdown = "gate.md", *kGateJunit = "gate.xml";
 
 /// A report held against its run.
 struct ReportCheck {
-  int files = 0;                         ///< that are there and were compared
-  std::vector<std::string> differences;  ///< what one says that the run does not, and files that are none of a report
+  int files = 0;                          ///< that are there and were compared
+  std::vector<std::string> differences;   ///< what one says that the run does not, and files that are none of a report
+  std::vector<std::string> not_compared;  ///< what is there and was not, in words
 };
 
-/// Compares the tables, motions and page of a folder with those that its run makes; pictures and films are left out.
+/// Compares the tables, motions and page of a folder with those that its run makes, but for pictures, films and
+/// captures of real films.
 Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path& run_folder);
+
+/// Compares what a gate left beside the report with what one without a baseline says of the run.
+Result<ReportCheck> CheckGate(const FinishedRun& run, const std::filesystem::path& run_folder);
 
 }  // namespace etude

@@ -16,6 +16,7 @@
 #include "reports/badge.h"
 #include "reports/comparison_table.h"
 #include "reports/overview_table.h"
+#include "reports/page_check.h"
 #include "reports/paper/paper_a.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/plots/growth.h"
@@ -382,7 +383,9 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
       picture.empty() ? "<p class=\"quiet\">No cell gave a value that could be drawn.</p></div>" : picture + "</div>";
   html += WatchHtml(run, index);
   const std::string stills = Strip(scenario, media) + Plates(scenario, media);
+  html += kMediaBegin;
   html += Folded(stills.empty() ? "Film" : "Film, stills", ScenarioFilms(scenario, media) + stills);
+  html += kMediaEnd;
   html += Folded("Methods", WhatIsCompared(scenario));
   html += Folded("Metrics", OverviewTableHtml(run, scenario));
   html += Folded(Plural(static_cast<long long>(CountComparisons(scenario)), "comparison"),

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/ranges.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -53,7 +54,7 @@ fs::path PartialOf(const fs::path& path) { return Named(path).string() + ".parti
 
 /// Opens and locks a folder; −1 when another process holds it.
 int Lock(const fs::path& folder) {
-  const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (lock < 0 || LockUnlessTaken(lock, folder)) return lock;
   ::close(lock);
   return -1;
@@ -76,8 +77,9 @@ class NewFolder {
     if (fs::is_directory(status) && !fs::is_empty(path, error)) {
       return Fail(place, "is not empty; choose another folder with -o");
     }
-    RETURN_IF_ERROR(MakeFolder(PartialOf(path)));
-    NewFolder folder(path, Lock(PartialOf(path)));
+    const fs::path partial = PartialOf(path);
+    RETURN_IF_ERROR(MakeFolder(Inside(partial.parent_path()) / partial.filename()));
+    NewFolder folder(path, Lock(partial));
     if (folder.lock_ < 0) return Fail(place, "another export is writing it; choose another folder with -o");
     // What is there is of an export that was killed, or somebody else's.
     for (fs::directory_iterator entry(folder.partial_, error), end; !error && entry != end; entry.increment(error)) {
@@ -98,15 +100,17 @@ class NewFolder {
   ~NewFolder() {
     if (lock_ < 0) return;
     std::error_code ignored;
-    fs::remove_all(partial_, ignored);
+    if (IsOurs(partial_)) fs::remove_all(partial_, ignored);
     ::close(lock_);
   }
 
-  const fs::path& partial() const { return partial_; }
+  /// What is written below it follows no link, even if one takes its place.
+  FilePath partial() const { return Inside(partial_.parent_path()) / partial_.filename(); }
 
   /// Gives the folder its name, when all that it holds is on its disk.
   Result<void> Finish() {
     RETURN_IF_ERROR(SyncTree(partial_));
+    if (!IsOurs(partial_)) return Fail({partial_.string()}, "was exchanged for something else while it was filled");
     std::error_code error;
     fs::rename(partial_, path_, error);
     if (error) return CannotWrite(path_.string(), "cannot be written", error.value());
@@ -117,11 +121,19 @@ class NewFolder {
  private:
   NewFolder(const fs::path& path, int lock) : path_(Named(path)), partial_(PartialOf(path)), lock_(lock) {}
 
+  /// True if this is the name of the folder that was locked.
+  bool IsOurs(const fs::path& name) const {
+    struct stat locked {
+    }, named{};
+    return ::fstat(lock_, &locked) == 0 && ::lstat(name.c_str(), &named) == 0 && locked.st_ino == named.st_ino &&
+           locked.st_dev == named.st_dev;
+  }
+
   fs::path path_, partial_;
   int lock_;  ///< −1 once it is finished
 };
 
-Result<void> SavePayload(const Payload& payload, const fs::path& folder, const char* name) {
+Result<void> SavePayload(const Payload& payload, const FilePath& folder, const char* name) {
   RETURN_IF_ERROR(SaveJson(folder / name, *payload.json, OnDisk::kLater));
   for (const Attachment& file : payload.files) {
     RETURN_IF_ERROR(WriteFileAtomically(folder / file.name, file.bytes, OnDisk::kLater));
@@ -133,7 +145,7 @@ class Exporter {
  public:
   static constexpr std::size_t kParts = 3;  ///< of a world: its problem is made, written, its truth written
 
-  Exporter(const PreparedScenario& scenario, fs::path folder, bool films)
+  Exporter(const PreparedScenario& scenario, FilePath folder, bool films)
       : scenario_(scenario), folder_(std::move(folder)), films_(films) {}
 
   Result<void> SaveSetting(int condition, const std::string& place) {
@@ -188,7 +200,7 @@ class Exporter {
   }
 
   const PreparedScenario& scenario_;
-  const fs::path folder_;
+  const FilePath folder_;
   const bool films_;
 };
 

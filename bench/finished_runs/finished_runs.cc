@@ -180,7 +180,9 @@ Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed)
   return run;
 }
 
-Result<FinishedRun> LoadFinishedRun(const fs::path& folder, Sealing sealing) {
+namespace {
+
+Result<FinishedRun> ReadFinishedRun(const fs::path& folder, Sealing sealing) {
   FinishedRun run;
   if (Exists(Inside(folder) / kJournalFile)) {
     run.incomplete.push_back(
@@ -195,6 +197,13 @@ Result<FinishedRun> LoadFinishedRun(const fs::path& folder, Sealing sealing) {
     return Fail({(folder / "timings.jsonl").string(), 0, 0}, "tells no times, which a gate of this run needs");
   }
   return run;
+}
+
+}  // namespace
+
+Result<FinishedRun> LoadFinishedRun(const fs::path& folder, Sealing sealing) {
+  const FolderBegun begun(folder);
+  return begun.Tell(ReadFinishedRun(folder, sealing));
 }
 
 }  // namespace etude

@@ -2,30 +2,15 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <set>
-#include <vector>
+#include <utility>
 
 #include "bench/outside/outside_method.h"
+#include "io/files/json_text.h"
 
 namespace etude {
 namespace {
 
 constexpr std::size_t kLongestName = 200;
-
-/// Parses a line; `repeated` is the first key that an object names twice, since readers disagree about which one
-/// counts.
-Json ParseLine(const std::string& line, std::optional<std::string>& repeated) {
-  std::vector<std::set<std::string>> open;  // the keys of the objects that we are in
-  return Json::parse(line, [&](int, Json::parse_event_t event, const Json& parsed) {
-    if (event == Json::parse_event_t::object_start) open.emplace_back();
-    if (event == Json::parse_event_t::object_end) open.pop_back();
-    if (event == Json::parse_event_t::key && !open.back().insert(parsed.get<std::string>()).second && !repeated) {
-      repeated = parsed.get<std::string>();
-    }
-    return true;
-  });
-}
 
 /// Reads an object with a text `type`.
 Result<Json> ReadMessage(const std::string& line) {
@@ -33,19 +18,20 @@ Result<Json> ReadMessage(const std::string& line) {
     return Fail({}, "said something nested more than {} deep: {}", kDeepestReply, Printable(line));
   }
   if (line.find('\0') != std::string::npos) return Fail({}, "said something that is not JSON: a zero byte");
-  Json message;
-  try {
-    std::optional<std::string> repeated;
-    message = ParseLine(line, repeated);
-    if (repeated) return Fail({}, "named the key {} twice in one object: {}", Printable(*repeated), Printable(line));
-  } catch (const Json::parse_error& error) {
-    const std::size_t start = error.byte > 40 ? error.byte - 40 : 0;
-    const std::string where = start == 0 ? "" : fmt::format(" near byte {}", error.byte);
+  JsonText parsed = ParseJsonText(line);
+  if (parsed.fault && parsed.fault->is_large_number)
+    return Fail({}, "said a number that is too large: {}", Printable(line));
+  if (parsed.fault) {
+    const std::size_t start = parsed.fault->byte > 40 ? parsed.fault->byte - 40 : 0;
+    const std::string where = start == 0 ? "" : fmt::format(" near byte {}", parsed.fault->byte);
     return Fail({}, "said something that is not JSON{}: {}", where,
                 Printable(std::string_view(line).substr(std::min(start, line.size()))));
-  } catch (const Json::out_of_range&) {
-    return Fail({}, "said a number that is too large: {}", Printable(line));
   }
+  // Readers disagree about which of the two counts.
+  if (parsed.repeated_key) {
+    return Fail({}, "named the key {} twice in one object: {}", Printable(*parsed.repeated_key), Printable(line));
+  }
+  Json message = std::move(parsed.value);
   if (!message.is_object() || !message.contains("type") || !message["type"].is_string()) {
     return Fail({}, "said something that is no message with a \"type\": {}", Printable(line));
   }

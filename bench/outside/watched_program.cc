@@ -146,6 +146,7 @@ OutsideOutcome<void> WatchedProgram::Start() {
                                       .error_file = errors_.path(),
                                       .limited = true,
                                       .contained = options_.fence.IsUp(),
+                                      .programs = options_.fence.programs(),
                                       .control_group = group_.folder(),
                                       .told = fenced.told,
                                       .environment = std::move(environment)});
@@ -203,7 +204,7 @@ OutsideOutcome<void> WatchedProgram::Look() {
   for (const auto& [count, limit, what] : {std::tuple{load.processes, ProgramLimits::kProcesses, "processes"},
                                            {load.threads, ProgramLimits::kThreads, "threads"},
                                            {load.descriptors, ProgramLimits::kDescriptors, "open files"},
-                                           {load.pipes, ProgramLimits::kPipes, "pipes"},
+                                           {load.pipes, ProgramLimits::Pipes(options_.fence.programs()), "pipes"},
                                            {load.sockets, ProgramLimits::kSockets, "sockets"},
                                            {load.file_locks, ProgramLimits::kFileLocks, "locks of files"}}) {
     if (count > limit) return TooMuch(fmt::format("held more than {} {}", limit, what));

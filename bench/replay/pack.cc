@@ -187,6 +187,7 @@ Result<std::optional<CellCheck>> ReplayPack(const std::string& file, const Outsi
   RETURN_IF_ERROR(UnpackMotions(pack, file, folder.path()));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(pack.suite));
   RETURN_IF_ERROR(CheckPrograms(file, scenarios, outside));
+  RETURN_IF_ERROR(NoteKey(file, pack.suite, scenarios, key));
   ASSIGN_OR_RETURN(const Fence fence, FenceFor(scenarios, outside, "", key));
   const Plan plan(scenarios);
   std::size_t cell = 0;

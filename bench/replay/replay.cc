@@ -9,6 +9,7 @@
 #include "bench/results/row_json.h"
 #include "bench/run/manifest.h"
 #include "bench/run/supervisor.h"
+#include "bench/run/used_keys.h"
 #include "engine/base/digest.h"
 #include "engine/base/names.h"
 #include "io/files/files.h"
@@ -129,10 +130,17 @@ CellCheck CompareRows(const Row& then, const Row& now) {
   return check;
 }
 
+Result<void> NoteKey(const std::string& target, const SuiteSetup& suite, std::span<const PreparedScenario> scenarios,
+                     const std::optional<SecretKey>& key) {
+  if (!key || suite.seed.IsPlain() || ProgramsOf(scenarios).empty()) return {};
+  return NoteRepeat(*key, {"replay", suite.suite, DigestOfRun(EncodeSetup(suite)), {}, target});
+}
+
 Result<ReplayOutcome> ReplayRun(const ReplayOptions& options) {
+  const FolderBegun begun(options.folder);
   ASSIGN_OR_RETURN(const auto run, LoadRun(options.folder, options.sealing));
-  ASSIGN_OR_RETURN(const auto prepared, PrepareRun(Inside(options.folder) / "manifest.json", options.key));
-  return ReplayPrepared(options, run, prepared);
+  ASSIGN_OR_RETURN(const auto prepared, begun.Tell(PrepareRun(Inside(options.folder) / "manifest.json", options.key)));
+  return begun.Tell(ReplayPrepared(options, run, prepared));
 }
 
 Result<ReplayOutcome> ReplayPrepared(const ReplayOptions& options, const RunData& run, const PreparedRun& prepared) {
@@ -143,7 +151,10 @@ Result<ReplayOutcome> ReplayPrepared(const ReplayOptions& options, const RunData
   ReplayOutcome outcome;
   ASSIGN_OR_RETURN(outcome.choice, ChooseCells(options, run, prepared));
   const std::set<std::size_t>& chosen = outcome.choice.places;
-  if (!options.without_programs) RETURN_IF_ERROR(CheckPrograms(options.folder, prepared.scenarios, options.outside));
+  if (!options.without_programs) {
+    RETURN_IF_ERROR(CheckPrograms(options.folder, prepared.scenarios, options.outside));
+    RETURN_IF_ERROR(NoteKey(options.folder, prepared.suite, prepared.scenarios, options.key));
+  }
   ASSIGN_OR_RETURN(const Fence fence, FenceFor(prepared.scenarios, options.outside, options.folder, options.key));
   // A failure's reason quotes a program's last words, which are kept only where there is a place for them.
   std::optional<TemporaryFolder> errors;

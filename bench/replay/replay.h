@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,10 @@ struct ReplayOutcome {
 Result<ReplayOutcome> ReplayRun(const ReplayOptions& options);
 /// The same, of a run that was read and made ready.
 Result<ReplayOutcome> ReplayPrepared(const ReplayOptions& options, const RunData& run, const PreparedRun& prepared);
+
+/// Notes a secret key beside its file as used, where cells of `target` are run again by programs that it names.
+Result<void> NoteKey(const std::string& target, const SuiteSetup& suite, std::span<const PreparedScenario> scenarios,
+                     const std::optional<SecretKey>& key);
 
 /// Writes all that is needed to repeat one cell elsewhere into one file: the scenario, the clips, and what came of it.
 Result<void> PackCell(const std::string& folder, const std::string& cell, const std::string& file,

@@ -1,13 +1,19 @@
 #include "bench/replay/verify.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "bench/finished_runs/finished_runs.h"
+#include "bench/results/columns.h"
 #include "bench/results/row_json.h"
 #include "bench/results/seal.h"
 #include "bench/results/summary_json.h"
@@ -16,8 +22,12 @@
 #include "bench/run/sum_up.h"
 #include "bench/run/supervisor.h"
 #include "bench/statistics/scenario_table.h"
+#include "engine/base/machine.h"
 #include "engine/base/names.h"
 #include "io/files/files.h"
+#include "io/files/files.h"
+#include "io/files/json_text.h"
+#include "io/files/temporary_folder.h"
 
 namespace etude {
 namespace {
@@ -47,6 +57,67 @@ Result<Verified> VerifySummary(const FilePath& folder, const FinishedRun& run, i
   ASSIGN_OR_RETURN(const auto again, ReadJson(text, "the summary computed again"));
   const auto differences = CompareManifests(then, again);
   verified.differences = {differences.empty() ? "is written otherwise" : InWords(differences)};
+  return verified;
+}
+
+/// The part of a value that a program on another machine, or another version of it, may say otherwise: of the same
+/// kind, for other readers.
+constexpr std::array kSaidByMachine = {"etude", "compiler", "packages", "glibc", "libraries", "environment"};
+
+bool IsTextOrTexts(const Json& value) {
+  return value.is_string() ||
+         (value.is_object() && std::ranges::all_of(value, [](const Json& one) { return one.is_string(); }));
+}
+
+/// True if a scenario, or another text of the suite, names a text.
+bool IsNamed(const std::string& name, const SuiteSetup& suite) {
+  const std::string last = fs::path(name).filename().string();
+  return std::ranges::any_of(suite.scenarios,
+                             [&](const ScenarioSetup& one) {
+                               return one.file == name || one.joint_map == name ||
+                                      std::ranges::find(one.labels, name) != one.labels.end();
+                             }) ||
+         std::ranges::any_of(suite.sources, [&](const auto& other) {
+           return other.first != name && other.second.find(last) != std::string::npos;
+         });
+}
+
+/// Compares the manifest with the one that a run of these scenarios writes, but for what it says of its machine.
+/// Without `scenarios`, which are prepared, it may say of clips what it likes.
+Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, const SuiteSetup& suite,
+                                std::span<const PreparedScenario> scenarios) {
+  Verified verified{"manifest.json: what such a run writes", {}};
+  ASSIGN_OR_RETURN(const auto then, ReadJsonFile(folder / "manifest.json"));
+  ASSIGN_OR_RETURN(auto now, MakeManifest(suite, scenarios, run.data.program_version));
+  const auto keep = [](const Json& from, Json& to, const char* key) {
+    if (to.contains(key) && from.contains(key) && IsTextOrTexts(from.at(key)) &&
+        from.at(key).is_object() == to.at(key).is_object())
+      to[key] = from.at(key);
+  };
+  for (const char* key : kSaidByMachine) keep(then, now, key);
+  if (then.contains("scored") && now.contains("scored")) {
+    for (const char* key : {"answers", "digest"}) {  // of predictions, which are not here
+      if (const Json& scored = then.at("scored"); scored.contains(key)) now["scored"][key] = scored.at(key);
+    }
+  }
+  const Json& told = then.at("scenarios");
+  for (std::size_t s = 0; s < now["scenarios"].size() && s < told.size(); ++s) {
+    Json& scenario = now["scenarios"][s];
+    keep(told.at(s), scenario, "platform");
+    if (!scenarios.empty()) continue;
+    for (const char* key : {"loaded_clips", "platform"}) {
+      if (told.at(s).contains(key)) scenario[key] = told.at(s).at(key);
+    }
+  }
+  ASSIGN_OR_RETURN(const auto text, WriteJson(now));
+  ASSIGN_OR_RETURN(const auto found, ReadWholeFile(folder / "manifest.json"));
+  if (found != text + "\n") {
+    const auto differences = CompareManifests(then, now);
+    verified.differences = {differences.empty() ? "is written otherwise" : InWords(differences)};
+  }
+  for (const auto& [name, _] : suite.sources) {
+    if (!IsNamed(name, suite)) verified.differences.push_back(fmt::format("sources: nothing names '{}'", name));
+  }
   return verified;
 }
 
@@ -123,24 +194,6 @@ Verified VerifyRows(const FinishedRun& run) {
   return verified;
 }
 
-/// Finds a key that stands twice in one object: readers differ in which of the two they take.
-std::optional<std::string> FindKeyTwice(const std::string& text) {
-  std::vector<std::set<std::string>> open;
-  std::optional<std::string> twice;
-  std::ignore = Json::parse(
-      text,
-      [&](int, Json::parse_event_t event, Json& value) {
-        if (event == Json::parse_event_t::object_start) open.emplace_back();
-        if (event == Json::parse_event_t::object_end) open.pop_back();
-        if (event != Json::parse_event_t::key) return true;
-        const auto key = value.get<std::string>();
-        if (!open.back().insert(key).second && !twice) twice = key;
-        return true;
-      },
-      /*allow_exceptions=*/false);
-  return twice;
-}
-
 /// Compares the lines of a file with those that a run would write. `line_of` gives the next one.
 Result<void> CompareLines(const FilePath& file, const std::function<Result<std::string>()>& line_of,
                           Verified& verified) {
@@ -163,7 +216,8 @@ Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
   }
   for (const FilePath& file : files) {
     ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
-    if (const auto key = FindKeyTwice(text))
+    // Readers differ in which of the two they take.
+    if (const auto key = ParseJsonText(text).repeated_key)
       verified.differences.push_back(fmt::format("{}: '{}' stands there twice", file.string(), *key));
   }
   if (run.data.source) return verified;
@@ -189,6 +243,57 @@ Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
           return WriteJson(EncodeSeriesLine(of_cell.cell, of_cell.series));
         },
         verified));
+  }
+  return verified;
+}
+
+/// True if two files hold the same.
+Result<bool> AreSame(const FilePath& a, const FilePath& b) {
+  constexpr std::size_t kChunk = 1 << 20;
+  ASSIGN_OR_RETURN(const auto first, OpenFile(a, O_RDONLY));
+  ASSIGN_OR_RETURN(const auto second, OpenFile(b, O_RDONLY));
+  std::string one(kChunk, 0), other(kChunk, 0);
+  const auto read = [](const Descriptor& file, const FilePath& path, std::string& into) -> Result<std::size_t> {
+    std::size_t filled = 0;
+    while (filled < into.size()) {
+      const ssize_t count = ::read(file.number(), into.data() + filled, into.size() - filled);
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) return CannotRead(path.string(), "cannot read this file", errno);
+      if (count == 0) break;
+      filled += static_cast<std::size_t>(count);
+    }
+    return filled;
+  };
+  while (true) {
+    ASSIGN_OR_RETURN(const auto of_one, read(first, a, one));
+    ASSIGN_OR_RETURN(const auto of_other, read(second, b, other));
+    if (std::string_view(one).substr(0, of_one) != std::string_view(other).substr(0, of_other)) return false;
+    if (of_one < kChunk) return true;
+  }
+}
+
+/// Writes the columns of every scenario again from the rows, and compares them: other readers take from a column also
+/// what belongs to no row.
+Result<Verified> VerifyColumns(const FilePath& folder, const FinishedRun& run) {
+  Verified verified{"columns: those that the rows make, by the byte", {}};
+  std::size_t place = 0;
+  for (const FinishedScenario& scenario : run.scenarios) {
+    ASSIGN_OR_RETURN(const auto again, TemporaryFolder::Make("verify"));
+    ColumnWriter writer(again.path(), scenario.study);
+    const std::size_t end = place + CellsOf(scenario.study).size();
+    for (Row row; place < end; ++place) {
+      run.data.source->Read(place, row);
+      row.result.series = run.data.source->SeriesOf(place);
+      RETURN_IF_ERROR(writer.Add(row, {}));
+    }
+    RETURN_IF_ERROR(writer.Finish());
+    ASSIGN_OR_RETURN(const auto index, ReadColumnIndex(folder / kColumnsFolder / scenario.study.scenario));
+    for (const fs::path& name : FilesOfColumns(index)) {
+      if (*name.begin() != kColumnsFolder || !Exists(folder / name)) continue;
+      const bool is_made = fs::exists(again.path() / name);
+      ASSIGN_OR_RETURN(const bool same, is_made ? AreSame(folder / name, again.path() / name) : Result<bool>(false));
+      if (!same) verified.differences.push_back(name.generic_string() + " holds what belongs to no row");
+    }
   }
   return verified;
 }
@@ -226,9 +331,7 @@ Verified VerifyCells(const ReplayOutcome& replayed) {
   return verified;
 }
 
-}  // namespace
-
-Result<VerifyOutcome> VerifyRun(const ReplayOptions& options, bool replays) {
+Result<VerifyOutcome> VerifyFolder(const ReplayOptions& options, bool replays) {
   const FilePath folder = Inside(options.folder);
   ASSIGN_OR_RETURN(const auto run, LoadFinishedRun(options.folder, Sealing::kIgnored));
   VerifyOutcome outcome;
@@ -239,14 +342,29 @@ Result<VerifyOutcome> VerifyRun(const ReplayOptions& options, bool replays) {
   if (!all.back().differences.empty()) return outcome;
   ASSIGN_OR_RETURN(all.emplace_back(), VerifyFiles(folder, run));
   ASSIGN_OR_RETURN(all.emplace_back(), VerifyText(folder, run));
+  if (run.data.source) {
+    ASSIGN_OR_RETURN(all.emplace_back(), VerifyColumns(folder, run));
+  }
   ASSIGN_OR_RETURN(all.emplace_back(), VerifySummary(folder, run, WorkerCount(options.jobs)));
-  if (!replays) return outcome;
+  if (!replays) {
+    ASSIGN_OR_RETURN(const auto suite, ReadManifest(folder / "manifest.json"));
+    ASSIGN_OR_RETURN(all.emplace_back(), VerifyManifest(folder, run, suite, {}));
+    return outcome;
+  }
   ASSIGN_OR_RETURN(const auto prepared, PrepareRun(folder / "manifest.json", options.key));
+  ASSIGN_OR_RETURN(all.emplace_back(), VerifyManifest(folder, run, prepared.suite, prepared.scenarios));
   all.push_back(VerifyWorlds(run, Plan(prepared.scenarios)));
   ASSIGN_OR_RETURN(auto replayed, ReplayPrepared(options, run.data, prepared));
   all.push_back(VerifyCells(replayed));
   outcome.choice = std::move(replayed.choice);
   return outcome;
+}
+
+}  // namespace
+
+Result<VerifyOutcome> VerifyRun(const ReplayOptions& options, bool replays) {
+  const FolderBegun begun(options.folder);
+  return begun.Tell(VerifyFolder(options, replays));
 }
 
 }  // namespace etude

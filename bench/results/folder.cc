@@ -1,5 +1,7 @@
 #include "bench/results/folder.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cassert>
 #include <map>
@@ -201,7 +203,15 @@ Result<void> ResultWriter::Finish(const std::vector<ScenarioSummary>& scenarios)
   return cells_ ? cells_->Finish(OnDisk::kLater) : Result<void>();
 }
 
-Result<RunData> LoadRunOutline(const fs::path& path, Sealing sealing) {
+namespace {
+
+std::pair<std::uint64_t, std::uint64_t> NumberOf(const fs::path& folder) {
+  struct stat status {};
+  if (::stat(folder.c_str(), &status) != 0) return {};
+  return {status.st_dev, status.st_ino};
+}
+
+Result<RunData> ReadOutline(const fs::path& path, Sealing sealing) {
   RunData run;
   const FilePath folder = Inside(path);
   const Place place{path.string(), 0, 0};
@@ -234,12 +244,27 @@ Result<RunData> LoadRunOutline(const fs::path& path, Sealing sealing) {
   return run;
 }
 
+}  // namespace
+
+FolderBegun::FolderBegun(const fs::path& folder) : folder_(folder), number_(NumberOf(folder)) {}
+bool FolderBegun::IsThere() const { return NumberOf(folder_) == number_; }
+tl::unexpected<Error> FolderBegun::WasReplaced() const {
+  return Fail({folder_.string()}, "was replaced by another run while it was read");
+}
+
+Result<RunData> LoadRunOutline(const fs::path& path, Sealing sealing) {
+  const FolderBegun begun(path);
+  return begun.Tell(ReadOutline(path, sealing));
+}
+
 Result<void> CheckStillThere(const fs::path& folder, const RunData& run) {
   if (SealText(Inside(folder)) == run.seal) return {};
   return Fail({folder.string()}, "was replaced by another run while it was read");
 }
 
-Result<RunData> LoadRun(const fs::path& folder, Sealing sealing) {
+namespace {
+
+Result<RunData> ReadRun(const fs::path& folder, Sealing sealing) {
   ASSIGN_OR_RETURN(auto run, LoadRunOutline(folder, sealing));
   if (run.source) {
     for (const std::size_t place : run.source->PlacesAtEqualSteps(kMostRowsHeld)) {
@@ -262,8 +287,8 @@ Result<RunData> LoadRun(const fs::path& folder, Sealing sealing) {
   return run;
 }
 
-Result<void> WriteRows(const fs::path& folder, Sealing sealing,
-                       const std::function<Result<void>(std::string_view line)>& write) {
+Result<void> ReadRows(const fs::path& folder, Sealing sealing,
+                      const std::function<Result<void>(std::string_view line)>& write) {
   ASSIGN_OR_RETURN(const auto run, LoadRunOutline(folder, sealing));
   if (!run.source) {
     RETURN_IF_ERROR(ForEachLine(Inside(folder) / kCellsFile,
@@ -277,6 +302,19 @@ Result<void> WriteRows(const fs::path& folder, Sealing sealing,
     RETURN_IF_ERROR(write(line + "\n"));
   }
   return {};
+}
+
+}  // namespace
+
+Result<RunData> LoadRun(const fs::path& folder, Sealing sealing) {
+  const FolderBegun begun(folder);
+  return begun.Tell(ReadRun(folder, sealing));
+}
+
+Result<void> WriteRows(const fs::path& folder, Sealing sealing,
+                       const std::function<Result<void>(std::string_view line)>& write) {
+  const FolderBegun begun(folder);
+  return begun.Tell(ReadRows(folder, sealing, write));
 }
 
 Result<void> CheckRowsAgainstSummary(const fs::path& folder, const RunData& run) {

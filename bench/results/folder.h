@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bench/model/run_data.h"
@@ -75,6 +77,25 @@ Result<RunData> LoadRunOutline(const std::filesystem::path& folder, Sealing seal
 
 /// Fails when another run has taken the folder's place since `run` was loaded from it.
 Result<void> CheckStillThere(const std::filesystem::path& folder, const RunData& run);
+
+/// A folder as it stood when a reader began.
+class FolderBegun {
+ public:
+  explicit FolderBegun(const std::filesystem::path& folder);
+  /// Gives what was read; of a failure to read, when another folder stands there by now, says that instead.
+  template <typename Value>
+  Result<Value> Tell(Result<Value> read) const {
+    if (read || IsThere()) return read;
+    return WasReplaced();
+  }
+
+ private:
+  bool IsThere() const;
+  tl::unexpected<Error> WasReplaced() const;
+
+  std::filesystem::path folder_;
+  std::pair<std::uint64_t, std::uint64_t> number_;  ///< of its device, and there
+};
 
 /// The file that keeps the recording of a cell (Row::Id), where there is one.
 FilePath RecordingFile(const std::filesystem::path& folder, const std::string& cell);

@@ -48,7 +48,8 @@ class NpyWriter {
   std::size_t count_ = 0;
 };
 
-/// An .npy file mapped into memory: the system reads of it what is looked at.
+/// An .npy file mapped into memory: the system reads of it what is looked at. A file that somebody cuts short meanwhile
+/// ends the process, with a complaint and the status of what the machine has stopped.
 class NpyFile {
  public:
   /// Fails, naming the path, when it is none that NpyWriter wrote, or holds another number of numbers.

@@ -104,6 +104,11 @@ Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const Outsid
       for (const fs::path& mine : ours) {
         if (IsOursInSystem(mine, Canonical(command.front()))) fence.Hide(mine);
       }
+      if (fence.IsUp()) {
+        for (const fs::path& shown : ViewOf(command, program.entry->files).shown) {
+          for (const fs::path& pipe : Fence::PipesBelow(shown)) fence.Hide(pipe);
+        }
+      }
       if (!is_secret || !rules.is_fenced) continue;
       if (!fence.IsUp()) {
         return Fail({scenario.setup().file},
@@ -134,7 +139,8 @@ Json EncodeFence(const Fence& fence) {
   return {{"program", fence.program()},
           {"hidden", Texts(fence.hidden())},
           {"kept", Texts(fence.kept())},
-          {"groups", fence.groups()}};
+          {"groups", fence.groups()},
+          {"programs", fence.programs()}};
 }
 
 Fence DecodeFence(const Json& json) {
@@ -143,6 +149,7 @@ Fence DecodeFence(const Json& json) {
     return std::vector<fs::path>(texts.begin(), texts.end());
   };
   Fence fence = Fence::Of(json.at("program").get<std::string>(), paths("kept"), json.at("groups").get<std::string>());
+  fence.ShareBy(json.at("programs").get<int>());
   for (const fs::path& path : paths("hidden")) fence.Hide(path);
   return fence;
 }

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <utility>
+#include <vector>
 
 #include "bench/results/columns.h"
 #include "bench/results/folder.h"
@@ -35,7 +36,8 @@ bool IsPartOfRun(const fs::path& name) {
                      [&](const std::string& part) { return name == part || name == TemporaryName(part); });
 }
 
-constexpr const char *kOldRun = "old", *kNewRun = "new";  // beside the folder, while one takes the other's place
+// Beside the folder, while one takes the other's place; and what is to be deleted.
+constexpr const char *kOldRun = "old", *kNewRun = "new", *kGone = "gone";
 
 bool HoldsMoreThanLock(const fs::path& folder) {
   std::error_code none;
@@ -94,16 +96,44 @@ Result<RunFolder> RunFolder::Claim(const fs::path& path, bool keep_contents) {
   if (error) return CannotWrite(path.string(), "cannot be made", error.value());
   RunFolder folder(path, made);
   RETURN_IF_ERROR(folder.Lock());
-  if (keep_contents || !HoldsMoreThanLock(path)) return folder;
+  if (keep_contents) return folder;
+  ASSIGN_OR_RETURN(const bool has_old, folder.TakeUp());
+  if (has_old || !HoldsMoreThanLock(path)) return folder;
   if (!folder.Replace()) RETURN_IF_ERROR(folder.Empty());
   return folder;
+}
+
+std::vector<TemporaryFolder> RunFolder::FindLeft() const {
+  std::error_code error;
+  const fs::path path = fs::canonical(path_, error);
+  if (error) return {};
+  return TemporaryFolder::FindKept(path.parent_path(), path.filename().string());
+}
+
+Result<bool> RunFolder::TakeUp() {
+  std::vector<TemporaryFolder> left = FindLeft();  // removed with what they hold unless we take one
+  if (left.empty()) return false;
+  ASSIGN_OR_RETURN(const auto state, LookAtFolder(path_));
+  if (state == FolderState::kFinished) return false;
+  for (TemporaryFolder& one : left) {
+    std::error_code error;
+    const fs::path old = one.path() / kOldRun, exchanged = one.path() / kNewRun;
+    // It was killed between the two steps of `Exchange`.
+    if (!fs::exists(old, error) && HoldsMoreThanLock(exchanged)) fs::rename(exchanged, old, error);
+    if (!HoldsMoreThanLock(old)) continue;
+    aside_ = std::move(one);
+    is_ours_ = true;
+    RETURN_IF_ERROR(Empty());
+    return true;
+  }
+  return false;
 }
 
 bool RunFolder::Replace() {
   std::error_code error;
   const fs::path old = fs::canonical(path_, error);  // a link to the folder stays
   if (error || IsWithin(fs::current_path(error), old) || !old.has_relative_path()) return false;
-  auto aside = TemporaryFolder::MakeIn(old.parent_path(), "replaced");
+  auto aside = TemporaryFolder::MakeKept(old.parent_path(), old.filename().string());
   if (!aside) return false;
   // A folder of its own, locked before it gets the name.
   const fs::path fresh = aside->path() / kNewRun;
@@ -140,8 +170,13 @@ Result<void> RunFolder::Empty() {
 }
 
 void RunFolder::Keep() {
+  if (std::exchange(is_kept_, true)) return;
   is_ours_ = false;
+  std::error_code ignored;
+  // Killed while it deletes, it leaves nothing that looks like a run.
+  if (aside_) fs::rename(aside_->path() / kOldRun, aside_->path() / kGone, ignored);
   aside_.reset();
+  FindLeft();  // of an overwriting that was killed, whose run was gone on with
 }
 
 Result<void> RunFolder::Lock() {
@@ -178,6 +213,7 @@ Result<void> RunFolder::Lock() {
 RunFolder::RunFolder(RunFolder&& other) noexcept
     : path_(std::move(other.path_)),
       is_ours_(std::exchange(other.is_ours_, false)),
+      is_kept_(other.is_kept_),
       lock_(std::exchange(other.lock_, -1)),
       aside_(std::exchange(other.aside_, std::nullopt)),
       why_unlocked_(std::move(other.why_unlocked_)) {}
@@ -185,7 +221,7 @@ RunFolder::RunFolder(RunFolder&& other) noexcept
 RunFolder::~RunFolder() {
   std::error_code ignored;
   const bool is_put_back =
-      is_ours_ && aside_ && Exchange(aside_->path() / kOldRun, fs::canonical(path_, ignored), aside_->path() / kNewRun);
+      is_ours_ && aside_ && Exchange(aside_->path() / kOldRun, fs::canonical(path_, ignored), aside_->path() / kGone);
   if (lock_ >= 0 && !is_put_back) fs::remove(path_ / kLockFile, ignored);
   if (is_ours_ && !is_put_back) fs::remove_all(path_, ignored);
   if (lock_ >= 0) ::close(lock_);

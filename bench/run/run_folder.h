@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bench/run/journal.h"
 #include "engine/base/result.h"
@@ -46,9 +47,15 @@ class RunFolder {
   /// Puts an empty folder, locked by us, in the place of this one. False where it cannot be renamed.
   bool Replace();
   Result<void> Empty();
+  /// Takes up where an overwriting of this folder was killed: the folder holds no whole run, and the one that it held
+  /// before is still aside. That is put back, too, unless this run comes further. False where there is none.
+  Result<bool> TakeUp();
+  /// What overwritings of this folder that were killed have left.
+  std::vector<TemporaryFolder> FindLeft() const;
 
   std::filesystem::path path_;
   bool is_ours_;                          ///< made by this run, and nothing in it yet that is worth keeping
+  bool is_kept_ = false;                  ///< something is by now
   int lock_ = -1;                         ///< the lock ends with the process, however that ends
   std::optional<TemporaryFolder> aside_;  ///< holds what the folder held before, as `kOldRun`
   std::string why_unlocked_;

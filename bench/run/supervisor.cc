@@ -81,12 +81,17 @@ class Supervisor {
 
   Result<bool> Run(const SuiteSetup& setup) {
     AdoptOrphans();  // a worker that is killed leaves its methods outside to us
+    const std::size_t jobs = std::min<std::size_t>(WorkerCount(options_.jobs), orders_.size());
+    std::size_t programs = 1;  // of one worker at the same time
+    for (const PreparedScenario& scenario : plan_.scenarios())
+      programs = std::max(programs, ProgramsIn(scenario.scenario()).size());
+    Fence fence = options_.fence;
+    fence.ShareBy(static_cast<int>(std::max<std::size_t>(jobs, 1) * programs));
     ASSIGN_OR_RETURN(const auto setup_line, WriteJson({{"setup", EncodeSetup(setup)},
                                                        {"error_folder", options_.error_folder},
-                                                       {"fence", EncodeFence(options_.fence)},
+                                                       {"fence", EncodeFence(fence)},
                                                        {"key", setup.seed.IsPlain() ? "" : Hex(setup.seed.key())}}));
     setup_line_ = setup_line;
-    const std::size_t jobs = std::min<std::size_t>(WorkerCount(options_.jobs), orders_.size());
     while (workers_.size() < jobs) {
       auto worker = StartWorker();
       if (!worker && !workers_.empty()) break;  // fewer do the same work

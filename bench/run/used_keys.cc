@@ -69,6 +69,9 @@ class UsedKeys {
   }
 
   bool Has(const Json& use) const { return std::ranges::find(lines_, use) != lines_.end(); }
+  bool HasKeyOf(const Json& use) const {
+    return std::ranges::any_of(lines_, [&](const Json& line) { return line.at("key") == use.at("key"); });
+  }
 
   Result<void> Check(const SecretKey& key, const Json& use, const KeyUse& how) const {
     if (how.continues && Has(use)) return {};
@@ -168,6 +171,19 @@ Result<void> NoteUse(const SecretKey& key, const KeyUse& use, bool may_be_used) 
   if (!may_be_used) RETURN_IF_ERROR(keys->Check(key, line, use));
   auto added = keys->Add(line);
   return may_be_known ? Result<void>() : added;
+}
+
+Result<void> NoteRepeat(const SecretKey& key, const KeyUse& use) {
+  const fs::path list = ListOf(key);
+  if (list.empty()) return {};
+  const Json line = Encode(key, use);
+  auto keys = UsedKeys::Open(list);
+  if (!keys) {
+    return Fail({list.string()},
+                "cannot be written, so that nothing would tell that programs of this run were asked in worlds of the "
+                "key; allowed: a key in a folder that you may write to");
+  }
+  return keys->HasKeyOf(line) ? Result<void>() : keys->Add(line);
 }
 
 }  // namespace etude

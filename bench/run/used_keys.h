@@ -11,7 +11,7 @@ namespace etude {
 
 /// What threw dice under a secret key.
 struct KeyUse {
-  std::string command;  ///< "run", "export", "score"
+  std::string command;  ///< "run", "export", "score", "replay"
   std::string suite;
   std::string manifest;  ///< DigestOfRun
   Shard shard = {};
@@ -31,5 +31,9 @@ Result<void> CheckUnused(const SecretKey& key, const KeyUse& use);
 /// Adds a use to the list, on the disk when this returns; checks it again, since two runs may begin at the same time.
 /// With `may_be_used` nothing is refused, and a list that cannot be written is left as it is.
 Result<void> NoteUse(const SecretKey& key, const KeyUse& use, bool may_be_used);
+
+/// Notes that cells of a run are run again by programs that its manifest names, whoever wrote that: of a key that the
+/// list has not, what they are asked is new to everybody. Refused where that cannot be written.
+Result<void> NoteRepeat(const SecretKey& key, const KeyUse& use);
 
 }  // namespace etude

@@ -50,6 +50,7 @@ std::string CellHtml(const TableCell& cell, const TableColumn& column) {
 }
 
 std::string RowHtml(const TableRow& row, const Table& table) {
+  if (!row.mark.empty()) return row.mark;
   if (!row.group.empty()) {
     return fmt::format("<tbody{}><tr class=\"group\"><th scope=\"rowgroup\" colspan=\"{}\">{}</th></tr>",
                        row.attributes, table.columns.size(), EscapeMarkup(row.group));
@@ -101,7 +102,7 @@ std::string TableMarkdown(const Table& table) {
   }
   text += fmt::format("\n{}\n", rule);
   for (const TableRow& row : table.rows) {
-    if (!row.group.empty()) continue;
+    if (!row.group.empty() || !row.mark.empty()) continue;
     text += "|";
     for (const TableCell& cell : row.cells) {
       const std::string words = EscapeMarkdown(cell.text);
@@ -134,6 +135,7 @@ std::string TableLatex(const Table& table) {
   text += heads + " \\\\\n";
   if (table.rows.empty() || table.rows.front().group.empty()) text += "\\midrule\n";
   for (const TableRow& row : table.rows) {
+    if (!row.mark.empty()) continue;
     if (!row.group.empty()) {
       text += fmt::format("\\midrule\n\\multicolumn{{{}}}{{l}}{{\\emph{{{}}}}} \\\\\n", table.columns.size(),
                           EscapeLatex(row.group));
@@ -153,7 +155,7 @@ std::string TableCsv(const Table& table) {
   for (const TableColumn& column : table.columns) csv += (csv.empty() ? "" : ",") + CsvText(column.head);
   csv += '\n';
   for (const TableRow& row : table.rows) {
-    if (!row.group.empty()) continue;
+    if (!row.group.empty() || !row.mark.empty()) continue;
     std::string line;
     for (const TableCell& cell : row.cells) {
       if (&cell != &row.cells.front()) line += ',';

@@ -41,6 +41,7 @@ struct TableCell {
 struct TableRow {
   std::vector<TableCell> cells = {};  ///< as many as the table has columns; none in a row that heads a group
   std::string group = {};             ///< the head of the rows that follow, across all columns; "" in all other rows
+  std::string mark = {};              ///< a comment of the page in the place of a row; other writers leave it out
   std::string attributes = {};        ///< of the row, or of the group, on the page: " class=\"taken\""
 };
 

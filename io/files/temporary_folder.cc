@@ -19,6 +19,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kPrefix = "etude-temporary-";  // nobody calls a folder of results so
+constexpr const char* kKeptPrefix = "etude-kept-";
+constexpr std::size_t kOwnLetters = 7;  // "-XXXXXX" at the end of a name
 
 /// Locks a folder until we end; -1 when another process has it, or the folder is not ours.
 int Lock(const fs::path& folder) {
@@ -28,6 +30,20 @@ int Lock(const fs::path& folder) {
   if (is_ours && ::flock(lock, LOCK_EX | LOCK_NB) == 0) return lock;
   if (lock >= 0) ::close(lock);
   return -1;
+}
+
+/// Makes a folder, and gives its path and lock. It gets its final name when it is locked, lest another process take it
+/// for abandoned before.
+Result<std::pair<fs::path, int>> MakeLocked(const fs::path& parent, const std::string& start) {
+  std::string name = (parent / ("." + start + "-XXXXXX")).string();
+  const bool made = ::mkdtemp(name.data()) != nullptr;
+  const int lock = made ? Lock(name) : -1;
+  const fs::path path = parent / fs::path(name).filename().string().substr(1);
+  if (made && ::rename(name.c_str(), path.c_str()) == 0) return std::pair(path, lock);
+  const int reason = errno;
+  if (lock >= 0) ::close(lock);
+  if (made) ::rmdir(name.c_str());
+  return Fail({parent.string()}, "takes no temporary files: {}", std::strerror(reason));
 }
 
 }  // namespace
@@ -50,16 +66,25 @@ Result<TemporaryFolder> TemporaryFolder::Make(const std::string& purpose) {
 
 Result<TemporaryFolder> TemporaryFolder::MakeIn(const fs::path& parent, const std::string& purpose) {
   RemoveAbandoned(parent);
-  // It gets its final name when it is locked, lest another process take it for abandoned before.
-  std::string name = (parent / ("." + std::string(kPrefix) + purpose + "-XXXXXX")).string();
-  const bool made = ::mkdtemp(name.data()) != nullptr;
-  const int lock = made ? Lock(name) : -1;
-  const fs::path path = parent / fs::path(name).filename().string().substr(1);
-  if (made && ::rename(name.c_str(), path.c_str()) == 0) return TemporaryFolder(path, lock);
-  const int reason = errno;
-  if (lock >= 0) ::close(lock);
-  if (made) ::rmdir(name.c_str());
-  return Fail({parent.string()}, "takes no temporary files: {}", std::strerror(reason));
+  ASSIGN_OR_RETURN(const auto made, MakeLocked(parent, kPrefix + purpose));
+  return TemporaryFolder(made.first, made.second);
+}
+
+Result<TemporaryFolder> TemporaryFolder::MakeKept(const fs::path& parent, const std::string& kept) {
+  ASSIGN_OR_RETURN(const auto made, MakeLocked(parent, kKeptPrefix + kept));
+  return TemporaryFolder(made.first, made.second);
+}
+
+std::vector<TemporaryFolder> TemporaryFolder::FindKept(const fs::path& parent, const std::string& kept) {
+  std::vector<TemporaryFolder> found;
+  const std::string start = kKeptPrefix + kept;
+  std::error_code error;
+  for (fs::directory_iterator entry(parent, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.size() != start.size() + kOwnLetters || !name.starts_with(start + "-")) continue;
+    if (const int lock = Lock(entry->path()); lock >= 0) found.push_back(TemporaryFolder(entry->path(), lock));
+  }
+  return found;
 }
 
 void TemporaryFolder::RemoveAbandoned() {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "engine/base/result.h"
 
@@ -15,6 +16,10 @@ class TemporaryFolder {
   static Result<TemporaryFolder> Make(const std::string& purpose);
   /// Makes it in a folder of the caller's choice, such as one of the file system that something is to be renamed in.
   static Result<TemporaryFolder> MakeIn(const std::filesystem::path& parent, const std::string& purpose);
+  /// Makes one in whose name `kept` stands; it is no longer removed when its process has been killed, but found again.
+  static Result<TemporaryFolder> MakeKept(const std::filesystem::path& parent, const std::string& kept);
+  /// Takes over those of this name whose processes have been killed.
+  static std::vector<TemporaryFolder> FindKept(const std::filesystem::path& parent, const std::string& kept);
   /// Removes those whose processes have been killed, of a folder or of the system's place. Make does it, too.
   static void RemoveAbandoned(const std::filesystem::path& parent);
   static void RemoveAbandoned();

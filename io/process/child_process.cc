@@ -260,8 +260,9 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
       .user_map = fmt::format("{0} {0} 1", ::geteuid()),
       .group_map = fmt::format("{0} {0} 1", ::getegid()),
       .told = {},
-      .user_limits = {{"/proc/sys/user/max_inotify_instances", std::to_string(ProgramLimits::kInotifyInstances)},
-                      {"/proc/sys/user/max_inotify_watches", std::to_string(ProgramLimits::kInotifyWatches)}}};
+      .user_limits = {
+          {"/proc/sys/user/max_inotify_instances", std::to_string(ProgramLimits::InotifyInstances(options.programs))},
+          {"/proc/sys/user/max_inotify_watches", std::to_string(ProgramLimits::kInotifyWatches)}}};
   for (const std::string& text : options.told) {
     ASSIGN_OR_RETURN(auto file, MakeFile(text));
     child.told.push_back(std::move(file));

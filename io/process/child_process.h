@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -23,15 +24,22 @@ struct ProgramLimits {
   static constexpr std::uint64_t kOpenFiles = 512;
   static constexpr std::uint64_t kPendingSignals = 1024;  ///< and timers
   static constexpr std::uint64_t kLockedBytes = 1 << 20;  ///< kept from being swapped out
-  static constexpr int kInotifyInstances = 8, kInotifyWatches = 4096;
+  static constexpr int kInotifyWatches = 4096;
 
   // Of all its processes, as looked at 50 times a second.
   static constexpr std::size_t kProcesses = 256;
   static constexpr std::size_t kThreads = 4096;
   static constexpr std::size_t kDescriptors = 4096;
-  static constexpr std::size_t kPipes = 256;
   static constexpr std::size_t kSockets = 1024;  ///< in a fence
   static constexpr std::size_t kFileLocks = 16384;
+
+  // What the kernel counts by user is shared by the programs that run at the same time: half of the 128 inotify
+  // instances, three quarters of the 1024 pipes of full size, half of the threads that the user may have.
+  static int InotifyInstances(int programs) { return std::clamp(64 / programs, 1, 8); }
+  static std::size_t Pipes(int programs) { return static_cast<std::size_t>(std::clamp(768 / programs, 16, 256)); }
+  static std::uint64_t Threads(int programs, std::uint64_t of_user) {
+    return std::clamp<std::uint64_t>(of_user / 2 / static_cast<std::uint64_t>(programs), 64, kThreads);
+  }
 };
 
 /// The path of a program, the way a shell finds it.
@@ -45,6 +53,7 @@ struct ChildOptions {
   /// It is the first process of a space of its own, where the kernel grants one: with it, and it goes with us, end all
   /// that it has started, whatever they were at.
   bool contained = false;
+  int programs = 1;                    ///< such as this one, that run at the same time
   int control_group = -1;              ///< ControlGroup::folder of the one that it starts in, if it is contained
   std::vector<std::string> told = {};  ///< what it can read from its descriptors 3, 4, …
   /// Changes to the closed environment: NAME=VALUE sets a variable, NAME removes one.

@@ -29,27 +29,6 @@ bool Write(const fs::path& file, std::string_view text) {
          ::write(opened.number(), text.data(), text.size()) == static_cast<ssize_t>(text.size());
 }
 
-/// The folder of the group that this process is in; "" without cgroup v2.
-fs::path OwnGroup(fs::path& top) {
-  std::istringstream groups(ReadProcFile("/proc/self/cgroup")), mounts(ReadProcFile("/proc/self/mountinfo"));
-  std::string own;
-  for (std::string line; std::getline(groups, line);) {
-    if (line.starts_with("0::/")) own = line.substr(3);
-  }
-  for (std::string line; !own.empty() && std::getline(mounts, line);) {
-    // "36 24 0:30 / /sys/fs/cgroup rw,nosuid - cgroup2 cgroup2 rw"
-    if (line.find(" - cgroup2 ") == std::string::npos) continue;
-    std::istringstream words(line);
-    std::string number, parent, device, root, mount;
-    words >> number >> parent >> device >> root >> mount;
-    const std::string start = root == "/" ? "" : root;
-    if (!own.starts_with(start)) continue;
-    top = mount;
-    return fs::path(mount + own.substr(start.size())).lexically_normal();
-  }
-  return {};
-}
-
 bool HasWord(const std::string& text, std::string_view wanted) {
   std::istringstream words(text);
   for (std::string word; words >> word;) {
@@ -100,9 +79,47 @@ double NumberOf(const std::string& text, std::string_view name) {
 
 }  // namespace
 
+OwnGroup OwnGroup::Read(const std::string& groups, const std::string& mounts) {
+  std::istringstream group_lines(groups), mount_lines(mounts);
+  std::string own;
+  for (std::string line; std::getline(group_lines, line);) {
+    if (line.starts_with("0::/")) own = line.substr(3);
+  }
+  for (std::string line; !own.empty() && std::getline(mount_lines, line);) {
+    // "36 24 0:30 / /sys/fs/cgroup rw,nosuid - cgroup2 cgroup2 rw"
+    if (line.find(" - cgroup2 ") == std::string::npos) continue;
+    std::istringstream words(line);
+    std::string number, parent, device, root, mount;
+    words >> number >> parent >> device >> root >> mount;
+    const std::string start = root == "/" ? "" : root;
+    const bool is_below = own.starts_with(start) && (own.size() == start.size() || own[start.size()] == '/');
+    if (!is_below) continue;
+    std::string folder = fs::path(mount + own.substr(start.size())).lexically_normal().string();
+    if (folder.size() > 1 && folder.ends_with('/')) folder.pop_back();
+    return {std::move(folder), mount};
+  }
+  return {};
+}
+
+double HeldMbIn(const std::string& memory_stat, const std::string& swapped) {
+  const std::string stat = "\n" + memory_stat;
+  double bytes =
+      NumberOf(stat, "anon") + NumberOf(stat, "shmem") + NumberOf(stat, "sock") + std::strtod(swapped.c_str(), nullptr);
+  if (const double kernel = NumberOf(stat, "kernel"); kernel > 0) {
+    bytes += kernel - NumberOf(stat, "slab_reclaimable");
+  } else {  // before Linux 5.18
+    for (const char* part : {"kernel_stack", "pagetables", "percpu", "slab_unreclaimable"})
+      bytes += NumberOf(stat, part);
+  }
+  return bytes / (1 << 20);
+}
+
 std::string ControlGroup::FindPlace() {
-  fs::path top;
-  const fs::path own = OwnGroup(top);
+  return FindPlace(OwnGroup::Read(ReadProcFile("/proc/self/cgroup"), ReadProcFile("/proc/self/mountinfo")));
+}
+
+std::string ControlGroup::FindPlace(const OwnGroup& of_process) {
+  const fs::path own = of_process.folder, top = of_process.top;
   if (own.empty()) return "";
   fs::path place;
   if (IsPlace(own) || MakePlaceOf(own)) place = own;
@@ -140,18 +157,7 @@ ControlGroup& ControlGroup::operator=(ControlGroup&& other) noexcept {
   return *this;
 }
 
-double ControlGroup::HeldMb() const {
-  const std::string stat = "\n" + Read("memory.stat");
-  double bytes = NumberOf(stat, "anon") + NumberOf(stat, "shmem") + NumberOf(stat, "sock") +
-                 std::strtod(Read("memory.swap.current").c_str(), nullptr);
-  if (const double kernel = NumberOf(stat, "kernel"); kernel > 0) {
-    bytes += kernel - NumberOf(stat, "slab_reclaimable");
-  } else {  // before Linux 5.18
-    for (const char* part : {"kernel_stack", "pagetables", "percpu", "slab_unreclaimable"})
-      bytes += NumberOf(stat, part);
-  }
-  return bytes / (1 << 20);
-}
+double ControlGroup::HeldMb() const { return HeldMbIn(Read("memory.stat"), Read("memory.swap.current")); }
 
 bool ControlGroup::WasFull() const {
   const std::string events = "\n" + Read("memory.events");

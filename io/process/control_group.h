@@ -6,6 +6,18 @@
 
 namespace etude {
 
+/// The control group (cgroup v2) that a process is in.
+struct OwnGroup {
+  std::string folder, top;  ///< its folder, and that of all groups that can be seen; "" without cgroup v2
+
+  /// As the process' files `cgroup` and `mountinfo` in /proc tell.
+  static OwnGroup Read(const std::string& groups, const std::string& mounts);
+};
+
+/// MB that the processes of a group hold, as its files memory.stat and memory.swap.current tell: without files that the
+/// kernel merely keeps at hand.
+double HeldMbIn(const std::string& memory_stat, const std::string& swapped);
+
 /// A control group of its own (cgroup v2) for a program and all that it starts: the kernel counts what they hold,
 /// whatever it is, and ends them when that is far too much. Removed with this object, when nobody is in it any more.
 class ControlGroup {
@@ -14,6 +26,8 @@ class ControlGroup {
   /// memory controller, and a group above ours, or ours, that belongs to us. Moves this process into a group of its
   /// own where ours has no other process. Removes what groups killed runs have left behind.
   static std::string FindPlace();
+  /// The same, of a process in that group.
+  static std::string FindPlace(const OwnGroup& of_process);
 
   /// No group.
   ControlGroup() = default;
@@ -28,7 +42,7 @@ class ControlGroup {
   int folder() const { return folder_.number(); }
   /// True if no process is in it.
   bool IsEmpty() const { return Read("cgroup.procs").empty(); }
-  /// What it holds now, MB: without files that the kernel merely keeps at hand.
+  /// What it holds now, MB (HeldMbIn).
   double HeldMb() const;
   /// True if the kernel has ended somebody in it since it held far too much.
   bool WasFull() const;

@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/statfs.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <iterator>
 #include <map>
 #include <set>
 #include <sstream>
@@ -31,14 +33,47 @@ namespace fs = std::filesystem;
 constexpr int kTrialMs = 5000;
 constexpr double kNameBytes = 700, kInodeBytes = 900;  // of a temporary file, as measured on Linux 6.18; of long names
 
-/// The folders that every program sees: the system's programs, libraries and settings.
-constexpr std::array kSystem = {"/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/etc", "/opt", "/nix"};
+/// The folders that every program sees: the system's programs and libraries.
+constexpr std::array kSystem = {"/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/opt", "/nix"};
+/// What every program sees of the system's settings, in a folder of its own: those of loaders, interpreters and
+/// libraries. What holds secrets, names users or tells machines apart is not among them, also when it comes later. A
+/// name with a * stands for all that begin so.
+constexpr const char* kSettings = "/etc";
+constexpr std::array kShownSettings = {
+    "ld.so.*",       "alternatives",   "localtime",     "timezone",  "locale.alias",
+    "os-release",    "debian_version", "nsswitch.conf", "protocols", "services",
+    "fonts",         "mime.types",     "magic*",        "ssl/certs", "ssl/openssl.cnf",
+    "pki/tls/certs", "python*",        "java-*",        "R",         "julia*",
+    "octave*",       "ImageMagick-*",  "OpenCL",        "vulkan",    "glvnd",
+    "matplotlibrc",  "papersize",      "static"};
 /// Folders to write to, empty at first.
 constexpr std::array kScratch = {"/tmp", "/var/tmp", "/dev/shm"};
 
 bool IsWithin(const fs::path& path, const fs::path& folder) {
   const auto [at_folder, at_path] = std::ranges::mismatch(folder, path);
   return at_folder == folder.end();
+}
+
+/// True if one of the settings that are shown has this name, or holds or is held by it.
+bool IsShownSetting(const fs::path& below) {
+  return std::ranges::any_of(kShownSettings, [&](const std::string_view pattern) {
+    if (!pattern.ends_with('*')) return IsWithin(below, pattern);
+    return below.begin()->string().starts_with(pattern.substr(0, pattern.size() - 1));
+  });
+}
+
+/// Lists the settings that are shown and there, by their whole paths.
+std::vector<fs::path> ShownSettings() {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (const std::string_view pattern : kShownSettings) {
+    if (!pattern.ends_with('*')) found.push_back(fs::path(kSettings) / pattern);
+  }
+  for (fs::directory_iterator entry(kSettings, error), end; !error && entry != end; entry.increment(error)) {
+    const bool is_found = std::ranges::find(found, entry->path()) != found.end();
+    if (!is_found && IsShownSetting(entry->path().filename())) found.push_back(entry->path());
+  }
+  return found;
 }
 
 void Add(std::vector<std::string>& words, std::initializer_list<std::string> more) {
@@ -64,17 +99,17 @@ std::vector<std::string> Environment(const std::vector<fs::path>& shown) {
 }
 
 /// Sets the one limit that must be set inside: the kernel counts a user's threads by namespace.
-std::vector<std::string> Limiter() {
+std::vector<std::string> Limiter(int programs) {
   const auto prlimit = FindProgram("prlimit");
   rlimit ours{};
   if (!prlimit || ::getrlimit(RLIMIT_NPROC, &ours) != 0) return {};
-  const std::uint64_t threads = std::min<std::uint64_t>(ours.rlim_max, ProgramLimits::kThreads);
+  const std::uint64_t threads = std::min<std::uint64_t>(ours.rlim_max, ProgramLimits::Threads(programs, ours.rlim_cur));
   return {*prlimit, fmt::format("--nproc={0}:{0}", threads), "--"};
 }
 
 /// Lists what users other than root could not read, where this process is root, and sockets and named pipes, which can
 /// be written to through a read-only mount: of the folders in which an administrator puts settings and programs, and of
-/// /proc. Walks them, which takes some 5 ms per 1000 files.
+/// /proc. Walks them, which takes some 5 ms per 1000 files. Of /usr/share sockets and pipes alone, 2 ms per 1000.
 std::vector<fs::path> KeptFromUsers() {
   const bool is_root = ::geteuid() == 0;
   std::vector<fs::path> kept;
@@ -105,8 +140,13 @@ std::vector<fs::path> KeptFromUsers() {
       at.disable_recursion_pending();
     }
   }
+  std::ranges::move(Fence::PipesBelow("/usr/share"), std::back_inserter(kept));
   return kept;
 }
+
+/// The first process in a fence: a shell that waits for the program. Bubblewrap's own would tell all that it was told
+/// to whoever reads its memory.
+constexpr const char* kFirstProcess = R"(exec 3>&2 2>/dev/null; "$@" 2>&3 3>&-; exit $?)";
 
 /// The first line that a fenced command says, a refusal of the fence among them; "" when it says none in time.
 std::string FirstLineOf(const Fence& fence, const std::vector<std::string>& command) {
@@ -189,7 +229,20 @@ ScratchUse Fence::MeasureScratch(pid_t inside) const {
 }
 
 bool Fence::IsOfSystem(const fs::path& path) {
-  return std::ranges::any_of(kSystem, [&](const char* folder) { return IsWithin(path, folder); });
+  if (std::ranges::any_of(kSystem, [&](const char* folder) { return IsWithin(path, folder); })) return true;
+  return IsWithin(path, kSettings) && path != kSettings && IsShownSetting(path.lexically_relative(kSettings));
+}
+
+std::vector<fs::path> Fence::PipesBelow(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error), end;
+  for (; !error && at != end; at.increment(error)) {
+    std::error_code gone;
+    const fs::file_type type = at->symlink_status(gone).type();
+    if (type == fs::file_type::socket || type == fs::file_type::fifo) found.push_back(at->path());
+  }
+  return found;
 }
 
 bool Fence::HoldsScratch(const fs::path& folder) {
@@ -199,9 +252,14 @@ bool Fence::HoldsScratch(const fs::path& folder) {
 FencedCommand Fence::Around(const std::vector<std::string>& command, const std::vector<fs::path>& shown,
                             const fs::path& start) const {
   if (!IsUp()) return {command};
+  FencedCommand fenced{{program_, "--args", "3", "--", "/bin/sh", "-c", kFirstProcess, "sh"}, {""}, Environment(shown)};
+  const auto tell = [&](std::string text) {  // gives the descriptor at which it can be read
+    fenced.told.push_back(std::move(text));
+    return std::to_string(fenced.told.size() + 2);
+  };
   std::vector<std::string> words = {"--unshare-user", "--unshare-pid", "--unshare-ipc", "--unshare-net"};
   Add(words, {"--unshare-uts", "--unshare-cgroup-try", "--disable-userns", "--cap-drop", "ALL"});
-  Add(words, {"--new-session", "--die-with-parent", "--proc", "/proc", "--tmpfs", "/dev"});
+  Add(words, {"--new-session", "--die-with-parent", "--as-pid-1", "--proc", "/proc", "--tmpfs", "/dev"});
   // Not bubblewrap's --dev, which has terminals (/dev/pts): their number is one pool of the machine.
   for (const char* device : {"/dev/null", "/dev/zero", "/dev/full", "/dev/random", "/dev/urandom", "/dev/tty"}) {
     Add(words, {"--dev-bind-try", device, device});
@@ -218,6 +276,14 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
     const std::string target = is_link ? fs::read_symlink(folder, error).string() : folder;
     Add(words, {is_link ? "--symlink" : "--ro-bind-try", target, folder});
   }
+  for (const fs::path& setting : ShownSettings()) {
+    const bool is_link = fs::is_symlink(setting, error) && IsOfSystem(fs::weakly_canonical(setting, error));
+    const std::string target = is_link ? fs::read_symlink(setting, error).string() : setting.string();
+    Add(words, {is_link ? "--symlink" : "--ro-bind-try", target, setting.string()});
+  }
+  // Of all users the one that it is, under no name.
+  Add(words, {"--file", tell(fmt::format("user:x:{}:{}::{}:/bin/sh\n", ::geteuid(), ::getegid(), kScratch[0]))});
+  Add(words, {"/etc/passwd", "--file", tell(fmt::format("user:x:{}:\n", ::getegid())), "/etc/group"});
   // In this order a folder comes before what it holds. What lies in no folder that is seen needs no hiding, which would
   // tell its name.
   std::map<fs::path, bool> is_shown;
@@ -230,7 +296,8 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
     if (is_seen && fs::exists(path, error)) is_shown.insert_or_assign(path, false);
   }
   for (const fs::path& path : kept_) {
-    if (!is_within_shown(path) && fs::exists(path, error)) is_shown.emplace(path, false);
+    const bool is_seen = IsOfSystem(path) || IsWithin(path, "/proc");
+    if (is_seen && !is_within_shown(path) && fs::exists(path, error)) is_shown.emplace(path, false);
   }
   std::vector<std::string> masks;
   for (const auto& [path, is_seen] : is_shown) {
@@ -244,14 +311,12 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
     }
   }
   words.insert(words.end(), masks.begin(), masks.end());
-  for (const char* folder : {"/dev", "/proc", "/"}) Add(words, {"--remount-ro", folder});
   Add(words, {"--chdir", start.empty() ? kScratch[0] : start.string()});
   std::string filter = SystemCallFilter();
-  if (!filter.empty()) Add(words, {"--seccomp", "4"});
-  FencedCommand fenced{{program_, "--args", "3", "--"}, {""}, Environment(shown)};
+  if (!filter.empty()) Add(words, {"--seccomp", tell(std::move(filter))});
+  for (const char* folder : {"/dev", "/proc", "/"}) Add(words, {"--remount-ro", folder});
   for (const std::string& word : words) fenced.told[0] += word + '\0';
-  if (!filter.empty()) fenced.told.push_back(std::move(filter));
-  const std::vector<std::string> limiter = Limiter();
+  const std::vector<std::string> limiter = Limiter(programs_);
   fenced.words.insert(fenced.words.end(), limiter.begin(), limiter.end());
   fenced.words.insert(fenced.words.end(), command.begin(), command.end());
   return fenced;

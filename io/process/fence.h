@@ -41,6 +41,8 @@ class Fence {
   static Fence Of(const std::string& program, std::vector<std::filesystem::path> kept = {}, std::string groups = "");
   /// Tells whether every program sees a path, as part of the system.
   static bool IsOfSystem(const std::filesystem::path& path);
+  /// The sockets and named pipes below a folder, which can be written to through a read-only mount.
+  static std::vector<std::filesystem::path> PipesBelow(const std::filesystem::path& folder);
   /// Tells whether a folder holds one that programs have to write to, so that it cannot be shown as it is.
   static bool HoldsScratch(const std::filesystem::path& folder);
 
@@ -49,6 +51,10 @@ class Fence {
   const std::string& program() const { return program_; }
   /// "bubblewrap 0.8.0"; "none (not asked for)".
   const std::string& description() const { return description_; }
+
+  /// Says how many programs run in such fences at the same time, and share what the kernel counts by user.
+  void ShareBy(int programs) { programs_ = programs; }
+  int programs() const { return programs_; }
 
   /// ControlGroup::FindPlace; "" without a fence.
   const std::string& groups() const { return groups_; }
@@ -74,6 +80,7 @@ class Fence {
 
  private:
   std::string program_, groups_;
+  int programs_ = 1;
   std::string description_ = "none (not asked for)";
   std::vector<std::filesystem::path> hidden_, kept_;
 };

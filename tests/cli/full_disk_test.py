@@ -42,7 +42,7 @@ SLOW = {
 FULL = """mount -t tmpfs -o size=4m tmpfs "$PLACE" && cp -r run "$PLACE" && cat /dev/zero > "$PLACE/filler" 2>/dev/null
 truncate -s "-$FREE" "$PLACE/filler"
 "$@"; code=$?
-find "$PLACE" -name '*partial*' -o -name 'etude-temporary-*'
+find "$PLACE" -name '*partial*' -o -name 'etude-temporary-*' -o -name 'etude-kept-*'
 exit $code"""
 
 

@@ -59,11 +59,11 @@ class Verify(EtudeCase):
 
     def test_a_run_that_nobody_touched_agrees_line_by_line(self):
         text = self.verify(expect=0)
-        for said in ("seal.json", "rows: those that", "files: those that", "texts: nothing", "worlds: every row",
+        for said in ("seal.json", "rows: those that", "files: those that", "texts: nothing", "manifest.json: what", "worlds: every row",
                      "summary.json: computed again from 24 rows", "20 of 20 cells and 4 that left a recording, run again",
                      "report: "):
             self.assertRegex(text, f"(?m)^agrees   .*{re.escape(said)}")
-        self.assertRegex(text, r"8 of 8 agree")
+        self.assertRegex(text, r"9 of 9 agree")
         self.assertIn("Every cell that can be run again was.", text)
         self.assertNotIn("run again:", self.verify("--sample", 0, expect=0))
 
@@ -104,6 +104,17 @@ class Verify(EtudeCase):
                 curves.write_text(curves.read_text() + curves.read_text().splitlines()[0] + "\n")], "texts",
              "'suite' stands there twice.*cells.jsonl:1 is written otherwise.*ik.jsonl:25 is written otherwise"),
             ("a page", lambda: forge(self.out / "report" / "index.html", "Is it true?", "Is it so?"), "report", "index.html"),
+            ("a style", lambda: forge(self.out / "report" / "index.html", "</body>", "<style>main{display:none}</style></body>"), "report",
+             "index.html is not what the run says"),
+            ("a style among films", lambda: forge(self.out / "report" / "index.html", "<!--/media-->", "<style>main{display:none}</style>"
+                                                  "<!--/media-->"), "report", "index.html is not what the run says"),
+            ("another verdict", lambda: forge(self.out / "report" / "index.html", '<p class="verdict">', '<p class="verdict">Ours is best. '),
+             "report", "index.html is not what the run says"),
+            ("a gate", lambda: [self.etude("gate", self.out, "--unsealed"), forge(self.out / "report" / "gate.md", "gate of", "gate that passed of")],
+             "report", "gate.md is not what the run says"),
+            ("a key of the manifest", lambda: forge(manifest, '"metrics":{', '"metrics":{"ours":7,'), "manifest.json", "metrics.ours was 7"),
+            ("a platform", lambda: forge(manifest, '"trials":', '"platform":"ours","trials":'), "manifest.json", "platform was"),
+            ("a source", lambda: forge(manifest, '"sources":{', '"sources":{"ours":"best",'), "manifest.json", "nothing names 'ours'"),
             ("a table", lambda: forge(self.out / "report" / "tables" / "ik.csv", "fixed", "fixes"), "report", "ik.csv"),
         ]
 
@@ -113,7 +124,7 @@ class Verify(EtudeCase):
             with self.subTest(forged=name):
                 change()
                 reseal(self.out)
-                replays = found_by == "cells"
+                replays = found_by == "cells" or name == "a platform"
                 found, text = self.differences("--sample", 24 if replays else 0)
                 self.assertIn(found_by, [words.lstrip("0123456789 ") or "cells" for words in found], text)
                 self.assertIn("agrees   seal.json", text)

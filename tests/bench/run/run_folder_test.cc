@@ -2,6 +2,8 @@
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "bench/results/seal.h"
@@ -58,6 +60,44 @@ TEST_F(RunFolderTest, PutsTheOldRunBackWhenNothingIsKept) {
     ASSERT_TRUE(WriteFileAtomically(out_ / "manifest.json", "new"));
   }
   ExpectOldRun();
+  EXPECT_THAT(NamesIn(folder_.path()), ElementsAre("out"));
+}
+
+/// Overwrites the run in a process that is killed amid it.
+void OverwriteAndDie(const fs::path& out) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    auto claimed = RunFolder::Claim(out, false);
+    const bool is_written = claimed && WriteFileAtomically(out / "manifest.json", "new").has_value();
+    ::kill(::getpid(), is_written ? SIGKILL : SIGABRT);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_EQ(WTERMSIG(status), SIGKILL);
+}
+
+TEST_F(RunFolderTest, PutsTheOldRunBackThatAKilledOverwritingLeftWhenTheNextOneFails) {
+  OverwriteAndDie(out_);
+  ASSERT_TRUE(fs::exists(out_ / "manifest.json"));
+  TemporaryFolder::RemoveAbandoned(folder_.path());  // as others beside it do
+  {
+    const auto claimed = RunFolder::Claim(out_, false);
+    ASSERT_TRUE(claimed);
+    EXPECT_THAT(NamesIn(out_), ElementsAre(kLockFile));
+  }
+  ExpectOldRun();
+  EXPECT_THAT(NamesIn(folder_.path()), ElementsAre("out"));
+}
+
+TEST_F(RunFolderTest, DropsTheOldRunThatAKilledOverwritingLeftWhenTheNextOneKeepsSomething) {
+  OverwriteAndDie(out_);
+  {
+    auto claimed = RunFolder::Claim(out_, false);
+    ASSERT_TRUE(claimed);
+    ASSERT_TRUE(WriteFileAtomically(out_ / "host.json", "new"));
+    claimed->Keep();
+  }
+  EXPECT_EQ(ReadWholeFile(out_ / "host.json"), "new");
   EXPECT_THAT(NamesIn(folder_.path()), ElementsAre("out"));
 }
 

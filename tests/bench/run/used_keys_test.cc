@@ -124,6 +124,23 @@ TEST_F(UsedKeysTest, WhatAKillLeftOfALineIsCutOffAndAnythingElseRefusedWithItsPl
   }
 }
 
+TEST_F(UsedKeysTest, ARepeatedRunIsNotedUnlessTheKeyIsKnownAsUsed) {
+  KeyUse repeat = Use();
+  repeat.command = "replay";
+  EXPECT_TRUE(NoteRepeat(Key(), repeat));
+  EXPECT_TRUE(NoteRepeat(Key(), repeat));
+  const std::string noted = Text();
+  EXPECT_EQ(std::ranges::count(noted, '\n'), 1);
+  EXPECT_THAT(Complaint(Key(), Use()), HasSubstr("was used before, and its worlds may be known: by 'etude replay'"));
+  EXPECT_EQ(Complaint(Key(7), Use()), "");
+  EXPECT_TRUE(NoteRepeat(Key(7), repeat));
+  const std::string used = Text();
+  EXPECT_EQ(std::ranges::count(used, '\n'), 2) << "its own run is there";
+  std::filesystem::remove(List());
+  std::filesystem::create_directory(List());
+  EXPECT_FALSE(NoteRepeat(Key(), repeat));
+}
+
 TEST_F(UsedKeysTest, AListThatCannotBeWrittenIsRefused) {
   std::filesystem::create_directory(List());
   EXPECT_THAT(Complaint(Key(), Use()), HasSubstr("cannot be written (Is a directory), so that nothing would tell"));

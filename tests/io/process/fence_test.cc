@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <stdlib.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -86,11 +89,71 @@ TEST_F(FenceTest, NamesNothingOfOurs) {
       "tr '\\0' '\\n' </proc/1/cmdline; tr '\\0' '\\n' </proc/1/environ; cat /proc/self/mountinfo; "
       "ls -l /proc/[0-9]*/fd/ /proc/[0-9]*/cwd; cat /proc/[0-9]*/environ | tr '\\0' '\\n'";
   const std::string said = Say(TheFence(), look);
-  EXPECT_THAT(said, ::testing::HasSubstr("--args"));
+  EXPECT_THAT(said, ::testing::HasSubstr("/bin/sh")) << "the first process";
   EXPECT_THAT(said, ::testing::HasSubstr("PATH="));
   EXPECT_THAT(said, ::testing::Not(::testing::HasSubstr(here + "/")));
   EXPECT_THAT(said, ::testing::Not(::testing::HasSubstr("PWD=" + here)));
   EXPECT_EQ(Say(TheFence(), "ls /proc/self/fd | grep -v '^[0-2]$' | wc -l"), "1\n") << "ls's own alone";
+}
+
+// Bubblewrap's own process knows all mounts, those that are hidden by name.
+TEST_F(FenceTest, TheFirstProcessRemembersNoMounts) {
+  const std::string look =
+      "python3 -c \"\nimport re\nmounts = words = 0\nmemory = open('/proc/1/mem', 'rb', 0)\nfor line in "
+      "open('/proc/1/maps'):\n"
+      "  start, end = (int(n, 16) for n in line.split()[0].split('-'))\n  try:\n    memory.seek(start)\n"
+      "    bytes = memory.read(end - start)\n    mounts += len(re.findall(b'--ro-bin[d]', bytes))\n"
+      "    words += len(re.findall(b'/bin/s[h]', bytes))\n  except (OSError, OverflowError):\n"
+      "    pass\nprint(mounts, words > 0)\"";
+  EXPECT_EQ(Say(TheFence(), look), "0 True\n");
+}
+
+TEST_F(FenceTest, OfTheSettingsItShowsThoseOfLibrariesAndOfUsersOneWithoutAName) {
+  EXPECT_EQ(Say(TheFence(), "id -un; id -gn; cat /etc/passwd | wc -l; cat /etc/group | wc -l"), "user\nuser\n1\n1\n");
+  const std::string others =
+      "for f in hostname machine-id shadow passwd- ssl/private; do test -e /etc/$f && echo $f; done";
+  EXPECT_EQ(Say(TheFence(), others), "");
+  EXPECT_NE(Say(Fence(), others), "") << "the control";
+  EXPECT_EQ(Say(TheFence(), "python3 -c 'import ssl, encodings.idna; print(1)'"), "1\n");
+  EXPECT_NE(Say(TheFence(), "head -1 /etc/hosts", {"/etc/hosts"}), "") << "it is granted";
+  EXPECT_FALSE(Fence::IsOfSystem("/etc"));
+  EXPECT_FALSE(Fence::IsOfSystem("/etc/shadow"));
+  EXPECT_FALSE(Fence::IsOfSystem("/etc/ssl/private/key"));
+  EXPECT_TRUE(Fence::IsOfSystem("/etc/ssl/certs/one.pem"));
+  EXPECT_TRUE(Fence::IsOfSystem("/etc/python3.11/sitecustomize.py"));
+}
+
+// Whoever listens at them would hear a program that is shown the folder.
+TEST_F(FenceTest, SocketsAndPipesInAFolderThatIsShownAreFoundAndCanBeHidden) {
+  const fs::path folder = folder_;
+  fs::create_directory(folder / "below");
+  ASSERT_EQ(::mkfifo((folder / "below" / "pipe").c_str(), 0666), 0);
+  const int listener = ::socket(AF_UNIX, SOCK_STREAM, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  (folder / "socket").string().copy(address.sun_path, sizeof address.sun_path - 1);
+  ASSERT_EQ(::bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  EXPECT_THAT(Fence::PipesBelow(folder), ::testing::UnorderedElementsAre(folder / "below" / "pipe", folder / "socket"));
+  const std::string look =
+      "test -p " + folder_ + "/below/pipe && echo pipe; test -S " + folder_ + "/socket && echo socket";
+  EXPECT_EQ(Say(TheFence(), look, {folder}), "pipe\nsocket\n") << "the control";
+  Fence fence = TheFence();
+  for (const fs::path& one : Fence::PipesBelow(folder)) fence.Hide(one);
+  EXPECT_EQ(Say(fence, look + "; ls " + folder_ + "/below", {folder}), "pipe\n");
+  ::close(listener);
+}
+
+TEST(ProgramLimits, WhatTheKernelCountsByUserIsSharedByThoseThatRunAtTheSameTime) {
+  for (const int programs : {1, 2, 4, 16, 48}) {
+    EXPECT_LE(programs * ProgramLimits::InotifyInstances(programs), 64) << programs;
+    EXPECT_LE(static_cast<std::size_t>(programs) * ProgramLimits::Pipes(programs), 768u) << programs;
+  }
+  EXPECT_EQ(ProgramLimits::InotifyInstances(1), 8);
+  EXPECT_EQ(ProgramLimits::Pipes(1), 256u);
+  EXPECT_EQ(ProgramLimits::InotifyInstances(1000), 1) << "each has one at least";
+  EXPECT_EQ(ProgramLimits::Threads(1, 100000), ProgramLimits::kThreads);
+  EXPECT_EQ(ProgramLimits::Threads(4, 16000), 2000u);
+  EXPECT_EQ(ProgramLimits::Threads(4, 100), 64u);
 }
 
 TEST_F(FenceTest, TellsNothingOfTheUserInAnyEnvironment) {
