@@ -145,7 +145,7 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
                    "Smooth places below this frequency, Hz, each frame by itself (0: not at all)")
       ->check(NumberWithin(0, 1000, "frequency in Hz"))
       ->capture_default_str();
-  command->add_option("--longest-gap", options->longest_gap_s, "Gaps up to this are bridged, s")
+  command->add_option("--longest-gap", options->max_gap_s, "Gaps up to this are bridged, s")
       ->check(NumberWithin(0, 60, "gap in s"))
       ->capture_default_str();
   command

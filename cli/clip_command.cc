@@ -207,7 +207,7 @@ Json RolesAsJson(const Skeleton& skeleton, const JointMap& map) {
 /// Writes a map file for a skeleton whose roles were not all found: those that are, those to be filled in with what the
 /// build proposes, and the names to choose from.
 std::string UnfinishedMapFile(const Skeleton& skeleton) {
-  const PartialRoles roles = FindRolesInPart(skeleton);
+  const PartialRoles roles = FindPartialRoles(skeleton);
   std::string text =
       "# Write the joint behind each role that is missing. Hands, feet, spine and head may be left out.\nroles:\n";
   for (const Role role : AllRoles()) {
@@ -230,7 +230,7 @@ std::string UnfinishedMapFile(const Skeleton& skeleton) {
 std::array<RoleOnSheet, kRoleCount> RolesOnSheet(const Skeleton& skeleton, const JointMap* map) {
   using By = RoleOnSheet::By;
   std::array<RoleOnSheet, kRoleCount> roles;
-  const PartialRoles in_part = map == nullptr ? FindRolesInPart(skeleton) : PartialRoles{};
+  const PartialRoles in_part = map == nullptr ? FindPartialRoles(skeleton) : PartialRoles{};
   for (const Role role : AllRoles()) {
     RoleOnSheet& shown = roles[Index(role)];
     if (map != nullptr) {

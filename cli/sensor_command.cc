@@ -69,7 +69,7 @@ Result<SkeletonSensorOptions> LoadSensor(const std::string& reference) {
 
 double MissingShare(const JointRecording& recording) {
   std::size_t missing = 0;
-  for (const RolePlaces& frame : recording.frames) {
+  for (const RolePositions& frame : recording.frames) {
     for (const auto& place : frame) missing += !place.has_value();
   }
   const double all = static_cast<double>(recording.frames.size() * kRoleCount);

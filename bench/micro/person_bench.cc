@@ -139,7 +139,7 @@ std::size_t DifferentFromOurs(Finder& peer) {
 
 void OpenCvHue(benchmark::State& state, OpenCvPerson::Kind kind) {
   const PersonOptions options;
-  OpenCvPerson peer(Background(), options.change.hue_threshold, options.largest_hole, kind);
+  OpenCvPerson peer(Background(), options.change.hue_threshold, options.max_hole_px, kind);
   const std::size_t different = DifferentFromOurs(peer);
   if (kind == OpenCvPerson::Kind::kSameHue && different != 0) {
     std::fprintf(stderr, "the chains disagree about %zu pixels\n", different);
@@ -153,7 +153,7 @@ BENCHMARK_CAPTURE(OpenCvHue, hsv, OpenCvPerson::Kind::kHsv)->Unit(benchmark::kMi
 BENCHMARK_CAPTURE(OpenCvHue, hsv_contours, OpenCvPerson::Kind::kHsvContours)->Unit(benchmark::kMicrosecond);
 
 void OpenCvMixture(benchmark::State& state, OpenCvModel::Kind kind) {
-  OpenCvModel peer(kind, PersonOptions{}.largest_hole);
+  OpenCvModel peer(kind, PersonOptions{}.max_hole_px);
   FindAll(state, peer);
 }
 BENCHMARK_CAPTURE(OpenCvMixture, mog2, OpenCvModel::Kind::kMog2)->Unit(benchmark::kMicrosecond);

@@ -284,7 +284,7 @@ class DensePeer final : public IkPeer {
     }
     double largest = 0;
     for (int d = 0; d < dofs_; ++d) largest = std::max(largest, std::abs(step_[d]));
-    const double share = largest > kLargestTurn ? kLargestTurn / largest : 1;
+    const double share = largest > kMaxTurn ? kMaxTurn / largest : 1;
     for (int d = 0; d < dofs_; ++d) {
       step_[d] *= share;
       trial_.angles[d] = std::clamp(pose_.angles[d] + step_[d], lower_[d], upper_[d]);

@@ -44,7 +44,7 @@ struct KdlSettings {
   double damping = 0.03;       ///< λ of the damped least-squares step (TreeIkSolverVel_wdls)
   double position_weight = 5;  ///< weight of a metre against a radian
   int restarts = 0;            ///< of Newton's solver, from poses around the start
-  double largest_turn = 0.6;   ///< of an angle in one step, radians; the online solver's
+  double max_turn = 0.6;   ///< of an angle in one step, radians; the online solver's
 };
 
 /// Makes KDL's TreeIkSolverPos_NR_JL: Newton–Raphson steps, angles cut at their limits.

@@ -154,7 +154,7 @@ class KdlOnline final : public KdlPeer {
  public:
   KdlOnline(const KinematicTree& tree, const KdlSettings& settings) : KdlPeer(tree, settings) {
     KDL::JntArray fastest(tree.dof_count());
-    fastest.data.setConstant(settings.largest_turn);
+    fastest.data.setConstant(settings.max_turn);
     solver_ = std::make_unique<KDL::TreeIkSolverPos_Online>(tree.dof_count(), EndNames(tree), lower_, upper_, fastest,
                                                             kAnySpeed, kAnySpeed, fk_, velocity_);
   }

@@ -16,22 +16,22 @@ struct Buffers {
   cv::Mat labels, stats, centroids, changed;
 };
 
-/// Fills the holes of at most `largest_hole` pixels among `contours` (of two levels, outlines and holes) of a mask. A
+/// Fills the holes of at most `max_hole_px` pixels among `contours` (of two levels, outlines and holes) of a mask. A
 /// hole's contour runs on the person's pixels around it.
 void FillSmallHoles(const std::vector<std::vector<cv::Point>>& contours, const std::vector<cv::Vec4i>& hierarchy,
-                    int outline, int largest_hole, cv::Mat& person) {
+                    int outline, int max_hole_px, cv::Mat& person) {
   for (int i = hierarchy[static_cast<std::size_t>(outline)][2]; i >= 0; i = hierarchy[static_cast<std::size_t>(i)][0]) {
     const cv::Rect around = cv::boundingRect(contours[static_cast<std::size_t>(i)]);
     cv::Mat hole = cv::Mat::zeros(around.size(), CV_8U);
     cv::drawContours(hole, contours, i, 255, cv::FILLED, cv::LINE_8, cv::noArray(), 0, -around.tl());
     hole.setTo(0, person(around));
-    if (cv::countNonZero(hole) <= largest_hole) person(around).setTo(1, hole);
+    if (cv::countNonZero(hole) <= max_hole_px) person(around).setTo(1, hole);
   }
 }
 
-/// The largest 8-connected piece of `changed` with its holes of at most `largest_hole` pixels filled, by the labels of
+/// The largest 8-connected piece of `changed` with its holes of at most `max_hole_px` pixels filled, by the labels of
 /// cv::connectedComponentsWithStats and the contours of that piece's box.
-void KeepPersonByLabels(const cv::Mat& changed, int largest_hole, Buffers& b, Mask& out) {
+void KeepPersonByLabels(const cv::Mat& changed, int max_hole_px, Buffers& b, Mask& out) {
   const int pieces = cv::connectedComponentsWithStats(changed, b.labels, b.stats, b.centroids, 8, CV_32S, cv::CCL_SAUF);
   int best = 0, area = 0;
   for (int i = 1; i < pieces; ++i) {
@@ -49,12 +49,12 @@ void KeepPersonByLabels(const cv::Mat& changed, int largest_hole, Buffers& b, Ma
   std::vector<cv::Vec4i> hierarchy;
   cv::findContours(person, contours, hierarchy, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
   for (int i = 0; i >= 0 && !contours.empty(); i = hierarchy[static_cast<std::size_t>(i)][0]) {
-    FillSmallHoles(contours, hierarchy, i, largest_hole, person);
+    FillSmallHoles(contours, hierarchy, i, max_hole_px, person);
   }
 }
 
 /// Keeps the person by contours alone: the one of the largest area is drawn, its holes with it, unless they are large.
-void KeepPersonByContours(const cv::Mat& changed, int largest_hole, Mask& out) {
+void KeepPersonByContours(const cv::Mat& changed, int max_hole_px, Mask& out) {
   std::vector<std::vector<cv::Point>> contours;
   std::vector<cv::Vec4i> hierarchy;
   cv::findContours(changed, contours, hierarchy, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
@@ -70,14 +70,14 @@ void KeepPersonByContours(const cv::Mat& changed, int largest_hole, Mask& out) {
   cv::Mat person(out.height, out.width, CV_8U, out.pixels.data());
   // With its holes: they are its children, one level below.
   cv::drawContours(person, contours, best, 1, cv::FILLED, cv::LINE_8, hierarchy, 1);
-  FillSmallHoles(contours, hierarchy, best, largest_hole, person);
+  FillSmallHoles(contours, hierarchy, best, max_hole_px, person);
 }
 
 }  // namespace
 
 struct OpenCvPerson::State {
   Kind kind;
-  int largest_hole;
+  int max_hole_px;
   double cosine2;
   int steps;               ///< of cvtColor's hue
   cv::Mat bx, by3, reach;  ///< kSameHue
@@ -98,12 +98,12 @@ struct OpenCvPerson::State {
   }
 };
 
-OpenCvPerson::OpenCvPerson(const ColourImage& background, double hue_threshold, int largest_hole, Kind kind)
+OpenCvPerson::OpenCvPerson(const ColourImage& background, double hue_threshold, int max_hole_px, Kind kind)
     : state_(std::make_unique<State>()) {
   cv::setNumThreads(1);
   State& s = *state_;
   s.kind = kind;
-  s.largest_hole = largest_hole;
+  s.max_hole_px = max_hole_px;
   s.cosine2 = std::cos(hue_threshold) * std::cos(hue_threshold);
   s.steps = static_cast<int>(std::lround(hue_threshold / (2 * M_PI) * 180));
   if (kind == Kind::kSameHue) {
@@ -143,23 +143,23 @@ Mask OpenCvPerson::Find(const ColourImage& picture) {
   }
   Mask out(picture.width, picture.height);
   if (s.kind == Kind::kHsvContours) {
-    KeepPersonByContours(s.buffers.changed, s.largest_hole, out);
+    KeepPersonByContours(s.buffers.changed, s.max_hole_px, out);
   } else {
-    KeepPersonByLabels(s.buffers.changed, s.largest_hole, s.buffers, out);
+    KeepPersonByLabels(s.buffers.changed, s.max_hole_px, s.buffers, out);
   }
   return out;
 }
 
 struct OpenCvModel::State {
   cv::Ptr<cv::BackgroundSubtractor> model;
-  int largest_hole;
+  int max_hole_px;
   cv::Mat found;
   Buffers buffers;
 };
 
-OpenCvModel::OpenCvModel(Kind kind, int largest_hole) : state_(std::make_unique<State>()) {
+OpenCvModel::OpenCvModel(Kind kind, int max_hole_px) : state_(std::make_unique<State>()) {
   cv::setNumThreads(1);
-  state_->largest_hole = largest_hole;
+  state_->max_hole_px = max_hole_px;
   if (kind == Kind::kMog2) {
     state_->model = cv::createBackgroundSubtractorMOG2();
   } else {
@@ -174,7 +174,7 @@ Mask OpenCvModel::Find(const ColourImage& picture) {
   s.model->apply(ViewOf(picture), s.found);
   cv::threshold(s.found, s.buffers.changed, 200, 255, cv::THRESH_BINARY);  // 127 is shadow
   Mask out(picture.width, picture.height);
-  KeepPersonByLabels(s.buffers.changed, s.largest_hole, s.buffers, out);
+  KeepPersonByLabels(s.buffers.changed, s.max_hole_px, s.buffers, out);
   return out;
 }
 

@@ -17,7 +17,7 @@ class OpenCvPerson {
     kHsv,          ///< cvtColor's hue of 180 steps: what one takes who wants it fast
     kHsvContours,  ///< the same, the largest piece by contours alone instead of labels
   };
-  OpenCvPerson(const ColourImage& background, double hue_threshold, int largest_hole, Kind kind);
+  OpenCvPerson(const ColourImage& background, double hue_threshold, int max_hole_px, Kind kind);
   ~OpenCvPerson();
   OpenCvPerson(OpenCvPerson&&) noexcept;
   OpenCvPerson& operator=(OpenCvPerson&&) = delete;
@@ -33,7 +33,7 @@ class OpenCvPerson {
 class OpenCvModel {
  public:
   enum class Kind { kMog2, kKnn };
-  OpenCvModel(Kind kind, int largest_hole);
+  OpenCvModel(Kind kind, int max_hole_px);
   ~OpenCvModel();
   OpenCvModel(OpenCvModel&&) noexcept;
   OpenCvModel& operator=(OpenCvModel&&) = delete;

@@ -107,7 +107,7 @@ std::vector<std::optional<Pose>> TrackSilhouettes(std::span<const Camera> camera
   }
   TrackOptions track;
   track.angle_change *= kJudgedRateHz / options.rate_hz;
-  track.place_change_m *= kJudgedRateHz / options.rate_hz;
+  track.position_change_m *= kJudgedRateHz / options.rate_hz;
   const SilhouetteTrack found =
       etude::TrackSilhouettes(body, {.cameras = matrices, .silhouettes = silhouettes, .start = {}}, track);
   std::vector<std::optional<Pose>> poses;

@@ -10,13 +10,13 @@ namespace etude {
 /// code, so that a picture of any part of the board identifies that part (after OpenCV's ChArUco boards; codes and
 /// detection are ours). Codes are numbered row by row through the white squares, from `first_code`.
 struct Board {
-  int columns = 8;  ///< squares; at most kMostSquares per side
+  int columns = 8;  ///< squares; at most kMaxSquares per side
   int rows = 8;
   double square = 0.2;  ///< side of a square, metres
   int first_code = 0;   ///< boards that are seen together must have different codes
 };
 
-constexpr int kMostSquares = 16;
+constexpr int kMaxSquares = 16;
 /// A code is kCodeSide × kCodeSide modules, 1 for black, surrounded by a margin of one white module.
 constexpr int kCodeSide = 4;
 constexpr int kModules = kCodeSide + 2;

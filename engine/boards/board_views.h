@@ -57,12 +57,12 @@ class BoardViews {
 };
 
 /// The pose of the first board, which defines the world of the cameras.
-enum class BoardStance {
+enum class BoardPlacement {
   kOnFloor,  ///< on the floor: X along its rows to the right, Z down its columns, Y up
   kOnWall,   ///< upright: X to the right, Y up its columns, Z out of its front
 };
 
 /// Transforms the cameras to a world with Y up and its origin at the top left corner of the first board.
-void TurnToStance(BoardStance stance, std::span<Camera> cameras);
+void AlignToBoard(BoardPlacement stance, std::span<Camera> cameras);
 
 }  // namespace etude

@@ -404,7 +404,7 @@ ceres::Solver::Options SolverOptions(const BundleOptions& options) {
   solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   solver.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
   solver.max_num_iterations = options.max_iterations;
-  solver.function_tolerance = options.smallest_decrease;
+  solver.function_tolerance = options.min_decrease;
   solver.gradient_tolerance = 0;
   solver.parameter_tolerance = 0;
   solver.max_solver_time_in_seconds = std::numeric_limits<double>::max();

@@ -60,7 +60,7 @@ struct BundleOptions {
   /// determines.
   int max_iterations = 25;
   /// The search ends if a step lowers the cost by less than this share.
-  double smallest_decrease = 1e-4;
+  double min_decrease = 1e-4;
 };
 
 struct BundleSolution {

@@ -84,11 +84,11 @@ std::optional<StrokePlane> PlaneOf(const LimbSighting& sighting) {
   return StrokePlane{normal_W / length, a_W, b_W, glm::distance(stroke.a, stroke.b)};
 }
 
-LimbDirection ComputeLimbDirection(std::span<const LimbSighting> sightings, double smallest_plane_angle) {
+LimbDirection ComputeLimbDirection(std::span<const LimbSighting> sightings, double min_plane_angle) {
   const std::vector<StrokePlane> planes = PlanesOf(sightings);
   LimbDirection limb;
   limb.plane_angle = LargestPlaneAngle(planes);
-  if (limb.plane_angle < std::max(smallest_plane_angle, kSamePixel)) return limb;
+  if (limb.plane_angle < std::max(min_plane_angle, kSamePixel)) return limb;
 
   // Solve with equal weights, then with the weights that follow from that solution.
   const std::vector<double> alike(planes.size(), 1.0);

@@ -59,7 +59,7 @@ struct LimbDirection {
 /// camera, whose stroke is long relative to the visible limb, has more weight. The d in the weights is the solution
 /// with equal weights. Strokes without length are left out. The direction points from a to b in the pictures (ours; the
 /// paper does not say); if pictures disagree, those in which the limb is less foreshortened decide.
-/// @param smallest_plane_angle the result is ill-conditioned if no two planes differ by at least this angle, radians
-LimbDirection ComputeLimbDirection(std::span<const LimbSighting> sightings, double smallest_plane_angle = Radians(3));
+/// @param min_plane_angle the result is ill-conditioned if no two planes differ by at least this angle, radians
+LimbDirection ComputeLimbDirection(std::span<const LimbSighting> sightings, double min_plane_angle = Radians(3));
 
 }  // namespace etude

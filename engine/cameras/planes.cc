@@ -48,11 +48,11 @@ glm::dmat3 NearestRotation(const glm::dmat3& m) {
 }
 
 /// Returns X_AC of X_AB and X_BC.
-TargetPlace Product(const TargetPlace& ab, const TargetPlace& bc) {
+CalibrationTargetPose Product(const CalibrationTargetPose& ab, const CalibrationTargetPose& bc) {
   return {ab.R_WT * bc.R_WT, ab.R_WT * bc.p_WT + ab.p_WT};
 }
 
-TargetPlace Inverse(const TargetPlace& pose) {
+CalibrationTargetPose Inverse(const CalibrationTargetPose& pose) {
   const glm::dmat3 R = glm::transpose(pose.R_WT);
   return {R, -(R * pose.p_WT)};
 }
@@ -61,7 +61,7 @@ TargetPlace Inverse(const TargetPlace& pose) {
 struct PlaneView {
   const TargetView* view;
   glm::dmat3 homography;
-  TargetPlace pose_CT{};
+  CalibrationTargetPose pose_CT{};
 };
 
 /// The poses of cameras and boards, found one after the other.
@@ -88,7 +88,7 @@ class Places {
     return true;
   }
 
-  std::vector<std::optional<TargetPlace>> cameras_, targets_;
+  std::vector<std::optional<CalibrationTargetPose>> cameras_, targets_;
 };
 
 }  // namespace
@@ -159,7 +159,7 @@ Result<Intrinsics> IntrinsicsFromPlanes(std::span<const glm::dmat3> homographies
   return Intrinsics{width, height, focal[0], focal[1], width / 2.0, height / 2.0, 0};
 }
 
-TargetPlace PoseOfPlane(const Intrinsics& in, const glm::dmat3& homography) {
+CalibrationTargetPose PoseOfPlane(const Intrinsics& in, const glm::dmat3& homography) {
   const glm::dmat3 K = glm::transpose(glm::dmat3(in.fx, in.skew, in.cx, 0, in.fy, in.cy, 0, 0, 1));
   glm::dmat3 m = glm::inverse(K) * homography;
   m /= (glm::length(m[0]) + glm::length(m[1])) / 2;
@@ -205,7 +205,7 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
   for (std::size_t i = 0; i < usable.size(); ++i) usable[i].view = &kept[i];
   // Find all poses, starting from the first board.
   Places places(sizes.size(), boards);
-  places.targets_.front() = TargetPlace{};
+  places.targets_.front() = CalibrationTargetPose{};
   while (places.Join(usable)) {
   }
   for (std::size_t camera = 0; camera < sizes.size(); ++camera) {
@@ -221,7 +221,7 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
 }
 
 // The pose of each board follows from its first usable view.
-Result<RefinedRig> PlaceBoards(std::span<const Camera> cameras, std::span<const TargetView> views) {
+Result<RefinedRig> LocateBoards(std::span<const Camera> cameras, std::span<const TargetView> views) {
   RigGuess guess{.cameras = {cameras.begin(), cameras.end()}, .targets = {}};
   std::vector<std::optional<std::size_t>> number;
   std::vector<TargetView> kept;
@@ -237,7 +237,7 @@ Result<RefinedRig> PlaceBoards(std::span<const Camera> cameras, std::span<const 
     auto& as = number[view.target];
     if (!as) {
       as = guess.targets.size();
-      const TargetPlace pose_CW{camera.R_CW, -(camera.R_CW * camera.p_WC)};
+      const CalibrationTargetPose pose_CW{camera.R_CW, -(camera.R_CW * camera.p_WC)};
       guess.targets.push_back(Product(Inverse(pose_CW), PoseOfPlane(camera.intrinsics, *homography)));
     }
     kept.push_back({view.camera, *as, view.pairs});

@@ -21,7 +21,7 @@ Result<glm::dmat3> HomographyOf(std::span<const PointPair> pairs);
 Result<Intrinsics> IntrinsicsFromPlanes(std::span<const glm::dmat3> homographies, int width, int height);
 
 /// Returns the pose of the plane in the camera's frame (R_CT, p_CT), in front of the camera.
-TargetPlace PoseOfPlane(const Intrinsics& intrinsics, const glm::dmat3& homography);
+CalibrationTargetPose PoseOfPlane(const Intrinsics& intrinsics, const glm::dmat3& homography);
 
 struct PictureSize {
   int width = 0;
@@ -39,6 +39,6 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
 
 /// Finds the poses of flat boards that minimise the reprojection error of known cameras. The cameras are held as they
 /// are, with their lenses, in any world. Views are used as by `CalibrateFromPlanes`. Fails if no camera shows a board.
-Result<RefinedRig> PlaceBoards(std::span<const Camera> cameras, std::span<const TargetView> views);
+Result<RefinedRig> LocateBoards(std::span<const Camera> cameras, std::span<const TargetView> views);
 
 }  // namespace etude

@@ -92,7 +92,7 @@ class Bundle {
       intrinsics_.push_back(ToBlock(camera, options));
       cameras_.push_back(ToBlock(camera.R_CW, -(camera.R_CW * camera.p_WC)));
     }
-    for (const TargetPlace& target : guess.targets) targets_.push_back(ToBlock(target.R_WT, target.p_WT));
+    for (const CalibrationTargetPose& target : guess.targets) targets_.push_back(ToBlock(target.R_WT, target.p_WT));
     for (const TargetView& view : views) AddView(view);
     for (IntrinsicsBlock& intrinsics : intrinsics_) Hold(intrinsics);
     if (!options.hold_cameras) problem_.SetParameterBlockConstant(targets_.front().data());
@@ -337,10 +337,10 @@ Result<RefinedRig> RefineCamera(std::span<const PointPair> pairs, int width, int
   Camera camera = ToCamera(parameters, width, height);
   if (!options.skew) camera.intrinsics.skew = 0;
   const std::vector<TargetView> views{{0, 0, {pairs.begin(), pairs.end()}}};
-  return RefineRig({{camera}, {TargetPlace{}}}, views, options);
+  return RefineRig({{camera}, {CalibrationTargetPose{}}}, views, options);
 }
 
-double ReprojectionRms(const Camera& camera, const TargetPlace& target, std::span<const PointPair> pairs) {
+double ReprojectionRms(const Camera& camera, const CalibrationTargetPose& target, std::span<const PointPair> pairs) {
   double squares = 0;
   for (const PointPair& pair : pairs) {
     const auto pixel = Project(camera, target.R_WT * pair.world + target.p_WT);

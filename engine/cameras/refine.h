@@ -12,7 +12,7 @@
 namespace etude {
 
 /// The pose of a calibration target T (a rigid set of known points) in the world W: p_WQ = R_WT p_TQ + p_WT.
-struct TargetPlace {
+struct CalibrationTargetPose {
   glm::dmat3 R_WT{1};
   glm::dvec3 p_WT{0};
 };
@@ -47,7 +47,7 @@ struct RefineOptions {
 /// Start values of all cameras and targets.
 struct RigGuess {
   std::vector<Camera> cameras;
-  std::vector<TargetPlace> targets;  ///< the first one is held fixed: it defines the world
+  std::vector<CalibrationTargetPose> targets;  ///< the first one is held fixed: it defines the world
 };
 
 /// The standard deviations of a camera's intrinsics, pixels, if the corners' errors are independent and equally large.
@@ -57,7 +57,7 @@ struct IntrinsicsDeviation {
 
 struct RefinedRig {
   std::vector<Camera> cameras;
-  std::vector<TargetPlace> targets;
+  std::vector<CalibrationTargetPose> targets;
   /// Root mean square distance between pixels and projected points, for each camera and for all.
   std::vector<double> camera_rms_px;
   double rms_px = 0;
@@ -79,6 +79,6 @@ Result<RefinedRig> RefineCamera(std::span<const PointPair> pairs, int width, int
 
 /// Returns the root mean square distance between the pairs' pixels and the pixels at which the camera with its lens
 /// shows their points; infinity if it does not show some point.
-double ReprojectionRms(const Camera& camera, const TargetPlace& target, std::span<const PointPair> pairs);
+double ReprojectionRms(const Camera& camera, const CalibrationTargetPose& target, std::span<const PointPair> pairs);
 
 }  // namespace etude

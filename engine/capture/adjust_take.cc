@@ -71,11 +71,11 @@ namespace {
 
 /// Returns one state per frame. Frames without a state take that of the frame before, leading ones the first; empty if
 /// no frame has one.
-std::vector<TreeState> StartOf(const CaptureBody& body, std::span<const SomeJoints> joints) {
+std::vector<TreeState> StartOf(const CaptureBody& body, std::span<const OptionalJoints> joints) {
   const BodyPose standing = ToBodyPose(body, StandingState(body.tree));
   std::vector<TreeState> states;
   std::size_t leading = 0;
-  for (const SomeJoints& frame : joints) {
+  for (const OptionalJoints& frame : joints) {
     const auto pose = CompleteJoints(frame, standing);
     const auto state = pose ? FindStartState(body.tree, *pose, body.tree.limits) : std::nullopt;
     if (state) {
@@ -150,8 +150,8 @@ constexpr std::array<LengthBetween, 8> kBetween = {{{&LimbLengths::foot, kLeftAn
                                                     {&LimbLengths::forearm, kLeftElbow, kLeftWrist},
                                                     {&LimbLengths::hand, kLeftWrist, kLeftHand}}};
 
-SomeJoints PlacedJoints(const JointMeasurements& frame) {
-  SomeJoints joints;
+OptionalJoints PlacedJoints(const JointMeasurements& frame) {
+  OptionalJoints joints;
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     if (frame.is_triangulated[i]) joints[i] = frame.joints[i].position;
   }
@@ -163,13 +163,13 @@ std::optional<double> MedianOf(std::vector<double> values) {
   return UpperMedian(std::move(values));
 }
 
-std::optional<glm::dvec3> MiddleOf(const SomeJoints& joints, Role a, Role b) {
+std::optional<glm::dvec3> MiddleOf(const OptionalJoints& joints, Role a, Role b) {
   if (!joints[Index(a)] || !joints[Index(b)]) return std::nullopt;
   return 0.5 * (*joints[Index(a)] + *joints[Index(b)]);
 }
 
 // Returns the median lengths over all frames and both sides. Lengths that no frame shows keep the default of an adult.
-LimbLengths MedianLengths(std::span<const SomeJoints> frames) {
+LimbLengths MedianLengths(std::span<const OptionalJoints> frames) {
   LimbLengths lengths;
   const auto set = [&](double LimbLengths::*length, std::vector<double> found) {
     if (const auto median = MedianOf(std::move(found)); median && *median > 0) lengths.*length = *median;
@@ -177,7 +177,7 @@ LimbLengths MedianLengths(std::span<const SomeJoints> frames) {
   // Lengths between two joints.
   for (const auto& [length, a, b] : kBetween) {
     std::vector<double> found;
-    for (const SomeJoints& joints : frames) {
+    for (const OptionalJoints& joints : frames) {
       for (const auto& [from, to] : {std::pair(a, b), std::pair(Mirrored(a), Mirrored(b))}) {
         if (joints[Index(from)] && joints[Index(to)]) {
           found.push_back(glm::distance(*joints[Index(from)], *joints[Index(to)]));
@@ -188,7 +188,7 @@ LimbLengths MedianLengths(std::span<const SomeJoints> frames) {
   }
   // Trunk and neck, from the midpoints of hips and shoulders.
   std::vector<double> trunks, necks;
-  for (const SomeJoints& joints : frames) {
+  for (const OptionalJoints& joints : frames) {
     const auto hips = MiddleOf(joints, kLeftHip, kRightHip),
                shoulders = MiddleOf(joints, kLeftShoulder, kRightShoulder);
     if (hips && shoulders) trunks.push_back(glm::distance(*hips, *shoulders));
@@ -200,9 +200,9 @@ LimbLengths MedianLengths(std::span<const SomeJoints> frames) {
 }
 
 // Chooses `wanted` frames, evenly spaced among those that show the most joints.
-std::vector<std::size_t> ChooseFrames(std::span<const SomeJoints> joints, std::size_t wanted) {
+std::vector<std::size_t> ChooseFrames(std::span<const OptionalJoints> joints, std::size_t wanted) {
   std::vector<std::size_t> shown;
-  for (const SomeJoints& frame : joints) {
+  for (const OptionalJoints& frame : joints) {
     shown.push_back(
         static_cast<std::size_t>(std::ranges::count_if(frame, [](const auto& j) { return j.has_value(); })));
   }
@@ -226,10 +226,10 @@ std::vector<std::size_t> ChooseFrames(std::span<const SomeJoints> joints, std::s
 
 std::optional<LimbLengths> MeasureLengths(const MeasureInputs& pictures, std::span<const JointMeasurements> measured,
                                           const MeasureLengthsOptions& options) {
-  std::vector<SomeJoints> placed;
+  std::vector<OptionalJoints> placed;
   for (const JointMeasurements& frame : measured) placed.push_back(PlacedJoints(frame));
   const auto chosen = ChooseFrames(placed, static_cast<std::size_t>(options.frames));
-  std::vector<SomeJoints> start;
+  std::vector<OptionalJoints> start;
   std::vector<std::vector<Marks>> marks(pictures.marks.size());
   for (const std::size_t k : chosen) {
     start.push_back(placed[k]);

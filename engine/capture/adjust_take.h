@@ -34,7 +34,7 @@ struct AdjustTakeInputs {
   MeasureInputs pictures;  ///< `known` is ignored
   LimbLengths lengths;     ///< lengths of the person, metres; the start of the search if lengths are adjusted
   /// The joints of each frame at which the search starts (`BridgeJoints`).
-  std::span<const SomeJoints> start;
+  std::span<const OptionalJoints> start;
 };
 
 struct AdjustTakeOptions {

@@ -29,12 +29,12 @@ struct Bridged {
 
 // Returns the value at `frame`, interpolated with `mix` between the nearest frames for which `value_at` has one.
 template <typename ValueAt, typename Mix>
-std::optional<Bridged> Bridge(int frame, int frames, int longest_gap, ValueAt value_at, Mix mix) {
+std::optional<Bridged> Bridge(int frame, int frames, int max_gap, ValueAt value_at, Mix mix) {
   int before = frame, after = frame;
   while (before >= 0 && !value_at(before)) --before;
   while (after < frames && !value_at(after)) ++after;
   const bool has_before = before >= 0, has_after = after < frames;
-  const bool is_near = (has_before && frame - before <= longest_gap) || (has_after && after - frame <= longest_gap);
+  const bool is_near = (has_before && frame - before <= max_gap) || (has_after && after - frame <= max_gap);
   if (!is_near) return std::nullopt;
   const int distance = std::min(has_before ? frame - before : frames, has_after ? after - frame : frames);
   if (!has_after || before == after) return Bridged{*value_at(before), distance};
@@ -100,7 +100,7 @@ class FrameBridge {
 
   std::optional<glm::dvec3> End(std::size_t role) const {
     const auto end_at = [&](int k) -> const auto& { return frames_[k].ends[role]; };
-    const auto bridged = Bridge(frame_, Count(), options_.longest_gap, end_at, MixPoints);
+    const auto bridged = Bridge(frame_, Count(), options_.max_gap, end_at, MixPoints);
     if (!bridged) return std::nullopt;
     const auto& line = frames_[frame_].sight_lines[role];
     return line ? NearestOn(*line, bridged->value) : bridged->value;
@@ -108,7 +108,7 @@ class FrameBridge {
 
   std::optional<glm::dvec3> Direction(std::size_t role) const {
     const auto direction_at = [&](int k) -> const auto& { return frames_[k].directions[role]; };
-    const auto bridged = Bridge(frame_, Count(), options_.longest_gap, direction_at, SlerpDirections);
+    const auto bridged = Bridge(frame_, Count(), options_.max_gap, direction_at, SlerpDirections);
     const std::vector<StrokePlane>& planes = frames_[frame_].planes[role];
     if (!bridged) return DirectionAcrossSight(planes);
     if (bridged->distance == 0 || planes.empty()) return bridged->value;

@@ -14,7 +14,7 @@ struct BridgeOptions {
   /// The number of frames before and after a measurement in which it is used. 15 is half a second at 30 Hz; after that
   /// a performer's limb can be anywhere. Scale it with the frame rate. If only every n-th frame is marked, set it to at
   /// least n.
-  int longest_gap = 15;
+  int max_gap = 15;
   /// The standard deviation of a stroke's end, pixels. Only its ratio to `turn_per_frame` matters, and only for limbs
   /// whose strokes alone give no direction.
   double mark_error_px = 2;
@@ -33,12 +33,12 @@ struct BridgeOptions {
 ///   marks' errors cause. Nearly parallel planes thus determine part of the direction, and the neighbouring frames the
 ///   rest. Without b the limb is assumed unforeshortened: its direction is normal to the mean line of sight of its
 ///   pictures.
-/// A quantity that was not measured within `longest_gap` frames and is not seen at all is marked as lacking
+/// A quantity that was not measured within `max_gap` frames and is not seen at all is marked as lacking
 /// (`LimbObservation::lacks_end`); a frame that lacks everything is empty.
 std::vector<std::optional<LimbObservation>> BridgeGaps(std::span<const FrameMeasurement> frames,
                                                        const BridgeOptions& options = {});
 
-/// Completes the last frame from the frames before it, as a live system must. Frames more than `longest_gap` before it
+/// Completes the last frame from the frames before it, as a live system must. Frames more than `max_gap` before it
 /// have no effect.
 std::optional<LimbObservation> BridgeLast(std::span<const FrameMeasurement> frames, const BridgeOptions& options = {});
 

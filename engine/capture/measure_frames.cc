@@ -88,7 +88,7 @@ class FrameMeasurer {
       const auto& stroke = MarksOf(camera).strokes[stroke_mark];
       if (stroke && IsLongEnough(*stroke)) sightings.push_back({inputs_.cameras[camera], *stroke});
     }
-    const LimbDirection limb = ComputeLimbDirection(sightings, options_.smallest_plane_angle);
+    const LimbDirection limb = ComputeLimbDirection(sightings, options_.min_plane_angle);
     return limb.status == DirectionStatus::kOk ? std::optional(limb.direction) : std::nullopt;
   }
 
@@ -104,7 +104,7 @@ class FrameMeasurer {
 
   const Marks& MarksOf(std::size_t camera) const { return inputs_.marks[camera][frame_]; }
   bool IsLongEnough(const PixelSegment& stroke) const {
-    return glm::distance(stroke.a, stroke.b) >= options_.shortest_stroke_px;
+    return glm::distance(stroke.a, stroke.b) >= options_.min_stroke_px;
   }
 
   const MeasureInputs& inputs_;

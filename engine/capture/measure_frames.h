@@ -59,11 +59,11 @@ struct MeasureOptions {
   /// of the strokes is multiplied by 1/sin of that angle, about seven at 8°. Below it the planes are kept and combined
   /// with neighbouring frames (`BridgeGaps`). Raise it if marks are inaccurate; lower it if marks are accurate or the
   /// cameras are close together.
-  double smallest_plane_angle = Radians(8);
+  double min_plane_angle = Radians(8);
   /// Strokes shorter than this, in pixels, give no direction: if a limb is seen almost end on, mark errors hide its
   /// direction. The default is three times the usual mark error in pictures of 640 × 480, 2 pixels; scale it with that
   /// error.
-  double shortest_stroke_px = 6;
+  double min_stroke_px = 6;
 };
 
 /// Triangulates the end effectors and computes the limb directions of every frame (paper B, sections 2.3 and 2.4). A

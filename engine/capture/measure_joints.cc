@@ -138,7 +138,7 @@ std::optional<double> UsualVariance(std::span<const JointMeasurements> measured,
 }
 
 // Returns a vector from right to left across the body, from hips and shoulders if known.
-std::optional<glm::dvec3> AcrossOf(const SomeJoints& joints) {
+std::optional<glm::dvec3> AcrossOf(const OptionalJoints& joints) {
   std::optional<glm::dvec3> across;
   for (const auto& [left, right] : {std::pair(kLeftHip, kRightHip), std::pair(kLeftShoulder, kRightShoulder)}) {
     if (!joints[Index(left)] || !joints[Index(right)]) continue;
@@ -177,8 +177,8 @@ std::vector<JointMeasurements> MeasureJoints(const MeasureInputs& inputs, const 
   return measured;
 }
 
-std::vector<SomeJoints> BridgeJoints(std::span<const JointMeasurements> measured) {
-  std::vector<SomeJoints> joints(measured.size());
+std::vector<OptionalJoints> BridgeJoints(std::span<const JointMeasurements> measured) {
+  std::vector<OptionalJoints> joints(measured.size());
   for (std::size_t role = 0; role < kRoleCount; ++role) {
     std::vector<std::optional<glm::dvec3>> track;
     for (const JointMeasurements& frame : measured) {
@@ -190,8 +190,8 @@ std::vector<SomeJoints> BridgeJoints(std::span<const JointMeasurements> measured
   return joints;
 }
 
-std::vector<SomeJoints> SmoothJoints(std::span<const JointMeasurements> measured, double rate_hz) {
-  std::vector<SomeJoints> joints(measured.size());
+std::vector<OptionalJoints> SmoothJoints(std::span<const JointMeasurements> measured, double rate_hz) {
+  std::vector<OptionalJoints> joints(measured.size());
   for (std::size_t role = 0; role < kRoleCount; ++role) {
     const std::vector<PointMeasurement> track = TrackOf(measured, role);
     if (std::ranges::none_of(track, IsMeasured)) continue;
@@ -201,9 +201,9 @@ std::vector<SomeJoints> SmoothJoints(std::span<const JointMeasurements> measured
   return joints;
 }
 
-std::optional<BodyPose> CompleteJoints(const SomeJoints& joints, const BodyPose& like) {
+std::optional<BodyPose> CompleteJoints(const OptionalJoints& joints, const BodyPose& like) {
   // Interpolate the joints of the trunk.
-  SomeJoints filled = joints;
+  OptionalJoints filled = joints;
   const auto middle = [&](Role role, Role a, Role b, double share) {
     const auto &from = filled[Index(a)], &to = filled[Index(b)];
     if (from && to) filled[Index(role)] = glm::mix(*from, *to, share);

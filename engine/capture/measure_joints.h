@@ -48,20 +48,20 @@ struct JointMeasurements {
 std::vector<JointMeasurements> MeasureJoints(const MeasureInputs& inputs, const MarkErrors& errors = {});
 
 /// Joint positions of one frame, empty for joints without one.
-using SomeJoints = RoleVectors;
+using OptionalJoints = RoleVectors;
 
 /// Fills the gaps of each joint's track: linearly between measurements, constant before the first and after the last. A
 /// joint that no frame measures stays empty.
-std::vector<SomeJoints> BridgeJoints(std::span<const JointMeasurements> measured);
+std::vector<OptionalJoints> BridgeJoints(std::span<const JointMeasurements> measured);
 
 /// Smooths each joint's track independently (`SmoothTrack`) with the acceleration density of maximum likelihood, and
 /// fills the gaps. A joint that no frame measures stays empty.
-std::vector<SomeJoints> SmoothJoints(std::span<const JointMeasurements> measured, double rate_hz);
+std::vector<OptionalJoints> SmoothJoints(std::span<const JointMeasurements> measured, double rate_hz);
 
 /// Completes a body: hip centre and spine are interpolated between other joints; missing joints are attached to their
 /// neighbours as in `like`, rotated about the vertical to the heading of hips and shoulders. Returns nothing if no
 /// joint has a position.
-std::optional<BodyPose> CompleteJoints(const SomeJoints& joints, const BodyPose& like);
+std::optional<BodyPose> CompleteJoints(const OptionalJoints& joints, const BodyPose& like);
 
 /// Smooths the poses of a motion as `SmoothJoints` does and fills frames without a pose. The error of each joint is the
 /// usual one of its measurements.

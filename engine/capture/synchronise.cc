@@ -35,13 +35,13 @@ std::optional<ParabolaMinimum> FitParabola(const std::function<std::optional<dou
 
 }  // namespace
 
-ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& misfit, int most_frames) {
+ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& misfit, int max_frames) {
   const std::optional<double> assumed = misfit(0);
   if (!assumed) return {};
   // The best whole frame, then the minimum of the parabola around it.
   int best = 0, evaluated = 0;
   double min_misfit = *assumed, sum = 0;
-  for (int offset = -most_frames; offset <= most_frames; ++offset) {
+  for (int offset = -max_frames; offset <= max_frames; ++offset) {
     const std::optional<double> here = misfit(offset);
     if (!here) continue;
     sum += *here;
@@ -56,11 +56,11 @@ ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& m
   // Noise alone stays below this ratio if there are at least 300 distances.
   constexpr double kTold = 1.25;
   const bool is_better = *assumed - min_misfit + minimum.gain > kNothing + kNoBetter * *assumed;
-  const bool is_told = std::abs(best) < most_frames && sum / evaluated > kNothing + kTold * (min_misfit - minimum.gain);
+  const bool is_told = std::abs(best) < max_frames && sum / evaluated > kNothing + kTold * (min_misfit - minimum.gain);
   return {is_better ? best + minimum.shift : 0, is_told};
 }
 
-SomePixel PixelBetween(const SomePixel& a, const SomePixel& b, const SomePixel& c, const SomePixel& d, double share) {
+OptionalPixel PixelBetween(const OptionalPixel& a, const OptionalPixel& b, const OptionalPixel& c, const OptionalPixel& d, double share) {
   if (!b || (share > 0 && !c)) return std::nullopt;
   if (share == 0) return b;
   if (!a || !d) return (1 - share) * *b + share * *c;
@@ -71,7 +71,7 @@ SomePixel PixelBetween(const SomePixel& a, const SomePixel& b, const SomePixel& 
 
 namespace {
 
-using Pixel = SomePixel;
+using Pixel = OptionalPixel;
 
 Pixel BeginOf(const std::optional<PixelSegment>& stroke) { return stroke ? Pixel(stroke->a) : std::nullopt; }
 Pixel EndOf(const std::optional<PixelSegment>& stroke) { return stroke ? Pixel(stroke->b) : std::nullopt; }
@@ -79,12 +79,12 @@ Pixel EndOf(const std::optional<PixelSegment>& stroke) { return stroke ? Pixel(s
 /// Returns the mean squared epipolar distance between the marks of two cameras if the second is late by `offset`
 /// frames; nothing if they have too few marks in common.
 std::optional<double> Misfit(const EpipolarGeometry& geometry, std::span<const Marks> first,
-                             std::span<const Marks> second, double most_px, double offset) {
+                             std::span<const Marks> second, double max_px, double offset) {
   double sum = 0;
   int count = 0;
   const auto add = [&](const Pixel& a, const Pixel& b) {
     if (!a || !b) return;
-    const double px = std::min(std::abs(geometry.DistancePx(*a, *b)), most_px);
+    const double px = std::min(std::abs(geometry.DistancePx(*a, *b)), max_px);
     sum += px * px;
     ++count;
   };
@@ -134,8 +134,8 @@ std::vector<double> EstimateOffsets(std::span<const ProjectionMatrix> cameras,
   for (std::size_t i = 1; i < cameras.size(); ++i) {
     const auto geometry = EpipolarGeometry::Of(cameras[0], cameras[i]);
     if (!geometry) continue;
-    const auto misfit = [&](int offset) { return Misfit(*geometry, marks[0], marks[i], options.most_px, offset); };
-    offsets[i] = FindOffset(misfit, options.most_frames).frames;
+    const auto misfit = [&](int offset) { return Misfit(*geometry, marks[0], marks[i], options.max_px, offset); };
+    offsets[i] = FindOffset(misfit, options.max_frames).frames;
   }
   return offsets;
 }

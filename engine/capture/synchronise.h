@@ -13,10 +13,10 @@ namespace etude {
 
 struct SyncOptions {
   /// The maximum offset that is searched, in frames either way. Raise it for cameras that were started by hand.
-  int most_frames = 16;
+  int max_frames = 16;
   /// The distance, in pixels, at which the error of a pair of sightings is capped, so that a mark on the wrong limb
   /// does not determine a clock.
-  double most_px = 20;
+  double max_px = 20;
 };
 
 struct ClockOffset {
@@ -30,12 +30,12 @@ struct ClockOffset {
 /// of the parabola through its neighbourhood. The misfit is evaluated at whole frames only, because an interpolated
 /// pixel has a smaller error than the pixels it is computed from, which would bias every offset towards a half. Returns
 /// 0 if the minimum is hardly below the misfit at 0, or if there is no misfit at 0.
-ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& misfit, int most_frames);
+ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& misfit, int max_frames);
 
 /// Returns the pixel at the share `share` between b and c, which are consecutive frames with the neighbours a and d: by
 /// a Catmull-Rom spline through all four, linearly if a or d is missing; empty if b or c is.
-using SomePixel = std::optional<glm::dvec2>;
-SomePixel PixelBetween(const SomePixel& a, const SomePixel& b, const SomePixel& c, const SomePixel& d, double share);
+using OptionalPixel = std::optional<glm::dvec2>;
+OptionalPixel PixelBetween(const OptionalPixel& a, const OptionalPixel& b, const OptionalPixel& c, const OptionalPixel& d, double share);
 
 /// Estimates the delay of each camera's pictures in frames *(ours)*: frame k of a camera was taken at the first
 /// camera's time k + offset. Each camera is compared with the first one: the offset minimises the mean squared epipolar

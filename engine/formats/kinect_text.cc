@@ -43,8 +43,8 @@ Result<std::vector<KinectV2Frame>> ReadKinectV2Text(std::string_view text, const
 
 std::size_t KinectV2JointOf(Role role) { return kJointOfRole[Index(role)]; }
 
-RolePlaces PlacesOf(const KinectV2Frame& frame) {
-  RolePlaces places;
+RolePositions PlacesOf(const KinectV2Frame& frame) {
+  RolePositions places;
   for (std::size_t i = 0; i < kRoleCount; ++i) places[i] = frame[kJointOfRole[i]];
   return places;
 }

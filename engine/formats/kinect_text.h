@@ -15,7 +15,7 @@ namespace etude {
 constexpr std::size_t kKinectV2JointCount = 25;
 
 /// The position of each role; empty if it is missing.
-using RolePlaces = std::array<std::optional<glm::dvec3>, kRoleCount>;
+using RolePositions = std::array<std::optional<glm::dvec3>, kRoleCount>;
 
 /// One frame of a Kinect v2: the positions of its 25 joints in the order of the SDK's JointType, in metres, in the
 /// sensor's frame (Y up, Z away from the sensor, X to the sensor's left: the left side of a person who faces it has
@@ -33,6 +33,6 @@ std::size_t KinectV2JointOf(Role role);
 
 /// Returns the twenty joints of the canonical body, which are those of Kinect v1. SpineShoulder becomes the shoulder
 /// centre; Neck, hand tips and thumbs are left out.
-RolePlaces PlacesOf(const KinectV2Frame& frame);
+RolePositions PlacesOf(const KinectV2Frame& frame);
 
 }  // namespace etude

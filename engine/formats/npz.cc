@@ -17,9 +17,9 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kMostMembers = 1000;
-constexpr std::uint64_t kMostUnpacked = std::uint64_t{512} << 20;
-constexpr std::uint64_t kMostOfAByte = 1032;  ///< DEFLATE makes no more of one
+constexpr std::size_t kMaxMembers = 1000;
+constexpr std::uint64_t kMaxUnpacked = std::uint64_t{512} << 20;
+constexpr std::uint64_t kMaxDeflateRatio = 1032;  ///< DEFLATE makes no more of one
 
 /// Returns what follows a key of the header's Python dictionary, up to `end`.
 std::string_view ValueOf(std::string_view header, std::string_view key, char end) {
@@ -92,8 +92,8 @@ Result<std::optional<NumberArray>> ReadMember(std::string_view bytes, const std:
   for (std::size_t at = 0; (at = shape.find_first_not_of(" ,", at)) != std::string_view::npos;) {
     std::size_t size = 0;
     const auto [end, error] = std::from_chars(shape.data() + at, shape.data() + shape.size(), size);
-    if (error != std::errc() || size > kMostUnpacked) return Fail(place, "its shape is {}", Quote(shape));
-    if (size != 0 && count > kMostUnpacked / size) return Fail(place, "is larger than it can be");
+    if (error != std::errc() || size > kMaxUnpacked) return Fail(place, "its shape is {}", Quote(shape));
+    if (size != 0 && count > kMaxUnpacked / size) return Fail(place, "is larger than it can be");
     array.shape.push_back(size);
     count *= size;
     at = static_cast<std::size_t>(end - shape.data());
@@ -115,8 +115,8 @@ Result<std::string> Unpack(zip_t* archive, zip_uint64_t member, std::uint64_t& l
   if (zip_stat_index(archive, member, 0, &status) != 0 || (status.valid & ZIP_STAT_SIZE) == 0) {
     return Fail({file}, "member {} has no size", member);
   }
-  if (status.size > left) return Fail({file}, "unpacks to more than {} MiB", kMostUnpacked >> 20);
-  if ((status.valid & ZIP_STAT_COMP_SIZE) != 0 && status.size / kMostOfAByte > status.comp_size) {
+  if (status.size > left) return Fail({file}, "unpacks to more than {} MiB", kMaxUnpacked >> 20);
+  if ((status.valid & ZIP_STAT_COMP_SIZE) != 0 && status.size / kMaxDeflateRatio > status.comp_size) {
     return Fail({file}, "member {} says that it unpacks {} bytes to {}", member, status.comp_size, status.size);
   }
   left -= status.size;
@@ -154,12 +154,12 @@ Result<Npz> ReadNpz(std::string_view bytes, const std::string& file) {
     return failed;
   }
   const zip_int64_t members = zip_get_num_entries(archive.get(), 0);
-  if (members < 0 || static_cast<std::size_t>(members) > kMostMembers) {
-    return Fail({file}, "{} members; allowed: {}", members, kMostMembers);
+  if (members < 0 || static_cast<std::size_t>(members) > kMaxMembers) {
+    return Fail({file}, "{} members; allowed: {}", members, kMaxMembers);
   }
   Npz read;
   std::string others;
-  std::uint64_t left = kMostUnpacked;
+  std::uint64_t left = kMaxUnpacked;
   for (zip_uint64_t i = 0; i < static_cast<zip_uint64_t>(members); ++i) {
     const char* name = zip_get_name(archive.get(), i, 0);
     std::string key = name == nullptr ? "" : name;

@@ -58,8 +58,8 @@ bool IsRemark(std::string_view line) { return line.empty() || line.starts_with('
 }  // namespace
 
 Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file, double largest) {
-  if (text.size() > kLargestNumberText) {
-    return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kLargestNumberText);
+  if (text.size() > kMaxNumberTextBytes) {
+    return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kMaxNumberTextBytes);
   }
   // Skip a byte order mark, then read line by line.
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);

@@ -22,7 +22,7 @@ struct NumberRows {
 };
 
 /// The maximal size of a text in bytes. It is about twenty minutes of a Kinect v2's 25 joints; an hour takes 170 MB.
-constexpr std::size_t kLargestNumberText = std::size_t{64} << 20;
+constexpr std::size_t kMaxNumberTextBytes = std::size_t{64} << 20;
 
 /// Reads a table of numbers. Empty lines and lines that begin with '#' or "//" are skipped. "nan" in any case, or
 /// nothing between two commas, is a missing value. Returns an error with line and column for rows of different lengths,

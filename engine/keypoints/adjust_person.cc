@@ -33,7 +33,7 @@ struct SeenAt {
 
 /// Returns the midpoint of two landmarks as the picture shows it: the projection of the midpoint in space, shifted by
 /// the mean offset of both keypoints. The midpoint of the two pixels would lie closer to the nearer landmark.
-Keypoint MiddleOf(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPlaces& places, Landmark a,
+Keypoint MiddleOf(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPositions& places, Landmark a,
                   Landmark b) {
   const glm::dvec3 &p = *places[Index(a)], &q = *places[Index(b)];
   const auto middle = Project(camera, 0.5 * (p + q)), at_p = Project(camera, p), at_q = Project(camera, q);
@@ -43,7 +43,7 @@ Keypoint MiddleOf(const ProjectionMatrix& camera, const SeenPerson& seen, const 
 }
 
 /// Returns the joints that the landmarks show directly, by the rules of `JointsOf`.
-std::vector<SeenAt> JointsIn(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPlaces& places) {
+std::vector<SeenAt> JointsIn(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPositions& places) {
   constexpr std::array<std::pair<Landmark, Role>, 16> kSame = {{{kLeftShoulder, Role::kLeftShoulder},
                                                                 {kRightShoulder, Role::kRightShoulder},
                                                                 {kLeftElbow, Role::kLeftElbow},
@@ -77,7 +77,7 @@ class Adjuster {
   Adjuster(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen, const AdjustPersonOptions& options,
            RecoveredPerson& person)
       : cameras_(cameras), seen_(seen), options_(options), person_(person) {
-    for (const LandmarkPlaces& places : person.landmarks) joints_.push_back(JointsOf(places));
+    for (const LandmarkPositions& places : person.landmarks) joints_.push_back(JointsOf(places));
   }
 
   bool Run() {
@@ -109,7 +109,7 @@ class Adjuster {
   /// minimum.
   std::vector<TreeState> SmoothStart() const {
     constexpr double kCalmHz = 3;
-    std::vector<LandmarkPlaces> points = person_.landmarks;
+    std::vector<LandmarkPositions> points = person_.landmarks;
     SmoothPoints(points, options_.rate_hz, kCalmHz);
     std::vector<TreeState> start = person_.states;
     const auto calm = FitPerson(person_.body, points);
@@ -212,7 +212,7 @@ class Adjuster {
 
   // Adds a mark for each keypoint, and holds the joints that fewer than two cameras see.
   void AddMarks() {
-    const double error = KeypointErrorPx(cameras_, seen_, options_.least_confidence, person_.outlier_px);
+    const double error = KeypointErrorPx(cameras_, seen_, options_.min_confidence, person_.outlier_px);
     std::vector<std::array<int, kRoleCount>> views(person_.states.size());
     std::array<bool, kRoleCount> is_ever_seen{};
     for (std::size_t frame = 0; frame < person_.states.size(); ++frame) {
@@ -220,7 +220,7 @@ class Adjuster {
       for (std::size_t c = 0; c < cameras_.size(); ++c) {
         if (frame >= seen_.seen[c].size() || !seen_.seen[c][frame]) continue;
         for (const auto& [role, keypoint] : JointsIn(cameras_[c], *seen_.seen[c][frame], person_.landmarks[frame])) {
-          if (keypoint.confidence < options_.least_confidence) continue;
+          if (keypoint.confidence < options_.min_confidence) continue;
           ++views[frame][Index(role)];
           is_ever_seen[Index(role)] = true;
           AddMark(frame, role, c, keypoint.pixel, error / std::sqrt(std::min(1.0, keypoint.confidence)));
@@ -239,7 +239,7 @@ class Adjuster {
   /// Adds marks for the joints of the motion from silhouettes, in every camera. Their standard deviation is the median
   /// distance to the motion from keypoints, times the square root of the frame rate: errors of neighbouring frames are
   /// correlated, so the marks of one second count as one.
-  void AddOutlines(double least_px) {
+  void AddOutlines(double min_px) {
     const auto alike = std::sqrt(std::max(1.0, options_.rate_hz));
     const std::size_t frames = std::min(person_.states.size(), options_.outlines->poses.size());
     for (std::size_t c = 0; c < cameras_.size(); ++c) {
@@ -255,7 +255,7 @@ class Adjuster {
           off.push_back(glm::distance(*theirs, *own));
         }
         if (off.empty()) continue;
-        const double sigma = alike * std::max(least_px, UpperMedian(std::move(off)));
+        const double sigma = alike * std::max(min_px, UpperMedian(std::move(off)));
         for (const auto& [k, pixel] : shown) AddMark(k, role, c, pixel, sigma);
       }
     }
@@ -305,7 +305,7 @@ class Adjuster {
 
 }  // namespace
 
-double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen, double least_confidence,
+double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen, double min_confidence,
                        double outlier_px) {
   std::vector<double> squares;  // each element is an estimate of the variance that is unbiased in the median
   const std::size_t frames = seen.seen.empty() ? 0 : seen.seen.front().size();
@@ -314,7 +314,7 @@ double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedP
       std::vector<WeightedSighting> sightings;
       for (std::size_t c = 0; c < cameras.size(); ++c) {
         const auto& person = seen.seen[c][frame];
-        if (!person || person->keypoints[i].confidence < least_confidence) continue;
+        if (!person || person->keypoints[i].confidence < min_confidence) continue;
         sightings.push_back({{cameras[c], person->keypoints[i].pixel}, person->keypoints[i].confidence});
       }
       const auto point = TriangulateRobustly(sightings, {outlier_px});

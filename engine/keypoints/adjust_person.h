@@ -9,7 +9,7 @@ namespace etude {
 
 struct AdjustPersonOptions {
   double rate_hz = 30;
-  double least_confidence = 0.1;  ///< keypoints of lower confidence are ignored
+  double min_confidence = 0.1;  ///< keypoints of lower confidence are ignored
   double acceleration = 8;        ///< lower bound of a joint's acceleration scale along each axis, m/s²
   /// The motion recovered from silhouettes in the same frames; null: none. The weight of each of its joints follows
   /// from its usual distance to the motion from keypoints alone.
@@ -19,7 +19,7 @@ struct AdjustPersonOptions {
 /// Estimates the standard deviation of a person's keypoints along u and v, pixels, from the residuals of their
 /// triangulation: a point seen in n views has 2n − 3 degrees of freedom. Returns at least a tenth of a pixel. The
 /// estimate does not contain errors that all cameras share, nor errors along the common epipolar line of two cameras.
-double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen, double least_confidence,
+double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen, double min_confidence,
                        double outlier_px);
 
 /// Adjusts a recovered motion as a whole (`AdjustBundle`) *(ours)*: one body (bone lengths) and its poses in all frames

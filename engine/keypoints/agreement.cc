@@ -63,23 +63,23 @@ MarkerMotion NamedByRole(double rate_hz) {
 
 }  // namespace
 
-MarkerMotion ToMarkers(std::span<const LandmarkPlaces> frames, double rate_hz) {
+MarkerMotion ToMarkers(std::span<const LandmarkPositions> frames, double rate_hz) {
   MarkerMotion motion{.rate_hz = rate_hz, .names = {}, .frames = {}};
   std::vector<std::size_t> seen;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
-    if (std::ranges::none_of(frames, [&](const LandmarkPlaces& frame) { return frame[i].has_value(); })) continue;
+    if (std::ranges::none_of(frames, [&](const LandmarkPositions& frame) { return frame[i].has_value(); })) continue;
     seen.push_back(i);
     motion.names.emplace_back(LandmarkName(static_cast<Landmark>(i)));
   }
-  for (const LandmarkPlaces& frame : frames) {
+  for (const LandmarkPositions& frame : frames) {
     auto& places = motion.frames.emplace_back();
     for (const std::size_t i : seen) places.push_back(frame[i]);
   }
   return motion;
 }
 
-std::vector<LandmarkPlaces> ToLandmarks(const MarkerMotion& markers) {
-  std::vector<LandmarkPlaces> frames(markers.frames.size());
+std::vector<LandmarkPositions> ToLandmarks(const MarkerMotion& markers) {
+  std::vector<LandmarkPositions> frames(markers.frames.size());
   for (std::size_t i = 0; i < markers.names.size(); ++i) {
     const auto landmark = FindLandmark(markers.names[i]);
     if (!landmark) continue;
@@ -88,9 +88,9 @@ std::vector<LandmarkPlaces> ToLandmarks(const MarkerMotion& markers) {
   return frames;
 }
 
-MarkerMotion JointMarkers(std::span<const LandmarkPlaces> frames, double rate_hz) {
+MarkerMotion JointMarkers(std::span<const LandmarkPositions> frames, double rate_hz) {
   MarkerMotion motion = NamedByRole(rate_hz);
-  for (const LandmarkPlaces& frame : frames) {
+  for (const LandmarkPositions& frame : frames) {
     const RoleVectors joints = JointsOf(frame);
     motion.frames.emplace_back(joints.begin(), joints.end());
   }
@@ -104,7 +104,7 @@ MarkerMotion JointMarkers(const BodyMotion& motion) {
 }
 
 MarkerMotion AtRate(MarkerMotion markers, double rate_hz) {
-  if (std::abs(markers.rate_hz - rate_hz) <= kOneRate * rate_hz || markers.frames.empty()) return markers;
+  if (std::abs(markers.rate_hz - rate_hz) <= kSameRateTolerance * rate_hz || markers.frames.empty()) return markers;
   const double ratio = markers.rate_hz / rate_hz;
   constexpr double kSameTime = 1e-9;
   const auto frames = static_cast<std::size_t>(static_cast<double>(markers.frames.size() - 1) / ratio + kSameTime) + 1;

@@ -12,17 +12,17 @@
 namespace etude {
 
 /// Turns the positions of landmarks into markers of their names; landmarks that are never seen are left out.
-MarkerMotion ToMarkers(std::span<const LandmarkPlaces> frames, double rate_hz);
+MarkerMotion ToMarkers(std::span<const LandmarkPositions> frames, double rate_hz);
 
 /// Turns markers into positions of landmarks; markers of other names are ignored.
-std::vector<LandmarkPlaces> ToLandmarks(const MarkerMotion& markers);
+std::vector<LandmarkPositions> ToLandmarks(const MarkerMotion& markers);
 
 /// Returns the joints that landmarks determine (`JointsOf`), or those of a motion, as markers named after their roles.
-MarkerMotion JointMarkers(std::span<const LandmarkPlaces> frames, double rate_hz);
+MarkerMotion JointMarkers(std::span<const LandmarkPositions> frames, double rate_hz);
 MarkerMotion JointMarkers(const BodyMotion& motion);
 
 /// Two frame rates are treated as equal if their relative difference is at most this: 29.97 and 30 frames a second.
-constexpr double kOneRate = 0.002;
+constexpr double kSameRateTolerance = 0.002;
 
 /// Resamples markers by linear interpolation: frame k is at k / rate_hz seconds. A marker is nullopt where a
 /// neighbouring frame lacks it or the recording has ended. If the rates are equal (`kSameRateTolerance`) the frames are

@@ -41,8 +41,8 @@ PixelFit FitOf(const PictureOfFilm& film, const Guess& guess) {
 
 class Guesser {
  public:
-  Guesser(std::span<const PictureOfFilm> films, double least_confidence)
-      : films_(films), least_confidence_(least_confidence), geometry_(films.size()), guesses_(films.size()) {
+  Guesser(std::span<const PictureOfFilm> films, double min_confidence)
+      : films_(films), least_confidence_(min_confidence), geometry_(films.size()), guesses_(films.size()) {
     // Sample at most forty frames.
     std::size_t frames = films.empty() ? 0 : films.front().people.size();
     for (const PictureOfFilm& film : films) frames = std::min(frames, film.people.size());
@@ -184,7 +184,7 @@ class Guesser {
           const Guess guess{turns, is_mirrored, guesses_[c].is_stored};
           if (guess == guesses_[c]) continue;
           const Change change{MissOf(c, guess), before, c, guess};
-          if (!(change.after < std::min(kNotAsSaid, kBetter * before))) continue;
+          if (!(change.after < std::min(kMaxPlausibleMiss, kBetter * before))) continue;
           // Among nearly equal hypotheses the first, with the smallest change, is preferred.
           if (!best || change.after < 0.999 * best->after) {
             second = best;
@@ -227,12 +227,12 @@ class Guesser {
 
 }  // namespace
 
-double MissOfPictures(std::span<const PictureOfFilm> films, double least_confidence) {
-  return Guesser(films, least_confidence).MissOfAll({});
+double MissOfPictures(std::span<const PictureOfFilm> films, double min_confidence) {
+  return Guesser(films, min_confidence).MissOfAll({});
 }
 
-std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, double least_confidence) {
-  return Guesser(films, least_confidence).Run();
+std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, double min_confidence) {
+  return Guesser(films, min_confidence).Run();
 }
 
 namespace {
@@ -292,8 +292,8 @@ bool AreAlike(const PictureOfFilm& a, const PictureOfFilm& b) {
 class SessionGuesser {
  public:
   SessionGuesser(std::span<const PictureOfFilm> films, std::span<const std::string> names, const glm::dmat3& R_WF,
-                 double least_confidence)
-      : films_(films.begin(), films.end()), names_(names), R_WF_(R_WF), least_confidence_(least_confidence) {}
+                 double min_confidence)
+      : films_(films.begin(), films.end()), names_(names), R_WF_(R_WF), least_confidence_(min_confidence) {}
 
   SessionGuess Run() {
     SessionGuess found;
@@ -305,7 +305,7 @@ class SessionGuesser {
       TryPoses();
       TryExchanges();
       TryReadings();
-      if (best_ && least_ < kNotAsSaid) {
+      if (best_ && least_ < kMaxPlausibleMiss) {
         found.mended = fmt::format("{}: rays miss by {:.2f} % of the height instead of {:.2f} %", told_,
                                    kPercent * least_, kPercent * said);
         films_ = std::move(*best_);
@@ -394,8 +394,8 @@ class SessionGuesser {
 }  // namespace
 
 SessionGuess GuessSession(std::span<const PictureOfFilm> films, std::span<const std::string> names,
-                          const glm::dmat3& R_WF, double least_confidence) {
-  return SessionGuesser(films, names, R_WF, least_confidence).Run();
+                          const glm::dmat3& R_WF, double min_confidence) {
+  return SessionGuesser(films, names, R_WF, min_confidence).Run();
 }
 
 }  // namespace etude

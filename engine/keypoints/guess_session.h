@@ -34,14 +34,14 @@ struct PictureGuess {
 /// are never halved. If pictures were fitted, the keypoints of all films may instead be the rig's own pixels (the
 /// estimator ran on the original pictures): the reading with the smaller distance is taken, unless a file states the
 /// film's size. `told` says if a second guess is nearly as good, as with two cameras.
-std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, double least_confidence);
+std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, double min_confidence);
 
 /// Returns the distance of keypoints, read as declared, from the other cameras' epipolar lines, as a share of the
 /// height: the mean over pairs of cameras of the medians. 1 if it cannot be computed.
-double MissOfPictures(std::span<const PictureOfFilm> films, double least_confidence);
+double MissOfPictures(std::span<const PictureOfFilm> films, double min_confidence);
 
 /// A distance above this share of the height indicates a mistake, not only imprecision.
-constexpr double kNotAsSaid = 0.05;
+constexpr double kMaxPlausibleMiss = 0.05;
 
 /// The correction of a mistake that concerns a whole session.
 struct SessionGuess {
@@ -58,6 +58,6 @@ struct SessionGuess {
 /// height. Exchanges are tried among at most eight films.
 /// @param R_WF rotation from the axes of the rig's file to the cameras' world
 SessionGuess GuessSession(std::span<const PictureOfFilm> films, std::span<const std::string> names,
-                          const glm::dmat3& R_WF, double least_confidence);
+                          const glm::dmat3& R_WF, double min_confidence);
 
 }  // namespace etude

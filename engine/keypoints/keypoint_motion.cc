@@ -46,7 +46,7 @@ std::optional<glm::dvec3> FacingOf(const RoleVectors& joints) {
   return facing / length;
 }
 
-void AddSide(const LandmarkPlaces& marks, const SideMarks& m, const SideRoles& r, RoleVectors& joints) {
+void AddSide(const LandmarkPositions& marks, const SideMarks& m, const SideRoles& r, RoleVectors& joints) {
   const auto at = [&](Landmark landmark) { return marks[Index(landmark)]; };
   const std::pair<Role, Landmark> same[] = {{r.shoulder, m.shoulder}, {r.elbow, m.elbow}, {r.wrist, m.wrist},
                                             {r.hip, m.hip},           {r.knee, m.knee},   {r.ankle, m.ankle}};
@@ -60,11 +60,11 @@ void AddSide(const LandmarkPlaces& marks, const SideMarks& m, const SideRoles& r
 
 }  // namespace
 
-std::vector<LandmarkPlaces> TriangulatePerson(std::span<const ProjectionMatrix> cameras, const MatchedPerson& person,
+std::vector<LandmarkPositions> TriangulatePerson(std::span<const ProjectionMatrix> cameras, const MatchedPerson& person,
                                               const TriangulateOptions& options, TriangulationReport* report) {
   assert(person.seen.size() == cameras.size());
   const std::size_t frames = person.seen.empty() ? 0 : person.seen.front().size();
-  std::vector<LandmarkPlaces> places(frames);
+  std::vector<LandmarkPositions> places(frames);
   std::vector<double> residuals, used(cameras.size()), rejected(cameras.size());
   std::array<std::size_t, kLandmarkCount> found{};
   for (std::size_t frame = 0; frame < frames; ++frame) {
@@ -74,7 +74,7 @@ std::vector<LandmarkPlaces> TriangulatePerson(std::span<const ProjectionMatrix> 
       std::vector<std::size_t> by;
       for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
         const auto& seen = person.seen[camera][frame];
-        if (!seen || seen->keypoints[i].confidence < options.least_confidence) continue;
+        if (!seen || seen->keypoints[i].confidence < options.min_confidence) continue;
         sightings.push_back({{cameras[camera], seen->keypoints[i].pixel}, seen->keypoints[i].confidence});
         by.push_back(camera);
       }
@@ -102,12 +102,12 @@ std::vector<LandmarkPlaces> TriangulatePerson(std::span<const ProjectionMatrix> 
   return places;
 }
 
-void BridgePoints(std::span<LandmarkPlaces> frames, std::size_t longest_gap) {
+void BridgePoints(std::span<LandmarkPositions> frames, std::size_t max_gap) {
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     std::optional<std::size_t> last;
     for (std::size_t frame = 0; frame < frames.size(); ++frame) {
       if (!frames[frame][i]) continue;
-      if (last && frame - *last > 1 && frame - *last - 1 <= longest_gap) {
+      if (last && frame - *last > 1 && frame - *last - 1 <= max_gap) {
         const glm::dvec3 from = *frames[*last][i], to = *frames[frame][i];
         for (std::size_t k = *last + 1; k < frame; ++k) {
           frames[k][i] = glm::mix(from, to, static_cast<double>(k - *last) / static_cast<double>(frame - *last));
@@ -118,12 +118,12 @@ void BridgePoints(std::span<LandmarkPlaces> frames, std::size_t longest_gap) {
   }
 }
 
-void SmoothPoints(std::span<LandmarkPlaces> frames, double rate_hz, double cutoff_hz) {
+void SmoothPoints(std::span<LandmarkPositions> frames, double rate_hz, double cutoff_hz) {
   if (!(cutoff_hz < rate_hz / 2)) return;
   // The standard deviation from exp(−2π²σ²f²) = 1/√2 at the cutoff.
   const double sigma = std::sqrt(std::log(2.0)) / (2 * kPi * cutoff_hz) * rate_hz;  // frames
   const auto reach = static_cast<std::ptrdiff_t>(std::ceil(3 * sigma));
-  const std::vector<LandmarkPlaces> before(frames.begin(), frames.end());
+  const std::vector<LandmarkPositions> before(frames.begin(), frames.end());
   const auto count = static_cast<std::ptrdiff_t>(frames.size());
   for (std::ptrdiff_t frame = 0; frame < count; ++frame) {
     for (std::size_t i = 0; i < kLandmarkCount; ++i) {
@@ -144,7 +144,7 @@ void SmoothPoints(std::span<LandmarkPlaces> frames, double rate_hz, double cutof
   }
 }
 
-RoleVectors JointsOf(const LandmarkPlaces& marks) {
+RoleVectors JointsOf(const LandmarkPositions& marks) {
   const auto at = [&](Landmark landmark) { return marks[Index(landmark)]; };
   RoleVectors joints;
   for (std::size_t side = 0; side < 2; ++side) AddSide(marks, kSides[side], kSideRoles[side], joints);

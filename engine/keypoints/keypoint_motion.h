@@ -14,10 +14,10 @@
 namespace etude {
 
 /// The positions of the known landmarks in the world, metres.
-using LandmarkPlaces = std::array<std::optional<glm::dvec3>, kLandmarkCount>;
+using LandmarkPositions = std::array<std::optional<glm::dvec3>, kLandmarkCount>;
 
 struct TriangulateOptions {
-  double least_confidence = 0.1;  ///< keypoints of lower confidence are ignored
+  double min_confidence = 0.1;  ///< keypoints of lower confidence are ignored
   RobustOptions robust;
 };
 
@@ -30,21 +30,21 @@ struct TriangulationReport {
 
 /// Triangulates the person's landmarks in every frame, each from the cameras that agree on it, weighted by confidence.
 /// @param cameras of the rig without distortion; the pixels are undistorted, too
-std::vector<LandmarkPlaces> TriangulatePerson(std::span<const ProjectionMatrix> cameras, const MatchedPerson& person,
+std::vector<LandmarkPositions> TriangulatePerson(std::span<const ProjectionMatrix> cameras, const MatchedPerson& person,
                                               const TriangulateOptions& options, TriangulationReport* report = nullptr);
 
 /// Fills gaps of at most `max_gap` frames by linear interpolation between the landmark's positions before and after.
-void BridgePoints(std::span<LandmarkPlaces> frames, std::size_t longest_gap);
+void BridgePoints(std::span<LandmarkPositions> frames, std::size_t max_gap);
 
 /// Smooths positions by a Gaussian filter over time whose power is one half at `cutoff_hz`: each position becomes the
 /// weighted mean of those around it. The filter has no delay. A cutoff of at least half the rate changes nothing.
-void SmoothPoints(std::span<LandmarkPlaces> frames, double rate_hz, double cutoff_hz);
+void SmoothPoints(std::span<LandmarkPositions> frames, double rate_hz, double cutoff_hz);
 
 /// Returns those of the twenty joints that the landmarks determine. Hips, knees, ankles, shoulders, elbows and wrists
 /// are landmarks; the shoulder centre is midway between the shoulders, the hip centre between the hips; the head is its
 /// top, else the middle of the ears, else the nose; a foot ends at its big toe. *(Ours)*: without a finger tip, the
 /// hand extends the forearm by 0.72 of its length; without a face, the head extends the trunk by half of its length;
 /// without a toe, the foot ends 0.18 m from its ankle, ahead and a little down.
-RoleVectors JointsOf(const LandmarkPlaces& landmarks);
+RoleVectors JointsOf(const LandmarkPositions& landmarks);
 
 }  // namespace etude

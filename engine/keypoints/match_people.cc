@@ -16,11 +16,11 @@ namespace {
 
 /// Returns the median distance of the keypoints of two detections in one camera, as a share of the person's height;
 /// infinity if they share fewer than three.
-double StepBetween(const SeenPerson& a, const SeenPerson& b, double least_confidence) {
+double StepBetween(const SeenPerson& a, const SeenPerson& b, double min_confidence) {
   std::vector<double> steps;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     const Keypoint &p = a.keypoints[i], &q = b.keypoints[i];
-    if (p.confidence >= least_confidence && q.confidence >= least_confidence) {
+    if (p.confidence >= min_confidence && q.confidence >= min_confidence) {
       steps.push_back(glm::distance(p.pixel, q.pixel));
     }
   }
@@ -59,11 +59,11 @@ class Follower {
     std::vector<Candidate> all;
     for (std::size_t t = 0; t < tracks.size(); ++t) {
       const std::size_t last = tracks[t].last();
-      if (frame - last > static_cast<std::size_t>(options_.longest_absence)) continue;
+      if (frame - last > static_cast<std::size_t>(options_.max_absence)) continue;
       const SeenPerson& before = people_[last][tracks[t].entries.rbegin()->second];
       for (std::size_t p = 0; p < people_[frame].size(); ++p) {
-        const double step = StepBetween(before, people_[frame][p], options_.least_confidence);
-        if (step < options_.longest_step) all.emplace_back(step, t, p);
+        const double step = StepBetween(before, people_[frame][p], options_.min_confidence);
+        if (step < options_.max_step) all.emplace_back(step, t, p);
       }
     }
     std::ranges::sort(all);
@@ -126,7 +126,7 @@ class PersonMatcher {
         const double error = ErrorOf(a, b);
         if (!std::isfinite(error)) continue;
         errors_[{a, b}] = error;
-        if (error < options_.largest_error) pairs.emplace_back(error, a, b);
+        if (error < options_.max_error) pairs.emplace_back(error, a, b);
       }
     }
     // Join groups, the best pairs first.
@@ -165,7 +165,7 @@ class PersonMatcher {
       return errors.size() < kMinCount ? std::numeric_limits<double>::infinity() : UpperMedian(std::move(errors));
     };
     const double error = error_of(false);
-    if (!options_.may_be_swapped || !(error >= options_.largest_error)) return error;
+    if (!options_.may_be_swapped || !(error >= options_.max_error)) return error;
     return std::min(error, error_of(true));
   }
 
@@ -174,7 +174,7 @@ class PersonMatcher {
     const double height_a = std::max(1.0, HeightPx(a)), height_b = std::max(1.0, HeightPx(b));
     for (std::size_t i = 0; i < kLandmarkCount; ++i) {
       const Keypoint &p = a.keypoints[i], &q = b.keypoints[i];
-      if (p.confidence < options_.follow.least_confidence || q.confidence < options_.follow.least_confidence) continue;
+      if (p.confidence < options_.follow.min_confidence || q.confidence < options_.follow.min_confidence) continue;
       const auto line_a = SightLineOf({cameras_[camera_a], p.pixel}),
                  line_b = SightLineOf({cameras_[camera_b], q.pixel});
       const auto middle = line_a && line_b ? MiddleOf(*line_a, *line_b) : std::nullopt;
@@ -204,7 +204,7 @@ class PersonMatcher {
         ++count;
       }
     }
-    return count > 0 && sum / static_cast<double>(count) < options_.largest_error;
+    return count > 0 && sum / static_cast<double>(count) < options_.max_error;
   }
 
   void Unite(std::size_t g, std::size_t h) {

@@ -14,11 +14,11 @@ namespace etude {
 struct FollowOptions {
   /// The longest step of a person from one frame to the next, as a share of the person's height in the picture. A film
   /// at 30 Hz of somebody who runs across a small picture may need a larger value.
-  double longest_step = 0.25;
+  double max_step = 0.25;
   /// The longest absence, in frames, after which a person is still considered the same. Somebody who returns later is a
   /// new track until other cameras identify the person.
-  int longest_absence = 15;
-  double least_confidence = 0.1;  ///< keypoints of lower confidence are ignored
+  int max_absence = 15;
+  double min_confidence = 0.1;  ///< keypoints of lower confidence are ignored
 };
 
 /// A person tracked through frames of one camera, as indices into `people[frame]`.
@@ -38,7 +38,7 @@ struct MatchOptions {
   FollowOptions follow;
   /// The largest distance between the rays of one person's keypoints, median over time, as a share of the person's
   /// height in the pictures. Estimators err by 1–2 % of the height; other people differ by 10 % and more *(ours)*.
-  double largest_error = 0.06;
+  double max_error = 0.06;
   /// True if a camera may have exchanged left and right: tracks that do not match are also compared with sides swapped.
   bool may_be_swapped = false;
 };

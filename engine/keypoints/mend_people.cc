@@ -61,9 +61,9 @@ namespace {
 
 class Mender {
  public:
-  Mender(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people, double least_confidence,
+  Mender(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people, double min_confidence,
          MatchedPerson& person)
-      : cameras_(cameras), people_(people), least_confidence_(least_confidence), person_(person) {
+      : cameras_(cameras), people_(people), least_confidence_(min_confidence), person_(person) {
     geometry_.resize(cameras.size());
     for (std::size_t a = 0; a < cameras.size(); ++a) {
       for (std::size_t b = 0; b < cameras.size(); ++b) {
@@ -384,12 +384,12 @@ class Mender {
 }  // namespace
 
 std::vector<Mend> MendPerson(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
-                             double least_confidence, MatchedPerson& person) {
-  return Mender(cameras, people, least_confidence, person).Run();
+                             double min_confidence, MatchedPerson& person) {
+  return Mender(cameras, people, min_confidence, person).Run();
 }
 
-double OutlierLimit(std::span<const ProjectionMatrix> cameras, const MatchedPerson& person, double least_confidence,
-                    double least_px, double most_px) {
+double OutlierLimit(std::span<const ProjectionMatrix> cameras, const MatchedPerson& person, double min_confidence,
+                    double min_px, double max_px) {
   std::vector<double> residuals;
   const std::size_t frames = person.seen.empty() ? 0 : person.seen.front().size();
   for (std::size_t frame = 0; frame < frames; ++frame) {
@@ -397,16 +397,16 @@ double OutlierLimit(std::span<const ProjectionMatrix> cameras, const MatchedPers
       std::vector<WeightedSighting> sightings;
       for (std::size_t c = 0; c < cameras.size(); ++c) {
         const auto& seen = person.seen[c][frame];
-        if (!seen || seen->keypoints[i].confidence < least_confidence) continue;
+        if (!seen || seen->keypoints[i].confidence < min_confidence) continue;
         sightings.push_back({{cameras[c], seen->keypoints[i].pixel}, seen->keypoints[i].confidence});
       }
-      const auto point = TriangulateRobustly(sightings, {most_px});
+      const auto point = TriangulateRobustly(sightings, {max_px});
       if (point) residuals.push_back(point->residual_px);
     }
   }
   constexpr double kDeviations = 8, kDeviationOfMedian = 1.4826;
-  if (residuals.empty()) return most_px;
-  return std::clamp(kDeviations * kDeviationOfMedian * UpperMedian(std::move(residuals)), least_px, most_px);
+  if (residuals.empty()) return max_px;
+  return std::clamp(kDeviations * kDeviationOfMedian * UpperMedian(std::move(residuals)), min_px, max_px);
 }
 
 }  // namespace etude

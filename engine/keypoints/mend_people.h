@@ -38,11 +38,11 @@ struct Mend {
 /// front of heels or ankles, the nose in front of the ears. If the body faces the wrong way in nine tenths of the
 /// frames, sides are swapped in all cameras.
 std::vector<Mend> MendPerson(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
-                             double least_confidence, MatchedPerson& person);
+                             double min_confidence, MatchedPerson& person);
 
 /// Returns an outlier threshold in pixels from the distribution of the residuals: eight times their robust standard
-/// deviation (1.48 · median), at least `least_px` and at most `most_px`.
-double OutlierLimit(std::span<const ProjectionMatrix> cameras, const MatchedPerson& person, double least_confidence,
-                    double least_px, double most_px);
+/// deviation (1.48 · median), at least `min_px` and at most `max_px`.
+double OutlierLimit(std::span<const ProjectionMatrix> cameras, const MatchedPerson& person, double min_confidence,
+                    double min_px, double max_px);
 
 }  // namespace etude

@@ -87,9 +87,9 @@ std::string CameraOfTheWorld(const RigFile& rig) {
 }
 
 /// Returns twice the median leg (hip to knee to ankle) in the rig's lengths; nullopt if no frame shows one.
-std::optional<double> StatureOf(std::span<const LandmarkPlaces> points) {
+std::optional<double> StatureOf(std::span<const LandmarkPositions> points) {
   std::vector<double> thighs, shanks;
-  for (const LandmarkPlaces& at : points) {
+  for (const LandmarkPositions& at : points) {
     for (const auto& [hip, knee, ankle] :
          {std::array{kLeftHip, kLeftKnee, kLeftAnkle}, {kRightHip, kRightKnee, kRightAnkle}}) {
       const auto &h = at[Index(hip)], &k = at[Index(knee)], &a = at[Index(ankle)];
@@ -103,9 +103,9 @@ std::optional<double> StatureOf(std::span<const LandmarkPlaces> points) {
 }
 
 /// Returns the mean direction from the ankles to the shoulders.
-std::optional<glm::dvec3> PersonsUp(std::span<const LandmarkPlaces> points) {
+std::optional<glm::dvec3> PersonsUp(std::span<const LandmarkPositions> points) {
   glm::dvec3 sum(0);
-  for (const LandmarkPlaces& at : points) {
+  for (const LandmarkPositions& at : points) {
     const auto &a = at[Index(kLeftAnkle)], &b = at[Index(kRightAnkle)], &c = at[Index(kLeftShoulder)],
                &d = at[Index(kRightShoulder)];
     if (a && b && c && d) sum += *c + *d - *a - *b;
@@ -130,7 +130,7 @@ constexpr std::array<std::pair<std::array<Landmark, 2>, double>, 4> kFeet = {{{{
 
 /// Returns the positions of a foot landmark while it rests on the floor: its speed is below a fifth of the stature per
 /// second, and its height within a twentieth of the stature of the lowest tenth along `up`.
-std::vector<glm::dvec3> Resting(std::span<const LandmarkPlaces> points, const std::array<Landmark, 2>& kind,
+std::vector<glm::dvec3> Resting(std::span<const LandmarkPositions> points, const std::array<Landmark, 2>& kind,
                                 const glm::dvec3& up, double rate_hz, double stature) {
   std::vector<glm::dvec3> slow;
   std::vector<double> heights;
@@ -152,7 +152,7 @@ std::vector<glm::dvec3> Resting(std::span<const LandmarkPlaces> points, const st
 /// q are the positions of one kind of landmark relative to their mean (their total weight is limited to that of
 /// twenty), and the means of the kinds, corrected for their height above the sole, relative to the mean of the means. σ
 /// is 0.6 % of the stature.
-FeetPlane PlaneOfFeet(std::span<const LandmarkPlaces> points, const glm::dvec3& person_up, double rate_hz,
+FeetPlane PlaneOfFeet(std::span<const LandmarkPositions> points, const glm::dvec3& person_up, double rate_hz,
                       double stature) {
   constexpr double kPersonLeans = 0.1, kMaxCounted = 20;
   const double sigma = 0.006 * stature;
@@ -221,7 +221,7 @@ const LengthUnit* LikelyUnit(double file_units) {
 
 constexpr double kUsualStature = 1.7;
 
-Result<double> UnitOf(const RigFile& rig, double file_units, const PlaceOptions& options, std::string& told) {
+Result<double> UnitOf(const RigFile& rig, double file_units, const PlacementOptions& options, std::string& told) {
   const double factor = kUsualStature / file_units;
   // A requested unit must give a plausible stature.
   if (options.unit != "auto") {
@@ -262,7 +262,7 @@ double Degrees(double radians) { return radians * 180 / kPi; }
 
 /// Returns the up axis in the cameras' world, and true if the feet determined it.
 Result<std::pair<glm::dvec3, bool>> UpOf(const RigFile& rig, const glm::dvec3& person, const FeetPlane& plane,
-                                         const PlaceOptions& options, std::string& told) {
+                                         const PlacementOptions& options, std::string& told) {
   const glm::dvec3 usual(0, 1, 0);
   constexpr double kUpsideDown = 100, kFar = 35, kAxisItself = 4;
   const auto usual_name = [&] {
@@ -321,7 +321,7 @@ std::string RigUnits() {
   return names;
 }
 
-Result<void> CheckPlace(const PlaceOptions& options) {
+Result<void> CheckPlace(const PlacementOptions& options) {
   if (options.unit != "auto" && !MetresOf(options.unit)) {
     return Fail({}, "--rig-unit {}; allowed: auto, {}, or metres in one unit", options.unit, RigUnits());
   }
@@ -334,14 +334,14 @@ Result<void> CheckPlace(const PlaceOptions& options) {
   return {};
 }
 
-Result<RigPlace> PlaceRig(const RigFile& rig, std::span<const LandmarkPlaces> points, double rate_hz,
-                          const PlaceOptions& options) {
+Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositions> points, double rate_hz,
+                          const PlacementOptions& options) {
   RETURN_IF_ERROR(CheckPlace(options));
   const auto stature = StatureOf(points);
   const auto person = PersonsUp(points);
   if (!stature || !person)
     return Fail({}, "no frame shows hips, knees, ankles and shoulders: nothing tells the rig's unit and up");
-  RigPlace place;
+  RigPlacement place;
   // Unit, then up axis.
   std::string unit_told, up_told;
   ASSIGN_OR_RETURN(const double unit, UnitOf(rig, *stature / rig.unit_m, options, unit_told));
@@ -366,9 +366,9 @@ Result<RigPlace> PlaceRig(const RigFile& rig, std::span<const LandmarkPlaces> po
   return place;
 }
 
-Result<RigPlace> PlaceRig(const RigFile& rig, const PlaceOptions& options) {
+Result<RigPlacement> PlaceRig(const RigFile& rig, const PlacementOptions& options) {
   RETURN_IF_ERROR(CheckPlace(options));
-  RigPlace place;
+  RigPlacement place;
   if (options.unit != "auto") {
     place.scale = *MetresOf(options.unit) / rig.unit_m;
   } else if (!rig.has_unit) {
@@ -384,7 +384,7 @@ Result<RigPlace> PlaceRig(const RigFile& rig, const PlaceOptions& options) {
   return place;
 }
 
-Camera Placed(const RigPlace& place, Camera camera) {
+Camera Placed(const RigPlacement& place, Camera camera) {
   if (place.IsNone()) return camera;
   camera.R_CW = camera.R_CW * glm::transpose(place.R);
   camera.p_WC = place(camera.p_WC);

@@ -14,7 +14,7 @@
 namespace etude {
 
 /// The options for the unit, the up axis and the floor of a rig.
-struct PlaceOptions {
+struct PlacementOptions {
   /// "auto", a name of RigUnits(), or the number of metres in one unit of the file.
   std::string unit = "auto";
   /// "auto", an axis of the file that points up ("z", "-y"), or "floor": perpendicular to the plane of the feet.
@@ -28,10 +28,10 @@ struct PlaceOptions {
 std::string RigUnits();
 
 /// Fails if a text of `options` has no meaning.
-Result<void> CheckPlace(const PlaceOptions& options);
+Result<void> CheckPlace(const PlacementOptions& options);
 
 /// The map from a rig's world to ours: p' = scale · R · p + shift.
-struct RigPlace {
+struct RigPlacement {
   double scale = 1;
   glm::dmat3 R{1};
   glm::dvec3 shift{0};
@@ -51,14 +51,14 @@ struct RigPlace {
 /// is taken. Fails if no unit gives a plausible stature (the message names the factor that would), if lengths have no
 /// unit, and if the person is upside down with the requested axis.
 /// @param points of the person, triangulated with the rig as in its file
-Result<RigPlace> PlaceRig(const RigFile& rig, std::span<const LandmarkPlaces> points, double rate_hz,
-                          const PlaceOptions& options);
+Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositions> points, double rate_hz,
+                          const PlacementOptions& options);
 
 /// Places a rig without a person, by `options` and, for "auto", by the format's conventions. Fails if lengths have no
 /// unit, or if the world is a camera's frame and no up axis is given; the message names the options.
-Result<RigPlace> PlaceRig(const RigFile& rig, const PlaceOptions& options);
+Result<RigPlacement> PlaceRig(const RigFile& rig, const PlacementOptions& options);
 
 /// Transforms a camera into the placed world.
-Camera Placed(const RigPlace& place, Camera camera);
+Camera Placed(const RigPlacement& place, Camera camera);
 
 }  // namespace etude

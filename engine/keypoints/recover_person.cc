@@ -90,9 +90,9 @@ Result<CaptureBody> BodyOfBones(const std::array<double, kRoleCount>& lengths) {
   return body;
 }
 
-Result<CaptureBody> MedianBody(std::span<const LandmarkPlaces> frames) {
+Result<CaptureBody> MedianBody(std::span<const LandmarkPositions> frames) {
   std::vector<RoleVectors> joints;
-  for (const LandmarkPlaces& landmarks : frames) joints.push_back(JointsOf(landmarks));
+  for (const LandmarkPositions& landmarks : frames) joints.push_back(JointsOf(landmarks));
   std::array<double, kRoleCount> lengths{};
   for (const Bone& bone : AllBones()) {
     const auto length = MedianBone(joints, bone);
@@ -102,12 +102,12 @@ Result<CaptureBody> MedianBody(std::span<const LandmarkPlaces> frames) {
   return BodyOfBones(lengths);
 }
 
-std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::span<const LandmarkPlaces> frames) {
+std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::span<const LandmarkPositions> frames) {
   const PoseFitter fitter(body);
   BodyPose like = ToBodyPose(body, StandingState(body.tree));
   std::vector<std::optional<TreeState>> states;
   std::optional<PoseFit> last;
-  for (const LandmarkPlaces& landmarks : frames) {
+  for (const LandmarkPositions& landmarks : frames) {
     const RoleVectors joints = JointsOf(landmarks);
     states.emplace_back();
     if (std::ranges::count_if(joints, [](const auto& joint) { return joint.has_value(); }) < kMinJoints) continue;
@@ -152,7 +152,7 @@ SeenPeople UndistortPeople(const Camera& camera, SeenPeople people) {
 RecoverPersonOptions UsualRecovery(double rate_hz, double longer_side_px) {
   constexpr double kOutlierShare = 0.03, kMaxAbsence_s = 0.5;  // seconds
   RecoverPersonOptions options{.rate_hz = rate_hz, .match = {}, .triangulate = {}};
-  options.match.follow.longest_absence = std::max(1, static_cast<int>(std::lround(kMaxAbsence_s * rate_hz)));
+  options.match.follow.max_absence = std::max(1, static_cast<int>(std::lround(kMaxAbsence_s * rate_hz)));
   options.triangulate.robust.outlier_px = kOutlierShare * longer_side_px;
   return options;
 }
@@ -178,10 +178,10 @@ Result<RecoveredPerson> LocatePerson(std::span<const ProjectionMatrix> cameras, 
   MatchedPerson& wanted = person.people[in_space[options.person]];
   TriangulateOptions triangulate = options.triangulate;
   if (options.mends) {
-    const double least = triangulate.least_confidence;
+    const double least = triangulate.min_confidence;
     person.mends = MendPerson(cameras, people, least, wanted);
     triangulate.robust.outlier_px =
-        OutlierLimit(cameras, wanted, least, options.least_outlier_px, triangulate.robust.outlier_px);
+        OutlierLimit(cameras, wanted, least, options.min_outlier_px, triangulate.robust.outlier_px);
   }
   person.outlier_px = triangulate.robust.outlier_px;
   person.landmarks = TriangulatePerson(cameras, wanted, triangulate, &person.report);
@@ -189,7 +189,7 @@ Result<RecoveredPerson> LocatePerson(std::span<const ProjectionMatrix> cameras, 
 }
 
 Result<RecoveredPerson> FitLocated(RecoveredPerson person, const RecoverPersonOptions& options) {
-  BridgePoints(person.landmarks, static_cast<std::size_t>(std::lround(options.longest_gap_s * options.rate_hz)));
+  BridgePoints(person.landmarks, static_cast<std::size_t>(std::lround(options.max_gap_s * options.rate_hz)));
   if (options.cutoff_hz > 0) SmoothPoints(person.landmarks, options.rate_hz, options.cutoff_hz);
   ASSIGN_OR_RETURN(const CaptureBody body, MedianBody(person.landmarks));
   person.body = body;

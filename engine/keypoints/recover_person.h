@@ -24,24 +24,24 @@ Result<CaptureBody> BodyOfBones(const std::array<double, kRoleCount>& lengths);
 /// Estimates a person's body: every bone has its median length over the frames that show both of its joints, left and
 /// right separately; the spine is at `kSpineShare` of the trunk (`BodyOfBones`). Fails, naming the joint, if no frame
 /// shows some bone.
-Result<CaptureBody> MedianBody(std::span<const LandmarkPlaces> frames);
+Result<CaptureBody> MedianBody(std::span<const LandmarkPositions> frames);
 
 /// Finds, in every frame, the angles and the root's position that minimise Σ weight · |position − joint|², at least
 /// locally, over the joints that landmarks determine (`JointsOf`). Joints that a frame lacks keep their relative
 /// position of the frame before, with weight 0.01. The spine, which no landmark shows, has a target on the line from
 /// hips to shoulders with weight 1, because otherwise the trunk could bend in any direction when it is seen too short.
 /// Returns nullopt for frames with fewer than eight joints. *(Ours.)*
-std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::span<const LandmarkPlaces> frames);
+std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::span<const LandmarkPositions> frames);
 
 struct RecoverPersonOptions {
   double rate_hz = 30;
   MatchOptions match;
   TriangulateOptions triangulate;
   std::size_t person = 0;      ///< index among those found, in descending order of `sightings`
-  double longest_gap_s = 0.5;  ///< longer gaps are not filled
+  double max_gap_s = 0.5;  ///< longer gaps are not filled
   double cutoff_hz = 0;        ///< cutoff of the smoothing of positions; 0: none
   bool mends = false;  ///< use MendPerson, with `triangulate.robust.outlier_px` as the upper limit of OutlierLimit
-  double least_outlier_px = 0;  ///< … and this as its lower limit
+  double min_outlier_px = 0;  ///< … and this as its lower limit
 };
 
 /// Returns the options for pictures with this longer side, pixels: outliers are off by 3 % of it, and somebody who was
@@ -51,7 +51,7 @@ RecoverPersonOptions UsualRecovery(double rate_hz, double longer_side_px);
 /// A person recovered from several cameras' keypoints.
 struct RecoveredPerson {
   std::vector<MatchedPerson> people;      ///< all people that were found
-  std::vector<LandmarkPlaces> landmarks;  ///< of the requested person, with gaps filled and smoothed
+  std::vector<LandmarkPositions> landmarks;  ///< of the requested person, with gaps filled and smoothed
   TriangulationReport report;
   std::vector<Mend> mends;  ///< of the requested person
   double outlier_px = 0;    ///< the threshold that was used

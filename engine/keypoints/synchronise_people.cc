@@ -37,7 +37,7 @@ class MovingPerson {
     return entry == track_.entries.end() ? nullptr : &people_[frame][entry->second];
   }
 
-  static SomePixel PixelOf(const SeenPerson* person, std::size_t landmark) {
+  static OptionalPixel PixelOf(const SeenPerson* person, std::size_t landmark) {
     if (person == nullptr || !(person->keypoints[landmark].confidence > 0)) return std::nullopt;
     return person->keypoints[landmark].pixel;
   }
@@ -73,8 +73,8 @@ Misfit MisfitOf(const EpipolarGeometry& geometry, const MovingPerson& one, doubl
     if (!here || !there) continue;
     for (std::size_t i = 0; i < kLandmarkCount; ++i) {
       const Keypoint &a = here->keypoints[i], &b = there->keypoints[i];
-      if (std::min(a.confidence, b.confidence) < options.follow.least_confidence) continue;
-      const double most = options.clocks.most_px;
+      if (std::min(a.confidence, b.confidence) < options.follow.min_confidence) continue;
+      const double most = options.clocks.max_px;
       const double px = std::clamp(geometry.DistancePx(a.pixel, b.pixel), -most, most);
       sums[i] += px;
       squares[i] += px * px;
@@ -133,7 +133,7 @@ std::vector<ClockOffset> EstimateOffsets(std::span<const ProjectionMatrix> camer
         }
         return all.count > 0 ? std::optional(all.variance / all.count) : std::nullopt;
       };
-      offset_films[camera].offset = FindOffset(misfit_at, options.clocks.most_frames);
+      offset_films[camera].offset = FindOffset(misfit_at, options.clocks.max_frames);
     }
   }
   std::vector<ClockOffset> offsets;
@@ -152,8 +152,8 @@ struct ClockedFilm {
 class ClockFinder {
  public:
   ClockFinder(std::span<const ProjectionMatrix> cameras, std::vector<ClockedFilm> films, std::size_t frames,
-              double least_confidence)
-      : films_(std::move(films)), geometry_(cameras.size()), frames_(frames), least_confidence_(least_confidence) {
+              double min_confidence)
+      : films_(std::move(films)), geometry_(cameras.size()), frames_(frames), least_confidence_(min_confidence) {
     for (std::size_t a = 0; a < cameras.size(); ++a) {
       for (std::size_t b = 0; b < cameras.size(); ++b) {
         geometry_[a].push_back(a == b ? std::nullopt : EpipolarGeometry::Of(cameras[a], cameras[b]));
@@ -161,7 +161,7 @@ class ClockFinder {
     }
   }
 
-  std::vector<FoundClock> Find(int most_frames) {
+  std::vector<FoundClock> Find(int max_frames) {
     std::vector<FoundClock> found(films_.size());
     for (std::size_t c = 0; c < films_.size(); ++c) found[c].clock = found[c].nearest = films_[c].clock;
     constexpr int kRounds = 2;
@@ -173,7 +173,7 @@ class ClockFinder {
         const FilmClock given = films_[c].clock;
         const auto before = LossOf(c, given, others);
         if (!before) continue;
-        const auto [clock, after] = Search(c, given, *before, round == 0 ? most_frames : 0, others);
+        const auto [clock, after] = Search(c, given, *before, round == 0 ? max_frames : 0, others);
         found[c].nearest = clock;
         if (!(after < kHalf * *before) || after == *before) continue;
         films_[c].clock = found[c].clock = clock;
@@ -242,7 +242,7 @@ class ClockFinder {
     return {sum, count};
   }
 
-  std::pair<FilmClock, double> Search(std::size_t c, const FilmClock& given, double before, int most_frames,
+  std::pair<FilmClock, double> Search(std::size_t c, const FilmClock& given, double before, int max_frames,
                                       std::size_t others) const {
     const double middle = 0.5 * static_cast<double>(frames_);
     const auto moved = [&](double shift, double stretch) {  // `stretch`: drift over half of the film, frames
@@ -260,10 +260,10 @@ class ClockFinder {
       return true;
     };
     // Grid search: offsets first, then drifts near the best offset.
-    for (int s = -most_frames; s <= most_frames; ++s) try_clock(s, 0);
+    for (int s = -max_frames; s <= max_frames; ++s) try_clock(s, 0);
     const double coarse = shift;
     constexpr double kMaxStretch = 3;
-    for (double t = -kMaxStretch; most_frames > 0 && t <= kMaxStretch; t += 1) {
+    for (double t = -kMaxStretch; max_frames > 0 && t <= kMaxStretch; t += 1) {
       for (double s = -2; s <= 2; s += 1) try_clock(coarse + s, t);
     }
     // Local search along both axes with a shrinking step.
@@ -286,7 +286,7 @@ class ClockFinder {
 }  // namespace
 
 std::vector<FoundClock> FindClocks(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
-                                   std::span<const FilmClock> given, int most_frames, const FollowOptions& options) {
+                                   std::span<const FilmClock> given, int max_frames, const FollowOptions& options) {
   std::vector<std::vector<PersonTrack>> tracks;
   for (const SeenPeople& of_camera : people) tracks.push_back(FollowPeople(of_camera, options));
   std::vector<ClockedFilm> films(people.size());
@@ -295,7 +295,7 @@ std::vector<FoundClock> FindClocks(std::span<const ProjectionMatrix> cameras, st
     for (const PersonTrack& track : tracks[c]) films[c].people.emplace_back(people[c], track);
   }
   const std::size_t frames = people.empty() ? 0 : people.front().size();
-  return ClockFinder(cameras, std::move(films), frames, options.least_confidence).Find(most_frames);
+  return ClockFinder(cameras, std::move(films), frames, options.min_confidence).Find(max_frames);
 }
 
 SeenPeople PeopleInTime(const SeenPeople& people, const FilmClock& clock, std::size_t frames,

@@ -46,7 +46,7 @@ struct FoundClock {
 /// five-hundredth of a frame. A clock is changed only if that halves the loss, because wrong keypoints alone are not
 /// evidence of a wrong clock.
 std::vector<FoundClock> FindClocks(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
-                                   std::span<const FilmClock> given, int most_frames, const FollowOptions& options);
+                                   std::span<const FilmClock> given, int max_frames, const FollowOptions& options);
 
 /// Returns `frames` frames of one camera's people at the first camera's times. Between frames each person's keypoints
 /// follow a cubic (`PixelBetween`), with the lower confidence of the two frames. Nobody is present where the film has

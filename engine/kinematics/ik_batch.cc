@@ -91,7 +91,7 @@ std::vector<int> IkBatch::FindSound() const {
     for (std::size_t n = 0; n < count; ++n) faults[n] |= holds(n) ? 0 : 1;
   };
   const auto demand_sane = [&](std::span<const double> numbers) {
-    demand([=](std::size_t n) { return std::abs(numbers[n]) <= kIkFarthest; });
+    demand([=](std::size_t n) { return std::abs(numbers[n]) <= kMaxIkValue; });
   };
   const auto demand_frame = [&](const auto& axis) {
     for (int k = 0; k < 9; ++k) demand_sane(axis(k));
@@ -121,7 +121,7 @@ std::vector<int> IkBatch::FindSound() const {
     for (int k = 0; k < 3; ++k) demand_sane(target(e, k));
     demand_frame([this, e](int k) { return target(e, 3 + k); });
     for (int k = 12; k < kTargetNumbers; ++k) {
-      demand([weight = target(e, k)](std::size_t n) { return weight[n] >= 0 && weight[n] <= kIkFarthest; });
+      demand([weight = target(e, k)](std::size_t n) { return weight[n] >= 0 && weight[n] <= kMaxIkValue; });
     }
   }
   std::vector<int> sound;

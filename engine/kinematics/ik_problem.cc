@@ -23,12 +23,12 @@ constexpr Named<WeightRefresh> kRefreshes[] = {
     {"sweep", WeightRefresh::kSweep}, {"joint", WeightRefresh::kJoint}, {"dof", WeightRefresh::kDof}};
 
 // These checks use `&` instead of `&&` to avoid branches. NaN fails every comparison, so NaN is never sane.
-inline bool IsSane(double value) { return std::abs(value) <= kIkFarthest; }
+inline bool IsSane(double value) { return std::abs(value) <= kMaxIkValue; }
 inline bool IsSane(const glm::dvec3& v) { return IsSane(v.x) & IsSane(v.y) & IsSane(v.z); }
 
 inline bool IsUnit(const glm::dvec3& axis) { return std::abs(glm::dot(axis, axis) - 1) <= kUnitTolerance; }
 
-inline bool IsWeight(double weight) { return (weight >= 0) & (weight <= kIkFarthest); }
+inline bool IsWeight(double weight) { return (weight >= 0) & (weight <= kMaxIkValue); }
 
 // True for unit axes at right angles to each other that form a right-handed frame.
 inline bool IsAFrame(const glm::dmat3& axes) {
@@ -239,7 +239,7 @@ bool IsOutOfReach(const KinematicTree& tree, const IkProblem& problem) {
 }
 
 AngleRange AllowedRange(double start_angle, const AngleRange& limits, const IkOptions& options) {
-  AngleRange range{-kIkFarthest, kIkFarthest};
+  AngleRange range{-kMaxIkValue, kMaxIkValue};
   if (options.limits) range = limits;
   if (!options.angle_change_tolerance) return range;
   const double start = std::clamp(start_angle, range.lower, range.upper);

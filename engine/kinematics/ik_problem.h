@@ -115,7 +115,7 @@ struct IkOptions {
   bool trace = false;  ///< if true, IkSolution::trace is filled
   /// Maximum number of trace entries; later ones are dropped. Lower it for long runs: an entry takes half a kilobyte
   /// and costs time.
-  int longest_trace = std::numeric_limits<int>::max();
+  int max_trace_entries = std::numeric_limits<int>::max();
 
   bool operator==(const IkOptions&) const = default;
 };
@@ -157,13 +157,13 @@ struct IkSolution {
 
 /// Upper bound on the magnitude of every number of a problem (in metres: 1,000 km). Beyond it, squares of distances
 /// lose the digits that the goals are measured in.
-inline constexpr double kIkFarthest = 1e6;
+inline constexpr double kMaxIkValue = 1e6;
 /// Tolerances on the squared length of an axis and on the determinant of a frame, which should both be 1.
 inline constexpr double kUnitTolerance = 2e-6, kFrameTolerance = 1e-5;
 
 /// Returns the fault of a problem as text, or empty if there is none. Faults are: joints that form no tree; degrees of
 /// freedom that are not numbered consecutively; lists whose sizes do not fit the tree; values that are not finite or
-/// exceed `kIkFarthest`; limbs of zero length (a joint may coincide with the root); limits with lower > upper; axes
+/// exceed `kMaxIkValue`; limbs of zero length (a joint may coincide with the root); limits with lower > upper; axes
 /// that are not orthonormal; negative weights; an iteration limit below 1.
 std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
 /// The same checks in parts: of tree and options, of the tree, of the options, and of one problem of a tree without

@@ -51,7 +51,7 @@ RestBody RestBodyOf(std::span<const BodyPose> poses) {
   for (const Bone& bone : AllBones()) {
     double sum = 0;
     for (const BodyPose& pose : poses) sum += BoneLength(pose, bone);
-    const RestBody::RolePlace upper = body.roles[Index(bone.parent)];
+    const RestBody::RoleAnchor upper = body.roles[Index(bone.parent)];
     const glm::dvec3 lower = upper.position + sum / static_cast<double>(poses.size()) * DirectionAtRest(bone.child);
     int joint = 0;  // the pelvis carries both hips
     if (bone.child != kLeftHip && bone.child != kRightHip) {

@@ -23,12 +23,12 @@ struct RestBody {
     glm::dvec3 position{0};
   };
   /// A point that is fixed to a joint.
-  struct RolePlace {
+  struct RoleAnchor {
     int joint = 0;
     glm::dvec3 position{0};
   };
   std::vector<Joint> joints;  ///< parents before children; the first one is the only root
-  std::array<RolePlace, kRoleCount> roles;
+  std::array<RoleAnchor, kRoleCount> roles;
 
   /// Returns the twenty joints at rest.
   BodyPose Pose() const;

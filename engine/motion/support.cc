@@ -36,7 +36,7 @@ std::vector<bool> FallingFrames(std::span<const BodyPose> poses, double rate_hz,
   for (int f = 0; f <= last; ++f) {
     const int middle = std::clamp(f, reach, last - reach);
     const double bend = height[middle - reach] - 2 * height[middle] + height[middle + reach];
-    falls[f] = -bend * per_s * per_s >= rules.least_fall;
+    falls[f] = -bend * per_s * per_s >= rules.min_fall;
   }
   return falls;
 }
@@ -89,7 +89,7 @@ bool FitsFlight(std::span<const BodyPose> poses, int first, int last, double rat
     stray += off * off / count;
   }
   const double fall = -2 * bend;
-  return rules.least_fall <= fall && fall <= rules.most_fall && std::sqrt(stray) <= rules.flight_stray;
+  return rules.min_fall <= fall && fall <= rules.max_fall && std::sqrt(stray) <= rules.flight_stray;
 }
 
 // Marks each run of frames without support that is a flight.

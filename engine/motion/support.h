@@ -25,7 +25,7 @@ struct SupportRules {
   double window_s = 1.0 / 3;  ///< a clip's rest heights are searched this long before and after a frame
   /// A body without support is in flight if the vertical acceleration of its mass centre is in this band, metres per
   /// second², and its height deviates from a parabola by at most `flight_stray` (root mean square).
-  double least_fall = 6.5, most_fall = 13;
+  double min_fall = 6.5, max_fall = 13;
   double flight_stray = 0.008;
 };
 

@@ -24,7 +24,7 @@ struct Examples {
 
 class DtwFollower final : public StepFollower {
  public:
-  DtwFollower(const std::vector<Examples>& moves, const SightWeights& weights, const DtwOptions& options,
+  DtwFollower(const std::vector<Examples>& moves, const TrackingWeights& weights, const DtwOptions& options,
               double rate_hz)
       : StepFollower(PoseParts::kJoints, weights, moves.size(), rate_hz), moves_(moves), options_(options) {
     for (const Examples& move : moves) always_.push_back(move.Aligners());
@@ -58,7 +58,7 @@ class DtwFollower final : public StepFollower {
 
 class DtwRecogniser final : public Recogniser {
  public:
-  DtwRecogniser(std::vector<Examples> moves, const SightWeights& weights, const DtwOptions& options)
+  DtwRecogniser(std::vector<Examples> moves, const TrackingWeights& weights, const DtwOptions& options)
       : moves_(std::move(moves)), weights_(weights), options_(options) {}
 
   std::unique_ptr<MoveFollower> Follow(double rate_hz) const override {
@@ -67,13 +67,13 @@ class DtwRecogniser final : public Recogniser {
 
  private:
   std::vector<Examples> moves_;
-  SightWeights weights_;
+  TrackingWeights weights_;
   DtwOptions options_;
 };
 
 }  // namespace
 
-std::unique_ptr<Recogniser> MakeDtwRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
+std::unique_ptr<Recogniser> MakeDtwRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
                                               const DtwOptions& options) {
   std::vector<Examples> moves;
   for (const TaughtMove& move : taught) {
@@ -185,7 +185,7 @@ class Stillness {
 
 class NearestFollower final : public StepFollower {
  public:
-  NearestFollower(const std::vector<Example>& examples, std::size_t moves, const SightWeights& weights, double rate_hz)
+  NearestFollower(const std::vector<Example>& examples, std::size_t moves, const TrackingWeights& weights, double rate_hz)
       : StepFollower(PoseParts::kJoints, weights, moves, rate_hz),
         examples_(examples),
         right_(moves),
@@ -257,7 +257,7 @@ class NearestFollower final : public StepFollower {
 
 class NearestRecogniser final : public Recogniser {
  public:
-  NearestRecogniser(std::vector<Example> examples, std::size_t moves, const SightWeights& weights)
+  NearestRecogniser(std::vector<Example> examples, std::size_t moves, const TrackingWeights& weights)
       : examples_(std::move(examples)), moves_(moves), weights_(weights) {}
 
   std::unique_ptr<MoveFollower> Follow(double rate_hz) const override {
@@ -267,12 +267,12 @@ class NearestRecogniser final : public Recogniser {
  private:
   std::vector<Example> examples_;
   std::size_t moves_;
-  SightWeights weights_;
+  TrackingWeights weights_;
 };
 
 }  // namespace
 
-std::unique_ptr<Recogniser> MakeNearestRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights) {
+std::unique_ptr<Recogniser> MakeNearestRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights) {
   std::vector<Example> examples;
   for (std::size_t move = 0; move < taught.size(); ++move) {
     for (const SkeletonStream& stream : taught[move].examples) {

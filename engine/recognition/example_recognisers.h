@@ -16,7 +16,7 @@ struct DtwOptions {
 
 /// Makes the external baseline `dtw`: subsequence dynamic time warping of joints to the taught examples, without
 /// training or tuning. The evidence is 1 / (1 + (distance / half_at_cm)²) of the nearest example.
-std::unique_ptr<Recogniser> MakeDtwRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
+std::unique_ptr<Recogniser> MakeDtwRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
                                               const DtwOptions& options);
 
 /// Makes the external baseline `nearest`: a nearest neighbour classifier without training, tuning or time warping. It
@@ -26,6 +26,6 @@ std::unique_ptr<Recogniser> MakeDtwRecogniser(std::span<const TaughtMove> taught
 /// not asked for, any motion is possible. Then n also includes the distance to the example's mean pose, so that a
 /// person who holds still does not count as performing the move, and n is at most 21 cm, because other people's
 /// performances are rarely farther away.
-std::unique_ptr<Recogniser> MakeNearestRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights);
+std::unique_ptr<Recogniser> MakeNearestRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights);
 
 }  // namespace etude

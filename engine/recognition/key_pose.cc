@@ -135,7 +135,7 @@ double PoseSequence::BestPassageEndingIn(std::span<const double> held) const {
   return std::min(best.back(), held.back());
 }
 
-double MatchOf(const FeatureFrame& frame, const TaughtPose& pose, const SightWeights& weights,
+double MatchOf(const FeatureFrame& frame, const TaughtPose& pose, const TrackingWeights& weights,
                const KeyPoseOptions& options) {
   struct Angle {
     double error;  // in units of its tolerance
@@ -165,7 +165,7 @@ double MatchOf(const FeatureFrame& frame, const TaughtPose& pose, const SightWei
   return 1.0 / (1.0 + factor * factor);
 }
 
-std::unique_ptr<Recogniser> MakeKeyPoseRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
+std::unique_ptr<Recogniser> MakeKeyPoseRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
                                                   const KeyPoseOptions& options) {
   return MakePoseSequenceRecogniser(taught, options.hold_frames,
                                     [weights, options](const FeatureFrame& frame, const TaughtPose& pose) {
@@ -192,7 +192,7 @@ double Overlap(Feature feature, double seen, double taught, const Memberships& m
 
 }  // namespace
 
-double RuleStrength(const FeatureFrame& frame, const TaughtPose& pose, const SightWeights& weights,
+double RuleStrength(const FeatureFrame& frame, const TaughtPose& pose, const TrackingWeights& weights,
                     const Memberships& memberships) {
   double strength = 1, most = 0;
   for (const PoseTarget& target : pose.targets) {
@@ -204,7 +204,7 @@ double RuleStrength(const FeatureFrame& frame, const TaughtPose& pose, const Sig
   return most > 0 ? strength : 0.0;
 }
 
-std::unique_ptr<Recogniser> MakeFuzzyRulesRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
+std::unique_ptr<Recogniser> MakeFuzzyRulesRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
                                                      const FuzzyRulesOptions& options) {
   return MakePoseSequenceRecogniser(taught, options.hold_frames,
                                     [weights](const FeatureFrame& frame, const TaughtPose& pose) {
@@ -213,7 +213,7 @@ std::unique_ptr<Recogniser> MakeFuzzyRulesRecogniser(std::span<const TaughtMove>
 }
 
 std::vector<std::optional<int>> WhenReached(std::span<const TaughtPose> poses, std::span<const FeatureFrame> frames,
-                                            const SightWeights& weights, const KeyPoseOptions& options) {
+                                            const TrackingWeights& weights, const KeyPoseOptions& options) {
   constexpr double kReached = 0.5;
   std::vector<std::optional<int>> reached;
   for (std::size_t count = 1; count <= poses.size(); ++count) {

@@ -70,12 +70,12 @@ struct KeyPoseOptions {
 /// Returns how well this frame matches the pose, in [0, 1]: 1 / (1 + s²), where s is the smallest factor on all
 /// tolerances with which the wanted share of angles is within them. The result is at least ½ exactly if paper A's crisp
 /// rule is fulfilled; a lower threshold means wider tolerances. It is 0 if no angle has a positive weight.
-double MatchOf(const FeatureFrame& frame, const TaughtPose& pose, const SightWeights& weights,
+double MatchOf(const FeatureFrame& frame, const TaughtPose& pose, const TrackingWeights& weights,
                const KeyPoseOptions& options);
 
 /// Makes paper A's recogniser, which detects a move when its key poses are reached in order. The moves must have key
 /// poses (CheckKeyPoses). The evidence reaches ½ when A's crisp rule is fulfilled.
-std::unique_ptr<Recogniser> MakeKeyPoseRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
+std::unique_ptr<Recogniser> MakeKeyPoseRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
                                                   const KeyPoseOptions& options);
 
 struct FuzzyRulesOptions {
@@ -88,18 +88,18 @@ struct FuzzyRulesOptions {
 /// feature's grades in the frame and at the taught angle: Σ min(μ, μ′) / Σ max(μ, μ′) over its terms. With adaptive
 /// weights, a feature of weight w can lower the result to 1 − w, but not further: max(overlap, 1 − w) (Yager 1981). The
 /// result is 0 if no feature has a positive weight.
-double RuleStrength(const FeatureFrame& frame, const TaughtPose& pose, const SightWeights& weights,
+double RuleStrength(const FeatureFrame& frame, const TaughtPose& pose, const TrackingWeights& weights,
                     const Memberships& memberships);
 
 /// Makes a recogniser of paper A's features with fuzzy rules over time (ours): one rule per key pose, and one per move,
 /// "first this pose, then that, within one performance", combined by the minimum. It uses the terms of table 1 and
 /// ignores the key poses' tolerances.
-std::unique_ptr<Recogniser> MakeFuzzyRulesRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
+std::unique_ptr<Recogniser> MakeFuzzyRulesRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
                                                      const FuzzyRulesOptions& options);
 
 /// Returns for each key pose of a move the index of the first of `frames` in which this pose and all poses before it
 /// have been reached in order by A's crisp rule; empty if that never happened.
 std::vector<std::optional<int>> WhenReached(std::span<const TaughtPose> poses, std::span<const FeatureFrame> frames,
-                                            const SightWeights& weights, const KeyPoseOptions& options);
+                                            const TrackingWeights& weights, const KeyPoseOptions& options);
 
 }  // namespace etude

@@ -99,7 +99,7 @@ Split BestSplit(const Sample& sample, std::span<const Slope> slopes, std::span<c
     for (std::size_t b = 0; b + 1 < kBins; ++b) {
       left.Add(bins[b]);
       const Slope right{all.gradient - left.gradient, all.curvature - left.curvature, all.count - left.count};
-      if (left.count < options.least_per_leaf || right.count < options.least_per_leaf) continue;
+      if (left.count < options.min_per_leaf || right.count < options.min_per_leaf) continue;
       const double gain = left.Gain(options.ridge) + right.Gain(options.ridge) - all.Gain(options.ridge);
       if (gain > best.gain) best = {m, b, gain};
     }
@@ -318,11 +318,11 @@ const LearntModel& BuiltinCoachedModel() {
   return model;
 }
 
-std::unique_ptr<Recogniser> MakeLearntRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
+std::unique_ptr<Recogniser> MakeLearntRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
                                                  const LearntModel& model) {
   return MakeMeasuringRecogniser(
-      taught, weights, [&model](Occasion origin, std::size_t, const PerformanceMeasures& measures) {
-        if (origin == Occasion::kAsked) return model.asked.Probability(measures);
+      taught, weights, [&model](PerformanceOrigin origin, std::size_t, const PerformanceMeasures& measures) {
+        if (origin == PerformanceOrigin::kAsked) return model.asked.Probability(measures);
         return measures[kDistanceMeasure] > kMaxSpottedDistance ? 0.0 : model.spotted.Probability(measures);
       });
 }

@@ -47,7 +47,7 @@ struct BoostingOptions {
   int trees = 100;
   double rate = 0.12;  ///< shrinkage: the share of its fit that a tree adds
   double ridge = 3;    ///< regularisation that shrinks leaves towards 0, in units of four performances at even odds
-  int least_per_leaf = 12;  ///< minimum number of performances
+  int min_per_leaf = 12;  ///< minimum number of performances
   /// If true, trees take turns: each is fitted to three fifths of the performances and a third of the measures, so that
   /// they differ (stochastic boosting, Friedman 2002, but with a fixed rotation instead of random numbers).
   bool takes_turns = false;
@@ -83,7 +83,7 @@ const LearntModel& BuiltinCoachedModel();
 /// Makes our learnt recogniser. It aligns performances with the taught examples, measures them, and judges the measures
 /// by a model trained on simulated people. A motion that is farther from every example than nearly all of the training
 /// data is not spotted as a move. The moves are the taught ones; the model itself knows no moves.
-std::unique_ptr<Recogniser> MakeLearntRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
+std::unique_ptr<Recogniser> MakeLearntRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
                                                  const LearntModel& model);
 
 }  // namespace etude

@@ -63,7 +63,7 @@ class RecentCosts {
 
 class MeasuringFollower final : public StepFollower {
  public:
-  MeasuringFollower(const std::vector<TaughtExample>& examples, std::size_t moves, const SightWeights& weights,
+  MeasuringFollower(const std::vector<TaughtExample>& examples, std::size_t moves, const TrackingWeights& weights,
                     const PerformanceJudge& judge, double rate_hz)
       : StepFollower(PoseParts::kLimbs, weights, moves, rate_hz),
         examples_(examples),
@@ -115,7 +115,7 @@ class MeasuringFollower final : public StepFollower {
     if (lowest < kUnaligned) {
       const TaughtExample& example = examples_[nearest];
       spotted[example.move] =
-          judge_(Occasion::kSpotted, example.move, MeasureNow(example, always_[nearest], 0, nullptr));
+          judge_(PerformanceOrigin::kSpotted, example.move, MeasureNow(example, always_[nearest], 0, nullptr));
     }
     // Judge every example of the asked move, and remember the measures of the best alignment in this window.
     double evidence = 0;
@@ -126,7 +126,7 @@ class MeasuringFollower final : public StepFollower {
       rigid.Update(step);
       if (aligner.Cost() == kUnaligned) continue;
       const PerformanceMeasures measures = MeasureNow(*example, aligner, opened_at_, &window);
-      evidence = std::max(evidence, judge_(Occasion::kAsked, example->move, measures));
+      evidence = std::max(evidence, judge_(PerformanceOrigin::kAsked, example->move, measures));
       if (aligner.Cost() < nearest_cost_) {
         nearest_cost_ = aligner.Cost();
         nearest_in_window_ = measures;
@@ -187,7 +187,7 @@ class MeasuringFollower final : public StepFollower {
 
 class MeasuringRecogniser final : public Recogniser {
  public:
-  MeasuringRecogniser(std::vector<TaughtExample> examples, std::size_t moves, const SightWeights& weights,
+  MeasuringRecogniser(std::vector<TaughtExample> examples, std::size_t moves, const TrackingWeights& weights,
                       PerformanceJudge judge)
       : examples_(std::move(examples)), moves_(moves), weights_(weights), judge_(std::move(judge)) {}
 
@@ -198,13 +198,13 @@ class MeasuringRecogniser final : public Recogniser {
  private:
   std::vector<TaughtExample> examples_;
   std::size_t moves_;
-  SightWeights weights_;
+  TrackingWeights weights_;
   PerformanceJudge judge_;
 };
 
 }  // namespace
 
-std::unique_ptr<Recogniser> MakeMeasuringRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
+std::unique_ptr<Recogniser> MakeMeasuringRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
                                                     PerformanceJudge judge) {
   std::vector<TaughtExample> examples;
   for (std::size_t move = 0; move < taught.size(); ++move) {

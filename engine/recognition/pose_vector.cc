@@ -88,7 +88,7 @@ PoseVector Mirrored(const PoseVector& pose, PoseParts parts) {
   return mirrored;
 }
 
-StepDescriber::StepDescriber(PoseParts parts, const SightWeights& weights, double rate_hz)
+StepDescriber::StepDescriber(PoseParts parts, const TrackingWeights& weights, double rate_hz)
     : parts_(parts), weights_(weights), rate_hz_(rate_hz) {}
 
 void StepDescriber::Follow(const SensedFrame& skeleton) {
@@ -163,7 +163,7 @@ std::vector<PoseVector> DescribeStream(const SkeletonStream& stream, PoseParts p
   return steps;
 }
 
-StepFollower::StepFollower(PoseParts parts, const SightWeights& weights, std::size_t moves, double rate_hz)
+StepFollower::StepFollower(PoseParts parts, const TrackingWeights& weights, std::size_t moves, double rate_hz)
     : describer_(parts, weights, rate_hz), spotted_(moves, 0.0) {}
 
 void StepFollower::Ask(std::optional<std::size_t> move) {

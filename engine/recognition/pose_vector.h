@@ -42,7 +42,7 @@ constexpr double kStepsPerSecond = 15;
 class StepDescriber {
  public:
   /// Creates a describer for frames at `rate_hz` > 0.
-  StepDescriber(PoseParts parts, const SightWeights& weights, double rate_hz);
+  StepDescriber(PoseParts parts, const TrackingWeights& weights, double rate_hz);
 
   /// Takes a frame and returns the number of steps that it completes: usually 0 or 1, more if the frame rate is below
   /// the step rate. `Step` holds for all of them.
@@ -55,7 +55,7 @@ class StepDescriber {
   void Follow(const SensedFrame& skeleton);
 
   PoseParts parts_;
-  SightWeights weights_;
+  TrackingWeights weights_;
   double rate_hz_;
   long frame_ = 0;
   bool follows_ = false;  // true once a body was seen
@@ -73,7 +73,7 @@ std::vector<PoseVector> DescribeStream(const SkeletonStream& stream, PoseParts p
 class StepFollower : public MoveFollower {
  public:
   /// Creates a follower for frames at `rate_hz` > 0.
-  StepFollower(PoseParts parts, const SightWeights& weights, std::size_t moves, double rate_hz);
+  StepFollower(PoseParts parts, const TrackingWeights& weights, std::size_t moves, double rate_hz);
 
   void Ask(std::optional<std::size_t> move) final;
   Evidence Update(const SeenFrame& frame) final;

@@ -14,7 +14,7 @@ enum class Weighting {
   kAdaptive,  ///< the weight depends on the worst tracking state of its joints (ours)
 };
 
-struct SightWeights {
+struct TrackingWeights {
   /// The default is fixed, as in paper A. Use adaptive if a miss costs more than praise for a mistake, especially if
   /// the body occludes its own far side. Adaptive weights also ignore mistakes in joints that are not seen.
   Weighting weighting = Weighting::kFixed;

@@ -12,7 +12,7 @@ namespace etude {
 namespace {
 
 template <typename Own>
-using TeachWithOwn = std::unique_ptr<Recogniser> (*)(std::span<const TaughtMove>, const SightWeights&, const Own&);
+using TeachWithOwn = std::unique_ptr<Recogniser> (*)(std::span<const TaughtMove>, const TrackingWeights&, const Own&);
 
 // Adds a recogniser's own options to its kind; `table` tells which of them can be set, by which key and in which range.
 template <typename Own>
@@ -52,8 +52,8 @@ Result<void> Check(const RecogniserKind& kind, std::span<const TaughtMove> taugh
   for (std::size_t i = 0; i < taught.size(); ++i) {
     const TaughtMove& move = taught[i];
     if (FindByName(taught.first(i), move.name)) return Fail({}, "two moves are called '{}'", move.name);
-    if (!(move.span_s > 0 && move.span_s <= kLongestSpan)) {
-      return Fail({}, "move '{}' lasts {} s; allowed: above 0, up to {}", move.name, move.span_s, kLongestSpan);
+    if (!(move.span_s > 0 && move.span_s <= kMaxSpan)) {
+      return Fail({}, "move '{}' lasts {} s; allowed: above 0, up to {}", move.name, move.span_s, kMaxSpan);
     }
     const auto why = [&](const Error& error) { return Fail({}, "recogniser {}: {}", kind.name, error.message); };
     if (kind.needs_key_poses) {

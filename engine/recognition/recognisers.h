@@ -37,7 +37,7 @@ const RecogniserKind* FindRecogniser(std::string_view name);
 
 struct RecogniserOptions {
   const RecogniserKind* kind = &AllRecognisers().front();  ///< default: key-pose, paper A's recogniser
-  SightWeights weights = {};
+  TrackingWeights weights = {};
   std::vector<double> settings = {};  ///< one value per setting of the kind, in order; empty means the defaults
 };
 

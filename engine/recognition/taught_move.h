@@ -20,7 +20,7 @@ struct TaughtPose {
   std::vector<PoseTarget> targets;  ///< at least one
 };
 
-constexpr double kLongestSpan = 60;  ///< seconds
+constexpr double kMaxSpan = 60;  ///< seconds
 
 /// A move as it is taught to recognisers. Each recogniser uses the fields it needs and rejects a move that lacks them.
 struct TaughtMove {

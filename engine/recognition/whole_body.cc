@@ -206,7 +206,7 @@ class LatelyLowest {
 
 class WholeBodyFollower final : public MoveFollower {
  public:
-  WholeBodyFollower(const std::vector<WholeMove>& moves, const SightWeights& weights, const Recogniser& judge,
+  WholeBodyFollower(const std::vector<WholeMove>& moves, const TrackingWeights& weights, const Recogniser& judge,
                     bool judge_spots, double rate_hz)
       : moves_(moves),
         judge_(judge.Follow(rate_hz)),
@@ -307,7 +307,7 @@ class WholeBodyFollower final : public MoveFollower {
 
 class WholeBodyRecogniser final : public Recogniser {
  public:
-  WholeBodyRecogniser(std::vector<WholeMove> moves, const SightWeights& weights, std::unique_ptr<Recogniser> judge)
+  WholeBodyRecogniser(std::vector<WholeMove> moves, const TrackingWeights& weights, std::unique_ptr<Recogniser> judge)
       : moves_(std::move(moves)), weights_(weights), judge_(std::move(judge)) {
     judge_spots_ =
         std::ranges::any_of(moves_, [](const WholeMove& move) { return move.examples.size() < kNearestExamples; });
@@ -319,14 +319,14 @@ class WholeBodyRecogniser final : public Recogniser {
 
  private:
   std::vector<WholeMove> moves_;
-  SightWeights weights_;
+  TrackingWeights weights_;
   std::unique_ptr<Recogniser> judge_;
   bool judge_spots_;
 };
 
 }  // namespace
 
-std::unique_ptr<Recogniser> MakeWholeBodyRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
+std::unique_ptr<Recogniser> MakeWholeBodyRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
                                                     std::unique_ptr<Recogniser> judge) {
   std::vector<WholeMove> moves;
   for (const TaughtMove& move : taught) moves.push_back(WholeMoveOf(move));

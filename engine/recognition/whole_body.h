@@ -19,7 +19,7 @@ namespace etude {
 /// - A move that was not asked for is spotted with evidence n / (r + n), where r is its distance and n the smallest
 ///   distance of another move within a second, limited to a distance that other people's performances rarely exceed. If
 ///   a move has fewer than three examples, the spread between people is unknown, and the judge's evidence is used.
-std::unique_ptr<Recogniser> MakeWholeBodyRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
+std::unique_ptr<Recogniser> MakeWholeBodyRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
                                                     std::unique_ptr<Recogniser> judge);
 
 }  // namespace etude

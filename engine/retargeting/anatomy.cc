@@ -117,7 +117,7 @@ class AnatomyFinder {
   bool AreNested(const ChainPair& a, const ChainPair& b) const {
     const auto within = [&](const Chain& inner, const Chain& outer) {
       const int joint = inner.joints.front(), top = outer.joints.front();
-      return joint == top || tree_.HangsFrom(joint, top);
+      return joint == top || tree_.DescendsFrom(joint, top);
     };
     return std::ranges::any_of(a.chains, [&](const Chain& one) {
       return std::ranges::any_of(b.chains,
@@ -178,7 +178,7 @@ class AnatomyFinder {
       const bool is_on = glm::dot(from_neck, up) > 0.15 * trunk && glm::dot(DirectionOf(from_neck), up) > 0.8;
       const auto is_of = [&](const Limbs& limbs) {
         return std::ranges::any_of(limbs.pair->chains, [&](const Chain& chain) {
-          return joint == chain.joints.front() || tree_.HangsFrom(joint, chain.joints.front());
+          return joint == chain.joints.front() || tree_.DescendsFrom(joint, chain.joints.front());
         });
       };
       if (is_on && !is_of(legs) && !is_of(arms)) return true;
@@ -304,7 +304,7 @@ std::optional<int> FarthestTip(const SkeletonTree& tree, int top, const glm::dve
   for (int i = top; i < tree.size(); ++i) {
     const double distance = glm::distance(tree.RestOf(i), base);
     const bool is_plausible = distance >= plausible.shortest * proportion && distance <= plausible.longest * proportion;
-    if (!is_plausible || (i != top && !tree.HangsFrom(i, top)) || !may_be(i)) continue;
+    if (!is_plausible || (i != top && !tree.DescendsFrom(i, top)) || !may_be(i)) continue;
     tips.push_back({i, distance});
     longest = std::max(longest, distance);
   }
@@ -365,7 +365,7 @@ bool IsFree(const JointMapDraft& draft, Role end) {
   const int joint = draft.JointOf(end);
   return std::ranges::none_of(kLimbs, [&](const Limb& limb) {
     const int top = draft.JointOf(limb.roles[0]);
-    return joint == top || draft.tree().HangsFrom(joint, top);
+    return joint == top || draft.tree().DescendsFrom(joint, top);
   });
 }
 

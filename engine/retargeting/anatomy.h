@@ -17,7 +17,7 @@ struct AnatomyProposal {
 };
 
 /// A proposal with at least this confidence may be used without confirmation.
-constexpr double kSureAnatomy = 0.9;
+constexpr double kMinAnatomyConfidence = 0.9;
 
 /// Proposes the limbs by the topology of the tree and the rest pose (ours). Legs and arms are two pairs of siblings
 /// with equally long chains of bones below them. The trunk leads from the legs to the arms, and the legs point the

@@ -31,7 +31,7 @@ class MapFinder {
   MapFinder(const Skeleton& skeleton, const std::string& file)
       : skeleton_(skeleton), file_(file), tree_(skeleton), names_(skeleton), draft_(tree_) {}
 
-  Result<JointMap> Find(const TaughtRoles* taught) {
+  Result<JointMap> Find(const JointMapOverrides* taught) {
     if (taught != nullptr) {
       RETURN_IF_ERROR(AssignTaught(*taught));
     }
@@ -49,7 +49,7 @@ class MapFinder {
   }
 
  private:
-  Result<void> AssignTaught(const TaughtRoles& taught) {
+  Result<void> AssignTaught(const JointMapOverrides& taught) {
     for (const auto& [role, joint] : taught.joints) {
       const int found = skeleton_.Find(joint.name);
       if (found < 0) {
@@ -92,7 +92,7 @@ class MapFinder {
       return proposal.joints[Index(role)] < 0 || !draft_.Has(role) ||
              draft_.JointOf(role) == proposal.joints[Index(role)];
     });
-    if (agrees && proposal.confidence >= kSureAnatomy) {
+    if (agrees && proposal.confidence >= kMinAnatomyConfidence) {
       for (const Role role : missing_roles) draft_.Set(role, proposal.joints[Index(role)]);
       by_anatomy_ = std::move(missing_roles);
       confidence_ = proposal.confidence;
@@ -105,7 +105,7 @@ class MapFinder {
           "by its build {} could be {} (confidence {:.2f}; used from {:.1f} on): etude clip map writes "
           "that to be edited; ",
           RoleName(missing_roles[0]), Quote(tree_.NameOf(proposal.joints[Index(missing_roles[0])])),
-          proposal.confidence, kSureAnatomy);
+          proposal.confidence, kMinAnatomyConfidence);
     }
     return Fail({file_}, "no joint found for {}; {}{}", Join(missing), guess, NamesSeen(skeleton_));
   }
@@ -136,7 +136,7 @@ class MapFinder {
   }
 
   void FindNeckAndHead() {
-    const auto is_above_pelvis = [&](int joint) { return tree_.HangsFrom(joint, draft_.JointOf(kHipCentre)); };
+    const auto is_above_pelvis = [&](int joint) { return tree_.DescendsFrom(joint, draft_.JointOf(kHipCentre)); };
     int head = FindInMiddle(HeadNames(), is_above_pelvis);
     if (head < 0) head = HeadByShape();
     if (!draft_.Has(kHead) && head >= 0) draft_.Set(kHead, head);
@@ -145,7 +145,7 @@ class MapFinder {
     // to a limb's length because that does not depend on the rest pose.
     const double tiny = 0.01 * glm::distance(draft_.RestOf(kLeftShoulder), draft_.RestOf(kLeftElbow));
     const int neck = FindInMiddle(NeckNames(), [&](int joint) {
-      return is_above_pelvis(joint) && (head < 0 || tree_.HangsFrom(head, joint)) &&
+      return is_above_pelvis(joint) && (head < 0 || tree_.DescendsFrom(head, joint)) &&
              glm::distance(tree_.RestOf(joint), tree_.RestOf(tree_.ParentOf(joint))) > tiny;
     });
     if (neck >= 0) return draft_.Set(kShoulderCentre, neck);
@@ -169,10 +169,10 @@ class MapFinder {
       const double height = glm::dot(on, trunk) / glm::dot(trunk, trunk);
       const auto is_of_limb = [&](const Limb& limb) {
         const int top = draft_.JointOf(limb.roles[0]);
-        return joint == top || tree_.HangsFrom(joint, top);
+        return joint == top || tree_.DescendsFrom(joint, top);
       };
       if (!(height > highest && height <= kMaxHeight) || AngleBetween(on, trunk) > kAside) continue;
-      if (!tree_.HangsFrom(joint, carrier) || std::ranges::any_of(kLimbs, is_of_limb)) continue;
+      if (!tree_.DescendsFrom(joint, carrier) || std::ranges::any_of(kLimbs, is_of_limb)) continue;
       highest = height;
       head = joint;
     }
@@ -209,7 +209,7 @@ class MapFinder {
   }
 
   Result<void> CheckDescends(Role child, Role parent) const {
-    if (tree_.HangsFrom(draft_.JointOf(child), draft_.JointOf(parent))) return {};
+    if (tree_.DescendsFrom(draft_.JointOf(child), draft_.JointOf(parent))) return {};
     return Fail({file_}, "{} is played by {}, which does not descend from {}, the {}", RoleName(child),
                 Quote(draft_.NameOf(child)), Quote(draft_.NameOf(parent)), RoleName(parent));
   }
@@ -258,11 +258,11 @@ class MapFinder {
 
 }  // namespace
 
-Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file, const TaughtRoles* taught) {
+Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file, const JointMapOverrides* taught) {
   return MapFinder(skeleton, file).Find(taught);
 }
 
-PartialRoles FindRolesInPart(const Skeleton& skeleton) {
+PartialRoles FindPartialRoles(const Skeleton& skeleton) {
   const SkeletonTree tree(skeleton);
   const JointNames names(skeleton);
   PartialRoles roles;
@@ -296,7 +296,7 @@ int FindNewRoot(const Skeleton& skeleton) {
     if (tops[i] < 0) return -1;
   }
   const int chest = tree.CommonAncestor(tops[0], tops[1]), pelvis = tree.CommonAncestor(tops[2], tops[3]);
-  return chest >= 0 && pelvis >= 0 && tree.HangsFrom(pelvis, chest) ? pelvis : -1;
+  return chest >= 0 && pelvis >= 0 && tree.DescendsFrom(pelvis, chest) ? pelvis : -1;
 }
 
 BodyPose Evaluate(const JointMap& map, const std::vector<GlobalTransform>& globals) {

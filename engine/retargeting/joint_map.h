@@ -28,7 +28,7 @@ struct JointMap {
   const RolePoint& operator[](Role role) const { return points[Index(role)]; }
 };
 
-struct TaughtRoles;
+struct JointMapOverrides;
 
 /// Finds the roles in a skeleton by the naming schemes of joint_names.h and by its shape:
 /// - Shoulders, elbows, wrists, hips, knees, ankles, the base of the neck and the head are found by name; among joints
@@ -48,7 +48,7 @@ struct TaughtRoles;
 /// descend from its hip and similar errors, and hips that are not on opposite sides of the joint that carries them.
 /// ToBodyMotion checks on the moving body that left is left. The roles in `taught` are assigned before any name is
 /// searched, and checked like the others; a joint that does not exist is reported at its place in the joint-map file.
-Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file, const TaughtRoles* taught = nullptr);
+Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file, const JointMapOverrides* taught = nullptr);
 
 /// The result of searching a skeleton in which not all roles can be found.
 struct PartialRoles {
@@ -56,7 +56,7 @@ struct PartialRoles {
   std::array<int, kRoleCount> proposed;  ///< by shape, for limbs without names; −1: none
   double confidence = 0;                 ///< of `proposed`
 };
-PartialRoles FindRolesInPart(const Skeleton& skeleton);
+PartialRoles FindPartialRoles(const Skeleton& skeleton);
 
 /// Returns the joint that must become the root (WithRootAt) so that the hips carry the shoulders: the hips' common
 /// ancestor, if the file is rooted at the chest or the head. Returns −1 if no change is needed, or if limbs have no

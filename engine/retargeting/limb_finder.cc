@@ -10,7 +10,7 @@ SkeletonTree::SkeletonTree(const Skeleton& skeleton) : skeleton_(skeleton) {
   ComputeGlobals(skeleton, RestPose(skeleton), rest_);
 }
 
-bool SkeletonTree::HangsFrom(int joint, int ancestor) const {
+bool SkeletonTree::DescendsFrom(int joint, int ancestor) const {
   if (joint == ancestor) return false;
   while (joint > ancestor) joint = ParentOf(joint);  // parents come first
   return joint == ancestor;
@@ -38,9 +38,9 @@ constexpr int kChain = 5;
 
 int RateChain(const SkeletonTree& tree, const std::array<int, 3>& joints) {
   const auto [upper, middle, end] = joints;
-  if (!tree.HangsFrom(middle, upper)) return kAllNamed;
-  if (tree.HangsFrom(end, middle)) return kChain;
-  return end != upper && end != middle && !tree.HangsFrom(end, upper) ? kLooseChain : kAllNamed;
+  if (!tree.DescendsFrom(middle, upper)) return kAllNamed;
+  if (tree.DescendsFrom(end, middle)) return kChain;
+  return end != upper && end != middle && !tree.DescendsFrom(end, upper) ? kLooseChain : kAllNamed;
 }
 
 using Candidates = std::array<std::vector<NamedJoint>, 3>;

@@ -39,7 +39,7 @@ class SkeletonTree {
   const glm::dvec3& RestOf(int joint) const { return rest_[joint].position; }
 
   /// Returns true if `joint` is a descendant of `ancestor`; a joint is not a descendant of itself.
-  bool HangsFrom(int joint, int ancestor) const;
+  bool DescendsFrom(int joint, int ancestor) const;
   /// Returns the lowest common ancestor of two joints, or −1.
   int CommonAncestor(int a, int b) const;
   /// Returns `point` of the rest pose in the joint's own frame; zero if that frame is singular.

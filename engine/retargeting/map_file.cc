@@ -49,7 +49,7 @@ Result<double> ReadUnit(std::string_view text, const Place& place) {
               Quote(text));
 }
 
-Result<TaughtRoles> ReadJointMapFile(std::string_view yaml, const std::string& file) {
+Result<JointMapOverrides> ReadJointMapFile(std::string_view yaml, const std::string& file) {
   // Read unit, up axis and rate.
   ASSIGN_OR_RETURN(const auto document, ParseYaml(yaml, file));
   Fields fields(document, "a joint map");
@@ -57,7 +57,7 @@ Result<TaughtRoles> ReadJointMapFile(std::string_view yaml, const std::string& f
   const Node* unit = fields.Raw("unit");
   const std::string up = fields.Choice("up", {"y", "z"}, "");
   constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;
-  TaughtRoles taught;
+  JointMapOverrides taught;
   taught.rate_hz = fields.OptionalNumber("rate", {kMinRate_hz, kMaxRate_hz});
   RETURN_IF_ERROR(fields.Finish());
   if (!up.empty()) taught.up = up == "z" ? UpAxis::kZ : UpAxis::kY;

@@ -13,15 +13,15 @@
 namespace etude {
 
 /// A joint as named in a joint-map file.
-struct TaughtJoint {
+struct JointOverride {
   std::string name;  ///< as in the clip; "LeftHand_End" for BVH's End Sites
   Place place;       ///< for error messages
 };
 
 /// The content of a joint-map file: the joints that play roles, and properties of clips that their files do not
 /// contain. Roles that it leaves out are found as usual.
-struct TaughtRoles {
-  std::map<Role, TaughtJoint> joints;
+struct JointMapOverrides {
+  std::map<Role, JointOverride> joints;
   std::optional<double> metres_per_unit = {};
   std::optional<UpAxis> up = {};
   std::optional<double> rate_hz = {};  ///< replaces the file's own
@@ -38,7 +38,7 @@ Result<double> ReadUnit(std::string_view text, const Place& place);
 ///     up: z
 ///     rate: 120
 /// Fails, with line and column, for unknown roles, values that are not names, and an empty file.
-Result<TaughtRoles> ReadJointMapFile(std::string_view yaml, const std::string& file);
+Result<JointMapOverrides> ReadJointMapFile(std::string_view yaml, const std::string& file);
 
 /// Returns a name in double quotes, escaped so that YAML reads it back unchanged.
 std::string QuotedInYaml(std::string_view name);

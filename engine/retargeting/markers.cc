@@ -283,8 +283,8 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   frames.reserve(markers.frames.size());
   for (const auto& frame : markers.frames) frames.push_back(PositionsOf(set, columns, frame, scale));
   int filled = 0;
-  const auto longest_gap = static_cast<std::size_t>(kMaxGap_s * markers.rate_hz);
-  for (std::size_t joint = 0; joint < kRoleCount; ++joint) filled += BridgeGaps(frames, joint, longest_gap);
+  const auto max_gap = static_cast<std::size_t>(kMaxGap_s * markers.rate_hz);
+  for (std::size_t joint = 0; joint < kRoleCount; ++joint) filled += BridgeGaps(frames, joint, max_gap);
   TurnUpright(up == 'Z' ? glm::dvec3(0, 0, 1) : up == 'Y' ? glm::dvec3(0, 1, 0) : FindUp(frames), frames);
   // Keep the longest complete range.
   const auto [begin, end] = LongestStretch(frames);

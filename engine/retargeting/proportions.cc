@@ -52,7 +52,7 @@ Measured Measure(const Clip& clip, std::size_t first) {
 /// Returns true if every role's joint is the hip centre's or a descendant of it.
 bool DescendsFromPelvis(const RestBody& rest) {
   const int pelvis = rest.roles[Index(Role::kHipCentre)].joint;
-  return std::ranges::all_of(rest.roles, [&](const RestBody::RolePlace& role) {
+  return std::ranges::all_of(rest.roles, [&](const RestBody::RoleAnchor& role) {
     int joint = role.joint;
     while (joint >= 0 && joint != pelvis) joint = rest.joints[joint].parent;
     return joint == pelvis;

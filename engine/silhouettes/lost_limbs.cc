@@ -91,7 +91,7 @@ std::vector<TreeState> Postures(const SilhouetteBody& body) {
   return {standing, raised, crouching};
 }
 
-std::vector<TreeState> LimbPlaces(const SilhouetteBody& body, std::span<const SilhouetteView> views,
+std::vector<TreeState> LimbCandidates(const SilhouetteBody& body, std::span<const SilhouetteView> views,
                                   const TreeState& state, const SilhouetteBody::Limb& limb,
                                   const SilhouetteCostOptions& options) {
   constexpr std::size_t kKept = 2;

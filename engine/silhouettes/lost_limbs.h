@@ -13,7 +13,7 @@ std::vector<TreeState> Postures(const SilhouetteBody& body);
 
 /// Returns `state` with one arm or leg in other positions: the two of lowest cost on a grid over the range of the
 /// limb's joints.
-std::vector<TreeState> LimbPlaces(const SilhouetteBody& body, std::span<const SilhouetteView> views,
+std::vector<TreeState> LimbCandidates(const SilhouetteBody& body, std::span<const SilhouetteView> views,
                                   const TreeState& state, const SilhouetteBody::Limb& limb,
                                   const SilhouetteCostOptions& options);
 

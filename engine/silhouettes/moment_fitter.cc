@@ -76,7 +76,7 @@ MomentFitter::MomentFitter(const SilhouetteBody& body, const TrackOptions& optio
 }
 
 PosePrior MomentFitter::PriorNear(const TreeState& state) const {
-  return {state, options_.place_change_m, options_.angle_change, options_.angle_change};
+  return {state, options_.position_change_m, options_.angle_change, options_.angle_change};
 }
 
 SilhouetteFit MomentFitter::Fit(const MomentViews& views, const TreeState& start, const PosePrior* prior, bool is_far) {
@@ -86,7 +86,7 @@ SilhouetteFit MomentFitter::Fit(const MomentViews& views, const TreeState& start
 }
 
 SilhouetteFit MomentFitter::FitKnown(const MomentViews& views, const TreeState& start) {
-  const PosePrior prior{start, options_.start_place_m, options_.start_angle, options_.start_angle};
+  const PosePrior prior{start, options_.start_position_m, options_.start_angle, options_.start_angle};
   return Fit(views, start, &prior, true);
 }
 
@@ -133,7 +133,7 @@ std::vector<SilhouetteFit> MomentFitter::Find(const MomentViews& views) {
 SilhouetteFit MomentFitter::WithLimbsFound(const MomentViews& views, const SilhouetteFit& fit, const PosePrior* prior) {
   SilhouetteFit best = fit;
   for (const SilhouetteBody::Limb& limb : body_.limbs) {
-    for (const TreeState& start : LimbPlaces(body_, views, best.state, limb, wide_.cost)) {
+    for (const TreeState& start : LimbCandidates(body_, views, best.state, limb, wide_.cost)) {
       SilhouetteFit trial = Fit(views, start, prior, false);
       if (trial.cost < best.cost) best = std::move(trial);
     }

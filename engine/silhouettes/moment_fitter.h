@@ -36,7 +36,7 @@ struct TrackOptions {
   /// The accuracy of a known start: standard deviations of an angle and of the root's rotation (radians), and of the
   /// root's position.
   double start_angle = Radians(10);
-  double start_place_m = 0.1;
+  double start_position_m = 0.1;
   /// The number of frames, evenly over the take, in which the body is searched for if the start is not known.
   int anchors = 5;
   /// The number of frames for which each likely pose is followed if the start is not known. A single silhouette often
@@ -45,7 +45,7 @@ struct TrackOptions {
   /// The change from one frame to the next beyond the extrapolated motion: standard deviations of an angle, radians,
   /// and of the position. Use larger values for frame rates below 30 Hz.
   double angle_change = 0.15;
-  double place_change_m = 0.05;
+  double position_change_m = 0.05;
   /// A frame whose cost exceeds this multiple of the take's 20th percentile has lost a limb and is searched again.
   double lost = 1.8;
   /// The number of passes over a whole take in which lost frames are searched again and all frames are smoothed.

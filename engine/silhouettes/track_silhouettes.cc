@@ -26,7 +26,7 @@ double Squared(double x) { return x * x; }
 double StepCost(const TreeState& a, const TreeState& b, const TrackOptions& options) {
   const glm::dvec3 moved = a.root_position - b.root_position;
   const glm::dvec3 turned = TurnOf(a.root_frame * glm::transpose(b.root_frame));
-  double jump = glm::dot(moved, moved) / Squared(options.place_change_m) +
+  double jump = glm::dot(moved, moved) / Squared(options.position_change_m) +
                 glm::dot(turned, turned) / Squared(options.angle_change);
   for (std::size_t i = 0; i < a.angles.size(); ++i) {
     jump += Squared((a.angles[i] - b.angles[i]) / options.angle_change);
@@ -315,7 +315,7 @@ class Tracker {
       for (std::size_t k = odd; k < frame_count_; k += 2) {
         const std::optional<TreeState> between = Between(fits, k);
         if (!fits[k] || !between) continue;
-        const PosePrior prior{*between, 0.5 * options_.place_change_m, 0.5 * options_.angle_change,
+        const PosePrior prior{*between, 0.5 * options_.position_change_m, 0.5 * options_.angle_change,
                               0.5 * options_.angle_change};
         SilhouetteFit own = fitter_.Fit(views_[k], fits[k]->state, &prior, false),
                       theirs = fitter_.Fit(views_[k], *between, &prior, false);

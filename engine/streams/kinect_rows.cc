@@ -116,9 +116,9 @@ RecordedFrame FrameOf(std::span<const double> row, const RowLayout& layout, bool
 /// Converts a row to the frame with index `index` of the recording.
 Result<RecordedFrame> TimedFrame(std::span<const double> row, Place place, const RowLayout& layout,
                                  const StreamRecording& recording, std::size_t index) {
-  RecordedFrame frame = FrameOf(row, layout, recording.tells_states);
+  RecordedFrame frame = FrameOf(row, layout, recording.records_states);
   frame.line = place.line;
-  const double count = recording.tells_times ? row[0] : static_cast<double>(index);
+  const double count = recording.records_times ? row[0] : static_cast<double>(index);
   if (std::isnan(count)) return Fail(std::move(place), "no time, although other rows tell one");
   frame.time_s = count * recording.seconds_per_count;
   return frame;
@@ -144,11 +144,11 @@ Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string&
                 StreamFormatName(format), ColumnsAllowed(format));
   }
   StreamRecording recording{.format = format};
-  recording.tells_states = FourthsAreStates(table, *layout);
-  recording.tells_times = layout->first == 1 && !reading.rate_hz;
+  recording.records_states = FourthsAreStates(table, *layout);
+  recording.records_times = layout->first == 1 && !reading.rate_hz;
   recording.rate_hz = reading.rate_hz.value_or(kJudgedRateHz);
   const auto unit =
-      recording.tells_times ? SecondsPerCount(table, recording.remarks) : std::optional(1 / recording.rate_hz);
+      recording.records_times ? SecondsPerCount(table, recording.remarks) : std::optional(1 / recording.rate_hz);
   if (!unit) return Fail({file, table.lines.front(), 1}, "a first column that is no clock and counts no frames");
   recording.seconds_per_count = *unit;
   // Convert every row.
@@ -164,7 +164,7 @@ Result<RecordedFrame> ReadKinectRow(std::string_view row, const std::string& fil
   // ReadNumberRows takes the first line for a heading if it contains words, so a heading is put before the row.
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows("row\n" + std::string(row), file, kMaxClock));
   const RowLayout* layout = FindLayout(recording.format, table.columns);
-  if (layout == nullptr || (layout->first == 0 && recording.tells_times)) {
+  if (layout == nullptr || (layout->first == 0 && recording.records_times)) {
     return Fail({file, 1}, "{} numbers in a row, other than in the rows before", table.columns);
   }
   return TimedFrame(table.Row(0), {file, 1, 1}, *layout, recording, index);

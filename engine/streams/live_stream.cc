@@ -113,7 +113,7 @@ Result<RecordedFrame> LiveStream::Read(std::string_view line) {
   }
   ASSIGN_OR_RETURN(const JointCsvRow row, ReadJointCsvRow(line, *columns_, name_));
   RecordedFrame frame{.places = row.places};
-  frame.time_s = meaning_->tells_times ? row.time_s : static_cast<double>(frames_) / meaning_->rate_hz;
+  frame.time_s = meaning_->records_times ? row.time_s : static_cast<double>(frames_) / meaning_->rate_hz;
   if (std::isnan(frame.time_s)) return Fail({name_}, "no time, although other rows tell one");
   return frame;
 }

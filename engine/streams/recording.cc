@@ -195,8 +195,8 @@ Result<void> ToMetres(StreamRecording& recording, const std::string& file) {
 
 Result<StreamRecording> ReadStreamRecording(std::string_view text, const std::string& file,
                                             const StreamReading& reading) {
-  if (text.size() > kLargestNumberText) {
-    return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kLargestNumberText);
+  if (text.size() > kMaxNumberTextBytes) {
+    return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kMaxNumberTextBytes);
   }
   // Detect the format and read the file.
   const auto format = reading.format ? reading.format : DetectStreamFormat(text);
@@ -220,11 +220,11 @@ Result<StreamRecording> ReadStreamRecording(std::string_view text, const std::st
 Result<StreamRecording> ReadEtudeCsv(std::string_view text, const std::string& file, const StreamReading& reading) {
   ASSIGN_OR_RETURN(JointCsv csv, ReadJointCsv(text, file));
   StreamRecording recording{.format = StreamFormat::kEtudeCsv, .is_level = true};
-  recording.tells_times = csv.rate_hz.has_value() && !reading.rate_hz;
+  recording.records_times = csv.rate_hz.has_value() && !reading.rate_hz;
   recording.rate_hz = reading.rate_hz.value_or(csv.rate_hz.value_or(kJudgedRateHz));
   for (std::size_t t = 0; t < csv.frames.size(); ++t) {
     RecordedFrame& frame = recording.frames.emplace_back();
-    frame.time_s = recording.tells_times ? csv.times_s[t] : static_cast<double>(t) / recording.rate_hz;
+    frame.time_s = recording.records_times ? csv.times_s[t] : static_cast<double>(t) / recording.rate_hz;
     frame.line = csv.lines[t];
     frame.places = csv.frames[t];
     if (std::isnan(frame.time_s)) return Fail({file, frame.line}, "no time, although other rows tell one");
@@ -236,7 +236,7 @@ Result<StreamRecording> ReadTrcStream(std::string_view text, const std::string& 
   ASSIGN_OR_RETURN(const MarkerMotion markers, ReadTrc(text, file));
   RETURN_IF_ERROR(CheckMarkerNames(markers.names, file));
   StreamRecording recording{
-      .format = StreamFormat::kTrc, .tells_times = true, .is_level = true, .rate_hz = markers.rate_hz};
+      .format = StreamFormat::kTrc, .records_times = true, .is_level = true, .rate_hz = markers.rate_hz};
   for (const auto& places : markers.frames) {
     const auto t = static_cast<double>(recording.frames.size());
     RecordedFrame& frame = recording.frames.emplace_back();

@@ -36,15 +36,15 @@ struct RecordedFrame {
   double time_s = 0;  ///< by the file's own clock
   int line = 0;       ///< its line in the text, from 1; 0: not known
   /// The positions of the joints in the file's own space with Y up, metres; nullopt if a joint was not reported.
-  RolePlaces places = {};
+  RolePositions places = {};
   std::array<TrackingState, kRoleCount> states{};  ///< of joints that have a position
 };
 
 /// The content of a file, before estimation and resampling.
 struct StreamRecording {
   StreamFormat format = StreamFormat::kEtudeCsv;
-  bool tells_states = false;  ///< false: every joint that has a position counts as tracked
-  bool tells_times = false;   ///< false: frames are one period of `rate_hz` apart
+  bool records_states = false;  ///< false: every joint that has a position counts as tracked
+  bool records_times = false;   ///< false: frames are one period of `rate_hz` apart
   bool is_level = false;      ///< Y points up and the floor is at 0, because Etude wrote the file
   double rate_hz = kJudgedRateHz;
   double seconds_per_count = 1;            ///< the unit of a clock in the first column

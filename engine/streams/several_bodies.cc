@@ -20,7 +20,7 @@ namespace {
 class Bodies {
  public:
   /// Adds a frame of the body called `id`, with its index among the file's frames.
-  void Add(std::string_view id, std::size_t frame, const RolePlaces& places,
+  void Add(std::string_view id, std::size_t frame, const RolePositions& places,
            const std::array<TrackingState, kRoleCount>& states);
 
   /// Puts one body into the recording's frames: the requested one, counted by first appearance, otherwise the one in
@@ -31,7 +31,7 @@ class Bodies {
  private:
   struct Seen {
     std::size_t frame;
-    RolePlaces places;
+    RolePositions places;
     std::array<TrackingState, kRoleCount> states;
   };
   struct Body {
@@ -51,7 +51,7 @@ class Bodies {
   std::vector<Body> bodies_;
 };
 
-void Bodies::Add(std::string_view id, std::size_t frame, const RolePlaces& places,
+void Bodies::Add(std::string_view id, std::size_t frame, const RolePositions& places,
                  const std::array<TrackingState, kRoleCount>& states) {
   auto body = std::ranges::find(bodies_, id, &Body::id);
   if (body == bodies_.end()) body = bodies_.insert(bodies_.end(), Body{std::string(id), {}});
@@ -199,9 +199,9 @@ class AzureReader {
       return Fail({file_}, "no list \"frames\"; allowed: JSON of the Azure Kinect body tracking's offline processor");
     }
     recording.rate_hz = reading.rate_hz.value_or(kJudgedRateHz);
-    recording.tells_times = !reading.rate_hz && !frames->empty() && frames->front().contains("timestamp_usec");
+    recording.records_times = !reading.rate_hz && !frames->empty() && frames->front().contains("timestamp_usec");
     for (const Json& frame : *frames) RETURN_IF_ERROR(ReadFrame(frame, recording));
-    recording.tells_states = tells_states_;
+    recording.records_states = tells_states_;
     RETURN_IF_ERROR(bodies_.Choose(reading, file_, recording));
     return recording;
   }
@@ -213,7 +213,7 @@ class AzureReader {
     recorded.time_s = static_cast<double>(t) / recording.rate_hz;
     const Json& bodies = frame.is_object() && frame.contains("bodies") ? frame["bodies"] : Json();
     if (!bodies.is_array()) return Fail({file_}, "frame {} has no list \"bodies\"", t);
-    if (recording.tells_times) {
+    if (recording.records_times) {
       const auto stamp = frame.find("timestamp_usec");
       if (stamp == frame.end() || !stamp->is_number()) return Fail({file_}, "frame {} has no \"timestamp_usec\"", t);
       recorded.time_s = stamp->get<double>() * 1e-6;
@@ -230,7 +230,7 @@ class AzureReader {
     }
     const Json* confidences = ConfidencesOf(body);
     tells_states_ = tells_states_ || confidences != nullptr;
-    RolePlaces places;
+    RolePositions places;
     std::array<TrackingState, kRoleCount> states{};
     for (std::size_t i = 0; i < kRoleCount; ++i) {
       const std::size_t j = kJointOfRole[i];
@@ -272,7 +272,7 @@ class NtuReader {
 
   Result<StreamRecording> Read(const StreamReading& reading) {
     constexpr int kMaxFrames = 1'000'000, kMaxBodies = 100;
-    StreamRecording recording{.format = StreamFormat::kNtu, .tells_states = true};
+    StreamRecording recording{.format = StreamFormat::kNtu, .records_states = true};
     recording.rate_hz = reading.rate_hz.value_or(kJudgedRateHz);
     ASSIGN_OR_RETURN(const int frames, Count("the number of frames", 1, kMaxFrames));
     for (int t = 0; t < frames; ++t) {
@@ -305,7 +305,7 @@ class NtuReader {
     for (Joint& read : joints) {
       ASSIGN_OR_RETURN(read, ReadJoint());
     }
-    RolePlaces places;
+    RolePositions places;
     std::array<TrackingState, kRoleCount> states{};
     for (const Role role : AllRoles()) {
       const Joint& joint = joints[KinectV2JointOf(role)];

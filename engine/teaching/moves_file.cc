@@ -175,7 +175,7 @@ Result<TaughtMove> ReadMove(const Node& node) {
   Fields fields(node, "a move");
   TaughtMove move;
   move.name = fields.RequiredText("name");
-  move.span_s = fields.Number("span_s", move.span_s, {0.1, kLongestSpan});
+  move.span_s = fields.Number("span_s", move.span_s, {0.1, kMaxSpan});
   const Node *poses = fields.Raw("key_poses"), *right = fields.Raw("right"), *wrong = fields.Raw("wrong");
   RETURN_IF_ERROR(fields.Finish());
   if (move.name.empty() || move.name.size() > kMaxNameBytes) {

@@ -235,9 +235,9 @@ Result<TaughtMove> TeachMove(const std::string& name, std::vector<SkeletonStream
     if (seen < kMinSeconds) {
       return Fail({}, "a performance of '{}' shows a body for {:.2f} s; needed: {} s", name, seen, kMinSeconds);
     }
-    if (SecondsOf(stream) > kLongestSpan) {
+    if (SecondsOf(stream) > kMaxSpan) {
       return Fail({}, "a performance of '{}' lasts {:.1f} s; allowed: {} s; labels tell where each begins and ends",
-                  name, SecondsOf(stream), kLongestSpan);
+                  name, SecondsOf(stream), kMaxSpan);
     }
     longest = std::max(longest, SecondsOf(stream));
   }
@@ -245,7 +245,7 @@ Result<TaughtMove> TeachMove(const std::string& name, std::vector<SkeletonStream
   std::vector<TaughtPose> poses = FindKeyPoses(tracks, right.front().rate_hz, options);
   return TaughtMove{.name = name,
                     .poses = std::move(poses),
-                    .span_s = std::min(kLongestSpan, kSlowestFactor * longest),
+                    .span_s = std::min(kMaxSpan, kSlowestFactor * longest),
                     .examples = std::move(right),
                     .counter_examples = std::move(wrong)};
 }

@@ -41,7 +41,7 @@ enum class Branch { kNone, kNow, kEnd, kStandingPose, kFrontHalf, kRearHalf, kIn
 std::string_view BranchName(Branch branch);
 
 /// The ways in which the joins `minimum-jerk` and `planted-feet` lead from the old motion to the new one.
-enum class JoinWay {
+enum class JoinStyle {
   kDecays,  ///< the new motion plays, and the old motion's offset from it decays
   kFades,   ///< both motions play, and the new one takes over
   kDirect,  ///< each limb moves from its old pose to the new motion's pose at the end of the join
@@ -51,7 +51,7 @@ enum class JoinWay {
 /// methods.
 struct PreferredJoin {
   double blend_s = 0;  ///< time until only the new motion is shown, seconds
-  JoinWay way = JoinWay::kDecays;
+  JoinStyle way = JoinStyle::kDecays;
 };
 
 /// A run of frames to show, of a clip or made by the method itself.
@@ -102,7 +102,7 @@ struct TransitionRecord {
   std::string cost_unit;           ///< unit of the candidates' `cost`, for example "cm"; empty if they have none
   std::string why;                 ///< one sentence: why this way was taken, or why there is none
 };
-constexpr std::size_t kMostCandidates = 12;
+constexpr std::size_t kMaxCandidates = 12;
 
 /// Returns the time from the request until the last segment begins, in seconds.
 double WaitOf(const std::vector<Segment>& segments, double rate_hz);

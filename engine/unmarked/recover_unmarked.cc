@@ -231,7 +231,7 @@ class Recovery {
     const double rate = take_.rate_hz * static_cast<double>(frames.size()) / take_.pictures[0].size();
     TrackOptions track = options_.track;
     track.angle_change *= kJudgedRateHz / rate;
-    track.place_change_m *= kJudgedRateHz / rate;
+    track.position_change_m *= kJudgedRateHz / rate;
     // Keypoints, in pixels of `matrices_`.
     std::vector<std::vector<std::vector<SeenJoint>>> joints;
     for (const auto& of_camera : take_.people) {

@@ -64,7 +64,7 @@ struct UnmarkedOptions {
   PersonOptions person = {.segmenter = Segmenter::kRatio,
                           .change = {},
                           .pieces = PersonPieces::kLarge,
-                          .smallest_piece = 60,
+                          .min_piece_px = 60,
                           .piece_reach = 30};
   TrackOptions track;
   /// The number of times that rooms are estimated, each time away from the body found in front of the last estimate. On

@@ -41,8 +41,8 @@ std::vector<Activity> MotionActivity(std::span<const ColourImage> pictures, cons
     const ColourImage& after = pictures[std::min(k + options.lag, pictures.size() - 1)];
     Mask moved(now.width, now.height);
     for (std::size_t i = 0; i < moved.pixels.size(); ++i) {
-      moved.pixels[i] = MostDifference(now.pixels[i], before.pixels[i]) > options.change ||
-                        MostDifference(now.pixels[i], after.pixels[i]) > options.change;
+      moved.pixels[i] = MaxDifference(now.pixels[i], before.pixels[i]) > options.change ||
+                        MaxDifference(now.pixels[i], after.pixels[i]) > options.change;
     }
     activity.push_back(ShareAbout(moved, options.reach));
   }

@@ -114,7 +114,7 @@ Mask DetectChange(const ColourImage& background, const ColourImage& picture, Seg
   };
   switch (segmenter) {
     case Segmenter::kRgb:
-      compare([&](Rgb8 b, Rgb8 p) { return MostDifference(b, p) > options.rgb_threshold; });
+      compare([&](Rgb8 b, Rgb8 p) { return MaxDifference(b, p) > options.rgb_threshold; });
       break;
     case Segmenter::kHue:
       compare([hues = HueComparison(options.hue_threshold)](Rgb8 b, Rgb8 p) {
@@ -139,8 +139,8 @@ Mask ExtractPerson(const ColourImage& background, const ColourImage& picture, co
   const Mask changed = DetectChange(background, picture, options.segmenter, options.change);
   const Mask person = options.pieces == PersonPieces::kLargest
                           ? LargestComponent(changed)
-                          : LargeComponents(changed, options.smallest_piece, options.piece_reach);
-  return FillHoles(person, options.largest_hole);
+                          : LargeComponents(changed, options.min_piece_px, options.piece_reach);
+  return FillHoles(person, options.max_hole_px);
 }
 
 }  // namespace etude

@@ -36,7 +36,7 @@ struct Chroma {
 inline int Dot4(Chroma a, Chroma b) { return a.x * b.x + 3 * a.y * b.y; }
 
 /// Returns the largest difference of the three channels, levels.
-inline int MostDifference(Rgb8 a, Rgb8 b) {
+inline int MaxDifference(Rgb8 a, Rgb8 b) {
   return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
 }
 
@@ -89,7 +89,7 @@ struct ChangeOptions {
   /// running: the number of standard deviations from the mean that is a change, and the minimal standard deviation of a
   /// channel, levels.
   double running_deviations = 4;
-  double least_deviation = 4;
+  double min_deviation = 4;
 };
 
 /// Finds the pixels in which `picture` differs from `background`. Both have the same size. For `kHue` a grey pixel has
@@ -110,12 +110,12 @@ struct PersonOptions {
   ChangeOptions change;
   PersonPieces pieces = PersonPieces::kLargest;
   /// kLarge: components of fewer pixels are noise. A hand four metres away has 120 in a picture of 640 × 480.
-  int smallest_piece = 120;
+  int min_piece_px = 120;
   /// kLarge: the largest distance between the bounding box of a component and that of the largest one, pixels: the
   /// length of a forearm at that distance.
   int piece_reach = 40;
   /// Holes of at most this many pixels are filled; the gap between an arm and the trunk is larger.
-  int largest_hole = 60;
+  int max_hole_px = 60;
 };
 
 /// Finds the person in the picture (paper B, chapter 4): change detection, then the 8-connected components that

@@ -184,17 +184,17 @@ Mask LargeComponents(const Mask& mask, int smallest, int reach) {
   return result;
 }
 
-Mask FillHoles(const Mask& mask, int largest_hole) {
+Mask FillHoles(const Mask& mask, int max_hole_px) {
   const Components components = LabelComponents(mask);
   Mask result = mask;
   for (const Run& run : components.runs) {
     const Components::Piece& piece = components.pieces[run.piece];
-    if (!piece.set && !piece.touches_border && piece.size <= largest_hole) Paint(run, 1, result);
+    if (!piece.set && !piece.touches_border && piece.size <= max_hole_px) Paint(run, 1, result);
   }
   return result;
 }
 
-void KeepPerson(Mask& mask, int largest_hole) {
+void KeepPerson(Mask& mask, int max_hole_px) {
   const Components components = LabelComponents(mask);
   const std::size_t largest = IndexOfLargest(components);
   for (const Run& run : components.runs) {
@@ -204,7 +204,7 @@ void KeepPerson(Mask& mask, int largest_hole) {
   const Components person = LabelRuns(RunsOfPiece(components, largest), mask.width, mask.height, Connectivity::kEight);
   for (const Run& run : person.runs) {
     const Components::Piece& piece = person.pieces[run.piece];
-    if (!piece.set && !piece.touches_border && piece.size <= largest_hole) Paint(run, 1, mask);
+    if (!piece.set && !piece.touches_border && piece.size <= max_hole_px) Paint(run, 1, mask);
   }
 }
 

@@ -41,10 +41,10 @@ Mask LargestComponent(const Mask& mask);
 /// are within `reach` pixels of its box.
 Mask LargeComponents(const Mask& mask, int smallest, int reach);
 
-/// Sets the holes (4-connected components of 0s that do not touch the border) of at most `largest_hole` pixels.
-Mask FillHoles(const Mask& mask, int largest_hole);
+/// Sets the holes (4-connected components of 0s that do not touch the border) of at most `max_hole_px` pixels.
+Mask FillHoles(const Mask& mask, int max_hole_px);
 
-/// Computes FillHoles(LargestComponent(mask), largest_hole) in place, reading the pixels once. Set pixels must be 1.
-void KeepPerson(Mask& mask, int largest_hole);
+/// Computes FillHoles(LargestComponent(mask), max_hole_px) in place, reading the pixels once. Set pixels must be 1.
+void KeepPerson(Mask& mask, int max_hole_px);
 
 }  // namespace etude

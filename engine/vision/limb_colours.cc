@@ -24,7 +24,7 @@ constexpr auto kStrokeBetween = [] {
   std::array<std::array<std::uint8_t, kLabels>, kLabels> table{};
   for (auto& row : table) row.fill(kNoStroke);
   for (std::size_t i = 0; i < kStrokeCount; ++i) {
-    const std::uint8_t inner = HangsFromTrunk(i) ? kTrunk : LabelOf(i - 1);
+    const std::uint8_t inner = IsAttachedToTrunk(i) ? kTrunk : LabelOf(i - 1);
     table[LabelOf(i)][inner] = table[inner][LabelOf(i)] = static_cast<std::uint8_t>(i);
   }
   return table;
@@ -158,11 +158,11 @@ Region RegionOf(const LimbImage& limbs, std::uint8_t label, const PixelBox& box,
   }
   // Keep the components that contain a square and are not much smaller than the largest one.
   const Components found = LabelComponents(crop);
-  const std::vector<bool> is_thick = HaveSquares(found, crop, options.least_side_px);
+  const std::vector<bool> is_thick = HaveSquares(found, crop, options.min_side_px);
   int largest = 0;
   for (std::size_t i = 0; i < is_thick.size(); ++i)
     largest = is_thick[i] ? std::max(largest, found.pieces[i].size) : largest;
-  const double smallest = std::max<double>(options.smallest_piece, options.piece_share * largest);
+  const double smallest = std::max<double>(options.min_piece_px, options.piece_share * largest);
   // Convert their runs to the picture's coordinates and sum up.
   for (const Components::Run& in_crop : found.runs) {
     if (!is_thick[in_crop.piece] || found.pieces[in_crop.piece].size < smallest) continue;
@@ -185,10 +185,10 @@ void Paint(const Region& region, std::uint8_t label, LimbImage& limbs) {
 
 /// Adds the borders between neighbouring limbs: the midpoints between the last pixel of one limb and the first of the
 /// next, to the right and below.
-void AddBorders(const LimbImage& limbs, int seam_px, LimbRegions& regions) {
+void AddBorders(const LimbImage& limbs, int border_px, LimbRegions& regions) {
   const auto look = [&](int x, int y, int step_x, int step_y) {
     const std::uint8_t label = limbs.At(x, y);
-    for (int d = 1; d <= seam_px + 1 && limbs.Contains(x + d * step_x, y + d * step_y); ++d) {
+    for (int d = 1; d <= border_px + 1 && limbs.Contains(x + d * step_x, y + d * step_y); ++d) {
       const std::uint8_t other = limbs.At(x + d * step_x, y + d * step_y);
       if (other == 0) continue;
       const std::uint8_t stroke = kStrokeBetween[label][other];
@@ -226,7 +226,7 @@ LimbRegions FindColouredLimbs(const ColourImage& picture, const Mask& person, co
     regions.limbs[i] = RegionOf(voted, LabelOf(i), boxes[LabelOf(i)], options);
     Paint(regions.limbs[i], LabelOf(i), kept);
   }
-  AddBorders(kept, options.seam_px, regions);
+  AddBorders(kept, options.border_px, regions);
   return regions;
 }
 

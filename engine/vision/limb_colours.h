@@ -26,11 +26,11 @@ struct LimbColourOptions {
   int darkest = 45;  ///< below this R + G + B, noise determines the chromaticity
   /// The smallest component of a limb that other limbs cross, as a share of its largest component.
   double piece_share = 0.2;
-  int smallest_piece = 20;  ///< pixels; a hand four metres away has about 80 in a picture of 640 × 480
+  int min_piece_px = 20;  ///< pixels; a hand four metres away has about 80 in a picture of 640 × 480
   /// The side of the square that every component must contain, pixels; along edges two colours mix and resemble a
   /// third.
-  int least_side_px = 4;
-  int seam_px = 3;  ///< width of the border of two limbs, in which their colours mix, pixels
+  int min_side_px = 4;
+  int border_px = 3;  ///< width of the border of two limbs, in which their colours mix, pixels
 };
 
 /// Segments the person into limbs by chromaticity alone, which shading does not change: each pixel gets the nearest

@@ -132,7 +132,7 @@ class EvidenceFinder {
   bool TurnOutwards(std::size_t i, Limb& limb) const {
     // Use the most reliable evidence that is available, in this order.
     glm::dvec2 outwards(0);
-    const Region& inner_part = HangsFromTrunk(i) ? regions_.trunk : regions_.limbs[i - 1];
+    const Region& inner_part = IsAttachedToTrunk(i) ? regions_.trunk : regions_.limbs[i - 1];
     const Region& trunk = regions_.trunk;
     const bool ends_there = EndsAt(limb, limb.outer);
     const auto from_neck = ends_there ? std::nullopt : AwayFromNeck(i, limb);
@@ -248,7 +248,7 @@ class EvidenceFinder {
     const Border& border = *limb.inner;
     const double beyond = body_[i].joint * limb.line.half_width;
     if (border.limb_covers && !limb.line.IsLong()) return MiddleOf(limb.line);  // seen end-on
-    if (HangsFromTrunk(i)) {
+    if (IsAttachedToTrunk(i)) {
       if (RunsAlong(limb)) return limb.line.At(limb.line.low + beyond);
       const glm::dvec2 outwards = limb.line.IsLong() ? limb.line.along : Unit(limb.region->middle - border.middle);
       return border.middle + beyond * outwards;
@@ -314,7 +314,7 @@ class EvidenceFinder {
     constexpr double kMinWidthRatio = 0.55;  // ratio of a foot to its shank, the largest step along a limb
     double half_width = limbs_[i]->line.half_width;
     if (HasOuterLimb(i) && limbs_[i + 1]) half_width = std::max(half_width, limbs_[i + 1]->line.half_width);
-    if (!HangsFromTrunk(i) && limbs_[i - 1])
+    if (!IsAttachedToTrunk(i) && limbs_[i - 1])
       half_width = std::max(half_width, kMinWidthRatio * limbs_[i - 1]->line.half_width);
     return half_width;
   }

@@ -37,7 +37,7 @@ struct LimbRegions {
 
 /// Returns true if the limb of a stroke is attached to the trunk; any other is attached to the limb of the stroke
 /// before.
-constexpr bool HangsFromTrunk(std::size_t stroke) { return stroke % 3 == 0; }
+constexpr bool IsAttachedToTrunk(std::size_t stroke) { return stroke % 3 == 0; }
 
 /// The distance, pixels, within which a pixel still counts as on the extracted person: segmentation shifts edges by a
 /// pixel or two.

@@ -103,7 +103,7 @@ void ColourLikelihood::LightRoomAs(const ColourImage& picture) {
   std::array<double, 3> both{}, own{};
   for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
     const Rgb8 b = background_.pixels[i], p = picture.pixels[i];
-    if (MostDifference(p, b) >= kSameLight) continue;
+    if (MaxDifference(p, b) >= kSameLight) continue;
     both[0] += b.r * p.r, both[1] += b.g * p.g, both[2] += b.b * p.b;
     own[0] += b.r * b.r, own[1] += b.g * b.g, own[2] += b.b * b.b;
   }
@@ -201,9 +201,9 @@ Chroma ChromaOrPureRed(Rgb8 colour) {
 
 Mask PersonAmong(Mask changed, const PersonOptions& options) {
   if (options.pieces == PersonPieces::kLarge) {
-    return FillHoles(LargeComponents(changed, options.smallest_piece, options.piece_reach), options.largest_hole);
+    return FillHoles(LargeComponents(changed, options.min_piece_px, options.piece_reach), options.max_hole_px);
   }
-  KeepPerson(changed, options.largest_hole);
+  KeepPerson(changed, options.max_hole_px);
   return changed;
 }
 
@@ -262,7 +262,7 @@ void PersonFinder::CompareHues(const ColourImage& picture, Mask& mask) const {
 // Compares with the running mean and variance, and updates them.
 void PersonFinder::Follow(const ColourImage& picture, Mask& mask) {
   const ChangeOptions& o = options_.change;
-  const auto least = static_cast<float>(o.least_deviation * o.least_deviation);
+  const auto least = static_cast<float>(o.min_deviation * o.min_deviation);
   const auto most = static_cast<float>(o.running_deviations * o.running_deviations);
   const bool is_first = mean_.empty();
   if (is_first) {

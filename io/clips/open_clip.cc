@@ -117,7 +117,7 @@ Result<Clip> ReadAcclaim(std::string_view bytes, const std::string& path, Capped
 }
 
 /// The roles that the bones of a VRM file play; spine, hands, feet and the crown are found as usual.
-std::optional<TaughtRoles> RolesOfBones(const std::map<std::string, int>& bones, const Skeleton& skeleton) {
+std::optional<JointMapOverrides> RolesOfBones(const std::map<std::string, int>& bones, const Skeleton& skeleton) {
   constexpr std::pair<const char*, Role> kBones[] = {
       {"leftUpperArm", Role::kLeftShoulder}, {"rightUpperArm", Role::kRightShoulder},
       {"leftLowerArm", Role::kLeftElbow},    {"rightLowerArm", Role::kRightElbow},
@@ -126,7 +126,7 @@ std::optional<TaughtRoles> RolesOfBones(const std::map<std::string, int>& bones,
       {"leftLowerLeg", Role::kLeftKnee},     {"rightLowerLeg", Role::kRightKnee},
       {"leftFoot", Role::kLeftAnkle},        {"rightFoot", Role::kRightAnkle},
       {"neck", Role::kShoulderCentre}};
-  TaughtRoles roles;
+  JointMapOverrides roles;
   for (const auto& [bone, role] : kBones) {
     const auto found = bones.find(bone);
     if (found == bones.end()) continue;
@@ -212,7 +212,7 @@ Result<void> KeepWanted(const SplitReference& wanted, const Character& figure, s
 }
 
 /// The roles that are taught by the user, else by the file.
-const TaughtRoles* TaughtBy(const OpenOptions& options, const std::optional<TaughtRoles>& file) {
+const JointMapOverrides* TaughtBy(const OpenOptions& options, const std::optional<JointMapOverrides>& file) {
   if (options.roles && !options.roles->joints.empty()) return &*options.roles;
   return file ? &*file : nullptr;
 }

@@ -46,7 +46,7 @@ struct ClipFile {
   std::vector<Clip> clips;  ///< on that skeleton; a glTF file may have none, and one of markers several people
   std::vector<std::string> notes = {};    ///< of clips that are bodies already: how they were made of markers
   std::vector<std::string> remarks = {};  ///< what reading had to repair
-  std::optional<TaughtRoles> roles = {};  ///< what a VRM file's own table of bones tells
+  std::optional<JointMapOverrides> roles = {};  ///< what a VRM file's own table of bones tells
 };
 
 /// The largest size of a file, or of a .gltf with its buffers, bytes; more is refused before memory is taken.
@@ -63,7 +63,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
 
 /// The options with which a clip is opened.
 struct OpenOptions {
-  std::optional<TaughtRoles> roles;  ///< of --joint-map
+  std::optional<JointMapOverrides> roles;  ///< of --joint-map
   BodyOptions body;
   const RecordedMotions* recorded = nullptr;  ///< reads "RUN#CELL@NAME"; null = such references are files like others
 };
@@ -80,7 +80,7 @@ struct SourceClip {
   std::optional<Ground> ground = {};  ///< of all clips of the file, where there are several
   std::string note = {};  ///< of a body that was made of markers: it is in metres already, and stands on the floor
   std::vector<std::string> remarks = {};  ///< what reading the file had to repair: they end the body's note
-  std::optional<TaughtRoles> roles = {};  ///< ClipFile::roles; those of OpenOptions come first
+  std::optional<JointMapOverrides> roles = {};  ///< ClipFile::roles; those of OpenOptions come first
 };
 
 /// Reads the clips of one file or built-in name (as ExpandReference gives them): one of a BVH, all animations of a

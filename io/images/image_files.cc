@@ -148,9 +148,9 @@ Result<ColourImage> LoadColourPng(const std::string& path) {
   if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) {
     return Fail({path}, "not a PNG picture: {}", png.message);
   }
-  if (png.width > kLargestPicture || png.height > kLargestPicture) {
+  if (png.width > kMaxPictureSide || png.height > kMaxPictureSide) {
     png_image_free(&png);
-    return Fail({path}, "{} x {} pixels; allowed: at most {} a side", png.width, png.height, kLargestPicture);
+    return Fail({path}, "{} x {} pixels; allowed: at most {} a side", png.width, png.height, kMaxPictureSide);
   }
   png.format = PNG_FORMAT_RGB;
   ColourImage image(static_cast<int>(png.width), static_cast<int>(png.height));

@@ -11,7 +11,7 @@
 
 namespace etude {
 
-// Pictures as files: the one door to PNG and OpenEXR. Pictures of more than kLargestPicture pixels a
+// Pictures as files: the one door to PNG and OpenEXR. Pictures of more than kMaxPictureSide pixels a
 // side are refused before memory is taken. Every error names the file.
 
 /// Returns the bytes of a PNG file, for embedding in a page; the same for the same picture. `image` has at least one

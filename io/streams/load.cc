@@ -31,8 +31,8 @@ std::string Describe(const StreamRecording& recording, const MadeStream& made) {
   const std::size_t frames = made.stream.frames.size();
   std::string text =
       fmt::format("{}, {:.1f} s, {} tracking states", StreamFormatName(recording.format),
-                  static_cast<double>(frames) / made.stream.rate_hz, recording.tells_states ? "with" : "no");
-  if (!recording.tells_times) text += fmt::format(", no clock: taken for {:g} Hz", recording.rate_hz);
+                  static_cast<double>(frames) / made.stream.rate_hz, recording.records_states ? "with" : "no");
+  if (!recording.records_times) text += fmt::format(", no clock: taken for {:g} Hz", recording.rate_hz);
   if (!recording.is_level) text += ", " + Describe(made.level);
   if (made.lost_frames > 0) text += fmt::format(", nobody in {} of {} frames", made.lost_frames, frames);
   for (const std::string& remark : recording.remarks) text += ", " + remark;

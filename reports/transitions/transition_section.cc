@@ -36,7 +36,7 @@ std::string DistanceWords(double distance, std::optional<double> threshold) {
 // More than a reader takes in; the recordings hold them all.
 constexpr std::size_t kMostWorlds = 6;
 constexpr std::size_t kMostMethods = 12;
-constexpr std::size_t kMostCandidates = 24;
+constexpr std::size_t kMaxCandidates = 24;
 
 std::string NumberOr(std::optional<double> value, int decimals) {
   return value ? FormatFixed(*value, decimals) : std::string(kNoValue);
@@ -148,7 +148,7 @@ std::string CandidatesTable(const std::string& methods, const TransitionFacts& f
     table.columns.push_back(NumberColumn(facts.cost_unit.empty() ? "Cost" : fmt::format("Cost ({})", facts.cost_unit)));
   }
   table.columns.push_back({"d² is mostly"});
-  const std::size_t shown = std::min(facts.candidates.size(), kMostCandidates);
+  const std::size_t shown = std::min(facts.candidates.size(), kMaxCandidates);
   for (std::size_t i = 0; i < shown; ++i) table.rows.push_back(CandidateRow(facts.candidates[i], facts, has_costs));
   return fmt::format("<h4>What {} looked at</h4>{}{}{}", EscapeMarkup(methods), HowMany(facts), TableHtml(table),
                      LeftOutHtml(facts.candidates.size(), shown, "candidates", "the recording"));

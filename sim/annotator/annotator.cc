@@ -189,7 +189,7 @@ AnnotatorDice::AnnotatorDice(const WorldKey& key, int annotator, int camera)
   for (glm::dvec2& joint : bias_) joint = Normal2(random);
 }
 
-const PictureDice& AnnotatorDice::Throw(int frame) {
+const PictureDice& AnnotatorDice::DrawNumbers(int frame) {
   assert(frame > last_frame_);
   RandomStream random(key_, fmt::format("{}/{}", purpose_, frame));
   const double kept = last_frame_ < 0 ? 0 : std::exp((last_frame_ - frame) / kLastingFrames);
@@ -223,7 +223,7 @@ void Annotator::SwapSides(const PictureDice& dice, PictureEvidence& seen) {
 }
 
 Marks Annotator::Mark(int frame, const AnnotatedPicture& picture) {
-  const PictureDice& dice = dice_.Throw(frame);
+  const PictureDice& dice = dice_.DrawNumbers(frame);
   // Look at the picture, and confuse left and right at times.
   PictureEvidence seen = SeePicture(picture, eye_);
   SwapSides(dice, seen);

@@ -64,7 +64,7 @@ class AnnotatorDice {
   /// it is the same for all cameras.
   const std::array<glm::dvec2, kRoleCount>& bias() const { return bias_; }
   /// Draws the numbers of a frame. Frames must ascend.
-  const PictureDice& Throw(int frame);
+  const PictureDice& DrawNumbers(int frame);
 
  private:
   WorldKey key_;

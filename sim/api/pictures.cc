@@ -20,9 +20,9 @@ etude::Camera CameraToDraw(const engine::Camera& camera) {
   const auto complain = [&](std::string_view what) {
     throw engine::BadInput(fmt::format("camera '{}': {}", camera.name, what));
   };
-  if (camera.width < 1 || camera.height < 1 || camera.width > kLargestPicture || camera.height > kLargestPicture) {
+  if (camera.width < 1 || camera.height < 1 || camera.width > kMaxPictureSide || camera.height > kMaxPictureSide) {
     complain(fmt::format("a picture of {} x {} pixels; allowed: 1 to {} a side", camera.width, camera.height,
-                         kLargestPicture));
+                         kMaxPictureSide));
   }
   const etude::Camera made = engine::ToEngineCamera(camera);
   if (!made.distortion.IsNone()) complain("a lens that distorts; allowed: none (k1, k2, p1, p2, k3 = 0)");

@@ -103,7 +103,7 @@ CameraModel::CameraModel(const Camera& camera, const CameraEffects& effects, dou
   if (effects_.vignette > 0) AddVignette(camera, effects_.vignette, *transmission_);
   if (effects_.dust > 0) {
     RandomStream random = StreamOf(identity_, "dust");
-    AddDust(ThrowSpecks(width_, height_, random), effects_.dust, *transmission_);
+    AddDust(DrawSpecks(width_, height_, random), effects_.dust, *transmission_);
   }
   if (effects_.bayer > 0) mosaic_ = Mosaic(width_, height_);
   if (effects_.bayer > 0) demosaiced_ = LightImage(width_, height_);

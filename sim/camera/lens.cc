@@ -104,7 +104,7 @@ LensWarp::LensWarp(const Camera& camera)
   pinhole_.intrinsics.height += static_cast<int>(margin.y + beyond.y);
   pinhole_.intrinsics.cx += margin.x;
   pinhole_.intrinsics.cy += margin.y;
-  assert(pinhole_.intrinsics.width <= kLargestPicture && pinhole_.intrinsics.height <= kLargestPicture);
+  assert(pinhole_.intrinsics.width <= kMaxPictureSide && pinhole_.intrinsics.height <= kMaxPictureSide);
 
   // Store for every pixel its four source pixels, its nearest one, and the rows that each row needs.
   for (int y = 0; y < height_; ++y) {
@@ -251,7 +251,7 @@ void AddVignette(const Camera& camera, double strength, Transmission& transmissi
   }
 }
 
-std::vector<Speck> ThrowSpecks(int width, int height, RandomStream& random) {
+std::vector<Speck> DrawSpecks(int width, int height, RandomStream& random) {
   constexpr int kSpecks = 10;
   std::vector<Speck> specks;
   for (int i = 0; i < kSpecks; ++i) {

@@ -88,7 +88,7 @@ struct Speck {
 };
 
 /// Draws ten specks with radii of 2 to 6 pixels, uniformly over a picture of that size.
-std::vector<Speck> ThrowSpecks(int width, int height, RandomStream& random);
+std::vector<Speck> DrawSpecks(int width, int height, RandomStream& random);
 
 /// Darkens `transmission` by dust: at distance d from its centre, a speck absorbs the share strength / (1 + (d /
 /// radius)⁴) of the light. Several shadows multiply.

@@ -317,7 +317,7 @@ View Renderer::RenderRows(const Room& room, const std::vector<Figure>& figures, 
                           const RowRange& rows) {
   const int width = camera.intrinsics.width;
   [[maybe_unused]] const int height = camera.intrinsics.height;
-  assert(width > 0 && height > 0 && width <= kLargestPicture && height <= kLargestPicture);
+  assert(width > 0 && height > 0 && width <= kMaxPictureSide && height <= kMaxPictureSide);
   assert(0 <= rows.first && rows.first < rows.end && rows.end <= height);
   state_->context->MakeCurrent();
   // The empty room with the shadows of capsules.

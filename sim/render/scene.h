@@ -73,7 +73,7 @@ struct Figure {
 };
 
 /// The maximum number of painted surfaces in one picture.
-constexpr std::size_t kMostPaints = 64;
+constexpr std::size_t kMaxPaints = 64;
 
 /// Returns the colours of the captured performer: clothes and skin of warm hues (335° through red to 45°). They differ
 /// in hue by at least 85° from everything in the room, because segmentation compares hues.
@@ -111,8 +111,8 @@ struct Lights {
 };
 
 /// The maximum contents of one interior; further ones are not drawn.
-constexpr std::size_t kMostFurnitureBoxes = 48;
-constexpr std::size_t kMostWallPictures = 8;
+constexpr std::size_t kMaxFurnitureBoxes = 48;
+constexpr std::size_t kMaxWallPictures = 8;
 
 /// A furnished room: a closed, painted box with its contents. Walls are visible from inside only, so a camera may stand
 /// behind one.
@@ -183,7 +183,7 @@ struct RowRange {
 enum class Targets { kColour, kColourAndLabels, kAll };
 
 /// The maximum side of a picture, pixels.
-constexpr int kLargestPicture = 4096;
+constexpr int kMaxPictureSide = 4096;
 
 /// Returns the lights of the studio, or of the room's interior.
 Lights LightsOf(const Room& room);

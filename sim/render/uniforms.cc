@@ -17,8 +17,8 @@ void SetMatrix(const GlFunctions& gl, GLuint program, const char* name, const gl
 
 // The first indices of the shader's paints.
 constexpr int kFirstPicturePaint = 4, kFirstBoxPaint = 12;
-static_assert(kFirstBoxPaint - kFirstPicturePaint == kMostWallPictures);
-static_assert(kFirstBoxPaint + kMostFurnitureBoxes <= kMostPaints);
+static_assert(kFirstBoxPaint - kFirstPicturePaint == kMaxWallPictures);
+static_assert(kFirstBoxPaint + kMaxFurnitureBoxes <= kMaxPaints);
 
 int WallNumber(WallPicture::Wall wall) {
   switch (wall) {
@@ -43,7 +43,7 @@ void SetNumber(const GlFunctions& gl, GLuint program, const char* name, double v
 }
 
 void SetFurniture(const GlFunctions& gl, GLuint program, const std::vector<FurnitureBox>& furniture) {
-  const std::size_t count = std::min(furniture.size(), kMostFurnitureBoxes);
+  const std::size_t count = std::min(furniture.size(), kMaxFurnitureBoxes);
   std::vector<glm::vec4> centres, halves;
   std::vector<SurfacePaint> paints;
   for (std::size_t i = 0; i < count; ++i) {
@@ -59,7 +59,7 @@ void SetFurniture(const GlFunctions& gl, GLuint program, const std::vector<Furni
 }
 
 void SetPictures(const GlFunctions& gl, GLuint program, const std::vector<WallPicture>& pictures) {
-  const std::size_t count = std::min(pictures.size(), kMostWallPictures);
+  const std::size_t count = std::min(pictures.size(), kMaxWallPictures);
   std::vector<glm::vec4> positions, frames;
   std::vector<SurfacePaint> paints;
   for (std::size_t i = 0; i < count; ++i) {

@@ -32,7 +32,7 @@ struct RigOptions {
   std::vector<Camera> own = {};  ///< kFile: metres, Y up
 };
 
-constexpr std::size_t kMostCameras = 8;
+constexpr std::size_t kMaxCameras = 8;
 
 /// Sets up the cameras of a studio as a crew does by hand for a take. The cameras are fitted to the room (none is in or
 /// behind its back wall) and to the motion: they look at the middle of the performer's motion, and a camera that would

@@ -171,7 +171,7 @@ void Exchange(SensedFrame& frame, std::initializer_list<Role> left_joints) {
 
 }  // namespace
 
-Camera SkeletonSensorAt(const SensorPlace& place, const Intrinsics& view) {
+Camera SkeletonSensorAt(const SensorPlacement& place, const Intrinsics& view) {
   constexpr double kLooksAtHeight = 1.0;
   const glm::dvec3 eye(place.distance * std::sin(place.turn), place.height, place.distance * std::cos(place.turn));
   return LookAt(view, eye, {0, kLooksAtHeight, 0});

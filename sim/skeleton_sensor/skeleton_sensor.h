@@ -109,12 +109,12 @@ class Dropouts {
 };
 
 /// The position of a sensor in front of a performer who is at the origin and faces +Z.
-struct SensorPlace {
+struct SensorPlacement {
   double distance = 2.75;  ///< metres along the floor
   double turn = 0;         ///< radians: the performer appears turned by this angle
   double height = 1.0;     ///< metres above the floor; the sensor looks at a point one metre above the floor
 };
-Camera SkeletonSensorAt(const SensorPlace& place, const Intrinsics& view);
+Camera SkeletonSensorAt(const SensorPlacement& place, const Intrinsics& view);
 
 /// A skeleton sensor, frame by frame. A joint's error depends on the body's motion around the frame, so a frame's
 /// report is available only when the pose `kAhead` frames later is known; in a closed loop the body must plan that far

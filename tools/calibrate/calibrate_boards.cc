@@ -8,7 +8,7 @@
 
 #include "engine/base/order_statistics.h"
 #include "engine/boards/board_views.h"
-#include "engine/boards/film_steps.h"
+#include "engine/boards/film_delays.h"
 #include "engine/cameras/rig_file.h"
 #include "io/drawing/look.h"
 #include "io/files/files.h"
@@ -206,17 +206,17 @@ Result<std::vector<TargetView>> SetInStep(const CalibrateOptions& options, const
   for (const CameraBoards& s : seen) period_s.push_back(s.period_s);
   constexpr double kLooks = 2;
   const double most_s = options.sync_s > 0 ? options.sync_s : kLooks * period_s.front();
-  ASSIGN_OR_RETURN(const FilmSteps steps, FindFilmSteps(search.sizes(), search.sightings(), period_s, most_s,
+  ASSIGN_OR_RETURN(const FilmDelays steps, FindFilmDelays(search.sizes(), search.sightings(), period_s, most_s,
                                                         RefineOptionsOf(options), options.listener.progress("times of films")));
   for (std::size_t i = 1; i < seen.size(); ++i) {
-    const double late_s = steps.late_s[i];
-    if (late_s == 0) continue;
+    const double delay_s = steps.delay_s[i];
+    if (delay_s == 0) continue;
     constexpr double kMs = 1000;
     options.listener.print(fmt::format(
         "{}: shows a moment {:.0f} ms ({:.2f} frames) {} than {}; mended: its corners are taken between frames\n",
-        seen[i].name, kMs * std::abs(late_s), std::abs(late_s) / seen[i].period_s * seen[i].every,
-        late_s > 0 ? "later" : "earlier", seen.front().name));
-    if (std::abs(late_s) > most_s - 0.5 * period_s.front()) {
+        seen[i].name, kMs * std::abs(delay_s), std::abs(delay_s) / seen[i].period_s * seen[i].every,
+        delay_s > 0 ? "later" : "earlier", seen.front().name));
+    if (std::abs(delay_s) > most_s - 0.5 * period_s.front()) {
       options.listener.print(fmt::format("doubtful: that is as far as was looked; --sync {:.1f} looks further\n", 2 * most_s + 0.1));
     }
   }
@@ -224,7 +224,7 @@ Result<std::vector<TargetView>> SetInStep(const CalibrateOptions& options, const
     options.listener.print(fmt::format("residual of all films as if in step {:.3f} px, with these times {:.3f} px\n", steps.before_px,
                steps.after_px));
   }
-  return ViewsInStep(search.sightings(), period_s, steps.late_s);
+  return SynchronisedViews(search.sightings(), period_s, steps.delay_s);
 }
 
 /// Says how well each camera explains its own boards alone, and where cameras disagree.
@@ -300,7 +300,7 @@ Result<void> CompareBeside(const CalibrateOptions& options, const RefinedRig& ri
     if (same == theirs.end()) return Fail({file}, "no camera {}, nor of that number", own.name);
     cameras.push_back(same->camera);
   }
-  const auto placed = PlaceBoards(cameras, views);
+  const auto placed = LocateBoards(cameras, views);
   if (!placed) return Fail({file}, "{}", placed.error().message);
   options.listener.print(fmt::format("\nbeside {}, on the same corners:\n", file));
   constexpr double kPercent = 100;
@@ -334,7 +334,7 @@ std::string PictureOfBoards(const RefinedRig& rig, std::span<const TargetView> v
     canvas.FillBox(panel, {0, 0, 0, 0.35});
     for (const TargetView& view : views) {
       for (const PointPair& pair : view.pairs) {
-        const TargetPlace& place = rig.targets[view.target];
+        const CalibrationTargetPose& place = rig.targets[view.target];
         const auto shown = Project(rig.cameras[view.camera], place.R_WT * pair.world + place.p_WT);
         if (view.camera != camera || !shown) continue;
         constexpr double kLonger = 20, kHalfPx = 0.5;
@@ -383,7 +383,7 @@ Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options) {
     RETURN_IF_ERROR(WriteFileAtomically(options.picture, PictureOfBoards(refined, views, seen)));
     TellWritten(options.listener, options.picture);
   }
-  TurnToStance(options.world == "floor" ? BoardStance::kOnFloor : BoardStance::kOnWall, refined.cameras);
+  AlignToBoard(options.world == "floor" ? BoardPlacement::kOnFloor : BoardPlacement::kOnWall, refined.cameras);
   Calibrated rig;
   rig.rms_px = refined.camera_rms_px;
   rig.points.resize(refined.cameras.size());

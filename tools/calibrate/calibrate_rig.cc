@@ -45,13 +45,13 @@ Result<Board> ReadCodedBoard(const std::string& text) {
   const auto numbers = NumbersByX(std::string_view(text).substr(0, at));
   const auto first =
       at == std::string::npos ? std::vector<double>{0} : NumbersByX(std::string_view(text).substr(at + 1));
-  const bool is_board = numbers && numbers->size() == 3 && IsWholeWithin((*numbers)[0], 3, kMostSquares) &&
-                        IsWholeWithin((*numbers)[1], 3, kMostSquares) && (*numbers)[2] >= 0.001 &&
+  const bool is_board = numbers && numbers->size() == 3 && IsWholeWithin((*numbers)[0], 3, kMaxSquares) &&
+                        IsWholeWithin((*numbers)[1], 3, kMaxSquares) && (*numbers)[2] >= 0.001 &&
                         (*numbers)[2] <= 10 && first && first->size() == 1 &&
                         IsWholeWithin(first->front(), 0, kCodeCount);
   if (!is_board) {
     return Fail({}, "--board {}: no board; allowed: 3 to {} squares a side and their metres, as 8x8x0.2 or 8x8x0.2@32",
-                text, kMostSquares);
+                text, kMaxSquares);
   }
   const Board board{.columns = static_cast<int>((*numbers)[0]),
                     .rows = static_cast<int>((*numbers)[1]),

@@ -30,7 +30,7 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
   ASSIGN_OR_RETURN(FilmedSession session, OpenFilms(options));
   const FilmFacts facts = session.views.front().facts;
   options.listener.print(fmt::format("{} films, {} frames at {:g} Hz\n", session.views.size(), facts.frames, facts.rate_hz));
-  if (reference && std::abs(reference->rate_hz - facts.rate_hz) > kOneRate * facts.rate_hz) {
+  if (reference && std::abs(reference->rate_hz - facts.rate_hz) > kSameRateTolerance * facts.rate_hz) {
     options.listener.print(fmt::format("reference: resampled from {:g} to {:g} Hz, straight between its frames\n", reference->rate_hz,
                facts.rate_hz));
     reference = AtRate(std::move(*reference), facts.rate_hz);

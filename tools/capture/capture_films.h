@@ -14,7 +14,7 @@ namespace etude {
 struct CaptureFilmsOptions {
   std::vector<std::string> films;
   std::string rig;                   ///< a calibration: a file or a folder that ReadRigFile or ReadRigPair knows
-  PlaceOptions place;                ///< its unit, up axis and floor
+  PlacementOptions place;                ///< its unit, up axis and floor
   std::string keypoints;             ///< a folder with an entry for each film
   std::string marks;                 ///< likewise, of annotation pictures
   bool silhouettes = false;          ///< the films' outlines tell, alone or beside keypoints
@@ -32,7 +32,7 @@ struct CaptureFilmsOptions {
   int person = 1;
   std::string poses = "frames";  ///< of keypoints: each by itself, or "bundle": all at once
   double smooth_hz = 0;
-  double longest_gap_s = 0.5;
+  double max_gap_s = 0.5;
   double outlier_px = 0;  ///< 0: by the residuals, at most 3 % of the picture's longer side
   double sync_s = 0;      ///< the films' clocks may differ by this; 0: they agree
   std::string command_line;  ///< what was typed, for the page

@@ -9,7 +9,7 @@
 #include "engine/formats/trc.h"
 #include "engine/keypoints/adjust_person.h"
 #include "engine/keypoints/agreement.h"
-#include "engine/keypoints/doubt_rig.h"
+#include "engine/keypoints/rig_warnings.h"
 #include "engine/unmarked/join_outlines.h"
 #include "io/files/files.h"
 #include "tools/capture/capture_parts.h"
@@ -28,10 +28,10 @@ RecoverPersonOptions RecoverOptionsOf(const CaptureFilmsOptions& options, const 
   RecoverPersonOptions recover = UsualRecovery(views.front().facts.rate_hz, longer_side);
   recover.person = static_cast<std::size_t>(options.person - 1);
   recover.cutoff_hz = options.smooth_hz;
-  recover.longest_gap_s = options.longest_gap_s;
+  recover.max_gap_s = options.max_gap_s;
   constexpr double kLeastShare = 0.004;  // of the picture's longer side: what rounding and lenses leave
-  recover.least_outlier_px = kLeastShare * longer_side;
-  if (options.outlier_px > 0) recover.triangulate.robust.outlier_px = recover.least_outlier_px = options.outlier_px;
+  recover.min_outlier_px = kLeastShare * longer_side;
+  if (options.outlier_px > 0) recover.triangulate.robust.outlier_px = recover.min_outlier_px = options.outlier_px;
   recover.mends = recover.match.may_be_swapped = true;
   return recover;
 }
@@ -127,7 +127,7 @@ Result<UnmarkedMotion> WithOutlines(const RecoveredPerson& person, std::size_t c
 }
 
 AdjustPersonOptions AdjustOf(const RecoverPersonOptions& recover) {
-  return {.rate_hz = recover.rate_hz, .least_confidence = recover.triangulate.least_confidence};
+  return {.rate_hz = recover.rate_hz, .min_confidence = recover.triangulate.min_confidence};
 }
 
 /// Compares joints of outlines and keypoints together with a reference; pairs as if there were no other camera.
@@ -199,7 +199,7 @@ std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const 
 }
 
 /// Says what the keypoints say against the rig.
-void TellDoubts(const MatchedPerson& person, const std::vector<FilmedView>& views, double least_confidence,
+void TellDoubts(const MatchedPerson& person, const std::vector<FilmedView>& views, double min_confidence,
                 ToldLines& told) {
   std::vector<Camera> cameras;
   std::vector<std::string> names;
@@ -207,7 +207,7 @@ void TellDoubts(const MatchedPerson& person, const std::vector<FilmedView>& view
     cameras.push_back(view.camera.camera);
     names.push_back(view.camera.name);
   }
-  for (const std::string& doubt : DoubtRig(cameras, names, person, least_confidence)) {
+  for (const std::string& doubt : RigWarnings(cameras, names, person, min_confidence)) {
     told.Tell("doubtful: " + doubt);
   }
 }
@@ -226,7 +226,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
       views[i].camera.camera = Placed(*place, views[i].camera.camera);
       films.cameras[i] = MatrixOf(views[i].camera.camera);
     }
-    for (LandmarkPlaces& frame : located.landmarks) {
+    for (LandmarkPositions& frame : located.landmarks) {
       for (auto& point : frame) {
         if (point) point = (*place)(*point);
       }
@@ -241,7 +241,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   }
   options.listener.print(PeopleText(person, views));
   TellMends(person, chosen, views, films.told);
-  TellDoubts(person.people[chosen], views, recover.triangulate.least_confidence, films.told);
+  TellDoubts(person.people[chosen], views, recover.triangulate.min_confidence, films.told);
   options.listener.print(ReportText(person, views) + FitText(person));
   facts["keypoints"] = FactsOf(person, views, films.told.lines);
   ReducedTake take;

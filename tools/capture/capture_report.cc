@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The median distance of a frame's keypoints to the points that all cameras make, as the camera shows them.
-std::optional<double> ResidualOf(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPlaces& places) {
+std::optional<double> ResidualOf(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPositions& places) {
   std::vector<double> distances;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     if (!(seen.keypoints[i].confidence > 0) || !places[i]) continue;

@@ -37,7 +37,7 @@ Result<SeenPeople> ReadPeople(const CaptureFilmsOptions& options, FilmedView& vi
 
 /// Brings all people into the rig's pictures and says what was done for that.
 void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<SeenPeople>& people,
-               double least_confidence, ToldLines& told_lines) {
+               double min_confidence, ToldLines& told_lines) {
   std::vector<PictureOfFilm> films;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -46,13 +46,13 @@ void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<S
         {view.camera.camera, view.fit, {view.facts.width, view.facts.height}, std::move(people[i]), view.is_sized});
     names.push_back(view.camera.name);
   }
-  SessionGuess session = GuessSession(films, names, rig.R_WF, least_confidence);
+  SessionGuess session = GuessSession(films, names, rig.R_WF, min_confidence);
   if (!session.mended.empty()) told_lines.Tell("mended: " + session.mended);
   for (std::size_t i = 0; i < views.size(); ++i) {
     films[i].camera = views[i].camera.camera = session.cameras[i];
     films[i].people = people[i] = std::move(session.people[i]);
   }
-  const std::vector<PictureGuess> guesses = GuessPictures(films, least_confidence);
+  const std::vector<PictureGuess> guesses = GuessPictures(films, min_confidence);
   for (std::size_t i = 0; i < views.size(); ++i) {
     FilmedView& view = views[i];
     const PictureGuess& guess = guesses[i];
@@ -83,7 +83,7 @@ void Synchronise(const CaptureFilmsOptions& options, const std::vector<FilmedVie
   // Beyond half of a film there is too little in common to judge by.
   const int most =
       std::clamp(static_cast<int>(std::lround(options.sync_s * rate)), 1, std::max(1, static_cast<int>(shortest / 2)));
-  const SyncOptions clocks{.most_frames = most, .most_px = recover.triangulate.robust.outlier_px};
+  const SyncOptions clocks{.max_frames = most, .max_px = recover.triangulate.robust.outlier_px};
   const std::vector<ClockOffset> found = EstimateOffsets(films.cameras, films.people, {clocks, recover.match.follow});
   std::string untold;
   std::string told = fmt::format("clocks, after {}'s:", views.front().camera.name);
@@ -106,7 +106,7 @@ void ClocksOfRates(const std::vector<FilmedView>& views, SeenFilms& films) {
   for (std::size_t i = 0; i < views.size(); ++i) {
     const double own = views[i].facts.rate_hz;
     if (own == rate) continue;
-    const bool is_one = std::abs(own - rate) <= kOneRate * rate;
+    const bool is_one = std::abs(own - rate) <= kSameRateTolerance * rate;
     if (!is_one) films.clocks[i].drift = rate / own - 1;
     films.told.Tell(fmt::format("{}: {:g} frames a second beside {:g}, {}", views[i].camera.name, own, rate,
                      is_one ? "taken as one rate" : "its keypoints resampled by cubics between its frames"));
@@ -116,7 +116,7 @@ void ClocksOfRates(const std::vector<FilmedView>& views, SeenFilms& films) {
 /// Names films that seem late where keypoints err too much to mend them.
 void DoubtClocks(const std::vector<FilmedView>& views, const RecoverPersonOptions& recover, int most,
                  SeenFilms& films) {
-  const SyncOptions clocks{.most_frames = most, .most_px = recover.triangulate.robust.outlier_px};
+  const SyncOptions clocks{.max_frames = most, .max_px = recover.triangulate.robust.outlier_px};
   const auto guessed = EstimateOffsets(films.cameras, films.people, {clocks, recover.match.follow});
   for (std::size_t i = 1; i < views.size(); ++i) {
     const double frames = guessed[i].frames;
@@ -131,7 +131,7 @@ void DoubtClocks(const std::vector<FilmedView>& views, const RecoverPersonOption
 void TellDrift(const std::vector<FilmedView>& views, std::size_t film, const FilmClock& taken, const FilmClock& nearest,
                std::size_t frames, SeenFilms& films) {
   const double rate = views.front().facts.rate_hz, own = views[film].facts.rate_hz;
-  if (own == rate || std::abs(own - rate) > kOneRate * rate) return;
+  if (own == rate || std::abs(own - rate) > kSameRateTolerance * rate) return;
   const auto over_film = [&](double drift) { return drift * static_cast<double>(frames); };
   films.told.Tell(
       fmt::format("{}: drift measured: {:+.2f} frames over the film, {:+.2f} if both rates were right; too little said "
@@ -201,7 +201,7 @@ Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPers
     ASSIGN_OR_RETURN(SeenPeople people, ReadPeople(options, view));
     films.people.push_back(std::move(people));
   }
-  FitPeople(session.rig, views, films.people, recover.triangulate.least_confidence, films.told);
+  FitPeople(session.rig, views, films.people, recover.triangulate.min_confidence, films.told);
   for (std::size_t i = 0; i < views.size(); ++i) {
     films.people[i] = UndistortPeople(views[i].camera.camera, std::move(films.people[i]));
     films.cameras.push_back(MatrixOf(views[i].camera.camera));

@@ -44,7 +44,7 @@ std::vector<FilmClock> ClocksByRates(const std::vector<FilmedView>& views, ToldL
     if (own == rate) continue;
     constexpr double kMs = 1000;
     const double seconds = static_cast<double>(first.frames) / rate;
-    const bool is_one = std::abs(own - rate) <= kOneRate * rate;
+    const bool is_one = std::abs(own - rate) <= kSameRateTolerance * rate;
     if (!is_one) clocks.back().drift = rate / own - 1;
     told.Tell(fmt::format("{}: {:g} frames a second beside {:g}, ", view.camera.name, own, rate) +
                    (is_one ? fmt::format("taken as one rate; were both right, it would be off by {:.0f} ms in the end",

@@ -123,7 +123,7 @@ Result<void> CheckTogether(const std::vector<FilmedView>& views, bool may_differ
       return Fail({view.path.string()}, "it does not tell how many frames a second it has");
     }
     if (may_differ_in_time) continue;
-    const bool is_one_rate = std::abs(view.facts.rate_hz - first.facts.rate_hz) <= kOneRate * first.facts.rate_hz;
+    const bool is_one_rate = std::abs(view.facts.rate_hz - first.facts.rate_hz) <= kSameRateTolerance * first.facts.rate_hz;
     if (is_one_rate && view.facts.frames != first.facts.frames) {
       return Fail({view.path.string()}, "{} frames, {} {}; cut them alike, or let keypoints tell the time (--sync)",
                   view.facts.frames, first.path.string(), first.facts.frames);

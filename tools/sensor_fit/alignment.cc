@@ -135,7 +135,7 @@ JointRecording AtRate(const TwinMotion& twin, double rate_hz) {
   const auto frames = static_cast<std::size_t>(twin.DurationSeconds() * rate_hz);
   for (std::size_t t = 0; t < frames; ++t) {
     const auto carriers = CarriersAt(twin, static_cast<double>(t) / rate_hz);
-    RolePlaces& places = recording.frames.emplace_back();
+    RolePositions& places = recording.frames.emplace_back();
     for (std::size_t j = 0; j < kRoleCount; ++j) {
       if (carriers[j]) places[j] = carriers[j]->position;
     }
@@ -212,7 +212,7 @@ std::optional<TwinMatch> Finish(const JointRecording& recording, const TwinMotio
   TwinMatch match{.alignment = alignment, .truth = {}};
   for (std::size_t t = 0; t < recording.frames.size(); ++t) {
     const auto carriers = CarriersAt(twin, static_cast<double>(t) / recording.rate_hz + alignment.shift_s);
-    RolePlaces& places = match.truth.emplace_back();
+    RolePositions& places = match.truth.emplace_back();
     for (const Role role : AllRoles()) places[Index(role)] = alignment.JointAt(carriers[Index(role)], role);
   }
   return match;

@@ -25,7 +25,7 @@ struct TwinAlignment {
 /// The twin at the frames of a recording.
 struct TwinMatch {
   TwinAlignment alignment;
-  std::vector<RolePlaces> truth;  ///< as many frames as the recording; in the sensor's space
+  std::vector<RolePositions> truth;  ///< as many frames as the recording; in the sensor's space
 };
 
 /// Finds time shift, rotation, translation and offsets together, in the sense of least squares over all joints: shifts

@@ -57,7 +57,7 @@ Camera SensorOf(const RealRecording& real, const BodyMotion& motion, const Intri
     return LookAt(view, *real.recording.sensor_at, *real.recording.sensor_at + glm::dvec3(0, 0, 1));
   const BodyPose& pose = motion.poses[motion.poses.size() / 2];
   const glm::dvec3 body = pose[Role::kHipCentre];
-  const SensorPlace usual;
+  const SensorPlacement usual;
   const glm::dvec3 eye = body + usual.distance * Facing(pose);
   return LookAt(view, eye, body);
 }
@@ -109,7 +109,7 @@ void FitStretch(const SensorStatistics& real, const SensorStatistics& simulated,
 
 double MeanDistance(const RealRecording& real) {
   double sum = 0, count = 0;
-  for (const RolePlaces& places : real.match.truth) {
+  for (const RolePositions& places : real.match.truth) {
     const auto& centre = places[Index(Role::kSpine)];
     if (!centre || !real.recording.sensor_at) continue;
     sum += std::abs(centre->z - real.recording.sensor_at->z);

@@ -42,7 +42,7 @@ TwinMotion TwinOfTargets(const std::vector<TargetFrame>& targets) {
 /// it.
 class BoneFrames {
  public:
-  explicit BoneFrames(const RolePlaces& places) : places_(places) {
+  explicit BoneFrames(const RolePositions& places) : places_(places) {
     if (const auto across = Between(kRightHip, kLeftHip), up = Between(kHipCentre, kShoulderCentre); across && up) {
       const glm::dvec3 y = glm::normalize(*up);
       const glm::dvec3 off = *across - glm::dot(*across, y) * y;
@@ -90,13 +90,13 @@ class BoneFrames {
     return *b - *a;
   }
 
-  const RolePlaces& places_;
+  const RolePositions& places_;
   std::optional<glm::dquat> trunk_;
 };
 
 TwinMotion TwinOfJoints(const JointCsv& csv) {
   TwinMotion twin;
-  for (const RolePlaces& places : csv.frames) {
+  for (const RolePositions& places : csv.frames) {
     const BoneFrames bones(places);
     auto& frame = twin.frames.emplace_back();
     for (const Role role : AllRoles()) frame[Index(role)] = bones.Of(role);
@@ -160,7 +160,7 @@ JointRecording Excerpt(const JointRecording& recording, std::size_t begin, std::
 JointRecording RecordingOf(const SkeletonStream& stream, const glm::dvec3& sensor_at) {
   JointRecording recording{.rate_hz = stream.rate_hz, .frames = {}, .sensor_at = sensor_at};
   for (const SensedFrame& frame : stream.frames) {
-    RolePlaces& places = recording.frames.emplace_back();
+    RolePositions& places = recording.frames.emplace_back();
     for (const Role role : AllRoles()) {
       if (frame[role].state != TrackingState::kNotTracked) places[Index(role)] = frame[role].position;
     }

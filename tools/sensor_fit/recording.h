@@ -18,7 +18,7 @@ namespace etude {
 /// own whose Y axis points up.
 struct JointRecording {
   double rate_hz = kJudgedRateHz;
-  std::vector<RolePlaces> frames;
+  std::vector<RolePositions> frames;
   /// The place of the sensor in that space. A Kinect's own space begins at it; for other files it is not known.
   std::optional<glm::dvec3> sensor_at;
 

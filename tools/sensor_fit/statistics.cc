@@ -58,7 +58,7 @@ bool IsPlanted(const TwinMatch& match, std::size_t frame, std::size_t joint, dou
 /// Returns the deviation of the distance of two joints over its mean, percent.
 std::optional<double> Variation(const JointRecording& recording, Role a, Role b) {
   std::vector<double> lengths;
-  for (const RolePlaces& places : recording.frames) {
+  for (const RolePositions& places : recording.frames) {
     if (places[Index(a)] && places[Index(b)]) lengths.push_back(glm::distance(*places[Index(a)], *places[Index(b)]));
   }
   if (lengths.size() < 2) return std::nullopt;

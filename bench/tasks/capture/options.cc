@@ -74,16 +74,16 @@ FieldTable<StudioOptions> MakeConditionFields() {
             "Qualisys' XML. The rig is moved as a whole to where the performer is."},
            [](Fields& condition, Options&) { condition.Raw(kRigFileKey); }}
            .With("rig", {"file"}),
-       Key::Numbers("camera_angles_deg", Path(&Options::rig, &RigOptions::angles_deg), {2, kMostCameras},
+       Key::Numbers("camera_angles_deg", Path(&Options::rig, &RigOptions::angles_deg), {2, kMaxCameras},
                     "two to eight of -180…180", {-180, 180},
                     "Where they stand: 0 = in front, positive = to the performer's left.")
            .With("rig", {"angles"}),
        Key::Number("camera_baseline_m", Path(&Options::rig, &RigOptions::baseline_m), {0.05, 3},
                    "From one to the other.")
            .With("rig", {"stereo"}),
-       Key::Number("cameras", Path(&Options::rig, &RigOptions::cameras), {2, kMostCameras}, "How many stand around.")
+       Key::Number("cameras", Path(&Options::rig, &RigOptions::cameras), {2, kMaxCameras}, "How many stand around.")
            .With("rig", {"ring"}),
-       Key::Numbers("camera_heights_m", Path(&Options::rig, &RigOptions::heights_m), {1, kMostCameras},
+       Key::Numbers("camera_heights_m", Path(&Options::rig, &RigOptions::heights_m), {1, kMaxCameras},
                     "one to eight of 0.2…5", {0.2, 5},
                     "How high they stand: one for each angle; in other rigs the cameras take them in turn."),
        Key::Number("camera_distance_m", Path(&Options::rig, &RigOptions::distance_m), {2, 10},
@@ -318,15 +318,15 @@ Result<void> OpenOwnCameras(const TaskInput& input, StudioOptions& options) {
                 kRigFileKey);
   }
   ASSIGN_OR_RETURN(const auto cameras, ReadRig(text->second, named->scalar));
-  if (cameras.size() < 2 || cameras.size() > kMostCameras) {
-    return Fail(named->place, "'{}' has {} cameras; allowed: 2 to {}", named->scalar, cameras.size(), kMostCameras);
+  if (cameras.size() < 2 || cameras.size() > kMaxCameras) {
+    return Fail(named->place, "'{}' has {} cameras; allowed: 2 to {}", named->scalar, cameras.size(), kMaxCameras);
   }
   std::vector<Camera>& own = options.rig.own;
   for (const NamedCamera& camera : cameras) {
     const Intrinsics& in = camera.camera.intrinsics;
-    if (in.width < 1 || in.height < 1 || in.width > kLargestPicture || in.height > kLargestPicture) {
+    if (in.width < 1 || in.height < 1 || in.width > kMaxPictureSide || in.height > kMaxPictureSide) {
       return Fail(named->place, "camera '{}' of '{}' takes pictures of {} × {} pixels; allowed: 1 to {} a side",
-                  camera.name, named->scalar, in.width, in.height, kLargestPicture);
+                  camera.name, named->scalar, in.width, in.height, kMaxPictureSide);
     }
     const Distortion& lens = camera.camera.distortion;
     if (lens != Distortion{lens.k1, lens.k2, lens.p1, lens.p2, lens.k3}) {

@@ -26,7 +26,7 @@ MeasureInputs PicturesOf(const CaptureRun& run) {
 }
 
 /// The joints of every frame, of some or none in frames before anything was seen.
-std::vector<SomeJoints> JointsOf(const CaptureRun& run) {
+std::vector<OptionalJoints> JointsOf(const CaptureRun& run) {
   if (run.method.smoothing == Smoothing::kRts) return SmoothJoints(run.measured.joints, kJudgedRateHz);
   return BridgeJoints(run.measured.joints);
 }
@@ -87,7 +87,7 @@ void RecoverEnds(CaptureRun& run) {
   TreeState last = StandingState(run.body.tree);
   const BodyPose standing = ToBodyPose(run.body, last);
   PosedFrames frames(run.body);
-  for (const SomeJoints& joints : JointsOf(run)) {
+  for (const OptionalJoints& joints : JointsOf(run)) {
     const auto pose = CompleteJoints(joints, standing);
     run.frames.push_back(pose ? std::optional(frames.At(*pose, last)) : std::nullopt);
     if (pose) last = run.frames.back()->state;
@@ -95,7 +95,7 @@ void RecoverEnds(CaptureRun& run) {
 }
 
 void RecoverBundle(CaptureRun& run) {
-  const std::vector<SomeJoints> start = BridgeJoints(run.measured.joints);
+  const std::vector<OptionalJoints> start = BridgeJoints(run.measured.joints);
   AdjustTakeOptions options;
   options.bundle.smoothness = SmoothnessOf(MakeTakeBody(run.body.lengths), kJudgedRateHz);
   options.bundle.adjusts_lengths = run.method.lengths == LengthSource::kMeasured;
@@ -221,7 +221,7 @@ RecoverOptions RecoverOptionsOf(const CaptureMethod& method) { return {.solver =
 BridgeOptions LiveBridgeOptions(const StudioOptions& options) {
   const int frames = std::lcm(options.mark_every, options.picture_every);
   BridgeOptions bridge;
-  bridge.longest_gap = std::max(1, bridge.longest_gap / frames);
+  bridge.max_gap = std::max(1, bridge.max_gap / frames);
   bridge.turn_per_frame *= frames;
   return bridge;
 }

@@ -30,7 +30,7 @@ TreeState NearStart(const SilhouetteBody& body, const BodyPose& pose, const Worl
 TrackOptions OptionsFor(const SilhouetteInputs& inputs) {
   TrackOptions options;
   options.angle_change *= inputs.picture_every;
-  options.place_change_m *= inputs.picture_every;
+  options.position_change_m *= inputs.picture_every;
   return options;
 }
 

@@ -266,7 +266,7 @@ const MeasuredTake& CaptureStages::GetMeasured(const CaptureMethod& method, cons
     if (method.sync == Sync::kEstimated) marks = Synchronised(marks, EstimateOffsets(cameras.matrices, marks));
     if (method.outliers == OutlierRule::kReject) marks = AgreeingMarks(cameras.matrices, marks);
     const int every = std::lcm(options_.mark_every, options_.picture_every);
-    const BridgeOptions bridge{.longest_gap = std::max(BridgeOptions{}.longest_gap, every)};
+    const BridgeOptions bridge{.max_gap = std::max(BridgeOptions{}.max_gap, every)};
     kept = measured_.emplace(choice, MeasureTake(cameras.matrices, std::move(marks), known, bridge)).first;
   }
   return kept->second;

@@ -155,7 +155,7 @@ PersonalLimbs Measured(const PersonalLimbs& person, double error_mm, const World
     const glm::dvec3& above = measured.body.joints[joint.parent].position;
     measured.body.joints[i].position = above + tape.Measure(joint.position - person.body.joints[joint.parent].position);
   }
-  for (RestBody::RolePlace& role : measured.body.roles) {
+  for (RestBody::RoleAnchor& role : measured.body.roles) {
     role.position = measured.body.joints[role.joint].position +
                     tape.Measure(role.position - person.body.joints[role.joint].position);
   }
@@ -164,7 +164,7 @@ PersonalLimbs Measured(const PersonalLimbs& person, double error_mm, const World
 
 RestBody Scaled(RestBody body, double scale) {
   for (RestBody::Joint& joint : body.joints) joint.position *= scale;
-  for (RestBody::RolePlace& role : body.roles) role.position *= scale;
+  for (RestBody::RoleAnchor& role : body.roles) role.position *= scale;
   return body;
 }
 

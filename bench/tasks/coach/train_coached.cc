@@ -44,8 +44,8 @@ void AddSession(const Lesson& lesson, const SessionLog& log, Weighting weighting
   std::vector<PerformanceMeasures> measured;
   const auto recogniser =
       MakeMeasuringRecogniser(lesson.stage.taught, {.weighting = weighting},
-                              [&](Occasion occasion, std::size_t, const PerformanceMeasures& measures) {
-                                if (occasion == Occasion::kAsked) measured.push_back(measures);
+                              [&](PerformanceOrigin occasion, std::size_t, const PerformanceMeasures& measures) {
+                                if (occasion == PerformanceOrigin::kAsked) measured.push_back(measures);
                                 return 0.0;
                               });
   FollowPerformances(log, *recogniser, {}, [&](const LoggedPerformance& performance, double) {

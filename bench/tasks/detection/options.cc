@@ -177,12 +177,12 @@ const FieldTable<DetectionMethod>& DetectionMethodFields() {
     const auto settings = Path(&Method::recogniser, &RecogniserOptions::settings);
     Append(SettingFields<Method>("recogniser", AllRecognisers(), settings), fields);
     fields.push_back(MethodKey::Name("weights",
-                                     Path(&Method::recogniser, &RecogniserOptions::weights, &SightWeights::weighting),
+                                     Path(&Method::recogniser, &RecogniserOptions::weights, &TrackingWeights::weighting),
                                      {{"fixed", Weighting::kFixed}, {"adaptive", Weighting::kAdaptive}},
                                      "How much what is seen counts: all alike, or by how well its joints are seen."));
     fields.push_back(
         MethodKey::Number("inferred_weight",
-                          Path(&Method::recogniser, &RecogniserOptions::weights, &SightWeights::inferred_weight),
+                          Path(&Method::recogniser, &RecogniserOptions::weights, &TrackingWeights::inferred_weight),
                           kShare, "What counts that needs an inferred joint; a tracked one is 1.")
             .With("weights", {"adaptive"}));
     fields.push_back(MethodKey::Number("threshold", &Method::threshold, kThresholds,

@@ -12,7 +12,7 @@ namespace {
 
 /// A performance that may have ended in a frame, as it was measured.
 struct Measured {
-  Occasion occasion;
+  PerformanceOrigin occasion;
   std::size_t move;
   int frame;
   PerformanceMeasures measures;
@@ -57,11 +57,11 @@ DetectionOptions ThrowCondition(const WorldKey& key) {
 
 /// The measures taken while the session was followed.
 std::vector<Measured> MeasureSession(const DetectionWorld& world, const Repertoire& repertoire,
-                                     const SightWeights& weights) {
+                                     const TrackingWeights& weights) {
   std::vector<Measured> measured;
   int frame = 0;
   const auto recogniser = MakeMeasuringRecogniser(
-      repertoire.taught, weights, [&](Occasion occasion, std::size_t move, const PerformanceMeasures& measures) {
+      repertoire.taught, weights, [&](PerformanceOrigin occasion, std::size_t move, const PerformanceMeasures& measures) {
         measured.push_back({occasion, move, frame, measures});
         return 0.0;
       });
@@ -102,7 +102,7 @@ void AddSession(const DetectionWorld& world, const Repertoire& repertoire, const
     const bool is_asked_for = event != nullptr && event->move == name;
     const bool is_danced = event != nullptr && event->danced == name;
     const bool is_grey = event != nullptr && event->truth == Truth::kGrey;
-    if (each.occasion == Occasion::kAsked) {
+    if (each.occasion == PerformanceOrigin::kAsked) {
       if (!is_grey && event != nullptr) asked_bags.Add({index, 0, 0}, event->IsRight(), each.measures);
     } else if (is_asked_for || is_danced) {
       if (!is_grey && is_asked_for)
@@ -129,7 +129,7 @@ LearntModel TrainRecogniser(const Repertoire& repertoire, const RecogniserTraini
   for (int session = 0; session < training.sessions; ++session) {
     const WorldKey key{.suite_seed = training.seed, .scenario = "recogniser-training", .trial = session};
     const DetectionWorld world = MakeDetectionWorld(repertoire, ThrowCondition(key), key);
-    const SightWeights weights{.weighting = session % 2 == 0 ? Weighting::kFixed : Weighting::kAdaptive};
+    const TrackingWeights weights{.weighting = session % 2 == 0 ? Weighting::kFixed : Weighting::kAdaptive};
     std::vector<LabelledBag> unused;
     const bool teaches_spotting = 2 * session < training.sessions;
     AddSession(world, repertoire, MeasureSession(world, repertoire, weights), asked,

@@ -16,14 +16,14 @@ namespace etude {
 namespace {
 
 /// A box whose middle lies `ahead` metres from the performer towards the sensor and `aside` across, facing the sensor.
-Cuboid BoxBefore(const SensorPlace& sensor, double ahead, double aside, double height, const glm::dvec3& half_size) {
+Cuboid BoxBefore(const SensorPlacement& sensor, double ahead, double aside, double height, const glm::dvec3& half_size) {
   const double sine = std::sin(sensor.turn), cosine = std::cos(sensor.turn);
   return {.centre = {ahead * sine + aside * cosine, height, ahead * cosine - aside * sine},
           .half_size = half_size,
           .heading = sensor.turn};
 }
 
-std::vector<BodyPose> Bystander(const SensorPlace& sensor, std::size_t frames) {
+std::vector<BodyPose> Bystander(const SensorPlacement& sensor, std::size_t frames) {
   const auto sway = LoadBuiltinMove("sway");
   assert(sway);  // built in
   const Cuboid place = BoxBefore(sensor, 1.2, 0.35, 0, glm::dvec3(1));
@@ -37,7 +37,7 @@ std::vector<BodyPose> Bystander(const SensorPlace& sensor, std::size_t frames) {
 
 }  // namespace
 
-Occluders MakeOccluders(OccluderKind kind, const SensorPlace& sensor, std::size_t frames) {
+Occluders MakeOccluders(OccluderKind kind, const SensorPlacement& sensor, std::size_t frames) {
   switch (kind) {
     case OccluderKind::kNone:
       return {};
@@ -103,7 +103,7 @@ SkeletonStream Sense(const BodyMotion& motion, const DetectionOptions& options, 
   SkeletonSensorOptions errors = options.sensor;
   errors.strength = options.noise;
   const double thrown = place_dice.Uniform(kNearest, kFarthest);
-  const SensorPlace place{.distance = options.distance_m.value_or(thrown),
+  const SensorPlacement place{.distance = options.distance_m.value_or(thrown),
                           .turn = Radians(options.turn_deg),
                           .height = options.sensor_height_m};
   const Occluders occluders = MakeOccluders(options.occluder, place, motion.poses.size());

@@ -44,7 +44,7 @@ CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMe
                      const IkRecords& records) {
   IkOptions options = method.options;
   options.trace = true;
-  if (!records.motion) options.longest_trace = kLongestCurve;
+  if (!records.motion) options.max_trace_entries = kLongestCurve;
   const IkSolution solution = method.solver->solve(tree, world.problem, options);
   std::vector<std::pair<std::string, std::string>> digests = {{"world", DigestOf(world)},
                                                               {"solution", DigestOf(solution)}};

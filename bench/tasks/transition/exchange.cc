@@ -93,7 +93,7 @@ TransitionAnswer ReadTransition(AnswerFields& fields, const Stage& stage, const 
   if (fields.Has("join_s")) {
     answer.segments.back().preferred = PreferredJoin{.blend_s = fields.Number("join_s", kJoins_s)};
     const bool fades = fields.Boolean("fades", false), direct = fields.Boolean("direct", false);
-    answer.segments.back().preferred->way = direct ? JoinWay::kDirect : fades ? JoinWay::kFades : JoinWay::kDecays;
+    answer.segments.back().preferred->way = direct ? JoinStyle::kDirect : fades ? JoinStyle::kFades : JoinStyle::kDecays;
   }
   answer.matched = fields.Boolean("matched", false);
   return answer;

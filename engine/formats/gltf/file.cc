@@ -233,9 +233,9 @@ Result<GltfNumbers> GltfFile::Read(int index, std::size_t width, GltfComponents 
   }
   const bool is_index = allowed == GltfComponents::kUnsigned;  // indices have their own limits
   for (std::size_t i = 0; !is_index && i < numbers.values.size(); ++i) {
-    if (!(std::abs(numbers.values[i]) <= kLargestGltfNumber)) {
+    if (!(std::abs(numbers.values[i]) <= kMaxGltfNumber)) {
       return Refuse(name, "found {} in element {}; allowed: numbers within ±{:g}", numbers.values[i], i / width,
-                    kLargestGltfNumber);
+                    kMaxGltfNumber);
     }
   }
   return numbers;

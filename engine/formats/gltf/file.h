@@ -18,7 +18,7 @@ namespace etude {
 constexpr int kNoIndex = -1;
 /// The largest number that is accepted; larger ones are refused, so that sums and products of input numbers stay
 /// finite.
-constexpr double kLargestGltfNumber = 1e9;
+constexpr double kMaxGltfNumber = 1e9;
 
 /// The numbers of an accessor, stored element by element.
 struct GltfNumbers {

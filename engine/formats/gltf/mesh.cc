@@ -223,7 +223,7 @@ class MeshReader {
       read.bindings = bindings;
       RETURN_IF_ERROR(ReadPrimitive(mesh.primitives[i], has_skin, place, read));
       if (read.triangles.empty()) continue;
-      if (!has_skin && IsMirrored(nodes_.skeleton, nodes_.joint_of[node])) TurnOver(read);
+      if (!has_skin && IsMirrored(nodes_.skeleton, nodes_.joint_of[node])) FlipTriangles(read);
       character_.meshes.push_back(std::move(read));
     }
     return {};
@@ -363,7 +363,7 @@ bool IsMirrored(const Skeleton& skeleton, int joint) {
   return mirrored;
 }
 
-void TurnOver(SkinnedMesh& mesh) {
+void FlipTriangles(SkinnedMesh& mesh) {
   for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
 }
 

@@ -22,6 +22,6 @@ Result<void> ReadGltfMeshes(GltfFile& file, const GltfNodes& nodes, const Decode
 bool IsMirrored(const Skeleton& skeleton, int joint);
 
 /// Reverses the orientation of all triangles, so that the other side is the outside.
-void TurnOver(SkinnedMesh& mesh);
+void FlipTriangles(SkinnedMesh& mesh);
 
 }  // namespace etude

@@ -174,8 +174,8 @@ class NodeReader {
       return file_.Refuse(where, "found {} numbers; allowed: {}", numbers.size(), count);
     }
     for (const double number : numbers) {
-      if (!(std::abs(number) <= kLargestGltfNumber)) {
-        return file_.Refuse(where, "found {}; allowed: numbers within ±{:g}", number, kLargestGltfNumber);
+      if (!(std::abs(number) <= kMaxGltfNumber)) {
+        return file_.Refuse(where, "found {}; allowed: numbers within ±{:g}", number, kMaxGltfNumber);
       }
     }
     return {};
@@ -242,8 +242,8 @@ Result<GltfNodes> ReadGltfNodes(const GltfFile& file) { return NodeReader(file).
 Result<void> CheckGltfPose(const GltfFile& file, const Skeleton& skeleton, const LocalPose& pose,
                            const std::string& where) {
   const auto is_within = [](const glm::dvec3& v) {
-    return std::abs(v.x) <= kLargestGltfNumber && std::abs(v.y) <= kLargestGltfNumber &&
-           std::abs(v.z) <= kLargestGltfNumber;
+    return std::abs(v.x) <= kMaxGltfNumber && std::abs(v.y) <= kMaxGltfNumber &&
+           std::abs(v.z) <= kMaxGltfNumber;
   };
   std::vector<GlobalTransform> globals;
   ComputeGlobals(skeleton, pose, globals);
@@ -251,7 +251,7 @@ Result<void> CheckGltfPose(const GltfFile& file, const Skeleton& skeleton, const
     const auto& [position, axes] = globals[i];
     if (is_within(position) && is_within(axes[0]) && is_within(axes[1]) && is_within(axes[2])) continue;
     return file.Refuse(where, "found joint {} beyond ±{:g} in the world", Quote(skeleton.joints[i].name),
-                       kLargestGltfNumber);
+                       kMaxGltfNumber);
   }
   return {};
 }

@@ -266,7 +266,7 @@ class GlbWriter {
     for (const SkinnedMesh& part : group) {
       if (is_rigid && IsMirrored(character_.skeleton, first.bindings[0].joint)) {
         SkinnedMesh turned = part;  // because reading will flip it again
-        TurnOver(turned);
+        FlipTriangles(turned);
         mesh.primitives.push_back(MakePrimitive(turned, false));
       } else {
         mesh.primitives.push_back(MakePrimitive(part, !is_rigid));

@@ -22,7 +22,7 @@ constexpr double kDoubtfulShare = 1e-9, kDoubtfulRounding = 1e-14;
 constexpr double kFloatShare = 0.9;
 // Stall threshold in float, radians: an angle may move by its last bit after it has converged.
 constexpr double kFloatStall = 2e-7;
-constexpr GaussNewtonCourse::Numerics kFloatNumerics{.least_damping = 1e-5, .pulled_above = 1e-6};
+constexpr GaussNewtonCourse::Numerics kFloatNumerics{.min_damping = 1e-5, .pulled_above = 1e-6};
 
 double SquareBelow(double goal) {
   const double certain = std::max(0.0, goal * (1 - kDoubtfulShare) - kDoubtfulRounding);
@@ -166,11 +166,11 @@ GaussNewtonRules RulesFor(const IkOptions& options, const GaussNewtonOptions& ow
   const double chord = 2 * ComputeSineCosine(0.5 * std::min(axis, kPi)).sine;
   if (precision == Precision::kDouble) {
     return {SquareBelow(position), position * position, SquareBelow(chord),
-            axis * axis,           own.extra_passes,    kLargestTurn};
+            axis * axis,           own.extra_passes,    kMaxTurn};
   }
   constexpr double kSquaredShare = kFloatShare * kFloatShare;
   const double squared_distance = kSquaredShare * position * position, squared_chord = kSquaredShare * chord * chord;
-  return {squared_distance, squared_distance, squared_chord, squared_chord, own.extra_passes, kLargestTurn};
+  return {squared_distance, squared_distance, squared_chord, squared_chord, own.extra_passes, kMaxTurn};
 }
 
 GaussNewtonCourse::GaussNewtonCourse(const IkOptions& options, const GaussNewtonOptions& own, const Numerics& numerics)

@@ -38,7 +38,7 @@ class GaussNewtonCourse {
   /// Limits that depend on the precision: the minimum damping, and the |e|² below which steps are not pulled to the
   /// start. Both are larger for float.
   struct Numerics {
-    double least_damping = 1e-7;
+    double min_damping = 1e-7;
     double pulled_above = 0;
   };
 
@@ -180,7 +180,7 @@ class GaussNewtonCourse {
     arrival_ = Arrival::kStep;
     return {.act = Act::kStep,
             .to_start = phase_ == Phase::kToStart && squares >= numerics_.pulled_above,
-            .damping = factor_ * std::clamp(kDamping * squares, numerics_.least_damping, kMaxDamping)};
+            .damping = factor_ * std::clamp(kDamping * squares, numerics_.min_damping, kMaxDamping)};
   }
 
   Next Sweep(int restart, int sweeps) {

@@ -138,7 +138,7 @@ struct TargetLanes {
 
 /// The quadratic ½VᵀΛV − ηᵀV of one target, stored by the few numbers that define it.
 template <class V>
-struct AskedLanes {
+struct TargetQuadraticLanes {
   V turn[6];  ///< rotation block of Λ: its lower triangle, row by row
   V lever[3];
   V weight;
@@ -159,7 +159,7 @@ struct QuadraticLanes {
 
 /// The residual of a pose, summed or maximised over its targets.
 template <class V>
-struct MissLanes {
+struct ResidualLanes {
   V squares;           ///< |e|²
   V squared_distance;  ///< largest squared distance of a position with weight, m²
   V squared_chord;     ///< largest squared chord |u_d − u_c|² of an axis with weight
@@ -168,7 +168,7 @@ struct MissLanes {
 /// Linearises one target at an effector's frame, and adds its errors to `miss`.
 template <class V>
 HWY_INLINE void Linearise(const TargetLanes<V>& target, const V (&R_WE)[3][3], const V (&p_WE)[3], const V (&p_WR)[3],
-                          AskedLanes<V>& asked, MissLanes<V>& miss) {
+                          TargetQuadraticLanes<V>& asked, ResidualLanes<V>& miss) {
   // Position: weighted error, its moment about the root, its part of the residual.
   const V w = target.position_weight;
   V p_RE_W[3], p_ED_W[3], pull[3], twist[3];
@@ -213,7 +213,7 @@ HWY_INLINE void Linearise(const TargetLanes<V>& target, const V (&R_WE)[3][3], c
 
 /// Expands the quadratic of one target into the full Λ and η: sets `sum` to it or adds it.
 template <bool kIsFirst, class V>
-HWY_INLINE void Gather(const AskedLanes<V>& asked, QuadraticLanes<V>& sum) {
+HWY_INLINE void Gather(const TargetQuadraticLanes<V>& asked, QuadraticLanes<V>& sum) {
   const V nothing(0.0);
   const auto put = [&](int row, int column, const V& x) HWY_ATTR {
     if (!kHasUpperTriangle<V> && column > row) return;

@@ -68,8 +68,8 @@ class LanePoses {
   }
 
   /// Returns the residuals of all lanes.
-  const MissLanes<V>& miss() const { return miss_[0]; }
-  const AskedLanes<V>& AskedOf(std::size_t effector) const { return asked_[effector]; }
+  const ResidualLanes<V>& miss() const { return miss_[0]; }
+  const TargetQuadraticLanes<V>& AskedOf(std::size_t effector) const { return asked_[effector]; }
   /// Returns the hinges. Their screws belong to the placed poses, the rest to the step.
   AlignedList<HingeLanes<V>>& hinges() { return hinges_; }
 
@@ -120,7 +120,7 @@ class LanePoses {
   }
 
   void Linearise() {
-    MissLanes<V> miss{V(0.0), V(0.0), V(0.0)};
+    ResidualLanes<V> miss{V(0.0), V(0.0), V(0.0)};
     for (std::size_t e = 0; e < tree_.effectors.size(); ++e) {
       const GaussNewtonTree::Effector& effector = tree_.effectors[e];
       const FrameLanes<V>& limb = frames_[effector.joint];
@@ -136,8 +136,8 @@ class LanePoses {
   AlignedList<HingeLanes<V>> hinges_;
   AlignedList<FrameLanes<V>> frames_;  // of each joint's limb
   AlignedList<TargetLanes<V>> targets_;
-  AlignedList<AskedLanes<V>> asked_;
-  AlignedList<MissLanes<V>> miss_;
+  AlignedList<TargetQuadraticLanes<V>> asked_;
+  AlignedList<ResidualLanes<V>> miss_;
 };
 
 /// Solves one problem per lane in rounds: a round places all poses, passes their residuals to the lanes' courses, and
@@ -403,7 +403,7 @@ class GaussNewtonLanes {
     }
     largest = OrZero(is_finite, largest);
     registers_[kLargest] = largest;
-    const V limit(rules_.largest_turn);
+    const V limit(rules_.max_turn);
     const V share = Select(Below(limit, largest), limit / largest, V(1.0));
     const M moves = Flag(kMoves) && Below(V(0.0), largest);
     for (std::size_t d = 0; d < angles_.size(); ++d) {

@@ -47,8 +47,8 @@ class LimbPoses {
   }
 
   /// Returns the residual of the pose.
-  const MissLanes<double>& miss() const { return miss_; }
-  const AskedLanes<Four>& AskedAt(int ends) const { return ends_[ends].asked; }
+  const ResidualLanes<double>& miss() const { return miss_; }
+  const TargetQuadraticLanes<Four>& AskedAt(int ends) const { return ends_[ends].asked; }
   /// Returns the hinges. Their screws belong to the placed pose, the rest to the step.
   AlignedList<HingeLanes<Four>>& hinges() { return hinges_; }
   AlignedList<TrunkHinge>& trunk_hinges() { return trunk_hinges_; }
@@ -66,7 +66,7 @@ class LimbPoses {
  private:
   struct EndsState {
     TargetLanes<Four> target;
-    AskedLanes<Four> asked;
+    TargetQuadraticLanes<Four> asked;
     FrameLanes<Four> frame;
   };
 
@@ -180,7 +180,7 @@ class LimbPoses {
     for (int k = 0; k < 3; ++k) p_WE[k] = limb.position[k] + p_LE_W[k];
     for (int c = 0; c < 3; ++c) Copy3(limb.axes[c], frame.axes[c]);
     Copy3(p_WE, frame.position);
-    MissLanes<Four> miss{Four(0.0), Four(0.0), Four(0.0)};
+    ResidualLanes<Four> miss{Four(0.0), Four(0.0), Four(0.0)};
     Linearise(ends_[number].target, limb.axes, p_WE, p_WR, ends_[number].asked, miss);
     alignas(64) double squares[4], distances[4], chords[4];
     StoreFour(miss.squares, squares);
@@ -200,7 +200,7 @@ class LimbPoses {
   AlignedList<HingeLanes<Four>> hinges_;  // one per slot
   AlignedList<EndsState> ends_;
   AlignedList<double> squares_of_;  // |e|² of each effector
-  MissLanes<double> miss_{};
+  ResidualLanes<double> miss_{};
 };
 
 // Solves one problem, as its course decides.
@@ -309,7 +309,7 @@ class LimbLanes final : public GaussNewtonLimbs {
       if (!trunk_has_changed && !limbs_have_changed) break;
       if (pass == rules.extra_passes || !GaussNewtonCourse::HasExtraPasses(next.damping)) break;
     }
-    return Move(rules.largest_turn);
+    return Move(rules.max_turn);
   }
 
   /// Eliminates the hinges of four limbs, from their ends to the trunk.

@@ -78,7 +78,7 @@ class PlainSolver {
     for (const double c : change_) largest = std::max(largest, std::abs(c));
     // Overflow, from extreme weights or lengths: take no step.
     if (!std::ranges::all_of(change_, [](double c) { return std::isfinite(c); })) largest = 0;
-    const double share = largest > kLargestTurn ? kLargestTurn / largest : 1;
+    const double share = largest > kMaxTurn ? kMaxTurn / largest : 1;
     for (std::size_t d = 0; d < state_.angles.size() && largest > 0; ++d) {
       const AngleRange& range = run_.ranges()[d];
       state_.angles[d] = std::clamp(state_.angles[d] + share * change_[d], range.lower, range.upper);

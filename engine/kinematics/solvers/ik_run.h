@@ -58,7 +58,7 @@ class IkRun {
   }
 
   /// Returns true if the next record enters the trace.
-  bool Traces() const { return options_.trace && std::ssize(solution_.trace) < options_.longest_trace; }
+  bool Traces() const { return options_.trace && std::ssize(solution_.trace) < options_.max_trace_entries; }
 
   /// Records an iteration that certainly misses the goals, without its errors. Must not be called while `Traces()`.
   void RecordMisses();

@@ -193,7 +193,7 @@ IkSolution SolveDampedLeastSquares(const KinematicTree& tree, const IkProblem& p
       // Compute the step; more damping makes a singular matrix regular.
       if (own.bounds == Bounds::kClamped) {
         while (!inverse.Step(damping, no_preference, step)) damping *= kDampingStep;
-        for (double& turn : step) turn = std::clamp(turn, -kLargestTurn, kLargestTurn);
+        for (double& turn : step) turn = std::clamp(turn, -kMaxTurn, kMaxTurn);
       } else {
         while (!inverse.StepWithin(damping, no_preference, state.angles, run.ranges(), step)) damping *= kDampingStep;
         Shorten(step);

@@ -102,8 +102,8 @@ double MoveWithin(std::span<const AngleRange> ranges, std::span<const double> an
 void Shorten(std::span<double> step) {
   double largest = 0;
   for (const double turn : step) largest = std::max(largest, std::abs(turn));
-  if (largest <= kLargestTurn) return;
-  for (double& turn : step) turn *= kLargestTurn / largest;
+  if (largest <= kMaxTurn) return;
+  for (double& turn : step) turn *= kMaxTurn / largest;
 }
 
 }  // namespace etude

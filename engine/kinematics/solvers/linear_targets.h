@@ -67,14 +67,14 @@ class LinearTargets {
 };
 
 /// Maximum change of an angle in one step, radians. Beyond it the linearisation is poor.
-inline constexpr double kLargestTurn = 0.6;
+inline constexpr double kMaxTurn = 0.6;
 
 /// Sets `moved` to `angles` + `step`, clamped to `ranges`; `moved` may be the memory of `angles`. Returns the largest
 /// change, radians.
 double MoveWithin(std::span<const AngleRange> ranges, std::span<const double> angles, std::span<const double> step,
                   std::vector<double>& moved);
 
-/// Scales the step down so that no angle turns by more than `kLargestTurn`.
+/// Scales the step down so that no angle turns by more than `kMaxTurn`.
 void Shorten(std::span<double> step);
 
 }  // namespace etude

@@ -54,7 +54,7 @@ std::vector<Candidate> ListCandidates(const MotionLibrary& library, const Transi
   std::sort(others.begin(), others.end(), [](const RankedPair& a, const RankedPair& b) {
     return std::tuple(!a.matches, a.rank, a.from, a.to) < std::tuple(!b.matches, b.rank, b.from, b.to);
   });
-  others.resize(std::min(others.size(), kMostCandidates - 1));
+  others.resize(std::min(others.size(), kMaxCandidates - 1));
   // Describe the taken pair and the others, in order of their frames.
   std::vector<Candidate> candidates;
   const auto add = [&](const RankedPair& pair, CandidateOutcome outcome) {

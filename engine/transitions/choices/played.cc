@@ -153,16 +153,16 @@ std::vector<FramePair> NearestPairs(const MotionLibrary& library, const Transiti
 
 /// Plays transitions from the nearest pairs, and from further pairs while the best result floats. Returns the played
 /// joins, the best first; empty if no pair can be joined.
-std::vector<PlayedWay> PlayNearestPairs(const MotionLibrary& library, const TransitionRequest& request,
+std::vector<PlayedJoin> PlayNearestPairs(const MotionLibrary& library, const TransitionRequest& request,
                                         const PlayedRates& rates, const AllowedFrames& allowed, int last) {
-  std::vector<PlayedWay> ways;
+  std::vector<PlayedJoin> ways;
   std::vector<FramePair> tried;
   for (int round = 0; round < kRounds && (ways.empty() || ways.front().unsupported >= kFloatingFrames); ++round) {
     const std::vector<FramePair> pairs = NearestPairs(library, request, allowed, tried);
     if (pairs.empty()) break;
-    const std::vector<PlayedWay> played = PlayWays(library, request, rates, pairs, last);
+    const std::vector<PlayedJoin> played = PlayJoins(library, request, rates, pairs, last);
     ways.insert(ways.end(), played.begin(), played.end());
-    std::ranges::stable_sort(ways, {}, &PlayedWay::cost_s);
+    std::ranges::stable_sort(ways, {}, &PlayedJoin::cost_s);
     tried.insert(tried.end(), pairs.begin(), pairs.end());
   }
   return ways;
@@ -172,7 +172,7 @@ PlayedRates RatesOf(const PlayedOptions& options) {
   return {.excess_per_s = options.excess_per_s, .invented_per_s = options.invented_per_s};
 }
 
-PreferredJoin PreferredOf(const PlayedWay& way, double rate_hz) {
+PreferredJoin PreferredOf(const PlayedJoin& way, double rate_hz) {
   return {.blend_s = way.frames / rate_hz, .way = way.way};
 }
 
@@ -204,7 +204,7 @@ TransitionRecord PlanThroughClip(const MotionLibrary& library, const TransitionR
   // Choose the join into that clip.
   const TransitionRequest entering{request.from, request.request_frame, through->clip, request.budget_s};
   const PlayedRates rates = RatesOf(options);
-  const PlayedWay in =
+  const PlayedJoin in =
       PlayNearestPairs(library, entering, rates, {allowed.leave, through->enter}, through->leave.back()).front();
   const int entered = in.pair.enter, shown = entered + in.frames;
   const double rate_hz = library.motions[through->clip].rate_hz;
@@ -215,7 +215,7 @@ TransitionRecord PlanThroughClip(const MotionLibrary& library, const TransitionR
     if (frame >= shown && (leave.empty() || is_soon)) leave.push_back(frame);
   }
   const TransitionRequest leaving{through->clip, leave.front(), request.to, request.budget_s};
-  const PlayedWay out =
+  const PlayedJoin out =
       PlayNearestPairs(library, leaving, rates, {std::move(leave), allowed.enter}, LastFrameOf(library, request.to))
           .front();
   // Record the three segments and their two joins.
@@ -259,21 +259,21 @@ TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionReques
                             const PlayedOptions& options) {
   // Play the joins; if no pair can be joined, go through another clip.
   const AllowedFrames allowed = AllowedEarlyFrames(library, request, options.most_skipped_s);
-  const std::vector<PlayedWay> ways =
+  const std::vector<PlayedJoin> ways =
       PlayNearestPairs(library, request, RatesOf(options), allowed, LastFrameOf(library, request.to));
   if (ways.empty()) return PlanThroughClip(library, request, rules, options, allowed);
   // Record the best join, and the best join of each other pair as a candidate.
-  const PlayedWay& best = ways.front();
+  const PlayedJoin& best = ways.front();
   TransitionRecord record = DirectTransition(library, request, best.pair.leave, best.pair.enter, rules);
   const PreferredJoin preferred = PreferredOf(best, library.motions[request.from].rate_hz);
   record.segments.back().preferred = preferred;
   record.pairs_seen = record.pairs_matched = allowed.Pairs();
   record.cost_unit = "s";
   std::vector<RankedPair> others;
-  const auto ranked = [](const PlayedWay& way) {
+  const auto ranked = [](const PlayedJoin& way) {
     return RankedPair{way.pair.leave, way.pair.enter, true, way.cost_s, way.cost_s};
   };
-  for (const PlayedWay& way : ways) {
+  for (const PlayedJoin& way : ways) {
     const auto same = [&](const RankedPair& p) { return p.from == way.pair.leave && p.to == way.pair.enter; };
     if (!same(ranked(best)) && std::ranges::none_of(others, same)) others.push_back(ranked(way));
   }
@@ -281,7 +281,7 @@ TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionReques
       ListCandidates(library, request, rules, ranked(best), std::move(others), CandidateOutcome::kWorse);
   record.why = fmt::format("least cost of the transitions played: {}, joined within {:.2f} s by {}, {:.2f} s in all",
                            DescribePair(library, request, best.pair.leave, best.pair.enter), preferred.blend_s,
-                           preferred.way == JoinWay::kFades ? "a fade" : "movements of least jerk", best.cost_s);
+                           preferred.way == JoinStyle::kFades ? "a fade" : "movements of least jerk", best.cost_s);
   return record;
 }
 

@@ -24,7 +24,7 @@ const SettingTable<PlayedOptions>& PlayedSettings();
 /// Candidates: the wait is divided into sixteen parts, and the nearest pair of each part by MotionFeatures is taken
 /// from the pairs that the budget and `most_skipped_s` allow. Each pair is joined at several lengths from 0.3 to 1.2 s,
 /// as far as the wanted clip goes, both direct and by a fade (PlayMinimumJerk), with planted feet (PlantFeet). The
-/// cheapest candidates are played first, and only as long as they may be the best (PlayWays).
+/// cheapest candidates are played first, and only as long as they may be the best (PlayJoins).
 ///
 /// The cost in seconds is the sum of
 /// - the wait and the length of the join;

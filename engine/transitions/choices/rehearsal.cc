@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-constexpr std::array kWays = {JoinWay::kDirect, JoinWay::kFades};
+constexpr std::array kWays = {JoinStyle::kDirect, JoinStyle::kFades};
 constexpr std::array kLengths_s = {0.3, 0.4, 0.5, 0.65, 0.8, 1.0, 1.2};
 constexpr double kAlwaysUsual = 0.01;  // metres per frame²: 9 m/s², about the acceleration of free fall
 constexpr double kLimbShare = 0.6;     // the share of the limbs' cost that counts before the feet are planted
@@ -212,7 +212,7 @@ class PairStage {
   std::optional<SupportFinder> support_finder_;  // in both clips
 };
 
-bool IsBetterWay(const PlayedWay& a, const PlayedWay& b) {
+bool IsBetterWay(const PlayedJoin& a, const PlayedJoin& b) {
   return std::tuple(a.cost_s, a.number, a.frames, a.way) < std::tuple(b.cost_s, b.number, b.frames, b.way);
 }
 
@@ -224,7 +224,7 @@ struct OpenWay {
     int shown = 0;  // number of frames played
   };
 
-  PlayedWay way;  // its cost is that of the frames played so far
+  PlayedJoin way;  // its cost is that of the frames played so far
   std::unique_ptr<Limbs> limbs = {};
   bool has_feet = false;
 };
@@ -248,8 +248,8 @@ class Rehearsal {
         const int frames = FramesOf(length);
         // A join should end before the wanted clip does.
         if (frames > last - pairs[i].enter && length > kLengths_s.front()) break;
-        for (JoinWay kind : kWays) {
-          PlayedWay& way = open_.emplace_back().way;
+        for (JoinStyle kind : kWays) {
+          PlayedJoin& way = open_.emplace_back().way;
           way = {.pair = pairs[i], .number = i, .frames = frames, .way = kind};
           way.cost_s = Time(way);
         }
@@ -258,8 +258,8 @@ class Rehearsal {
     std::ranges::make_heap(open_, IsLater);
   }
 
-  std::vector<PlayedWay> Play() {
-    std::vector<PlayedWay> ways;
+  std::vector<PlayedJoin> Play() {
+    std::vector<PlayedJoin> ways;
     // Expand the cheapest open join until the cheapest one is complete.
     while (true) {
       std::ranges::pop_heap(open_, IsLater);
@@ -280,11 +280,11 @@ class Rehearsal {
   static bool IsLater(const OpenWay& a, const OpenWay& b) { return IsBetterWay(b.way, a.way); }
 
   int FramesOf(double seconds) const { return static_cast<int>(std::lround(seconds * playing_.rate_hz)); }
-  double Time(const PlayedWay& way) const {
+  double Time(const PlayedJoin& way) const {
     return (way.pair.leave - request_.request_frame + way.frames) / playing_.rate_hz;
   }
 
-  PairStage& StageOf(const PlayedWay& way) {
+  PairStage& StageOf(const PlayedJoin& way) {
     std::unique_ptr<PairStage>& stage = stages_[way.number];
     if (!stage) {
       stage = std::make_unique<PairStage>(playing_, wanted_, way.pair, last_, FramesOf(kLengths_s.back()));
@@ -294,7 +294,7 @@ class Rehearsal {
 
   /// Plays more frames of a join without planted feet until it costs more than the next one.
   void PlayLimbs(OpenWay& open, double next_s) {
-    PlayedWay& way = open.way;
+    PlayedJoin& way = open.way;
     if (!open.limbs) {
       PairStage& stage = StageOf(way);
       open.limbs.reset(new OpenWay::Limbs{.play = {stage.window, stage.turns, way.frames, way.way},
@@ -309,8 +309,8 @@ class Rehearsal {
 
   /// Plays a join with planted feet and adds it to `ways`. Its support is not computed if it already costs more than
   /// the best.
-  void PlayFeet(OpenWay& open, std::vector<PlayedWay>& ways) {
-    PlayedWay& way = open.way;
+  void PlayFeet(OpenWay& open, std::vector<PlayedJoin>& ways) {
+    PlayedJoin& way = open.way;
     const PairStage& stage = StageOf(way);
     const JoinWindow window = Shortened(stage.window, way.frames);
     std::vector<BodyPose> played;
@@ -342,7 +342,7 @@ class Rehearsal {
 
 }  // namespace
 
-std::vector<PlayedWay> PlayWays(const MotionLibrary& library, const TransitionRequest& request,
+std::vector<PlayedJoin> PlayJoins(const MotionLibrary& library, const TransitionRequest& request,
                                 const PlayedRates& rates, const std::vector<FramePair>& pairs, int last) {
   return Rehearsal(library, request, rates, pairs, last).Play();
 }

@@ -14,11 +14,11 @@ struct FramePair {
 };
 
 /// A join that was played, and its cost.
-struct PlayedWay {
+struct PlayedJoin {
   FramePair pair;
   std::size_t number = 0;  ///< index of the pair
   int frames = 0;          ///< length of the join
-  JoinWay way = JoinWay::kDirect;
+  JoinStyle way = JoinStyle::kDirect;
   double cost_s = 0;
   int unsupported = 0;  ///< the longest run of frames without support
 };
@@ -36,7 +36,7 @@ struct PlayedRates {
 /// far. That cost first holds only the time, then the limbs frame by frame, then the feet and the support that
 /// FindSupport reports. So most joins are never played to their end. Since planting the feet can raise or lower a cost,
 /// the limbs' cost counts only three fifths before.
-std::vector<PlayedWay> PlayWays(const MotionLibrary& library, const TransitionRequest& request,
+std::vector<PlayedJoin> PlayJoins(const MotionLibrary& library, const TransitionRequest& request,
                                 const PlayedRates& rates, const std::vector<FramePair>& pairs, int last);
 
 }  // namespace etude

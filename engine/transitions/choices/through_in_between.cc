@@ -58,7 +58,7 @@ class KeySearch {
           {.from_frame = frame, .distance = DistanceTo(key_point.key, frame), .cost = {}, .outcome = outcome});
     }
     std::ranges::stable_sort(listed, {}, [](const Candidate& candidate) { return candidate.distance.value; });
-    listed.resize(std::min(listed.size(), kMostCandidates / 2 - 1));
+    listed.resize(std::min(listed.size(), kMaxCandidates / 2 - 1));
     listed.push_back({.from_frame = key_point.frame,
                       .distance = key_point.distance,
                       .cost = {},

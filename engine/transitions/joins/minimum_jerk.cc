@@ -107,10 +107,10 @@ const LimbTurns& WindowTurns::At(int frame) {
   return turns_[frame];
 }
 
-MinimumJerkPlay::MinimumJerkPlay(const JoinWindow& window, WindowTurns& turns, int frames, JoinWay way)
+MinimumJerkPlay::MinimumJerkPlay(const JoinWindow& window, WindowTurns& turns, int frames, JoinStyle way)
     : window_(window), turns_(turns), frames_(frames) {
-  if (way == JoinWay::kDecays) decay_ = DecayOf(window, frames);
-  if (way == JoinWay::kDirect) movements_ = MovementsOf(window, frames);
+  if (way == JoinStyle::kDecays) decay_ = DecayOf(window, frames);
+  if (way == JoinStyle::kDirect) movements_ = MovementsOf(window, frames);
 }
 
 BodyPose MinimumJerkPlay::At(int frame) const {
@@ -133,7 +133,7 @@ BodyPose MinimumJerkPlay::At(int frame) const {
   return PoseBetween(window_.old[frame], window_.next[frame], turns_.At(frame), share);
 }
 
-std::vector<BodyPose> PlayMinimumJerk(const JoinWindow& window, JoinWay way) {
+std::vector<BodyPose> PlayMinimumJerk(const JoinWindow& window, JoinStyle way) {
   if (window.Frames() == 0) return {window.shown.now};
   WindowTurns turns(window);
   const MinimumJerkPlay play(window, turns, window.Frames(), way);
@@ -143,7 +143,7 @@ std::vector<BodyPose> PlayMinimumJerk(const JoinWindow& window, JoinWay way) {
 }
 
 PreferredJoin PreferredJoinOf(const JoinInput& input, const MinimumJerkOptions& options) {
-  const JoinWay way = options.direct != 0 ? JoinWay::kDirect : options.fades != 0 ? JoinWay::kFades : JoinWay::kDecays;
+  const JoinStyle way = options.direct != 0 ? JoinStyle::kDirect : options.fades != 0 ? JoinStyle::kFades : JoinStyle::kDecays;
   return input.preferred.value_or(PreferredJoin{.blend_s = options.blend_s, .way = way});
 }
 

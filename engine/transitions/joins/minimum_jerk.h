@@ -15,8 +15,8 @@ struct MinimumJerkOptions {
   /// The time until only the new motion is shown, in seconds, unless the choice of frames sets it (default ours). A
   /// longer time reduces accelerations quadratically, but shows poses of neither clip for longer.
   double blend_s = 0.5;
-  int fades = 0;   ///< 1: use JoinWay::kFades, unless the choice of frames decides
-  int direct = 0;  ///< 1: use JoinWay::kDirect, unless the choice of frames decides
+  int fades = 0;   ///< 1: use JoinStyle::kFades, unless the choice of frames decides
+  int direct = 0;  ///< 1: use JoinStyle::kDirect, unless the choice of frames decides
 };
 const SettingTable<MinimumJerkOptions>& MinimumJerkSettings();
 
@@ -69,7 +69,7 @@ class MinimumJerkPlay {
  public:
   /// Plays a join of `frames` frames, from 1 to the window's number. `window` and `turns` must outlive this object;
   /// several fades of a window share its `turns`.
-  MinimumJerkPlay(const JoinWindow& window, WindowTurns& turns, int frames, JoinWay way);
+  MinimumJerkPlay(const JoinWindow& window, WindowTurns& turns, int frames, JoinStyle way);
 
   /// Returns the pose of a frame from 0 (the last one shown) to `frames`.
   BodyPose At(int frame) const;
@@ -85,7 +85,7 @@ class MinimumJerkPlay {
 };
 
 /// Returns all frames of the window as MinimumJerkPlay computes them.
-std::vector<BodyPose> PlayMinimumJerk(const JoinWindow& window, JoinWay way);
+std::vector<BodyPose> PlayMinimumJerk(const JoinWindow& window, JoinStyle way);
 
 Blend MinimumJerk(const JoinInput& input, const MinimumJerkOptions& options);
 /// Returns the choice's preferred join, or else the one that the options describe. WindowOfJoin returns its window.

@@ -340,11 +340,11 @@ FootPlan PlanSteps(const JoinWindow& window) {
   for (const StepOption& left : options[0]) {
     for (const StepOption& right : options[1]) {
       if (left.cost + right.cost >= least) break;
-      const int unborne = std::popcount(borne & ~(left.stands | right.stands));
-      const double cost = left.cost + right.cost + kUnsupportedPrice * unborne;
+      const int unplanted_frames = std::popcount(borne & ~(left.stands | right.stands));
+      const double cost = left.cost + right.cost + kUnsupportedPrice * unplanted_frames;
       if (cost >= least) continue;
       least = cost;
-      plan = {.steps = {left.step, right.step}, .unborne = unborne};
+      plan = {.steps = {left.step, right.step}, .unplanted_frames = unplanted_frames};
     }
   }
   // A foot that stands in neither motion keeps its path.
@@ -354,7 +354,7 @@ FootPlan PlanSteps(const JoinWindow& window) {
 
 int PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played) {
   if (window.Frames() < 2) return 0;
-  const auto [plan, unborne] = PlanSteps(window);
+  const auto [plan, unplanted_frames] = PlanSteps(window);
   // Find how far the hips must be lowered in each frame.
   std::vector<double> drop(played.size());
   double farthest = 0;  // largest distance of an ankle from its path
@@ -368,7 +368,7 @@ int PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played) {
     }
   }
   constexpr double kRounding = 1e-9;
-  if (farthest < kRounding) return unborne;  // the join changes nothing
+  if (farthest < kRounding) return unplanted_frames;  // the join changes nothing
   // Lower the body and solve each leg for its path.
   drop = Smoothed(drop);
   for (int frame = 1; frame < static_cast<int>(played.size()); ++frame) {
@@ -379,7 +379,7 @@ int PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played) {
       PutLeg(window, kLegs[side], PathAt(window, kLegs[side], plan[side], frame), frame, pose);
     }
   }
-  return unborne;
+  return unplanted_frames;
 }
 
 Blend PlantedFeet(const JoinInput& input, const MinimumJerkOptions& options) {

@@ -42,7 +42,7 @@ struct FootStep {
 /// The steps of both feet, indexed by side.
 struct FootPlan {
   std::array<FootStep, 2> steps;
-  int unborne = 0;  ///< number of frames in which a foot stands in one of the motions, but none by this plan
+  int unplanted_frames = 0;  ///< number of frames in which a foot stands in one of the motions, but none by this plan
 };
 
 /// Plans a step for each foot within the window (ours). Long steps are preferred, because they need little
@@ -50,7 +50,7 @@ struct FootPlan {
 FootPlan PlanSteps(const JoinWindow& window);
 
 /// Moves the feet of `played` (from PlayMinimumJerk) to their paths, and lowers the pelvis if a leg is too short. Limbs
-/// keep their lengths, and the first frame does not change. Returns FootPlan::unborne.
+/// keep their lengths, and the first frame does not change. Returns FootPlan::unplanted_frames.
 int PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played);
 
 /// Joins by MinimumJerk with PlantFeet. The new motion is aligned by AlignOnPlantedFeet.

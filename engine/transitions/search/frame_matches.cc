@@ -171,7 +171,7 @@ class PairSearch {
 }  // namespace
 
 double MatchTable::Share(int from, int to) const {
-  const int asked = AskedFrames(from);
+  const int asked = QueryFrames(from);
   return asked == 0 ? 0 : static_cast<double>(Of(from, to).size()) / asked;
 }
 

@@ -32,7 +32,7 @@ class MatchTable {
  public:
   int ClipCount() const { return static_cast<int>(asked_.size()); }
   /// Returns the number of a clip's participating frames.
-  int AskedFrames(int clip) const { return asked_[static_cast<std::size_t>(clip)]; }
+  int QueryFrames(int clip) const { return asked_[static_cast<std::size_t>(clip)]; }
   /// Returns the frames of clip `from` that match a frame of clip `to`, in rising order; none if they are the same
   /// clip.
   std::span<const FrameMatches> Of(int from, int to) const { return found_[Pair(from, to)]; }

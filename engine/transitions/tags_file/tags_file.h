@@ -69,7 +69,7 @@ BridgeTags CollectTags(const MotionLibrary& library, std::span<const std::string
                        const TagRules& tag_rules, const MatchRules& match_rules);
 
 /// The maximal size of a tags file in bytes; a larger file is refused before memory is allocated.
-constexpr std::size_t kLargestTagsFile = 512'000'000;
+constexpr std::size_t kMaxTagsFileBytes = 512'000'000;
 
 /// Writes the tags as XML of docs/schemas/bridge-tags.xsd. The same tags give the same bytes, and numbers have the
 /// fewest digits that are read back exactly. Returns an error for names that XML cannot hold (invalid UTF-8, control

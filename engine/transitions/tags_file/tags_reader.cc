@@ -322,8 +322,8 @@ class TagsReader {
 }  // namespace
 
 Result<BridgeTags> ReadTagsFile(std::string_view text, const std::string& file) {
-  if (text.size() > kLargestTagsFile) {
-    return Fail({file, 0, 0}, "{} bytes; a tags file has up to {}", text.size(), kLargestTagsFile);
+  if (text.size() > kMaxTagsFileBytes) {
+    return Fail({file, 0, 0}, "{} bytes; a tags file has up to {}", text.size(), kMaxTagsFileBytes);
   }
   ASSIGN_OR_RETURN(auto xml, XmlReader::Open(text, TagsFileSchemas().front().text, file));
   TagsReader reader(xml);

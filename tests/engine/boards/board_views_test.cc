@@ -68,19 +68,19 @@ TEST(BoardViews, PicturesOfBoardsGiveTwoCamerasBack) {
   auto rig = CalibrateFromPlanes(views.sizes(), views.views());
   ASSERT_TRUE(rig) << ToString(rig.error());
   EXPECT_LT(rig->rms_px, 0.15);
-  TurnToStance(BoardStance::kOnWall, rig->cameras);
+  AlignToBoard(BoardPlacement::kOnWall, rig->cameras);
   for (std::size_t c = 0; c < 2; ++c) {
     EXPECT_NEAR(rig->cameras[c].intrinsics.fx, 620, 6);
     EXPECT_LT(glm::distance(rig->cameras[c].p_WC + boards[0].corner, cameras[c].p_WC), 0.03) << c;
   }
 }
 
-TEST(TurnToStance, LaysTheFirstBoardOnTheFloor) {
+TEST(AlignToBoard, LaysTheFirstBoardOnTheFloor) {
   std::vector<Camera> cameras{LookAt({}, {0, 0.5, -2}, {0, 0, 0})};
   // In the board's own frame: a point on it, one square right and two down; and one a metre before its front.
   const glm::dvec3 on(0.2, 0.4, 0), before(0, 0, -1);
   const auto at = Project(cameras[0], on), above = Project(cameras[0], before);
-  TurnToStance(BoardStance::kOnFloor, cameras);
+  AlignToBoard(BoardPlacement::kOnFloor, cameras);
   EXPECT_LT(glm::distance(*Project(cameras[0], {0.2, 0, 0.4}), *at), 1e-9);
   EXPECT_LT(glm::distance(*Project(cameras[0], {0, 1, 0}), *above), 1e-9);
 }

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/base/angles.h"
-#include "engine/boards/film_steps.h"
+#include "engine/boards/film_delays.h"
 #include "engine/boards/find_boards.h"
 #include "engine/boards/printed_board.h"
 #include "engine/boards/saddles.h"
@@ -89,8 +89,8 @@ TEST(BoardsGolden, CornersOfPicturesThatAreHardToRead) {
   EXPECT_TRUE(print.Is(8760, -836.732754849));
 }
 
-TEST(FindFilmSteps, SaysWhichCameraShowsNoBoard) {
-  EXPECT_EQ(FindFilmSteps(std::vector<PictureSize>(2, PictureSize{640, 480}), {}, std::vector<double>(2, 0.2), 0.1)
+TEST(FindFilmDelays, SaysWhichCameraShowsNoBoard) {
+  EXPECT_EQ(FindFilmDelays(std::vector<PictureSize>(2, PictureSize{640, 480}), {}, std::vector<double>(2, 0.2), 0.1)
                 .error()
                 .message,
             "camera 1 shows no board with four corners or more");

@@ -73,7 +73,7 @@ double LargestError(const MeasurableBody& body, const BundleSolution& found, con
 BundleOptions Exact() {
   BundleOptions options;
   options.max_iterations = 100;
-  options.smallest_decrease = 1e-14;
+  options.min_decrease = 1e-14;
   return options;
 }
 

@@ -25,7 +25,7 @@ void AddRig(Fingerprint& print, const Result<RefinedRig>& rig) {
     for (const double x : {in.fx, in.fy, in.cx, in.cy, 100 * d.k1, 100 * d.k2, 100 * d.k3}) print.Add(Bounded(x));
     print.Add(R_CW[0]).Add(R_CW[1]).Add(Bounded(p_WC));
   }
-  for (const TargetPlace& t : rig->targets) print.Add(t.R_WT[0]).Add(t.R_WT[1]).Add(t.R_WT[2]).Add(Bounded(t.p_WT));
+  for (const CalibrationTargetPose& t : rig->targets) print.Add(t.R_WT[0]).Add(t.R_WT[1]).Add(t.R_WT[2]).Add(Bounded(t.p_WT));
   print.Add(Bounded(rig->rms_px)).Add(rig->points).Add(rig->parameters);
   for (const IntrinsicsDeviation& d : rig->deviations) {
     for (const double x : {d.fx, d.fy, d.cx, d.cy}) print.Add(Bounded(x));
@@ -72,9 +72,9 @@ TEST(CamerasGolden, RigsFromBoards) {
                                   .most_iterations = iterations};
       AddRig(print, CalibrateFromPlanes(sizes, views, options));
     }
-    AddRig(print, PlaceBoards(cameras, views));
+    AddRig(print, LocateBoards(cameras, views));
     RigGuess guess{cameras, {}};
-    if (const auto placed = PlaceBoards(cameras, views)) guess.targets = placed->targets;
+    if (const auto placed = LocateBoards(cameras, views)) guess.targets = placed->targets;
     guess.cameras[1].p_WC += 0.02;
     AddRig(print, RefineRig(guess, std::span(views).first(2), {.hold_intrinsics = true}));
   }

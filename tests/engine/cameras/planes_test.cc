@@ -25,7 +25,7 @@ std::vector<Camera> TrueCameras() {
 }
 
 /// A board of 7 × 5 corners, turned and shifted by dice.
-TargetPlace AnyPose(RandomStream& dice) {
+CalibrationTargetPose AnyPose(RandomStream& dice) {
   const glm::dquat turn = glm::angleAxis(dice.Uniform(-0.6, 0.6), glm::dvec3(0, 1, 0)) *
                           glm::angleAxis(dice.Uniform(-0.6, 0.6), glm::dvec3(1, 0, 0)) *
                           glm::angleAxis(dice.Uniform(-0.3, 0.3), glm::dvec3(0, 0, 1));
@@ -39,7 +39,7 @@ std::vector<TargetView> Views(const std::vector<Camera>& cameras, int boards, do
   RandomStream errors(WorldKey{.suite_seed = 1, .scenario = "planes", .trial = seed}, "errors");
   std::vector<TargetView> views;
   for (int b = 0; b < boards; ++b) {
-    const TargetPlace pose = AnyPose(dice);
+    const CalibrationTargetPose pose = AnyPose(dice);
     for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
       TargetView view{camera, static_cast<std::size_t>(b), {}};
       for (int i = 0; i < 35; ++i) {
@@ -69,8 +69,8 @@ TEST(Planes, AHomographyShowsThePointsThatItWasMadeOf) {
 TEST(Planes, APoseComesBackFromItsHomography) {
   const std::vector<Camera> pinhole{LookAt({}, {0.4, 1.2, 2.5}, {0, 1, 0})};
   RandomStream dice(WorldKey{.suite_seed = 1, .scenario = "planes", .trial = 1}, "boards");
-  const TargetPlace pose = AnyPose(dice);
-  const TargetPlace found = PoseOfPlane(pinhole[0].intrinsics, *HomographyOf(Views(pinhole, 1, 0).front().pairs));
+  const CalibrationTargetPose pose = AnyPose(dice);
+  const CalibrationTargetPose found = PoseOfPlane(pinhole[0].intrinsics, *HomographyOf(Views(pinhole, 1, 0).front().pairs));
   const glm::dmat3 R_CT = pinhole[0].R_CW * pose.R_WT;
   for (int i = 0; i < 3; ++i) EXPECT_LT(glm::distance(found.R_WT[i], R_CT[i]), 1e-8);
   EXPECT_LT(glm::distance(found.p_WT, pinhole[0].R_CW * (pose.p_WT - pinhole[0].p_WC)), 1e-8);
@@ -83,7 +83,7 @@ TEST(Planes, CamerasComeBackFromExactCorners) {
   EXPECT_LT(rig->rms_px, 1e-9);
   EXPECT_EQ(rig->parameters, 3u * 14 + 7 * 6);
   RandomStream dice(WorldKey{.suite_seed = 1, .scenario = "planes", .trial = 1}, "boards");
-  const TargetPlace world = AnyPose(dice);  // the first board's frame is the rig's world
+  const CalibrationTargetPose world = AnyPose(dice);  // the first board's frame is the rig's world
   for (std::size_t i = 0; i < 3; ++i) {
     const Camera &found = rig->cameras[i], &wanted = cameras[i];
     EXPECT_NEAR(found.intrinsics.fx, wanted.intrinsics.fx, 1e-6);

@@ -138,9 +138,9 @@ TEST(RefineRig, RefusesViewsThatLeaveTheFocalLengthOpen) {
   std::vector<PointPair> board;
   Camera camera;
   for (int i = 0; i < 25; ++i) board.push_back({{0.1 * (i % 5), 0.1 * (i / 5), 0}, {}});
-  const TargetPlace pose{glm::dmat3(1), {-0.2, -0.2, 2}};
+  const CalibrationTargetPose pose{glm::dmat3(1), {-0.2, -0.2, 2}};
   for (PointPair& pair : board) pair.pixel = *Project(camera, pair.world + pose.p_WT);
-  const auto rig = RefineRig({{camera}, {TargetPlace{glm::dmat3(1), pose.p_WT}}},
+  const auto rig = RefineRig({{camera}, {CalibrationTargetPose{glm::dmat3(1), pose.p_WT}}},
                              std::vector<TargetView>{{0, 0, board}}, {.lens = LensModel::kPinhole});
   ASSERT_FALSE(rig);
   EXPECT_THAT(rig.error().message, HasSubstr("do not determine"));
@@ -151,7 +151,7 @@ TEST(RefineRig, HoldsWhatIsKnownInsideACamera) {
   off.p_WC += glm::dvec3(0.1, -0.05, 0.2);
   const std::vector<TargetView> views{{0, 0, Pairs(TrueCamera(), 10, 5, 0)}};
   const auto rig =
-      RefineRig({{off}, {TargetPlace{}}}, views, {.lens = LensModel::kAsInCamera, .hold_intrinsics = true});
+      RefineRig({{off}, {CalibrationTargetPose{}}}, views, {.lens = LensModel::kAsInCamera, .hold_intrinsics = true});
   ASSERT_TRUE(rig) << ToString(rig.error());
   EXPECT_EQ(rig->parameters, 6u);
   ExpectSame(rig->cameras[0], TrueCamera(), 1e-9);
@@ -159,7 +159,7 @@ TEST(RefineRig, HoldsWhatIsKnownInsideACamera) {
 
 TEST(RefineRig, SaysWhatIsWrongWithViews) {
   const std::vector<PointPair> pairs = Pairs(TrueCamera(), 20, 6, 0.3), two(pairs.begin(), pairs.begin() + 2);
-  const RigGuess guess{{TrueCamera(), TrueCamera()}, {TargetPlace{}, TargetPlace{}}};
+  const RigGuess guess{{TrueCamera(), TrueCamera()}, {CalibrationTargetPose{}, CalibrationTargetPose{}}};
   const auto reason = [&](const std::vector<TargetView>& views, const RefineOptions& options = {}) {
     const auto rig = RefineRig(guess, views, options);
     return rig ? std::string("none") : rig.error().message;

@@ -46,7 +46,7 @@ double LargestError(const AdjustedTake& take, const std::vector<BodyPose>& truth
 AdjustTakeOptions Exact() {
   AdjustTakeOptions options;
   options.bundle.max_iterations = 100;
-  options.bundle.smallest_decrease = 1e-14;
+  options.bundle.min_decrease = 1e-14;
   return options;
 }
 
@@ -57,7 +57,7 @@ struct FilmedTake {
 
   explicit FilmedTake(std::vector<BodyPose> filmed) : poses(std::move(filmed)), marks(ExactMarks(poses, cameras)) {}
   MeasureInputs pictures() const { return {.cameras = cameras, .marks = marks}; }
-  std::vector<SomeJoints> Start() const { return BridgeJoints(MeasureJoints(pictures())); }
+  std::vector<OptionalJoints> Start() const { return BridgeJoints(MeasureJoints(pictures())); }
 };
 
 TEST(AdjustTake, GivesPosesOfPaperBsBodyBackFromExactMarks) {
@@ -108,7 +108,7 @@ TEST(AdjustTake, IsNotSolvedWhereNothingIsSeen) {
   const CaptureBody body = PaperBody({});
   const FilmedTake film(Poses(2, 0.1, body));
   const TakeMarks nothing(2, std::vector<Marks>(2));
-  const std::vector<SomeJoints> start(2);
+  const std::vector<OptionalJoints> start(2);
   const MeasureInputs pictures{.cameras = film.cameras, .marks = nothing};
   EXPECT_FALSE(AdjustTake({.pictures = pictures, .lengths = body.lengths, .start = start}).is_solved);
 }

@@ -29,7 +29,7 @@ TEST(BridgeGaps, TurnsDirectionsEvenlyAndMovesPointsStraight) {
   frames[0].directions[Index(Role::kHead)] = start;
   frames[3] = last;
   *frames[3].ends[Index(Role::kLeftHand)] += glm::dvec3(0.3, 0, 0);
-  const auto bridged = BridgeGaps(frames, {.longest_gap = 3});
+  const auto bridged = BridgeGaps(frames, {.max_gap = 3});
   for (int k = 0; k < 4; ++k) {
     ASSERT_TRUE(bridged[k]) << k;
     const glm::dvec3 head = bridged[k]->directions[Index(Role::kHead)];
@@ -52,7 +52,7 @@ TEST(BridgeGaps, TakesTheNearerOfTwoOppositeDirections) {
 TEST(BridgeGaps, HoldsTheNearestValueAndGivesUpBeyondTheLongestGap) {
   std::vector<FrameMeasurement> frames(10);
   frames[4] = WholeMeasurement();
-  const auto bridged = BridgeGaps(frames, {.longest_gap = 2});
+  const auto bridged = BridgeGaps(frames, {.max_gap = 2});
   for (int k = 0; k < 10; ++k) EXPECT_EQ(bridged[k].has_value(), k >= 2 && k <= 6) << k;
   EXPECT_EQ(bridged[2]->ends[Role::kHead], *frames[4].ends[Index(Role::kHead)]);
 }

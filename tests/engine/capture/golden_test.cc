@@ -67,10 +67,10 @@ TEST(CaptureGolden, FramesMeasuredBridgedAndRecovered) {
     if (k % 2) marks.pop_back(), cameras.pop_back();
     if (k % 3) marks = AgreeingMarks(cameras, marks);
     MeasureOptions measure;
-    if (k > 2) measure = {.smallest_plane_angle = Radians(25), .shortest_stroke_px = 40};
+    if (k > 2) measure = {.min_plane_angle = Radians(25), .min_stroke_px = 40};
     const auto frames = MeasureFrames({.cameras = cameras, .marks = marks}, measure);
     const BridgeOptions bridge =
-        k % 2 ? BridgeOptions{.longest_gap = 1, .mark_error_px = 6, .turn_per_frame = 0.2} : BridgeOptions();
+        k % 2 ? BridgeOptions{.max_gap = 1, .mark_error_px = 6, .turn_per_frame = 0.2} : BridgeOptions();
     const auto seen = BridgeGaps(frames, bridge);
     for (const auto& observation : seen) AddSeen(print, observation);
     AddSeen(print, BridgeLast(std::span(frames).first(7), bridge));
@@ -81,7 +81,7 @@ TEST(CaptureGolden, FramesMeasuredBridgedAndRecovered) {
     for (std::size_t i = 0; i < marked.size(); ++i) marked[i] = k != 2 || i % 3 == 0;
     const auto found = RecoverFrames({.body = body, .seen = seen, .marked = marked}, options);
     for (const auto& frame : found) AddFrame(print, frame);
-    LiveRecovery live(body, options, {.longest_gap = 2});
+    LiveRecovery live(body, options, {.max_gap = 2});
     for (const FrameMeasurement& frame : std::span(frames).first(8)) AddFrame(print, live.Next(frame));
     if (!found[0]) continue;
     const std::vector<TreeState> known(seen.size(), found[0]->state);

@@ -61,7 +61,7 @@ TEST(MarkedTake, MakesAClipOfMarkedPicturesOfTwoCamerasOrThree) {
     ASSERT_TRUE(cameras) << ToString(cameras.error());
     const CaptureBody body = PaperBody(MeasureLimbLengths(truth));
     Stages stages;
-    stages.measure.smallest_plane_angle = Radians(1);  // exact marks need no margin
+    stages.measure.min_plane_angle = Radians(1);  // exact marks need no margin
     stages.recover.solver = FindIkSolver("damped-least-squares");
     const CapturedMotion motion = stages.Run({.cameras = *cameras, .marks = marks}, body);
     ASSERT_EQ(motion.frames.size(), truth.size());
@@ -98,7 +98,7 @@ struct Studio {
 
 TEST(MarkedTake, HasASkeletonAsLongAsThereAreMarks) {
   Studio studio;
-  studio.stages.bridge.longest_gap = 2;
+  studio.stages.bridge.max_gap = 2;
   studio.marked.assign(6, true);
   for (std::size_t k = 1; k < 6; ++k) {
     studio.marks[0][k].effectors[0].reset();
@@ -119,7 +119,7 @@ TEST(MarkedTake, HasASkeletonAsLongAsThereAreMarks) {
 
 TEST(MarkedTake, NeedsNoMarksWhereMeasurementsAreKnown) {
   Studio studio;
-  studio.stages.measure.smallest_plane_angle = Radians(1);  // exact marks need no margin: all limbs are measured
+  studio.stages.measure.min_plane_angle = Radians(1);  // exact marks need no margin: all limbs are measured
   const std::vector<FrameMeasurement> measured = studio.Capture().measured;
   const BodyPose head_to_toe = studio.Capture().frames[3]->pose;
   for (std::vector<Marks>& of_camera : studio.marks) of_camera.assign(6, Marks{});

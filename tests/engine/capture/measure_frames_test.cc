@@ -177,12 +177,12 @@ TEST(MeasureFrames, UsesNoStrokeThatIsTooShortAndNoPlanesThatAreTooNear) {
     shortest = std::min(shortest, glm::distance(of_camera[0].strokes[i]->a, of_camera[0].strokes[i]->b));
   }
   const std::size_t knee = Index(Role::kLeftKnee);
-  EXPECT_TRUE(MeasureFrame(cameras, marks, {.shortest_stroke_px = shortest}).directions[knee]);
-  EXPECT_FALSE(MeasureFrame(cameras, marks, {.shortest_stroke_px = shortest + 1e-9}).directions[knee]);
+  EXPECT_TRUE(MeasureFrame(cameras, marks, {.min_stroke_px = shortest}).directions[knee]);
+  EXPECT_FALSE(MeasureFrame(cameras, marks, {.min_stroke_px = shortest + 1e-9}).directions[knee]);
   const LimbSighting two[] = {{cameras[0], *marks[0][0].strokes[i]}, {cameras[1], *marks[1][0].strokes[i]}};
   const double angle = ComputeLimbDirection(two).plane_angle;
-  EXPECT_TRUE(MeasureFrame(cameras, marks, {.smallest_plane_angle = angle}).directions[knee]);
-  EXPECT_FALSE(MeasureFrame(cameras, marks, {.smallest_plane_angle = angle + 1e-9}).directions[knee]);
+  EXPECT_TRUE(MeasureFrame(cameras, marks, {.min_plane_angle = angle}).directions[knee]);
+  EXPECT_FALSE(MeasureFrame(cameras, marks, {.min_plane_angle = angle + 1e-9}).directions[knee]);
 }
 
 TEST(MeasureFrames, KeepsWhatOnePictureTellsOfALimbOrAnEnd) {
@@ -237,7 +237,7 @@ TEST(MeasureFrames, OfOneWrongCameraIsExactOnlyWhenOutliersAreRejected) {
       const TakeMarks agreeing = AgreeingMarks(studio, marks);
       const auto worst = [&](bool rejects) {
         const MeasureInputs inputs{.cameras = studio, .marks = rejects ? agreeing : marks};
-        const FrameMeasurement frame = MeasureFrames(inputs, {.smallest_plane_angle = Radians(0.1)})[0];
+        const FrameMeasurement frame = MeasureFrames(inputs, {.min_plane_angle = Radians(0.1)})[0];
         double worst_m = 0, worst_rad = 0;
         for (const EffectorMark& mark : EffectorMarks()) {
           worst_m =

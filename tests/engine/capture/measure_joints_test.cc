@@ -132,7 +132,7 @@ TEST(MeasureJoints, PutsAJointThatOnePictureShowsOnItsLineOfSight) {
 
 TEST(CompleteJoints, HangsWhatWasNeverSeenOnWhatWas) {
   const BodyPose pose = ModelPose();
-  SomeJoints joints;
+  OptionalJoints joints;
   EXPECT_FALSE(CompleteJoints(joints, pose));
   joints[Index(Role::kLeftHip)] = pose[Role::kLeftHip] + glm::dvec3(1, 2, 3);
   const auto shifted = CompleteJoints(joints, pose);

@@ -147,7 +147,7 @@ std::vector<FrameMeasurement> Measured(double phase_step, const std::vector<int>
     for (const int k : unmarked) of_camera[static_cast<std::size_t>(k)] = {};
   }
   MeasureOptions options;
-  options.smallest_plane_angle = Radians(0.1);  // exact marks need no margin
+  options.min_plane_angle = Radians(0.1);  // exact marks need no margin
   return MeasureFrames({.cameras = cameras, .marks = marks}, options);
 }
 
@@ -188,7 +188,7 @@ TEST(LiveRecovery, IsNotChangedByLaterFramesAsTheWholeTakeIs) {
 
 TEST(BridgeLast, IsWhatGapsAreBridgedWithWhenNothingFollowsHoweverFewFramesAreKept) {
   auto measured = Measured(0.1, {3, 4, 9, 10, 11});
-  const BridgeOptions options{.longest_gap = 3};
+  const BridgeOptions options{.max_gap = 3};
   for (std::size_t count = 1; count <= measured.size(); ++count) {
     const std::span<const FrameMeasurement> first(measured.data(), count);
     const auto last = BridgeLast(first, options), whole = BridgeGaps(first, options).back();

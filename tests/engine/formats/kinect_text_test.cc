@@ -37,7 +37,7 @@ TEST(KinectText, ReadsPlacesWithAndWithoutOrientationsAndWithAnySeparator) {
 TEST(KinectText, GivesTheTwentyRolesOfAKinectV1) {
   const auto read = ReadKinectV2Text(Row(0, true), "k.txt");
   ASSERT_TRUE(read);
-  const RolePlaces places = PlacesOf((*read)[0]);
+  const RolePositions places = PlacesOf((*read)[0]);
   // By the numbers of the SDK's JointType.
   const std::pair<Role, int> expected[] = {{Role::kHipCentre, 0},       {Role::kSpine, 1},     {Role::kHead, 3},
                                            {Role::kShoulderCentre, 20}, {Role::kLeftHand, 7},  {Role::kRightElbow, 9},

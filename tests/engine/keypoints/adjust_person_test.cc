@@ -107,7 +107,7 @@ TEST(AdjustPerson, IsNotThrownByWhatOneCameraShowsElsewhere) {
   ASSERT_TRUE(take.Adjust());
   double worst = 0;
   for (std::size_t k = 20; k < 30; ++k) {
-    const LandmarkPlaces truth = Walker(0, 0, static_cast<double>(k) / kTakeRate);
+    const LandmarkPositions truth = Walker(0, 0, static_cast<double>(k) / kTakeRate);
     worst = std::max(worst,
                      glm::distance(take.person.motion.poses[k][Role::kLeftWrist], *truth[Index(Landmark::kLeftWrist)]));
   }

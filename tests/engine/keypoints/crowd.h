@@ -25,7 +25,7 @@ struct Crowd {
         const double t = static_cast<double>(k) / rate_hz;
         for (int who = 0; who < 2; ++who) {
           if (k / 6 % 5 == 2 * c % 5 + who && k > 8) continue;
-          LandmarkPlaces places = who == 0 ? Walker(-0.6 + 0.2 * t, 0.1, t) : Walker(0.6, 0.3 - 0.2 * t, t + 0.7);
+          LandmarkPositions places = who == 0 ? Walker(-0.6 + 0.2 * t, 0.1, t) : Walker(0.6, 0.3 - 0.2 * t, t + 0.7);
           for (const auto& [own, at, off] :
                {std::tuple(Landmark::kLeftEar, Landmark::kNose, glm::dvec3(0.08, 0.01, -0.1)),
                 {Landmark::kRightEar, Landmark::kNose, glm::dvec3(-0.08, 0.01, -0.1)},

@@ -14,9 +14,9 @@ using ::testing::HasSubstr;
 
 constexpr std::size_t kWalkFrames = 40;
 
-std::vector<LandmarkPlaces> Walk(double sigma_m) {
+std::vector<LandmarkPositions> Walk(double sigma_m) {
   RandomStream dice = WalkersDice("walk");
-  std::vector<LandmarkPlaces> frames;
+  std::vector<LandmarkPositions> frames;
   for (std::size_t k = 0; k < kWalkFrames; ++k) {
     frames.push_back(Walker(0.4, -0.3, static_cast<double>(k) / 30));
     for (auto& place : frames.back()) {
@@ -27,7 +27,7 @@ std::vector<LandmarkPlaces> Walk(double sigma_m) {
 }
 
 /// Σ |place − joint|² over the joints that landmarks tell of, m².
-double SquaresOff(const CaptureBody& body, const TreeState& state, const LandmarkPlaces& landmarks) {
+double SquaresOff(const CaptureBody& body, const TreeState& state, const LandmarkPositions& landmarks) {
   const BodyPose pose = ToBodyPose(body, state);
   const RoleVectors joints = JointsOf(landmarks);
   double sum = 0;
@@ -40,7 +40,7 @@ double SquaresOff(const CaptureBody& body, const TreeState& state, const Landmar
 }
 
 TEST(MedianBody, HasTheBonesOfMostFrames) {
-  std::vector<LandmarkPlaces> frames = Walk(0);
+  std::vector<LandmarkPositions> frames = Walk(0);
   for (std::size_t k = 0; k < kWalkFrames / 3; ++k) *frames[k][Index(Landmark::kLeftKnee)] += glm::dvec3(0.3, 0, 0);
   const auto body = MedianBody(frames);
   ASSERT_TRUE(body) << ToString(body.error());
@@ -53,15 +53,15 @@ TEST(MedianBody, HasTheBonesOfMostFrames) {
 }
 
 TEST(MedianBody, SaysWhichBoneNobodySaw) {
-  std::vector<LandmarkPlaces> frames = Walk(0);
-  for (LandmarkPlaces& frame : frames) frame[Index(Landmark::kRightElbow)].reset();
+  std::vector<LandmarkPositions> frames = Walk(0);
+  for (LandmarkPositions& frame : frames) frame[Index(Landmark::kRightElbow)].reset();
   const auto body = MedianBody(frames);
   ASSERT_FALSE(body);
   EXPECT_THAT(body.error().message, HasSubstr("no frame shows how far right_elbow is from right_shoulder"));
 }
 
 TEST(FitPerson, GivesAKnownMotionBack) {
-  const std::vector<LandmarkPlaces> frames = Walk(0);
+  const std::vector<LandmarkPositions> frames = Walk(0);
   const CaptureBody body = MedianBody(frames).value();
   const auto states = FitPerson(body, frames);
   for (std::size_t k = 0; k < kWalkFrames; ++k) {
@@ -71,7 +71,7 @@ TEST(FitPerson, GivesAKnownMotionBack) {
 }
 
 TEST(FitPerson, NoOtherPoseNearbyIsNearerToNoisyPoints) {
-  const std::vector<LandmarkPlaces> frames = Walk(0.02);
+  const std::vector<LandmarkPositions> frames = Walk(0.02);
   const CaptureBody body = MedianBody(frames).value();
   const auto states = FitPerson(body, frames);
   for (std::size_t k = 0; k < kWalkFrames; k += 5) {
@@ -96,8 +96,8 @@ TEST(FitPerson, NoOtherPoseNearbyIsNearerToNoisyPoints) {
 
 TEST(FitPerson, ATrunkThatIsSeenShorterDoesNotBuckle) {
   const CaptureBody body = MedianBody(Walk(0)).value();
-  std::vector<LandmarkPlaces> frames = Walk(0);
-  for (LandmarkPlaces& frame : frames) {
+  std::vector<LandmarkPositions> frames = Walk(0);
+  for (LandmarkPositions& frame : frames) {
     for (const Landmark hip : {Landmark::kLeftHip, Landmark::kRightHip}) *frame[Index(hip)] += glm::dvec3(0, 0.01, 0);
   }
   for (const auto& state : FitPerson(body, frames)) {
@@ -110,7 +110,7 @@ TEST(FitPerson, ATrunkThatIsSeenShorterDoesNotBuckle) {
 }
 
 TEST(FitPerson, KeepsTheOthersWhereALandmarkIsLackingAndLeavesEmptyFramesOut) {
-  std::vector<LandmarkPlaces> frames = Walk(0);
+  std::vector<LandmarkPositions> frames = Walk(0);
   const CaptureBody body = MedianBody(frames).value();
   for (std::size_t k = 10; k < 20; ++k) {
     for (const Landmark lost : {Landmark::kLeftBigToe, Landmark::kLeftAnkle, Landmark::kRightWrist}) {

@@ -16,7 +16,7 @@ using testing::Fingerprint;
 void AddRecovered(Fingerprint& print, const Result<RecoveredPerson>& person) {
   print.Add(person.has_value());
   if (!person) return;
-  for (const LandmarkPlaces& places : person->landmarks) print.Add(places);
+  for (const LandmarkPositions& places : person->landmarks) print.Add(places);
   print.Add(person->people.size()).Add(person->report.rejected).Add(person->report.residual_px);
   print.Add(person->report.found).Add(person->mends.size()).Add(person->outlier_px).Add(person->is_held);
   print.Add(person->body.bones);
@@ -36,9 +36,9 @@ TEST(KeypointsGolden, PeopleRecoveredAndAdjusted) {
     RecoverPersonOptions options = UsualRecovery(rate_hz, 1280);
     options.mends = k % 2 == 0;
     options.match.may_be_swapped = true;
-    options.least_outlier_px = 4;
+    options.min_outlier_px = 4;
     options.person = k == 3 ? 1 : k == 4 ? 2 : 0;
-    if (k > 0) options.cutoff_hz = 6, options.longest_gap_s = 0.1;
+    if (k > 0) options.cutoff_hz = 6, options.max_gap_s = 0.1;
     const std::size_t count = k == 1 ? 2 : 4;
     const auto cameras = std::span(crowd.matrices).first(count);
     auto person = RecoverPerson(cameras, std::span(crowd.people).first(count), options);
@@ -51,7 +51,7 @@ TEST(KeypointsGolden, PeopleRecoveredAndAdjusted) {
       for (BodyPose& pose : outlines.poses) {
         for (glm::dvec3& joint : pose.joints) joint += 0.03 * dice.Vector();
       }
-      AdjustPersonOptions adjust{.rate_hz = rate_hz, .least_confidence = has_outlines ? 0.4 : 0.1};
+      AdjustPersonOptions adjust{.rate_hz = rate_hz, .min_confidence = has_outlines ? 0.4 : 0.1};
       if (has_outlines) adjust.outlines = &outlines;
       const MatchedPerson& seen = *std::ranges::find_if(before.people, [](const auto& p) { return p.cameras >= 2; });
       print.Add(AdjustPerson(cameras, seen, adjust, *person));
@@ -62,7 +62,7 @@ TEST(KeypointsGolden, PeopleRecoveredAndAdjusted) {
 }
 
 TEST(MedianBody, SaysWhatNoFrameShows) {
-  const auto none = MedianBody(std::vector<LandmarkPlaces>(3));
+  const auto none = MedianBody(std::vector<LandmarkPositions>(3));
   EXPECT_EQ(none.error().message, "no frame shows how far spine is from hip_centre");
 }
 

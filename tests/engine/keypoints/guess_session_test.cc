@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "engine/keypoints/doubt_rig.h"
+#include "engine/keypoints/rig_warnings.h"
 #include "tests/engine/keypoints/walkers.h"
 
 namespace etude {
@@ -67,7 +67,7 @@ std::vector<std::string> Doubts(const std::vector<PictureOfFilm>& films) {
     auto& seen = person.seen.emplace_back();
     for (const auto& frame : film.people) seen.emplace_back(frame.at(0));
   }
-  return DoubtRig(cameras, std::span(kFilms).first(films.size()), person, 0.1);
+  return RigWarnings(cameras, std::span(kFilms).first(films.size()), person, 0.1);
 }
 
 /// Two cameras side by side: rays of the other's pixels are rows of the picture.

@@ -36,7 +36,7 @@ TEST(FollowPeople, JoinsTheNearestWhateverTheirOrder) {
 TEST(FollowPeople, TakesNoLongerStepThanAShareOfTheHeight) {
   EXPECT_EQ(TracksOf({{Upright(0)}, {Upright(24)}}), " 0:0 1:0");
   EXPECT_EQ(TracksOf({{Upright(0)}, {Upright(26)}}), " 0:0 | 1:0");
-  EXPECT_EQ(TracksOf({{Upright(0)}, {Upright(26)}}, {.longest_step = 0.3}), " 0:0 1:0");
+  EXPECT_EQ(TracksOf({{Upright(0)}, {Upright(26)}}, {.max_step = 0.3}), " 0:0 1:0");
 }
 
 TEST(FollowPeople, ForgetsWhoWasAwayTooLong) {

@@ -53,10 +53,10 @@ TEST(Agreement, ComparesMarkersOfOneNameFrameByFrame) {
 }
 
 /// Two markers that move about, at so many frames a second; the second is unseen for a while.
-MarkerMotion MovingMarkers(double rate_hz, std::size_t frames, double late_s = 0) {
+MarkerMotion MovingMarkers(double rate_hz, std::size_t frames, double delay_s = 0) {
   MarkerMotion motion{.rate_hz = rate_hz, .names = {"LHip", "RHip"}, .frames = {}};
   for (std::size_t k = 0; k < frames; ++k) {
-    const double t = static_cast<double>(k) / rate_hz + late_s;
+    const double t = static_cast<double>(k) / rate_hz + delay_s;
     motion.frames.push_back({glm::dvec3(0.3 * std::sin(3 * t), 1, t), glm::dvec3(t, std::cos(2 * t), 0.5)});
     if (k > 20 && k < 26) motion.frames.back()[1].reset();
   }

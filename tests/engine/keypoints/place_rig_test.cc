@@ -17,12 +17,12 @@ using ::testing::HasSubstr;
 /// Somebody 1.7 m tall who stands about on the floor at height 0 for two seconds at a time, facing +z, and leans
 /// forwards; through a map into the file's world.
 template <class Map>
-std::vector<LandmarkPlaces> Stander(const Map& to_file, double lean_deg = 0) {
+std::vector<LandmarkPositions> Stander(const Map& to_file, double lean_deg = 0) {
   using enum Landmark;
-  std::vector<LandmarkPlaces> frames;
+  std::vector<LandmarkPositions> frames;
   const double lean = Radians(lean_deg);
   for (int k = 0; k < 120; ++k) {
-    LandmarkPlaces places;
+    LandmarkPositions places;
     const double angle = 0.5 * (k / 20);  // steps to another place, then rests
     const glm::dvec3 at(0.8 * std::cos(3 * angle), 0, 0.6 * std::sin(2 * angle));
     const auto set = [&](Landmark landmark, double x, double y, double z) {
@@ -158,7 +158,7 @@ TEST(PlaceRig, RefusesAPersonUpsideDownAndFramesWithoutOne) {
   ASSERT_TRUE(side) << "lying is allowed";
   EXPECT_LT(glm::distance(side->R * glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)), 1e-12);
   EXPECT_NEAR(glm::determinant(side->R), 1, 1e-12);
-  const auto nobody = PlaceRig(SomeRig(), std::vector<LandmarkPlaces>(5), kPlaceRate, {});
+  const auto nobody = PlaceRig(SomeRig(), std::vector<LandmarkPositions>(5), kPlaceRate, {});
   ASSERT_FALSE(nobody);
   EXPECT_THAT(nobody.error().message, HasSubstr("no frame shows hips, knees, ankles and shoulders"));
 }
@@ -203,7 +203,7 @@ TEST(PlaceRig, RefusesWordsThatMeanNothing) {
 
 TEST(Placed, CamerasShowPlacedPointsWhereTheyShowedThemBefore) {
   const Camera camera = LookAt({}, {1, 2, 3}, {0, 1, 0});
-  RigPlace place;
+  RigPlacement place;
   place.scale = 0.3048;
   place.R = TurnAboutX(70);
   place.shift = {0.1, -0.4, 0.2};

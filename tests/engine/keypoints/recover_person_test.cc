@@ -46,10 +46,10 @@ Result<RecoveredPerson> Recover(std::span<const Camera> cameras, std::span<const
 }
 
 /// The largest distance of any landmark to a walker's, metres.
-double WorstOff(const std::vector<LandmarkPlaces>& found, double x, double z, double later) {
+double WorstOff(const std::vector<LandmarkPositions>& found, double x, double z, double later) {
   double worst = 0;
   for (std::size_t k = 0; k < found.size(); ++k) {
-    const LandmarkPlaces truth = Walker(x, z, static_cast<double>(k) / kRate + later);
+    const LandmarkPositions truth = Walker(x, z, static_cast<double>(k) / kRate + later);
     for (std::size_t i = 0; i < kLandmarkCount; ++i) {
       if (truth[i]) worst = std::max(worst, found[k][i] ? glm::distance(*found[k][i], *truth[i]) : 9.0);
     }
@@ -68,7 +68,7 @@ TEST(MatchPeople, TellsTwoPersonsApartInFourCamerasWhateverTheirOrder) {
       double worst = 0;
       for (std::size_t c = 0; c < 4; ++c) {
         for (std::size_t k = 0; k < kPersonFrames; ++k) {
-          const LandmarkPlaces places = Walker(x, z, static_cast<double>(k) / kRate + later);
+          const LandmarkPositions places = Walker(x, z, static_cast<double>(k) / kRate + later);
           if (!person.seen[c][k]) return 1e9;
           const Keypoint& hip = (*person.seen[c][k])[Landmark::kLeftHip];
           worst = std::max(worst, glm::distance(hip.pixel, *Project(cameras[c], *places[Index(Landmark::kLeftHip)])));
@@ -130,7 +130,7 @@ std::vector<SeenPeople> OneWalker(const std::vector<Camera>& cameras, double sig
   RandomStream dice = WalkersDice("one");
   std::vector<SeenPeople> people(cameras.size(), SeenPeople(kPersonFrames));
   for (std::size_t k = 0; k < kPersonFrames; ++k) {
-    const LandmarkPlaces walker = Walker(0, 0, static_cast<double>(k) / kRate);
+    const LandmarkPositions walker = Walker(0, 0, static_cast<double>(k) / kRate);
     for (std::size_t c = 0; c < cameras.size(); ++c) people[c][k].push_back(Seen(cameras[c], walker, sigma_px, dice));
   }
   return people;
@@ -160,7 +160,7 @@ TEST(RecoverPerson, ItsSkeletonIsNearerToTheTruthThanNoisyPoints) {
   const std::vector<Camera> cameras = FourCameras();
   const auto person = Recover(cameras, OneWalker(cameras, 2), WalkOptions());
   ASSERT_TRUE(person) << ToString(person.error());
-  std::vector<LandmarkPlaces> walk;
+  std::vector<LandmarkPositions> walk;
   for (std::size_t k = 0; k < kPersonFrames; ++k) walk.push_back(Walker(0, 0, static_cast<double>(k) / kRate));
   const MarkerMotion truth = JointMarkers(walk, kRate);
   const MarkerAgreement skeleton = CompareAllMarkers(JointMarkers(person->motion), truth);
@@ -202,7 +202,7 @@ TEST(RecoverPerson, RefusesWhatIsNoSession) {
 }
 
 TEST(BridgePoints, FillsShortGapsStraightAndNoLongOnes) {
-  std::vector<LandmarkPlaces> frames(12);
+  std::vector<LandmarkPositions> frames(12);
   frames[0][0] = glm::dvec3(0);
   frames[4][0] = glm::dvec3(4, 8, 0);
   frames[11][0] = glm::dvec3(1);
@@ -215,7 +215,7 @@ TEST(BridgePoints, FillsShortGapsStraightAndNoLongOnes) {
 TEST(SmoothPoints, HalvesThePowerAtTheCutoffAndKeepsWhatIsSlow) {
   const auto gain = [](double frequency_hz) {
     constexpr double kHz = 120;
-    std::vector<LandmarkPlaces> frames(480);
+    std::vector<LandmarkPositions> frames(480);
     for (std::size_t k = 0; k < frames.size(); ++k) {
       frames[k][0] = glm::dvec3(std::sin(2 * kPi * frequency_hz * static_cast<double>(k) / kHz), 0, 0);
     }
@@ -231,7 +231,7 @@ TEST(SmoothPoints, HalvesThePowerAtTheCutoffAndKeepsWhatIsSlow) {
 
 TEST(BridgePoints, BridgesAGapOfJustSoManyFrames) {
   for (const std::size_t longest : {2u, 3u}) {
-    std::vector<LandmarkPlaces> frames(5);
+    std::vector<LandmarkPositions> frames(5);
     frames[0][3] = glm::dvec3(0);
     frames[4][3] = glm::dvec3(8);
     BridgePoints(frames, longest);
@@ -241,7 +241,7 @@ TEST(BridgePoints, BridgesAGapOfJustSoManyFrames) {
 
 TEST(SmoothPoints, ChangesNothingFromHalfTheRateOnAndKeepsStraightWaysToTheirEnds) {
   for (const double cutoff_hz : {3.0, 15.0}) {
-    std::vector<LandmarkPlaces> frames(40);
+    std::vector<LandmarkPositions> frames(40);
     for (std::size_t k = 0; k < frames.size(); ++k) frames[k][0] = glm::dvec3(static_cast<double>(k), k % 2, 1);
     const auto before = frames;
     SmoothPoints(frames, 30, cutoff_hz);
@@ -254,7 +254,7 @@ TEST(SmoothPoints, ChangesNothingFromHalfTheRateOnAndKeepsStraightWaysToTheirEnd
 
 TEST(JointsOf, MakesUpHandsHeadAndFeetWhereNoLandmarkTellsThem) {
   using enum Landmark;
-  LandmarkPlaces marks = Walker(0, 0, 0.2);
+  LandmarkPositions marks = Walker(0, 0, 0.2);
   const auto joint = [&](Role role) { return JointsOf(marks)[Index(role)]; };
   EXPECT_EQ(joint(Role::kHead), marks[Index(kHead)]);
   EXPECT_EQ(joint(Role::kLeftFoot), marks[Index(kLeftBigToe)]);
@@ -282,9 +282,9 @@ TEST(JointsOf, MakesUpHandsHeadAndFeetWhereNoLandmarkTellsThem) {
 TEST(UsualRecovery, FollowsTheRateAndThePictures) {
   const RecoverPersonOptions options = UsualRecovery(60, 1920);
   EXPECT_EQ(options.rate_hz, 60);
-  EXPECT_EQ(options.match.follow.longest_absence, 30) << "half a second";
+  EXPECT_EQ(options.match.follow.max_absence, 30) << "half a second";
   EXPECT_DOUBLE_EQ(options.triangulate.robust.outlier_px, 57.6) << "3 % of the longer side";
-  EXPECT_EQ(UsualRecovery(1, 640).match.follow.longest_absence, 1);
+  EXPECT_EQ(UsualRecovery(1, 640).match.follow.max_absence, 1);
 }
 
 TEST(RecoverPerson, ShowsTheLastPoseWhereNobodyIsSeenAndTheFirstBeforeThat) {
@@ -311,7 +311,7 @@ TEST(RecoverPerson, MendsSidesAndSetsItsLimitByTheResidualsWhenAsked) {
   for (std::size_t k = 10; k < 30; ++k) people[2][k][0] = WithSidesSwapped(people[2][k][0]);
   RecoverPersonOptions options = UsualRecovery(kRate, 1280);
   options.mends = true;
-  options.least_outlier_px = 3;
+  options.min_outlier_px = 3;
   const auto mended = Recover(cameras, people, options);
   ASSERT_TRUE(mended) << ToString(mended.error());
   ASSERT_EQ(mended->mends.size(), 1u);
@@ -328,7 +328,7 @@ TEST(RecoverPerson, MendsSidesAndSetsItsLimitByTheResidualsWhenAsked) {
 }
 
 TEST(JointMarkers, AreLandmarksAndMarkersOfTheirNames) {
-  const std::vector<LandmarkPlaces> frames = {Walker(0, 0, 0), Walker(0, 0, 0.1)};
+  const std::vector<LandmarkPositions> frames = {Walker(0, 0, 0), Walker(0, 0, 0.1)};
   const MarkerMotion markers = ToMarkers(frames, 25);
   EXPECT_EQ(markers.rate_hz, 25);
   EXPECT_EQ(std::ranges::count(markers.names, "LBigToe"), 1);

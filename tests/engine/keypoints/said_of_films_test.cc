@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/keypoints/doubt_rig.h"
+#include "engine/keypoints/rig_warnings.h"
 #include "engine/keypoints/guess_session.h"
 #include "tests/engine/keypoints/crowd.h"
 #include "tests/support/kept_lines.h"
@@ -67,7 +67,7 @@ TEST(GuessSession, SaysWhatItSaid) {
   EXPECT_TRUE(testing::AreKept(lines, "tests/engine/keypoints/sessions.txt"));
 }
 
-TEST(DoubtRig, SaysWhatItSaid) {
+TEST(RigWarnings, SaysWhatItSaid) {
   testing::Dice dice(7);
   std::vector<std::string> lines;
   const std::vector<std::string> names = {"a", "b", "c", "d"};
@@ -89,7 +89,7 @@ TEST(DoubtRig, SaysWhatItSaid) {
     }
     lines.push_back(fmt::format("rig {}", k));
     // Who is who is not always right, which leaves the median as it is.
-    for (const std::string& doubt : DoubtRig(cameras, std::span(names).first(count), person, k % 2 ? 0.1 : 0.5))
+    for (const std::string& doubt : RigWarnings(cameras, std::span(names).first(count), person, k % 2 ? 0.1 : 0.5))
       lines.push_back("  " + doubt);
   }
   EXPECT_TRUE(testing::AreKept(lines, "tests/engine/keypoints/doubts.txt"));

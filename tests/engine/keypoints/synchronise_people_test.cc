@@ -104,7 +104,7 @@ TEST(SynchronisePeople, SaysSoWhereNothingTellsTheTime) {
 
 TEST(SynchronisePeople, SaysSoWhereAClockIsFurtherOffThanItLooked) {
   const Session session = Filmed(1, 0);
-  const auto found = EstimateOffsets(session.cameras, session.people, {.clocks = {.most_frames = 5}, .follow = {}});
+  const auto found = EstimateOffsets(session.cameras, session.people, {.clocks = {.max_frames = 5}, .follow = {}});
   EXPECT_TRUE(found[1].is_told);
   EXPECT_FALSE(found[3].is_told) << "11 frames late";
 }
@@ -146,7 +146,7 @@ TEST(PeopleInTime, ShowsEverybodyAtTheFirstCamerasTime) {
   ASSERT_EQ(in_time.size(), 60u);
   EXPECT_TRUE(in_time[2].empty()) << "before the camera's first frame";
   ASSERT_EQ(in_time[30].size(), 2u);
-  const LandmarkPlaces truth = Walker(-0.5, 0, 30 / kFilmRate);
+  const LandmarkPositions truth = Walker(-0.5, 0, 30 / kFilmRate);
   const Landmark wrist = Landmark::kLeftWrist;
   const glm::dvec2 wanted = *Project(session.cameras[1], *truth[Index(wrist)]);
   const auto off = [&](const SeenPeople& people) {

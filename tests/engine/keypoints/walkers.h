@@ -34,9 +34,9 @@ inline std::vector<Camera> Pinholes() {
 
 /// A stick figure that walks on the spot and swings its arms, standing at (x, 0, z): every landmark but hands and hips'
 /// middle. Its limbs keep their lengths: shank 0.42, thigh 0.43, upper arm 0.29, forearm 0.25.
-inline LandmarkPlaces Walker(double x, double z, double seconds) {
+inline LandmarkPositions Walker(double x, double z, double seconds) {
   using enum Landmark;
-  LandmarkPlaces marks;
+  LandmarkPositions marks;
   const glm::dvec3 hips(x, 0.92, z);
   const auto down = [](double angle) { return glm::dvec3(0, -std::cos(angle), std::sin(angle)); };
   const auto set = [&](Landmark landmark, const glm::dvec3& place) { marks[Index(landmark)] = place; };
@@ -66,7 +66,7 @@ inline LandmarkPlaces Walker(double x, double z, double seconds) {
 }
 
 /// What a camera shows of it, each coordinate off by `sigma_px`.
-inline SeenPerson Seen(const Camera& camera, const LandmarkPlaces& places, double sigma_px, RandomStream& dice) {
+inline SeenPerson Seen(const Camera& camera, const LandmarkPositions& places, double sigma_px, RandomStream& dice) {
   SeenPerson person;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     const auto pixel = places[i] ? Project(camera, *places[i]) : std::nullopt;

@@ -23,7 +23,7 @@ TEST(Kinematics, DoesNotTakeForApartWhatIsInOnePlace) {
   for (const double length : {5e-5, 2e-4}) {
     RestBody rest = PlainRestBody();
     const glm::dvec3 elbow = rest.roles[Index(Role::kLeftElbow)].position, wrist = elbow + glm::dvec3(0, length, 0);
-    RestBody::RolePlace& hand = rest.roles[Index(Role::kLeftHand)];
+    RestBody::RoleAnchor& hand = rest.roles[Index(Role::kLeftHand)];
     rest.joints[hand.joint].position = rest.roles[Index(Role::kLeftWrist)].position = wrist;
     EXPECT_EQ(FittedBody(rest).has_value(), length > 1e-4);
   }

@@ -26,13 +26,13 @@ inline RestBody JointedRestBody() {
   const auto place = [&](Role role) { return body.roles[Index(role)].position; };
   // Toes: the foot bends where its ball is, a little below the straight line.
   for (const Role foot : {Role::kLeftFoot, Role::kRightFoot}) {
-    RestBody::RolePlace& tip = body.roles[Index(foot)];
+    RestBody::RoleAnchor& tip = body.roles[Index(foot)];
     tip.joint = add("toe", tip.joint, glm::mix(place(*ParentOf(foot)), tip.position, 0.7) + glm::dvec3(0, -0.02, 0));
   }
-  RestBody::RolePlace& head = body.roles[Index(Role::kHead)];
+  RestBody::RoleAnchor& head = body.roles[Index(Role::kHead)];
   head.joint = add("upper_neck", head.joint,
                    glm::mix(place(Role::kShoulderCentre), head.position, 0.4) + glm::dvec3(0, 0, 0.02));
-  RestBody::RolePlace& neck = body.roles[Index(Role::kShoulderCentre)];
+  RestBody::RoleAnchor& neck = body.roles[Index(Role::kShoulderCentre)];
   neck.joint = add("chest", neck.joint, glm::mix(place(Role::kSpine), neck.position, 0.6) + glm::dvec3(0, 0, -0.01));
   add("nub", head.joint, head.position + glm::dvec3(0, 0.1, 0));
   return body;

@@ -66,7 +66,7 @@ class PlainBoosting {
   /// What the question gains; nothing where too few are left on a side.
   double Gain(const Members& members, std::size_t m, double limit, const std::vector<double>& log_odds) const {
     const auto [yes, no] = Halves(members, m, limit);
-    if (static_cast<int>(std::min(yes.size(), no.size())) < options_.least_per_leaf) return 0;
+    if (static_cast<int>(std::min(yes.size(), no.size())) < options_.min_per_leaf) return 0;
     double gain = 0;
     for (const auto& [part, sign] : {std::pair(&yes, 1.0), {&no, 1.0}, {&members, -1.0}}) {
       const auto [pull, stiffness] = Pull(*part, log_odds);

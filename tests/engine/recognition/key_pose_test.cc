@@ -39,7 +39,7 @@ TEST(MatchOf, GoesByTheWorstOfTheAnglesWanted) {
 }
 
 /// Both arms up; the left one is at 0°, thus wrong, and seen as `state`.
-double MatchWithWrongLeftArm(TrackingState state, const SightWeights& weights) {
+double MatchWithWrongLeftArm(TrackingState state, const TrackingWeights& weights) {
   const TaughtPose both{{{Feature::kRH, 180, 20}, {Feature::kLH, 180, 20}}};
   FeatureFrame frame = ArmAt(180);
   frame.states[static_cast<std::size_t>(Feature::kLH)] = state;
@@ -48,7 +48,7 @@ double MatchWithWrongLeftArm(TrackingState state, const SightWeights& weights) {
 
 TEST(Weights, CountFixedAnglesAlikeAndAdaptiveOnesByTheirTracking) {
   using enum TrackingState;
-  const SightWeights adaptive{.weighting = Weighting::kAdaptive};
+  const TrackingWeights adaptive{.weighting = Weighting::kAdaptive};
   for (TrackingState state : {kTracked, kInferred, kNotTracked}) EXPECT_LT(MatchWithWrongLeftArm(state, {}), 0.02);
   EXPECT_LT(MatchWithWrongLeftArm(kTracked, adaptive), 0.02);
   EXPECT_EQ(MatchWithWrongLeftArm(kInferred, adaptive), 1.0) << "1 of 1.3 is more than .76";

@@ -19,8 +19,8 @@ std::vector<TaughtMove> ArmsUpAndLeftUp() {
 std::vector<PerformanceMeasures> NearestMeasures(const std::vector<std::pair<std::size_t, BodyMotion>>& performances) {
   std::vector<PerformanceMeasures> nearest;
   const auto recogniser = MakeMeasuringRecogniser(
-      ArmsUpAndLeftUp(), {}, [&](Occasion occasion, std::size_t, const PerformanceMeasures& measures) {
-        if (occasion == Occasion::kAsked && measures[kDistanceMeasure] < nearest.back()[kDistanceMeasure]) {
+      ArmsUpAndLeftUp(), {}, [&](PerformanceOrigin occasion, std::size_t, const PerformanceMeasures& measures) {
+        if (occasion == PerformanceOrigin::kAsked && measures[kDistanceMeasure] < nearest.back()[kDistanceMeasure]) {
           nearest.back() = measures;
         }
         return 0.0;

@@ -33,11 +33,11 @@ bool IsTrained(const RecogniserKind& kind) {
 class AnyRecogniser : public ::testing::TestWithParam<const RecogniserKind*> {
  protected:
   /// The evidence at the end of a window in which "left" was asked for.
-  double Asked(const BodyMotion& danced, const SightWeights& weights = {}) const {
+  double Asked(const BodyMotion& danced, const TrackingWeights& weights = {}) const {
     const SkeletonStream stream = Then({Rest(1), danced, Rest(1)});
     return Trace(stream, weights).asked[static_cast<std::size_t>(End(stream)) - 1];
   }
-  EvidenceTrace Trace(const SkeletonStream& stream, const SightWeights& weights = {}) const {
+  EvidenceTrace Trace(const SkeletonStream& stream, const TrackingWeights& weights = {}) const {
     const auto recogniser = *MakeRecogniser({.kind = GetParam(), .weights = weights}, Taught());
     return *FollowStream(*recogniser, 2, SeeStream(stream, {}), {{AskedMove{1, {30, End(stream)}}}});
   }

@@ -56,7 +56,7 @@ TEST(Anatomy, IsNotSureOfWhatIsNoPersonOrDoesNotTellItsSides) {
   for (Joint& joint : toeless.joints) {
     if (joint.rest.translation.z != 0) joint.rest.translation = {0, 0, 0};
   }
-  EXPECT_LT(ProposalFor(toeless).confidence, kSureAnatomy);
+  EXPECT_LT(ProposalFor(toeless).confidence, kMinAnatomyConfidence);
   EXPECT_GT(ProposalFor(toeless).confidence, 0.3) << "but it is one";
 
   Skeleton dog = Nameless();  // on all fours: the arms hang down like the legs, from a level trunk

@@ -130,7 +130,7 @@ void AddBody(Fingerprint& print, const Clip& clip, const JointMap& map, const Bo
   print.Add(body.motion.poses | std::views::transform(&BodyPose::joints));
   const RestBody measured = MeasureBody(clip, map, body);
   for (const RestBody::Joint& joint : measured.joints) print.Add(joint.parent).Add(joint.position);
-  for (const RestBody::RolePlace& place : measured.roles) print.Add(place.joint).Add(place.position);
+  for (const RestBody::RoleAnchor& place : measured.roles) print.Add(place.joint).Add(place.position);
   for (const LocalPose& frame : RigClip(body.motion, measured.Pose(), "rig").frames) {
     for (const LocalTransform& local : frame) print.Add(local.translation).Add(local.rotation).Add(local.scale);
   }
@@ -146,7 +146,7 @@ TEST(RetargetingGolden, OfOddPeople) {
     clips.push_back(clips[0]);
     clips[1].frames.erase(clips[1].frames.begin(), clips[1].frames.end() - 1);
     const Skeleton& skeleton = clips[0].skeleton;
-    const PartialRoles roles = FindRolesInPart(skeleton);
+    const PartialRoles roles = FindPartialRoles(skeleton);
     print.Add(roles.found).Add(roles.proposed).Add(roles.confidence).Add(FindNewRoot(skeleton));
     const Result<JointMap> map = FindJointMap(skeleton, fmt::format("{}.bvh", i));
     if (!map) told.push_back(ToString(map.error()));

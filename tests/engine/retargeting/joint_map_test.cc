@@ -87,7 +87,7 @@ TEST(JointMap, GivesTheRolesThatAreThereWhereOthersAreMissing) {
     odd.joints[odd.Find(name)].name = name[0] == 'L' ? "Q1" : "Q2";
   }
   ASSERT_FALSE(FindJointMap(odd, "odd.bvh"));
-  const PartialRoles roles = FindRolesInPart(odd);
+  const PartialRoles roles = FindPartialRoles(odd);
   for (const auto& [role, name] : {std::pair(kLeftHip, "LeftUpLeg"), std::pair(kRightAnkle, "RightFoot"),
                                    std::pair(kLeftElbow, "LeftForeArm"), std::pair(kHead, "Head")}) {
     EXPECT_EQ(roles.found[Index(role)], odd.Find(name)) << name;
@@ -378,13 +378,13 @@ TEST(JointMap, TakesTaughtJointsBeforeAnyName) {
   horse.joints[horse.Find("LeftForeArm")].name = "Hoof";
   horse.joints[horse.Find("RightFoot")].name = "Wheel";
   EXPECT_THAT(FindJointMap(horse, "horse.bvh")->by_anatomy, ElementsAre(kLeftElbow, kRightAnkle));
-  const TaughtRoles taught{{{kLeftElbow, {"Hoof", {}}}, {kRightAnkle, {"Wheel", {}}}, {kLeftHand, {"LeftHand", {}}}}};
+  const JointMapOverrides taught{{{kLeftElbow, {"Hoof", {}}}, {kRightAnkle, {"Wheel", {}}}, {kLeftHand, {"LeftHand", {}}}}};
   const auto refused = FindJointMap(horse, "horse.bvh", &taught);
   ASSERT_FALSE(refused) << "taught joints are checked as well";
   EXPECT_EQ(refused.error().message,
             "left_hand is played by 'LeftHand', which does not descend from 'LeftHand', the left_wrist");
 
-  const TaughtRoles better{{{kLeftElbow, {"Hoof", {}}}, {kRightAnkle, {"Wheel", {}}}, {kHead, {"Head", {}}}}};
+  const JointMapOverrides better{{{kLeftElbow, {"Hoof", {}}}, {kRightAnkle, {"Wheel", {}}}, {kHead, {"Head", {}}}}};
   const auto map = FindJointMap(horse, "horse.bvh", &better);
   ASSERT_TRUE(map) << ToString(map.error());
   ExpectNear(BodyAtRest(horse, *map)[kLeftElbow], {47, 137, 0});
@@ -395,7 +395,7 @@ TEST(JointMap, RefusesATaughtHeadOrSpineThatIsPartOfALimb) {
   Skeleton person = testing::PersonSkeleton();
   person.joints[person.Find("Neck")].name = "Giraffe";  // without it, no neck is there for the head to hang from
   for (const auto& [role, joint] : {std::pair(kHead, "RightLeg"), std::pair(kSpine, "LeftUpLeg")}) {
-    const TaughtRoles taught{{{role, {joint, {}}}}};
+    const JointMapOverrides taught{{{role, {joint, {}}}}};
     const auto refused = FindJointMap(person, "person.bvh", &taught);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().message,

@@ -20,11 +20,11 @@ Skeleton TwoArms(const LocalTransform& tip = {}) {
 TEST(SkeletonTree, KnowsWhoHangsFromWhom) {
   const Skeleton skeleton = TwoArms();
   const SkeletonTree tree(skeleton);
-  EXPECT_TRUE(tree.HangsFrom(2, 0));
-  EXPECT_TRUE(tree.HangsFrom(4, 3));
-  EXPECT_FALSE(tree.HangsFrom(2, 2)) << "not from itself";
-  EXPECT_FALSE(tree.HangsFrom(4, 1)) << "not from the other arm, though that stands before it";
-  EXPECT_FALSE(tree.HangsFrom(0, 4));
+  EXPECT_TRUE(tree.DescendsFrom(2, 0));
+  EXPECT_TRUE(tree.DescendsFrom(4, 3));
+  EXPECT_FALSE(tree.DescendsFrom(2, 2)) << "not from itself";
+  EXPECT_FALSE(tree.DescendsFrom(4, 1)) << "not from the other arm, though that stands before it";
+  EXPECT_FALSE(tree.DescendsFrom(0, 4));
   EXPECT_EQ(tree.CommonAncestor(2, 4), 0);
   EXPECT_EQ(tree.CommonAncestor(2, 1), 1);
 }

@@ -82,7 +82,7 @@ TEST(Postures, HaveArmsThatHangArmsThatAreRaisedAndBentLegs) {
   }
 }
 
-TEST(LimbPlaces, AnArmThatIsElsewhereIsFoundNearby) {
+TEST(LimbCandidates, AnArmThatIsElsewhereIsFoundNearby) {
   const SwingingTake take(1);
   std::vector<SilhouetteView> views;
   for (std::size_t c = 0; c < take.matrices.size(); ++c) views.push_back({take.matrices[c], &take.silhouettes[c][0]});
@@ -93,7 +93,7 @@ TEST(LimbPlaces, AnArmThatIsElsewhereIsFoundNearby) {
       const int first = take.body.tree.joints[joint].first_dof;
       for (int i = first; i < first + (joint == limb.upper ? 3 : 1); ++i) lost.angles[i] = take.body.habits[i].angle;
     }
-    const auto places = LimbPlaces(take.body, views, lost, limb, TrackInSmallPictures().cost);
+    const auto places = LimbCandidates(take.body, views, lost, limb, TrackInSmallPictures().cost);
     ASSERT_FALSE(places.empty());
     ASSERT_LE(places.size(), 2u);
     const BodyPose truth = ToBodyPose(take.body, take.truth[0]), before = ToBodyPose(take.body, lost);

@@ -84,7 +84,7 @@ TEST(Streams, EtudesOwnFilesComeBackToTheLastDigitPrinted) {
 
 TEST(Streams, StatesAreToldWhereTheFileHasThemAndSaidToBeMissingElse) {
   const BodyMotion motion = WavingMotion(3);
-  const auto tells = [](const std::string& text) { return ReadStreamRecording(text, "s")->tells_states; };
+  const auto tells = [](const std::string& text) { return ReadStreamRecording(text, "s")->records_states; };
   EXPECT_FALSE(tells(KinectV1Text(motion)));
   EXPECT_FALSE(tells(KinectV1Text(motion, "1")));  // MSRC-12's weight
   EXPECT_TRUE(tells(KinectV1Text(motion, "2")));

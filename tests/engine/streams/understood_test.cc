@@ -42,8 +42,8 @@ void Tell(std::vector<std::string>& told, const std::string& text, const StreamR
   if (recording) {
     told.push_back(fmt::format("{}, {} frames, the last of line {}{}{}{}, {:.3f} Hz, {:.3g} s, {:.3g} m",
                                StreamFormatName(recording->format), recording->frames.size(),
-                               recording->frames.back().line, recording->tells_states ? ", states" : "",
-                               recording->tells_times ? ", times" : "", recording->is_level ? ", level" : "",
+                               recording->frames.back().line, recording->records_states ? ", states" : "",
+                               recording->records_times ? ", times" : "", recording->is_level ? ", level" : "",
                                recording->rate_hz, recording->seconds_per_count, recording->metres_per_unit));
     for (const std::string& remark : recording->remarks) told.push_back("  " + remark);
     for (const StreamOptions& options :

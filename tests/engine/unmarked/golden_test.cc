@@ -87,7 +87,7 @@ TEST(UnmarkedGolden, FilmsWithAndWithoutWhatIsKnown) {
   UnmarkedOptions options;
   options.track.cost = {.sigma_px = 1.5, .outline_reach_px = 8, .inside_reach_px = 20};
   options.track.anchors = 1, options.track.trial_frames = 1, options.track.repairs = 1;
-  options.person.smallest_piece = 8, options.person.piece_reach = 5;
+  options.person.min_piece_px = 8, options.person.piece_reach = 5;
   options.rounds = 2, options.samples = 4, options.kept = 2, options.body_reach_px = 3;
   UnmarkedTake take{
       .cameras = films.cameras, .pictures = films.pictures, .rooms = films.rooms, .rate_hz = 20, .stature_m = 1.7};

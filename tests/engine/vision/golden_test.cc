@@ -123,8 +123,8 @@ TEST(VisionGolden, LimbsOfColouredSuits) {
     const bool is_flat = k % 2;
     if (is_flat) options.look = {.figure = FigureKind::kDressed, .head_below_crown = 1.1};
     if (k % 5 == 1) options.margin_px = 1, options.reach = 0.06, options.darkest = 150;
-    if (k % 5 == 2) options.piece_share = 0.6, options.smallest_piece = 45, options.least_side_px = 2;
-    if (k % 5 == 3) options.seam_px = 0, options.margin_px = 0, options.piece_share = 0, options.smallest_piece = 6;
+    if (k % 5 == 2) options.piece_share = 0.6, options.min_piece_px = 45, options.min_side_px = 2;
+    if (k % 5 == 3) options.border_px = 0, options.margin_px = 0, options.piece_share = 0, options.min_piece_px = 6;
     const SuitPicture made = AnyoneInSuit(dice, is_flat);
     LimbRegions found = FindColouredLimbs(made.picture, made.person, suit, options);
     print.Add(found.width).Add(found.height);
@@ -190,7 +190,7 @@ TEST(VisionGolden, PeopleInFilms) {
     const std::vector<ColourImage> film = WalkThrough(dice, room, 18, pixels);
     for (const auto& [segmenter, options] :
          {std::pair(Segmenter::kRunning, ChangeOptions()),
-          {Segmenter::kRunning, {.learning_rate = 0.2, .running_deviations = 2.5, .least_deviation = 2}},
+          {Segmenter::kRunning, {.learning_rate = 0.2, .running_deviations = 2.5, .min_deviation = 2}},
           {Segmenter::kLikelihood, {}},
           {Segmenter::kRatio, {}}}) {
       PersonFinder finder(room, {.segmenter = segmenter, .change = options, .pieces = PersonPieces::kLarge});

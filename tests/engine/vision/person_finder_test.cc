@@ -57,10 +57,10 @@ TEST(KeepPerson, IsTheLargestPieceWithItsSmallHolesFilled) {
     // From scattered pixels to a sheet full of holes.
     const double share = 0.05 + 0.023 * seed;
     for (std::uint8_t& pixel : mask.pixels) pixel = dice.Uniform(0, 1) < share ? 1 : 0;
-    for (const int largest_hole : {0, 1, 5, 1000}) {
+    for (const int max_hole_px : {0, 1, 5, 1000}) {
       Mask kept = mask;
-      KeepPerson(kept, largest_hole);
-      EXPECT_EQ(kept.pixels, FillHoles(LargestComponent(mask), largest_hole).pixels) << seed << ", " << largest_hole;
+      KeepPerson(kept, max_hole_px);
+      EXPECT_EQ(kept.pixels, FillHoles(LargestComponent(mask), max_hole_px).pixels) << seed << ", " << max_hole_px;
     }
   }
   Mask nothing(5, 4);

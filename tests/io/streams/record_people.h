@@ -29,7 +29,7 @@ inline Recorded Record(int people, const std::vector<std::string>& names, int ev
     const SkeletonSensorOptions errors = SensorV2();
     NamedStream& stream = recorded.streams.emplace_back();
     stream.name = "person-" + std::to_string(i);
-    stream.stream = SenseSkeleton(session.motion, SkeletonSensorAt(SensorPlace{}, errors.view), {}, errors, key);
+    stream.stream = SenseSkeleton(session.motion, SkeletonSensorAt(SensorPlacement{}, errors.view), {}, errors, key);
     for (const SessionEvent& event : session.events) {
       LabelledPart& part = recorded.parts.emplace_back();
       part.stream = static_cast<std::size_t>(i);

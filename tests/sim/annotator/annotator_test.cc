@@ -253,9 +253,9 @@ TEST(AnnotatorDice, HaveUnitVarianceAndTheCorrelationOfAnOrnsteinUhlenbeckProces
     int count = 0;
     for (int trial = 0; trial < kTrials; ++trial) {
       AnnotatorDice dice(DiceKey(trial), 0, 0);
-      PictureDice last = dice.Throw(0);
+      PictureDice last = dice.DrawNumbers(0);
       for (int frame = step; frame < kFrames; frame += step) {
-        const PictureDice now = dice.Throw(frame);
+        const PictureDice now = dice.DrawNumbers(frame);
         for (std::size_t i = 0; i < kRoleCount; ++i) {
           squares += glm::dot(now.lasting[i], now.lasting[i]) / 2;
           products += glm::dot(now.lasting[i], last.lasting[i]) / 2;
@@ -290,10 +290,10 @@ TEST(AnnotatorDice, BiasIsOfUnitVarianceThePersonsOwnAndTheSameForAllCameras) {
 
 TEST(AnnotatorDice, DifferBetweenCamerasAndBetweenPeople) {
   AnnotatorDice first(DiceKey(0), 0, 0), elsewhere(DiceKey(0), 0, 1), other(DiceKey(0), 1, 0), again(DiceKey(0), 0, 0);
-  const PictureDice dice = first.Throw(0);
-  EXPECT_EQ(dice.lasting, again.Throw(0).lasting);
-  EXPECT_NE(dice.lasting, elsewhere.Throw(0).lasting);
-  EXPECT_NE(dice.lasting, other.Throw(0).lasting);
+  const PictureDice dice = first.DrawNumbers(0);
+  EXPECT_EQ(dice.lasting, again.DrawNumbers(0).lasting);
+  EXPECT_NE(dice.lasting, elsewhere.DrawNumbers(0).lasting);
+  EXPECT_NE(dice.lasting, other.DrawNumbers(0).lasting);
 }
 
 }  // namespace

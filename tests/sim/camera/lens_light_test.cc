@@ -165,7 +165,7 @@ std::vector<Shadow> ShadowsAt(double strength) {
 
 TEST(Dust, IsFoundInAFlatFieldWhereItLies) {
   RandomStream random(kShotWorld, "camera/dust");
-  const std::vector<Speck> specks = ThrowSpecks(640, 480, random);
+  const std::vector<Speck> specks = DrawSpecks(640, 480, random);
   const std::vector<Shadow> shadows = ShadowsAt(0.6);
   int found = 0;
   for (const Speck& speck : specks) {

@@ -76,8 +76,8 @@ TEST(StagedRoom, WhatIsThereStaysThereAsTheSceneGrows) {
     }
     least += MakeStage(seed, kScenes.front()).interior()->furniture.size();
     most += MakeStage(seed, 1).interior()->furniture.size();
-    EXPECT_LE(MakeStage(seed, 1).interior()->furniture.size(), kMostFurnitureBoxes);
-    EXPECT_LE(MakeStage(seed, 1).interior()->pictures.size(), kMostWallPictures);
+    EXPECT_LE(MakeStage(seed, 1).interior()->furniture.size(), kMaxFurnitureBoxes);
+    EXPECT_LE(MakeStage(seed, 1).interior()->pictures.size(), kMaxWallPictures);
   }
   EXPECT_EQ(least, 0u);
   EXPECT_GT(most, 12u * 20);

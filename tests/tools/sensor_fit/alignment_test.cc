@@ -32,7 +32,7 @@ TEST(AlignTwin, LeavesWhatTheSensorErrs) {
   JointRecording recording = PerfectRecording(twin, 7, {});
   RandomStream dice({.suite_seed = 1, .scenario = "align", .trial = 0}, "noise");
   double squares = 0, count = 0;
-  for (RolePlaces& places : recording.frames) {
+  for (RolePositions& places : recording.frames) {
     for (auto& place : places) {
       const glm::dvec3 error = 0.02 * dice.Normal3();
       *place += error;
@@ -63,7 +63,7 @@ TEST(AlignTwin, TakesJointsThatAreMissingNowAndThenOrAlways) {
 TEST(AlignTwin, SaysNothingOfRecordingsThatShareTooLittle) {
   const TwinMotion twin = DancingTwin(9);
   JointRecording few = PerfectRecording(twin, 7, {});
-  for (RolePlaces& places : few.frames) {
+  for (RolePositions& places : few.frames) {
     for (std::size_t j = 2; j < kRoleCount; ++j) places[j].reset();
   }
   EXPECT_FALSE(AlignTwin(few, twin));

@@ -60,7 +60,7 @@ TEST(FitSensor, IsTheSameEveryTime) {
 TEST(FitSensor, KeepsWhatTheRecordingDoesNotShow) {
   auto real = RecordedBySensor(Unknown(), DancingTwin(9));
   ASSERT_TRUE(real);
-  for (RolePlaces& places : real->recording.frames) {
+  for (RolePositions& places : real->recording.frames) {
     places[Index(Role::kLeftKnee)].reset();
     places[Index(Role::kRightKnee)].reset();
   }

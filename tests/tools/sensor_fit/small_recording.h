@@ -49,7 +49,7 @@ inline JointRecording PerfectRecording(const TwinMotion& twin, double seconds, c
   JointRecording recording{.rate_hz = 30, .frames = {}, .sensor_at = glm::dvec3(0)};
   for (double t = 0; t < seconds; t += 1.0 / 30) {
     const auto frame = static_cast<std::size_t>(std::lround((t + made.shift_s) * twin.rate_hz));
-    RolePlaces& places = recording.frames.emplace_back();
+    RolePositions& places = recording.frames.emplace_back();
     for (std::size_t j = 0; j < kRoleCount; ++j) {
       const Carrier& carrier = *twin.frames[frame][j];
       places[j] = made.rotation * (carrier.position + carrier.rotation * OffsetOf(j)) + made.translation;

@@ -23,7 +23,7 @@ std::pair<JointRecording, TwinMatch> Standing(const Error& error) {
   JointRecording recording{.rate_hz = 30, .frames = {}, .sensor_at = glm::dvec3(0)};
   TwinMatch match;
   for (std::size_t t = 0; t < kFrames; ++t) {
-    RolePlaces truth, sensed;
+    RolePositions truth, sensed;
     for (const Role role : AllRoles()) {
       truth[Index(role)] = pose[role] + glm::dvec3(0, -1, kDepth);
       sensed[Index(role)] = *truth[Index(role)] + error(t, role);
@@ -115,7 +115,7 @@ TEST(SensorStatistics, MeasureLengthsInPercentAndJumpsInCentimetres) {
 TEST(SensorStatistics, LeaveOutWhatARecordingCannotTell) {
   const auto [recording, match] = Standing([](std::size_t, Role) { return glm::dvec3(0); });
   JointRecording headless = recording;
-  for (RolePlaces& places : headless.frames) places[Index(kLeftHand)] = places[Index(kRightHand)] = std::nullopt;
+  for (RolePositions& places : headless.frames) places[Index(kLeftHand)] = places[Index(kRightHand)] = std::nullopt;
   const SensorStatistics s = StatisticsOf(headless, nullptr);
   EXPECT_FALSE(s.error_mm[0] || s.hand_bones_percent || s.hand_jump_cm);
   EXPECT_TRUE(s.arm_bones_percent);

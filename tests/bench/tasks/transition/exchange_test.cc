@@ -48,8 +48,8 @@ class TransitionExchange : public TransitionFixture {
                    {"matched", choice.matches_poses && record.branch != Branch::kForced}};
     if (const auto& preferred = record.segments.back().preferred) {
       answer["join_s"] = preferred->blend_s;
-      answer["fades"] = preferred->way == JoinWay::kFades;
-      answer["direct"] = preferred->way == JoinWay::kDirect;
+      answer["fades"] = preferred->way == JoinStyle::kFades;
+      answer["direct"] = preferred->way == JoinStyle::kDirect;
     }
     if (record.segments.size() == 2) return answer;
     EXPECT_EQ(record.segments.size(), 3u);

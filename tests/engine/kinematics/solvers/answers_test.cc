@@ -84,7 +84,7 @@ Runs OnAnyTree(const IkSolver& solver, bool by_default) {
       options.position_goal = 0.05;
       options.axis_goal = 0.1;
       options.stall_change = 1e-3;
-      options.longest_trace = 3;
+      options.max_trace_entries = 3;
       for (const NumberSetting& setting : solver.settings) {
         options.solver_settings.push_back(setting.is_whole ? 3 : setting.fallback * 0.4 + 0.01);
       }

@@ -140,7 +140,7 @@ TEST(IkRun, AsksForAnglesOnlyWhenTheyAreTraced) {
 TEST(IkRun, TracesNoMoreThanIsAskedFor) {
   Trial trial;
   trial.options.trace = true;
-  trial.options.longest_trace = 2;
+  trial.options.max_trace_entries = 2;
   IkRun run(trial.tree, trial.problem, trial.options);
   for (int i = 0; i < 5; ++i) {
     EXPECT_EQ(run.Traces(), i < 2);

@@ -186,7 +186,7 @@ TEST_P(EverySolver, ComesToTheSameWhateverIsTraced) {
     untraced.max_iterations = max_iterations;
     IkOptions traced = untraced, partly = untraced;
     traced.trace = partly.trace = true;
-    partly.longest_trace = 20;
+    partly.max_trace_entries = 20;
     for (int trial = 0; trial < 4; ++trial) {
       const IkSolution none = Solve(FarProblem(trial), untraced), all = Solve(FarProblem(trial), traced);
       const IkSolution some = Solve(FarProblem(trial), partly);

@@ -60,7 +60,7 @@ TEST(DampedLeastSquares, TurnsAHingeByDampedStepsOfBoundedLength) {
   EXPECT_NEAR(angle_after(0.5, 2, 1), first, 1e-12);
   EXPECT_NEAR(angle_after(0.5, 2, 2), first + a * std::sin(0.5 - first) / (a + 2.0 / 5), 1e-12)
       << "a step that lowers the sum makes the next one bolder";
-  EXPECT_NEAR(angle_after(1.5, 1e-6, 1), kLargestTurn, 1e-12);
+  EXPECT_NEAR(angle_after(1.5, 1e-6, 1), kMaxTurn, 1e-12);
 }
 
 TEST(DampedLeastSquares, StallsOnlyOnceAStepGainsNextToNothing) {
@@ -237,8 +237,8 @@ TEST(JacobianTranspose, NoStepIsLongerThanFirstOrderIsGoodFor) {
   IkOptions options;
   options.max_iterations = 1;
   const IkProblem problem = Reach(arm, {0.3}, {0, -0.5 * std::sin(1.8), 1 + 0.5 * std::cos(1.8)});
-  ASSERT_GT(std::sin(1.5), kLargestTurn) << "the step of a gain of 1";
-  EXPECT_NEAR(SolveJacobianTranspose(arm, problem, options).angles[0], 0.3 + kLargestTurn, 1e-12);
+  ASSERT_GT(std::sin(1.5), kMaxTurn) << "the step of a gain of 1";
+  EXPECT_NEAR(SolveJacobianTranspose(arm, problem, options).angles[0], 0.3 + kMaxTurn, 1e-12);
 }
 
 TEST(JacobianTranspose, FindsTheAnglesOfTwoHingesByTheLawOfCosines) {

@@ -64,7 +64,7 @@ TEST(LevenbergMarquardt, FollowsTheRatioOfGainToPromise) {
   const auto cost = [&](double off) { return a * std::pow(2 * std::sin(off / 2), 2); };
   for (const double share : {0.5, 2.0}) {
     const double first = a * std::sin(target) / (a + share * cost(target));
-    ASSERT_LT(first, kLargestTurn);
+    ASSERT_LT(first, kMaxTurn);
     EXPECT_NEAR(angle_after(1, share), first, 1e-12);
     const double promised = 2 * first * a * std::sin(target) - a * first * first;
     const double ratio = (cost(target) - cost(target - first)) / promised;
@@ -73,7 +73,7 @@ TEST(LevenbergMarquardt, FollowsTheRatioOfGainToPromise) {
     const double off = target - first;
     EXPECT_NEAR(angle_after(2, share), first + a * std::sin(off) / (a + factor * share * cost(off)), 1e-12);
   }
-  EXPECT_NEAR(angle_after(1, 1e-6), kLargestTurn, 1e-12) << "steps are of bounded length";
+  EXPECT_NEAR(angle_after(1, 1e-6), kMaxTurn, 1e-12) << "steps are of bounded length";
 }
 
 // How often the sum rises along a trace; a restart may raise it, and costs a pass more than an iteration.

@@ -39,7 +39,7 @@ TEST(MatchingChoices, GoOnWithTheSameDanceWhereTheOtherClipHasIt) {
     for (const Candidate& other : record.candidates) {
       EXPECT_LE(*taken->cost, other.cost.value_or(*taken->cost));
     }
-    EXPECT_EQ(record.candidates.size(), kMostCandidates) << "one for each frame that could be left, the best of them";
+    EXPECT_EQ(record.candidates.size(), kMaxCandidates) << "one for each frame that could be left, the best of them";
     EXPECT_FALSE(record.cost_unit.empty());
   }
 }

@@ -103,7 +103,7 @@ TEST(InBetween, TellsWhatItTookAtBothEnds) {
     EXPECT_TRUE(left.last == candidate.from_frame || entered.first == candidate.to_frame) << candidate.point;
   }
   EXPECT_EQ(taken, 2);
-  EXPECT_LE(record.candidates.size(), kMostCandidates);
+  EXPECT_LE(record.candidates.size(), kMaxCandidates);
   EXPECT_GE(record.pairs_seen, record.pairs_matched);
   EXPECT_GE(record.pairs_matched, 2);
 }

@@ -57,7 +57,7 @@ void ExpectSegmentsChain(const TransitionRecord& record, const MotionLibrary& li
 }
 
 void ExpectCandidates(const TransitionRecord& record) {
-  EXPECT_LE(record.candidates.size(), kMostCandidates);
+  EXPECT_LE(record.candidates.size(), kMaxCandidates);
   EXPECT_LE(record.pairs_matched, record.pairs_seen);
   for (const Candidate& candidate : record.candidates) ExpectAddsUp(candidate.distance);
   const auto taken = std::count_if(record.candidates.begin(), record.candidates.end(),

@@ -73,7 +73,7 @@ TEST(JoinsGolden, OfEveryJoinAlongWaysOfEveryKind) {
                            {"planted-feet", {}, {}},
                            {"planted-feet", {}, {0.8, 1, 0}},
                            {"planted-feet", {}, {0.04, 0, 0}},
-                           {"planted-feet", PreferredJoin{.blend_s = 1.2, .way = JoinWay::kDirect}, {}}}) {
+                           {"planted-feet", PreferredJoin{.blend_s = 1.2, .way = JoinStyle::kDirect}, {}}}) {
     for (const std::vector<Segment>& way : Ways(clips, preferred)) {
       AddTo(print, SpliceSegments(clips, way, *FindJoin(name), settings));
     }

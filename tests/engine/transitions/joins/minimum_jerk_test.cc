@@ -51,7 +51,7 @@ TEST(MinimumJerkAt, IsStraightWhereBothVelocitiesAreTheWayOverItsTime) {
   }
 }
 
-class AllWays : public ::testing::TestWithParam<JoinWay> {};
+class AllWays : public ::testing::TestWithParam<JoinStyle> {};
 
 TEST_P(AllWays, ShowTheOldMotionsNextFrameFirstButForTheBlendsOwnBeginning) {
   const BodyMotion clips[] = {WavingClip(60), WavingClip(60, 2)};
@@ -74,7 +74,7 @@ TEST_P(AllWays, EndInTheNewMotionWhenTheWishSays) {
   EXPECT_GT(glm::distance(splice.motion.poses[19 + 6][Role::kLeftHand], splice.wanted[6][Role::kLeftHand]), 0.01);
 }
 
-INSTANTIATE_TEST_SUITE_P(MinimumJerk, AllWays, ::testing::Values(JoinWay::kDecays, JoinWay::kFades, JoinWay::kDirect));
+INSTANTIATE_TEST_SUITE_P(MinimumJerk, AllWays, ::testing::Values(JoinStyle::kDecays, JoinStyle::kFades, JoinStyle::kDirect));
 
 TEST(WindowOf, HoldsTheLastFrameOfAMotionThatEndsAndCountsTheRealOnes) {
   const BodyMotion clip = WavingClip(4);

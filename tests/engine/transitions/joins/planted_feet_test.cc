@@ -87,8 +87,8 @@ TEST(AlignOnPlantedFeet, TurnsNobodyAboutForItsFeet) {
 }
 
 TEST(PlanSteps, LetsFeetThatMustTravelGoOneAfterTheOther) {
-  const auto [steps, unborne] = PlanSteps(Window(Stride(0.15), Stride(-0.15), 30));
-  EXPECT_EQ(unborne, 0);
+  const auto [steps, unplanted_frames] = PlanSteps(Window(Stride(0.15), Stride(-0.15), 30));
+  EXPECT_EQ(unplanted_frames, 0);
   for (const FootStep& step : steps) {
     EXPECT_FALSE(step.keeps);
     EXPECT_GT(step.lift, 0.02);
@@ -110,8 +110,8 @@ TEST(PlanSteps, LeavesAFootStandingWhoseOwnMotionLiftsItWhileTheOtherTravels) {
   // Both motions lift their right foot at once, which leaves nothing for the left one to travel by.
   Lift(Role::kRightFoot, 8, 30, window.old);
   Lift(Role::kRightFoot, 0, 14, window.next);
-  const auto [steps, unborne] = PlanSteps(window);
-  EXPECT_EQ(unborne, 0);
+  const auto [steps, unplanted_frames] = PlanSteps(window);
+  EXPECT_EQ(unplanted_frames, 0);
   EXPECT_TRUE(steps[1].stays_from < steps[1].begin || steps[1].waits_until > steps[1].end);
 }
 
@@ -122,8 +122,8 @@ TEST(PlanSteps, LetsFeetThatSlideInTheirClipsStayWhereTheyStand) {
       for (glm::dvec3& joint : (*clip)[f].joints) joint.z += 0.1 * static_cast<double>(f) / window.rate_hz;
     }
   }
-  const auto [steps, unborne] = PlanSteps(window);
-  EXPECT_EQ(unborne, 0);
+  const auto [steps, unplanted_frames] = PlanSteps(window);
+  EXPECT_EQ(unplanted_frames, 0);
   int long_stands = 0;
   for (const FootStep& step : steps) {
     // Over three tenths of a second the clip slides by 3 cm, which weighs more than to stop dead at 10 cm/s.
@@ -140,21 +140,21 @@ TEST(PlanSteps, LetsFeetThatSlideInTheirClipsStayWhereTheyStand) {
 
 TEST(PlanSteps, CountsTheFramesInWhichNothingCanStand) {
   JoinWindow window = Window(Stride(0.15), Stride(-0.15), 10);  // too short for two steps
-  EXPECT_GT(PlanSteps(window).unborne, 3);
+  EXPECT_GT(PlanSteps(window).unplanted_frames, 3);
 }
 
 TEST(PlanSteps, DoesNotLiftFeetThatStandWhereTheyShould) {
   const FootPlan plan = PlanSteps(Window(Stride(0.2), Stride(0.2), 15));
-  EXPECT_EQ(plan.unborne, 0);
+  EXPECT_EQ(plan.unplanted_frames, 0);
   for (const FootStep& step : plan.steps) EXPECT_EQ(step.lift, 0);
 }
 
 TEST(PlantFeet, KeepsEachFootInItsPlaceUntilItsStepAndAfterIt) {
   const BodyPose from = Stride(0.3), to = Stride(-0.3);
   const JoinWindow window = Window(from, to, 24);
-  const auto [plan, unborne] = PlanSteps(window);
-  EXPECT_EQ(unborne, 0);
-  std::vector<BodyPose> played = PlayMinimumJerk(window, JoinWay::kDecays);
+  const auto [plan, unplanted_frames] = PlanSteps(window);
+  EXPECT_EQ(unplanted_frames, 0);
+  std::vector<BodyPose> played = PlayMinimumJerk(window, JoinStyle::kDecays);
   EXPECT_EQ(PlantFeet(window, played), 0);
   for (std::size_t side = 0; side < kLegs.size(); ++side) {
     for (int f = 0; f <= 24; ++f) {
@@ -171,7 +171,7 @@ TEST(PlantFeet, KeepsEachFootInItsPlaceUntilItsStepAndAfterIt) {
 
 TEST(PlantFeet, KeepsAllLimbsToTheLastDigits) {
   const JoinWindow window = Window(Stride(0.4), FloorMove{.yaw = 0.7, .x = 0.5, .z = 0.1}.Apply(Stride(-0.2)), 20);
-  std::vector<BodyPose> played = PlayMinimumJerk(window, JoinWay::kFades);
+  std::vector<BodyPose> played = PlayMinimumJerk(window, JoinStyle::kFades);
   PlantFeet(window, played);
   for (const BodyPose& pose : played) {
     for (const Bone& bone : AllBones()) {

@@ -75,7 +75,7 @@ std::size_t ExpectSameMatches(std::span<const MatchClip> clips, const MatchRules
         EXPECT_EQ(found[i].nearest, expected[i].nearest);
         EXPECT_EQ(found[i].distance, expected[i].distance) << "to the last bit";
       }
-      const double asked = table.AskedFrames(a);
+      const double asked = table.QueryFrames(a);
       EXPECT_EQ(table.Share(a, b), asked == 0 ? 0 : static_cast<double>(expected.size()) / asked);
       compared += expected.size();
     }

@@ -1,4 +1,4 @@
-#include "engine/boards/film_steps.h"
+#include "engine/boards/film_delays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -66,8 +66,8 @@ std::vector<BoardSighting> Subsampled(std::span<const BoardSighting> sightings) 
 
 }  // namespace
 
-std::vector<TargetView> ViewsInStep(std::span<const BoardSighting> sightings, std::span<const double> period_s,
-                                    std::span<const double> late_s) {
+std::vector<TargetView> SynchronisedViews(std::span<const BoardSighting> sightings, std::span<const double> period_s,
+                                    std::span<const double> delay_s) {
   SightingMap map;
   for (const BoardSighting& s : sightings) map[{s.view.camera, s.board, s.look}] = &s;
   std::map<std::pair<std::size_t, int>, std::size_t> targets;  // by board and look of the first film
@@ -82,8 +82,8 @@ std::vector<TargetView> ViewsInStep(std::span<const BoardSighting> sightings, st
     const std::size_t camera = s.view.camera;
     const double period = period_s[camera];
     // The nearest look of the first film in time, and the fraction of a look from this sighting to that moment.
-    const int look = static_cast<int>(std::lround((s.look * period - late_s[camera]) / period_s[0]));
-    const double share = (look * period_s[0] + late_s[camera]) / period - s.look;
+    const int look = static_cast<int>(std::lround((s.look * period - delay_s[camera]) / period_s[0]));
+    const double share = (look * period_s[0] + delay_s[camera]) / period - s.look;
     constexpr double kHalf = 0.5 + 1e-9;
     std::vector<PointPair> pairs;
     if (std::abs(share) <= kHalf) pairs = CornersBetween(map, {camera, s.board, s.look}, s, share);
@@ -97,21 +97,21 @@ std::vector<TargetView> ViewsInStep(std::span<const BoardSighting> sightings, st
   return views;
 }
 
-Result<FilmSteps> FindFilmSteps(std::span<const PictureSize> sizes, std::span<const BoardSighting> sightings,
+Result<FilmDelays> FindFilmDelays(std::span<const PictureSize> sizes, std::span<const BoardSighting> sightings,
                                 std::span<const double> period_s, double max_delay_s, const RefineOptions& options,
                                 const OnProgress& on_progress) {
-  FilmSteps steps{.late_s = std::vector<double>(sizes.size())};
+  FilmDelays steps{.delay_s = std::vector<double>(sizes.size())};
   const std::vector<BoardSighting> tried = Subsampled(sightings);
   RefineOptions quick = options;
   constexpr int kQuick = 25;
   quick.most_iterations = kQuick;
-  const auto residual = [&](std::span<const double> late_s) -> Result<double> {
-    ASSIGN_OR_RETURN(const RefinedRig rig, CalibrateFromPlanes(sizes, ViewsInStep(tried, period_s, late_s), quick));
+  const auto residual = [&](std::span<const double> delay_s) -> Result<double> {
+    ASSIGN_OR_RETURN(const RefinedRig rig, CalibrateFromPlanes(sizes, SynchronisedViews(tried, period_s, delay_s), quick));
     return rig.rms_px;
   };
   // If calibration fails without delays, it may succeed with them.
   constexpr double kNever = std::numeric_limits<double>::infinity();
-  const auto in_step = residual(steps.late_s);
+  const auto in_step = residual(steps.delay_s);
   steps.before_px = steps.after_px = in_step ? *in_step : kNever;
   const std::size_t rounds = sizes.size() > 2 ? 2 : 1;
   // A grid over ±max_delay_s in steps of half a look; two rounds if there are more than two films.
@@ -122,11 +122,11 @@ Result<FilmSteps> FindFilmSteps(std::span<const PictureSize> sizes, std::span<co
   std::size_t done = 0;
   for (std::size_t round = 0; round < rounds; ++round) {
     for (std::size_t film = 1; film < sizes.size(); ++film) {
-      std::vector<double> late_s = steps.late_s;
-      double best_s = late_s[film], min_px = steps.after_px;
+      std::vector<double> delay_s = steps.delay_s;
+      double best_s = delay_s[film], min_px = steps.after_px;
       const auto try_delay = [&](double s) {
-        late_s[film] = s;
-        const auto px = residual(late_s);
+        delay_s[film] = s;
+        const auto px = residual(delay_s);
         if (on_progress) on_progress(std::min(all, ++done), all);
         if (!px || !(*px < min_px)) return;
         min_px = *px;
@@ -144,7 +144,7 @@ Result<FilmSteps> FindFilmSteps(std::span<const PictureSize> sizes, std::span<co
       constexpr double kMinImprovement = 0.9;
       if (!(min_px < kMinImprovement * steps.after_px)) continue;
       steps.after_px = min_px;
-      steps.late_s[film] = best_s;
+      steps.delay_s[film] = best_s;
     }
   }
   if (on_progress) on_progress(all, all);

@@ -1,4 +1,4 @@
-#include "engine/boards/film_steps.h"
+#include "engine/boards/film_delays.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace {
 constexpr double kPeriodS = 1.0 / 6;
 
 struct SteppingCase {
-  double late_s = 0;
+  double delay_s = 0;
   double other_period_s = kPeriodS;
 };
 
@@ -32,7 +32,7 @@ std::vector<BoardSighting> SightingsOf(const SteppingCase& of, std::vector<Camer
     const double period = camera == 0 ? kPeriodS : of.other_period_s;
     for (int look = 0; look * period < kLooks * kPeriodS; ++look) {
       BoardSighting s{.view = {.camera = camera, .target = static_cast<std::size_t>(look), .pairs = {}}, .look = look};
-      const double t = look * period - (camera == 1 ? of.late_s : 0);
+      const double t = look * period - (camera == 1 ? of.delay_s : 0);
       for (int i = 0; i < 12; ++i) {
         const glm::dvec2 place(0.054 * (i % 3 + 1), 0.054 * (i / 3 + 1));
         const glm::dvec2 pixel = *Project(cameras[camera], at(t, place));
@@ -49,16 +49,16 @@ std::vector<BoardSighting> SightingsOf(const SteppingCase& of, std::vector<Camer
 
 constexpr PictureSize kSizes[] = {{1280, 720}, {1280, 720}};
 
-TEST(FindFilmSteps, FindsHowLateAFilmIsAndItsCamerasWithIt) {
+TEST(FindFilmDelays, FindsHowLateAFilmIsAndItsCamerasWithIt) {
   const double periods[] = {kPeriodS, kPeriodS};
   std::vector<Camera> truth;
-  const auto sightings = SightingsOf({.late_s = 0.7 * kPeriodS}, truth);
-  const auto steps = FindFilmSteps(kSizes, sightings, periods, 2 * kPeriodS);
+  const auto sightings = SightingsOf({.delay_s = 0.7 * kPeriodS}, truth);
+  const auto steps = FindFilmDelays(kSizes, sightings, periods, 2 * kPeriodS);
   ASSERT_TRUE(steps) << ToString(steps.error());
-  EXPECT_EQ(steps->late_s[0], 0);
-  EXPECT_NEAR(steps->late_s[1], 0.7 * kPeriodS, 0.04 * kPeriodS);
+  EXPECT_EQ(steps->delay_s[0], 0);
+  EXPECT_NEAR(steps->delay_s[1], 0.7 * kPeriodS, 0.04 * kPeriodS);
   EXPECT_GT(steps->before_px, 3 * steps->after_px);
-  const auto rig = CalibrateFromPlanes(kSizes, ViewsInStep(sightings, periods, steps->late_s));
+  const auto rig = CalibrateFromPlanes(kSizes, SynchronisedViews(sightings, periods, steps->delay_s));
   ASSERT_TRUE(rig) << ToString(rig.error());
   EXPECT_LT(rig->rms_px, 0.4);
   for (const Camera& camera : rig->cameras) EXPECT_NEAR(camera.intrinsics.fx, 900, 9);
@@ -66,21 +66,21 @@ TEST(FindFilmSteps, FindsHowLateAFilmIsAndItsCamerasWithIt) {
               0.01);
 }
 
-TEST(FindFilmSteps, LeavesFilmsInStepAlone) {
+TEST(FindFilmDelays, LeavesFilmsInStepAlone) {
   const double periods[] = {kPeriodS, kPeriodS};
   std::vector<Camera> truth;
   const auto sightings = SightingsOf({}, truth);
-  const auto steps = FindFilmSteps(kSizes, sightings, periods, 2 * kPeriodS);
+  const auto steps = FindFilmDelays(kSizes, sightings, periods, 2 * kPeriodS);
   ASSERT_TRUE(steps) << ToString(steps.error());
-  EXPECT_EQ(steps->late_s, std::vector<double>(2));
+  EXPECT_EQ(steps->delay_s, std::vector<double>(2));
   EXPECT_LT(steps->after_px, 0.2);
 }
 
-TEST(ViewsInStep, OfAnotherRateStandAtTheFirstFilmsMoments) {
-  const double periods[] = {kPeriodS, 0.7 * kPeriodS}, late_s[] = {0, 0};
+TEST(SynchronisedViews, OfAnotherRateStandAtTheFirstFilmsMoments) {
+  const double periods[] = {kPeriodS, 0.7 * kPeriodS}, delay_s[] = {0, 0};
   std::vector<Camera> truth;
   const auto sightings = SightingsOf({.other_period_s = periods[1]}, truth);
-  const auto views = ViewsInStep(sightings, periods, late_s);
+  const auto views = SynchronisedViews(sightings, periods, delay_s);
   ASSERT_EQ(views.size(), sightings.size());  // none is lost: those between the first film's moments stand alone
   const auto rig = CalibrateFromPlanes(kSizes, views);
   ASSERT_TRUE(rig) << ToString(rig.error());
@@ -89,14 +89,14 @@ TEST(ViewsInStep, OfAnotherRateStandAtTheFirstFilmsMoments) {
               0.01);
 }
 
-TEST(PlaceBoards, TellsKnownCamerasResidual) {
+TEST(LocateBoards, TellsKnownCamerasResidual) {
   const double periods[] = {kPeriodS, kPeriodS}, in_step[] = {0, 0}, late[] = {0, 0.5 * kPeriodS};
   std::vector<Camera> truth;
   const auto sightings = SightingsOf({}, truth);
-  const auto right = PlaceBoards(truth, ViewsInStep(sightings, periods, in_step));
+  const auto right = LocateBoards(truth, SynchronisedViews(sightings, periods, in_step));
   ASSERT_TRUE(right) << ToString(right.error());
   EXPECT_LT(right->rms_px, 0.12);
-  const auto wrong = PlaceBoards(truth, ViewsInStep(sightings, periods, late));
+  const auto wrong = LocateBoards(truth, SynchronisedViews(sightings, periods, late));
   ASSERT_TRUE(wrong) << ToString(wrong.error());
   EXPECT_GT(wrong->rms_px, 1);
 }

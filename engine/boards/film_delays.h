@@ -12,20 +12,20 @@
 namespace etude {
 
 /// Returns the views of boards in films that are not synchronised. A *look* is one of the examined, evenly spaced
-/// pictures of a film. Look k of the first film was taken when the time of film c was k · period_s[0] + late_s[c].
+/// pictures of a film. Look k of the first film was taken when the time of film c was k · period_s[0] + delay_s[c].
 /// Corners at a moment between two looks are interpolated by a parabola through the same corner in the nearest look and
 /// in both neighbours, or by a line through two. A board without a neighbouring look becomes a target of its own, which
 /// constrains only its camera.
 /// @param sightings all from films (`look` ≥ 0)
 /// @param period_s time between the looks of each film, seconds
-/// @param late_s delay of each film, seconds; 0 for the first
-std::vector<TargetView> ViewsInStep(std::span<const BoardSighting> sightings, std::span<const double> period_s,
-                                    std::span<const double> late_s);
+/// @param delay_s delay of each film, seconds; 0 for the first
+std::vector<TargetView> SynchronisedViews(std::span<const BoardSighting> sightings, std::span<const double> period_s,
+                                    std::span<const double> delay_s);
 
-struct FilmSteps {
-  std::vector<double> late_s;  ///< delay of each film, as for `ViewsInStep`; all 0 if films are synchronised
+struct FilmDelays {
+  std::vector<double> delay_s;  ///< delay of each film, as for `SynchronisedViews`; all 0 if films are synchronised
   double before_px = 0;        ///< residual of all films without delays, pixels
-  double after_px = 0;         ///< residual with `late_s`, pixels
+  double after_px = 0;         ///< residual with `delay_s`, pixels
 };
 
 /// Finds the delays of films of a moving board: those that minimise the residual of a joint calibration of all cameras,
@@ -33,7 +33,7 @@ struct FilmSteps {
 /// delay is accepted only if it lowers the residual by a tenth, because boards at rest do not determine time. At most
 /// about 60 moments are used, evenly spaced. Fails as `CalibrateFromPlanes` does.
 /// @param max_delay_s maximum delay of a film, seconds, either way
-Result<FilmSteps> FindFilmSteps(std::span<const PictureSize> sizes, std::span<const BoardSighting> sightings,
+Result<FilmDelays> FindFilmDelays(std::span<const PictureSize> sizes, std::span<const BoardSighting> sightings,
                                 std::span<const double> period_s, double max_delay_s, const RefineOptions& options = {},
                                 const OnProgress& on_progress = {});
 

@@ -1,4 +1,4 @@
-#include "engine/keypoints/doubt_rig.h"
+#include "engine/keypoints/rig_warnings.h"
 
 #include <fmt/format.h>
 
@@ -74,8 +74,8 @@ class RigChecker {
   using Read = std::function<glm::dvec2(std::size_t film, const glm::dvec2& pixel)>;
 
   RigChecker(std::span<const Camera> cameras, std::span<const std::string> names, const MatchedPerson& person,
-             double least_confidence)
-      : cameras_(cameras), names_(names), person_(person), least_confidence_(least_confidence) {
+             double min_confidence)
+      : cameras_(cameras), names_(names), person_(person), least_confidence_(min_confidence) {
     constexpr std::size_t kMaxFrames = 60;
     const std::size_t frames = person.seen.empty() ? 0 : person.seen.front().size();
     const std::size_t stride = std::max<std::size_t>(1, frames / kMaxFrames);
@@ -259,9 +259,9 @@ class RigChecker {
 
 }  // namespace
 
-std::vector<std::string> DoubtRig(std::span<const Camera> cameras, std::span<const std::string> names,
-                                  const MatchedPerson& person, double least_confidence) {
-  return RigChecker(cameras, names, person, least_confidence).Run();
+std::vector<std::string> RigWarnings(std::span<const Camera> cameras, std::span<const std::string> names,
+                                  const MatchedPerson& person, double min_confidence) {
+  return RigChecker(cameras, names, person, min_confidence).Run();
 }
 
 }  // namespace etude

@@ -24,7 +24,7 @@ namespace etude {
 /// 1.17, and another reading brings it nearer and lowers the rays' distances; or by more than 1.1, if these fall by a
 /// tenth.
 /// @param cameras of the films, without distortion; the pixels are undistorted, too
-std::vector<std::string> DoubtRig(std::span<const Camera> cameras, std::span<const std::string> names,
-                                  const MatchedPerson& person, double least_confidence);
+std::vector<std::string> RigWarnings(std::span<const Camera> cameras, std::span<const std::string> names,
+                                  const MatchedPerson& person, double min_confidence);
 
 }  // namespace etude
