@@ -13,7 +13,7 @@ namespace etude {
 namespace {
 
 constexpr double kMinWidthPx = 3;
-constexpr double kMinContrast = 20;  // counts of 255
+constexpr double kMinDiscContrast = 20;  // counts of 255
 // Relative difference of its area from that of the ellipse with its second moments.
 constexpr double kMaxShapeError = 0.25;
 
@@ -139,7 +139,7 @@ std::optional<glm::dvec2> FindDisc(const GreyImage& picture, const glm::dvec2& p
   if (!darkest) return std::nullopt;
   const Window window(picture, MiddleOf(darkest->x, darkest->y), max_width_px);
   const float dark = picture.At(darkest->x, darkest->y), bright = BrightestOf(picture, window);
-  if (bright - dark < kMinContrast) return std::nullopt;
+  if (bright - dark < kMinDiscContrast) return std::nullopt;
   const std::vector<glm::ivec2> piece = DarkPiece(picture, *darkest, window, 0.5f * (dark + bright));
   if (piece.empty()) return std::nullopt;
   // Check its width and shape.
