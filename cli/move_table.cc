@@ -21,7 +21,7 @@ Line LineOf(const GateTableRow& row) {
           row.worlds};
 }
 
-/// Counts the columns that people see, not bytes: continuation bytes of UTF-8 take none.
+/// Returns the number of characters, not bytes: continuation bytes of UTF-8 do not count.
 std::size_t WidthOf(const std::string& text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));

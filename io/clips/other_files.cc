@@ -10,11 +10,11 @@ namespace {
 constexpr std::size_t kAnywhere = std::string_view::npos;
 constexpr std::size_t kLongestHead = 4096;
 
-/// Bytes that tell a kind of file, where they stand in it, and what to do with such a file.
+/// The bytes that identify a kind of file, their position, and the text about such a file.
 struct Mark {
   std::string_view bytes;
   const char* told;
-  std::size_t at = 0;  ///< kAnywhere: within the head
+  std::size_t at = 0;  ///< position in the file; kAnywhere: anywhere within the head
 };
 
 constexpr const char* kOpenSim =

@@ -20,7 +20,8 @@
 namespace etude {
 namespace {
 
-// Long enough that frames which share a picture share a process, short enough that all of them end together.
+// Long enough that consecutive frames which share a picture are drawn by one process, short enough that all processes
+// end at about the same time.
 constexpr int kChunk = 8;
 
 bool Tell(int talk) { return SendAll(talk, "."); }
@@ -34,7 +35,7 @@ bool Hear(int talk) {
 
 void FilmWorkers::Unmap::operator()(std::uint8_t* memory) const { munmap(memory, bytes); }
 
-// Frames that are fed come from one source, one after the other, so that those who draw take turns.
+// Data come from one source in the order of frames, so processes take turns frame by frame (chunks of 1).
 FilmWorkers::FilmWorkers(int frames, int jobs, int width, int height, FrameFeed feed)
     : frames_(frames),
       width_(width),
@@ -127,7 +128,7 @@ Result<std::span<const std::uint8_t>> FilmWorkers::Next() {
 
 namespace {
 
-/// A click track that is there while its film is encoded.
+/// A click track whose file exists while its film is encoded.
 class SoundFile {
  public:
   static Result<SoundFile> Make(const Scene& scene) {
@@ -142,7 +143,7 @@ class SoundFile {
         WriteFileAtomically(sound.path_, WriteWav(ClickTrack(beats, seconds, kSoundRate), kSoundRate), OnDisk::kLater));
     return sound;
   }
-  const std::filesystem::path& path() const { return path_; }  ///< empty: silence
+  const std::filesystem::path& path() const { return path_; }  ///< empty for a silent film
 
  private:
   SoundFile() = default;

@@ -11,7 +11,7 @@ namespace etude {
 namespace {
 
 constexpr double kLogarithmicFrom = 100;
-constexpr double kMargin = 0.04;  // of the axis, so that no mark is cut in half
+constexpr double kMargin = 0.04;  // a share of the range, so that no mark at an end is cut in half
 constexpr double kMostTicks = 6;
 
 double RoundStep(double range) {
@@ -28,7 +28,7 @@ Axis WithMargin(double low, double high) {
   return {.low = low - kMargin * width, .high = high + kMargin * width};
 }
 
-/// Cuts a text to at most so many characters, an ellipsis counting as one; never within a character.
+/// Cuts a text to at most `most` characters, including the ellipsis; never within a character.
 std::string Cut(std::string_view text, std::size_t most) {
   std::size_t characters = 0, end = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -82,7 +82,7 @@ Axis DecadeAxis(const std::vector<double>& values) {
   }
   int first = 0, last = 1;
   if (high > 0) {
-    // A single value needs a decade, too.
+    // A single value needs an axis of one decade.
     first = static_cast<int>(std::floor(std::log10(low)));
     last = std::max(static_cast<int>(std::ceil(std::log10(high))), first + 1);
     first = std::max(first, last - kMostDecades);

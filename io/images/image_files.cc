@@ -19,17 +19,17 @@
 namespace etude {
 namespace {
 
-// A picture of the largest size that does not compress at all, with room to spare.
+// The size of an uncompressed picture with kLargestPicture pixels per side, rounded up.
 constexpr std::uintmax_t kLargestPictureFile = std::uintmax_t{1} << 28;
-// Of pictures that are no camera's: what GL and JPEG can hold.
+// The limit for pictures that no camera took: what GL and JPEG can hold.
 constexpr std::uint32_t kLargestSide = 16'384;
 constexpr int kRunsAlone = 3;  // zlib's Z_RLE
 
 // --- PNG
 
-/// The bytes of 8-bit sRGB pixels as a PNG file. `colour_type` is PNG_COLOR_TYPE_RGB or PNG_COLOR_TYPE_GRAY.
-/// Filtered rows of a camera's picture hold noise and runs of zeros, but no words that come again: looking for runs
-/// alone gives a file of the same size as zlib's usual search does, in a sixth of the time.
+/// Encodes 8-bit sRGB pixels as the bytes of a PNG file. `colour_type` is PNG_COLOR_TYPE_RGB or PNG_COLOR_TYPE_GRAY.
+/// Filtered rows of camera pictures hold noise and runs of zeros but no repeated strings: run-length coding gives the
+/// same file size as zlib's default strategy in a sixth of the time.
 std::string EncodePixels(const std::uint8_t* pixels, int width, int height, int colour_type) {
   assert(width > 0 && height > 0);
   std::string bytes;
@@ -65,7 +65,7 @@ constexpr const char* kDepthChannel = "Z";
 constexpr const char* kLabelChannel = "label";
 constexpr const char* kNormalChannels[] = {"N.X", "N.Y", "N.Z"};
 
-// Where OpenEXR puts a file's bytes.
+// Collects the bytes of a file that OpenEXR writes.
 class ByteStream : public Imf::OStream {
  public:
   ByteStream() : Imf::OStream("a picture in memory") {}
@@ -85,8 +85,9 @@ class ByteStream : public Imf::OStream {
   std::size_t at_ = 0;
 };
 
-// Throws what OpenEXR throws.
+// Writes an EXR file into `out`; OpenEXR's exceptions pass through.
 void WriteExr(const View& view, const NormalImage& normals, std::span<const DepthChannel> measured, Imf::OStream& out) {
+  // Add one channel for each picture that is not empty; colours are converted to linear light.
   const int width = std::max({view.colour.width, view.depth.width, view.labels.width});
   const int height = std::max({view.colour.height, view.depth.height, view.labels.height});
   Imf::Header header(width, height);

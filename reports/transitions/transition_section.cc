@@ -14,7 +14,7 @@
 namespace etude {
 namespace {
 
-/// Draws a bar of the share of the threshold's square that this feature alone takes up.
+/// Draws a bar for the share of the squared threshold that this feature alone takes up.
 std::string Bar(double partial, double full, bool has_threshold) {
   const double share = full > 0 ? std::clamp(partial / full, 0.0, 1.0) : 0;
   const bool alone = has_threshold && partial >= full;
@@ -28,7 +28,7 @@ std::string DistanceWords(double distance, std::optional<double> threshold) {
                      fmt::format("{:g}", *threshold));
 }
 
-// More than a reader takes in; the recordings hold them all.
+// Limits for readability; the recordings hold everything.
 constexpr std::size_t kMostWorlds = 6;
 constexpr std::size_t kMostMethods = 12;
 constexpr std::size_t kMostCandidates = 24;
@@ -41,7 +41,7 @@ std::span<const RecordedTransition> Shown(const RecordedRequest& world) {
   return std::span(world.transitions).first(std::min(world.transitions.size(), kMostMethods));
 }
 
-/// Writes the way through the clips: "clap 41 → in-between 0 … in-between 12 → side kick 3".
+/// Returns the path through the clips: "clap 41 → in-between 0 … in-between 12 → side kick 3".
 std::string WayOf(const TransitionFacts& facts) {
   std::string text;
   for (const PointFacts& point : facts.points) {
@@ -52,7 +52,7 @@ std::string WayOf(const TransitionFacts& facts) {
   return text.empty() ? std::string(kNoValue) : text;
 }
 
-/// Gives the largest distance of the frames that met, which the threshold is about.
+/// Returns the largest distance of all transition points, which is compared with the threshold.
 std::optional<double> WorstDistance(const TransitionFacts& facts) {
   std::optional<double> worst;
   for (const PointFacts& point : facts.points) {
@@ -100,13 +100,13 @@ std::string Distances(const RecordedRequest& world) {
   return table.Html();
 }
 
-/// Writes a frame: "clap 28", or the frame alone.
+/// Returns a frame with its clip, "clap 28", or the frame alone.
 std::string FrameIn(const std::string& clip, int frame) {
   return clip.empty() ? std::to_string(frame) : fmt::format("{} {}", EscapeMarkup(clip), frame);
 }
 
-/// Gives the transition point that a candidate was looked at for: through an in-between there are two. Its clips are
-/// empty when unknown.
+/// Returns the transition point for which a candidate was considered; with an in-between there are two. Its clips are
+/// empty if the point is unknown.
 PointFacts PointOf(const CandidateFacts& candidate, const TransitionFacts& facts) {
   const int point = candidate.point.value_or(facts.points.size() == 1 ? 0 : -1);
   const bool is_told = point >= 0 && point < static_cast<int>(facts.points.size());
@@ -127,7 +127,7 @@ std::string CandidateRow(const CandidateFacts& candidate, const TransitionFacts&
          fmt::format("<td>{}</td></tr>", candidate.partials ? MostlyBy(*candidate.partials) : std::string(kNoValue));
 }
 
-/// Says how many of all pairs of frames are listed.
+/// Returns a note on how many of all pairs of frames are listed; "" if all are.
 std::string HowMany(const TransitionFacts& facts) {
   const auto listed = static_cast<long long>(facts.candidates.size());
   if (!facts.pairs_seen || *facts.pairs_seen <= listed) return "";
@@ -154,7 +154,7 @@ std::string CandidatesTable(const std::string& methods, const TransitionFacts& f
   return html + "</tbody></table></div>" + LeftOutHtml(facts.candidates.size(), shown, "candidates", "the recording");
 }
 
-/// Writes the candidates of all methods; those that differ in the join alone share theirs.
+/// Writes the candidates of all methods; methods that differ only in the join share one table.
 std::string AllCandidates(const RecordedRequest& world) {
   std::string html;
   std::vector<bool> told(world.transitions.size());
@@ -217,6 +217,7 @@ void DistanceTable::AddPoint(const std::string& method, const PointFacts& point,
 
 std::string DistanceTable::Html() const {
   if (points_.empty()) return "";
+  // One column for each feature.
   std::string html =
       "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Partial distances\"><table class=\"partials\">"
       "<thead><tr><th scope=\"col\">Partial distances S·Δ²</th>";
@@ -224,6 +225,7 @@ std::string DistanceTable::Html() const {
     html += fmt::format("<th scope=\"col\" class=\"n\">{}</th>", FeatureName(feature));
   }
   html += "<th scope=\"col\" class=\"n\">Sum d²</th><th scope=\"col\" class=\"n\">d</th></tr></thead><tbody>";
+  // The weights, once for all methods that share them.
   for (const auto& [methods, weights] : weights_) {
     const bool shared_by_all = weights_.size() == 1;
     html +=
@@ -232,6 +234,7 @@ std::string DistanceTable::Html() const {
     html += fmt::format("<td class=\"n\">{}</td><td></td></tr>",
                         fmt::format("{:.3g}", std::accumulate(weights.begin(), weights.end(), 0.0)));
   }
+  // One row for each transition point.
   for (const Point& point : points_) {
     const PerFeature& partials = *point.facts.partials;
     const double sum = std::accumulate(partials.begin(), partials.end(), 0.0);

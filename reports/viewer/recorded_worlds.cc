@@ -30,7 +30,7 @@ std::vector<RecordedWorld> RecordedWorlds(const RunData& run) {
   }
   std::vector<RecordedWorld> worlds;
   if (recordings.empty()) return worlds;
-  std::map<std::string, std::size_t> places;  // of worlds
+  std::map<std::string, std::size_t> places;  // indices into `worlds`
   for (const Row& row : run.rows) {
     const auto recorded = recordings.find(row.Id());
     const auto scenario = std::ranges::find(run.scenarios, row.scenario, &ScenarioSummary::name);
@@ -67,7 +67,7 @@ std::string ViewerIndexHtml(const RunData& run) {
 std::string WatchHtml(const RunData& run, std::size_t scenario) {
   std::vector<RecordedWorld> worlds = RecordedWorlds(run);
   std::erase_if(worlds, [&](const RecordedWorld& world) { return world.scenario != scenario; });
-  // One trial of several conditions: these tell them apart.
+  // If all worlds have the same trial, name them by their conditions.
   const bool one_trial = worlds.size() > 1 && std::ranges::all_of(worlds, [&](const RecordedWorld& world) {
                            return world.cells.front().row->trial == worlds.front().cells.front().row->trial;
                          });

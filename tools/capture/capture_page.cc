@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kHeight = 190, kTop = 8, kBottom = 166, kWide = 900, kRight = 890;
 
-/// The curve as an SVG path; of more frames than the panel has room for, the largest of each few.
+/// Returns the curve as an SVG path. If there are more frames than points, each point is the maximum of several frames.
 std::string PathOf(const TakeCurve& curve, const Axis& across, const Axis& up, double rate_hz) {
   constexpr std::size_t kMostPoints = 450;
   const std::size_t stride = (curve.values.size() + kMostPoints - 1) / kMostPoints;
@@ -35,7 +35,7 @@ std::string PathOf(const TakeCurve& curve, const Axis& across, const Axis& up, d
   return path;
 }
 
-/// A figure of curves over time with its legend.
+/// Returns a figure with curves over time and a legend.
 std::string CurvesHtml(const std::vector<TakeCurve>& curves, double rate_hz, std::string_view caption) {
   std::vector<double> all;
   std::size_t frames = 1;
@@ -107,6 +107,7 @@ std::string ToldHtml(const CapturePage& page) {
 }
 
 std::string ResidualsHtml(const CameraResiduals& residuals, double rate_hz) {
+  // One table row for each camera: number of frames, median, 95th percentile, and the share of rejected keypoints.
   std::vector<TakeCurve> curves;
   std::vector<std::vector<std::string>> rows;
   std::vector<std::string> heads = {"Camera", "Frames", "Median, " + residuals.unit, "95 %, " + residuals.unit};

@@ -13,7 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The median distance of a frame's keypoints to the points that all cameras make, as the camera shows them.
+/// Returns the median distance in pixels between a frame's keypoints and the projected points of all cameras; nullopt
+/// if no point is shared.
 std::optional<double> ResidualOf(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPlaces& places) {
   std::vector<double> distances;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
@@ -37,6 +38,7 @@ std::vector<TakeCurve> FeetOf(const BodyMotion& motion) {
 }
 
 CameraResiduals ResidualsOf(const std::vector<FilmedView>& views, const RecoveredPerson& person, std::size_t chosen,
+                            // For each camera, one value per frame.
                             const SeenFilms& films) {
   CameraResiduals residuals{
       .caption =
@@ -62,6 +64,7 @@ CapturePage PageOf(const CaptureFilmsOptions& options, const std::vector<FilmedV
                    const RecoveredPerson& person, std::size_t chosen, const SeenFilms& films,
                    const UnmarkedMotion* both) {
   constexpr double kPercent = 100;
+  // The verdict: points found, residuals, and doubts.
   CapturePage page = BeginPage(options, person.motion, person.body.lengths, films.told.lines);
   page.verdict = fmt::format(
       "{} cameras, {} frames at {:g} Hz: {:.1f} % of the points found, {:.1f} px off the keypoints in the median",
@@ -73,6 +76,7 @@ CapturePage PageOf(const CaptureFilmsOptions& options, const std::vector<FilmedV
     page.verdict += fmt::format("; body and outlines differ by {:.0f} %", MedianOf(page.residuals.back()));
   }
   page.verdict += fmt::format("; {}.", DoubtsOf(films.told.lines));
+  // The limb lengths and the fit of the skeleton.
   page.limbs = options.poses == "bundle" && options.smooth_hz == 0
                    ? "Limbs are as long as explains all keypoints best."
                    : "Limbs are as long as in the median of what was seen.";

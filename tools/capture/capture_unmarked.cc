@@ -19,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostPictures = 4000;  // small ones, of all films together: they are held in memory, 2 GB
+constexpr std::size_t kMostPictures = 4000;  // reduced pictures of all films together; they are held in memory, about 2
+                                             // GB
 
 Result<ColourImage> ReadRoom(const std::string& folder, const FilmedView& view) {
   ASSIGN_OR_RETURN(const fs::path entry, EntryOfFilm(folder, view.path.stem().string()));
@@ -34,7 +35,7 @@ Result<ColourImage> ReadRoom(const std::string& folder, const FilmedView& view) 
   return std::move(pictures.front());
 }
 
-/// The clocks that the films' own rates say; told where they differ.
+/// Sets the clocks from the films' frame rates, and reports rates that differ.
 std::vector<FilmClock> ClocksByRates(const std::vector<FilmedView>& views, ToldLines& told) {
   const FilmFacts& first = views.front().facts;
   std::vector<FilmClock> clocks;
@@ -54,7 +55,7 @@ std::vector<FilmClock> ClocksByRates(const std::vector<FilmedView>& views, ToldL
   return clocks;
 }
 
-/// Takes of a film the pictures nearest to the first film's moments.
+/// Selects the pictures of a film that are nearest to the times of the first film's frames.
 std::vector<ColourImage> InTime(std::vector<ColourImage> film, const FilmClock& clock, std::size_t frames) {
   if (clock == FilmClock{} && film.size() == frames) return film;
   std::vector<ColourImage> in_time;
@@ -186,7 +187,7 @@ std::vector<double> KnownOf(const std::vector<std::optional<double>>& values) {
   return known;
 }
 
-/// Tells what was found and what is doubtful, a line each.
+/// Reports the findings and the doubts, one line each.
 void TellUnmarked(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
                   const UnmarkedMotion& person, ToldLines& told) {
   told.Tell(fmt::format("stature: {:.2f} m{}; outlines cost {:.0f} a picture", person.stature_m,
@@ -224,6 +225,7 @@ Result<bool> CaptureUnmarked(const CaptureFilmsOptions& options, const FilmedSes
                              const std::optional<MarkerMotion>& reference, Json& facts) {
   if (!options.points.empty()) return Fail({}, "--points: silhouettes have no keypoints to write");
   const std::vector<FilmedView>& views = session.views;
+  // Recover the motion from the silhouettes.
   ToldLines told{options.listener.print};
   for (const std::string& line : session.told) told.Tell(line);
   const std::vector<FilmClock> clocks = ClocksByRates(views, told);
@@ -231,6 +233,7 @@ Result<bool> CaptureUnmarked(const CaptureFilmsOptions& options, const FilmedSes
   ASSIGN_OR_RETURN(const UnmarkedMotion person, RecoverByOutlines(take, options, views.front().facts.rate_hz));
   TellUnmarked(options, views, person, told);
   facts["silhouettes"] = {{"stature_m", person.stature_m}, {"cost", person.cost}, {"held_frames", person.held}};
+  // Write the motion, the film, the comparison and the page.
   RETURN_IF_ERROR(WriteMotion(options, person.clip, person.motion));
   if (!options.film.empty()) {
     ASSIGN_OR_RETURN(const bool is_whole,

@@ -21,7 +21,7 @@ Paint PaintOf(Role role) {
   return name.starts_with("left_") ? kLeftLimb : name.starts_with("right_") ? kRightLimb : kMiddleLimb;
 }
 
-/// Lays the films out side by side.
+/// Places the films side by side.
 std::vector<Box> Layout(std::span<const OverlayView> views, int& width, int& height) {
   double sum = 0;
   for (const OverlayView& view : views) sum += static_cast<double>(view.facts.width) / view.facts.height;
@@ -63,7 +63,7 @@ class ViewPainter {
   glm::dvec2 OnCanvas(const glm::dvec2& film) const {
     return {box_.x + film.x * box_.width / view_.facts.width, box_.y + film.y * box_.height / view_.facts.height};
   }
-  /// Gives the pixel of a place; nothing outside the film.
+  /// Returns the pixel of a point; nullopt outside the film.
   std::optional<glm::dvec2> PixelOf(const glm::dvec3& place) const {
     const auto rig = Project(view_.camera, place);
     if (!rig || !IsInside(view_.fit.ToFilm(*rig))) return std::nullopt;
@@ -74,7 +74,7 @@ class ViewPainter {
   const Box box_;
 };
 
-/// A film's pictures, from the first to the last.
+/// Reads the pictures of a film in order.
 class FilmRoll {
  public:
   static Result<FilmRoll> Start(const OverlayView& view) {
@@ -82,7 +82,7 @@ class FilmRoll {
     return FilmRoll(view, std::move(decoder));
   }
 
-  /// Gives the picture nearest to that frame of the motion, which is no earlier than the one before.
+  /// Returns the picture nearest to that frame of the motion. Frames must be asked for in ascending order.
   Result<const ColourImage*> At(std::size_t frame) {
     const long wanted = std::clamp(std::lround((static_cast<double>(frame) - view_->offset) / (1 + view_->drift)), 0l,
                                    static_cast<long>(view_->facts.frames) - 1);
@@ -102,7 +102,7 @@ class FilmRoll {
   long shown_ = -1;
 };
 
-/// All films as they run, one picture of each beside the other in memory.
+/// Reads all films in parallel and writes their pictures one after the other into one buffer.
 class FilmRolls {
  public:
   static Result<FilmRolls> Start(std::span<const OverlayView> views) {
@@ -116,7 +116,7 @@ class FilmRolls {
   }
 
   std::size_t bytes() const { return bytes_; }
-  /// Writes the pictures of a frame of the motion, which is no earlier than the one before.
+  /// Writes the pictures for a frame of the motion. Frames must be asked for in ascending order.
   Result<void> Write(std::size_t frame, std::span<std::uint8_t> into) {
     for (FilmRoll& roll : rolls_) {
       ASSIGN_OR_RETURN(const ColourImage* picture, roll.At(frame));
@@ -126,7 +126,7 @@ class FilmRolls {
     }
     return {};
   }
-  /// Reads the first picture of `from`, and leaves the rest there.
+  /// Reads the first picture from `from` and advances `from` behind it.
   static ColourImage TakePicture(const OverlayView& view, std::span<const std::uint8_t>& from) {
     ColourImage picture(view.facts.width, view.facts.height);
     std::memcpy(picture.pixels.data(), from.data(), BytesOf(view));

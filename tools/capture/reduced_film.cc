@@ -10,7 +10,7 @@ double ReductionOf(const Intrinsics& in, int side) {
   return std::max(1.0, static_cast<double>(std::max(in.width, in.height)) / side);
 }
 
-/// The film's pixels that one pixel of the reduced picture covers: left ≤ x < right, top ≤ y < bottom.
+/// The film's pixels that one reduced pixel covers: left ≤ x < right, top ≤ y < bottom.
 struct Patch {
   int left = 0, top = 0, right = 0, bottom = 0;
 };

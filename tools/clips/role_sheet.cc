@@ -18,7 +18,7 @@ constexpr double kEdge = 18, kColumn = 360, kLine = 18, kFoot = 56, kTop = 44;
 constexpr double kLabelSize = 13;
 constexpr Paint kBone{0.45, 0.49, 0.52, 1}, kLeader{0.30, 0.33, 0.36, 1};
 
-/// A joint in the picture, and what stands beside it.
+/// A joint in the picture and its label.
 struct SheetJoint {
   glm::dvec2 at{0};  ///< pixels
   std::string words;
@@ -34,7 +34,8 @@ std::vector<glm::dvec3> PlacesOf(const Clip& clip) {
   return places;
 }
 
-/// The directions that lie to the right and upward in the picture. Up is Y or Z, along which the body is longer.
+/// Returns the directions that point right and up in the picture. Up is Y or Z, whichever the body extends further
+/// along.
 std::pair<glm::dvec3, glm::dvec3> ViewOf(const std::vector<glm::dvec3>& places,
                                          const std::array<RoleOnSheet, kRoleCount>& roles) {
   glm::dvec3 low = places.front(), high = low;
@@ -71,14 +72,15 @@ void Label(const std::array<RoleOnSheet, kRoleCount>& roles, std::vector<SheetJo
   }
 }
 
-/// Writes labels of one side below each other, each as near to its joint's height as the others leave it.
+/// Draws the labels of one side below each other, each as near to the height of its joint as the other labels allow.
 void DrawColumn(Canvas& canvas, std::vector<const SheetJoint*> joints, bool is_left) {
   std::ranges::stable_sort(joints, {}, [](const SheetJoint* joint) { return joint->at.y; });
   const double bottom = canvas.height() - kFoot;
   double y = kTop;
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const SheetJoint& joint = *joints[i];
-    const double last = bottom - kLine * static_cast<double>(joints.size() - i);  // leaves room for those that follow
+    // leaves space for the labels that follow
+    const double last = bottom - kLine * static_cast<double>(joints.size() - i);
     y = std::clamp(joint.at.y, std::min(y, last), last);
     const double width = std::min(canvas.TextWidth(joint.words, kLabelSize, joint.plays), kColumn);
     const double x = is_left ? kEdge + kColumn - width : canvas.width() - kEdge - kColumn;
@@ -102,6 +104,7 @@ std::string MissingRoles(const std::array<RoleOnSheet, kRoleCount>& roles) {
 Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet, kRoleCount>& roles) {
   const std::vector<glm::dvec3> places = PlacesOf(clip);
   const auto [right, up] = ViewOf(places, roles);
+  // Project the joints onto the picture's plane.
   std::vector<SheetJoint> joints(places.size());
   glm::dvec2 low(INFINITY), high(-INFINITY);
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -111,6 +114,7 @@ Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet
   }
   const double size = std::max(high.x - low.x, high.y - low.y);
   if (!std::isfinite(size) || size <= 0) return Fail({}, "a skeleton of no size: there is nothing to draw");
+  // Label the joints with names and roles, and put each label on the side of its joint.
   Label(roles, joints);
 
   const auto is_labelled = [&](std::size_t i) { return joints[i].plays || !clip.skeleton.joints[i].is_end_site; };
@@ -125,12 +129,14 @@ Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet
 
   Canvas canvas(kSheetWidth, static_cast<int>(height));
   canvas.FillBox({0, 0, kSheetWidth, height}, kBackdrop);
+  // Scale the skeleton into the space between the labels.
   const double room_x = kSheetWidth - 2 * (kEdge + kColumn + 30), room_y = kLeastHeight - kTop - kFoot - 40;
   const double scale =
       std::min(room_x / std::max(high.x - low.x, 1e-9 * size), room_y / std::max(high.y - low.y, 1e-9 * size));
   const glm::dvec2 centre(kSheetWidth / 2.0, (kTop + height - kFoot) / 2);
   for (SheetJoint& joint : joints) joint.at = centre + scale * (joint.at - (low + high) / 2.0);
 
+  // Draw bones, labels and joints.
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const int parent = clip.skeleton.joints[i].parent;
     if (parent >= 0) canvas.DrawLine(joints[parent].at, joints[i].at, 4, kBone);
@@ -138,6 +144,7 @@ Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet
   DrawColumn(canvas, columns[0], true);
   DrawColumn(canvas, columns[1], false);
   for (const SheetJoint& joint : joints) canvas.DrawDot(joint.at, joint.plays ? 5 : 3, joint.paint);
+  // Draw the title, the missing roles and the legend of colours.
   canvas.DrawText({kEdge, 26}, clip.name, 17, kInk, kSheetWidth - 2 * kEdge, true);
   canvas.DrawText({kEdge, height - 32}, MissingRoles(roles), kLabelSize, kInk, kSheetWidth - 2 * kEdge, true);
   canvas.DrawText(
