@@ -31,7 +31,7 @@ bool ParseSeconds(std::string_view text, double& seconds) {
 }
 
 // The same limit as for BVH files that are read, bytes.
-constexpr double kLargestResampled = 1e9;
+constexpr double kMaxResampledBytes = 1e9;
 
 /// Converts a clip of another unit and up axis to metres and Y up.
 Clip InMetres(Clip clip, double metres_per_unit, UpAxis up) {
@@ -58,9 +58,9 @@ Result<Clip> Edited(const Clip& clip, const ConvertOptions& options) {
   if (options.rate_hz) {
     const double frames = 1 + edited->DurationSeconds() * *options.rate_hz;
     const double bytes = frames * static_cast<double>(edited->skeleton.joints.size() * sizeof(LocalTransform));
-    if (bytes > kLargestResampled) {
+    if (bytes > kMaxResampledBytes) {
       return Fail({}, "{:.0f} frames of {} joints would take {:.1f} GB; allowed: {:.0f} GB", frames,
-                  edited->skeleton.joints.size(), bytes / 1e9, kLargestResampled / 1e9);
+                  edited->skeleton.joints.size(), bytes / 1e9, kMaxResampledBytes / 1e9);
     }
     *edited = Resample(*edited, *options.rate_hz);
   }

@@ -22,9 +22,9 @@ namespace {
 
 constexpr const char* kModule = "etude_clips_assimp.so";  // found beside the program, by its run path
 constexpr rlim_t kMemoryBytes = rlim_t{4} << 30, kProcessorSeconds = 60;
-constexpr std::size_t kLargestGlb = std::size_t{1} << 30;
-constexpr unsigned kOldestVersion = 7;
-constexpr const char* kGaveUp = "a damaged FBX file: its reader gave up";
+constexpr std::size_t kMaxGlbBytes = std::size_t{1} << 30;
+constexpr unsigned kMinVersion = 7;
+constexpr const char* kReaderFailed = "a damaged FBX file: its reader gave up";
 constexpr char kSaidGlb = 'G', kSaidComplaint = 'C';
 
 constexpr std::string_view kBinaryStart = "Kaydara FBX Binary", kTextStart = "; FBX";
@@ -59,8 +59,8 @@ rlim_t MappedBytes() {
   return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
 }
 
-void Limit(int resource, rlim_t most) {
-  const rlimit limit{most, most};
+void Limit(int resource, rlim_t maximum) {
+  const rlimit limit{maximum, maximum};
   ::setrlimit(resource, &limit);
 }
 
@@ -79,12 +79,12 @@ bool SendBlock(int socket, std::string_view bytes) {
   return SendAll(socket, {reinterpret_cast<const char*>(&size), sizeof size}) && SendAll(socket, bytes);
 }
 
-/// Receives a block of SendBlock. Returns nullopt if the other end is closed, or if the block is longer than `most`
+/// Receives a block of SendBlock. Returns nullopt if the other end is closed, or if the block is longer than `maximum`
 /// bytes (then `is_too_long` is set).
-std::optional<std::string> ReceiveBlock(int socket, std::size_t most, bool& is_too_long) {
+std::optional<std::string> ReceiveBlock(int socket, std::size_t maximum, bool& is_too_long) {
   std::uint64_t size = 0;
   if (!ReceiveAll(socket, reinterpret_cast<char*>(&size), sizeof size)) return std::nullopt;
-  is_too_long = size > most;
+  is_too_long = size > maximum;
   std::string bytes;
   if (is_too_long) return std::nullopt;
   bytes.resize(size);
@@ -93,7 +93,7 @@ std::optional<std::string> ReceiveBlock(int socket, std::size_t most, bool& is_t
 
 /// The child process: answers each file with kSaidGlb, the name of the reader, a line break and the GLB file, or with
 /// kSaidComplaint and a complaint.
-int BeReader(int socket) {
+int ReadFilesInChild(int socket) {
   Limit(RLIMIT_AS, MappedBytes() + kMemoryBytes);
   Limit(RLIMIT_CORE, 0);
   // The default handlers end the child on a crash, even if the parent handles these signals.
@@ -112,7 +112,7 @@ int BeReader(int socket) {
   }
   bool is_too_long = false;
   // Answer files until the parent closes the socket.
-  while (const auto bytes = ReceiveBlock(socket, kLargestGlb, is_too_long)) {
+  while (const auto bytes = ReceiveBlock(socket, kMaxGlbBytes, is_too_long)) {
     AllowProcessorTime(kProcessorSeconds);
     std::string said = missing;
     const bool went_well = read != nullptr && read(*bytes, said);
@@ -127,27 +127,27 @@ bool IsFbx(std::string_view bytes) { return bytes.starts_with(kBinaryStart) || b
 
 Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& path) {
   // Refuse versions that assimp cannot read, before a child is started.
-  if (const unsigned version = MajorVersion(bytes); version > 0 && version < kOldestVersion) {
+  if (const unsigned version = MajorVersion(bytes); version > 0 && version < kMinVersion) {
     return Fail({path}, "an FBX file of version {}; allowed: {} (of 2011 or later): export it anew, or convert it",
-                version, kOldestVersion);
+                version, kMinVersion);
   }
   if (!child_) {
-    ASSIGN_OR_RETURN(auto started, ForkedCopy::Start(BeReader));
+    ASSIGN_OR_RETURN(auto started, ForkedCopy::Start(ReadFilesInChild));
     child_ = std::move(started);
   }
   // Send the file and wait for the answer.
   std::optional<std::string> said;
   bool is_too_long = false;
-  if (SendBlock(child_->socket(), bytes)) said = ReceiveBlock(child_->socket(), kLargestGlb, is_too_long);
+  if (SendBlock(child_->socket(), bytes)) said = ReceiveBlock(child_->socket(), kMaxGlbBytes, is_too_long);
   // The child answered: return the GLB file, or its complaint.
   if (said && said->starts_with(kSaidGlb)) {
     const std::size_t line = said->find('\n');
     return FbxMotion{.glb = said->substr(line + 1), .reader = said->substr(1, line - 1)};
   }
   if (said) {
-    constexpr std::size_t kLongest = 300;  // assimp's message may repeat the whole file
-    const std::string why = said->size() < 2 ? kGaveUp : said->substr(1, kLongest);
-    return Fail({path}, "{}{}", why, said->size() > 1 + kLongest ? " …" : "");
+    constexpr std::size_t kMaxMessageBytes = 300;  // assimp's message may repeat the whole file
+    const std::string why = said->size() < 2 ? kReaderFailed : said->substr(1, kMaxMessageBytes);
+    return Fail({path}, "{}{}", why, said->size() > 1 + kMaxMessageBytes ? " …" : "");
   }
   // The child ended without an answer: tell limits that were reached from a crash.
   const int status = child_->Wait();
@@ -156,9 +156,9 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
   if (is_too_long || signal == SIGXCPU || signal == SIGKILL) {
     return Fail({path},
                 "an FBX file too large to read: at most {} s of processor time, {} GB of memory and {} GB of result",
-                kProcessorSeconds, kMemoryBytes >> 30, kLargestGlb >> 30);
+                kProcessorSeconds, kMemoryBytes >> 30, kMaxGlbBytes >> 30);
   }
-  if (signal == 0) return Fail({path}, "{}", kGaveUp);
+  if (signal == 0) return Fail({path}, "{}", kReaderFailed);
   return Fail({path}, "{} {} ({})", kReaderFell, signal, ::strsignal(signal));
 }
 

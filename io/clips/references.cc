@@ -33,8 +33,8 @@ const PackagedClips* FindPackage(std::string_view reference) {
 
 std::vector<std::string> FilesMatching(const std::string& pattern) {
   // glob calls itself for every '/' with a copy of the pattern, so thousands of '/' would overflow the stack.
-  constexpr std::size_t kLongestPattern = 1000;
-  if (pattern.size() > kLongestPattern) return {};
+  constexpr std::size_t kMaxPatternBytes = 1000;
+  if (pattern.size() > kMaxPatternBytes) return {};
   glob_t matches{};
   const int status = ::glob(pattern.c_str(), GLOB_TILDE, nullptr, &matches);
   std::vector<std::string> files;
