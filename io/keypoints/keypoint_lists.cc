@@ -11,7 +11,7 @@ namespace etude {
 namespace {
 
 constexpr double kHalfPixel = 0.5;
-constexpr double kFarthestPixel = 1e6;
+constexpr double kMaxPixel = 1e6;
 
 }  // namespace
 
@@ -61,7 +61,7 @@ Result<std::vector<Keypoint>> Triples(const Json* list, const Place& place) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Json& number = (*list)[i + k];
       v[k] = number.is_number() ? number.get<double>() : std::nan("");
-      if (!(std::abs(v[k]) <= kFarthestPixel)) return Fail(place, "a keypoint's number is {}", number.dump());
+      if (!(std::abs(v[k]) <= kMaxPixel)) return Fail(place, "a keypoint's number is {}", number.dump());
     }
     points.push_back({glm::dvec2(v[0], v[1]) + kHalfPixel, v[2]});
   }
@@ -81,8 +81,8 @@ Result<SeenPerson> ToPerson(const std::vector<Keypoint>& points, const std::stri
       if (order.back() != Landmark::kNoLandmark) ++known;
     // No layout has this count: use the names if enough of them are known.
     }
-    constexpr std::size_t kFewest = 12;
-    if (!layout.empty() || names.size() != points.size() || known < kFewest) return tl::unexpected(found.error());
+    constexpr std::size_t kMinKnown = 12;
+    if (!layout.empty() || names.size() != points.size() || known < kMinKnown) return tl::unexpected(found.error());
   }
   SeenPerson person;
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -98,7 +98,7 @@ namespace {
 std::optional<double> NumberOf(const Json* json) {
   if (json == nullptr || !json->is_number()) return std::nullopt;
   const double value = json->get<double>();
-  return std::abs(value) <= kFarthestPixel ? std::optional(value) : std::nullopt;
+  return std::abs(value) <= kMaxPixel ? std::optional(value) : std::nullopt;
 }
 
 const Json* FirstMember(const Json& json, std::initializer_list<const char*> names) {
@@ -200,7 +200,7 @@ std::optional<long> FrameNumber(const Json& id) {
   return error == std::errc{} ? std::optional(number) : std::nullopt;
 }
 
-constexpr long kMostFrames = 1'000'000;
+constexpr long kMaxFrames = 1'000'000;
 
 /// Sorts numbered frames into a film.
 Result<PeopleOfFilm> Ordered(std::map<long, std::vector<SeenPerson>> numbered, const FilmOfKeypoints& of,
@@ -208,8 +208,8 @@ Result<PeopleOfFilm> Ordered(std::map<long, std::vector<SeenPerson>> numbered, c
   PeopleOfFilm film;
   if (numbered.empty()) return Fail(place, "no frame");
   const long lowest = numbered.begin()->first, highest = numbered.rbegin()->first;
-  if (lowest < 0 || highest > kMostFrames)
-    return Fail(place, "frames {} to {}; allowed: 0 to {}", lowest, highest, kMostFrames);
+  if (lowest < 0 || highest > kMaxFrames)
+    return Fail(place, "frames {} to {}; allowed: 0 to {}", lowest, highest, kMaxFrames);
   const auto frames = static_cast<long>(of.frames);
   // Without a known film length, the numbers decide the length.
   const long first = frames > 0 ? (lowest > 0 && highest == frames ? 1 : 0) : std::min(lowest, 1L);
@@ -244,13 +244,13 @@ Result<PeopleOfFilm> ReadResults(const Json& list, const std::string& layout, co
                                  const Place& place) {
   // Collect the points of every frame and the largest confidence.
   std::map<long, std::vector<std::vector<Keypoint>>> numbered;
-  double most = 1;
+  double max_confidence = 1;
   for (const Json& one : list) {
     const Json* id = Member(one, "image_id");
     const auto number = id == nullptr ? std::nullopt : FrameNumber(*id);
     if (!number) return Fail(place, "a result whose image_id has no number: {}", ShowJson(one));
     ASSIGN_OR_RETURN(auto points, PointsOf(one, place));
-    for (const Keypoint& point : points) most = std::max(most, point.confidence);
+    for (const Keypoint& point : points) max_confidence = std::max(max_confidence, point.confidence);
     if (numbered[*number].size() >= kMostPeople) return Fail(place, "more than {} people in a frame", kMostPeople);
     numbered[*number].push_back(std::move(points));
   }
@@ -258,7 +258,7 @@ Result<PeopleOfFilm> ReadResults(const Json& list, const std::string& layout, co
   std::map<long, std::vector<SeenPerson>> people;
   for (auto& [number, persons] : numbered) {
     for (std::vector<Keypoint>& points : persons) {
-      for (Keypoint& point : points) point.confidence /= most;
+      for (Keypoint& point : points) point.confidence /= max_confidence;
       ASSIGN_OR_RETURN(const SeenPerson person, ToPerson(points, layout, {}, place));
       people[number].push_back(person);
     }

@@ -34,11 +34,12 @@ bool IsKeypointList(const Json& json);
 
 /// Reads the keypoints of a whole film from one list. Known forms:
 /// - results of COCO's evaluation and of AlphaPose: objects with `image_id` (a number, or a name with one) and
-/// `keypoints`;
+///   `keypoints`;
 /// - MMPose's `instance_info`: objects with `frame_id` and `instances`, names in `meta_info`;
 /// - frames in order, as users of MediaPipe save them: objects with `pose_landmarks`, `landmarks`, `keypoints`,
-/// `people` or `instances`, or bare lists of people or of points; null means no people.
-/// Frame numbers count from 0, or from 1 if none is 0 and the last one equals the film's number of frames.
+///   `people` or `instances`, or bare lists of people or of points; null means no people.
+/// Frame numbers count from 1 if none is 0 and the film's number of frames is unknown or equals the last one; else from
+/// 0.
 Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layout, const FilmOfKeypoints& of,
                                       const Place& place);
 

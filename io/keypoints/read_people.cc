@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kOurPixelCentre = 0.5;
-constexpr double kLargestPixel = 1e6;
+constexpr double kMaxPixel = 1e6;
 
 /// Returns true if name `a` sorts before `b`, with numbers compared by value: frame 9 comes before frame 10.
 bool NaturallyBefore(const fs::path& a, const fs::path& b) {
@@ -137,8 +137,8 @@ Result<std::map<double, std::size_t>> FramesOf(const Json& images, PeopleOfFilm&
       return Fail(place, "two images with the id {}", id->dump());
     }
     if (width != nullptr && width->is_number() && height != nullptr && height->is_number()) {
-      const int w = static_cast<int>(std::clamp(width->get<double>(), 0.0, kLargestPixel));
-      const int h = static_cast<int>(std::clamp(height->get<double>(), 0.0, kLargestPixel));
+      const int w = static_cast<int>(std::clamp(width->get<double>(), 0.0, kMaxPixel));
+      const int h = static_cast<int>(std::clamp(height->get<double>(), 0.0, kMaxPixel));
       if (film.width != 0 && (w != film.width || h != film.height)) {
         return Fail(place, "images of {} x {} and of {} x {} pixels in one film", film.width, film.height, w, h);
       }
@@ -160,21 +160,22 @@ Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const
   const std::vector<std::string> names = NamesOf(json);
   PeopleOfFilm film;
   ASSIGN_OR_RETURN(const auto frames, FramesOf(*images, film, place));
+  // Collect the people of every image.
   std::vector<CocoPerson> people;
-  double most = 0;
+  double max_confidence = 0;
   for (const Json& annotation : *annotations) {
     const Json* id = Member(annotation, "image_id");
     const auto frame = id != nullptr && id->is_number() ? frames.find(id->get<double>()) : frames.end();
     if (frame == frames.end()) return Fail(place, "an annotation of an image that is not listed");
     ASSIGN_OR_RETURN(auto points, Triples(Member(annotation, "keypoints"), place));
-    for (const Keypoint& point : points) most = std::max(most, point.confidence);
+    for (const Keypoint& point : points) max_confidence = std::max(max_confidence, point.confidence);
     people.push_back({frame->second, std::move(points)});
   }
   film.frames.resize(frames.size());
   if (film.frames.empty()) return Fail(place, "no image");
   for (CocoPerson& person : people) {
     // COCO's flags if any value exceeds 1, else scores.
-    for (Keypoint& point : person.points) point.confidence /= most > 1 ? 2 : 1;
+    for (Keypoint& point : person.points) point.confidence /= max_confidence > 1 ? 2 : 1;
     ASSIGN_OR_RETURN(const SeenPerson seen, ToPerson(person.points, layout, names, place));
     if (film.frames[person.frame].size() >= kMostPeople)
       return Fail(place, "more than {} people in a frame", kMostPeople);
@@ -189,7 +190,7 @@ namespace {
 
 /// Converts keypoints to pixels if all of them lie within 0…1, as shares of the film's width and height.
 void Denormalise(const FilmOfKeypoints& of, PeopleOfFilm& film) {
-  constexpr double kMost = 1.1;
+  constexpr double kMaxShare = 1.1;
   constexpr int kSmallPicture = 16;
   if (of.width < kSmallPicture || of.height < kSmallPicture) return;
   // Return unchanged if any keypoint lies outside.
@@ -199,7 +200,7 @@ void Denormalise(const FilmOfKeypoints& of, PeopleOfFilm& film) {
       for (const Keypoint& keypoint : person.keypoints) {
         const glm::dvec2 p = keypoint.pixel - kOurPixelCentre;
         if (keypoint.confidence <= 0) continue;
-        if (std::abs(p.x) > kMost || std::abs(p.y) > kMost) return;
+        if (std::abs(p.x) > kMaxShare || std::abs(p.y) > kMaxShare) return;
         ++seen;
       }
     }
