@@ -95,11 +95,11 @@ Result<FilmFacts> ProbeFilm(const std::filesystem::path& path, const std::string
   }
   // Check the size before it is converted to integers.
   FilmFacts facts;
-  constexpr double kMostPixels = 64e6;
+  constexpr double kMaxPixels = 64e6;
   const double width = NumberOf(keys["width"]), height = NumberOf(keys["height"]);
   const double frames = NumberOf(keys["nb_read_packets"]);
-  constexpr double kMostFrames = 1e8;
-  if (!(width >= 1) || !(height >= 1) || !(width * height <= kMostPixels) || !(frames >= 1) || frames > kMostFrames) {
+  constexpr double kMaxFrames = 1e8;
+  if (!(width >= 1) || !(height >= 1) || !(width * height <= kMaxPixels) || !(frames >= 1) || frames > kMaxFrames) {
     return Fail(place, "{:g} frames of {:g} x {:g} pixels; allowed: at least one frame, up to 64 million pixels",
                 frames, width, height);
   }
