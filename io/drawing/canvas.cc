@@ -216,10 +216,10 @@ void Canvas::DrawRing(const glm::dvec2& centre, double radius, double width, con
 
 void Canvas::DrawText(const glm::dvec2& origin, const std::string& text, double size, const Paint& paint, double room,
                       bool bold) {
-  constexpr double kSmallest = 0.75, kStep = 0.25;
+  constexpr double kMinShare = 0.75, kStep = 0.25;
   // Shrink the font in small steps, then cut characters until the text fits.
-  const double least = kSmallest * size;
-  while (size > least && TextWidth(text, size, bold) > room) size = std::max(least, size - kStep);
+  const double min_size = kMinShare * size;
+  while (size > min_size && TextWidth(text, size, bold) > room) size = std::max(min_size, size - kStep);
   std::string shown = text;
   for (std::string cut = text; !cut.empty() && TextWidth(shown, size, bold) > room;) {
     DropLastCharacter(cut);

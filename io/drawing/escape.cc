@@ -83,12 +83,14 @@ std::string EscapeMarkup(std::string_view text) {
   std::string out;
   out.reserve(text.size());
   while (!text.empty()) {
+    // Replace a forbidden character or an invalid byte.
     const auto [code, length] = AllowedCharacter(text);
     if (length == 0) {
       out += kReplacement;
       text.remove_prefix(1);
       continue;
     }
+    // Escape the characters of markup.
     switch (text[0]) {
       case '&':
         out += "&amp;";

@@ -24,11 +24,11 @@ namespace {
 // end at about the same time.
 constexpr int kChunk = 8;
 
-bool Tell(int talk) { return SendAll(talk, "."); }
+bool SendByte(int socket) { return SendAll(socket, "."); }
 
-bool Hear(int talk) {
+bool ReceiveByte(int socket) {
   char byte = 0;
-  return ReceiveAll(talk, &byte, 1);
+  return ReceiveAll(socket, &byte, 1);
 }
 
 }  // namespace
@@ -54,10 +54,10 @@ Result<void> FilmWorkers::MapSlots() {
   return {};
 }
 
-FilmWorkers::Slot FilmWorkers::SlotOf(std::size_t worker, int place) const {
+FilmWorkers::Slot FilmWorkers::SlotOf(std::size_t worker, int index) const {
   std::uint8_t* begin =
       memory_.get() +
-      (worker * static_cast<std::size_t>(slots_) + static_cast<std::size_t>(place % slots_)) * SlotBytes();
+      (worker * static_cast<std::size_t>(slots_) + static_cast<std::size_t>(index % slots_)) * SlotBytes();
   return {{begin, PictureBytes()}, {begin + PictureBytes(), feed_.bytes}};
 }
 
@@ -65,14 +65,14 @@ std::size_t FilmWorkers::WorkerOf(int frame) const {
   return static_cast<std::size_t>(frame / chunk_) % workers_.size();
 }
 
-int FilmWorkers::Work(std::size_t worker, int talk, const Draw& draw) const {
+int FilmWorkers::Work(std::size_t worker, int socket, const Draw& draw) const {
   int drawn = 0;
   for (int frame = 0; frame < frames_; ++frame) {
     if (WorkerOf(frame) != worker) continue;
-    if ((feed_.bytes > 0 || drawn >= slots_) && !Hear(talk)) break;
+    if ((feed_.bytes > 0 || drawn >= slots_) && !ReceiveByte(socket)) break;
     const Slot slot = SlotOf(worker, drawn);
     draw(frame, slot.feed).ToI420(slot.picture.data());
-    if (!Tell(talk)) break;
+    if (!SendByte(socket)) break;
     ++drawn;
   }
   return 0;
@@ -80,17 +80,17 @@ int FilmWorkers::Work(std::size_t worker, int talk, const Draw& draw) const {
 
 Result<FilmWorkers> FilmWorkers::Start(int frames, int jobs, const Draw& draw, FrameFeed feed) {
   if (jobs <= 0) jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  std::vector<std::uint8_t> of_first(feed.bytes);
-  if (feed.bytes > 0) RETURN_IF_ERROR(feed.fill(0, of_first));
-  const Canvas first = draw(0, of_first);
+  std::vector<std::uint8_t> first_data(feed.bytes);
+  if (feed.bytes > 0) RETURN_IF_ERROR(feed.fill(0, first_data));
+  const Canvas first = draw(0, first_data);
   FilmWorkers film(frames, jobs, first.width(), first.height(), std::move(feed));
   RETURN_IF_ERROR(film.MapSlots());
   for (std::size_t i = 0; i < film.workers_.size(); ++i) {
-    ASSIGN_OR_RETURN(auto copy, ForkedCopy::Start([&](int talk) { return film.Work(i, talk, draw); }));
+    ASSIGN_OR_RETURN(auto copy, ForkedCopy::Start([&](int socket) { return film.Work(i, socket, draw); }));
     film.workers_[i].copy = std::move(copy);
   }
   if (film.feed_.bytes > 0) {
-    std::ranges::copy(of_first, film.SlotOf(0, 0).feed.begin());
+    std::ranges::copy(first_data, film.SlotOf(0, 0).feed.begin());
     film.TellFed(0);
   }
   return film;
@@ -99,7 +99,7 @@ Result<FilmWorkers> FilmWorkers::Start(int frames, int jobs, const Draw& draw, F
 void FilmWorkers::TellFed(std::size_t worker) {
   ++fed_;
   ++workers_[worker].fed;
-  Tell(workers_[worker].copy->socket());
+  SendByte(workers_[worker].copy->socket());
 }
 
 Result<void> FilmWorkers::FeedAhead() {
@@ -116,11 +116,11 @@ Result<std::span<const std::uint8_t>> FilmWorkers::Next() {
   if (next_ > 0) {
     Worker& last = workers_[WorkerOf(next_ - 1)];
     ++last.taken;
-    if (feed_.bytes == 0) Tell(last.copy->socket());
+    if (feed_.bytes == 0) SendByte(last.copy->socket());
   }
   RETURN_IF_ERROR(FeedAhead());
   const std::size_t worker = WorkerOf(next_);
-  if (next_ >= frames_ || !Hear(workers_[worker].copy->socket()))
+  if (next_ >= frames_ || !ReceiveByte(workers_[worker].copy->socket()))
     return Fail({}, "a drawing process has ended before its frames");
   ++next_;
   return SlotOf(worker, workers_[worker].taken).picture;

@@ -65,8 +65,8 @@ class FilmWorkers {
 
   FilmWorkers(int frames, int jobs, int width, int height, FrameFeed feed);
   Result<void> MapSlots();
-  Slot SlotOf(std::size_t worker, int place) const;
-  int Work(std::size_t worker, int talk, const Draw& draw) const;
+  Slot SlotOf(std::size_t worker, int index) const;
+  int Work(std::size_t worker, int socket, const Draw& draw) const;
   void TellFed(std::size_t worker);
   Result<void> FeedAhead();
   std::size_t PictureBytes() const { return static_cast<std::size_t>(width_) * height_ * 3 / 2; }

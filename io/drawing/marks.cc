@@ -74,14 +74,14 @@ std::string MarkKeySvg(std::size_t shape, std::size_t colour) {
   return "<svg class=\"key\" viewBox=\"-6 -6 12 12\" aria-hidden=\"true\">" + MarkUse(shape, colour, 0, 0) + "</svg>";
 }
 
-std::vector<double> SwarmOffsets(const std::vector<double>& places, double most) {
+std::vector<double> SwarmOffsets(const std::vector<double>& positions, double max_offset) {
   std::map<long, std::vector<std::size_t>> bins;
-  for (std::size_t i = 0; i < places.size(); ++i) bins[std::lround(places[i] / kMarkSize)].push_back(i);
-  std::vector<double> offsets(places.size(), 0);
+  for (std::size_t i = 0; i < positions.size(); ++i) bins[std::lround(positions[i] / kMarkSize)].push_back(i);
+  std::vector<double> offsets(positions.size(), 0);
   for (const auto& [bin, members] : bins) {
     // The first mark stays in the middle, the others alternate between the sides; crowded bins use smaller steps.
     const double sides = std::max<double>(1, static_cast<double>(members.size() / 2));
-    const double step = std::min(kMarkSize, most / sides);
+    const double step = std::min(kMarkSize, max_offset / sides);
     for (std::size_t k = 0; k < members.size(); ++k) {
       const double rank = static_cast<double>((k + 1) / 2);
       offsets[members[k]] = (k % 2 == 0 ? -1 : 1) * rank * step;
@@ -90,8 +90,8 @@ std::vector<double> SwarmOffsets(const std::vector<double>& places, double most)
   return offsets;
 }
 
-std::size_t StrideFor(std::size_t count, std::size_t most) {
-  return std::max<std::size_t>(1, (count + most - 1) / most);
+std::size_t StrideFor(std::size_t count, std::size_t max_shown) {
+  return std::max<std::size_t>(1, (count + max_shown - 1) / max_shown);
 }
 
 }  // namespace etude

@@ -47,12 +47,12 @@ std::string LineKeySvg(std::size_t method);
 /// Draws a mark alone, for a legend.
 std::string MarkKeySvg(std::size_t shape, std::size_t colour);
 
-/// Computes a sideways offset for each mark of a row, so that neighbouring marks can be told apart. `places` are
-/// positions along the row, in the panel's units; offsets are at most `most` to either side. The same positions give
-/// the same offsets.
-std::vector<double> SwarmOffsets(const std::vector<double>& places, double most);
+/// Computes a sideways offset for each mark of a row, so that neighbouring marks can be told apart. `positions` are
+/// along the row, in the panel's units; offsets are at most `max_offset` to either side. The same positions give the
+/// same offsets.
+std::vector<double> SwarmOffsets(const std::vector<double>& positions, double max_offset);
 
-/// Returns the stride at which `count` marks are drawn, so that at most `most` are drawn.
-std::size_t StrideFor(std::size_t count, std::size_t most);
+/// Returns the stride at which `count` marks are drawn, so that at most `max_shown` are drawn.
+std::size_t StrideFor(std::size_t count, std::size_t max_shown);
 
 }  // namespace etude

@@ -51,7 +51,8 @@ std::string UprightGrid(const Axis& axis, double left = kPanelLeft, double right
 /// Draws the grid lines and labels of a horizontal axis; lines go from `top` to `bottom`, labels stand below.
 std::string LyingGrid(const Axis& axis, double top, double bottom);
 
-/// Writes a text in the panel, escaped and cut after `most` characters. `anchor` is "start", "middle" or "end".
-std::string PanelText(double x, double y, std::string_view text, std::string_view anchor, std::size_t most = 60);
+/// Writes a text in the panel, escaped and cut after `max_characters`. `anchor` is "start", "middle" or "end".
+std::string PanelText(double x, double y, std::string_view text, std::string_view anchor,
+                      std::size_t max_characters = 60);
 
 }  // namespace etude

@@ -51,7 +51,7 @@ std::uint32_t FloorPixel(float line, float light, float fade) {
   return level(0) << 16 | level(1) << 8 | level(2);
 }
 
-std::uint32_t Veiled(std::uint32_t pixel) {
+std::uint32_t BlendedWithGhost(std::uint32_t pixel) {
   const auto level = [&](int i, int shift) {
     const float under = static_cast<float>(pixel >> shift & 255) / 255;
     return ToLevel(under + (kGhostPaint[i] - under) * kGhostStrength) << shift;
@@ -79,9 +79,9 @@ Figure Placed(Figure figure, const FloorMove& move) {
 void Studio::Include(const Figure& placed, ViewBounds& bounds) {
   const Camera camera = CameraOf({});
   const auto include = [&](const glm::dvec3& point, double radius) {
-    constexpr double kNearest = 0.5;  // metres in front of the camera; nearer points are clamped
+    constexpr double kMinDistance = 0.5;  // metres in front of the camera; nearer points are clamped
     const glm::dvec3 seen = camera.R_CW * (point - camera.p_WC);
-    const double distance = std::max(seen.z, kNearest);
+    const double distance = std::max(seen.z, kMinDistance);
     const glm::dvec2 tangents(seen.x / distance, seen.y / distance);
     bounds.low = glm::min(bounds.low, tangents - radius / distance);
     bounds.high = glm::max(bounds.high, tangents + radius / distance);
@@ -173,7 +173,7 @@ void Studio::Compose(const PixelRect& rect, const Mask* ghost) {
       out[i] = what == Overlay::kBody ? body : ground;
     }
     for (int i = 0; ghost != nullptr && i < width; ++i) {
-      if (ghost->pixels[first + i] != 0 && seen[4 * i + 3] != Overlay::kBody) out[i] = Veiled(out[i]);
+      if (ghost->pixels[first + i] != 0 && seen[4 * i + 3] != Overlay::kBody) out[i] = BlendedWithGhost(out[i]);
     }
   }
 }
