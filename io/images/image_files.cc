@@ -20,10 +20,10 @@ namespace etude {
 namespace {
 
 // The size of an uncompressed picture with kLargestPicture pixels per side, rounded up.
-constexpr std::uintmax_t kLargestPictureFile = std::uintmax_t{1} << 28;
+constexpr std::uintmax_t kMaxPictureFileBytes = std::uintmax_t{1} << 28;
 // The limit for pictures that no camera took: what GL and JPEG can hold.
-constexpr std::uint32_t kLargestSide = 16'384;
-constexpr int kRunsAlone = 3;  // zlib's Z_RLE
+constexpr std::uint32_t kMaxSide = 16'384;
+constexpr int kRunLengthOnly = 3;  // zlib's Z_RLE
 
 // --- PNG
 
@@ -45,7 +45,7 @@ std::string EncodePixels(const std::uint8_t* pixels, int width, int height, int 
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_ALL_FILTERS);
-  png_set_compression_strategy(png, kRunsAlone);
+  png_set_compression_strategy(png, kRunLengthOnly);
   png_write_info(png, info);
   const std::size_t row = png_get_rowbytes(png, info);
   for (int y = 0; y < height; ++y) png_write_row(png, pixels + static_cast<std::size_t>(y) * row);
@@ -99,6 +99,7 @@ void WriteExr(const View& view, const NormalImage& normals, std::span<const Dept
     channels.insert(name, SliceOf(type, pixels, window, stride));
   };
 
+  // Colours: half floats, interleaved.
   std::vector<half> colour;
   for (const Rgb8& pixel : view.colour.pixels) {
     for (const std::uint8_t value : {pixel.r, pixel.g, pixel.b}) {
@@ -108,6 +109,7 @@ void WriteExr(const View& view, const NormalImage& normals, std::span<const Dept
   if (!colour.empty()) {
     for (int i = 0; i < 3; ++i) add(kColourChannels[i], Imf::HALF, colour.data() + i, 3 * sizeof(half));
   }
+  // Depth, labels, normals, and further depth images.
   if (!view.depth.pixels.empty()) add(kDepthChannel, Imf::FLOAT, view.depth.pixels.data(), sizeof(float));
   if (!view.labels.pixels.empty()) add(kLabelChannel, Imf::UINT, view.labels.pixels.data(), sizeof(std::uint32_t));
 
@@ -118,6 +120,7 @@ void WriteExr(const View& view, const NormalImage& normals, std::span<const Dept
     add(channel.name.c_str(), Imf::FLOAT, channel.depth.pixels.data(), sizeof(float));
   }
 
+  // Write all channels in one pass.
   Imf::OutputFile file(out, header, 0);
   file.setFrameBuffer(channels);
   file.writePixels(height);
@@ -143,7 +146,7 @@ std::string EncodePpm(const ColourImage& image) {
 }
 
 Result<ColourImage> LoadColourPng(const std::string& path) {
-  ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(path, kLargestPictureFile));
+  ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(path, kMaxPictureFileBytes));
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) {
@@ -169,10 +172,10 @@ Result<ColourImage> DecodeColourPng(std::string_view bytes, std::size_t most_pix
     return Fail({}, "not a PNG picture: {}", png.message);
   }
   const std::size_t pixels = std::size_t{png.width} * png.height;
-  if (png.width > kLargestSide || png.height > kLargestSide || pixels > most_pixels) {
+  if (png.width > kMaxSide || png.height > kMaxSide || pixels > most_pixels) {
     png_image_free(&png);
     return Fail({}, "a PNG picture of {} x {} pixels; allowed: at most {} in all, {} a side", png.width, png.height,
-                most_pixels, kLargestSide);
+                most_pixels, kMaxSide);
   }
   png.format = PNG_FORMAT_RGBA;
   std::vector<std::array<std::uint8_t, 4>> with_alpha(pixels);
