@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostFiles = 100'000;
+constexpr std::size_t kMaxFiles = 100'000;
 
 bool IsClip(const std::string& reference) {
   if (reference.starts_with("builtin:")) return true;
@@ -48,7 +48,7 @@ Result<std::vector<std::string>> FilesBelow(const std::string& folder) {
   std::error_code error;
   for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     if (at->is_regular_file(error)) files.push_back(at->path().string());
-    if (files.size() > kMostFiles) return Fail({folder}, "over {} files", kMostFiles);
+    if (files.size() > kMaxFiles) return Fail({folder}, "over {} files", kMaxFiles);
   }
   if (error) return Fail({folder}, "{}", error.message());
   std::ranges::sort(files);
