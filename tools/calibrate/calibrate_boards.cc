@@ -54,10 +54,10 @@ Result<std::vector<fs::path>> PicturesIn(const fs::path& folder) {
 }
 
 Result<ColourImage> ReadPicture(const fs::path& path) {
-  constexpr std::size_t kMostPixels = 100'000'000;
+  constexpr std::size_t kMaxPixels = 100'000'000;
   ASSIGN_OR_RETURN(const std::string bytes, ReadWholeFile(path));
   if (bytes.starts_with("\x89PNG")) return LoadColourPng(path.string());
-  auto picture = ReadJpeg(bytes, kMostPixels);
+  auto picture = ReadJpeg(bytes, kMaxPixels);
   if (!picture) return Fail({path.string()}, "{}", picture.error().message);
   return picture;
 }
@@ -69,7 +69,7 @@ struct CameraBoards {
   double period_s = 0;  ///< time between two searched frames of a film; 0 for a folder of pictures
   int every = 1;
   ColourImage best;  ///< the picture with the most corners
-  std::size_t most = 0;
+  std::size_t most_corners = 0;
 };
 
 Result<void> AddPicture(std::size_t camera, const std::string& moment, const ColourImage& picture, int look,
@@ -79,9 +79,9 @@ Result<void> AddPicture(std::size_t camera, const std::string& moment, const Col
   ++seen.looked;
   seen.with_board += *corners > 0 ? 1 : 0;
   seen.corners += *corners;
-  if (seen.best.pixels.empty() || *corners > seen.most) {
+  if (seen.best.pixels.empty() || *corners > seen.most_corners) {
     seen.best = picture;
-    seen.most = *corners;
+    seen.most_corners = *corners;
   }
   return {};
 }
@@ -166,21 +166,21 @@ std::vector<TargetView> Numbered(std::vector<TargetView> views) {
 
 /// Calibrates, then repeats the calibration without the pictures whose residual exceeds three times the median: they
 /// are blurred, or the board moved.
-Result<RefinedRig> CalibrateWithoutBlurred(const BoardViews& search, const CalibrateOptions& options,
+Result<RefinedRig> CalibrateWithoutOutliers(const BoardViews& search, const CalibrateOptions& options,
                                            std::vector<TargetView>& views) {
   views = Numbered(std::move(views));
   const std::size_t all = views.size();
-  constexpr int kMostRounds = 3;
+  constexpr int kMaxRounds = 3;
   for (int round = 0;; ++round) {
     ASSIGN_OR_RETURN(RefinedRig rig, CalibrateFromPlanes(search.sizes(), views, RefineOptionsOf(options)));
     const std::vector<double> rms = ResidualsOf(rig, views);
-    constexpr double kFar = 3, kLeastPx = 0.3;
-    const double limit = std::max(kLeastPx, kFar * UpperMedian(rms));
+    constexpr double kFar = 3, kMinLimitPx = 0.3;
+    const double limit = std::max(kMinLimitPx, kFar * UpperMedian(rms));
     std::vector<TargetView> kept;
     for (std::size_t i = 0; i < views.size(); ++i) {
       if (rms[i] <= limit) kept.push_back(views[i]);
     }
-    if (search.Told().empty() || kept.size() == views.size() || round == kMostRounds) {
+    if (search.Told().empty() || kept.size() == views.size() || round == kMaxRounds) {
       if (views.size() < all) {
         options.listener.print(fmt::format("{} of {} pictures of boards left out: three times as far off as most\n", all - views.size(), all));
       }
@@ -200,7 +200,7 @@ std::vector<TargetView> ViewsOf(std::size_t camera, std::span<const TargetView> 
 }
 
 /// Finds the films' delays, reports them, and returns the views at common moments.
-Result<std::vector<TargetView>> SetInStep(const CalibrateOptions& options, const BoardViews& search,
+Result<std::vector<TargetView>> SynchroniseFilms(const CalibrateOptions& options, const BoardViews& search,
                                           const std::vector<CameraBoards>& seen) {
   const bool are_films = std::ranges::all_of(seen, [](const CameraBoards& s) { return s.period_s > 0; });
   // Only films have clocks to compare.
@@ -209,8 +209,8 @@ Result<std::vector<TargetView>> SetInStep(const CalibrateOptions& options, const
   for (const CameraBoards& s : seen) period_s.push_back(s.period_s);
   // Find the delay of each film by the joint reprojection error.
   constexpr double kLooks = 2;
-  const double most_s = options.sync_s > 0 ? options.sync_s : kLooks * period_s.front();
-  ASSIGN_OR_RETURN(const FilmSteps steps, FindFilmSteps(search.sizes(), search.sightings(), period_s, most_s,
+  const double max_delay_s = options.sync_s > 0 ? options.sync_s : kLooks * period_s.front();
+  ASSIGN_OR_RETURN(const FilmSteps steps, FindFilmSteps(search.sizes(), search.sightings(), period_s, max_delay_s,
                                                         RefineOptionsOf(options), options.listener.progress("times of films")));
   // Report each delay, and doubt a delay at the limit of the search.
   for (std::size_t i = 1; i < seen.size(); ++i) {
@@ -221,8 +221,8 @@ Result<std::vector<TargetView>> SetInStep(const CalibrateOptions& options, const
         "{}: shows a moment {:.0f} ms ({:.2f} frames) {} than {}; mended: its corners are taken between frames\n",
         seen[i].name, kMs * std::abs(late_s), std::abs(late_s) / seen[i].period_s * seen[i].every,
         late_s > 0 ? "later" : "earlier", seen.front().name));
-    if (std::abs(late_s) > most_s - 0.5 * period_s.front()) {
-      options.listener.print(fmt::format("doubtful: that is as far as was looked; --sync {:.1f} looks further\n", 2 * most_s + 0.1));
+    if (std::abs(late_s) > max_delay_s - 0.5 * period_s.front()) {
+      options.listener.print(fmt::format("doubtful: that is as far as was looked; --sync {:.1f} looks further\n", 2 * max_delay_s + 0.1));
     }
   }
   if (steps.after_px < steps.before_px) {
@@ -248,8 +248,8 @@ void TellResiduals(const RefinedRig& rig, const CalibrateOptions& options, std::
     const double together = rig.camera_rms_px[camera];
     options.listener.print(fmt::format("{:<17}{:>14.3f}{:>10}{:>12.3f}{:>10.3f}\n", seen[camera].name, together,
                alone ? fmt::format("{:.3f}", alone->rms_px) : "-", UpperMedian(own), std::ranges::max(own)));
-    constexpr double kTimes = 3, kLeastPx = 0.5;
-    do_disagree = do_disagree || (alone && together > kLeastPx && together > kTimes * alone->rms_px);
+    constexpr double kTimes = 3, kMinLimitPx = 0.5;
+    do_disagree = do_disagree || (alone && together > kMinLimitPx && together > kTimes * alone->rms_px);
   }
   if (!do_disagree) return;
   options.listener.print(fmt::format(
@@ -329,6 +329,7 @@ Result<void> CompareBeside(const CalibrateOptions& options, const RefinedRig& ri
 /// Draws each camera's best picture with the corners of all its pictures: yellow below half a pixel of error, orange
 /// below one, else red.
 std::string PictureOfBoards(const RefinedRig& rig, std::span<const TargetView> views, std::vector<CameraBoards> seen) {
+  // One panel for each camera, one below the other.
   constexpr int kWidth = 640, kGap = 8;
   double height = kGap;
   for (const CameraBoards& s : seen) height += kWidth * static_cast<double>(s.best.height) / s.best.width + kGap;
@@ -383,8 +384,8 @@ Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options) {
   }
   if (!search.Told().empty()) options.listener.print(fmt::format("the board: {}\n", search.Told()));
   // Synchronise the films, calibrate, and report the residuals.
-  ASSIGN_OR_RETURN(std::vector<TargetView> views, SetInStep(options, search, seen));
-  ASSIGN_OR_RETURN(RefinedRig refined, CalibrateWithoutBlurred(search, options, views));
+  ASSIGN_OR_RETURN(std::vector<TargetView> views, SynchroniseFilms(options, search, seen));
+  ASSIGN_OR_RETURN(RefinedRig refined, CalibrateWithoutOutliers(search, options, views));
   TellResiduals(refined, options, search.sizes(), views, seen);
   if (options.beside == kOpenCv) {
     RETURN_IF_ERROR(CompareWithOpenCv(options, search.sizes(), views, seen));

@@ -29,8 +29,8 @@ RecoverPersonOptions RecoverOptionsOf(const CaptureFilmsOptions& options, const 
   recover.person = static_cast<std::size_t>(options.person - 1);
   recover.cutoff_hz = options.smooth_hz;
   recover.longest_gap_s = options.longest_gap_s;
-  constexpr double kLeastShare = 0.004;  // of the picture's longer side: errors left by rounding and lenses
-  recover.least_outlier_px = kLeastShare * longer_side;
+  constexpr double kMinOutlierShare = 0.004;  // of the picture's longer side: errors left by rounding and lenses
+  recover.least_outlier_px = kMinOutlierShare * longer_side;
   if (options.outlier_px > 0) recover.triangulate.robust.outlier_px = recover.least_outlier_px = options.outlier_px;
   recover.mends = recover.match.may_be_swapped = true;
   return recover;

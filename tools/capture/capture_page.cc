@@ -17,20 +17,20 @@ constexpr double kHeight = 190, kTop = 8, kBottom = 166, kWide = 900, kRight = 8
 
 /// Returns the curve as an SVG path. If there are more frames than points, each point is the maximum of several frames.
 std::string PathOf(const TakeCurve& curve, const Axis& across, const Axis& up, double rate_hz) {
-  constexpr std::size_t kMostPoints = 450;
-  const std::size_t stride = (curve.values.size() + kMostPoints - 1) / kMostPoints;
+  constexpr std::size_t kMaxPoints = 450;
+  const std::size_t stride = (curve.values.size() + kMaxPoints - 1) / kMaxPoints;
   std::string path;
   bool is_down = false;
   for (std::size_t from = 0; from < curve.values.size(); from += stride) {
-    std::optional<double> most;
+    std::optional<double> largest;
     for (std::size_t i = from; i < std::min(from + stride, curve.values.size()); ++i) {
-      if (curve.values[i]) most = std::max(most.value_or(*curve.values[i]), *curve.values[i]);
+      if (curve.values[i]) largest = std::max(largest.value_or(*curve.values[i]), *curve.values[i]);
     }
-    if (most) {
+    if (largest) {
       path += fmt::format("{}{:.1f} {:.1f}", is_down ? "L" : "M", across.At(static_cast<double>(from) / rate_hz),
-                          up.At(*most));
+                          up.At(*largest));
     }
-    is_down = most.has_value();
+    is_down = largest.has_value();
   }
   return path;
 }
@@ -125,8 +125,8 @@ std::string ResidualsHtml(const CameraResiduals& residuals, double rate_hz) {
       if (values.empty()) return std::string("—");
       return fmt::format("{:.1f}", values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))]);
     };
-    constexpr double kMedian = 0.5, kMost = 0.95, kPercent = 100;
-    rows.push_back({camera.name, fmt::format("{}", values.size()), rank(kMedian), rank(kMost)});
+    constexpr double kMedian = 0.5, k95Percent = 0.95, kPercent = 100;
+    rows.push_back({camera.name, fmt::format("{}", values.size()), rank(kMedian), rank(k95Percent)});
     if (has_keypoints) rows.back().push_back(fmt::format("{:.1f} %", kPercent * camera.left_out.value_or(0)));
   }
   return CurvesHtml(curves, rate_hz, residuals.caption) + TableHtml(heads, rows);

@@ -158,9 +158,9 @@ Result<bool> WritePage(const CaptureFilmsOptions& options, CapturePage page, con
     return WriteOverlayFilm(film, overlays, motion, watch, &page.still);
   }));
   if (!is_whole) return false;
-  constexpr std::uintmax_t kMostBytes = 16'000'000;
+  constexpr std::uintmax_t kMaxFilmBytes = 16'000'000;
   std::error_code unreadable;
-  if (fs::file_size(film, unreadable) <= kMostBytes && !unreadable) {
+  if (fs::file_size(film, unreadable) <= kMaxFilmBytes && !unreadable) {
     ASSIGN_OR_RETURN(page.mp4, ReadWholeFile(film.string()));
   }
   RETURN_IF_ERROR(WriteFileAtomically(options.report, WriteCapturePage(page)));

@@ -85,9 +85,9 @@ void Synchronise(const CaptureFilmsOptions& options, const std::vector<FilmedVie
   std::size_t shortest = films.people.front().size();
   for (const SeenPeople& people : films.people) shortest = std::min(shortest, people.size());
   // Limit the search to half a film: beyond that, the films share too few frames.
-  const int most =
+  const int max_frames =
       std::clamp(static_cast<int>(std::lround(options.sync_s * rate)), 1, std::max(1, static_cast<int>(shortest / 2)));
-  const SyncOptions clocks{.most_frames = most, .most_px = recover.triangulate.robust.outlier_px};
+  const SyncOptions clocks{.most_frames = max_frames, .most_px = recover.triangulate.robust.outlier_px};
   const std::vector<ClockOffset> found = EstimateOffsets(films.cameras, films.people, {clocks, recover.match.follow});
   // Report each clock, and the cameras whose clock no keypoints determine.
   std::string untold;
@@ -119,9 +119,9 @@ void ClocksOfRates(const std::vector<FilmedView>& views, SeenFilms& films) {
 }
 
 /// Reports films that seem delayed if the keypoints are too noisy to correct the delay.
-void DoubtClocks(const std::vector<FilmedView>& views, const RecoverPersonOptions& recover, int most,
+void WarnOfDelays(const std::vector<FilmedView>& views, const RecoverPersonOptions& recover, int max_frames,
                  SeenFilms& films) {
-  const SyncOptions clocks{.most_frames = most, .most_px = recover.triangulate.robust.outlier_px};
+  const SyncOptions clocks{.most_frames = max_frames, .most_px = recover.triangulate.robust.outlier_px};
   const auto guessed = EstimateOffsets(films.cameras, films.people, {clocks, recover.match.follow});
   for (std::size_t i = 1; i < views.size(); ++i) {
     const double frames = guessed[i].frames;
@@ -146,19 +146,19 @@ void TellDrift(const std::vector<FilmedView>& views, std::size_t film, const Fil
 }
 
 /// Corrects clocks that the keypoints contradict.
-void MendClocks(const std::vector<FilmedView>& views, const RecoverPersonOptions& recover, bool is_set,
+void CorrectClocks(const std::vector<FilmedView>& views, const RecoverPersonOptions& recover, bool is_set,
                 SeenFilms& films) {
   const double rate = recover.rate_hz;
   const std::size_t frames = films.people.front().size();
   // Search half a second around the clocks, or one frame if --sync has set them.
-  constexpr double kMostSeconds = 0.5;
-  const int most = is_set ? 1
-                          : std::clamp(static_cast<int>(std::lround(kMostSeconds * rate)), 1,
+  constexpr double kMaxSeconds = 0.5;
+  const int max_frames = is_set ? 1
+                          : std::clamp(static_cast<int>(std::lround(kMaxSeconds * rate)), 1,
                                        std::max(1, static_cast<int>(frames / 4)));
-  const auto found = FindClocks(films.cameras, films.people, films.clocks, most, recover.match.follow);
+  const auto found = FindClocks(films.cameras, films.people, films.clocks, max_frames, recover.match.follow);
   const bool has_own_rates = std::ranges::any_of(films.clocks, [](const FilmClock& clock) { return clock.drift != 0; });
   const bool is_any_mended = std::ranges::any_of(found, &FoundClock::is_mended);
-  if (!is_set && !is_any_mended && !has_own_rates) DoubtClocks(views, recover, most, films);
+  if (!is_set && !is_any_mended && !has_own_rates) WarnOfDelays(views, recover, max_frames, films);
   // Report the delay in the middle of the film, and the drift over it.
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (!found[i].is_mended) TellDrift(views, i, films.clocks[i], found[i].nearest, frames, films);
@@ -184,12 +184,12 @@ void MendClocks(const std::vector<FilmedView>& views, const RecoverPersonOptions
 /// Returns ranges of frames, counted from 1: "3 to 20, 25".
 std::string FramesText(const std::vector<std::size_t>& frames) {
   std::string text;
-  constexpr std::size_t kMostRanges = 12;
+  constexpr std::size_t kMaxRanges = 12;
   std::size_t ranges = 0;
   for (std::size_t i = 0; i < frames.size(); ++ranges) {
     std::size_t j = i;
     while (j + 1 < frames.size() && frames[j + 1] == frames[j] + 1) ++j;
-    if (ranges == kMostRanges) return text + fmt::format(", … ({} in all)", frames.size());
+    if (ranges == kMaxRanges) return text + fmt::format(", … ({} in all)", frames.size());
     text += text.empty() ? "" : ", ";
     text += i == j ? fmt::format("{}", frames[i] + 1) : fmt::format("{} to {}", frames[i] + 1, frames[j] + 1);
     i = j + 1;
@@ -218,7 +218,7 @@ Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPers
   // Set the clocks: from frame rates, from --sync, and from the keypoints themselves.
   ClocksOfRates(views, films);
   if (options.sync_s > 0) Synchronise(options, views, recover, films);
-  MendClocks(views, recover, options.sync_s > 0, films);
+  CorrectClocks(views, recover, options.sync_s > 0, films);
   // Resample all keypoints at the times of the first film's frames.
   const std::size_t frames = films.people.front().size();
   for (std::size_t i = 0; i < views.size(); ++i) {

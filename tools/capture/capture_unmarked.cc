@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostPictures = 4000;  // reduced pictures of all films together; they are held in memory, about 2
+constexpr std::size_t kMaxPictures = 4000;  // reduced pictures of all films together; they are held in memory, about 2
                                              // GB
 
 Result<ColourImage> ReadRoom(const std::string& folder, const FilmedView& view) {
@@ -56,7 +56,7 @@ std::vector<FilmClock> ClocksByRates(const std::vector<FilmedView>& views, ToldL
 }
 
 /// Selects the pictures of a film that are nearest to the times of the first film's frames.
-std::vector<ColourImage> InTime(std::vector<ColourImage> film, const FilmClock& clock, std::size_t frames) {
+std::vector<ColourImage> NearestInTime(std::vector<ColourImage> film, const FilmClock& clock, std::size_t frames) {
   if (clock == FilmClock{} && film.size() == frames) return film;
   std::vector<ColourImage> in_time;
   for (std::size_t k = 0; k < frames; ++k) {
@@ -72,10 +72,10 @@ Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vect
                              const std::vector<FilmClock>& clocks) {
   std::size_t pictures = 0;
   for (const FilmedView& view : views) pictures += view.facts.frames;
-  if (pictures > kMostPictures) {
+  if (pictures > kMaxPictures) {
     return Fail({views.front().path.string()},
                 "{} films of {} frames in all; at most {} pictures are held in memory, that is {} frames of each",
-                views.size(), pictures, kMostPictures, kMostPictures / views.size());
+                views.size(), pictures, kMaxPictures, kMaxPictures / views.size());
   }
   ReducedTake take;
   for (const FilmedView& view : views) {
@@ -86,7 +86,7 @@ Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vect
     if (film.empty() || film.size() != static_cast<std::size_t>(view.facts.frames)) {
       return Fail({view.path.string()}, "{} frames, though it tells of {}", film.size(), view.facts.frames);
     }
-    take.pictures.push_back(InTime(std::move(film), clocks[take.pictures.size()], views.front().facts.frames));
+    take.pictures.push_back(NearestInTime(std::move(film), clocks[take.pictures.size()], views.front().facts.frames));
     if (options.rooms.empty()) continue;
     ASSIGN_OR_RETURN(ColourImage room, ReadRoom(options.rooms, view));
     take.rooms.push_back(std::move(room));
@@ -195,10 +195,10 @@ void TellUnmarked(const CaptureFilmsOptions& options, const std::vector<FilmedVi
   if (person.held > 0) {
     told.Tell(fmt::format("doubtful: {} frames show nobody to two cameras and hold the last pose", person.held));
   }
-  constexpr double kMostApart = 0.5, kDoubtfulShare = 0.1, kPercent = 100;
+  constexpr double kMaxApart = 0.5, kDoubtfulShare = 0.1, kPercent = 100;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const std::vector<double> apart = KnownOf(person.apart[i]);
-    const auto far = std::ranges::count_if(apart, [](double share) { return share > kMostApart; });
+    const auto far = std::ranges::count_if(apart, [](double share) { return share > kMaxApart; });
     const double share = static_cast<double>(far) / static_cast<double>(std::max<std::size_t>(1, apart.size()));
     if (share <= kDoubtfulShare) continue;
     told.Tell(fmt::format("doubtful: {}: in {:.0f} % of its frames body and outline share less than half",

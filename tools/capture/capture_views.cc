@@ -173,10 +173,10 @@ std::string BytesOf(Clip clip, const BodyMotion& motion, MotionFormat format, co
 Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options) {
   ASSIGN_OR_RETURN(RigFile rig_file, OpenRig(options.rig));
   const std::vector<NamedCamera>& rig = rig_file.cameras;
-  constexpr std::size_t kMostFilms = 64;
-  if (options.films.size() < 2 || options.films.size() > kMostFilms) {
+  constexpr std::size_t kMaxFilms = 64;
+  if (options.films.size() < 2 || options.films.size() > kMaxFilms) {
     return Fail({}, "{} film{}; allowed: 2 to {}, one of each camera", options.films.size(),
-                options.films.size() == 1 ? "" : "s", kMostFilms);
+                options.films.size() == 1 ? "" : "s", kMaxFilms);
   }
   if (!options.cameras.empty() && options.cameras.size() != options.films.size()) {
     return Fail({}, "--cameras names {} cameras for {} films", options.cameras.size(), options.films.size());

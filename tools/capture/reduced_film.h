@@ -15,10 +15,11 @@ namespace etude {
 /// Smaller pictures are not enlarged.
 Camera ReducedCamera(const Camera& camera, int side);
 
-/// Reads at most `most` pictures of a film, reduced to those of `ReducedCamera`: the lens distortion and `fit` are
-/// undone, and every pixel is the mean of the film's pixels that it covers. Pixels that the film does not show are
+/// Reads at most `max_pictures` pictures of a film, reduced to those of `ReducedCamera`: the lens distortion and `fit`
+/// are undone, and every pixel is the mean of the film's pixels that it covers. Pixels that the film does not show are
 /// black. `camera` is the rig's camera with its lens.
 Result<std::vector<ColourImage>> ReadReduced(const std::filesystem::path& path, const FilmFacts& facts,
-                                             const Camera& camera, const PixelFit& fit, int side, std::size_t most);
+                                             const Camera& camera, const PixelFit& fit, int side,
+                                             std::size_t max_pictures);
 
 }  // namespace etude

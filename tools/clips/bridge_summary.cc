@@ -14,7 +14,7 @@ namespace etude {
 namespace {
 
 /// The widest matrix that fits a terminal; --json has wider ones.
-constexpr int kWidestMatrix = 24;
+constexpr int kMaxMatrixClips = 24;
 
 /// One clip's row of the table.
 struct ClipSummary {
@@ -151,7 +151,7 @@ std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& cov
                   total.frames, total.bridge_frames, Percent(total.bridge_frames, total.frames), loaded.system.name,
                   loaded.match_rules.threshold, loaded.match_rules.within_class ? ", within the class" : "");
   text += ClipsAsText(loaded, clips, wait_s);
-  if (coverage.ClipCount() <= kWidestMatrix) {
+  if (coverage.ClipCount() <= kMaxMatrixClips) {
     text += MatrixAsText(loaded, coverage);
   } else {
     text += fmt::format("\nThe matrix of {} × {} clips is in --json.\n", clips.size(), clips.size());

@@ -97,10 +97,10 @@ std::vector<std::string> RemarksOn(const BodyMotion& motion, const MotionStatist
 }
 
 std::optional<std::string> RemarkOnSliding(const BodyMotion& motion, const RestBody& rest) {
-  constexpr std::size_t kMostPoses = 120;
-  constexpr double kLeast = 0.002, kMmPerMetre = 1000;
-  const auto misfit = MeasureRigidMisfit(rest, motion.poses, kMostPoses);
-  if (!misfit || misfit->mean_m < kLeast) return std::nullopt;
+  constexpr std::size_t kMaxPoses = 120;
+  constexpr double kMinMisfit = 0.002, kMmPerMetre = 1000;
+  const auto misfit = MeasureRigidMisfit(rest, motion.poses, kMaxPoses);
+  if (!misfit || misfit->mean_m < kMinMisfit) return std::nullopt;
   return fmt::format(
       "joints slide: a skeleton that keeps its lengths stays {:.1f} mm off (worst joint, mean over the frames), {:.0f} "
       "mm at {:.2f} s ({})",

@@ -95,6 +95,7 @@ class ContactPicture {
 }  // namespace
 
 std::string ContactIndexSvg(const std::string& name, const BodyMotion& motion) {
+  // Find the contacts and the velocities of all joints.
   const FootContacts contacts = FindFootContacts(motion.poses, motion.rate_hz);
   const std::vector<BodyPose> velocities = JointVelocities(motion.poses, motion.rate_hz);
   ContactPicture picture(motion);

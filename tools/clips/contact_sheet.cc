@@ -15,7 +15,7 @@ constexpr int kMargin = 16;
 constexpr int kGap = 6;
 constexpr int kTitle = 46;       // space for a clip's name and facts above its pictures
 constexpr double kLegend = 190;  // space reserved for the legend beside the first clip's name
-constexpr int kNarrowest = 640;  // minimum width of a sheet, so that titles fit
+constexpr int kMinSheetWidth = 640;  // minimum width of a sheet, so that titles fit
 constexpr double kNameSize = 16, kFactsSize = 12.5, kTimeSize = 12;
 
 int RowsOf(int pictures, int columns) { return (pictures + columns - 1) / columns; }
@@ -96,7 +96,7 @@ Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetO
     columns = std::max(columns, std::min(options.columns, pictures));
     height += kTitle + RowsOf(pictures, options.columns) * (options.height + kGap) + kMargin;
   }
-  const int width = std::max(2 * kMargin + columns * (options.width + kGap) - kGap, kNarrowest);
+  const int width = std::max(2 * kMargin + columns * (options.width + kGap) - kGap, kMinSheetWidth);
   if (width > kLargestSheet || height > kLargestSheet) {
     return Fail({}, "the sheet would have {} × {} pixels; allowed: {} a side: fewer clips, fewer or smaller pictures",
                 width, height, kLargestSheet);

@@ -29,7 +29,7 @@ CrowdStage::CrowdStage(int characters, int width, int height, Renderer& renderer
       camera_(CameraOver(side_, width, height)),
       renderer_(renderer) {}
 
-glm::dvec3 CrowdStage::PlaceOf(std::size_t character) const {
+glm::dvec3 CrowdStage::GridPointOf(std::size_t character) const {
   const double across = static_cast<double>(character % side_) - 0.5 * static_cast<double>(side_ - 1);
   return {kApart * across, 0, kApart * static_cast<double>(side_ - 1 - character / side_)};
 }
@@ -41,8 +41,8 @@ Canvas CrowdStage::Draw(std::span<const Character> crowd, const std::string& str
   for (std::size_t i = 0; i < crowd.size(); ++i) {
     Figure figure{BodyCapsules(crowd[i].pose), crowd[i].stands_out ? pale : PerformerColours()};
     for (Capsule& capsule : figure.shape) {
-      capsule.a += PlaceOf(i);
-      capsule.b += PlaceOf(i);
+      capsule.a += GridPointOf(i);
+      capsule.b += GridPointOf(i);
     }
     figures.push_back(std::move(figure));
   }

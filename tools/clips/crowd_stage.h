@@ -25,7 +25,7 @@ class CrowdStage {
   Canvas Draw(std::span<const Character> crowd, const std::string& strong, const std::string& soft);
 
  private:
-  glm::dvec3 PlaceOf(std::size_t character) const;
+  glm::dvec3 GridPointOf(std::size_t character) const;
 
   int width_, height_;
   std::size_t side_;  ///< grid points per row

@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-constexpr int kSheetWidth = 1200, kLeastHeight = 760;
+constexpr int kSheetWidth = 1200, kMinHeight = 760;
 constexpr double kEdge = 18, kColumn = 360, kLine = 18, kFoot = 56, kTop = 44;
 constexpr double kLabelSize = 13;
 constexpr Paint kBone{0.45, 0.49, 0.52, 1}, kLeader{0.30, 0.33, 0.36, 1};
@@ -26,20 +26,20 @@ struct SheetJoint {
   bool plays = false;
 };
 
-std::vector<glm::dvec3> PlacesOf(const Clip& clip) {
+std::vector<glm::dvec3> PositionsOf(const Clip& clip) {
   std::vector<GlobalTransform> globals;
   ComputeGlobals(clip.skeleton, clip.frames.empty() ? RestPose(clip.skeleton) : clip.frames.front(), globals);
-  std::vector<glm::dvec3> places;
-  for (const GlobalTransform& joint : globals) places.push_back(joint.position);
-  return places;
+  std::vector<glm::dvec3> positions;
+  for (const GlobalTransform& joint : globals) positions.push_back(joint.position);
+  return positions;
 }
 
 /// Returns the directions that point right and up in the picture. Up is Y or Z, whichever the body extends further
 /// along.
-std::pair<glm::dvec3, glm::dvec3> ViewOf(const std::vector<glm::dvec3>& places,
+std::pair<glm::dvec3, glm::dvec3> ViewOf(const std::vector<glm::dvec3>& positions,
                                          const std::array<RoleOnSheet, kRoleCount>& roles) {
-  glm::dvec3 low = places.front(), high = low;
-  for (const glm::dvec3& place : places) low = glm::min(low, place), high = glm::max(high, place);
+  glm::dvec3 low = positions.front(), high = low;
+  for (const glm::dvec3& position : positions) low = glm::min(low, position), high = glm::max(high, position);
   const glm::dvec3 size = high - low;
   const bool is_z_up = size.z > size.y;
   const glm::dvec3 up = is_z_up ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
@@ -47,7 +47,7 @@ std::pair<glm::dvec3, glm::dvec3> ViewOf(const std::vector<glm::dvec3>& places,
        {std::pair{Role::kLeftShoulder, Role::kRightShoulder}, {Role::kLeftHip, Role::kRightHip}}) {
     const int a = roles[Index(left)].joint, b = roles[Index(right)].joint;
     if (a < 0 || b < 0) continue;
-    const glm::dvec3 across = places[a] - places[b], level = across - glm::dot(across, up) * up;
+    const glm::dvec3 across = positions[a] - positions[b], level = across - glm::dot(across, up) * up;
     if (glm::length(level) > 0.5 * glm::length(across)) return {glm::normalize(level), up};
   }
   const double depth = is_z_up ? size.y : size.z;
@@ -102,13 +102,13 @@ std::string MissingRoles(const std::array<RoleOnSheet, kRoleCount>& roles) {
 }  // namespace
 
 Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet, kRoleCount>& roles) {
-  const std::vector<glm::dvec3> places = PlacesOf(clip);
-  const auto [right, up] = ViewOf(places, roles);
+  const std::vector<glm::dvec3> positions = PositionsOf(clip);
+  const auto [right, up] = ViewOf(positions, roles);
   // Project the joints onto the picture's plane.
-  std::vector<SheetJoint> joints(places.size());
+  std::vector<SheetJoint> joints(positions.size());
   glm::dvec2 low(INFINITY), high(-INFINITY);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    joints[i] = {.at = {glm::dot(right, places[i]), -glm::dot(up, places[i])},
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    joints[i] = {.at = {glm::dot(right, positions[i]), -glm::dot(up, positions[i])},
                  .words = Quote(clip.skeleton.joints[i].name)};
     low = glm::min(low, joints[i].at), high = glm::max(high, joints[i].at);
   }
@@ -124,13 +124,13 @@ Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet
     if (is_labelled(i)) columns[joints[i].at.x < middle ? 0 : 1].push_back(&joints[i]);
   }
   const double lines = static_cast<double>(std::max(columns[0].size(), columns[1].size()));
-  const double height = std::max<double>(kLeastHeight, kTop + kLine * (lines + 1) + kFoot);
+  const double height = std::max<double>(kMinHeight, kTop + kLine * (lines + 1) + kFoot);
   if (height > kLargestSheet) return Fail({}, "{} joints: too many for one picture", joints.size());
 
   Canvas canvas(kSheetWidth, static_cast<int>(height));
   canvas.FillBox({0, 0, kSheetWidth, height}, kBackdrop);
   // Scale the skeleton into the space between the labels.
-  const double room_x = kSheetWidth - 2 * (kEdge + kColumn + 30), room_y = kLeastHeight - kTop - kFoot - 40;
+  const double room_x = kSheetWidth - 2 * (kEdge + kColumn + 30), room_y = kMinHeight - kTop - kFoot - 40;
   const double scale =
       std::min(room_x / std::max(high.x - low.x, 1e-9 * size), room_y / std::max(high.y - low.y, 1e-9 * size));
   const glm::dvec2 centre(kSheetWidth / 2.0, (kTop + height - kFoot) / 2);

@@ -95,11 +95,11 @@ double RootMeanSquare(const std::vector<Pair>& pairs, const TwinAlignment& align
 }
 
 /// Fits rotation with translation, and offsets, alternately until the residual converges. `alignment` holds the start.
-void Settle(const std::vector<Pair>& pairs, int most_turns, TwinAlignment& alignment) {
+void FitAlternately(const std::vector<Pair>& pairs, int max_iterations, TwinAlignment& alignment) {
   constexpr double kSettled = 1e-6;  // metres
   std::vector<glm::dvec3> from(pairs.size()), to(pairs.size());
   alignment.rms_m = 1e300;
-  for (int turn = 0; turn < most_turns; ++turn) {
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const glm::dvec3 offset = alignment.offsets[pairs[i].joint].value_or(glm::dvec3(0));
       from[i] = pairs[i].carrier.position + pairs[i].carrier.rotation * offset;
@@ -166,10 +166,10 @@ std::optional<double> CorrelationAt(const std::vector<std::optional<double>>& a,
 /// Finds the shift with the highest correlation of speeds. At least half of the shorter recording must overlap.
 double ShiftBySpeeds(const JointRecording& recording, const TwinMotion& twin) {
   const auto a = Speeds(recording), b = Speeds(AtRate(twin, recording.rate_hz));
-  const long na = static_cast<long>(a.size()), nb = static_cast<long>(b.size()), least = std::min(na, nb) / 2;
+  const long na = static_cast<long>(a.size()), nb = static_cast<long>(b.size()), min_overlap = std::min(na, nb) / 2;
   double best = -2;
   long best_lag = 0;
-  for (long lag = least - na; lag <= nb - least; ++lag) {
+  for (long lag = min_overlap - na; lag <= nb - min_overlap; ++lag) {
     const auto correlation = CorrelationAt(a, b, lag, recording.rate_hz);
     if (correlation && *correlation > best) {
       best = *correlation;
@@ -186,13 +186,13 @@ bool IsEnough(const std::vector<Pair>& pairs, const JointRecording& recording, s
   return joints >= 3 && static_cast<double>(pairs.size() * stride) >= recording.rate_hz * static_cast<double>(joints);
 }
 
-constexpr int kTurnsOfSearch = 8, kTurnsAtEnd = 200;
+constexpr int kSearchIterations = 8, kFinalIterations = 200;
 
 /// Returns the best alignment for shifts from `start.shift_s − reach_s` to `start.shift_s + reach_s`.
 std::optional<TwinAlignment> BestShift(const JointRecording& recording, const TwinMotion& twin,
                                        const TwinAlignment& start, double reach_s, double step_s) {
-  constexpr std::size_t kFramesOfSearch = 150;
-  const std::size_t stride = std::max<std::size_t>(1, recording.frames.size() / kFramesOfSearch);
+  constexpr std::size_t kSearchFrames = 150;
+  const std::size_t stride = std::max<std::size_t>(1, recording.frames.size() / kSearchFrames);
   std::optional<TwinAlignment> best;
   const long steps = std::lround(reach_s / step_s);
   for (long i = -steps; i <= steps; ++i) {
@@ -200,7 +200,7 @@ std::optional<TwinAlignment> BestShift(const JointRecording& recording, const Tw
     tried.shift_s = start.shift_s + static_cast<double>(i) * step_s;
     const auto pairs = PairsAt(recording, twin, tried.shift_s, stride);
     if (!IsEnough(pairs, recording, stride)) continue;
-    Settle(pairs, kTurnsOfSearch, tried);
+    FitAlternately(pairs, kSearchIterations, tried);
     if (!best || tried.rms_m < best->rms_m) best = tried;
   }
   return best;
@@ -209,7 +209,7 @@ std::optional<TwinAlignment> BestShift(const JointRecording& recording, const Tw
 std::optional<TwinMatch> Finish(const JointRecording& recording, const TwinMotion& twin, TwinAlignment alignment) {
   const auto pairs = PairsAt(recording, twin, alignment.shift_s, 1);
   if (!IsEnough(pairs, recording, 1)) return std::nullopt;
-  Settle(pairs, kTurnsAtEnd, alignment);
+  FitAlternately(pairs, kFinalIterations, alignment);
   TwinMatch match{.alignment = alignment, .truth = {}};
   for (std::size_t t = 0; t < recording.frames.size(); ++t) {
     const auto carriers = CarriersAt(twin, static_cast<double>(t) / recording.rate_hz + alignment.shift_s);

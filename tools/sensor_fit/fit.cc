@@ -70,8 +70,9 @@ constexpr WorldKey kFitWorlds{.suite_seed = 1, .scenario = "sensor-fit", .trial 
 /// sensor file allows.
 void Scale(double& value, const std::optional<double>& real, const std::optional<double>& simulated, Range allowed) {
   if (!real || !simulated || *real <= 0 || *simulated <= 0) return;
-  constexpr double kMost = 3;
-  value = std::clamp(value * std::clamp(*real / *simulated, 1 / kMost, kMost), allowed.lowest, allowed.highest);
+  constexpr double kMaxFactor = 3;
+  value =
+      std::clamp(value * std::clamp(*real / *simulated, 1 / kMaxFactor, kMaxFactor), allowed.lowest, allowed.highest);
 }
 
 void FitGroups(const SensorStatistics& real, const SensorStatistics& simulated, SkeletonSensorOptions& sensor) {
@@ -84,11 +85,12 @@ void FitGroups(const SensorStatistics& real, const SensorStatistics& simulated, 
 }
 
 void FitCorrelations(const SensorStatistics& real, const SensorStatistics& simulated, SkeletonSensorOptions& sensor) {
-  constexpr double kStep = 0.8, kMost = 0.98;
+  constexpr double kStep = 0.8, kMaxCorrelation = 0.98;
   for (std::size_t b = 0; b < kBoneKindCount; ++b) {
     if (!real.correlation[b] || !simulated.correlation[b]) continue;
     double& rho = sensor.correlation[b];
-    rho = std::clamp(rho + kStep * (*real.correlation[b] - *simulated.correlation[b]), -kMost, kMost);
+    rho = std::clamp(rho + kStep * (*real.correlation[b] - *simulated.correlation[b]), -kMaxCorrelation,
+                     kMaxCorrelation);
   }
 }
 

@@ -166,7 +166,7 @@ void MeasureCorrelations(const JointRecording& recording, const TwinMatch& match
 
 void MeasureQuiet(const JointRecording& recording, SensorStatistics& result) {
   MeanOf white;
-  constexpr std::size_t kReach = 5, kFewest = 20;
+  constexpr std::size_t kReach = 5, kMinLengths = 20;
   constexpr double kQuiet = 0.005;
   // The median length of a vector of three independent normal variables with variance 6 each (weights 1, −2, 1).
   const double middle_length = 1.5381722544550522 * std::sqrt(6.0);
@@ -179,7 +179,7 @@ void MeasureQuiet(const JointRecording& recording, SensorStatistics& result) {
       if (!before || !after || glm::distance(*before, *after) > kQuiet) continue;
       if (const auto difference = SecondDifference(recording, t, j)) lengths.push_back(*difference);
     }
-    if (lengths.size() >= kFewest) white.Add(1000 * UpperMedian(std::move(lengths)) / middle_length);
+    if (lengths.size() >= kMinLengths) white.Add(1000 * UpperMedian(std::move(lengths)) / middle_length);
   }
   result.quiet_white_mm = white.Value();
 }
