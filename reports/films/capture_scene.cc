@@ -182,11 +182,11 @@ constexpr double kSkeletonTop = 78, kSkeletonBottom = 62;
 constexpr Paint kGround{0.13, 0.15, 0.17, 1};
 constexpr Paint kTruthBone{0.62, 0.66, 0.69, 0.85};
 // Error of a joint, in centimetres, at which the colour scale ends.
-constexpr double kReddest = 12;
+constexpr double kMaxErrorCm = 12;
 
-/// Returns green for no error, yellow for half of kReddest, red for kReddest centimetres and more.
+/// Returns green for no error, yellow for half of kMaxErrorCm, red for kMaxErrorCm centimetres and more.
 Paint PaintOfError(double cm) {
-  const double share = std::clamp(cm / kReddest, 0.0, 1.0);
+  const double share = std::clamp(cm / kMaxErrorCm, 0.0, 1.0);
   const double red = std::min(1.0, 2 * share), green = std::min(1.0, 2 - 2 * share);
   return {0.30 + 0.68 * red, 0.32 + 0.50 * green, 0.30, 1};
 }
@@ -224,15 +224,15 @@ void DrawErrorLegend(Canvas& canvas, const Box& box) {
   canvas.DrawLine({box.x + 18, y - 6}, {box.x + 46, y - 6}, 8, kTruthBone);
   canvas.DrawText({box.x + 56, y}, "truth", kSize, kSoftInk, 60);
   const double right = box.x + box.width - 18;
-  const std::string most = fmt::format("{:g} cm off and more", kReddest);
-  const double words = canvas.TextWidth(most, kSize);
-  canvas.DrawText({right - words, y}, most, kSize, kSoftInk, words + 1);
+  const std::string upper_words = fmt::format("{:g} cm off and more", kMaxErrorCm);
+  const double words = canvas.TextWidth(upper_words, kSize);
+  canvas.DrawText({right - words, y}, upper_words, kSize, kSoftInk, words + 1);
   const double left = right - words - 12 - kBar;
   for (int i = 0; i < static_cast<int>(kBar); ++i) {
-    canvas.FillBox({left + i, y - 12, 1, 12}, PaintOfError(kReddest * i / kBar));
+    canvas.FillBox({left + i, y - 12, 1, 12}, PaintOfError(kMaxErrorCm * i / kBar));
   }
-  const std::string least = "recovered: 0";
-  canvas.DrawText({left - 10 - canvas.TextWidth(least, kSize), y}, least, kSize, kSoftInk, 200);
+  const std::string lower_words = "recovered: 0";
+  canvas.DrawText({left - 10 - canvas.TextWidth(lower_words, kSize), y}, lower_words, kSize, kSoftInk, 200);
 }
 
 }  // namespace

@@ -57,13 +57,13 @@ Result<CoachedSessionFacts> ReadCoachedSession(const CastCell& cell) {
 
 std::optional<CastCell> ChooseWorstSession(const RunData& run, const ScenarioSummary& scenario) {
   std::optional<CastCell> worst;
-  double most = -1;
+  double most_wrong = -1;
   for (const auto& [row, recorded] : RecordedRows(run)) {
     if (row->scenario != scenario.name) continue;
     const double wrong = ValueOf(*row, "corrections_unneeded_per_min").value_or(0) +
                          ValueOf(*row, "corrections_missed_per_min").value_or(0);
-    if (wrong <= most) continue;
-    most = wrong;
+    if (wrong <= most_wrong) continue;
+    most_wrong = wrong;
     worst = CastCell{&scenario, row, &recorded->recording};
   }
   return worst;
@@ -315,8 +315,8 @@ void CoachedScene::DrawTimeline(Canvas& canvas, int now) const {
     if (now >= end) timeline.Bar(2, begin, end, PaintOfWord(performance.called));
     timeline.Text(1, begin, end, PlainName(performance.move));
   }
-  for (const int seam : facts_.transitions) {
-    if (timeline.Shows(seam)) timeline.Tick(seam, 0, 0, kInk);
+  for (const int point : facts_.transitions) {
+    if (timeline.Shows(point)) timeline.Tick(point, 0, 0, kInk);
   }
   timeline.Tick(now, 0, 2, kInk);
 }

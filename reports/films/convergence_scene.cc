@@ -17,7 +17,7 @@ namespace etude {
 namespace {
 
 constexpr double kSecondsPerDoubling = 0.7;
-constexpr double kShortestRace = 4, kLongest = 8;  // seconds
+constexpr double kMinRaceSeconds = 4, kMaxRaceSeconds = 8;  // seconds
 
 constexpr Paint kGrid{0.24, 0.27, 0.29, 1};
 constexpr Paint kGoal{0.55, 0.82, 0.50, 1};
@@ -25,14 +25,14 @@ constexpr Paint kTime{0.95, 0.955, 0.96, 0.35};
 constexpr double kTitleSize = 18, kTickSize = 17;
 constexpr double kPlotLeft = 64, kPlotRight = 28, kPlotTop = 44, kPlotBottom = 54;
 // The largest iteration that the axis can label: the digits of a larger decade would not fit into an int.
-constexpr int kMostIterations = 100'000'000;
+constexpr int kMaxLabelledIteration = 100'000'000;
 // Errors far below the goal are irrelevant, and rounding noise would extend the axis without limit.
-constexpr int kMostDecadesBelowGoal = 2;
+constexpr int kMaxDecadesBelowGoal = 2;
 
 }  // namespace
 
 RaceClock::RaceClock(int last_iteration) : last_(last_iteration) {
-  const double seconds = std::clamp(kSecondsPerDoubling * std::log2(1.0 + last_), kShortestRace, kLongest);
+  const double seconds = std::clamp(kSecondsPerDoubling * std::log2(1.0 + last_), kMinRaceSeconds, kMaxRaceSeconds);
   run_ = static_cast<int>(std::lround(seconds * kFilmRate));
 }
 
@@ -69,7 +69,7 @@ ErrorPlot::ErrorPlot(std::string title, std::string suffix, double goal, std::ve
     low = std::min(low, std::ranges::min(curve.values));
     high = std::max(high, std::ranges::max(curve.values));
   }
-  low = std::max(low, goal * std::pow(10, -kMostDecadesBelowGoal));
+  low = std::max(low, goal * std::pow(10, -kMaxDecadesBelowGoal));
   lowest_ = static_cast<int>(std::floor(std::log10(low)));
   highest_ = static_cast<int>(std::ceil(std::log10(high)));
 }
@@ -120,7 +120,7 @@ void ErrorPlot::DrawIterationAxis(Canvas& canvas, const Frame& frame) const {
     free_from = left + width + 8;
   };
   tick(0);
-  for (int decade = 1; decade <= clock_.LastIteration() && decade <= kMostIterations; decade *= 10) {
+  for (int decade = 1; decade <= clock_.LastIteration() && decade <= kMaxLabelledIteration; decade *= 10) {
     for (const int digit : {1, 2, 5}) tick(digit * decade);
   }
   const std::string axis = "iteration, log scale";

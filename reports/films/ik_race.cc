@@ -147,6 +147,7 @@ Result<IkRace> FindIkRace(const RunData& run, const ScenarioSummary& scenario) {
   const Place nowhere;
   const std::vector<RecordedCell> cells = RecordedCells(run, scenario);
   const std::vector<std::string> methods = MethodsOf(cells, scenario);
+  // Two methods must have recordings.
   if (methods.empty()) return Fail(nowhere, "this run kept no recordings here (the scenario's key video)");
   if (methods.size() == 1) {
     return Fail(nowhere, "this run kept recordings of one method only here; two in the same world are needed");

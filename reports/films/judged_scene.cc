@@ -97,9 +97,9 @@ Result<DetectionExtras> ExtrasOf(const Recording& recording, const Place& place)
 
 /// Adds other methods recorded in the same world, up to the number of timeline rows.
 Result<void> AddOtherJudges(const RunData& run, const CastCell& cell, Facts& facts) {
-  constexpr std::size_t kMostJudges = 2;
+  constexpr std::size_t kMaxJudges = 2;
   for (const auto& [row, recorded] : RecordedRows(run)) {
-    if (facts.judges.size() == kMostJudges) return {};
+    if (facts.judges.size() == kMaxJudges) return {};
     const bool same_world = row->scenario == cell.row->scenario && row->condition == cell.row->condition &&
                             row->trial == cell.row->trial && row->method != cell.row->method;
     if (!same_world) continue;
@@ -145,7 +145,7 @@ constexpr Box kFigure{12, 84, 440, 440};
 constexpr double kTall = 2.4;  // height of the figure's box, metres
 constexpr Paint kPanelGround{0.05, 0.06, 0.07, 0.78}, kGhost{0.80, 0.83, 0.85, 0.28};
 constexpr double kStripLeft = 156, kStripsTop = 116, kStripsHeight = 392, kStripGap = 8;
-constexpr double kHighestAngle = 180;
+constexpr double kMaxAngle = 180;
 
 Paint WithOpacity(const Paint& paint, double a) { return {paint.r, paint.g, paint.b, a}; }
 
@@ -300,7 +300,7 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
   for (std::size_t row = 0; row < features.size(); ++row) {
     const Feature feature = features[row];
     const auto angle = [&](int frame) { return facts_.seen.frames[static_cast<std::size_t>(frame)].features[feature]; };
-    const Strip strip = strip_at(row, kHighestAngle);
+    const Strip strip = strip_at(row, kMaxAngle);
     const auto path = draw(strip, std::string(PlainNameOf(feature)), FormatFixed(angle(now), 0) + "°", angle);
     for (std::size_t k = 0; k < asked.poses.size(); ++k) {
       const bool is_reached = asked.reached[k] && now >= *asked.reached[k];

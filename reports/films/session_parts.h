@@ -50,7 +50,7 @@ class SessionTimeline {
   bool Shows(int frame) const { return frame >= shown_.begin && frame < shown_.end; }
 
  private:
-  double PlaceOf(int frame) const;
+  double XOf(int frame) const;
 
   Canvas& canvas_;
   FrameSpan shown_;

@@ -20,14 +20,14 @@ constexpr double kSide = 12, kStripTop = 24, kStripBottom = 34, kClipHeight = 6;
 
 // Computes the metric jump_cm from the frames shown so far.
 std::optional<double> JumpAtPoints(const TransitionPath& path, int frame) {
-  std::optional<double> most;
+  std::optional<double> largest;
   for (const int point : path.facts.transition_frames) {
     const int last = std::min({point + kWindowReach, frame, static_cast<int>(path.jumps_cm.size()) - 1});
     for (int at = std::max(0, point - kWindowReach); frame > point && at <= last; ++at) {
-      most = std::max(most.value_or(0), path.jumps_cm[static_cast<std::size_t>(at)]);
+      largest = std::max(largest.value_or(0), path.jumps_cm[static_cast<std::size_t>(at)]);
     }
   }
-  return most;
+  return largest;
 }
 
 constexpr double kHeadingSize = 16, kLabelSize = 15, kValueSize = 15;
@@ -87,7 +87,7 @@ void JumpStrip::Draw(Canvas& canvas, const Box& box, const TransitionPath& path,
                     *this};
   const int shown = path.FrameAt(time);
   std::string jump = fmt::format("jump {} cm", FormatFixed(path.jumps_cm[static_cast<std::size_t>(shown)], 1));
-  if (const auto most = JumpAtPoints(path, shown)) jump += fmt::format(", worst {}", FormatFixed(*most, 1));
+  if (const auto largest = JumpAtPoints(path, shown)) jump += fmt::format(", worst {}", FormatFixed(*largest, 1));
   canvas.DrawText({frame.box.x, box.y + 16}, path.IsRecordedAt(time) ? jump : "jump —", kTextSize, kInk, kJumpRoom);
   if (path.facts.natural_limit_cm) {
     const double y = frame.Y(*path.facts.natural_limit_cm);

@@ -16,8 +16,8 @@ namespace {
 // Older recordings state only the wait. A recording without request and wait is aligned at its last transition point.
 int RequestOf(const TransitionFacts& facts, double rate_hz) {
   if (facts.request_frame) return *facts.request_frame;
-  constexpr double kLongestWait = 3600;
-  const double wait = std::clamp(facts.wait_s.value_or(0), 0.0, kLongestWait);
+  constexpr double kMaxWaitSeconds = 3600;
+  const double wait = std::clamp(facts.wait_s.value_or(0), 0.0, kMaxWaitSeconds);
   return facts.transition_frames.back() - static_cast<int>(std::lround(wait * rate_hz));
 }
 
@@ -40,7 +40,7 @@ constexpr int kBefore = kFilmRate, kAfter = 3 * kFilmRate / 2;
 constexpr int kLatest = 4 * kFilmRate;
 // Long enough to see what leads to a transition and what follows it; the same stretch is shown in slow motion.
 constexpr int kSlowBefore = kFilmRate / 3, kSlowAfter = 2 * kFilmRate / 3;
-constexpr int kLongestSlow = 5 * kFilmRate / 2;
+constexpr int kMaxSlowFrames = 5 * kFilmRate / 2;
 
 }  // namespace
 
@@ -96,7 +96,7 @@ TransitionClock::TransitionClock(const TransitionRace& race) {
   first_ = -kBefore;
   last_ = std::clamp(latest + kAfter, kBefore, kLatest + kAfter);
   slow_first_ = std::clamp(earliest - kSlowBefore, first_, last_);
-  slow_last_ = std::clamp(std::min(latest + kSlowAfter, slow_first_ + kLongestSlow), slow_first_, last_);
+  slow_last_ = std::clamp(std::min(latest + kSlowAfter, slow_first_ + kMaxSlowFrames), slow_first_, last_);
 }
 
 int TransitionClock::TimeAt(int frame) const {
