@@ -29,7 +29,7 @@ std::string DistanceWords(double distance, std::optional<double> threshold) {
 }
 
 // Limits for readability; the recordings hold everything.
-constexpr std::size_t kMostWorlds = 6;
+constexpr std::size_t kMaxWorlds = 6;
 constexpr std::size_t kMostMethods = 12;
 constexpr std::size_t kMostCandidates = 24;
 
@@ -267,15 +267,15 @@ std::string MostlyBy(const PerFeature& partials) {
 
 std::string TransitionsHtml(const std::vector<RecordedRequest>& worlds) {
   std::string html;
-  for (std::size_t i = 0; i < std::min(worlds.size(), kMostWorlds); ++i) html += WorldHtml(worlds[i]);
-  return html + LeftOutHtml(worlds.size(), kMostWorlds, "requests", "the folder recordings");
+  for (std::size_t i = 0; i < std::min(worlds.size(), kMaxWorlds); ++i) html += WorldHtml(worlds[i]);
+  return html + LeftOutHtml(worlds.size(), kMaxWorlds, "requests", "the folder recordings");
 }
 
 std::string TransitionsMarkdown(const std::vector<RecordedRequest>& worlds) {
   if (worlds.empty()) return "";
   std::string text = "\n<details><summary>Why each transition went where it went</summary>\n";
-  for (std::size_t i = 0; i < std::min(worlds.size(), kMostWorlds); ++i) text += WorldMarkdown(worlds[i]);
-  const std::string rest = LeftOutWords(worlds.size(), kMostWorlds, "requests", "the folder recordings");
+  for (std::size_t i = 0; i < std::min(worlds.size(), kMaxWorlds); ++i) text += WorldMarkdown(worlds[i]);
+  const std::string rest = LeftOutWords(worlds.size(), kMaxWorlds, "requests", "the folder recordings");
   return text + (rest.empty() ? "" : "\n" + rest + "\n") + "\n</details>\n";
 }
 
