@@ -325,14 +325,14 @@ QuantisedMotion Quantise(const BodyMotion& motion) {
     }
   }
   const glm::dvec3 range = high - quantised.low;
-  constexpr double kMost = 65535;
-  quantised.step = std::max({range.x, range.y, range.z}) / kMost;
+  constexpr double kMaxStep = 65535;
+  quantised.step = std::max({range.x, range.y, range.z}) / kMaxStep;
   quantised.steps.reserve(3 * kRoleCount * motion.poses.size());
   for (const BodyPose& pose : motion.poses) {
     for (const glm::dvec3& joint : pose.joints) {
       for (int axis = 0; axis < 3; ++axis) {
         const double steps = quantised.step > 0 ? (joint[axis] - quantised.low[axis]) / quantised.step : 0;
-        quantised.steps.push_back(static_cast<std::uint16_t>(std::clamp(std::round(steps), 0.0, kMost)));
+        quantised.steps.push_back(static_cast<std::uint16_t>(std::clamp(std::round(steps), 0.0, kMaxStep)));
       }
     }
   }
