@@ -268,6 +268,7 @@ std::function<std::string(const std::string&)> NumberWithin(double low, double h
 
 void DefineCommands(CLI::App& app, const std::string& command_line, Action& action) {
   app.require_subcommand(1);
+  // Run scenarios, and judge results.
   DefineRun(app, command_line, action);
   DefineScenario(app, action);
   DefineMerge(app, command_line, action);
@@ -281,9 +282,11 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineExport(app, action);
   DefineScore(app, command_line, action);
   DefineCheckMethod(app, action);
+  // List what there is; work on motion clips.
   DefineList(app, action);
   DefineClip(app, action);
   DefineBridge(app, action);
+  // Learn and recognise moves; work on sensors and cameras.
   DefineTrain(app, action);
   DefineTeach(app, action);
   DefineRecognise(app, action);
@@ -292,6 +295,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineCapture(app, command_line, action);
   DefineCoach(app, action);
   DefineCrowd(app, action);
+  // Completion, manual pages, and the hidden command of worker processes.
   DefineOptionTree(app, action);
   CLI::App* worker = app.add_subcommand("worker", "What the program starts for itself");
   worker->group("");  // hidden

@@ -117,6 +117,7 @@ void DefineBridge(CLI::App& app, Action& action) {
   auto options = std::make_shared<BridgeCommandOptions>();
   CLI::App* command =
       app.add_subcommand("bridge", "Find the frames at which one clip can lead into another, and tag them");
+  // The inputs and outputs.
   command->add_option("clips", options->clips, "The clips of one library");
   CLI::Option* output = command->add_option("-o,--output", options->output, "The tags file to write (XML)");
   // --check excludes most other options, because the tags file states the rules.
@@ -127,6 +128,7 @@ void DefineBridge(CLI::App& app, Action& action) {
   add(command->add_option("--to", options->to,
                           "Clips that every other one must lead into; they join the library (default: head_shake,\n"
                           "wave, puzzled and slow demonstrations, where they are among the clips)"));
+  // The rules of matching and tagging.
   add(command->add_option("--threshold", options->threshold, "Frames nearer than this match")
           ->check(NumberWithin(1e-6, 6, "threshold"))
           ->capture_default_str());

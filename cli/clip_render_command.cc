@@ -37,14 +37,14 @@ struct Size {
 /// Parses a size such as "200x260"; returns `otherwise` for "".
 Result<Size> ReadSize(const std::string& text, const Size& otherwise) {
   if (text.empty()) return otherwise;
-  constexpr int kSmallest = 16, kLargest = 2048;  // pictures are drawn twice as large and then shrunk
+  constexpr int kMinSide = 16, kMaxSide = 2048;  // pictures are drawn twice as large and then shrunk
   Size size;
   int end = 0;
   const bool is_size = std::sscanf(text.c_str(), "%5dx%5d%n", &size.width, &size.height, &end) == 2 &&
                        end == static_cast<int>(text.size());
-  const auto fits = [](int side) { return side >= kSmallest && side <= kLargest; };
+  const auto fits = [](int side) { return side >= kMinSide && side <= kMaxSide; };
   if (is_size && fits(size.width) && fits(size.height)) return size;
-  return Fail({}, "--size: '{}' is no size; allowed: WIDTHxHEIGHT in pixels, {} to {} each", text, kSmallest, kLargest);
+  return Fail({}, "--size: '{}' is no size; allowed: WIDTHxHEIGHT in pixels, {} to {} each", text, kMinSide, kMaxSide);
 }
 
 std::optional<ActorKind> ActorNamed(const std::string& name) {

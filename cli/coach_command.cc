@@ -183,6 +183,7 @@ Result<int> CoachCommand(const CoachCommandOptions& options) {
 void DefineCoach(CLI::App& app, Action& action) {
   auto options = std::make_shared<CoachCommandOptions>();
   CLI::App* command = app.add_subcommand("coach", "Coach a dance live: skeletons in, what to show out");
+  // The song, the stream, and what is known about the music.
   command->add_option("song", options->song, "A song: a built-in one (etude list clips), or a file (.yaml)")
       ->required();
   command->add_option("--stream", options->stream, "A file of skeleton rows; -: standard input, as they come")
@@ -191,6 +192,7 @@ void DefineCoach(CLI::App& app, Action& action) {
                       "A moves file (etude teach): what the song's moves look like when they are right");
   command->add_option("--beats", options->beats, "When the music's beats sound: a text file, seconds, one a line");
   command->add_option("--click", options->click, "Write a click for every beat, too (.wav)");
+  // How performances are judged, and how the coach reacts.
   command->add_option("--recogniser", options->recogniser, "How performances are recognised")
       ->check(CLI::IsMember(RecogniserNames()))
       ->capture_default_str();
@@ -210,6 +212,7 @@ void DefineCoach(CLI::App& app, Action& action) {
   command->add_option("--filter", options->filter, "Smooths the skeletons")
       ->check(CLI::IsMember(FilterNames()))
       ->capture_default_str();
+  // How players dance, and how frames are read and printed.
   command->add_flag("--mirror", options->mirror, "Players dance as in a mirror: the coach's left is their right");
   command->add_flag("--now", options->now, "Dance at once, without a clap");
   command->add_flag("--brief", options->brief, "Leave out frames in which nothing was decided, and bodies");

@@ -112,11 +112,13 @@ Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& follow
   using Character = CrowdStage::Character;
   static_assert(std::is_trivially_copyable_v<Character>, "characters go to those who draw as they lie in memory");
   ASSIGN_OR_RETURN(auto* const renderer, SharedRenderer());
+  // Show at most kFilmRateHz frames per second.
   CrowdStage stage(options.crowd.characters, kWidth, kHeight, *renderer);
   const double rate_hz = options.crowd.rate_hz;
   const int every = std::max(1, static_cast<int>(std::ceil(rate_hz / kFilmRateHz)));
   const int frames = (options.crowd.frames + every - 1) / every;
   const auto count = static_cast<std::size_t>(options.crowd.characters);
+  // This process tracks the crowd; copies of it draw the frames.
   const auto fill = [&](int frame, std::span<std::uint8_t> into) -> Result<void> {
     followed.FollowTo(frame * every);
     for (std::size_t i = 0; i < count; ++i) {

@@ -37,8 +37,8 @@ struct GateOptions {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostRows = 40;
-constexpr std::size_t kMostWorldsEach = 5, kMostWorlds = 20;
+constexpr std::size_t kMaxRows = 40;
+constexpr std::size_t kMaxWorldsEach = 5, kMaxWorlds = 20;
 
 int ExitCode(GateVerdict verdict) {
   switch (verdict) {
@@ -63,10 +63,10 @@ void PrintWorlds(const std::string& title, const std::vector<TailLine>& lines) {
 }
 
 void PrintReport(const GateReport& report) {
-  PrintMoves(report.comparison, "baseline", "now", kMostRows);
-  PrintWorlds("Worlds that are far worse:", TailLines(report, true, kMostWorldsEach, kMostWorlds));
+  PrintMoves(report.comparison, "baseline", "now", kMaxRows);
+  PrintWorlds("Worlds that are far worse:", TailLines(report, true, kMaxWorldsEach, kMaxWorlds));
   PrintWorlds("Single worlds that are far worse, too few to fail:",
-              TailLines(report, false, kMostWorldsEach, kMostWorlds));
+              TailLines(report, false, kMaxWorldsEach, kMaxWorlds));
   for (const GateExpectation& e : report.expectations) {
     if (e.result.ruling == Ruling::kMet) continue;
     fmt::print("{}: {}: {} [{}]\n", RulingName(e.result.ruling), e.scenario, e.result.text, e.result.detail);
@@ -121,7 +121,7 @@ Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
 void PrintDifference(Snapshot before, Snapshot after, const FinishedRun& run) {
   PrintList("Made anew:", DropIncomparable(before, after));
   const SnapshotComparison comparison = CompareSnapshots(before, after, ExactScenarios(run), TailRulesOf(run));
-  PrintMoves(comparison, "was", "is", kMostRows);
+  PrintMoves(comparison, "was", "is", kMaxRows);
   PrintList("Gone:", comparison.only_before);
   PrintList("New:", comparison.only_after);
 }

@@ -12,7 +12,7 @@ namespace etude {
 void EndWhenInterrupted();
 
 /// A guard for work that can be stopped. While it lives, the first Ctrl-C (or SIGTERM) requests a stop and the second
-/// one ends the program at once; writing to a child that has ended does not end the program.
+/// one ends the program at once; writing to a child that has ended returns an error instead of ending the program.
 class Interrupt {
  public:
   Interrupt();

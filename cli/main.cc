@@ -152,14 +152,14 @@ void OpenStandardStreams() {
 /// Raises the stack limit to the kernel's usual 8 MiB, as far as allowed. Fails below 1 MiB, where the deepest of our
 /// libraries would overflow the stack.
 Result<void> TakeStack() {
-  constexpr rlim_t kUsual = rlim_t{8} << 20, kLeast = rlim_t{1} << 20;
+  constexpr rlim_t kUsualStack = rlim_t{8} << 20, kMinStack = rlim_t{1} << 20;
   rlimit limit{};
-  if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= kUsual) return {};
-  limit.rlim_cur = std::min(limit.rlim_max, kUsual);
+  if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= kUsualStack) return {};
+  limit.rlim_cur = std::min(limit.rlim_max, kUsualStack);
   ::setrlimit(RLIMIT_STACK, &limit);
-  if (limit.rlim_cur >= kLeast) return {};
+  if (limit.rlim_cur >= kMinStack) return {};
   return Fail({kThisMachine}, "the stack may hold {} KiB; at least {} are needed (ulimit -s)", limit.rlim_cur >> 10,
-              kLeast >> 10);
+              kMinStack >> 10);
 }
 
 int Main(int argc, char** argv) {
@@ -186,7 +186,7 @@ int Main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return ComplainOfArguments(app, error);
   }
-  // Make floating-point results machine-independent, except for commands that do not need it.
+  // Start again in the pinned environment, so that results do not depend on this shell.
   if (auto choice = CheckRendererChoice(); !choice) return Complain(choice.error());
   if (!RunsUnpinned(app)) {
     if (auto pinned = EnterPinnedEnvironment(); !pinned) return Complain(pinned.error());

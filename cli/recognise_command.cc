@@ -254,6 +254,7 @@ Result<int> RecogniseCommand(const RecogniseCommandOptions& options) {
 void DefineRecognise(CLI::App& app, Action& action) {
   auto options = std::make_shared<RecogniseCommandOptions>();
   CLI::App* command = app.add_subcommand("recognise", "Which moves a recording or a live stream shows");
+  // The inputs: recordings, taught moves, labels.
   command->add_option("streams", options->streams, "Recordings, patterns, folders; - is standard input, live")
       ->required();
   auto* moves = command->add_option("--moves", options->moves, "What was taught (etude teach)");
@@ -262,6 +263,7 @@ void DefineRecognise(CLI::App& app, Action& action) {
       ->add_flag("--leave-one-person-out", options->leave_one_person_out,
                  "Teach from the labels of all other people, person by person")
       ->excludes(moves);
+  // The recogniser and its settings.
   command->add_option("--recogniser", options->recogniser, "How (default: key-pose)")
       ->check(CLI::IsMember(RecogniserNames()));
   command->add_option("--filter", options->filter, "How joints are smoothed first")

@@ -253,6 +253,7 @@ Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
   fmt::print("{}: {}\n", options.file, DescribeRecording(real.recording));
   fmt::print("{}: {}\n", options.reading.reference, DescribeMatch(real));
 
+  // Fit the sensor, and write its file.
   const SensorFitOptions fit{.start = base, .worlds = options.worlds, .steps = options.steps, .progress = {}};
   const SkeletonSensorOptions sensor = FitSensor(real, fit);
   const std::string preset = FindSensorPreset(options.base) ? options.base : "v2";
@@ -260,6 +261,7 @@ Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
                                        real.recording.DurationSeconds(), real.recording.frames.size()) +
                            WriteSensorFile(sensor, preset);
   RETURN_IF_ERROR(WriteFileAtomically(options.output, text));
+  // Compare it with the recording, and fitted halves with each other.
   Json checks = Json::array();
   checks.push_back(PrintComparison("Fitted to all of it, compared with other dice:", "real", real, sensor));
   PrintHalves(real, fit, checks);

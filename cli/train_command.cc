@@ -67,7 +67,7 @@ constexpr const char* kTrainExamples =
     "  etude train 'builtin:*' -o learnt.yaml --recogniser             what recogniser learnt knows\n"
     "  etude train groove sprint warm_up -o coached.yaml --coached     what recogniser coached knows";
 
-constexpr std::size_t kMostClipsToTrainOn = 150;
+constexpr std::size_t kMaxTrainingClips = 150;
 
 /// Clips for learning, and clips for testing.
 struct Split {
@@ -118,9 +118,9 @@ Result<Split> LoadSplit(const TrainOptions& options) {
     names.push_back(clip.name);
     motions.push_back(std::move(clip.motion));
   }
-  if (names.size() > kMostClipsToTrainOn) {
+  if (names.size() > kMaxTrainingClips) {
     return Fail({}, "{} clips; allowed: at most {}, since their pairs grow with the square", names.size(),
-                kMostClipsToTrainOn);
+                kMaxTrainingClips);
   }
   ASSIGN_OR_RETURN(const auto held_out, ChooseHeldOut(names, options));
 
@@ -302,6 +302,7 @@ Result<int> TrainRecogniserCommand(const TrainOptions& options) {
 void DefineTrain(CLI::App& app, Action& action) {
   auto options = std::make_shared<TrainOptions>();
   CLI::App* command = app.add_subcommand("train", "Learn a fuzzy system or a recogniser from clips");
+  // The inputs and outputs; then the fuzzy system's options.
   command->add_option("clips", options->clips, "Clips to learn from, and to judge by")->required();
   command->add_option("-o,--output", options->output, "The file to write (YAML)")->required();
   command->add_option("--method", options->method, "How to learn")
@@ -319,6 +320,7 @@ void DefineTrain(CLI::App& app, Action& action) {
   command->add_option("--generations", options->generations, "How long the genetic algorithm searches")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
+  // The options of recognisers.
   command->add_flag("--recogniser", options->recogniser, "Learn the recogniser `learnt`");
   command->add_flag("--coached", options->coached, "Learn the recogniser `coached`: CLIPS are built-in songs")
       ->excludes("--recogniser");

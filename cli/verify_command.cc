@@ -26,13 +26,13 @@ namespace {
 
 /// The default sample. With 5 % of very many cells forged, 1 in 21 forgeries is missed (0.95^59), fewer with fewer
 /// cells.
-constexpr const char* kUsualSample = "59";
+constexpr const char* kDefaultSample = "59";
 constexpr const char* kWholeSample = "all";
-constexpr std::size_t kLargestSample = 10'000'000;
+constexpr std::size_t kMaxSample = 10'000'000;
 
 struct VerifyCommandOptions {
   ReplayOptions replay;
-  std::string sample = kUsualSample;  ///< a number, or "all"
+  std::string sample = kDefaultSample;  ///< a number, or "all"
   std::string key_file;               ///< file with the key of secret worlds, "" = none
   std::string sign, check;            ///< key files, "" = none
   bool as_json = false;
@@ -50,8 +50,8 @@ std::string CheckSample(const std::string& text) {
   if (text == kWholeSample) return "";
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc() && end == text.data() + text.size() && number <= kLargestSample) return "";
-  return fmt::format("'{}' is no sample; allowed: 0 to {}, or '{}'", text, kLargestSample, kWholeSample);
+  if (error == std::errc() && end == text.data() + text.size() && number <= kMaxSample) return "";
+  return fmt::format("'{}' is no sample; allowed: 0 to {}, or '{}'", text, kMaxSample, kWholeSample);
 }
 
 /// Draws an unpredictable seed, with as many bits as every JSON reader keeps.
