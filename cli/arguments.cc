@@ -282,11 +282,11 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineExport(app, action);
   DefineScore(app, command_line, action);
   DefineCheckMethod(app, action);
-  // List what there is; work on motion clips.
+  // List what scenarios can name; work on motion clips.
   DefineList(app, action);
   DefineClip(app, action);
   DefineBridge(app, action);
-  // Learn and recognise moves; work on sensors and cameras.
+  // Learn and recognise moves; work on sensors, cameras and films; coach live.
   DefineTrain(app, action);
   DefineTeach(app, action);
   DefineRecognise(app, action);

@@ -265,7 +265,6 @@ Result<void> CheckMapOutputs(const ClipMapOptions& options) {
 Result<int> ClipMapCommand(const ClipMapOptions& options) {
   const bool writes = !options.output.empty();
   RETURN_IF_ERROR(CheckMapOutputs(options));
-  // Read the clip as it is, without the roles that are taught.
   ASSIGN_OR_RETURN(const auto reading, ReadOptions({.joint_map = options.joint_map, .unit = "", .up = ""}));
   // All animations of a file share one skeleton, so the first one is enough.
   OpenOptions as_file;

@@ -112,8 +112,8 @@ Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& follow
   using Character = CrowdStage::Character;
   static_assert(std::is_trivially_copyable_v<Character>, "characters go to those who draw as they lie in memory");
   ASSIGN_OR_RETURN(auto* const renderer, SharedRenderer());
-  // Show at most kFilmRateHz frames per second.
   CrowdStage stage(options.crowd.characters, kWidth, kHeight, *renderer);
+  // Show at most kFilmRateHz frames per second.
   const double rate_hz = options.crowd.rate_hz;
   const int every = std::max(1, static_cast<int>(std::ceil(rate_hz / kFilmRateHz)));
   const int frames = (options.crowd.frames + every - 1) / every;

@@ -186,8 +186,8 @@ int Main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return ComplainOfArguments(app, error);
   }
-  // Start again in the pinned environment, so that results do not depend on this shell.
   if (auto choice = CheckRendererChoice(); !choice) return Complain(choice.error());
+  // Start again in the pinned environment, so that results do not depend on this shell.
   if (!RunsUnpinned(app)) {
     if (auto pinned = EnterPinnedEnvironment(); !pinned) return Complain(pinned.error());
   }

@@ -195,7 +195,7 @@ Result<int> RecogniseFiles(const RecogniseCommandOptions& options, const Taught&
   return kSuccess;
 }
 
-/// Prints the most frequent confusions between moves first.
+/// Prints the confusions between moves, the most frequent first.
 void PrintMistakes(std::span<const Classified> verdicts) {
   std::map<std::pair<std::string, std::string>, int> mistakes;
   for (const Classified& verdict : verdicts) {

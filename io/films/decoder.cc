@@ -80,7 +80,7 @@ double RatioOf(const std::string& text) {
 Result<FilmFacts> ProbeFilm(const std::filesystem::path& path, const std::string& program) {
   const Place place{.file = path.string()};
   if (!std::filesystem::is_regular_file(path)) return Fail(place, "no such file");
-  // ffprobe counts packets, because the header's number of frames may be missing.
+  // Ask for the size, the rates, the number of packets and the rotation of the first video stream.
   ASSIGN_OR_RETURN(
       const Child child,
       StartReading({program, "-v", "error", "-select_streams", "v:0", "-count_packets", "-show_entries",

@@ -75,11 +75,11 @@ Result<SeenPerson> ToPerson(const std::vector<Keypoint>& points, const std::stri
   if (found) {
     order = (*found)->landmarks;
   } else {
+    // No layout has this count: use the names if enough of them are known.
     std::size_t known = 0;
     for (const std::string& name : names) {
       order.push_back(LandmarkOfName(name));
       if (order.back() != Landmark::kNoLandmark) ++known;
-    // No layout has this count: use the names if enough of them are known.
     }
     constexpr std::size_t kMinKnown = 12;
     if (!layout.empty() || names.size() != points.size() || known < kMinKnown) return tl::unexpected(found.error());

@@ -71,8 +71,8 @@ std::vector<Facts::Performance> PerformancesIn(const DetectionExtras& extras, co
     performance.begin_frame = std::clamp(event.begin_frame, 0, frames);
     performance.end_frame = std::clamp(event.end_frame, performance.begin_frame, frames);
     if (const auto known = poses.find(performance.move); known != poses.end()) performance.poses = known->second;
+    // Find the frame at which each key pose was reached, counted from the session's start.
     const auto window = std::span(seen.frames)
-                            // Find the frame at which each key pose was reached, counted from the session's start.
                             .subspan(static_cast<std::size_t>(performance.begin_frame),
                                      static_cast<std::size_t>(performance.end_frame - performance.begin_frame));
     performance.reached = WhenReached(performance.poses, window, {}, {});

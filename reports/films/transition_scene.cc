@@ -128,10 +128,10 @@ void TransitionPanel::Draw(Canvas& canvas, const Box& column, Renderer& renderer
   DrawDistanceBars(canvas, bars, path_.facts, points > 0 ? std::optional(points - 1) : std::nullopt);
 }
 
-// Show the pose that was left as a ghost for a second.
 void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& renderer, int time) {
   const int frame = path_.FrameAt(time);
   const std::size_t points = path_.PointsBefore(time);
+  // Show the pose that was left as a ghost for a second.
   std::optional<int> left;
   if (points > 0) left = path_.facts.transition_frames[points - 1];
   const int since = left ? time - path_.TimeOf(*left) : 0;

@@ -152,8 +152,8 @@ Result<std::vector<ComparedColumn>> CompareWithOutlines(const MarkerMotion& refe
   return columns;
 }
 
-/// Compares the person with a reference, for all cameras and for each pair alone. A pair recovers the person again from
-/// its own keypoints; the matched persons stay the same.
+/// Compares the person with a reference, for all cameras and for each pair alone. For a pair, the person is recovered
+/// again from the keypoints of these two films.
 std::vector<ComparedColumn> CompareWithReference(const MarkerMotion& reference, const RecoveredPerson& person,
                                                  const SeenFilms& films, const RecoverPersonOptions& options) {
   const auto column = [&](std::string heading, const RecoveredPerson& of) {
@@ -219,7 +219,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   const RecoverPersonOptions recover = RecoverOptionsOf(options, views);
   ASSIGN_OR_RETURN(SeenFilms films, SeeFilms(options, recover, session));
   ASSIGN_OR_RETURN(RecoveredPerson located, LocatePerson(films.cameras, films.people, recover));
-  // Move the rig and the points into the world: metres, Y up, floor at 0.
+  // Move the rig and the points into the world: metres, Y up, the floor as the options say.
   const auto place = PlaceRig(session.rig, located.landmarks, recover.rate_hz, options.place);
   if (!place) return Fail({options.rig}, "{}", place.error().message);
   films.told.Tell(fmt::format("rig, {}: {}", session.rig.format, place->told));

@@ -38,7 +38,6 @@ std::vector<TakeCurve> FeetOf(const BodyMotion& motion) {
 }
 
 CameraResiduals ResidualsOf(const std::vector<FilmedView>& views, const RecoveredPerson& person, std::size_t chosen,
-                            // For each camera, one value per frame.
                             const SeenFilms& films) {
   CameraResiduals residuals{
       .caption =

@@ -79,7 +79,7 @@ void DrawColumn(Canvas& canvas, std::vector<const SheetJoint*> joints, bool is_l
   double y = kTop;
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const SheetJoint& joint = *joints[i];
-    // leaves space for the labels that follow
+    // Leave space for the labels that follow.
     const double last = bottom - kLine * static_cast<double>(joints.size() - i);
     y = std::clamp(joint.at.y, std::min(y, last), last);
     const double width = std::min(canvas.TextWidth(joint.words, kLabelSize, joint.plays), kColumn);

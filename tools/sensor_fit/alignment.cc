@@ -121,7 +121,7 @@ std::vector<std::optional<double>> Speeds(const JointRecording& recording) {
     for (std::size_t j = 0; j < kRoleCount; ++j) {
       const auto &a = recording.frames[t - 1][j], &b = recording.frames[t][j];
       if (!a || !b) continue;
-      // limits the influence of a jump to that of a fast movement
+      // Limit the influence of a jump to that of a fast movement.
       sum += std::min(glm::distance(*a, *b) * recording.rate_hz, 3.0);
       ++count;
     }
