@@ -18,7 +18,7 @@
 namespace etude {
 namespace {
 
-/// Returns lines to be typed, by the words of a command without "etude".
+/// Returns example command lines by command; keys are the command's words without "etude".
 const std::map<std::string_view, std::vector<std::string_view>>& ExamplesByCommand() {
   static const std::map<std::string_view, std::vector<std::string_view>> examples = {
       {"run", {"etude run quick", "etude run full/ik_weights --trials 50 -o out/try", "etude run mine.yaml --resume"}},
@@ -146,14 +146,14 @@ void AddTo(CLI::App& command, const std::string& words, const std::string& inher
   }
 }
 
-/// Ends the help of every command with examples of its own, which `tests/cli/help_test.py` holds against its options.
+/// Appends examples to the help of every command; `tests/cli/help_test.py` checks them against the options.
 void AddExamples(CLI::App& app) {
   for (CLI::App* command : app.get_subcommands([](const CLI::App* one) { return !one->get_name().empty(); })) {
     AddTo(*command, command->get_name(), app.get_footer());
   }
 }
 
-/// Refuses empty values of all options: most often a variable that nobody has set.
+/// Makes all options refuse empty values, which most often come from an unset shell variable.
 void RefuseEmptyValues(CLI::App& command) {
   const CLI::Validator not_empty([](std::string& text) { return text.empty() ? "must not be empty" : ""; }, "");
   for (CLI::Option* option : command.get_options()) {
@@ -162,7 +162,7 @@ void RefuseEmptyValues(CLI::App& command) {
   for (CLI::App* inner : command.get_subcommands([](CLI::App*) { return true; })) RefuseEmptyValues(*inner);
 }
 
-/// The seeds that are exact wherever JSON is read: whole numbers up to 2^53.
+/// Allows the seeds that every JSON reader represents exactly: integers up to 2^53.
 const CLI::Range& SeedRange() {
   static const CLI::Range range(std::uint64_t{0}, std::uint64_t{1} << 53);
   return range;
@@ -227,6 +227,7 @@ std::array<CLI::Option*, 7> AddWorldOptions(CLI::App& command, std::optional<std
   const auto tell = [&clip_facts](const std::string& key) {
     return [&clip_facts, key](const std::string& value) { clip_facts += key + ": " + value + "\n"; };
   };
+  // Each option's default comes from the scenario or from the clip itself.
   return {
       AddSeed(command, seed, "Seed of all worlds (default: the scenario's, else 1)"),
       command.add_option("--trials", trials, "Trials per condition (default: the scenario's)")
@@ -289,6 +290,7 @@ void GroupCommands(CLI::App& app) {
 
 void DefineCommands(CLI::App& app, const std::string& command_line, Action& action) {
   app.require_subcommand(1);
+  // Run scenarios, and judge results.
   DefineRun(app, command_line, action);
   DefineScenario(app, action);
   DefineMerge(app, command_line, action);
@@ -299,6 +301,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineGate(app, action);
   DefineCompare(app, action);
   DefineCheckMethod(app, action);
+  // List what scenarios can name; work on motion clips.
   DefineList(app, action);
   DefineClip(app, action);
   DefineBridge(app, action);

@@ -20,10 +20,11 @@ namespace {
 
 struct BridgeCommandOptions {
   std::vector<std::string> clips;
-  std::vector<std::string> to;  ///< corrective clips; none = the coach's own among `clips`
+  std::vector<std::string> to;  ///< corrective clips; empty = the coach's own among `clips`
   std::string output;           ///< a tags file, "" = only the summary
-  std::string check;            ///< a tags file to be checked instead
-  std::string fuzzy;            ///< builtin:NAME or a file, "" = paper A's (of a check: as the file names it)
+  std::string check;            ///< a tags file to check; "" = none
+  std::string fuzzy;            ///< builtin:NAME or a file; "" = paper A's, or for a check the one that the tags file
+                                ///< names
   double threshold = 0.4, wait_s = 1;
   int min_clips = 2, most_per_class = 0;
   bool within_class = false, as_json = false, overwrite = false;
@@ -55,7 +56,7 @@ Result<BridgeLibrary> LoadLibrary(const BridgeCommandOptions& options) {
   return LoadBridgeLibrary(bridge);
 }
 
-/// Takes over the rules of a tags file, so that its clips are tagged as they were.
+/// Copies the rules of a tags file into the options, so that its clips are tagged in the same way.
 BridgeCommandOptions OptionsOf(const BridgeTags& tags, BridgeCommandOptions options) {
   options.threshold = tags.threshold;
   options.within_class = tags.within_class;
@@ -116,8 +117,10 @@ void DefineBridge(CLI::App& app, Action& action) {
   auto options = std::make_shared<BridgeCommandOptions>();
   CLI::App* command =
       app.add_subcommand("bridge", "Find the frames at which one clip can lead into another, and tag them");
+  // The inputs and outputs.
   command->add_option("clips", options->clips, "The clips of one library");
   CLI::Option* output = command->add_option("-o,--output", options->output, "The tags file to write (XML)");
+  // --check excludes most other options, because the tags file states the rules.
   CLI::Option* check =
       command->add_option("--check", options->check, "A tags file to be checked, against clips if any");
   check->excludes(output);
@@ -125,6 +128,7 @@ void DefineBridge(CLI::App& app, Action& action) {
   add(command->add_option("--to", options->to,
                           "Clips that every other one must lead into; they join the library (default: head_shake,\n"
                           "wave, puzzled and slow demonstrations, where they are among the clips)"));
+  // The rules of matching and tagging.
   add(command->add_option("--threshold", options->threshold, "Frames nearer than this match")
           ->check(NumberWithin(1e-6, 6, "threshold"))
           ->capture_default_str());

@@ -81,6 +81,7 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
   options->version = ETUDE_VERSION;
   options->listener = TerminalListener();
   CLI::App* command = app.add_subcommand("capture", "The motion of a person out of films by several cameras");
+  // The films and their rig.
   command->add_option("films", options->films, "A film of each camera, all begun at the same moment (else: --sync)")
       ->required();
   command->add_option("--rig", options->rig, "The calibrated cameras")->required();
@@ -99,7 +100,8 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
       ->capture_default_str();
   command->add_option("--cameras", options->cameras, "The rig's cameras in the order of the films: left,right")
       ->delimiter(',')
-      ->allow_extra_args(false);  // films may follow
+      ->allow_extra_args(false);  // stops the option from consuming the films that follow
+  // The sources of the person's position.
   auto* keypoints = command->add_option("--keypoints", options->keypoints, "A folder with keypoints for each film");
   auto* marks = command->add_option("--marks", options->marks, "A folder with annotation pictures for each film")
                     ->excludes(keypoints);
@@ -117,6 +119,7 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
       ->capture_default_str();
   command->add_option("--layout", options->layout, "The order of keypoints, where their count does not tell it")
       ->check(CLI::IsMember(KeypointLayoutNames()));
+  // The outputs, and the reference to compare with.
   command->add_option("-o,--output", options->output, "The motion to write: .bvh, .glb, .trc or .csv")->required();
   command->add_option("--points", options->points, "Write the triangulated keypoints, too (.trc)");
   command->add_option("--film", options->film, "Write the skeleton drawn over the films, too (.mp4)");
@@ -127,6 +130,7 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
   command
       ->add_option("--distances", options->distances, "Write that comparison, too, for `etude report --real` (.json)")
       ->needs(reference);
+  // How films, people and time are interpreted.
   command->add_option("--fit", options->fit, "How films of another size than the rig's came of its pictures")
       ->check(CLI::IsMember({"none", "letterbox", "stretch", "crop"}))
       ->capture_default_str();

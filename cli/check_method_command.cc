@@ -23,6 +23,7 @@ int CheckMethodCommand(OutsideOptions options, const std::string& seat, bool is_
   }
   Json checks_made = Json::array();
   int checks = 0, passed = 0;
+  // Run the checks; print each one when it ends.
   const auto all_passed = CheckConformance(options, seat, [&](const ConformanceCheck& check) {
     ++checks;
     passed += check.passed ? 1 : 0;
@@ -31,6 +32,7 @@ int CheckMethodCommand(OutsideOptions options, const std::string& seat, bool is_
     fmt::print("{}  {}: {}\n", check.passed ? "passed" : "FAILED", check.name, check.found);
     std::fflush(stdout);
   });
+  // Print the result.
   if (!all_passed) return Complain(all_passed.error());
   if (as_json) {
     const auto printed = PrintFacts("check-method", {{"passed", *all_passed},
@@ -57,6 +59,7 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("check-method", "Test whether a program speaks the protocol of methods");
   command->add_option("command", options->command, "The program and its arguments, after --")->required();
+  // List the allowed tasks and seats.
   std::vector<std::string> tasks, seats;
   for (const TaskKind& kind : AllTaskKinds()) {
     tasks.push_back(kind.name);

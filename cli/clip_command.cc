@@ -41,7 +41,7 @@ struct ClipInfoOptions {
   ClipReading reading;
 };
 
-/// Prints the facts of all clips. Exit 2 when one is not understood; the others are told all the same.
+/// Prints the facts of all clips. Returns 2 if a clip cannot be interpreted; the other clips are printed nevertheless.
 Result<int> ClipInfoCommand(const ClipInfoOptions& options) {
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
   ASSIGN_OR_RETURN(const auto references, ExpandReferences(options.clips));
@@ -71,8 +71,8 @@ void DefineInfo(CLI::App& clip, Action& action) {
 
 struct ClipConvertOptions {
   std::string input, output;
-  double rate_hz = 0;  ///< 0 = the clip's own, or 30 Hz of a body
-  std::string trim;    ///< "1.5:4", "" = all of it
+  double rate_hz = 0;  ///< 0 = the clip's own rate, or 30 Hz for bodies
+  std::string trim;    ///< "1.5:4"; "" = the whole clip
   std::string character;
   bool mirror = false, retarget = false, ground = false, overwrite = false;
   ClipReading reading;
@@ -170,7 +170,7 @@ void DefineContacts(CLI::App& clip, Action& action) {
 
 struct ClipMapOptions {
   std::string clip;
-  std::string output;   ///< a joint-map file, "" = only printed
+  std::string output;   ///< a joint-map file; "" = the map is only printed
   std::string preview;  ///< a picture, "" = none
   bool overwrite = false, as_json = false;
   std::string joint_map;
@@ -204,8 +204,8 @@ Json RolesAsJson(const Skeleton& skeleton, const JointMap& map) {
   return roles;
 }
 
-/// Writes a map file for a skeleton whose roles were not all found: those that are, those to be filled in with what the
-/// build proposes, and the names to choose from.
+/// Writes a joint-map file for a skeleton with missing roles: the roles that were found, proposals by anatomy for the
+/// missing ones, and the names to choose from.
 std::string UnfinishedMapFile(const Skeleton& skeleton) {
   const PartialRoles roles = FindPartialRoles(skeleton);
   std::string text =
@@ -226,7 +226,7 @@ std::string UnfinishedMapFile(const Skeleton& skeleton) {
   return text;
 }
 
-/// The joints of all roles, or of those that can be told where `map` is null.
+/// Returns the joints of all roles, or, if `map` is null, of the roles that can be determined.
 std::array<RoleOnSheet, kRoleCount> RolesOnSheet(const Skeleton& skeleton, const JointMap* map) {
   using By = RoleOnSheet::By;
   std::array<RoleOnSheet, kRoleCount> roles;
@@ -266,15 +266,16 @@ Result<int> ClipMapCommand(const ClipMapOptions& options) {
   const bool writes = !options.output.empty();
   RETURN_IF_ERROR(CheckMapOutputs(options));
   ASSIGN_OR_RETURN(const auto reading, ReadOptions({.joint_map = options.joint_map, .unit = "", .up = ""}));
-  // All animations of a file move the same skeleton: the first one shows it.
+  // All animations of a file share one skeleton, so the first one is enough.
   OpenOptions as_file;
   as_file.recorded = reading.recorded;
   ASSIGN_OR_RETURN(const auto clips, ReadClips(options.clip, as_file));
   const Skeleton& skeleton = clips.front().clip.skeleton;
   const auto map = FindJointMap(skeleton, options.clip, reading.roles ? &*reading.roles : nullptr);
   RETURN_IF_ERROR(WritePreview(options, clips.front().clip, map ? &*map : nullptr));
+  // Roles are missing: write a file to fill in, and complain.
   if (!map) {
-    // A map that is there already is mended, and may be the very file that would be written.
+    // Never overwrite a joint map that was given: the user is editing it, and it may be the output file.
     if (options.joint_map.empty() && writes) {
       RETURN_IF_ERROR(WriteFileAtomically(options.output, UnfinishedMapFile(skeleton)));
       TellWritten(options.output);
@@ -282,6 +283,7 @@ Result<int> ClipMapCommand(const ClipMapOptions& options) {
     }
     return tl::unexpected(map.error());
   }
+  // All roles are known: print the map, and write it.
   if (options.as_json) {
     RETURN_IF_ERROR(PrintFacts("clip map", {{"clip", options.clip}, {"roles", RolesAsJson(skeleton, *map)}}));
   } else {

@@ -19,13 +19,13 @@ namespace {
 
 struct ClipGradesOptions {
   std::vector<std::string> clips;
-  std::string output;                   ///< a CSV file of one clip, "" = none
+  std::string output;                   ///< a CSV file for one clip; "" = none
   std::string fuzzy = "builtin:paper";  ///< builtin:NAME or a file (docs/fuzzy-system.md)
   bool overwrite = false, as_json = false;
   ClipReading reading;
 };
 
-/// Writes a line per frame: ten features, 24 grades, ten tags, the pose.
+/// Writes one line per frame: ten features, 24 grades, ten tags, and the pose.
 std::string GradesCsv(const FuzzyMotion& motion) {
   std::string csv = "frame,time_s";
   for (Feature feature : AllFeatures()) csv += fmt::format(",{}", FeatureName(feature));
@@ -42,7 +42,7 @@ std::string GradesCsv(const FuzzyMotion& motion) {
   return csv;
 }
 
-/// Sums up the poses, the commonest first: "at rest 62 %, arms up 20 %, no rule holds 18 %".
+/// Summarises the poses, the most frequent first: "at rest 62 %, arms up 20 %, no rule holds 18 %".
 std::string PoseShares(const FuzzyMotion& motion, const RuleBase& rules) {
   std::vector<std::pair<std::size_t, std::string>> counts;
   for (const std::string& pose : rules.poses) {

@@ -15,25 +15,25 @@ class App;
 
 namespace etude {
 
-/// The facts about files that cannot tell them themselves; "" = found out.
+/// Facts that a motion file may not state; "" = determined from the file.
 struct ClipReading {
-  std::string joint_map;  ///< a joint-map file
+  std::string joint_map;  ///< the name of a joint-map file
   std::string unit;       ///< "m", "cm", … or metres per unit as a number
   std::string up;         ///< "y" or "z"
   std::optional<double> rate_hz = {};
 };
 
-/// Adds --joint-map, --unit and --up, of every command that opens clips by themselves, and the rate of files under the
-/// name `rate`; no option of it where that is "".
+/// Adds --joint-map, --unit and --up, for every command that opens clips directly, and an option with the name `rate`
+/// for the frame rate of files ("" = no such option).
 void AddClipReading(CLI::App& command, ClipReading& reading, const std::string& rate = "--rate");
 
-/// Reads these options.
+/// Converts these options to OpenOptions. Fails if a file or a value cannot be read.
 Result<OpenOptions> ReadOptions(const ClipReading& reading);
 
-/// Reads --trim; nothing without it.
+/// Parses --trim; returns nullopt for "".
 Result<std::optional<TimeSpan>> ReadTrim(const std::string& text);
 
-/// Reads --fuzzy: builtin:NAME or a file; "" is paper A's system.
+/// Reads --fuzzy: builtin:NAME or a file; "" means paper A's system.
 Result<FuzzySystem> ReadFuzzy(const std::string& reference);
 
 }  // namespace etude

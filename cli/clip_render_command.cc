@@ -21,9 +21,9 @@ struct ClipRenderOptions {
   std::string trim;
   std::string character;  ///< "" = chosen for each clip
   std::string view = "three-quarter";
-  std::string size;  ///< "200x260", "" = 200 × 260 for pictures of a sheet, 720 × 720 for films
-  int frames = 0;    ///< per clip; 0 = 12 of one clip, 8 of several
-  int columns = 0;   ///< 0 = 6 of one clip, a line each of several
+  std::string size;  ///< "200x260"; "" = 200 × 260 for pictures of a sheet, 720 × 720 for films
+  int frames = 0;    ///< pictures per clip; 0 = 12 for one clip, 8 for several
+  int columns = 0;   ///< 0 = 6 for one clip, one row per clip for several
   int jobs = 0;
   bool overwrite = false;
   ClipReading reading;
@@ -34,17 +34,17 @@ struct Size {
   int height = 0;
 };
 
-/// Reads a size such as "200x260"; gives `otherwise` without one.
+/// Parses a size such as "200x260"; returns `otherwise` for "".
 Result<Size> ReadSize(const std::string& text, const Size& otherwise) {
   if (text.empty()) return otherwise;
-  constexpr int kSmallest = 16, kLargest = 2048;  // drawn twice as large, and shrunk
+  constexpr int kMinSide = 16, kMaxSide = 2048;  // pictures are drawn twice as large and then shrunk
   Size size;
   int end = 0;
   const bool is_size = std::sscanf(text.c_str(), "%5dx%5d%n", &size.width, &size.height, &end) == 2 &&
                        end == static_cast<int>(text.size());
-  const auto fits = [](int side) { return side >= kSmallest && side <= kLargest; };
+  const auto fits = [](int side) { return side >= kMinSide && side <= kMaxSide; };
   if (is_size && fits(size.width) && fits(size.height)) return size;
-  return Fail({}, "--size: '{}' is no size; allowed: WIDTHxHEIGHT in pixels, {} to {} each", text, kSmallest, kLargest);
+  return Fail({}, "--size: '{}' is no size; allowed: WIDTHxHEIGHT in pixels, {} to {} each", text, kMinSide, kMaxSide);
 }
 
 std::optional<ActorKind> ActorNamed(const std::string& name) {
@@ -91,7 +91,7 @@ Result<void> WriteSheet(const ClipRenderOptions& options) {
   return WriteFileAtomically(options.output, png);
 }
 
-/// Films one clip. False when Ctrl-C came.
+/// Makes a film of one clip. Returns false if Ctrl-C stopped it.
 Result<bool> WriteFilm(const ClipRenderOptions& options) {
   ASSIGN_OR_RETURN(const auto size, ReadSize(options.size, {720, 720}));
   if (size.width % 2 != 0 || size.height % 2 != 0) return Fail({}, "--size: films need even numbers of pixels");

@@ -30,24 +30,24 @@ namespace etude {
 namespace {
 
 struct CoachCommandOptions {
-  std::string song;               ///< a built-in song's name, or a song file
+  std::string song;               ///< the name of a built-in song, or a song file
   std::string stream;             ///< a file of skeleton rows; "-": standard input
-  std::string moves;              ///< a moves file: what recognisers are taught of the song's moves, "" = built in
-  std::string beats;              ///< a file of the music's beats, "" = even ones at the song's tempo
+  std::string moves;              ///< a moves file that teaches the recogniser the song's moves, "" = the built-in ones
+  std::string beats;              ///< a file with the times of the music's beats, "" = even beats at the song's tempo
   std::string click;              ///< a WAV to write, "" = none
-  std::string format;             ///< of the stream, "" = told by content
-  std::optional<double> rate_hz;  ///< of streams without a clock
-  std::string recogniser = "key-pose";  ///< RecogniserNames()
-  std::optional<double> right_from;     ///< of the evidence; else the recogniser's own
+  std::string format;             ///< the stream's format, "" = recognised by content
+  std::optional<double> rate_hz;  ///< frame rate of streams without a clock
+  std::string recogniser = "key-pose";  ///< one of RecogniserNames()
+  std::optional<double> right_from;     ///< minimum evidence for the verdict "right"; default: the recogniser's own
   std::string policy = "at-first-mistake";
   std::string choice = "played";
   std::string join = "planted-feet";
   std::string filter = "none";
-  bool mirror = false;   ///< players dance as in a mirror
-  bool reflect = false;  ///< the stream's X runs the other way
-  bool now = false;      ///< begins dancing without a clap
-  bool brief = false;    ///< frames in which nothing was decided are left out
-  bool timing = false;   ///< tells at the end how long frames took
+  bool mirror = false;   ///< players mirror the coach
+  bool reflect = false;  ///< the stream's X axis points the other way
+  bool now = false;      ///< begin dancing without waiting for a clap
+  bool brief = false;    ///< leave out frames without a decision
+  bool timing = false;   ///< print frame times at the end
   bool overwrite = false;
 };
 
@@ -70,7 +70,7 @@ constexpr const char* kCoachExamples =
     "  etude teach clap.csv jump.csv -o mine.yaml && etude coach groove --moves mine.yaml --recogniser dtw --stream -\n"
     "  etude clip convert builtin:warm_up me.csv && etude coach warm_up --now --brief --stream me.csv";
 
-/// The dance, and the moves that recognisers are taught, in its order.
+/// The dance, and the moves that recognisers are taught, in the order of the dance.
 struct Lesson {
   Dance dance;
   std::vector<TaughtMove> taught;
@@ -82,7 +82,7 @@ Result<Song> LoadSong(const std::string& name, std::optional<double> tempo_bpm) 
   return ParseSong(text, name, tempo_bpm);
 }
 
-/// Replaces moves by those of a moves file, each of which the dance must have.
+/// Replaces taught moves by those of a moves file. Fails if the file teaches a move that the dance does not have.
 Result<void> TeachMoves(const std::string& path, std::vector<TaughtMove>& taught) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
   ASSIGN_OR_RETURN(auto moves, ReadMoves(text, path));
@@ -144,10 +144,12 @@ void PrintLine(const std::string& line) {
 }
 
 Result<int> CoachCommand(const CoachCommandOptions& options) {
+  // Load the song, and teach the recogniser its moves.
   ASSIGN_OR_RETURN(auto lesson, LoadLesson(options));
   RETURN_IF_ERROR(WriteClicks(options, lesson.dance));
   const RecogniserKind* kind = FindRecogniser(options.recogniser);
   ASSIGN_OR_RETURN(const auto recogniser, MakeRecogniser({.kind = kind}, lesson.taught));
+  // Plan the transitions between all clips of the dance.
   ASSIGN_OR_RETURN(const auto library, DanceLibrary::Make(std::move(lesson.dance)));
   const DanceTransitions transitions(library, {.choice = FindChoice(options.choice), .join = FindJoin(options.join)});
   const bool is_live = options.stream == "-";
@@ -158,11 +160,13 @@ Result<int> CoachCommand(const CoachCommandOptions& options) {
                          .brief = options.brief};
   coach.coach.right_from = options.right_from.value_or(kind->threshold);
   coach.coach.player_mirrors = options.mirror;
+  // Open the stream.
   std::ifstream file;
   if (!is_live) {
     file.open(options.stream);
     if (!file || std::filesystem::is_directory(options.stream)) return Fail({options.stream}, "cannot be read");
   }
+  // Print the head, then one line for each frame.
   ASSIGN_OR_RETURN(const auto head, CoachHead(library.dance()));
   fmt::print("{}\n", head);
   StreamReading reading{.rate_hz = options.rate_hz};
@@ -179,6 +183,7 @@ Result<int> CoachCommand(const CoachCommandOptions& options) {
 void DefineCoach(CLI::App& app, Action& action) {
   auto options = std::make_shared<CoachCommandOptions>();
   CLI::App* command = app.add_subcommand("coach", "Coach a dance live: skeletons in, what to show out");
+  // The song, the stream, and what is known about the music.
   command->add_option("song", options->song, "A song: a built-in one (etude list clips), or a file (.yaml)")
       ->required();
   command->add_option("--stream", options->stream, "A file of skeleton rows; -: standard input, as they come")
@@ -187,6 +192,7 @@ void DefineCoach(CLI::App& app, Action& action) {
                       "A moves file (etude teach): what the song's moves look like when they are right");
   command->add_option("--beats", options->beats, "When the music's beats sound: a text file, seconds, one a line");
   command->add_option("--click", options->click, "Write a click for every beat, too (.wav)");
+  // How performances are judged, and how the coach reacts.
   command->add_option("--recogniser", options->recogniser, "How performances are recognised")
       ->check(CLI::IsMember(RecogniserNames()))
       ->capture_default_str();
@@ -206,6 +212,7 @@ void DefineCoach(CLI::App& app, Action& action) {
   command->add_option("--filter", options->filter, "Smooths the skeletons")
       ->check(CLI::IsMember(FilterNames()))
       ->capture_default_str();
+  // How players dance, and how frames are read and printed.
   command->add_flag("--mirror", options->mirror, "Players dance as in a mirror: the coach's left is their right");
   command->add_flag("--now", options->now, "Dance at once, without a clap");
   command->add_flag("--brief", options->brief, "Leave out frames in which nothing was decided, and bodies");

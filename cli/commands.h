@@ -12,7 +12,7 @@ namespace etude {
 
 struct RunOutcome;
 
-// Exit codes of every command.
+// The exit codes of all commands.
 constexpr int kSuccess = 0;
 constexpr int kNothingWorked = 1;
 constexpr int kRegression = 1;
@@ -20,70 +20,76 @@ constexpr int kUnusableInput = 2;
 constexpr int kIncomplete = 3;
 constexpr int kInterrupted = 130;
 
-/// Prints a complaint the one way Etude does, and gives kUnusableInput; kIncomplete of an error of this machine.
+/// Prints a complaint in the standard form. Returns kUnusableInput, or kIncomplete if the error is this machine's.
 int Complain(const Error& error);
-/// Gives a command's exit code; without one what Complain gives.
+/// Returns a command's exit code; for an error, complains and returns Complain's code.
 int Finish(const Result<int>& code);
-/// Says that Ctrl-C came and what it left, and gives kInterrupted.
+/// Says that Ctrl-C stopped the work and what is left of it. Returns kInterrupted.
 int TellStopped(const Error& what_is_left = {{}, "stopped; nothing is kept"});
-/// Gives `code`; but where another run has taken the folder's place while files of this one were written into it, says
-/// so and gives kIncomplete.
+/// Returns `code`, unless another run has replaced the folder while files of this run were written into it: then it
+/// complains and returns kIncomplete.
 Result<int> UnlessReplaced(const std::string& folder, const RunData& run, int code);
-/// Says on standard error that something was read although its seal does not vouch for it; "" = it does.
+/// Warns on standard error that data were read although no valid seal confirms them. `why` = "" means that a seal does,
+/// and prints nothing.
 void TellUnsealed(const std::string& why);
-/// Reads a baseline, and says when no seal vouches for it. One whose seal does not fit is refused unless seals are
-/// ignored.
+/// Reads a baseline, and warns if no seal confirms it. Fails if its seal is invalid, unless seals are ignored.
 Result<Snapshot> TakeBaseline(const std::string& path, Sealing sealing);
-/// Prints the tables of a finished run, and why methods have no answer; gives 1 when one has none, or no cell is ok.
+/// Prints the tables of a finished run, and the reasons of methods without an answer. Returns kNothingWorked if a
+/// method has no answer or no cell is ok.
 int ShowOutcome(const RunOutcome& outcome);
-/// Tells whether the parent had closed our standard output, so that nobody will read what is printed.
+/// Returns true if the parent had closed our standard output at the start, so that nobody reads it.
 bool OutputWasClosed();
-/// Prints a title and indented lines, or nothing without lines.
+/// Prints a title and indented lines; prints nothing if there are no lines.
 void PrintList(const std::string& title, const std::vector<std::string>& lines);
 
-// Each command stands in a file of its name, and defines itself. `command_line` is kept in host.json.
+// Each command is defined in a file of its name. `command_line` is recorded in host.json.
 
-/// `etude run`: runs scenarios with a progress bar and prints the verdicts; with --dry-run tells what it would take.
+/// `etude run`: runs scenarios with a progress bar and prints the verdicts; with --dry-run it only forecasts time and
+/// findings.
 void DefineRun(CLI::App& app, const std::string& command_line, Action& action);
-/// `etude scenario copy NAME FOLDER`: copies what comes with etude.
+/// `etude scenario copy NAME FOLDER`: copies a scenario that comes with etude.
 void DefineScenario(CLI::App& app, Action& action);
-/// `etude merge DIR… -o DIR`: makes one run of its shards.
+/// `etude merge DIR… -o DIR`: merges shards into one run.
 void DefineMerge(CLI::App& app, const std::string& command_line, Action& action);
 /// `etude report DIR`: writes DIR/report and DIR/video.
 void DefineReport(CLI::App& app, Action& action);
 /// `etude rows DIR`: writes the rows as lines of text.
 void DefineRows(CLI::App& app, Action& action);
-/// `etude replay DIR|FILE`: runs cells again and compares them stage by stage (exit 1 when one differs), or packs one.
+/// `etude replay DIR|FILE`: runs cells again and compares them stage by stage (exit code 1 if one differs), or packs
+/// one cell.
 void DefineReplay(CLI::App& app, Action& action);
-/// `etude cite DIR`: BibTeX, and the sentence that names a run.
+/// `etude cite DIR`: prints BibTeX, and a sentence that identifies the run.
 void DefineCite(CLI::App& app, Action& action);
-/// `etude verify DIR`: recomputes and replays what a run says (exit 1 when it differs); signs it, checks a signature.
+/// `etude verify DIR`: recomputes and replays what a run states (exit code 1 if it differs), signs it, and checks a
+/// signature.
 void DefineVerify(CLI::App& app, Action& action);
-/// `etude gate`: exit 0 pass, 1 regression or unmet expectation, 2 bad input, 3 incomplete.
+/// `etude gate`: exit code 0 = passed, 1 = regression or unmet expectation, 2 = bad input, 3 = incomplete.
 void DefineGate(CLI::App& app, Action& action);
-/// `etude compare A B`: tells what differs between two runs of the same worlds.
+/// `etude compare A B`: prints the differences between two runs of the same worlds.
 void DefineCompare(CLI::App& app, Action& action);
-/// `etude export`: writes problems, and their truth apart.
+/// `etude export`: writes problems, and separately their truth.
 void DefineExport(CLI::App& app, Action& action);
 /// `etude score`: scores a folder of answers into a result folder.
 void DefineScore(CLI::App& app, const std::string& command_line, Action& action);
-/// `etude check-method … -- CMD…`: tests whether a program speaks the protocol of methods outside; exit 1 when not.
+/// `etude check-method … -- CMD…`: tests whether a program speaks the protocol of external methods; exit code 1 if it
+/// does not.
 void DefineCheckMethod(CLI::App& app, Action& action);
-/// `etude list …`: lists what can be named in a scenario.
+/// `etude list …`: lists what a scenario can name.
 void DefineList(CLI::App& app, Action& action);
 /// `etude clip info|convert|render|contacts|map|grades`
 void DefineClip(CLI::App& app, Action& action);
 /// `etude clip render`: draws a contact sheet of any clips, or a film of one.
 void DefineRender(CLI::App& clip, Action& action);
-/// `etude clip grades`: tells what paper A's fuzzy system sees in clips, and how alike they are.
+/// `etude clip grades`: prints the fuzzy features, tags and poses of clips (paper A), and how similar clips are.
 void DefineGrades(CLI::App& clip, Action& action);
-/// `etude bridge`: finds bridge frames of clips, for a tags file and a summary; or checks a tags file (exit 2).
+/// `etude bridge`: finds bridge frames of clips and writes a tags file and a summary; or checks a tags file (exit code
+/// 2).
 void DefineBridge(CLI::App& app, Action& action);
-/// `etude train`: learns a fuzzy system or a recogniser from clips, and prints what it knows of clips held out.
+/// `etude train`: learns a fuzzy system or a recogniser from clips, and prints its scores on clips that were held out.
 void DefineTrain(CLI::App& app, Action& action);
 /// `etude teach`: learns moves from recordings.
 void DefineTeach(CLI::App& app, Action& action);
-/// `etude recognise`: tells events as JSON Lines; with labels the scores.
+/// `etude recognise`: prints recognised moves as JSON Lines, and scores if labels are given.
 void DefineRecognise(CLI::App& app, Action& action);
 /// `etude sensor stats|fit|sheet`
 void DefineSensor(CLI::App& app, Action& action);
@@ -95,9 +101,9 @@ void DefineCalibrate(CLI::App& app, Action& action);
 void DefineCapture(CLI::App& app, const std::string& command_line, Action& action);
 /// `etude coach`: coaches a song live from a skeleton stream.
 void DefineCoach(CLI::App& app, Action& action);
-/// `etude completion SHELL`, and what packages make their manual pages by.
+/// `etude completion SHELL`, and the hidden command from which packages make their manual pages.
 void DefineOptionTree(CLI::App& app, Action& action);
-/// `etude crowd`: follows a crowd on one core, tells how long its frames take, and films it.
+/// `etude crowd`: tracks a crowd's motions on one core, reports the time per frame, and makes a film of it.
 void DefineCrowd(CLI::App& app, Action& action);
 
 }  // namespace etude

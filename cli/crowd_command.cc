@@ -30,15 +30,15 @@ namespace {
 struct CrowdCommandOptions {
   CrowdOptions crowd;
   double seconds = 2;
-  int steps = 100;  ///< a frame, at most: who is lost begins anew with so many
+  int steps = 100;  ///< maximum steps per frame; a character that misses its targets restarts with as many
   bool in_float = false;
-  std::string output;  ///< a film, "" = only told
+  std::string output;  ///< a film file; "" = only the report
   int jobs = 0;
   bool overwrite = false, as_json = false;
 };
 
 constexpr int kWidth = 1280, kHeight = 720;
-constexpr double kFilmRateHz = 30;  // at most: every second frame of 60 Hz
+constexpr double kFilmRateHz = 30;  // upper limit of the film's rate; at 60 Hz every second frame is shown
 
 double ProcessorTimeMs() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -47,7 +47,7 @@ struct Timings {
   std::vector<double> times_ms;  ///< of each frame
 };
 
-/// Prints what the crowd took, and gives the same for programs.
+/// Prints the measured times, and returns them for programs.
 Json Tell(const CrowdCommandOptions& options, Timings timings) {
   const double count = static_cast<double>(options.crowd.characters) * options.crowd.frames;
   fmt::print("{} characters, {} frames at {:g} Hz, gauss-newton in batches of {}\n", options.crowd.characters,
@@ -74,7 +74,7 @@ Json Tell(const CrowdCommandOptions& options, Timings timings) {
           {"largest_ms", timings.times_ms.back()}};
 }
 
-/// A crowd as it is followed, frame by frame.
+/// A crowd that is tracked frame by frame.
 class FollowedCrowd {
  public:
   FollowedCrowd(const CrowdCommandOptions& options, std::span<const TrackingWorld> worlds)
@@ -82,7 +82,7 @@ class FollowedCrowd {
     ik_.max_iterations = options.steps;
   }
 
-  /// Follows everybody to a frame, which is no earlier than the one before.
+  /// Tracks all characters up to a frame. Frames must be asked for in ascending order.
   void FollowTo(int frame) {
     for (; next_ <= frame; ++next_) {
       const double begin = ProcessorTimeMs();
@@ -107,16 +107,18 @@ class FollowedCrowd {
   int next_ = 0;
 };
 
-/// Films every so many frames of the crowd, which is followed meanwhile. False when it was stopped.
+/// Makes a film of every n-th frame while the crowd is tracked. Returns false if it was stopped.
 Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& followed, const FilmWatch& watch) {
   using Character = CrowdStage::Character;
   static_assert(std::is_trivially_copyable_v<Character>, "characters go to those who draw as they lie in memory");
   ASSIGN_OR_RETURN(auto* const renderer, SharedRenderer());
   CrowdStage stage(options.crowd.characters, kWidth, kHeight, *renderer);
+  // Show at most kFilmRateHz frames per second.
   const double rate_hz = options.crowd.rate_hz;
   const int every = std::max(1, static_cast<int>(std::ceil(rate_hz / kFilmRateHz)));
   const int frames = (options.crowd.frames + every - 1) / every;
   const auto count = static_cast<std::size_t>(options.crowd.characters);
+  // This process tracks the crowd; copies of it draw the frames.
   const auto fill = [&](int frame, std::span<std::uint8_t> into) -> Result<void> {
     followed.FollowTo(frame * every);
     for (std::size_t i = 0; i < count; ++i) {
@@ -138,7 +140,7 @@ Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& follow
                          {count * sizeof(Character), fill}, draw, watch);
 }
 
-/// Follows the crowd frame by frame, and tells of it. Null when Ctrl-C came.
+/// Tracks the crowd frame by frame, and reports on it. Returns null if Ctrl-C stopped it.
 Result<Json> FollowCrowd(const CrowdCommandOptions& options) {
   ASSIGN_OR_RETURN(const auto worlds, MakeCrowd(options.crowd));
   FollowedCrowd followed(options, worlds);

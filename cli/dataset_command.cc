@@ -18,11 +18,11 @@ namespace etude {
 namespace {
 
 void PrintFaults(const char* what, const std::vector<std::string>& faults) {
-  constexpr std::size_t kMost = 20;
+  constexpr std::size_t kMaxShown = 20;
   if (faults.empty()) return;
   std::string text = fmt::format("{} {}\n", faults.size(), what);
-  for (std::size_t i = 0; i < std::min(faults.size(), kMost); ++i) text += "  " + Visible(faults[i]) + "\n";
-  if (faults.size() > kMost) text += fmt::format("  … and {} more\n", faults.size() - kMost);
+  for (std::size_t i = 0; i < std::min(faults.size(), kMaxShown); ++i) text += "  " + Visible(faults[i]) + "\n";
+  if (faults.size() > kMaxShown) text += fmt::format("  … and {} more\n", faults.size() - kMaxShown);
   std::fputs(text.c_str(), stderr);
 }
 

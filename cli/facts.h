@@ -14,29 +14,30 @@ class Option;
 
 namespace etude {
 
-/// Adds --json, of every command that tells facts.
+/// Adds --json, for every command that prints facts.
 CLI::Option* AddJson(CLI::App& command, bool& as_json);
 
-/// Prints what a command found out as one line of JSON: "command", "etude" (the version) and `facts`, an object. Its
-/// schema is the entry of that name in docs/schemas/facts.schema.json.
+/// Prints the findings of a command as one line of JSON: "command", "etude" (the version) and the members of `facts`,
+/// an object. The entry of that name in docs/schemas/facts.schema.json is its schema.
 Result<void> PrintFacts(const std::string& command, Json facts);
 
-/// While it lives, what is printed for people goes to standard error: standard output is for facts alone.
+/// Redirects standard output to standard error while it lives, so that text for people does not mix with facts for
+/// programs.
 class Aside {
  public:
-  /// Does nothing unless `is_active`.
+  /// Has no effect unless `is_active`.
   explicit Aside(bool is_active);
   ~Aside() { End(); }
   Aside(const Aside&) = delete;
   Aside& operator=(const Aside&) = delete;
-  /// Gives standard output back.
+  /// Restores standard output.
   void End();
 
  private:
-  int output_ = -1;  ///< where standard output went before; -1: it still goes there
+  int output_ = -1;  ///< a copy of the original standard output; −1 = not redirected
 };
 
-/// Returns the moves of a comparison that are not "same", and what stands on one side alone.
+/// Returns the metrics that moved in a comparison, and the entries that only one side has.
 Json FactsOf(const SnapshotComparison& comparison);
 
 }  // namespace etude

@@ -24,21 +24,21 @@ namespace etude {
 namespace {
 
 struct GateOptions {
-  std::string target;         ///< a result folder; of a self-test a scenario file, "" = the built-in one
+  std::string target;         ///< a result folder; with self_test a scenario file, "" = the built-in one
   std::string baseline;       ///< a baseline file, "" = none
-  bool update = false;        ///< write the baseline from the run, and show what moved
-  bool self_test = false;     ///< measure the gate's own false alarms and power
-  int repetitions = 40;       ///< of the self-test: pairs of seeds
-  std::optional<int> trials;  ///< of the self-test: worlds per condition, else the scenario's
-  bool verdicts = false;      ///< of the self-test: measure the verdicts beyond a run's worlds instead
+  bool update = false;        ///< write the baseline from the run, and print what moved
+  bool self_test = false;     ///< measure the gate's own rates of false alarms and of detection
+  int repetitions = 40;       ///< self-test: pairs of seeds
+  std::optional<int> trials;  ///< self-test: worlds per condition; default: the scenario's
+  bool verdicts = false;      ///< self-test: measure the verdicts beyond a run's worlds instead
   bool as_json = false;
   Sealing sealing = Sealing::kRequired;
 };
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostRows = 40;
-constexpr std::size_t kMostWorldsEach = 5, kMostWorlds = 20;
+constexpr std::size_t kMaxRows = 40;
+constexpr std::size_t kMaxWorldsEach = 5, kMaxWorlds = 20;
 
 int ExitCode(GateVerdict verdict) {
   switch (verdict) {
@@ -63,10 +63,10 @@ void PrintWorlds(const std::string& title, const std::vector<TailLine>& lines) {
 }
 
 void PrintReport(const GateReport& report) {
-  PrintMoves(report.comparison, "baseline", "now", kMostRows);
-  PrintWorlds("Worlds that are far worse:", TailLines(report, true, kMostWorldsEach, kMostWorlds));
+  PrintMoves(report.comparison, "baseline", "now", kMaxRows);
+  PrintWorlds("Worlds that are far worse:", TailLines(report, true, kMaxWorldsEach, kMaxWorlds));
   PrintWorlds("Single worlds that are far worse, too few to fail:",
-              TailLines(report, false, kMostWorldsEach, kMostWorlds));
+              TailLines(report, false, kMaxWorldsEach, kMaxWorlds));
   for (const GateExpectation& e : report.expectations) {
     if (e.result.ruling == Ruling::kMet) continue;
     fmt::print("{}: {}: {} [{}]\n", RulingName(e.result.ruling), e.scenario, e.result.text, e.result.detail);
@@ -106,7 +106,7 @@ Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
   ASSIGN_OR_RETURN(auto report, JudgeRun(run, baseline ? &*baseline : nullptr, options.baseline));
   report.run_folder = options.target;
   const FilePath folder = Inside(options.target) / "report";
-  RETURN_IF_ERROR(PlainFilesBelow(folder));  // no link among them
+  RETURN_IF_ERROR(PlainFilesBelow(folder));  // refuse links, which could lead out of the folder
   RETURN_IF_ERROR(WriteFileAtomically(folder / kGateMarkdown, WriteGateMarkdown(report)));
   RETURN_IF_ERROR(WriteFileAtomically(folder / kGateJunit, WriteGateJunit(report)));
   if (options.as_json) {
@@ -117,16 +117,17 @@ Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
   return UnlessReplaced(options.target, run.data, ExitCode(GateVerdictOf(report)));
 }
 
-/// Prints what moved from an old baseline to a new one, as far as their worlds are the same.
+/// Prints what moved between two baselines, for the worlds that both have.
 void PrintDifference(Snapshot before, Snapshot after, const FinishedRun& run) {
   PrintList("Made anew:", DropIncomparable(before, after));
   const SnapshotComparison comparison = CompareSnapshots(before, after, ExactScenarios(run), TailRulesOf(run));
-  PrintMoves(comparison, "was", "is", kMostRows);
+  PrintMoves(comparison, "was", "is", kMaxRows);
   PrintList("Gone:", comparison.only_before);
   PrintList("New:", comparison.only_after);
 }
 
 Result<int> Update(const GateOptions& options, const FinishedRun& run) {
+  // An incomplete run, or one with a method without answers, makes no baseline.
   if (const auto incomplete = WhyIncomplete(run); !incomplete.empty()) {
     PrintList("No baseline is made of an incomplete run:", incomplete);
     return kIncomplete;
@@ -135,12 +136,13 @@ Result<int> Update(const GateOptions& options, const FinishedRun& run) {
     PrintList("No baseline is made of a run in which a method has no answer, for nothing could be worse:", silent);
     return kRegression;
   }
+  // Check that the baseline can be read back before the old one is replaced.
   const Snapshot now = TakeSnapshot(run);
   ASSIGN_OR_RETURN(const auto text, WriteBaseline(now));
   RETURN_IF_ERROR(ReadBaseline(text, options.target));
   std::optional<Snapshot> before;
   if (std::error_code none; fs::exists(options.baseline, none)) {
-    // What is no baseline is not written over.
+    // Never overwrite a file that is no baseline.
     ASSIGN_OR_RETURN(before, TakeBaseline(options.baseline, Sealing::kIgnored));
   }
   RETURN_IF_ERROR(WriteFileAtomically(options.baseline, text));
@@ -154,7 +156,7 @@ std::string RateText(const Rate& rate) {
                      rate.of == 0 ? 0.0 : 100.0 * rate.count / rate.of, 100 * rate.low, 100 * rate.high);
 }
 
-/// Says whether the promise is kept; no alarm among few gates proves nothing.
+/// Says whether the gate's promise is kept. Few gates without an alarm prove nothing.
 const char* PromiseSentence(const SelfTestReport& report) {
   if (!report.Holds()) return "The gate does not keep its promise.";
   if (report.false_alarms.high > kFalseAlarmLimit) {

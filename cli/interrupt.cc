@@ -43,14 +43,14 @@ Interrupt::Interrupt() : piped_(std::signal(SIGPIPE, SIG_IGN)) { OnInterrupt(Req
 
 Interrupt::~Interrupt() {
   OnInterrupt(End);
-  std::signal(SIGPIPE, piped_);  // whoever closes our output from now on has read enough
+  std::signal(SIGPIPE, piped_);  // from now on, a closed output may end the program
 }
 
 const std::atomic<bool>* Interrupt::requested() const { return &stop_requested; }
 
 int DoInterruptibly(const std::function<int()>& work, const std::function<void()>& clean_up) {
   const Interrupt interrupt;
-  std::fflush(nullptr);  // lest the copy print it, too
+  std::fflush(nullptr);  // otherwise the copy would print buffered text again
   auto copy = ForkedCopy::Start([&](int) {
     const int code = work();
     std::fflush(nullptr);

@@ -7,12 +7,12 @@
 
 namespace etude {
 
-/// Lets Ctrl-C (and SIGTERM) end the program at once from now on, with a line that says so and exit code 130. It is for
-/// work that leaves nothing anywhere until it is done; other work has an Interrupt.
+/// From now on, Ctrl-C (and SIGTERM) ends the program at once, with a message and exit code 130. Use it for work that
+/// writes nothing before it is complete; other work uses Interrupt.
 void EndWhenInterrupted();
 
-/// A guard for work that can be stopped: while it lives, Ctrl-C (and SIGTERM) asks to stop, the second one ends the
-/// program at once, and a child that died does not end the program.
+/// A guard for work that can be stopped. While it lives, the first Ctrl-C (or SIGTERM) requests a stop and the second
+/// one ends the program at once; writing to a child that has ended returns an error instead of ending the program.
 class Interrupt {
  public:
   Interrupt();
@@ -26,12 +26,12 @@ class Interrupt {
   void (*piped_)(int);
 };
 
-/// Does `work` in a copy of this process, which Ctrl-C (and SIGTERM) ends wherever it is; `clean_up` then takes away
-/// what it had begun. Gives the exit code that `work` gives. It is for work whose single steps take long.
+/// Runs `work` in a copy of this process, which Ctrl-C (and SIGTERM) kills at any point; `clean_up` then removes what
+/// it had begun. Returns the exit code of `work`. Use it for work with long single steps.
 int DoInterruptibly(const std::function<int()>& work, const std::function<void()>& clean_up);
 
-/// Gives the outcome of writing a film, but false when Ctrl-C came: it reaches the encoder, too, whose end may be
-/// noticed first.
+/// Returns the result of writing a film, or false if Ctrl-C was pressed. Ctrl-C also reaches the encoder, whose end may
+/// be noticed first as an error.
 Result<bool> UnlessInterrupted(Result<bool> is_whole, const Interrupt& interrupt);
 
 }  // namespace etude

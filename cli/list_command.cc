@@ -99,7 +99,7 @@ Result<int> ListClips() {
   return kSuccess;
 }
 
-/// Gives the scenarios of files, or all that come with the program by their names.
+/// Returns the scenarios of files, or, without a folder, those that come with the program, by name.
 Result<Json> ScenariosAsJson(const std::string& folder) {
   std::vector<std::string> names = ShippedScenarios();
   if (!folder.empty()) {
@@ -123,7 +123,7 @@ Result<Json> ScenariosAsJson(const std::string& folder) {
   return Json{{"scenarios", std::move(list)}};
 }
 
-/// Lists what comes with the program, a line each, by the names that `etude run` takes.
+/// Lists the scenarios that come with the program, one per line, by the names that `etude run` takes.
 Result<int> ListShippedScenarios() {
   const std::vector<std::string> names = ShippedScenarios();
   if (names.empty()) return Fail({}, "no scenarios came with this program; etude list scenarios FOLDER lists yours");
@@ -208,8 +208,8 @@ int ListKeysCommand(KeysFormat format) {
 }
 
 enum class MetricsFormat {
-  kTable,     ///< a line each, for people at a terminal
-  kJson,      ///< everything, with the test vectors (docs/schemas/metrics.schema.json)
+  kTable,     ///< one line each, for people at a terminal
+  kJson,      ///< everything including the test vectors (docs/schemas/metrics.schema.json)
   kMarkdown,  ///< docs/reference/metrics.md
 };
 
@@ -236,6 +236,7 @@ Result<int> ListMetricsCommand(MetricsFormat format) {
 void DefineList(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("list", "List what a scenario can name");
   command->require_subcommand(1);
+  // Lists without further options.
   const auto list = [&](const char* name, const char* help, Listing what) {
     CLI::App* listing = command->add_subcommand(name, help);
     auto as_json = std::make_shared<bool>(false);
@@ -247,6 +248,7 @@ void DefineList(CLI::App& app, Action& action) {
   list("clips", "Built-in clips", Listing::kClips);
   list("recordings", "The page docs/reference/recordings.md: what recordings hold beside motions",
        Listing::kRecordings);
+  // Metrics: text, JSON or Markdown.
   auto json = std::make_shared<bool>(false), markdown = std::make_shared<bool>(false);
   CLI::App* metrics = command->add_subcommand("metrics", "Metrics with their definitions");
   CLI::Option* as_json =
@@ -258,6 +260,7 @@ void DefineList(CLI::App& app, Action& action) {
                                              : MetricsFormat::kTable;
     action = [=] { return Finish(ListMetricsCommand(format)); };
   });
+  // Keys of scenario files: text, Markdown or JSON Schema.
   auto as_page = std::make_shared<bool>(false), as_schema = std::make_shared<bool>(false);
   CLI::App* keys = command->add_subcommand("keys", "Every key of a scenario file");
   CLI::Option* page = keys->add_flag("--markdown", *as_page, "The page docs/reference/keys.md");
@@ -267,6 +270,7 @@ void DefineList(CLI::App& app, Action& action) {
     const KeysFormat format = *as_schema ? KeysFormat::kSchema : *as_page ? KeysFormat::kMarkdown : KeysFormat::kText;
     action = [=] { return ListKeysCommand(format); };
   });
+  // Scenarios of the program or of a folder.
   auto folder = std::make_shared<std::string>();
   CLI::App* scenarios = command->add_subcommand("scenarios", "Scenarios that come with etude, or those of a folder");
   scenarios->add_option("folder", *folder, "A folder, a file, or a name such as quick");

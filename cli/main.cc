@@ -56,7 +56,7 @@ constexpr const char* kExamples =
     "Exit codes: 0 fine, 1 a method has no answer (gate: regression; replay, verify: a difference), 2 bad input\n"
     "(nothing is written), 3 incomplete, 130 interrupted.";
 
-/// Lists the options and subcommands that could have been meant at this point of the command line.
+/// Lists the options and subcommands that a wrong word at this point could have meant.
 std::vector<std::string> KnownWords(const CLI::App& app) {
   std::vector<std::string> known;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App* sub) { return !sub->get_name().empty(); })) {
@@ -70,12 +70,12 @@ std::vector<std::string> KnownWords(const CLI::App& app) {
 
 int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App* command = &app;
-  std::string words;  // of the command, each followed by a space
+  std::string words;  // the command's words, each followed by a space
   while (!command->get_subcommands().empty()) {
     command = command->get_subcommands().front();
     words += command->get_name() + " ";
   }
-  // What nobody took explains a failure better than what is missing for want of it.
+  // An unknown word explains a failure better than the missing argument that it causes.
   const std::vector<std::string> extras = app.remaining(true);
   std::string message = error.what();
   if (!extras.empty()) {
@@ -85,8 +85,8 @@ int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
   return Complain(Error{{}, fmt::format("{} (etude {}--help explains)", message, words)});
 }
 
-/// Is true of commands that compute nothing that must come out the same on any machine: they print what is known or
-/// written, or draw pages, sheets and films, as fast as this machine can.
+/// Returns true for commands whose results need not be identical on all machines: they print existing data, or draw
+/// pages, sheets and films as fast as this machine can.
 bool RunsUnpinned(const CLI::App& app) {
   if (app.got_subcommand("list") || app.got_subcommand("rows") || app.got_subcommand("cite") ||
       app.got_subcommand("completion") || app.got_subcommand("man") || app.got_subcommand("report"))
@@ -94,8 +94,8 @@ bool RunsUnpinned(const CLI::App& app) {
   return app.got_subcommand("clip") && app.get_subcommand("clip")->got_subcommand("render");
 }
 
-/// Help that is the same text in every run and by every CLI11: it keeps what an option excludes by its address, and its
-/// versions write defaults in other ways.
+/// Prints the same help in every run and with every version of CLI11. CLI11 stores excluded options ordered by address,
+/// and its versions write defaults differently.
 class OrderedHelp : public CLI::Formatter {
  public:
   std::string make_option_opts(const CLI::Option* option) const override {
@@ -124,7 +124,7 @@ class OrderedHelp : public CLI::Formatter {
 
 bool output_was_closed = false;
 
-/// Refuses what no result could name: manifests, rows and pages are UTF-8.
+/// Refuses arguments that are not UTF-8, because manifests, rows and pages, which would name them, are UTF-8.
 Result<void> CheckNames(std::span<char*> arguments) {
   for (std::size_t i = 1; i < arguments.size(); ++i) {
     if (CheckUtf8(arguments[i], "")) continue;
@@ -136,8 +136,8 @@ Result<void> CheckNames(std::span<char*> arguments) {
   return {};
 }
 
-/// Opens standard streams that the parent has closed: else the next file opened would get the number of one, and what
-/// is printed would land in it.
+/// Opens standard streams that the parent has closed. Otherwise the next file that is opened would get the number of
+/// one, and printed text would be written into it.
 void OpenStandardStreams() {
   output_was_closed = ::fcntl(STDOUT_FILENO, F_GETFD) < 0;
   for (int descriptor = ::open("/dev/null", O_RDWR); descriptor >= 0; descriptor = ::dup(descriptor)) {
@@ -147,17 +147,17 @@ void OpenStandardStreams() {
   }
 }
 
-/// Gives us the stack that the kernel usually grants, as far as its limit may be raised: it grows by itself. Fails
-/// where the deepest of our libraries would overflow it.
+/// Raises the stack limit to the kernel's usual 8 MiB, as far as allowed. Fails below 1 MiB, where the deepest of our
+/// libraries would overflow the stack.
 Result<void> TakeStack() {
-  constexpr rlim_t kUsual = rlim_t{8} << 20, kLeast = rlim_t{1} << 20;
+  constexpr rlim_t kUsualStack = rlim_t{8} << 20, kMinStack = rlim_t{1} << 20;
   rlimit limit{};
-  if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= kUsual) return {};
-  limit.rlim_cur = std::min(limit.rlim_max, kUsual);
+  if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= kUsualStack) return {};
+  limit.rlim_cur = std::min(limit.rlim_max, kUsualStack);
   ::setrlimit(RLIMIT_STACK, &limit);
-  if (limit.rlim_cur >= kLeast) return {};
+  if (limit.rlim_cur >= kMinStack) return {};
   return FailOfMachine("the stack may hold {} KiB; at least {} are needed (ulimit -s)", limit.rlim_cur >> 10,
-                       kLeast >> 10);
+                       kMinStack >> 10);
 }
 
 int Main(int argc, char** argv) {
@@ -167,7 +167,7 @@ int Main(int argc, char** argv) {
   app.footer(kExamples);
   app.set_version_flag("--version", ETUDE_VERSION);
   static char help[] = "--help";
-  if (argc > 1 && std::string_view(argv[1]) == "help") {  // etude help run: etude run --help
+  if (argc > 1 && std::string_view(argv[1]) == "help") {  // "etude help run" becomes "etude run --help"
     std::rotate(argv + 1, argv + 2, argv + argc);
     argv[argc - 1] = help;
   }
@@ -175,6 +175,7 @@ int Main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) command_line += " " + ShellWord(argv[i]);
   Action action;
   DefineCommands(app, command_line, action);
+  // Parse; unknown words after --help are an error, too.
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
@@ -184,6 +185,7 @@ int Main(int argc, char** argv) {
     return ComplainOfArguments(app, error);
   }
   if (auto choice = CheckRendererChoice(); !choice) return Complain(choice.error());
+  // Start again in the pinned environment, so that results do not depend on this shell.
   if (!RunsUnpinned(app)) {
     if (auto pinned = EnterPinnedEnvironment(); !pinned) return Complain(pinned.error());
   }
@@ -199,8 +201,9 @@ bool OutputWasClosed() { return output_was_closed; }
 
 int main(int argc, char** argv) {
   etude::OpenStandardStreams();
-  std::signal(SIGCHLD, SIG_DFL);  // ignored, as some parents leave it, it would swallow how our children end
-  std::signal(SIGXFSZ, SIG_IGN);  // past a limit of file size, a write fails and is told of like any other
+  std::signal(SIGCHLD, SIG_DFL);  // a parent may leave it ignored, and then the exit status of our children would be
+                                  // lost
+  std::signal(SIGXFSZ, SIG_IGN);  // above a file-size limit, a write then fails with an error that is reported
   if (auto stack = etude::TakeStack(); !stack) return etude::Complain(stack.error());
   etude::MakeOutputSafe();
   try {
@@ -211,7 +214,7 @@ int main(int argc, char** argv) {
     return etude::Complain(etude::FailOfMachine("there is no more memory").value());
   } catch (const std::filesystem::filesystem_error& error) {
     return etude::Complain({{}, error.what()});
-  } catch (const std::system_error& error) {  // fmt's, of an output that takes nothing more
+  } catch (const std::system_error& error) {  // thrown by fmt if the output accepts no more
     return etude::Complain(etude::CannotWrite("standard output", "cannot be written", error.code().value()).value());
   } catch (const std::exception& error) {
     return etude::Complain({{}, error.what()});

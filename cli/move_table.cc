@@ -21,7 +21,7 @@ Line LineOf(const GateTableRow& row) {
           row.worlds};
 }
 
-/// Counts the columns that people see, not bytes: continuation bytes of UTF-8 take none.
+/// Returns the number of characters, not bytes: continuation bytes of UTF-8 do not count.
 std::size_t WidthOf(const std::string& text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
@@ -30,11 +30,11 @@ std::size_t WidthOf(const std::string& text) {
 }  // namespace
 
 void PrintMoves(const SnapshotComparison& comparison, const std::string& before, const std::string& after,
-                std::size_t most) {
+                std::size_t max_rows) {
   const std::vector<GateTableRow> rows = MovedRows(comparison);
   if (rows.empty()) return;
   std::vector<Line> lines = {{"", "", "method", "metric", before, after, "difference (95 %)", "p (Holm)", "in worlds"}};
-  for (std::size_t i = 0; i < std::min(most, rows.size()); ++i) lines.push_back(LineOf(rows[i]));
+  for (std::size_t i = 0; i < std::min(max_rows, rows.size()); ++i) lines.push_back(LineOf(rows[i]));
   std::array<std::size_t, kMoveColumns> widths{};
   for (const Line& line : lines) {
     for (std::size_t c = 0; c < kMoveColumns; ++c) widths[c] = std::max(widths[c], WidthOf(line[c]));
@@ -45,7 +45,7 @@ void PrintMoves(const SnapshotComparison& comparison, const std::string& before,
       text += " " + line[c] + std::string(widths[c] - WidthOf(line[c]) + 1, ' ');
     fmt::print("{}\n", text.substr(0, text.find_last_not_of(' ') + 1));
   }
-  if (rows.size() > most) fmt::print("  … and {} more\n", rows.size() - most);
+  if (rows.size() > max_rows) fmt::print("  … and {} more\n", rows.size() - max_rows);
 }
 
 }  // namespace etude

@@ -7,12 +7,12 @@
 
 namespace etude {
 
-/// Prints a table of the metrics that moved, with `before` and `after` as the heads of its two sides; at most `most`
-/// rows, and how many were left out.
+/// Prints a table of the metrics that moved; `before` and `after` are the headings of its two value columns. It prints
+/// at most `max_rows` rows, and the number of rows left out.
 void PrintMoves(const SnapshotComparison& comparison, const std::string& before, const std::string& after,
-                std::size_t most);
+                std::size_t max_rows);
 
-/// Prints a title and indented lines, or nothing without lines.
+/// Prints a title and indented lines; prints nothing if there are no lines.
 void PrintList(const std::string& title, const std::vector<std::string>& lines);
 
 }  // namespace etude

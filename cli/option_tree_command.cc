@@ -11,8 +11,8 @@
 #include "engine/base/names.h"
 #include "io/files/files.h"
 
-// What is made of the option tree: completion for shells, manual pages, and a page of all. Nothing of them is written
-// by hand.
+// Texts generated from the option tree: shell completion, manual pages, and a page of all commands. None of them is
+// written by hand.
 
 namespace etude {
 namespace {
@@ -25,7 +25,7 @@ std::vector<const CLI::App*> CommandsOf(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App* sub) { return !sub->get_name().empty() && !sub->get_group().empty(); });
 }
 
-/// Calls `use` for the program, each command and each command's commands, with the words that lead there: "clip info".
+/// Calls `use` for the program, each command and each subcommand, with the words that lead to it: "clip info".
 void ForEachCommand(const CLI::App& app, const std::string& words,
                     const std::function<void(const CLI::App& command, const std::string& words)>& use) {
   use(app, words);
@@ -34,7 +34,7 @@ void ForEachCommand(const CLI::App& app, const std::string& words,
   }
 }
 
-/// The options of a command, each with its names: "-o", "--output".
+/// Returns the options of a command, each with its names: "-o", "--output".
 std::vector<std::pair<const CLI::Option*, std::vector<std::string>>> OptionsOf(const CLI::App& command) {
   std::vector<std::pair<const CLI::Option*, std::vector<std::string>>> options;
   for (const CLI::Option* option : command.get_options()) {
@@ -46,9 +46,10 @@ std::vector<std::pair<const CLI::Option*, std::vector<std::string>>> OptionsOf(c
   return options;
 }
 
-constexpr std::string_view kHelp = "help";  ///< etude help COMMAND, which main makes --help of
+constexpr std::string_view kHelp = "help";  ///< "etude help COMMAND", which main turns into --help
 
-/// Lists what a command's arguments may be beside files: where scenarios are asked for, those that come with etude.
+/// Returns the values that a command's arguments may have besides files: where scenarios are expected, those that come
+/// with etude.
 std::vector<std::string> ArgumentsOf(const CLI::App& command) {
   const auto asks_for = [&](const char* argument) { return command.get_option_no_throw(argument) != nullptr; };
   if (asks_for(kShellArgument)) return Shells();
@@ -58,7 +59,7 @@ std::vector<std::string> ArgumentsOf(const CLI::App& command) {
   return names;
 }
 
-/// Lists what may follow the words of a command: its commands, its options and what its arguments may be.
+/// Returns all words that may follow a command: its subcommands, its options and the values of its arguments.
 std::string FollowersOf(const CLI::App& command) {
   std::vector<std::string> words;
   for (const CLI::App* sub : CommandsOf(command)) words.push_back(sub->get_name());
@@ -68,7 +69,8 @@ std::string FollowersOf(const CLI::App& command) {
   return Join(words, " ");
 }
 
-/// The cases of a shell's `case`, one a command; `write` makes a branch of its words and followers.
+/// Returns the branches of a shell's `case`, one per command; `write` makes a branch from a command's words and their
+/// followers.
 std::string Cases(const CLI::App& app,
                   const std::function<std::string(const std::string&, const std::string&)>& write) {
   std::string text;
@@ -77,8 +79,8 @@ std::string Cases(const CLI::App& app,
   return text;
 }
 
-/// Finds the words of the command before the cursor, in bash and zsh: words without a dash that lead to a known
-/// command. `help` is none, so that after it the commands follow once more.
+/// Finds the command's words before the cursor, in bash and zsh: words without a dash that lead to a known command.
+/// `help` is not one of them, so commands are offered again after it.
 constexpr std::string_view kFindCommand = R"(  local at="" word
   for word in "${before[@]}"; do
     case "${at:+$at }$word" in
@@ -124,6 +126,7 @@ std::string FishCompletion(const CLI::App& app) {
   std::string text = "# Completion of etude for fish, made by `etude completion fish`.\n";
   std::vector<std::string> helped;
   ForEachCommand(app, "", [&](const CLI::App& command, const std::string& words) {
+    // The condition under which fish offers the following words.
     std::string when = "__fish_use_subcommand";
     if (!words.empty()) {
       when.clear();
@@ -133,6 +136,7 @@ std::string FishCompletion(const CLI::App& app) {
         from = end + 1;
       }
     }
+    // Offer subcommands, values of arguments, and options.
     for (const CLI::App* sub : CommandsOf(command)) {
       text +=
           fmt::format("complete -c etude -n '{}' -a {} -d {}\n", when, sub->get_name(), quoted(sub->get_description()));
@@ -150,13 +154,14 @@ std::string FishCompletion(const CLI::App& app) {
                           quoted(option->get_description()));
     }
   });
+  // Offer commands after `help`.
   return text + fmt::format(
                     "complete -c etude -n __fish_use_subcommand -a {0} -d 'What a command does'\n"
                     "complete -c etude -n '__fish_seen_subcommand_from {0}' -a {1}\n",
                     kHelp, quoted(Join(helped, " ")));
 }
 
-/// Text as troff takes it: nothing at a line's start is a request, no dash is a hyphen.
+/// Escapes text for troff: no line starts a request, and no dash is a hyphen.
 std::string Troff(const std::string& text) {
   std::string result;
   bool starts_line = true;
@@ -177,6 +182,7 @@ std::string Troff(const std::string& text) {
 std::string ManualPage(const CLI::App& command, const std::string& words) {
   std::string title = words.empty() ? "etude" : "etude " + words;
   std::ranges::replace(title, ' ', '-');
+  // The name and the synopsis.
   const std::string about = command.get_description();
   const std::string brief = about.substr(0, about.find('\n'));
   std::string text = fmt::format(".TH {} 1 \"\" \"Etude {}\"\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n.B etude {}\n", title,
@@ -188,6 +194,7 @@ std::string ManualPage(const CLI::App& command, const std::string& words) {
     arguments += option->get_required() ? name + " " : "[" + name + "] ";
     told += fmt::format(".TP\n.I {}\n{}\n", Troff(option->get_name(true)), Troff(option->get_description()));
   }
+  // The description, the arguments, and the subcommands.
   if (!CommandsOf(command).empty()) arguments += "COMMAND ";
   text += Troff(arguments + "[options]") + "\n.SH DESCRIPTION\n.nf\n" + Troff(about) + "\n.fi\n";
   if (!told.empty()) text += ".SH ARGUMENTS\n" + told;
@@ -196,6 +203,7 @@ std::string ManualPage(const CLI::App& command, const std::string& words) {
     text +=
         fmt::format(".TP\n.BR {}\n{}\n", Troff(title + "-" + sub->get_name()) + " (1)", Troff(sub->get_description()));
   }
+  // The options and the examples.
   text += ".SH OPTIONS\n";
   for (const auto& [option, names] : OptionsOf(command)) {
     const std::string type = option->get_type_name();  // "INT:INT in [1 - 1024]"
@@ -222,7 +230,7 @@ Result<int> WriteManual(const CLI::App& app, const std::string& folder) {
   return kSuccess;
 }
 
-/// Writes docs/reference/commands.md: what each command's `--help` prints.
+/// Returns docs/reference/commands.md: the output of each command's `--help`.
 std::string CommandsPage(const CLI::App& app) {
   std::string text =
       "# Every command\n\nWritten by `scripts/docs` from each command's own help; a test compares the two.\n";

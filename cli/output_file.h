@@ -7,10 +7,10 @@
 
 namespace etude {
 
-/// Refuses a path that names a folder or a device, and without `overwrite` one at which there is a file already.
+/// Fails if a path names a folder or a device, and, without `overwrite`, if a file exists there.
 Result<void> CheckOutput(const std::string& path, bool overwrite);
 
-/// Says that a file was written: on standard output, unless that is for programs.
+/// Prints that a file was written: to standard output, or to `stream` if standard output is for programs.
 void TellWritten(const std::string& path, std::FILE* stream = stdout);
 
 }  // namespace etude

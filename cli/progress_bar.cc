@@ -10,13 +10,13 @@ namespace {
 
 constexpr int kBarWidth = 32;
 
-/// Says how long `left` more take when `done` took `seconds`.
+/// Estimates the remaining time: `left` more at the speed of `done` in `seconds`.
 std::string Remaining(double done, double left, double seconds) {
   if (done <= 0 || left <= 0) return "";
   return fmt::format(", about {:.0f} s to go", seconds / done * left);
 }
 
-/// Prints without a throw when nobody listens any more (fmt::print throws): that must not end a run.
+/// Prints without throwing if standard error is closed (fmt::print would throw), because that must not end a run.
 void Print(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 }  // namespace

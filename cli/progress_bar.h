@@ -10,17 +10,17 @@
 
 namespace etude {
 
-/// A line on standard error that says how far a run, or other work, has come: redrawn on a terminal, else printed
-/// at every tenth of the way.
+/// Shows the progress of a run or other work on standard error: redrawn in place on a terminal, else printed at every
+/// tenth.
 class ProgressBar {
  public:
   enum class Begins {
     kAtOnce,
-    kWhenItTakesLong,  ///< on a terminal soon, else where it takes so long that somebody may look into a log
+    kWhenItTakesLong,  ///< soon on a terminal; else only if the work lasts so long that somebody may read the log
   };
   explicit ProgressBar(Begins begins = Begins::kAtOnce);
   void Show(const Progress& progress);
-  /// Shows how far the work is: `share` is 0…1.
+  /// Shows the progress; `share` is 0…1.
   void Show(double share, const std::string& what, const std::string& remaining = "");
 
  private:
@@ -33,11 +33,11 @@ class ProgressBar {
   int tenths_shown_ = -1;
 };
 
-/// Makes a callback that shows how far some work is, and how long the rest may take ("12/300 clips, about 40 s to go"),
-/// once it takes long.
+/// Returns a callback that shows the progress of some work and the estimated remaining time ("12/300 clips, about 40 s
+/// to go") once the work takes long.
 OnProgress ProgressOf(std::string what);
 
-/// Makes a watch that shows of each film how many of its frames are drawn and how long the rest may take, and that
+/// Returns a watch that shows for each film the number of frames drawn and the estimated remaining time, and that
 /// Ctrl-C stops. `jobs` processes draw; 0 = one per processor.
 FilmWatch WatchFilms(const Interrupt& interrupt, int jobs = 0);
 

@@ -25,7 +25,7 @@ namespace etude {
 namespace {
 
 struct RecogniseCommandOptions {
-  std::vector<std::string> streams;  ///< one "-" = standard input, live
+  std::vector<std::string> streams;  ///< a single "-" = standard input, live
   std::string moves;
   std::string labels;
   std::string recogniser;  ///< "" = key-pose
@@ -50,7 +50,8 @@ constexpr const char* kRecogniseExamples =
     "  etude recognise take.txt --moves moves.yaml --labels labels.csv\n"
     "  etude recognise joints/ --labels actionLabel.txt --leave-one-person-out --recogniser dtw";
 
-/// Reads settings such as "tolerance_scale=1.2"; the others keep their defaults.
+/// Reads settings such as "tolerance_scale=1.2"; other settings keep their defaults. Fails for unknown settings and
+/// values out of range.
 Result<std::vector<double>> ReadSettings(const RecogniserKind& kind, const std::vector<std::string>& given) {
   std::vector<double> values;
   std::vector<std::string> names;
@@ -87,7 +88,7 @@ Result<WatchOptions> OptionsOf(const RecogniseCommandOptions& options) {
   return watch;
 }
 
-/// Moves, and a recogniser that was taught them.
+/// The taught moves, and a recogniser for them.
 struct Taught {
   std::vector<TaughtMove> moves;
   std::unique_ptr<Recogniser> recogniser;
@@ -108,7 +109,7 @@ void PrintSpotting(const Spotting& spotting, const Taught& taught, double rate_h
   std::fflush(stdout);
 }
 
-/// Recognises in standard input, line by line, until it ends.
+/// Recognises moves in standard input, line by line, until it ends.
 Result<int> RecogniseLive(const RecogniseCommandOptions& options, const Taught& taught, const WatchOptions& watch) {
   const StreamOptions making = options.reading.Options();
   LiveStream live("standard input", options.reading.Reading(), making);
@@ -194,7 +195,7 @@ Result<int> RecogniseFiles(const RecogniseCommandOptions& options, const Taught&
   return kSuccess;
 }
 
-/// Prints which moves are taken for which, the commonest mistakes first.
+/// Prints the confusions between moves, the most frequent first.
 void PrintMistakes(std::span<const Classified> verdicts) {
   std::map<std::pair<std::string, std::string>, int> mistakes;
   for (const Classified& verdict : verdicts) {
@@ -210,11 +211,13 @@ void PrintMistakes(std::span<const Classified> verdicts) {
 }
 
 Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options, const WatchOptions& watch) {
+  // Load the recordings, and classify each person's with what the others taught.
   ASSIGN_OR_RETURN(const LoadedStreams loaded, Load(options));
   ASSIGN_OR_RETURN(const auto parts, PartsOf(options, loaded));
   ASSIGN_OR_RETURN(
       const LeaveOneOut out,
       LeaveOnePersonOut(loaded.streams, parts, options.labels.empty() ? "the recordings" : options.labels, watch));
+  // Print accuracy, confusions and the F-score of action points.
   Aside people(options.as_json);
   fmt::print("{} people, {} recordings\n", out.people.size(), loaded.streams.size());
   const auto accuracy = Accuracy(out.verdicts), nearest = Accuracy(out.nearest);
@@ -251,6 +254,7 @@ Result<int> RecogniseCommand(const RecogniseCommandOptions& options) {
 void DefineRecognise(CLI::App& app, Action& action) {
   auto options = std::make_shared<RecogniseCommandOptions>();
   CLI::App* command = app.add_subcommand("recognise", "Which moves a recording or a live stream shows");
+  // The inputs: recordings, taught moves, labels.
   command->add_option("streams", options->streams, "Recordings, patterns, folders; - is standard input, live")
       ->required();
   auto* moves = command->add_option("--moves", options->moves, "What was taught (etude teach)");
@@ -259,6 +263,7 @@ void DefineRecognise(CLI::App& app, Action& action) {
       ->add_flag("--leave-one-person-out", options->leave_one_person_out,
                  "Teach from the labels of all other people, person by person")
       ->excludes(moves);
+  // The recogniser and its settings.
   command->add_option("--recogniser", options->recogniser, "How (default: key-pose)")
       ->check(CLI::IsMember(RecogniserNames()));
   command->add_option("--filter", options->filter, "How joints are smoothed first")

@@ -21,10 +21,10 @@ namespace {
 
 struct ReplayCommandOptions {
   std::string target;                 ///< a result folder, or a packed cell
-  std::vector<std::string> cells;     ///< by name; none: all
-  std::optional<std::size_t> sample;  ///< this many of them, drawn by the run's seed; nothing = all
-  std::string pack_file;              ///< into which the one cell is packed instead, "" = none
-  std::string baseline;               ///< whose values are told beside those of the cells, "" = none
+  std::vector<std::string> cells;     ///< cell names; empty = all cells
+  std::optional<std::size_t> sample;  ///< number of cells drawn by the run's seed; default: all
+  std::string pack_file;              ///< file into which the one cell is packed instead; "" = none
+  std::string baseline;               ///< baseline whose values are printed beside the cells' own; "" = none
   bool overwrite = false, as_json = false;
   int jobs = 0;
   OutsideRules outside;
@@ -36,13 +36,13 @@ void PrintDifference(const CellCheck& check) {
   fmt::print("differs: {}\n  first at {}: {} then, {} now\n", check.cell, check.stage, check.then, check.now);
 }
 
-/// A metric of a cell in a baseline, and as it came now.
+/// A metric of a cell: its value in a baseline, and its present value.
 struct BaselineValue {
   std::string metric;
   std::optional<double> baseline, now;
 };
 
-/// Finds what a baseline holds of a cell: nothing when it does not know it.
+/// Finds the values of a cell in a baseline; empty if the baseline does not have the cell.
 std::vector<BaselineValue> ValuesOf(const Snapshot& baseline, const Row& row) {
   std::vector<BaselineValue> values;
   for (const SnapshotScenario& scenario : baseline.scenarios) {
@@ -109,6 +109,7 @@ Result<int> Pack(const ReplayCommandOptions& options) {
 
 Result<int> ReplayCommand(const ReplayCommandOptions& options) {
   const Interrupt interrupt;
+  // A packed cell: replay it alone.
   ASSIGN_OR_RETURN(const auto key, TakeSecretKey(options.key_file));
   std::error_code error;
   if (!std::filesystem::is_directory(options.target, error)) {
@@ -117,11 +118,12 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
     }
     return ReplayFile(options.target, options.outside, key, options.as_json, interrupt);
   }
+  // A result folder: pack a cell, or replay cells.
   if (!options.pack_file.empty()) return Pack(options);
   std::optional<Snapshot> baseline;
   if (!options.baseline.empty()) {
     if (options.cells.empty()) return Fail({}, "--baseline is told beside cells: name them with --cell");
-    RETURN_IF_ERROR(LoadRunOutline(options.target, options.sealing));  // which tells of metrics that it added
+    RETURN_IF_ERROR(LoadRunOutline(options.target, options.sealing));  // registers the metrics that the run added
     ASSIGN_OR_RETURN(baseline, TakeBaseline(options.baseline, options.sealing));
   }
   ASSIGN_OR_RETURN(const auto replayed, ReplayRun({.folder = options.target,
@@ -133,6 +135,7 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
                                                    .sealing = options.sealing,
                                                    .stop = interrupt.requested(),
                                                    .on_progress = ProgressOf("cells")}));
+  // Print the differences, and the baseline's values if asked.
   const std::vector<CellCheck>& checks = replayed.checks;
   const auto same = std::ranges::count(checks, true, &CellCheck::same);
   if (options.as_json) RETURN_IF_ERROR(PrintFacts("replay", FactsOf(checks, baseline ? &*baseline : nullptr)));

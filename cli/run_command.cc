@@ -43,7 +43,7 @@ bool IsSkipped(const ConditionSummary& condition) {
   });
 }
 
-/// Gives the reason when every cell of a condition was skipped; else "".
+/// Returns the reason if every cell of a condition was skipped, else "".
 std::string WhySkipped(const ConditionSummary& condition, const std::string& scenario, const std::vector<Row>& rows) {
   if (!IsSkipped(condition)) return "";
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& other) {
@@ -52,7 +52,7 @@ std::string WhySkipped(const ConditionSummary& condition, const std::string& sce
   return row == rows.end() ? "" : row->result.reason;
 }
 
-/// Prints one small table per condition: methods down, headline metrics across.
+/// Prints one small table per condition, with methods as rows and headline metrics as columns.
 void PrintTables(const ScenarioSummary& scenario, const std::vector<Row>& rows) {
   constexpr std::size_t kShownMetrics = 4;
   std::vector<const MetricInfo*> metrics;
@@ -88,7 +88,7 @@ void PrintSummary(const RunData& run) {
   }
 }
 
-/// True if a method of this scenario has cells that were run and no answer, ok or unsolved, among them.
+/// Returns true if a method of this scenario has attempted cells but no answer among them; ok and unsolved are answers.
 bool HasSilentMethod(const ScenarioSummary& scenario) {
   return std::ranges::any_of(scenario.methods, [&](const std::string& name) {
     int attempted = 0, answers = 0;
@@ -111,7 +111,7 @@ int ShowOutcome(const RunOutcome& outcome) {
   const auto has_skipped = [](const ScenarioSummary& scenario) {
     return std::ranges::any_of(scenario.conditions, IsSkipped);
   };
-  if (run && std::ranges::any_of(run->scenarios, has_skipped)) run = LoadRun(outcome.folder);  // rows tell why
+  if (run && std::ranges::any_of(run->scenarios, has_skipped)) run = LoadRun(outcome.folder);  // rows hold the reasons
   if (!run) return Complain(run.error());
   PrintSummary(*run);
   const std::string folder = outcome.folder.string();
@@ -128,7 +128,7 @@ int ShowOutcome(const RunOutcome& outcome) {
 
 namespace {
 
-/// Says that nothing keeps a second run out of the folder.
+/// Warns that no lock keeps a second run from writing into the folder.
 void TellUnlocked(const RunOutcome& outcome) {
   if (outcome.why_unlocked.empty()) return;
   Complain(
@@ -138,12 +138,14 @@ void TellUnlocked(const RunOutcome& outcome) {
 
 int RunCommand(const RunOptions& given) {
   RunOptions options = given;
+  // Run, with Ctrl-C as a request to stop.
   std::optional<Interrupt> interrupt(std::in_place);
   options.stop = interrupt->requested();
   ProgressBar bar;
   const auto outcome = Run(options, [&](const Progress& progress) { bar.Show(progress); });
-  interrupt.reset();  // all is written
+  interrupt.reset();  // everything is written
   if (!outcome) return Complain(outcome.error());
+  // Report what was left out or damaged.
   TellUnlocked(*outcome);
   for (const RefusedClip& one : outcome->refused) Complain({{one.clip}, "left out: " + one.why});
   const std::string folder = outcome->folder.string();
@@ -152,12 +154,14 @@ int RunCommand(const RunOptions& given) {
         {{(outcome->folder / kJournalFile).string(), line, 0}, "does not count: damaged, or the second of its cell"});
   }
   if (outcome->fence.starts_with("none")) Complain({{}, "methods outside ran in no fence: " + outcome->fence});
+  // Stopped: the finished cells are kept for --resume.
   if (outcome->stopped) {
     const std::size_t kept = outcome->cells + outcome->cells_answered;
     return TellStopped({{},
                         kept == 0 ? "stopped before any cell ended; nothing is kept"
                                   : fmt::format("stopped; {} cells are kept in {}, --resume goes on", kept, folder)});
   }
+  // A shard has no tables; merging makes them.
   if (!options.shard.IsWhole()) {
     fmt::print("Shard {}: {} of {} cells ok in {:.1f} s: {}\nNext, when all shards are done: etude merge DIR… -o DIR\n",
                ToString(options.shard), outcome->cells_ok, outcome->cells, outcome->seconds, folder);
@@ -170,7 +174,8 @@ int MergeCommand(const MergeOptions& given) {
   MergeOptions options = given;
   std::optional<Interrupt> interrupt(std::in_place);
   options.stop = interrupt->requested();
-  // The first half is reading, in which shards that do not belong together are found: a complaint stands alone.
+  // The first half only reads the shards and finds those that do not belong together; its bar starts late, so that a
+  // complaint stands alone.
   ProgressBar reading(ProgressBar::Begins::kWhenItTakesLong), writing;
   const auto outcome = Merge(options, [&](double share) { (share < 0.5 ? reading : writing).Show(share, "merged"); });
   interrupt.reset();
@@ -269,6 +274,7 @@ void AddOtherLibraries(CLI::App& command, bool& other_libraries) {
 }  // namespace
 
 void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
+  // The options that choose worlds, workers and outputs.
   auto options = std::make_shared<RunOptions>();
   auto shard = std::make_shared<std::string>();
   options->program_version = ETUDE_VERSION;
@@ -292,6 +298,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   const Action act = WithSecretKey(*command, &options->seed, options->key,
                                    [=] { return *dry_run ? DryRunCommand(*options, *as_json) : RunCommand(*options); });
   AddReuseKey(*command, options->reuse_key);
+  // The options for parts of a run, and for continuing one.
   CLI::Option* shard_option =
       command->add_option("--shard", *shard, "Run part i of n, as i/n; etude merge makes one run of all parts");
   CLI::Option* overwrite = AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");
@@ -309,6 +316,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
       command->add_flag("--dry-run", *dry_run, "Only tell how long it would take, and what differences it could show");
   dry->excludes(shard_option, overwrite, resume);
   AddJson(*command, *as_json)->needs(dry);
+  // --from repeats a run, so it excludes everything that its manifest states.
   CLI::Option* from = command->add_option("--from", options->from, "Repeat the run that this manifest.json describes");
   for (CLI::Option* option : world_options) from->excludes(option);
   from->excludes(skip_refused, keep);
@@ -320,6 +328,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   streams->excludes(from, world_options[2]);
   from->excludes(command->add_option("--labels", options->labels,
                                      "Who did what when in --streams or --clips: a file, or a folder of tag streams"));
+  // Check combinations that CLI11 cannot express, and start.
   command->callback([=, &action] {
     action = [=] {
       if (options->scenarios.empty() == options->from.empty()) {

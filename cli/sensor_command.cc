@@ -29,10 +29,10 @@ constexpr const char* kSensorExamples =
     "  etude sensor stats kinect.txt --reference vicon.txt --simulate v2    real beside simulated\n"
     "  etude sensor fit kinect.txt --reference vicon.txt -o sensor.yaml     then `sensor: sensor.yaml` in a scenario";
 
-/// The facts about recordings that cannot tell them themselves.
+/// Facts about recordings that their files do not state.
 struct SensorReading {
-  std::string reference;                 ///< the same motion by an optical system, "" = none
-  std::optional<double> rate_hz;         ///< of the recordings
+  std::string reference;                 ///< the same motion recorded by an optical system, "" = none
+  std::optional<double> rate_hz;         ///< the recordings' frame rate
   std::optional<double> reference_rate;  ///< Hz
 };
 
@@ -128,7 +128,8 @@ std::string ShortName(const std::string& path, std::size_t longest) {
   return std::filesystem::path(path).stem().string().substr(0, longest);
 }
 
-/// Computes the statistics of recordings by themselves, a column each; adds what they are to `facts`.
+/// Computes the statistics of recordings without a reference, one column each, and adds the recordings' facts to
+/// `facts`.
 Result<Columns> PlainColumns(const SensorStatsOptions& options, Json& facts) {
   Columns columns;
   for (const std::string& file : options.files) {
@@ -140,7 +141,7 @@ Result<Columns> PlainColumns(const SensorStatsOptions& options, Json& facts) {
   return columns;
 }
 
-/// Computes those of a recording against its reference, and of the simulated sensor on the reference's motion.
+/// Computes the statistics of a recording against its reference, and of the simulated sensor on the reference's motion.
 Result<Columns> ComparedColumns(const SensorStatsOptions& options, Json& facts) {
   const std::string& file = options.files.front();
   if (options.files.size() > 1) {
@@ -203,7 +204,7 @@ void DefineStats(CLI::App& sensor, Action& action) {
 struct SensorFitCommandOptions {
   std::string file, output;
   SensorReading reading;
-  std::string base = "v2";  ///< a preset or file for what is not fitted
+  std::string base = "v2";  ///< a preset or sensor file for the settings that are not fitted
   int worlds = 96;
   int steps = 10;
   bool overwrite = false, as_json = false;
@@ -211,10 +212,10 @@ struct SensorFitCommandOptions {
 
 constexpr int kCheckWorlds = 64;
 
-/// Prints a table of a sensor beside a recording, and gives the same as an entry of `checks`.
+/// Prints a table of a sensor and a recording side by side, and returns it as an entry of `checks`.
 Json PrintComparison(const char* title, const char* real_name, const RealRecording& real,
                      const SkeletonSensorOptions& sensor) {
-  // Dice that the fit never saw.
+  // Use dice that the fit has not seen.
   const WorldKey worlds{.suite_seed = 1, .scenario = "sensor-check", .trial = 0};
   const SensorStatistics measured = StatisticsOf(real);
   const SensorStatistics simulated = SimulatedStatistics(real, sensor, kCheckWorlds, worlds).mean;
@@ -227,7 +228,7 @@ Json PrintComparison(const char* title, const char* real_name, const RealRecordi
   return check;
 }
 
-/// Fits each half and compares it with the other; prints only a remark when a half is too short.
+/// Fits each half of the recording and compares it with the other half; if a half is too short, it only says so.
 void PrintHalves(const RealRecording& real, const SensorFitOptions& options, Json& checks) {
   const std::size_t frames = real.recording.frames.size();
   const auto first = MakeRealRecording(Excerpt(real.recording, 0, frames / 2), real.twin);
@@ -252,6 +253,7 @@ Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
   fmt::print("{}: {}\n", options.file, DescribeRecording(real.recording));
   fmt::print("{}: {}\n", options.reading.reference, DescribeMatch(real));
 
+  // Fit the sensor, and write its file.
   const SensorFitOptions fit{.start = base, .worlds = options.worlds, .steps = options.steps, .progress = {}};
   const SkeletonSensorOptions sensor = FitSensor(real, fit);
   const std::string preset = FindSensorPreset(options.base) ? options.base : "v2";
@@ -259,6 +261,7 @@ Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
                                        real.recording.DurationSeconds(), real.recording.frames.size()) +
                            WriteSensorFile(sensor, preset);
   RETURN_IF_ERROR(WriteFileAtomically(options.output, text));
+  // Compare it with the recording, and fitted halves with each other.
   Json checks = Json::array();
   checks.push_back(PrintComparison("Fitted to all of it, compared with other dice:", "real", real, sensor));
   PrintHalves(real, fit, checks);

@@ -12,10 +12,10 @@ class App;
 
 namespace etude {
 
-/// The options that say how recordings are read: --format, --rate, --body, --level, --reflect; and how clips are:
-/// --joint-map, --unit, --up, and --rate again.
+/// The options for reading recordings (--format, --rate, --body, --level, --reflect) and clips (--joint-map, --unit,
+/// --up, and --rate, too).
 struct StreamArguments {
-  std::string format;  ///< "" = told by content
+  std::string format;  ///< "" = recognised by content
   std::string level = "auto";
   bool reflect = false;
   std::optional<double> rate_hz;

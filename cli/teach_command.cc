@@ -18,7 +18,7 @@ namespace {
 
 struct TeachCommandOptions {
   std::vector<std::string> streams;
-  std::string labels;  ///< "" = one file is one move
+  std::string labels;  ///< "" = each file is one move
   std::string output;
   bool overwrite = false, as_json = false;
   StreamArguments reading;
@@ -85,7 +85,7 @@ Result<int> TeachCommand(const TeachCommandOptions& options) {
   RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   ASSIGN_OR_RETURN(const auto moves, Teach(options));
   const std::string text = "# Learnt by `etude teach`\n" + WriteMoves(moves);
-  RETURN_IF_ERROR(ReadMoves(text, options.output));  // what cannot be read back is not written
+  RETURN_IF_ERROR(ReadMoves(text, options.output));  // write only what can be read back
   RETURN_IF_ERROR(WriteFileAtomically(options.output, text));
   if (options.as_json) {
     RETURN_IF_ERROR(PrintFacts("teach", {{"moves", FactsOf(moves)}, {"output", options.output}}));

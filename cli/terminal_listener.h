@@ -4,7 +4,7 @@
 
 namespace etude {
 
-/// Returns the listener that prints to standard output, shows progress on standard error, and lets Ctrl-C stop a film.
+/// Returns a listener that prints to standard output, shows progress on standard error, and lets Ctrl-C stop a film.
 Listener TerminalListener();
 
 }  // namespace etude

@@ -41,8 +41,9 @@ struct TrainOptions {
   std::uint64_t seed = 1;
   int population = 40, generations = 60;
   bool recogniser = false;       ///< learn the recogniser `learnt` instead, from simulated people who dance the clips
-  bool coached = false;          ///< learn the recogniser `coached` instead; `clips` are songs
-  std::optional<int> sessions;   ///< of those people, with `recogniser` or `coached`; else as many as the built-in had
+  bool coached = false;          ///< learn the recogniser `coached` instead; `clips` are then songs
+  std::optional<int> sessions;   ///< number of simulated sessions for `recogniser` or `coached`; default: as for the
+                                 ///< built-in model
   std::string hold_out = "0.3";  ///< a share of the clips, or a pattern of their names
   bool overwrite = false, as_json = false;
   ClipReading reading;
@@ -66,9 +67,9 @@ constexpr const char* kTrainExamples =
     "  etude train 'builtin:*' -o learnt.yaml --recogniser             what recogniser learnt knows\n"
     "  etude train groove sprint warm_up -o coached.yaml --coached     what recogniser coached knows";
 
-constexpr std::size_t kMostClipsToTrainOn = 150;
+constexpr std::size_t kMaxTrainingClips = 150;
 
-/// Clips to learn from, and clips to judge by.
+/// Clips for learning, and clips for testing.
 struct Split {
   std::vector<std::string> learnt_names, held_out_names;
   std::vector<std::vector<TrainingFrame>> learnt, held_out;
@@ -81,7 +82,7 @@ std::optional<double> ReadShare(const std::string& text) {
   return share;
 }
 
-/// Chooses the clips that are held out.
+/// Chooses the clips that are held out: those whose names match the pattern, else a share drawn by dice.
 Result<std::vector<bool>> ChooseHeldOut(const std::vector<std::string>& names, const TrainOptions& options) {
   std::vector<bool> held_out(names.size(), false);
   const auto share = ReadShare(options.hold_out);
@@ -117,9 +118,9 @@ Result<Split> LoadSplit(const TrainOptions& options) {
     names.push_back(clip.name);
     motions.push_back(std::move(clip.motion));
   }
-  if (names.size() > kMostClipsToTrainOn) {
+  if (names.size() > kMaxTrainingClips) {
     return Fail({}, "{} clips; allowed: at most {}, since their pairs grow with the square", names.size(),
-                kMostClipsToTrainOn);
+                kMaxTrainingClips);
   }
   ASSIGN_OR_RETURN(const auto held_out, ChooseHeldOut(names, options));
 
@@ -144,7 +145,7 @@ std::string ScoreLine(const char* what, ClipFrames clips, const FuzzySystem& sys
                      matches.close_matched);
 }
 
-/// Scores the paper's system and the tuned one, a line each.
+/// Scores the paper's system and the tuned one, one line each.
 std::vector<std::string> CompareSystems(const Split& split, const FuzzySystem& tuned) {
   const FuzzySystem paper;
   return {
@@ -152,7 +153,7 @@ std::vector<std::string> CompareSystems(const Split& split, const FuzzySystem& t
       "tuned:",   "  " + ScoreLine("learnt", split.learnt, tuned), "  " + ScoreLine("held out", split.held_out, tuned)};
 }
 
-/// Gives the same for programs; clips of which there are not two have no score.
+/// Returns the same scores for programs; a set of fewer than two clips has no score.
 Json ScoresOf(const Split& split, const FuzzySystem& tuned) {
   Json scores = Json::array();
   for (const auto& [name, system] : {std::pair("paper", FuzzySystem()), {"tuned", tuned}}) {
@@ -191,7 +192,7 @@ Tuning TuningOf(const TrainOptions& options) {
   return options.memberships ? Tuning::kGeneticMemberships : Tuning::kGenetic;
 }
 
-/// Sets the genetic algorithm's options; it tells its progress at every tenth of the way.
+/// Returns the options of the genetic algorithm; progress is printed at every tenth of the generations.
 GeneticOptions GeneticOptionsOf(const TrainOptions& options) {
   const int tenth = std::max(1, options.generations / 10);
   return {.population = options.population,
@@ -231,7 +232,7 @@ Result<int> TrainCommand(const TrainOptions& options) {
   tuned.system.name = options.method;
   const std::vector<std::string> comparison = CompareSystems(split, tuned.system);
   const std::string text = HeaderOf(options, split, tuned, comparison) + WriteFuzzySystem(tuned.system);
-  RETURN_IF_ERROR(ReadFuzzySystem(text, options.output));  // what cannot be read back is not written
+  RETURN_IF_ERROR(ReadFuzzySystem(text, options.output));  // write only what can be read back
   RETURN_IF_ERROR(WriteFileAtomically(options.output, text));
   if (options.as_json) {
     RETURN_IF_ERROR(PrintFacts("train", {{"learnt_from", split.learnt_names},
@@ -247,7 +248,7 @@ Result<int> TrainCommand(const TrainOptions& options) {
   return kSuccess;
 }
 
-/// A model, and what made it.
+/// A model, and how it was made.
 struct Trained {
   LearntModel model;
   std::vector<std::string> learnt_from;
@@ -301,6 +302,7 @@ Result<int> TrainRecogniserCommand(const TrainOptions& options) {
 void DefineTrain(CLI::App& app, Action& action) {
   auto options = std::make_shared<TrainOptions>();
   CLI::App* command = app.add_subcommand("train", "Learn a fuzzy system or a recogniser from clips");
+  // The inputs and outputs; then the fuzzy system's options.
   command->add_option("clips", options->clips, "Clips to learn from, and to judge by")->required();
   command->add_option("-o,--output", options->output, "The file to write (YAML)")->required();
   command->add_option("--method", options->method, "How to learn")
@@ -318,6 +320,7 @@ void DefineTrain(CLI::App& app, Action& action) {
   command->add_option("--generations", options->generations, "How long the genetic algorithm searches")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
+  // The options of recognisers.
   command->add_flag("--recogniser", options->recogniser, "Learn the recogniser `learnt`");
   command->add_flag("--coached", options->coached, "Learn the recogniser `coached`: CLIPS are built-in songs")
       ->excludes("--recogniser");
@@ -327,6 +330,7 @@ void DefineTrain(CLI::App& app, Action& action) {
           "Of simulated people: 16 performances each (recogniser, 400), three minutes before a coach (coached, "
           "300)")
       ->check(CLI::Range(10, 10000));
+  // Options of the fuzzy system do not apply to recognisers.
   for (const char* other : {"--method", "--memberships", "--hold-out", "--population", "--generations"}) {
     command->get_option(other)->excludes("--recogniser")->excludes("--coached");
   }

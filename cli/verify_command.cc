@@ -24,36 +24,37 @@
 namespace etude {
 namespace {
 
-/// The usual sample misses 1 in 21 of those who forge 5 % of very many cells (0.95^59), fewer of few.
-constexpr const char* kUsualSample = "59";
+/// The default sample. With 5 % of very many cells forged, 1 in 21 forgeries is missed (0.95^59), fewer with fewer
+/// cells.
+constexpr const char* kDefaultSample = "59";
 constexpr const char* kWholeSample = "all";
-constexpr std::size_t kLargestSample = 10'000'000;
+constexpr std::size_t kMaxSample = 10'000'000;
 
 struct VerifyCommandOptions {
   ReplayOptions replay;
-  std::string sample = kUsualSample;  ///< a number, or "all"
-  std::string key_file;               ///< of secret worlds, "" = none
-  std::string sign, check;            ///< keys, "" = none
+  std::string sample = kDefaultSample;  ///< a number, or "all"
+  std::string key_file;               ///< file with the key of secret worlds, "" = none
+  std::string sign, check;            ///< key files, "" = none
   bool as_json = false;
 };
 
-/// Reads --sample; nothing of "all".
+/// Parses --sample; returns nullopt for "all".
 std::optional<std::size_t> ReadSample(const std::string& text) {
   std::size_t number = 0;
   std::from_chars(text.data(), text.data() + text.size(), number);
   return text == kWholeSample ? std::nullopt : std::optional(number);
 }
 
-/// Gives "" for what --sample may be, else the complaint.
+/// Returns "" for a valid value of --sample, else the complaint.
 std::string CheckSample(const std::string& text) {
   if (text == kWholeSample) return "";
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc() && end == text.data() + text.size() && number <= kLargestSample) return "";
-  return fmt::format("'{}' is no sample; allowed: 0 to {}, or '{}'", text, kLargestSample, kWholeSample);
+  if (error == std::errc() && end == text.data() + text.size() && number <= kMaxSample) return "";
+  return fmt::format("'{}' is no sample; allowed: 0 to {}, or '{}'", text, kMaxSample, kWholeSample);
 }
 
-/// Throws dice that nobody can foresee; of so many bits as every reader of JSON keeps.
+/// Draws an unpredictable seed, with as many bits as every JSON reader keeps.
 Result<std::uint64_t> FreshDice() {
   std::uint64_t dice = 0;
   if (::getrandom(&dice, sizeof dice, 0) != sizeof dice) return FailOfMachine("gives no random numbers");
@@ -67,7 +68,7 @@ std::string ShareInWords(double chance) {
   return fmt::format("{:.3g} %", 100 * chance);
 }
 
-/// Tells by which dice the sample was drawn, and who is missed by it.
+/// States the chance that the sample misses a forgery, and the seed by which it was drawn.
 std::string SampleInWords(const CellChoice& choice) {
   std::vector<std::string> missed;
   for (const MissedForgery& one : WhatIsMissed(choice)) {
@@ -85,7 +86,7 @@ std::string SampleInWords(const CellChoice& choice) {
                      Join(missed), choice.dice);
 }
 
-/// Tells the rows that running cells again says nothing of, by method.
+/// Lists by method the rows that running cells again cannot verify.
 std::vector<std::string> NotVerified(const CellChoice& choice) {
   std::vector<std::string> lines;
   for (const MethodRows& method : choice.methods) {
@@ -133,11 +134,12 @@ Result<void> AddReport(const std::string& folder, std::vector<Verified>& all, st
 }
 
 Result<int> VerifyCommand(VerifyCommandOptions options) {
+  // Run without trusting the seal: a broken seal is one of the findings.
   const Interrupt interrupt;
   ReplayOptions& replay = options.replay;
   ASSIGN_OR_RETURN(replay.key, TakeSecretKey(options.key_file));
   replay.stop = interrupt.requested();
-  replay.sealing = Sealing::kIgnored;  // that is told, and no reason to look no further
+  replay.sealing = Sealing::kIgnored;  // a broken seal is reported, but does not end the check
   replay.recorded_too = true;
   replay.without_programs = !replay.outside.allow_exec;
   replay.on_progress = ProgressOf("cells");
@@ -145,6 +147,7 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
   if (!replay.dice) {
     ASSIGN_OR_RETURN(replay.dice, FreshDice());
   }
+  // Check the signature, run the sampled cells again, and compare the report.
   std::vector<Verified> all;
   if (!options.check.empty()) {
     const auto signed_by = CheckSignature(replay.folder, options.check);
@@ -158,6 +161,7 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
   if (verified.choice) not_verified = NotVerified(*verified.choice);
   RETURN_IF_ERROR(AddReport(replay.folder, all, not_verified));
   if (*interrupt.requested()) return TellStopped({{}, "stopped; nothing was found out"});
+  // Print what agrees and what differs.
   std::size_t agree = 0;
   Json checks = Json::array();
   for (const Verified& one : all) {
@@ -178,6 +182,7 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
     fmt::print("{}\n", choice ? SampleInWords(*choice) : "No cell was run again.");
     fmt::print("{} of {} agree. Nobody can verify what it says of times and machines.\n", agree, all.size());
   }
+  // Sign the run only if everything agrees.
   if (agree < all.size()) return kNothingWorked;
   if (options.sign.empty()) return kSuccess;
   RETURN_IF_ERROR(SignRun(replay.folder, options.sign));

@@ -16,14 +16,13 @@ namespace {
 
 constexpr std::string_view kKeptControls = "\n\t";
 
-/// The bytes of a character that one write has begun and the next will end.
+/// Returns the first bytes of a character that was split between two writes.
 std::string& BegunCharacter() {
   static std::string begun;
   return begun;
 }
 
-/// How many bytes of a character stand at the end of a text that goes on: those behind the last that begins one, if
-/// more belong to it.
+/// Returns the number of bytes at the end of `text` that begin a character but do not complete it.
 std::size_t BegunAtEnd(std::string_view text) {
   for (std::size_t behind = 1; behind <= std::min<std::size_t>(3, text.size()); ++behind) {
     const auto byte = static_cast<unsigned char>(text[text.size() - behind]);
@@ -59,7 +58,7 @@ void MakeOutputSafe() {
       ::fopencookie(nullptr, "w", {.read = nullptr, .write = WriteShown, .seek = nullptr, .close = CloseShown});
   if (output == nullptr) return;
   if (::isatty(STDOUT_FILENO) == 1) std::setvbuf(output, nullptr, _IOLBF, BUFSIZ);
-  stdout = output;  // which glibc allows
+  stdout = output;  // glibc allows this assignment
 }
 
 }  // namespace etude

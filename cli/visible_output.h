@@ -2,8 +2,8 @@
 
 namespace etude {
 
-/// Makes `stdout` safe to be read on a terminal, whatever a file or a method calls itself: what is printed passes
-/// through Visible, line ends and tabs kept. JSON stays as it is, for WriteJson writes nothing that would change.
+/// Makes `stdout` safe for terminals, whatever names files or methods have: all output passes through Visible, which
+/// keeps line ends and tabs. JSON is unchanged, because WriteJson writes no such characters.
 void MakeOutputSafe();
 
 }  // namespace etude

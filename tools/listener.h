@@ -10,30 +10,31 @@
 
 namespace etude {
 
-/// What a tool tells while it works. Tools never print: whoever calls one decides where its words go. The defaults are
-/// silent.
+/// Receives the messages and progress of a tool. Tools never print; the caller decides where text goes. The defaults
+/// are silent.
 struct Listener {
-  /// Takes text for people; lines end with '\n'.
+  /// Receives text for people; lines end with '\n'.
   std::function<void(const std::string& text)> print = [](const std::string&) {};
-  /// Makes the callback that is told how far a piece of work is; `what` names what is counted ("frames of left.mp4").
+  /// Makes the callback that receives the progress of one piece of work; `what` names the counted things ("frames of
+  /// left.mp4").
   std::function<OnProgress(std::string what)> progress = [](const std::string&) {
     return [](std::size_t, std::size_t) {};
   };
-  /// Writes one film: calls `write` with the watch that shows progress and can stop it. Returns what `write` returns,
-  /// false if it was stopped.
+  /// Runs `write`, which writes one film, with a watch that shows progress and can stop it. Returns the result of
+  /// `write`: false if it was stopped.
   std::function<Result<bool>(const std::function<Result<bool>(const FilmWatch& watch)>& write)> film =
       [](const auto& write) { return write(FilmWatch{}); };
 };
 
-/// Tells that a file was written.
+/// Prints that a file was written.
 void TellWritten(const Listener& listener, const std::string& path);
 
-/// The lines that a tool told, kept for its page and its facts.
+/// Prints lines and keeps them, for the page and the facts of a tool.
 struct ToldLines {
   std::function<void(const std::string& text)> print;
   std::vector<std::string> lines = {};
 
-  /// Tells a line and keeps it.
+  /// Prints a line and keeps it.
   void Tell(const std::string& line);
 };
 

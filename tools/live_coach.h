@@ -15,25 +15,25 @@
 
 namespace etude {
 
-/// Writes the first line of `etude coach`: the song, its moves with their hints and key poses, the order of joints.
+/// Returns the first line of `etude coach`: the song, its moves with hints and key poses, and the order of the joints.
 Result<std::string> CoachHead(const Dance& dance);
 
-/// Writes one frame as a line of JSON (docs/coach.md). Places are metres, rounded to the millimetre; without the body
-/// when `brief`.
+/// Returns one frame as a line of JSON (docs/coach.md). Positions are in metres, rounded to the millimetre; with
+/// `brief` the body is left out.
 Result<std::string> CoachLine(const CoachOutput& output, std::int64_t frame, const Dance& dance, bool brief);
 
-/// The position of the music while a coach dances to it: as a line '#music 12.34' of the stream tells, else as the
-/// coach had it played.
+/// The position in the music while a coach dances: what a line '#music 12.34' of the stream states, else computed from
+/// the coach's own music commands.
 class MusicPosition {
  public:
-  /// Pauses, or plays on from another place.
+  /// Pauses the music, or continues it at another position.
   void Follow(const MusicCommand& command);
-  /// Lets the time of one frame pass.
+  /// Advances the music by one frame.
   void Tick();
-  /// Gives the seconds into the song; nothing while it is silent.
+  /// Returns the seconds since the start of the song; nullopt while the music is silent.
   std::optional<double> Seconds() const { return now_s_; }
 
-  /// Takes a line of the stream; one that is not about music changes nothing. Refused: '#music' without seconds.
+  /// Reads a line of the stream; a line that is not about music changes nothing. Fails on '#music' without seconds.
   Result<void> Take(std::string_view line, int number);
 
  private:
@@ -43,26 +43,27 @@ class MusicPosition {
 struct LiveCoachOptions {
   std::string policy;           ///< a name of LivePolicyNames()
   std::string filter;           ///< a name of FilterNames()
-  bool dances_at_once = false;  ///< begins without a clap
-  bool plans_ahead = false;     ///< spreads planning over frames, for streams that come live
-  bool brief = false;           ///< leaves out frames in which nothing was decided, and bodies
+  bool dances_at_once = false;  ///< begins to dance without waiting for a clap
+  bool plans_ahead = false;     ///< spreads planning over frames; set it for live streams
+  bool brief = false;           ///< leaves out bodies, and frames without a decision
   CoachOptions coach = {};
 };
 
-/// A coach's session fed by a stream of skeletons, frame by frame. It begins with the first frame, when it is known
-/// where its sensor stands.
+/// Runs a coach's session on a stream of skeletons, frame by frame. The session begins with the first frame, because
+/// the position of the sensor is known only then.
 class LiveCoach {
  public:
   using OnLine = std::function<void(const std::string& line)>;
 
-  /// `transitions` and `recogniser` must outlive it. `on_line` gets every line as soon as its frame was seen.
+  /// `transitions` and `recogniser` must outlive this object. `on_line` receives every line as soon as its frame is
+  /// processed.
   LiveCoach(const DanceTransitions& transitions, const Recogniser& recogniser, LiveCoachOptions options,
             OnLine on_line);
 
   /// Reads a stream to its end.
   Result<void> Follow(std::istream& stream, LiveStream& live);
 
-  /// Gives how long each frame took, ms, from its arrival until its line was written.
+  /// Returns the processing time of each frame in ms, from its arrival until its line was written.
   const std::vector<double>& times_ms() const { return times_ms_; }
 
  private:

@@ -164,8 +164,8 @@ class RigChecker {
     const double miss = MedianMiss(Gains({}, 1), AsDeclared), usual_px = std::max(kMinUsualPx, kNormal * miss);
     // Take the film, or all films, whose best gain has the lowest cost.
     std::optional<FocalGain> best = Estimate({}, usual_px);
-    constexpr std::size_t kMaxFilms = 8;
-    for (std::size_t film = 0; film < std::min(kMaxFilms, cameras_.size()); ++film) {
+    constexpr std::size_t kMaxFilmsAlone = 8;
+    for (std::size_t film = 0; film < std::min(kMaxFilmsAlone, cameras_.size()); ++film) {
       const auto one = Estimate(film, usual_px);
       if (one && (!best || one->cost < best->cost)) best = one;
     }

@@ -16,18 +16,18 @@ namespace etude {
 
 class RecordedFigure;  // sim/character
 
-/// A motion that worlds can be made of: at 30 Hz, metres, Y up, feet on the floor.
+/// A motion from which worlds can be made: 30 Hz, metres, Y up, feet on the floor.
 struct LibraryClip {
   std::string name;    ///< "builtin:clap", "01_01" (the file's name without folder and extension), "dance#Jump"
-  std::string source;  ///< what opens it again: "builtin:clap", a path, or "path.glb#Jump"
+  std::string source;  ///< the reference that opens it again: "builtin:clap", a path, or "path.glb#Jump"
   BodyMotion motion;
   std::optional<Move> move;  ///< the authored move, with its key poses; only built-in moves have one
-  std::string note;          ///< what loading had to repair ("dropped a leading T-pose", "1 unit = 5.65 cm")
-  RestBody body = {};        ///< of who moves, at rest; without joints where nobody has measured it
-  std::shared_ptr<const RecordedFigure> figure = {};  ///< of a file with meshes
+  std::string note;          ///< the repairs made during loading ("dropped a leading T-pose", "1 unit = 5.65 cm")
+  RestBody body = {};        ///< the performer's body at rest; it has no joints if the body was not measured
+  std::shared_ptr<const RecordedFigure> figure = {};  ///< the file's figure; null if the file has no meshes
 };
 
-/// The clips of one scenario, in order; trials go round-robin over them.
+/// The clips of one scenario, in order. Trial t uses clip t modulo the number of clips.
 struct ClipLibrary {
   std::vector<LibraryClip> clips;
 
@@ -37,9 +37,9 @@ struct ClipLibrary {
 /// Returns the collection that a clip belongs to: the folder of its file, or "builtin".
 std::string CollectionOf(const LibraryClip& clip);
 
-/// Loads every reference, in order: what ExpandReference knows; every animation of a glTF file is a clip of its own.
-/// Fails with the name of what cannot be found, read or understood. `place` is where the reference stands, for
-/// complaints. `on_progress` is told of references.
+/// Loads every reference, in order, as ExpandReference expands it; every animation of a glTF file becomes a clip of its
+/// own. Fails with the name of a reference that cannot be found, read or understood. `place` is the position of the
+/// references, for complaints. `on_progress` gets the number of references done.
 Result<ClipLibrary> LoadClips(const std::vector<std::string>& references, const Place& place,
                               const OpenOptions& options = {}, const OnProgress& on_progress = {});
 

@@ -30,10 +30,10 @@ bool ParseSeconds(std::string_view text, double& seconds) {
   return error == std::errc() && end == text.data() + text.size() && std::isfinite(seconds) && seconds >= 0;
 }
 
-// As much as ReadBvh takes.
-constexpr double kLargestResampled = 1e9;
+// The same limit as for BVH files that are read, bytes.
+constexpr double kMaxResampledBytes = 1e9;
 
-/// Numbers of another unit and up axis, in metres and Y up.
+/// Converts a clip of another unit and up axis to metres and Y up.
 Clip InMetres(Clip clip, double metres_per_unit, UpAxis up) {
   const double half = glm::radians(-90.0) / 2;
   const glm::dquat upright =
@@ -58,9 +58,9 @@ Result<Clip> Edited(const Clip& clip, const ConvertOptions& options) {
   if (options.rate_hz) {
     const double frames = 1 + edited->DurationSeconds() * *options.rate_hz;
     const double bytes = frames * static_cast<double>(edited->skeleton.joints.size() * sizeof(LocalTransform));
-    if (bytes > kLargestResampled) {
+    if (bytes > kMaxResampledBytes) {
       return Fail({}, "{:.0f} frames of {} joints would take {:.1f} GB; allowed: {:.0f} GB", frames,
-                  edited->skeleton.joints.size(), bytes / 1e9, kLargestResampled / 1e9);
+                  edited->skeleton.joints.size(), bytes / 1e9, kMaxResampledBytes / 1e9);
     }
     *edited = Resample(*edited, *options.rate_hz);
   }
@@ -68,7 +68,7 @@ Result<Clip> Edited(const Clip& clip, const ConvertOptions& options) {
   return edited;
 }
 
-/// Finds the unit that a BVH file is in, and which axis is up.
+/// Finds the unit of a BVH file and the axis that points up. Without roles, `options` must give the unit.
 Result<BodyConversion> FindUnit(const SourceClip& source, const OpenOptions& options) {
   auto opened = UnderstandClip(source, options);
   if (opened) return std::move(opened->body);
@@ -87,6 +87,7 @@ Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFor
                                       const ConvertOptions& options) {
   Converted converted{.bytes = "", .note = "own skeleton"};
   std::vector<Clip> clips;
+  // Edit each clip; convert it to metres and Y up if GLB is made of a format without a fixed unit.
   for (const SourceClip& source : sources) {
     auto edited = Edited(source.clip, options);
     if (!edited) return Fail({source.source, 0, 0}, "{}", edited.error().message);
@@ -99,6 +100,7 @@ Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFor
     }
     clips.push_back(std::move(*edited));
   }
+  // Write BVH, or GLB with the file's own meshes where they still fit the skeleton.
   for (const std::string& remark : sources.front().remarks) converted.note += "; " + remark;
   if (format == MotionFormat::kBvh) {
     converted.bytes = WriteBvh(std::move(clips.front()));
@@ -129,6 +131,7 @@ Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat fo
   std::string note;
   std::vector<Clip> clips;
   BodyPose rest = StandingPose();
+  // Trim each clip and turn it into a body motion, mirrored and retargeted as asked.
   for (SourceClip& source : sources) {
     auto part = TrimTo(source.clip, options.trim);
     if (!part) return Fail({source.source, 0, 0}, "{}", part.error().message);
@@ -139,16 +142,18 @@ Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat fo
     if (options.mirror) motion = Mirror(motion);
     if (is_canonical) motion = Retarget(motion, StandingPose());
     const std::string& name = opened.source.name;
+    // Write the formats that hold one motion of joints.
     if (format == MotionFormat::kTrc) converted.bytes = WriteTrc(motion, name);
     if (format == MotionFormat::kCsv) converted.bytes = WriteJointCsv(motion);
     if (format == MotionFormat::kC3d) converted.bytes = WriteC3d(motion);
-    // The rest pose of a body with its own proportions: standing as the canonical one does.
+    // A body with its own proportions rests in the canonical stance, scaled to its limb lengths.
     if (!is_canonical && clips.empty()) rest = Retarget({.poses = {rest}}, motion.poses.front()).poses.front();
     if (format == MotionFormat::kNpz) converted.bytes = WriteBodyNpz(motion, rest);
     if (format == MotionFormat::kMot) converted.bytes = WriteOpenSimMotion(motion, rest, name);
     clips.push_back(RigClip(motion, rest, opened.source.clip.name));
   }
   converted.note = clips.size() == 1 ? "as a body: " + note : fmt::format("{} clips as bodies", clips.size());
+  // Write the formats that hold a skeleton, after all clips are known.
   if (format == MotionFormat::kBvh) converted.bytes = WriteBvh(clips.front());
   if (format == MotionFormat::kGlb) {
     converted.bytes = WriteGlb(PerformerOf(options.performer, rest, clips.front().name), clips);

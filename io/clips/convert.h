@@ -10,16 +10,16 @@
 
 namespace etude {
 
-/// A part of a clip, seconds from its first frame.
+/// A part of a clip, in seconds from its first frame.
 struct TimeSpan {
   double from_s = 0;
   double to_s = 0;
 };
-/// Reads a span such as "1.5:4", of which either end may be left out. Anything else and an end before its start are
-/// refused.
+/// Parses a span such as "1.5:4"; either end may be left out (then 0 or infinity). Fails on any other text, and if the
+/// end lies before the start.
 Result<TimeSpan> ParseTimeSpan(const std::string& text);
 
-/// Returns that part of a clip, or all of it without a span. An open end is the clip's.
+/// Returns this part of a clip, or the whole clip without a span. An open end is the end of the clip.
 Result<Clip> TrimTo(const Clip& clip, const std::optional<TimeSpan>& span);
 
 enum class MotionFormat { kBvh, kGlb, kTrc, kCsv, kC3d, kNpz, kMot };
@@ -31,23 +31,25 @@ enum class Performer { kFile, kNone, kBear, kMannequin };
 
 struct ConvertOptions {
   std::optional<TimeSpan> trim;
-  std::optional<double> rate_hz;  ///< the clip's own; of bodies 30 Hz
+  std::optional<double> rate_hz;  ///< frames per second; by default the clip's own rate, or 30 Hz for bodies
   bool mirror = false;
-  bool ground = false;    ///< as a body: twenty joints, metres, Y up, feet on the floor
-  bool retarget = false;  ///< as a body with the canonical proportions
+  bool ground = false;    ///< write a body: twenty joints, metres, Y up, feet on the floor
+  bool retarget = false;  ///< write a body with the canonical proportions
   Performer performer = Performer::kFile;
   OpenOptions open;
 };
 
-/// The bytes of the converted file, and a note in plain words on what was done.
+/// The bytes of the converted file, and a note in plain words about what was done.
 struct Converted {
   std::string bytes;
   std::string note;
 };
 
-/// Converts the clips of one file: one, or for GLB any number. A clip keeps its own skeleton (and meshes, from glTF to
-/// GLB) unless a body is asked for: by `ground`, `retarget`, a performer, or a format that has nothing but joints.
-/// BVH becomes GLB in metres and Y up, which needs a unit: found by the roles, or told.
+/// Converts the clips of one file: exactly one, or any number for GLB. A clip keeps its own skeleton (and its meshes,
+/// from glTF to GLB) unless the result must be a body: with `ground`, `retarget`, a performer, or a format that holds
+/// only joints. BVH becomes GLB in metres and Y up, so its unit must be known: it is found from the roles or given in
+/// `options`. Fails if several clips go to a format other than GLB, if a performer goes to a format other than GLB, and
+/// on the errors of trimming, resampling and UnderstandClip.
 Result<Converted> ConvertClips(std::vector<SourceClip> clips, MotionFormat format, const ConvertOptions& options);
 
 }  // namespace etude

@@ -22,14 +22,14 @@ namespace {
 
 constexpr const char* kModule = "etude_clips_assimp.so";  // found beside the program, by its run path
 constexpr rlim_t kMemoryBytes = rlim_t{4} << 30, kProcessorSeconds = 60;
-constexpr std::size_t kLargestGlb = std::size_t{1} << 30;
-constexpr unsigned kOldestVersion = 7;
-constexpr const char* kGaveUp = "a damaged FBX file: its reader gave up";
+constexpr std::size_t kMaxGlbBytes = std::size_t{1} << 30;
+constexpr unsigned kMinVersion = 7;
+constexpr const char* kReaderFailed = "a damaged FBX file: its reader gave up";
 constexpr char kSaidGlb = 'G', kSaidComplaint = 'C';
 
 constexpr std::string_view kBinaryStart = "Kaydara FBX Binary", kTextStart = "; FBX";
 
-/// The first digit of a file's version, 0 when it tells none.
+/// Returns the major version of an FBX file, or 0 if the file does not state one.
 unsigned MajorVersion(std::string_view bytes) {
   if (bytes.starts_with(kTextStart)) {
     const std::size_t digit = bytes.find_first_not_of(' ', kTextStart.size());
@@ -43,7 +43,7 @@ unsigned MajorVersion(std::string_view bytes) {
   return version / 1000;
 }
 
-/// The build of assimp that is loaded, as the manifest tells those of other libraries.
+/// Returns the name and the build ID of the loaded assimp, in the same form as the manifest's list of libraries.
 std::string NameOfReader() {
   constexpr std::size_t kToldDigits = 20;
   for (const auto& [name, build] : LoadedLibraries()) {
@@ -52,19 +52,19 @@ std::string NameOfReader() {
   return "an assimp within the program";
 }
 
-/// The address space that this process takes already: a limit counts it, too.
+/// Returns the address space that this process already uses, bytes. RLIMIT_AS counts it, so it is added to the limit.
 rlim_t MappedBytes() {
   rlim_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
 }
 
-void Limit(int resource, rlim_t most) {
-  const rlimit limit{most, most};
+void Limit(int resource, rlim_t maximum) {
+  const rlimit limit{maximum, maximum};
   ::setrlimit(resource, &limit);
 }
 
-/// Allows so much processor time from now on.
+/// Allows this process `seconds` more of processor time.
 void AllowProcessorTime(rlim_t seconds) {
   rlimit limit{};
   ::getrlimit(RLIMIT_CPU, &limit);
@@ -73,32 +73,34 @@ void AllowProcessorTime(rlim_t seconds) {
   ::setrlimit(RLIMIT_CPU, &limit);
 }
 
-/// Sends a length and so many bytes; false when nobody is at the other end.
+/// Sends the length of `bytes` and then the bytes. Returns false if the other end is closed.
 bool SendBlock(int socket, std::string_view bytes) {
   const std::uint64_t size = bytes.size();
   return SendAll(socket, {reinterpret_cast<const char*>(&size), sizeof size}) && SendAll(socket, bytes);
 }
 
-/// Receives what SendBlock sent; nothing when nobody is at the other end, or it is longer than `most`.
-std::optional<std::string> ReceiveBlock(int socket, std::size_t most, bool& is_too_long) {
+/// Receives a block of SendBlock. Returns nullopt if the other end is closed, or if the block is longer than `maximum`
+/// bytes (then `is_too_long` is set).
+std::optional<std::string> ReceiveBlock(int socket, std::size_t maximum, bool& is_too_long) {
   std::uint64_t size = 0;
   if (!ReceiveAll(socket, reinterpret_cast<char*>(&size), sizeof size)) return std::nullopt;
-  is_too_long = size > most;
+  is_too_long = size > maximum;
   std::string bytes;
   if (is_too_long) return std::nullopt;
   bytes.resize(size);
   return ReceiveAll(socket, bytes.data(), size) ? std::optional(std::move(bytes)) : std::nullopt;
 }
 
-/// The child: answers each file with kSaidGlb, the name of the reader and a line break, and the GLB file, or with
+/// The child process: answers each file with kSaidGlb, the name of the reader, a line break and the GLB file, or with
 /// kSaidComplaint and a complaint.
-int BeReader(int socket) {
+int ReadFilesInChild(int socket) {
   Limit(RLIMIT_AS, MappedBytes() + kMemoryBytes);
   Limit(RLIMIT_CORE, 0);
-  // What it falls on ends it, whatever the parent does on such signals.
+  // The default handlers end the child on a crash, even if the parent handles these signals.
   for (const int fatal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU}) std::signal(fatal, SIG_DFL);
   std::string missing, name;
   GlbOfFbxBytes* read = nullptr;
+  // Load the module once; without it, every file gets the same complaint.
   if (void* module = ::dlopen(kModule, RTLD_NOW | RTLD_LOCAL); module == nullptr) {
     missing = std::string("an FBX file, for which assimp is not there (") + ::dlerror() +
               "); install Debian's libassimp-dev, and build again";
@@ -109,7 +111,8 @@ int BeReader(int socket) {
     name = NameOfReader() + "\n";
   }
   bool is_too_long = false;
-  while (const auto bytes = ReceiveBlock(socket, kLargestGlb, is_too_long)) {
+  // Answer files until the parent closes the socket.
+  while (const auto bytes = ReceiveBlock(socket, kMaxGlbBytes, is_too_long)) {
     AllowProcessorTime(kProcessorSeconds);
     std::string said = missing;
     const bool went_well = read != nullptr && read(*bytes, said);
@@ -123,35 +126,39 @@ int BeReader(int socket) {
 bool IsFbx(std::string_view bytes) { return bytes.starts_with(kBinaryStart) || bytes.starts_with(kTextStart); }
 
 Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& path) {
-  if (const unsigned version = MajorVersion(bytes); version > 0 && version < kOldestVersion) {
+  // Refuse versions that assimp cannot read, before a child is started.
+  if (const unsigned version = MajorVersion(bytes); version > 0 && version < kMinVersion) {
     return Fail({path}, "an FBX file of version {}; allowed: {} (of 2011 or later): export it anew, or convert it",
-                version, kOldestVersion);
+                version, kMinVersion);
   }
   if (!child_) {
-    ASSIGN_OR_RETURN(auto started, ForkedCopy::Start(BeReader));
+    ASSIGN_OR_RETURN(auto started, ForkedCopy::Start(ReadFilesInChild));
     child_ = std::move(started);
   }
+  // Send the file and wait for the answer.
   std::optional<std::string> said;
   bool is_too_long = false;
-  if (SendBlock(child_->socket(), bytes)) said = ReceiveBlock(child_->socket(), kLargestGlb, is_too_long);
+  if (SendBlock(child_->socket(), bytes)) said = ReceiveBlock(child_->socket(), kMaxGlbBytes, is_too_long);
+  // The child answered: return the GLB file, or its complaint.
   if (said && said->starts_with(kSaidGlb)) {
     const std::size_t line = said->find('\n');
     return FbxMotion{.glb = said->substr(line + 1), .reader = said->substr(1, line - 1)};
   }
   if (said) {
-    constexpr std::size_t kLongest = 300;  // assimp says a whole file again
-    const std::string why = said->size() < 2 ? kGaveUp : said->substr(1, kLongest);
-    return Fail({path}, "{}{}", why, said->size() > 1 + kLongest ? " …" : "");
+    constexpr std::size_t kMaxMessageBytes = 300;  // assimp's message may repeat the whole file
+    const std::string why = said->size() < 2 ? kReaderFailed : said->substr(1, kMaxMessageBytes);
+    return Fail({path}, "{}{}", why, said->size() > 1 + kMaxMessageBytes ? " …" : "");
   }
+  // The child ended without an answer: tell limits that were reached from a crash.
   const int status = child_->Wait();
   child_.reset();
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   if (is_too_long || signal == SIGXCPU || signal == SIGKILL) {
     return Fail({path},
                 "an FBX file too large to read: at most {} s of processor time, {} GB of memory and {} GB of result",
-                kProcessorSeconds, kMemoryBytes >> 30, kLargestGlb >> 30);
+                kProcessorSeconds, kMemoryBytes >> 30, kMaxGlbBytes >> 30);
   }
-  if (signal == 0) return Fail({path}, "{}", kGaveUp);
+  if (signal == 0) return Fail({path}, "{}", kReaderFailed);
   return Fail({path}, "{} {} ({})", kReaderFell, signal, ::strsignal(signal));
 }
 

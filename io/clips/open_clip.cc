@@ -35,11 +35,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reads files until together they would be too large.
+/// Reads files until their total size exceeds kLargestClipFile.
 class CappedReader {
  public:
   Result<std::string> Read(const fs::path& path) {
-    std::error_code not_there;  // ReadWholeFile says it better
+    std::error_code not_there;  // ReadWholeFile reports a missing file better
     const std::uintmax_t size = fs::file_size(path, not_there);
     if (!not_there && size > left_) {
       return Fail({path.string(), 0, 0}, "{} MB; at most {} MB of a clip are read", (size + 999'999) / 1'000'000,
@@ -60,7 +60,7 @@ Result<std::string> ReadBeside(const std::string& path, const std::string& uri, 
   const fs::path folder = fs::canonical(fs::path(path), error).parent_path();
   const fs::path file = fs::canonical(folder / uri, error);
   if (error) return fail(error.message());
-  // A link may lead anywhere: what counts is where the file really is.
+  // A link may lead anywhere, so compare the resolved paths.
   const auto ends = std::ranges::mismatch(folder, file);
   if (ends.in1 != folder.end()) return fail("a link that leads out of the folder");
   auto bytes = reader.Read(file);
@@ -80,14 +80,14 @@ ClipFile FileOfOne(ClipFormat format, Clip clip) {
   return file;
 }
 
-/// A file that holds a body already, made as `note` tells.
+/// Makes a clip file of a motion that is a body already; `note` says where it comes from.
 ClipFile FileOfBody(ClipFormat format, const BodyMotion& motion, const std::string& path, const char* note) {
   ClipFile file = FileOfOne(format, RigClip(motion, StandingPose(), fs::path(path).stem().string()));
   file.notes = {note};
   return file;
 }
 
-/// Finds the skeleton of an Acclaim motion.
+/// Finds the ASF file that belongs to an Acclaim motion.
 Result<std::string> AcclaimSkeletonBeside(const std::string& path) {
   const fs::path folder = fs::path(path).parent_path();
   const std::string stem = fs::path(path).stem().string();
@@ -116,8 +116,8 @@ Result<Clip> ReadAcclaim(std::string_view bytes, const std::string& path, Capped
   return ReadAcclaimMotion(bytes, skeleton, path);
 }
 
-/// The roles that the bones of a VRM file play; spine, hands, feet and the crown are found as usual.
-std::optional<JointMapOverrides> RolesOfBones(const std::map<std::string, int>& bones, const Skeleton& skeleton) {
+/// Returns the roles that the bones of a VRM file play. Spine, hands, feet and the crown are found as in other files.
+std::optional<TaughtRoles> RolesOfBones(const std::map<std::string, int>& bones, const Skeleton& skeleton) {
   constexpr std::pair<const char*, Role> kBones[] = {
       {"leftUpperArm", Role::kLeftShoulder}, {"rightUpperArm", Role::kRightShoulder},
       {"leftLowerArm", Role::kLeftElbow},    {"rightLowerArm", Role::kRightElbow},
@@ -136,7 +136,7 @@ std::optional<JointMapOverrides> RolesOfBones(const std::map<std::string, int>& 
   return roles.joints.empty() ? std::nullopt : std::optional(std::move(roles));
 }
 
-/// Makes clips of the bodies that markers show.
+/// Turns every body that the markers show into a clip.
 Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const std::string& path, char up = 0) {
   ASSIGN_OR_RETURN(const auto bodies, FindMarkerBodies(std::move(markers), path, up));
   ClipFile file{.format = format, .figure = {.name = "", .skeleton = {}, .materials = {}, .meshes = {}}, .clips = {}};
@@ -156,7 +156,7 @@ Result<ClipFile> ReadJointTable(std::string_view text, const std::string& path) 
   return FileOfMarkers(ClipFormat::kCsv, std::move(markers), path, 'Y');
 }
 
-/// Reads a file of markers; nothing when it is none.
+/// Reads a file of markers; returns nullopt if the file is of another kind.
 std::optional<Result<ClipFile>> ReadMarkers(std::string_view bytes, const std::string& path) {
   if (IsC3d(bytes)) {
     auto read = ReadC3d(bytes, path);
@@ -184,7 +184,7 @@ Result<std::vector<SourceClip>> ReadBuiltin(const std::string& reference) {
   return std::vector<SourceClip>{{reference, reference, ClipFormat::kBuiltin, std::move(clip), nullptr}};
 }
 
-/// Finds the clip of that name; exporters write "Armature|Jump", where "Jump" alone does if there is but one.
+/// Finds the clip of that name. Exporters write "Armature|Jump"; "Jump" alone is enough if only one name ends so.
 std::vector<Clip>::iterator FindAnimation(std::vector<Clip>& clips, const std::string& name) {
   const auto exactly = std::ranges::find(clips, name, &Clip::name);
   if (exactly != clips.end()) return exactly;
@@ -192,7 +192,7 @@ std::vector<Clip>::iterator FindAnimation(std::vector<Clip>& clips, const std::s
   return std::ranges::count_if(clips, ends_so) == 1 ? std::ranges::find_if(clips, ends_so) : clips.end();
 }
 
-/// Keeps the one animation that was asked for, or all.
+/// Keeps only the animation that was asked for, or all.
 Result<void> KeepWanted(const SplitReference& wanted, const Character& figure, std::vector<Clip>& clips) {
   if (clips.empty()) {
     return Fail({wanted.path, 0, 0}, "holds no animation, only a figure (joints: {}, meshes: {})",
@@ -211,13 +211,13 @@ Result<void> KeepWanted(const SplitReference& wanted, const Character& figure, s
   return {};
 }
 
-/// The roles that are taught by the user, else by the file.
-const JointMapOverrides* TaughtBy(const OpenOptions& options, const std::optional<JointMapOverrides>& file) {
+/// Returns the roles that the user assigned, else those of the file; null without either.
+const TaughtRoles* TaughtBy(const OpenOptions& options, const std::optional<TaughtRoles>& file) {
   if (options.roles && !options.roles->joints.empty()) return &*options.roles;
   return file ? &*file : nullptr;
 }
 
-/// Roots clips at the hips whose file roots them at the chest or the head, unless meshes need their skeleton as it is.
+/// Moves the root to the hips in clips whose file has it at the chest or head. Clips with meshes keep their skeleton.
 void RootAtHips(Clip& clip, bool has_meshes, std::vector<std::string>& remarks) {
   const auto has_scales = [](const LocalPose& pose) {
     return std::ranges::any_of(pose, [](const LocalTransform& local) { return local.scale != glm::dvec3(1); });
@@ -229,7 +229,8 @@ void RootAtHips(Clip& clip, bool has_meshes, std::vector<std::string>& remarks) 
   clip = WithRootAt(clip, root);
 }
 
-/// Finds the ground of a file with several clips. A skeleton without roles has none; UnderstandClip says what it lacks.
+/// Finds the ground of a file with several clips. Returns nullopt if the skeleton has no roles; UnderstandClip then
+/// says which are missing.
 std::optional<Ground> GroundOf(const ClipFile& file, const std::string& path, const OpenOptions& options) {
   if (file.clips.size() < 2) return std::nullopt;
   const auto map = FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles));
@@ -238,7 +239,8 @@ std::optional<Ground> GroundOf(const ClipFile& file, const std::string& path, co
   return map ? FindGround(file.clips, *map, told) : std::nullopt;
 }
 
-/// Takes scales out of the frames that the rest pose has not, and says so. A skeleton without roles stays as it is.
+/// Undoes scales of the frames that the rest pose does not have, and says so in the remarks. A skeleton without roles
+/// is left unchanged.
 void TakeScalesOut(ClipFile& file, const std::string& path, const OpenOptions& options) {
   const auto has_scales = [](const Clip& clip) {
     return std::ranges::any_of(clip.frames, [&](const LocalPose& frame) {
@@ -257,7 +259,7 @@ void TakeScalesOut(ClipFile& file, const std::string& path, const OpenOptions& o
   }
 }
 
-/// Opens a clip of our own skeleton, which has a joint of the name of every role, exactly there.
+/// Opens a clip of our own skeleton, which has one joint for every role, with the role's name.
 Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& options) {
   OpenedClip opened{.source = std::move(source), .map = {}, .body = {}};
   for (const Role role : AllRoles()) {
@@ -268,11 +270,12 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
   opened.body = {.metres_per_unit = 1, .unit = "metre", .note = note, .motion = {}};
   const Clip clip = Resample(opened.source.clip, options.rate_hz);
   opened.body.motion.rate_hz = options.rate_hz;
+  // Evaluate the joint positions of every frame.
   std::vector<GlobalTransform> globals;
   for (const LocalPose& frame : clip.frames) {
     ComputeGlobals(clip.skeleton, frame, globals);
     BodyPose pose = Evaluate(opened.map, globals);
-    // A sensor's hip centre need not be midway between its hips, where Evaluate puts that of other skeletons.
+    // A sensor's hip centre need not be midway between its hips, where Evaluate puts it.
     if (opened.source.format != ClipFormat::kBuiltin) {
       pose[Role::kHipCentre] = globals[opened.map[Role::kHipCentre].joint].position;
     }
@@ -298,6 +301,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   const Token first = has_text ? scanner.Next() : Token{};
 
   ClipFile file;
+  // Arrays: our own bodies, AMASS's motions, or positions of joints.
   if (IsZip(bytes)) {
     ASSIGN_OR_RETURN(const auto arrays, ReadNpz(bytes, path));
     if (IsBodyNpz(arrays)) {
@@ -315,8 +319,10 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     for (std::string& told : file.notes) told += "; " + note;
     return file;
   }
+  // Markers, and recordings of runs.
   if (auto markers = ReadMarkers(bytes, path)) return *std::move(markers);
   if (recorded != nullptr && recorded->IsRecording(bytes)) return recorded->Read(bytes, path);
+  // Text formats of bodies: OpenSim's angles and DeepMimic's motions.
   if (first.text == "Coordinates" && HasModelOfAngles(bytes)) {
     ASSIGN_OR_RETURN(const auto motion, ReadOpenSimMotion(bytes, path));
     return FileOfBody(ClipFormat::kMot, motion, path, "angles of the model in the file's head");
@@ -325,6 +331,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     ASSIGN_OR_RETURN(auto clip, ReadDeepMimicMotion(bytes, path));
     return FileOfOne(ClipFormat::kDeepMimic, std::move(clip));
   }
+  // glTF, GLB, and FBX, which is converted to GLB first.
   const bool is_fbx = IsFbx(bytes);
   if (first.text == "{" && bytes.find("\"asset\"") == std::string::npos) {
     return Fail(scanner.At(first), "{}", DescribeOtherFile(bytes, first.text));
@@ -346,6 +353,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     file.roles = RolesOfBones(content.bones, file.figure.skeleton);
     return file;
   }
+  // Acclaim and BVH; any other file is described in the complaint.
   if (IsAcclaimMotion(bytes)) {
     ASSIGN_OR_RETURN(auto clip, ReadAcclaim(bytes, path, reader));
     return FileOfOne(ClipFormat::kAcclaim, std::move(clip));
@@ -367,6 +375,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
 Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options) {
   if (reference.starts_with(kBuiltinPrefix)) return ReadBuiltin(reference);
   SplitReference wanted = Split(reference);
+  // Replace a reference to a run by the file of its recording.
   if (options.recorded != nullptr) {
     ASSIGN_OR_RETURN(wanted, options.recorded->Find(wanted));
   }
@@ -377,6 +386,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
     for (Clip& clip : file.clips) clip.rate_hz = *options.roles->rate_hz;
   }
   if (is_recording && wanted.animation == "") wanted.animation = options.recorded->OwnTrack(file.clips);
+  // A file of one motion: a '#' chooses nothing, except the layout of an .npy array.
   const bool has_animations =
       file.format == ClipFormat::kGltf || file.format == ClipFormat::kGlb || file.format == ClipFormat::kFbx;
   const bool is_one = !has_animations && !is_recording && file.clips.size() == 1;
@@ -391,6 +401,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
                     file.notes.empty() ? "" : file.notes.front(), file.remarks});
     return only;
   }
+  // A file of several clips: undo scales and find the common ground before one clip is chosen.
   std::map<std::string, std::string> notes;
   for (std::size_t i = 0; i < file.notes.size(); ++i) notes[file.clips[i].name] = file.notes[i];
   TakeScalesOut(file, wanted.path, options);
@@ -398,6 +409,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   RETURN_IF_ERROR(KeepWanted(wanted, file.figure, file.clips));
   const bool has_meshes = !file.figure.meshes.empty();
   const auto figure = has_meshes ? std::make_shared<const Character>(std::move(file.figure)) : nullptr;
+  // Name each clip after its file and its animation.
   std::vector<SourceClip> clips;
   for (Clip& clip : file.clips) {
     const std::string animation = "#" + clip.name;
@@ -418,6 +430,7 @@ Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options)
     if (!told.metres_per_unit) told.metres_per_unit = options.roles->metres_per_unit;
     if (!told.up) told.up = options.roles->up;
   }
+  // The ground of the whole file overrides what one clip would show.
   if (source.ground) {
     told.up = source.ground->up;
     told.floor = source.ground->floor;

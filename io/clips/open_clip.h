@@ -43,49 +43,53 @@ std::string_view FormatName(ClipFormat format);
 struct ClipFile {
   ClipFormat format = ClipFormat::kBvh;
   Character figure;         ///< a skeleton, and meshes if the file has any
-  std::vector<Clip> clips;  ///< on that skeleton; a glTF file may have none, and one of markers several people
-  std::vector<std::string> notes = {};    ///< of clips that are bodies already: how they were made of markers
-  std::vector<std::string> remarks = {};  ///< what reading had to repair
-  std::optional<JointMapOverrides> roles = {};  ///< what a VRM file's own table of bones tells
+  std::vector<Clip> clips;  ///< on that skeleton; glTF may hold none, and a marker file one clip for each of several
+                            ///< people
+  std::vector<std::string> notes = {};    ///< for clips that are bodies already: how each was made of markers
+  std::vector<std::string> remarks = {};  ///< repairs that were made while reading
+  std::optional<TaughtRoles> roles = {};  ///< roles that the bone table of a VRM file assigns
 };
 
-/// The largest size of a file, or of a .gltf with its buffers, bytes; more is refused before memory is taken.
+/// The maximum size of a file, or of a .gltf with its buffers, bytes. A larger file is refused before memory is taken.
 constexpr std::uintmax_t kLargestClipFile = 500'000'000;
 
-/// Reads a BVH or glTF file, a motion of DeepMimic, an Acclaim motion (AMC), one of AMASS (.npz), an .npz or .mot of
-/// our own, an array of joints (.npy, in `layout`: JointsOfArray), or markers of C3D, TRC, Motive's CSV or joint CSV
-/// (FindMarkerBodies), told by its content, whatever it is called. The buffers of a .gltf are read
-/// from its own folder and below only, links leading out of it are refused. An AMC's skeleton is the ASF beside it:
-/// "01.asf" of "01_01.amc", else the only one of its folder. A run's recording is read by `recorded`; without it, it is
-/// refused as no motion.
+/// Reads a motion file; the content decides the format, not the name. Known are BVH, glTF, GLB, FBX, DeepMimic's
+/// motions, Acclaim's AMC, AMASS's .npz, our own .npz and .mot, arrays of joints (.npy, arranged as `layout` says:
+/// JointsOfArray), and markers in C3D, TRC, Motive's CSV or joint CSV (FindMarkerBodies). The buffers of a .gltf are
+/// read only from its own folder and below; links that lead out of it are refused. The skeleton of an AMC is the ASF
+/// file beside it: "01.asf" for "01_01.amc", else the only ASF of the folder. `recorded` reads a run's recording;
+/// without it, a recording is refused as a file without motion.
 Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::string>& layout = std::nullopt,
                               const RecordedMotions* recorded = nullptr);
 
 /// The options with which a clip is opened.
 struct OpenOptions {
-  std::optional<JointMapOverrides> roles;  ///< of --joint-map
+  std::optional<TaughtRoles> roles;  ///< the user's joint map (--joint-map)
   BodyOptions body;
-  const RecordedMotions* recorded = nullptr;  ///< reads "RUN#CELL@NAME"; null = such references are files like others
+  const RecordedMotions* recorded = nullptr;  ///< reads "RUN#CELL@NAME"; null = such a reference is treated as a file
 };
 
-/// A clip as its file has it.
+/// A clip as its file stores it.
 struct SourceClip {
   std::string name;    ///< "01_01", "Med_General#Dance": the file's name without folder and extension, and the
                        ///< animation; "builtin:clap"
-  std::string source;  ///< what opens it again: "mocap/01_01.bvh", "path.glb#Dance", "builtin:clap"
+  std::string source;  ///< the reference that opens it again: "mocap/01_01.bvh", "path.glb#Dance", "builtin:clap"
   ClipFormat format = ClipFormat::kBvh;
   Clip clip;
-  /// The file's own figure, when it has meshes; its skeleton is the clip's. Shared by all clips of the file.
+  /// The file's own figure if it has meshes; its skeleton is the clip's. All clips of the file share it.
   std::shared_ptr<const Character> character;
-  std::optional<Ground> ground = {};  ///< of all clips of the file, where there are several
-  std::string note = {};  ///< of a body that was made of markers: it is in metres already, and stands on the floor
-  std::vector<std::string> remarks = {};  ///< what reading the file had to repair: they end the body's note
-  std::optional<JointMapOverrides> roles = {};  ///< ClipFile::roles; those of OpenOptions come first
+  std::optional<Ground> ground = {};  ///< the ground shared by all clips of the file; only if the file holds several
+  std::string note = {};  ///< set if the clip is a body that was made of markers: it is in metres and stands on the
+                          ///< floor
+  std::vector<std::string> remarks = {};  ///< repairs made while reading the file; UnderstandClip appends them to the
+                                          ///< body's note
+  std::optional<TaughtRoles> roles = {};  ///< as in ClipFile::roles; those of OpenOptions have priority
 };
 
-/// Reads the clips of one file or built-in name (as ExpandReference gives them): one of a BVH, all animations of a
-/// glTF, or the one behind '#', which may leave out what exporters put before it ("Jump" of "Armature|Jump"). Fails
-/// when there is none, saying what there is instead. `options` tell the rate of files, and help to find the ground.
+/// Reads the clips of one file or built-in name (as ExpandReference returns them): the one clip of a BVH, all
+/// animations of a glTF, or the animation named behind '#'. That name may leave out the prefix that exporters write
+/// ("Jump" for "Armature|Jump"). Fails if no such animation exists, and lists those that do. `options` may override the
+/// frame rate of files, and help to find the ground.
 Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options = {});
 
 /// A clip with its roles found and its body's motion.
@@ -95,8 +99,8 @@ struct OpenedClip {
   BodyConversion body;
 };
 
-/// Finds the roles and the body's motion of a clip. Built-in clips are bodies already: metres, standing where they
-/// stand.
+/// Finds the roles and the body motion of a clip. Built-in clips are bodies already: they are in metres and keep their
+/// position.
 Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options);
 
 }  // namespace etude

@@ -8,13 +8,13 @@ namespace etude {
 namespace {
 
 constexpr std::size_t kAnywhere = std::string_view::npos;
-constexpr std::size_t kLongestHead = 4096;
+constexpr std::size_t kHeadBytes = 4096;
 
-/// Bytes that tell a kind of file, where they stand in it, and what to do with such a file.
+/// The bytes that identify a kind of file, their position, and the text about such a file.
 struct Mark {
   std::string_view bytes;
   const char* told;
-  std::size_t at = 0;  ///< kAnywhere: within the head
+  std::size_t at = 0;  ///< position in the file; kAnywhere: anywhere within the head
 };
 
 constexpr const char* kOpenSim =
@@ -93,7 +93,7 @@ bool Has(std::string_view head, const Mark& mark) {
 std::string DescribeOtherFile(std::string_view bytes, std::string_view first_word) {
   constexpr std::string_view kByteOrder = "\xEF\xBB\xBF";
   if (bytes.starts_with(kByteOrder)) bytes.remove_prefix(kByteOrder.size());
-  const std::string_view head = bytes.substr(0, kLongestHead);
+  const std::string_view head = bytes.substr(0, kHeadBytes);
   if (first_word.empty()) return "an empty file";
   const auto* const known = std::ranges::find_if(kMarks, [&](const Mark& mark) { return Has(head, mark); });
   if (known != std::end(kMarks)) return known->told;

@@ -12,8 +12,8 @@ namespace etude {
 
 struct ClipFile;
 
-/// Reads motions that runs recorded. Runs belong to rooms above this one, so whoever opens clips hands an
-/// implementation in (`OpenOptions::recorded`); `bench/run/recorded_motions.h` has it.
+/// Reads motions that runs recorded. Runs belong to layers above this folder, so the caller that opens clips passes an
+/// implementation (`OpenOptions::recorded`); `bench/run/recorded_motions.h` provides it.
 class RecordedMotions {
  public:
   virtual ~RecordedMotions() = default;

@@ -14,11 +14,11 @@
 namespace etude {
 namespace {
 
-/// Clips that a package installs, called by its name, so that neither a scenario nor a result holds a path of a
+/// Clips that a package installs. They are called by name, so that neither a scenario nor a result holds a path of one
 /// machine.
 struct PackagedClips {
-  std::string_view prefix;   ///< of a reference
-  std::string_view package;  ///< of Debian
+  std::string_view prefix;   ///< the prefix of references to these clips
+  std::string_view package;  ///< the Debian package
   std::string_view folder;
   std::string_view ending;
 };
@@ -32,9 +32,9 @@ const PackagedClips* FindPackage(std::string_view reference) {
 }
 
 std::vector<std::string> FilesMatching(const std::string& pattern) {
-  // glob calls itself for every '/', each time with a copy of the pattern: thousands of them overflow its stack.
-  constexpr std::size_t kLongestPattern = 1000;
-  if (pattern.size() > kLongestPattern) return {};
+  // glob calls itself for every '/' with a copy of the pattern, so thousands of '/' would overflow the stack.
+  constexpr std::size_t kMaxPatternBytes = 1000;
+  if (pattern.size() > kMaxPatternBytes) return {};
   glob_t matches{};
   const int status = ::glob(pattern.c_str(), GLOB_TILDE, nullptr, &matches);
   std::vector<std::string> files;
@@ -55,7 +55,7 @@ std::vector<std::string> BuiltinsOf(const std::string& reference) {
 
 std::vector<std::string> FilesOf(const std::string& reference) {
   std::error_code ignored;
-  if (std::filesystem::exists(reference, ignored)) return {reference};  // brackets in it are no pattern then
+  if (std::filesystem::exists(reference, ignored)) return {reference};  // brackets in it are then no pattern
   if (const PackagedClips* package = FindPackage(reference)) {
     std::vector<std::string> files = FilesMatching(FileOf(reference));
     for (std::string& file : files) file = std::string(package->prefix) + std::filesystem::path(file).stem().string();
@@ -81,7 +81,7 @@ Result<BuiltinClip> LoadBuiltinClip(const std::string& name, const Place& place)
   }
   auto move = LoadBuiltinMove(name);
   if (!move) {
-    // It knows moves and acts, and their near misses; a song's name may have been meant as well.
+    // The error of LoadBuiltinMove suggests moves and acts; a song's name may have been meant as well.
     const std::string nearest = NearestName(name, songs);
     return Fail(place, "{}; songs: {}{}", move.error().message, Join(songs),
                 nearest.empty() ? "" : " (did you mean '" + nearest + "'?)");

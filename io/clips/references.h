@@ -10,40 +10,41 @@
 
 namespace etude {
 
-/// The prefix of the name of a move, an act or a song.
+/// The prefix of the names of built-in moves, acts and songs.
 constexpr std::string_view kBuiltinPrefix = "builtin:";
 
 /// A built-in clip: a move, an act of the coach or a song.
 struct BuiltinClip {
   BodyMotion motion;
-  std::optional<Move> move;  ///< when it was authored as one with key poses; songs and acts have none
+  std::optional<Move> move;  ///< the authored move with its key poses; songs and acts have none
 };
 
-/// Loads the built-in clip of a name, given without the prefix. The error lists the known ones.
+/// Loads a built-in clip by its name without the prefix. The error lists the known names.
 Result<BuiltinClip> LoadBuiltinClip(const std::string& name, const Place& place);
 
-/// The most clips that a reference may stand for.
+/// The maximum number of clips that a reference may stand for.
 constexpr std::size_t kMostClips = 1000;
 
-/// Lists the clips that a reference stands for, in order, each opened on its own: a built-in clip ("builtin:clap";
-/// "builtin:*" are all moves, "builtin:acts", "builtin:songs"), a clip of a package ("assimp:01_01", "assimp:*"; of
-/// Debian's assimp-testmodels), or a file ("mocap/*.bvh", sorted; `~/` is the home
-/// folder), each with the "#animation" of the pattern. A file of that very name comes before what a pattern or '#'
-/// would mean. Relative names start at the current folder. Fails at `place` when nothing matches.
+/// Lists the clips that a reference stands for, in order; each can be opened on its own. A reference is a built-in clip
+/// ("builtin:clap"; "builtin:*" are all moves, "builtin:acts" and "builtin:songs" the others), a clip of a package
+/// ("assimp:01_01", "assimp:*"; of Debian's assimp-testmodels), or a file or pattern ("mocap/*.bvh", sorted; `~/` is
+/// the home folder), optionally with "#animation". If a file of exactly that name exists, patterns and '#' are not
+/// interpreted. Relative names start at the current folder. Fails at `place` if nothing matches.
 Result<std::vector<std::string>> ExpandReference(const std::string& reference, const Place& place);
 
-/// Lists the clips that all references stand for, in order. Fails above `kMostClips`.
+/// Lists the clips that all references stand for, in order. Fails if there are more than `kMostClips`.
 Result<std::vector<std::string>> ExpandReferences(const std::vector<std::string>& references);
 
-/// A reference such as "dance.glb#Jump", split into the file and the animation in it. A file whose name holds a '#' is
-/// found first.
+/// A reference such as "dance.glb#Jump", split into the file and its animation. If a file whose name holds '#' exists,
+/// it has priority.
 struct SplitReference {
   std::string path;
   std::optional<std::string> animation;
 };
 SplitReference Split(const std::string& reference);
 
-/// The file that a reference without an animation names: that of a package's clip, else itself.
+/// Returns the file that a reference without an animation names: the file of a package's clip, else the reference
+/// itself.
 std::string FileOf(const std::string& reference);
 
 }  // namespace etude

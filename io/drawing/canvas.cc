@@ -32,7 +32,7 @@ void OutlineBox(cairo_t* cr, const Box& box, double radius) {
   cairo_close_path(cr);
 }
 
-// Makes user space such that an image of this size covers the box.
+// Scales and shifts user space so that an image of this size covers the box.
 void StretchOver(cairo_t* cr, const Box& box, int width, int height) {
   cairo_translate(cr, box.x, box.y);
   cairo_scale(cr, box.width / width, box.height / height);
@@ -49,7 +49,7 @@ cairo_status_t AppendBytes(void* out, const unsigned char* data, unsigned length
   return CAIRO_STATUS_SUCCESS;
 }
 
-// How much of each pixel a rounded upper left corner covers.
+// Computes the share of each pixel that a rounded upper left corner covers.
 Image<double> CornerCover(int radius) {
   Image<double> cover(radius, radius);
   if (radius == 0) return cover;
@@ -76,7 +76,7 @@ std::uint32_t Between(std::uint32_t under, std::uint32_t over, double share) {
   return pixel;
 }
 
-// One character shorter; UTF-8 continuation bytes go with the byte that leads them.
+// Removes the last character; in UTF-8 its continuation bytes go with the leading byte.
 void DropLastCharacter(std::string& text) {
   while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80) text.pop_back();
   if (!text.empty()) text.pop_back();
@@ -216,9 +216,10 @@ void Canvas::DrawRing(const glm::dvec2& centre, double radius, double width, con
 
 void Canvas::DrawText(const glm::dvec2& origin, const std::string& text, double size, const Paint& paint, double room,
                       bool bold) {
-  constexpr double kSmallest = 0.75, kStep = 0.25;
-  const double least = kSmallest * size;
-  while (size > least && TextWidth(text, size, bold) > room) size = std::max(least, size - kStep);
+  constexpr double kMinShare = 0.75, kStep = 0.25;
+  // Shrink the font in small steps, then cut characters until the text fits.
+  const double min_size = kMinShare * size;
+  while (size > min_size && TextWidth(text, size, bold) > room) size = std::max(min_size, size - kStep);
   std::string shown = text;
   for (std::string cut = text; !cut.empty() && TextWidth(shown, size, bold) > room;) {
     DropLastCharacter(cut);

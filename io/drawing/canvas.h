@@ -10,18 +10,18 @@
 
 namespace etude {
 
-/// A colour with its opacity, 0…1 each.
+/// A colour and its opacity, each 0…1.
 struct Paint {
   double r = 0, g = 0, b = 0, a = 1;
 };
 
-/// A rectangle of a canvas, pixels, origin at the top left.
+/// A rectangle of a canvas in pixels; the origin is the top left corner.
 struct Box {
   double x = 0, y = 0, width = 0, height = 0;
 };
 
-/// A drawing surface of fixed size, opaque black at first (the one door to cairo). Coordinates are
-/// pixels from the top left corner.
+/// A drawing surface of fixed size, opaque black at first. Coordinates are pixels from the top left corner. This class
+/// is the one door to cairo.
 class Canvas {
  public:
   Canvas(int width, int height);
@@ -33,31 +33,32 @@ class Canvas {
   int height() const;
 
   void FillBox(const Box& box, const Paint& paint, double radius = 0);
-  /// Fills a box with a shade from `top` at its upper edge to `bottom` at its lower one.
+  /// Fills a box with a gradient from `top` at its upper edge to `bottom` at its lower edge.
   void FillShade(const Box& box, const Paint& top, const Paint& bottom);
   void DrawImage(const ColourImage& image, const Box& box, double radius = 0);
-  /// Copies a picture of pixels 0x00RRGGBB to that place, pixel for pixel, with rounded corners; it must fit.
+  /// Copies a picture of pixels 0x00RRGGBB to (`left`, `top`) without scaling, with rounded corners. It must fit into
+  /// the canvas.
   void Put(const Image<std::uint32_t>& picture, int left, int top, int radius = 0);
-  /// Paints where the mask is set, the mask stretched over the box.
+  /// Paints where the mask is set; the mask is stretched over the box.
   void DrawMask(const Mask& mask, const Box& box, const Paint& paint);
   void DrawLine(const glm::dvec2& from, const glm::dvec2& to, double width, const Paint& paint);
-  /// Draws straight lines from point to point, at least one.
+  /// Draws straight lines through the points; at least one point.
   void DrawPath(std::span<const glm::dvec2> points, double width, const Paint& paint);
   void DrawDot(const glm::dvec2& centre, double radius, const Paint& paint);
   void DrawRing(const glm::dvec2& centre, double radius, double width, const Paint& paint);
-  /// Draws text from `origin`, the left end of its baseline. Text wider than `room` pixels is drawn
-  /// smaller, by a quarter at most; what is wider even then is cut and ends in "…".
+  /// Draws text; `origin` is the left end of its baseline. Text wider than `room` pixels is drawn smaller, by a quarter
+  /// at most; if it is still too wide, it is cut and ends in "…".
   void DrawText(const glm::dvec2& origin, const std::string& text, double size, const Paint& paint, double room,
                 bool bold = false);
   double TextWidth(const std::string& text, double size, bool bold = false) const;
 
   ColourImage Pixels() const;
-  /// Gives the pixels as 0x00RRGGBB.
+  /// Returns the pixels as 0x00RRGGBB.
   Image<std::uint32_t> Copy() const;
-  /// Gives the picture as encoders take it (I420): a byte of lightness for every pixel, then two planes of half the
-  /// width and height with its two differences of colour (BT.601, 16…235). Sides must be even.
+  /// Writes the picture in the form that encoders take (I420): one byte of luma for every pixel, then two planes of
+  /// chroma of half the width and height (BT.601, 16…235). Width and height must be even.
   void ToI420(std::uint8_t* planes) const;
-  /// Gives the picture as the bytes of a PNG file.
+  /// Returns the bytes of a PNG file.
   std::string Png() const;
 
  private:

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
 
-// The character at the start of `text`; of no length where XML 1.0 allows none.
+// Returns the character at the start of `text`; its length is 0 if XML 1.0 forbids it.
 Utf8Character AllowedCharacter(std::string_view text) {
   const Utf8Character character = FirstCharacter(text);
   const bool is_control =
@@ -59,7 +59,7 @@ constexpr std::array<LatexRow, 31> kLatex{{
     {"†", "\\dag{}"},
 }};
 
-// ASCII, and Western letters with their accents, which every LaTeX font can compose.
+// Returns true for ASCII, and for Western letters with accents, which every LaTeX font can compose.
 bool IsInEveryFont(char32_t code) {
   if (code < 0x80) return true;
   const bool needs_other_fonts =
@@ -67,7 +67,7 @@ bool IsInEveryFont(char32_t code) {
   return code >= 0xC0 && code <= 0xFF && !needs_other_fonts;
 }
 
-// Unicode's embeddings, overrides and isolates: unseen, they turn around what follows them.
+// Returns true for Unicode's embeddings, overrides and isolates: they are invisible and reverse the text behind them.
 bool TurnsText(char32_t code) { return (code >= 0x202A && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069); }
 
 std::string LatexOf(std::string_view bytes, char32_t code) {
@@ -83,12 +83,14 @@ std::string EscapeMarkup(std::string_view text) {
   std::string out;
   out.reserve(text.size());
   while (!text.empty()) {
+    // Replace a forbidden character or an invalid byte.
     const auto [code, length] = AllowedCharacter(text);
     if (length == 0) {
       out += kReplacement;
       text.remove_prefix(1);
       continue;
     }
+    // Escape the characters of markup.
     switch (text[0]) {
       case '&':
         out += "&amp;";
@@ -118,17 +120,18 @@ std::string EscapeScriptJson(std::string_view json) {
   out.reserve(json.size());
   while (!json.empty()) {
     auto [code, length] = FirstCharacter(json);
+    // Decode \uXXXX, so that an escaped control character is recognised, too.
     if (code == '\\' && json.size() >= 6 && json[1] == 'u') {
       unsigned number = 0;
       std::from_chars(json.data() + 2, json.data() + 6, number, 16);
       code = number;
       length = 6;
     } else if (code == '\\' && json.size() >= 2) {
-      length = 2;  // whatever follows is no escape of its own
+      length = 2;  // the character behind a backslash starts no escape of its own
     }
     length = std::max<std::size_t>(length, 1);
     if (code == '<' && length == 1) {
-      out += "\\u003c";  // it stands only inside JSON strings, where its escape means the same
+      out += "\\u003c";  // in JSON "<" stands only inside strings, where \u003c means the same
     } else if (TurnsText(code)) {
       out += NumberOf(code);
     } else {
@@ -167,7 +170,7 @@ std::string EscapeLatex(std::string_view text) {
     out += length == 0 ? NumberOf(0xFFFD) : LatexOf(text.substr(0, length), code);
     text.remove_prefix(length == 0 ? 1 : length);
   }
-  // In a table's first column they would be taken for an option of the line break before them.
+  // In the first column of a table, LaTeX would read '[' or '*' as an option of the line break before it.
   const std::size_t first = out.find_first_not_of(' ');
   const bool is_option = first != std::string::npos && (out[first] == '[' || out[first] == '*');
   return is_option ? "{}" + out : out;

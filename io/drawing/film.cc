@@ -20,21 +20,22 @@
 namespace etude {
 namespace {
 
-// Long enough that frames which share a picture share a process, short enough that all of them end together.
+// Long enough that consecutive frames which share a picture are drawn by one process, short enough that all processes
+// end at about the same time.
 constexpr int kChunk = 8;
 
-bool Tell(int talk) { return SendAll(talk, "."); }
+bool SendByte(int socket) { return SendAll(socket, "."); }
 
-bool Hear(int talk) {
+bool ReceiveByte(int socket) {
   char byte = 0;
-  return ReceiveAll(talk, &byte, 1);
+  return ReceiveAll(socket, &byte, 1);
 }
 
 }  // namespace
 
 void FilmWorkers::Unmap::operator()(std::uint8_t* memory) const { munmap(memory, bytes); }
 
-// Frames that are fed come from one source, one after the other, so that those who draw take turns.
+// Data come from one source in the order of frames, so processes take turns frame by frame (chunks of 1).
 FilmWorkers::FilmWorkers(int frames, int jobs, int width, int height, FrameFeed feed)
     : frames_(frames),
       width_(width),
@@ -52,10 +53,10 @@ Result<void> FilmWorkers::MapSlots() {
   return {};
 }
 
-FilmWorkers::Slot FilmWorkers::SlotOf(std::size_t worker, int place) const {
+FilmWorkers::Slot FilmWorkers::SlotOf(std::size_t worker, int index) const {
   std::uint8_t* begin =
       memory_.get() +
-      (worker * static_cast<std::size_t>(slots_) + static_cast<std::size_t>(place % slots_)) * SlotBytes();
+      (worker * static_cast<std::size_t>(slots_) + static_cast<std::size_t>(index % slots_)) * SlotBytes();
   return {{begin, PictureBytes()}, {begin + PictureBytes(), feed_.bytes}};
 }
 
@@ -63,14 +64,14 @@ std::size_t FilmWorkers::WorkerOf(int frame) const {
   return static_cast<std::size_t>(frame / chunk_) % workers_.size();
 }
 
-int FilmWorkers::Work(std::size_t worker, int talk, const Draw& draw) const {
+int FilmWorkers::Work(std::size_t worker, int socket, const Draw& draw) const {
   int drawn = 0;
   for (int frame = 0; frame < frames_; ++frame) {
     if (WorkerOf(frame) != worker) continue;
-    if ((feed_.bytes > 0 || drawn >= slots_) && !Hear(talk)) break;
+    if ((feed_.bytes > 0 || drawn >= slots_) && !ReceiveByte(socket)) break;
     const Slot slot = SlotOf(worker, drawn);
     draw(frame, slot.feed).ToI420(slot.picture.data());
-    if (!Tell(talk)) break;
+    if (!SendByte(socket)) break;
     ++drawn;
   }
   return 0;
@@ -78,17 +79,17 @@ int FilmWorkers::Work(std::size_t worker, int talk, const Draw& draw) const {
 
 Result<FilmWorkers> FilmWorkers::Start(int frames, int jobs, const Draw& draw, FrameFeed feed) {
   if (jobs <= 0) jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  std::vector<std::uint8_t> of_first(feed.bytes);
-  if (feed.bytes > 0) RETURN_IF_ERROR(feed.fill(0, of_first));
-  const Canvas first = draw(0, of_first);
+  std::vector<std::uint8_t> first_data(feed.bytes);
+  if (feed.bytes > 0) RETURN_IF_ERROR(feed.fill(0, first_data));
+  const Canvas first = draw(0, first_data);
   FilmWorkers film(frames, jobs, first.width(), first.height(), std::move(feed));
   RETURN_IF_ERROR(film.MapSlots());
   for (std::size_t i = 0; i < film.workers_.size(); ++i) {
-    ASSIGN_OR_RETURN(auto copy, ForkedCopy::Start([&](int talk) { return film.Work(i, talk, draw); }));
+    ASSIGN_OR_RETURN(auto copy, ForkedCopy::Start([&](int socket) { return film.Work(i, socket, draw); }));
     film.workers_[i].copy = std::move(copy);
   }
   if (film.feed_.bytes > 0) {
-    std::ranges::copy(of_first, film.SlotOf(0, 0).feed.begin());
+    std::ranges::copy(first_data, film.SlotOf(0, 0).feed.begin());
     film.TellFed(0);
   }
   return film;
@@ -97,7 +98,7 @@ Result<FilmWorkers> FilmWorkers::Start(int frames, int jobs, const Draw& draw, F
 void FilmWorkers::TellFed(std::size_t worker) {
   ++fed_;
   ++workers_[worker].fed;
-  Tell(workers_[worker].copy->socket());
+  SendByte(workers_[worker].copy->socket());
 }
 
 Result<void> FilmWorkers::FeedAhead() {
@@ -114,11 +115,11 @@ Result<std::span<const std::uint8_t>> FilmWorkers::Next() {
   if (next_ > 0) {
     Worker& last = workers_[WorkerOf(next_ - 1)];
     ++last.taken;
-    if (feed_.bytes == 0) Tell(last.copy->socket());
+    if (feed_.bytes == 0) SendByte(last.copy->socket());
   }
   RETURN_IF_ERROR(FeedAhead());
   const std::size_t worker = WorkerOf(next_);
-  if (next_ >= frames_ || !Hear(workers_[worker].copy->socket()))
+  if (next_ >= frames_ || !ReceiveByte(workers_[worker].copy->socket()))
     return Fail({}, "a drawing process has ended before its frames");
   ++next_;
   return SlotOf(worker, workers_[worker].taken).picture;
@@ -126,7 +127,7 @@ Result<std::span<const std::uint8_t>> FilmWorkers::Next() {
 
 namespace {
 
-/// A click track that is there while its film is encoded.
+/// A click track whose file exists while its film is encoded.
 class SoundFile {
  public:
   static Result<SoundFile> Make(const Scene& scene) {
@@ -141,7 +142,7 @@ class SoundFile {
         WriteFileAtomically(sound.path_, WriteWav(ClickTrack(beats, seconds, kSoundRate), kSoundRate), OnDisk::kLater));
     return sound;
   }
-  const std::filesystem::path& path() const { return path_; }  ///< empty: silence
+  const std::filesystem::path& path() const { return path_; }  ///< empty for a silent film
 
  private:
   SoundFile() = default;

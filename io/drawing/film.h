@@ -18,39 +18,40 @@
 
 namespace etude {
 
-/// The bytes that the frames of a film are drawn from, where only this process can tell them, frame by frame: the
-/// pictures of a film that is read, a crowd that is followed.
+/// Supplies data that only this process can produce and that frames are drawn from: the pictures of a film that is
+/// read, or the positions of a moving crowd.
 struct FrameFeed {
-  std::size_t bytes = 0;  ///< of every frame; 0 = frames need nothing
-  /// Fills in what a frame is drawn from. Asked once for each, in order, before it is drawn.
+  std::size_t bytes = 0;  ///< bytes of every frame; 0 = frames need no data
+  /// Fills in the data of a frame. It is called once for each frame, in order, before the frame is drawn.
   std::function<Result<void>(int frame, std::span<std::uint8_t> into)> fill = {};
 };
 
-/// Draws the frames of a film in several processes, which begin as copies of this one, and hands them over in order.
-/// Each draws chunks of frames that follow each other. Frames may keep what they like for the next one, as long as the
-/// picture does not depend on it: then the film is the same whoever drew what.
+/// Draws the frames of a film in several processes, which start as copies of this one, and returns them in order. Each
+/// process draws chunks of consecutive frames. A frame may keep data for the next one as long as the picture does not
+/// depend on it; then the film is the same for any number of processes.
 class FilmWorkers {
  public:
-  /// Draws a frame, 0 … `frames` − 1, from what it was fed; all canvases have one size with even sides.
+  /// Draws a frame, 0 … `frames` − 1, from its data; all canvases have one size with even sides.
   using Draw = std::function<Canvas(int frame, std::span<const std::uint8_t> fed)>;
 
-  /// Draws the first frame here, so that what every frame needs is made once, and starts `jobs` processes (0 = one per
-  /// processor). Threads of this process, if it has any, must not hold what `draw` needs.
+  /// Draws the first frame in this process, so that data which every frame needs are made once, and then starts `jobs`
+  /// processes (0 = one per processor). Other threads of this process must hold no lock that `draw` needs.
   static Result<FilmWorkers> Start(int frames, int jobs, const Draw& draw, FrameFeed feed = {});
   FilmWorkers(FilmWorkers&&) noexcept = default;
   FilmWorkers& operator=(FilmWorkers&&) = delete;
 
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Gives the next frame (Canvas::ToI420), valid until the next call, and feeds those to come. Fails when a process
-  /// has died, and as the feed does.
+  /// Returns the next frame (Canvas::ToI420), valid until the next call, and supplies data for later frames. Fails if a
+  /// process has died, and if the feed fails.
   Result<std::span<const std::uint8_t>> Next();
 
  private:
   struct Worker {
-    /// On its socket, bytes say "drawn" from it, and "fed", or without a feed "free again", to it.
+    /// The socket carries single bytes: "drawn" from the process; "data is there", or without a feed "a slot is free",
+    /// to it.
     std::optional<ForkedCopy> copy;
-    int fed = 0, taken = 0;  ///< frames of its own
+    int fed = 0, taken = 0;  ///< frames of this process that have got their data, and that were returned
   };
   struct Unmap {
     std::size_t bytes;
@@ -64,8 +65,8 @@ class FilmWorkers {
 
   FilmWorkers(int frames, int jobs, int width, int height, FrameFeed feed);
   Result<void> MapSlots();
-  Slot SlotOf(std::size_t worker, int place) const;
-  int Work(std::size_t worker, int talk, const Draw& draw) const;
+  Slot SlotOf(std::size_t worker, int index) const;
+  int Work(std::size_t worker, int socket, const Draw& draw) const;
   void TellFed(std::size_t worker);
   Result<void> FeedAhead();
   std::size_t PictureBytes() const { return static_cast<std::size_t>(width_) * height_ * 3 / 2; }
@@ -74,16 +75,16 @@ class FilmWorkers {
 
   int frames_, width_, height_;
   FrameFeed feed_;
-  int chunk_, slots_;  ///< frames in a row that one process draws; frames that it may be ahead
+  int chunk_, slots_;  ///< consecutive frames that one process draws; frames that it may draw ahead
   int next_ = 0, fed_ = 0;
   std::vector<Worker> workers_;
-  std::unique_ptr<std::uint8_t, Unmap> memory_{nullptr, Unmap{0}};  ///< so many slots for each worker
+  std::unique_ptr<std::uint8_t, Unmap> memory_{nullptr, Unmap{0}};  ///< `slots_` slots for each process
 };
 
 constexpr int kFilmWidth = 1280, kFilmHeight = 720;
 constexpr int kFilmRate = 30;
 
-/// The caller's side of a film being made: it hears how far the film is, and can stop it.
+/// Lets a caller follow the making of a film and stop it.
 struct FilmWatch {
   std::function<void(const std::string& file, std::size_t done, std::size_t frames)> progress = {};
   const std::atomic<bool>* stop = nullptr;
@@ -95,7 +96,7 @@ struct FilmWatch {
   bool IsStopped() const { return stop != nullptr && *stop; }
 };
 
-/// A picture with the words that tell what it shows.
+/// A picture with a caption that says what it shows.
 struct Picture {
   std::string png;  ///< bytes of a PNG file
   int width = 0;
@@ -103,18 +104,18 @@ struct Picture {
   std::string caption;
 };
 
-/// A picture as a camera of the run took it, with its caption.
+/// A picture that a camera of the run took, with its caption.
 struct Still {
-  std::string jpeg_base64;  ///< nothing but letters of that alphabet
+  std::string jpeg_base64;  ///< only letters of the base64 alphabet
   std::string caption;
 };
 
-/// A film as the page shows it.
+/// A film in the form in which the page shows it.
 struct Film {
   std::string file;     ///< its name in the run's folder `video`
-  std::string mp4;      ///< bytes of the file; empty when there is none
-  std::string why_not;  ///< the reason, in plain words, when something could not be made
-  Picture poster;       ///< png empty when nothing could be drawn; its caption is the film's
+  std::string mp4;      ///< bytes of the file; empty if there is none
+  std::string why_not;  ///< the reason, in plain words, if the film or its poster could not be made
+  Picture poster;       ///< the png is empty if no picture could be drawn; its caption is the film's
 };
 
 /// The content of a film, drawn frame by frame.
@@ -122,32 +123,33 @@ class Scene {
  public:
   virtual ~Scene() = default;
   virtual int Frames() const = 0;
-  /// Gives the frame that tells most by itself.
+  /// Returns the frame that explains the film best as a still picture.
   virtual int PosterFrame() const = 0;
-  /// Describes in words what is to be seen.
+  /// Returns a description of what the film shows.
   virtual std::string Words() const = 0;
-  /// Gives a canvas of kFilmWidth × kFilmHeight. Frames are asked for in any order, also by copies of this process;
-  /// what a scene keeps from one to the next must not change them.
+  /// Returns a canvas of kFilmWidth × kFilmHeight. Frames may be drawn in any order, also by copies of this process, so
+  /// data that a scene keeps between frames must not change the pictures.
   virtual Canvas Draw(int frame) = 0;
-  /// Gives the times at which a beat clicks, seconds since the film began, ascending; none in a silent film.
+  /// Returns the times at which a beat clicks, ascending, in seconds since the start of the film; empty for a silent
+  /// film.
   virtual std::vector<double> Beats() const { return {}; }
 };
 
-/// Encodes frames that FilmWorkers draw into `path`, with a sound file or none. False when `watch` stopped it: there is
-/// no file then.
+/// Draws frames with FilmWorkers and encodes them into `path`, with a sound file unless `sound` is empty. Returns false
+/// if `watch` stopped it; there is no file then.
 Result<bool> EncodeFrames(const FilePath& path, int frames, int rate_hz, const std::function<Canvas(int frame)>& draw,
                           const FilmWatch& watch, const std::filesystem::path& sound = {});
-/// The same, in silence, of frames that are drawn from what `feed` gives.
+/// Does the same without sound, for frames that are drawn from the data of `feed`.
 Result<bool> EncodeFedFrames(const FilePath& path, int frames, int rate_hz, FrameFeed feed,
                              const FilmWorkers::Draw& draw, const FilmWatch& watch);
 
-/// Makes an empty canvas of a film's size, with its heading in the uppermost 52 pixels.
+/// Returns an empty canvas of a film's size, with the heading in its top 52 pixels.
 Canvas BeginFrame(const std::string& heading);
 
 Picture PictureOf(const Canvas& canvas, std::string caption);
 
-/// Draws the poster and encodes all frames into `path`. Without an encoder, or when `watch` stops it, the film is its
-/// poster and says why.
+/// Draws the poster and encodes all frames into `path`. Without an encoder, or if `watch` stops it, the result holds
+/// only the poster and the reason.
 Film Shoot(Scene& scene, const FilePath& path, const FilmWatch& watch = {});
 
 }  // namespace etude

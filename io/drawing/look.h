@@ -7,7 +7,7 @@
 
 namespace etude {
 
-/// The colours of films, in one place so that panels look alike.
+/// The colours of films, in one place so that all panels look alike.
 inline constexpr Paint kBackdrop{0.078, 0.090, 0.102, 1};
 inline constexpr Paint kInk{0.95, 0.955, 0.96, 1};
 inline constexpr Paint kSoftInk{0.80, 0.83, 0.85, 1};
@@ -15,19 +15,20 @@ inline constexpr Paint kAccent{0.42, 0.76, 0.80, 1};
 inline constexpr Paint kWarm{0.96, 0.68, 0.33, 1};
 inline constexpr int kPanelRadius = 10;
 
-/// Gives the colour that a method has on the page too, by its index in the scenario (io/drawing/marks.h).
+/// Returns the colour of a method, the same as on the page, by its index in the scenario (io/drawing/marks.h).
 Paint MethodPaint(std::size_t method);
 
-/// Draws a small label in the upper left corner: what this picture is. It leaves `free` pixels on its right.
+/// Draws a small label in the upper left corner that says what the panel shows. It leaves `free` pixels at its right.
 void DrawTag(Canvas& canvas, const Box& panel, const std::string& text, double free = 0);
 
-/// Draws a small bright label in the upper right corner: something has just happened.
+/// Draws a small bright label in the upper right corner for an event that has just happened.
 void DrawMark(Canvas& canvas, const Box& panel, const std::string& text);
 
-/// Breaks words into lines that are no wider than `room`; a word alone may be.
+/// Breaks words into lines no wider than `room`; a single word may be wider.
 std::vector<std::string> LinesOf(const Canvas& canvas, const std::string& words, double size, double room, bool bold);
 
-/// Draws words in the lower left corner over a soft shade, in as many lines as they need; `strong` may be empty.
+/// Draws text in the lower left corner over a soft shade, in as many lines as it needs. `strong` may be empty. `lift`
+/// raises the text from the lower edge, pixels.
 void DrawCaption(Canvas& canvas, const Box& panel, const std::string& strong, const std::string& soft, double lift = 0);
 
 }  // namespace etude

@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-// Of about the same size to the eye. Filled ones come first.
+// The shapes look about equally large. Filled ones come first.
 constexpr std::array<std::string_view, 8> kShapes = {
     "M-3.5 0a3.5 3.5 0 1 0 7 0a3.5 3.5 0 1 0-7 0z",
     "M0-4.6L4.6 0 0 4.6-4.6 0z",
@@ -35,7 +35,7 @@ constexpr double kMarkSize = 5;
 std::string MarksCss() {
   std::string css =
       Variables(&PlotColour::light) + "@media (prefers-color-scheme:dark){" + Variables(&PlotColour::dark) + "}";
-  // Paper is light, whatever the screen was.
+  // Print with the light colours, whatever the screen shows.
   css += "@media print{" + Variables(&PlotColour::light) + "}";
   for (std::size_t i = 0; i < kPlotColours.size(); ++i) css += fmt::format(".f{0}{{fill:var(--m{0})}}", i);
   return css;
@@ -55,7 +55,7 @@ std::string MarkUse(std::size_t shape, std::size_t colour, double x, double y, s
 }
 
 std::string_view MarkDashes(std::size_t method) {
-  // As in assets/report.js: colours alone do not tell methods apart for everyone.
+  // The same dashes as in assets/report.js: colours alone do not distinguish methods for everyone.
   constexpr std::array<std::string_view, 4> kDashes{"", "", " stroke-dasharray=\"6 4\"", " stroke-dasharray=\"2 3\""};
   return method < 8 ? kDashes[method / 2] : " stroke-dasharray=\"10 3 2 3\"";
 }
@@ -74,14 +74,14 @@ std::string MarkKeySvg(std::size_t shape, std::size_t colour) {
   return "<svg class=\"key\" viewBox=\"-6 -6 12 12\" aria-hidden=\"true\">" + MarkUse(shape, colour, 0, 0) + "</svg>";
 }
 
-std::vector<double> SwarmOffsets(const std::vector<double>& places, double most) {
+std::vector<double> SwarmOffsets(const std::vector<double>& positions, double max_offset) {
   std::map<long, std::vector<std::size_t>> bins;
-  for (std::size_t i = 0; i < places.size(); ++i) bins[std::lround(places[i] / kMarkSize)].push_back(i);
-  std::vector<double> offsets(places.size(), 0);
+  for (std::size_t i = 0; i < positions.size(); ++i) bins[std::lround(positions[i] / kMarkSize)].push_back(i);
+  std::vector<double> offsets(positions.size(), 0);
   for (const auto& [bin, members] : bins) {
-    // One in the middle, then alternately to either side; closer together where there are many.
+    // The first mark stays in the middle, the others alternate between the sides; crowded bins use smaller steps.
     const double sides = std::max<double>(1, static_cast<double>(members.size() / 2));
-    const double step = std::min(kMarkSize, most / sides);
+    const double step = std::min(kMarkSize, max_offset / sides);
     for (std::size_t k = 0; k < members.size(); ++k) {
       const double rank = static_cast<double>((k + 1) / 2);
       offsets[members[k]] = (k % 2 == 0 ? -1 : 1) * rank * step;
@@ -90,8 +90,8 @@ std::vector<double> SwarmOffsets(const std::vector<double>& places, double most)
   return offsets;
 }
 
-std::size_t StrideFor(std::size_t count, std::size_t most) {
-  return std::max<std::size_t>(1, (count + most - 1) / most);
+std::size_t StrideFor(std::size_t count, std::size_t max_shown) {
+  return std::max<std::size_t>(1, (count + max_shown - 1) / max_shown);
 }
 
 }  // namespace etude

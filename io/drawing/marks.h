@@ -8,13 +8,13 @@
 
 namespace etude {
 
-/// A colour on a light and on a dark page, "#rrggbb". Films are dark.
+/// A colour for light pages and one for dark pages, "#rrggbb". Films are dark.
 struct PlotColour {
   std::string_view light, dark;
 };
 
-/// The colours of methods, by their index in the scenario; after eight they begin again. They are told apart with
-/// protanopia, deuteranopia and tritanopia, and from both backgrounds (marks_test.cc).
+/// The colours of methods by their index in the scenario; they repeat after eight. They can be told apart with
+/// protanopia, deuteranopia and tritanopia, and they differ from both backgrounds (marks_test.cc).
 inline constexpr std::array<PlotColour, 8> kPlotColours = {{{"#41464b", "#969ca1"},
                                                             {"#1ea194", "#9ff5d4"},
                                                             {"#9c5201", "#f97341"},
@@ -24,18 +24,18 @@ inline constexpr std::array<PlotColour, 8> kPlotColours = {{{"#41464b", "#969ca1
                                                             {"#470014", "#b35e52"},
                                                             {"#02175b", "#a8c4d6"}}};
 
-/// Writes the page's variables --m0 … --m7 for both colour schemes.
+/// Returns the CSS variables --m0 … --m7 for both colour schemes.
 std::string MarksCss();
 
-/// Writes the marks' shapes, once per page: what MarkUse points to.
+/// Returns the SVG shapes that MarkUse refers to; a page needs them once.
 std::string MarkDefsSvg();
 
-/// Draws a mark at a place as an SVG element: the shape of the method of index `shape` in the colour of index `colour`.
-/// `rest` holds more attributes.
+/// Draws a mark at (`x`, `y`) as an SVG element: the shape of method `shape` in the colour of method `colour`. `rest`
+/// holds further attributes.
 std::string MarkUse(std::size_t shape, std::size_t colour, double x, double y, std::string_view rest = "",
                     std::string_view title = "");
 
-/// Gives a line's dashes, by its method: an attribute with a space before it, or "".
+/// Returns the dash attribute of a method's line, with a leading space, or "".
 std::string_view MarkDashes(std::size_t method);
 
 /// Draws a method's line along an SVG path.
@@ -47,11 +47,12 @@ std::string LineKeySvg(std::size_t method);
 /// Draws a mark alone, for a legend.
 std::string MarkKeySvg(std::size_t shape, std::size_t colour);
 
-/// Computes how far each mark of a row is moved aside, so that marks at neighbouring places can be told apart: `places`
-/// along the row, in the panel's units; at most `most` to either side. The same places give the same swarm.
-std::vector<double> SwarmOffsets(const std::vector<double>& places, double most);
+/// Computes a sideways offset for each mark of a row, so that neighbouring marks can be told apart. `positions` are
+/// along the row, in the panel's units; offsets are at most `max_offset` to either side. The same positions give the
+/// same offsets.
+std::vector<double> SwarmOffsets(const std::vector<double>& positions, double max_offset);
 
-/// Gives the stride at which `count` marks are drawn, so that no more than `most` are.
-std::size_t StrideFor(std::size_t count, std::size_t most);
+/// Returns the stride at which `count` marks are drawn, so that at most `max_shown` are drawn.
+std::size_t StrideFor(std::size_t count, std::size_t max_shown);
 
 }  // namespace etude

@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-// Smaller than any meaningful value of any unit: rounding error where the result is zero.
+// A value below this is the rounding error of a zero, in every unit.
 constexpr double kRounding = 1e-12;
 
 std::string GroupThousands(std::string digits) {
@@ -39,7 +39,7 @@ std::string ExactText(std::optional<double> value) {
 std::string FormatFixed(double value, int decimals) {
   if (!std::isfinite(value)) return std::string(kNoValue);
   std::string text = fmt::format("{:.{}f}", value, decimals);
-  // "-0.0" is a rounding accident, not a direction.
+  // "-0.0" comes from rounding and is no negative value.
   if (text.find_first_of("123456789") == std::string::npos && text.starts_with('-')) text.erase(0, 1);
   text = GroupThousands(std::move(text));
   if (text.starts_with('-')) text.replace(0, 1, "−");

@@ -11,13 +11,13 @@ namespace etude {
 namespace {
 
 constexpr double kLogarithmicFrom = 100;
-constexpr double kAxisMargin = 0.04;  // of the axis, so that no mark is cut in half
-constexpr double kMostTicks = 6;
+constexpr double kAxisMargin = 0.04;  // a share of the range, so that no mark at an end is cut in half
+constexpr double kMaxTicks = 6;
 
 double RoundStep(double range) {
-  const double step = std::pow(10, std::floor(std::log10(range / kMostTicks)));
+  const double step = std::pow(10, std::floor(std::log10(range / kMaxTicks)));
   for (const double factor : {1.0, 2.0, 5.0}) {
-    if (range / (factor * step) <= kMostTicks) return factor * step;
+    if (range / (factor * step) <= kMaxTicks) return factor * step;
   }
   return 10 * step;
 }
@@ -28,14 +28,14 @@ Axis WithMargin(double low, double high) {
   return {.low = low - kAxisMargin * width, .high = high + kAxisMargin * width};
 }
 
-/// Cuts a text to at most so many characters, an ellipsis counting as one; never within a character.
-std::string Cut(std::string_view text, std::size_t most) {
+/// Cuts a text to at most `max_characters` characters, including the ellipsis; never within a character.
+std::string Cut(std::string_view text, std::size_t max_characters) {
   std::size_t characters = 0, end = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const bool begins = (static_cast<unsigned char>(text[i]) & 0xC0) != 0x80;
-    if (begins && characters++ + 1 == most) end = i;
+    if (begins && characters++ + 1 == max_characters) end = i;
   }
-  return characters <= most ? std::string(text) : std::string(text.substr(0, end)) + "…";
+  return characters <= max_characters ? std::string(text) : std::string(text.substr(0, end)) + "…";
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ Axis AxisOf(const std::vector<double>& values, double floor) {
 }
 
 Axis DecadeAxis(const std::vector<double>& values) {
-  constexpr int kMostDecades = 8;
+  constexpr int kMaxDecades = 8;
   double low = INFINITY, high = 0;
   for (const double value : values) {
     high = std::max(high, value);
@@ -82,10 +82,10 @@ Axis DecadeAxis(const std::vector<double>& values) {
   }
   int first = 0, last = 1;
   if (high > 0) {
-    // A single value needs a decade, too.
+    // A single value needs an axis of one decade.
     first = static_cast<int>(std::floor(std::log10(low)));
     last = std::max(static_cast<int>(std::ceil(std::log10(high))), first + 1);
-    first = std::max(first, last - kMostDecades);
+    first = std::max(first, last - kMaxDecades);
   }
   return {.low = std::pow(10.0, first), .high = std::pow(10.0, last), .is_logarithmic = true};
 }
@@ -140,9 +140,9 @@ std::string LyingGrid(const Axis& axis, double top, double bottom) {
   return svg;
 }
 
-std::string PanelText(double x, double y, std::string_view text, std::string_view anchor, std::size_t most) {
+std::string PanelText(double x, double y, std::string_view text, std::string_view anchor, std::size_t max_characters) {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>", x, y, anchor,
-                     EscapeMarkup(Cut(text, most)));
+                     EscapeMarkup(Cut(text, max_characters)));
 }
 
 }  // namespace etude

@@ -6,52 +6,53 @@
 
 namespace etude {
 
-/// A number axis of an SVG panel, in the panel's own units. Every picture of the page places values by one.
+/// A numeric axis of an SVG panel, in the panel's units. Every picture of the page maps values to positions by one.
 struct Axis {
   double low = 0, high = 1;
   bool is_logarithmic = false;
-  double from = 0, to = 1;  ///< where `low` and `high` lie; `from` may be the larger one
+  double from = 0, to = 1;  ///< the positions of `low` and `high`; `from` may exceed `to`
 
-  /// Gives the place of a value; one beyond an end lies on that end.
+  /// Returns the position of a value; a value beyond an end is put on that end.
   double At(double value) const;
-  /// Gives about five round values; of a logarithmic axis powers of ten. Never empty.
+  /// Returns about five round values, or powers of ten on a logarithmic axis. Never empty.
   std::vector<double> Ticks() const;
-  /// Names a tick: "12", "−3", "0.01"; on a logarithmic axis "100k", "1e-3".
+  /// Returns the label of a tick: "12", "−3", "0.01"; on a logarithmic axis "100k", "1e-3".
   std::string TickText(double value) const;
 };
 
-/// Makes an axis that holds all values. Where `floor` is above 0 and the values spread over more than two decades it is
-/// logarithmic, and what lies below `floor` is drawn on its end. Without values it is 0…1.
+/// Makes an axis that holds all values. It is logarithmic if `floor` is above 0 and the values span more than two
+/// decades; smaller values than `floor` are then drawn on its end. Without values it is 0…1.
 Axis AxisOf(const std::vector<double>& values, double floor);
 
 /// Makes a linear axis that holds all values and zero.
 Axis AxisAroundZero(const std::vector<double>& values);
 
-/// Makes a logarithmic axis of whole decades, one to eight of them, that ends above the largest value and holds the
-/// others as far as it reaches. Without a value above zero it is 1…10.
+/// Makes a logarithmic axis of one to eight whole decades. It ends above the largest value and includes the smaller
+/// ones as far as eight decades reach. Without a value above zero it is 1…10.
 Axis DecadeAxis(const std::vector<double>& values);
 
-/// Names a number on a linear axis: "0.01", "12", "−3", "1e-05".
+/// Returns the label of a number on a linear axis: "0.01", "12", "−3", "1e-05".
 std::string TickText(double value);
 
-/// Names a power of ten: "0.01", "100k", "1M", "1e-3".
+/// Returns the label of a power of ten: "0.01", "100k", "1M", "1e-3".
 std::string DecadeText(int decade);
 
-/// The width of a panel is that of a telephone's screen, so that its text stays readable there.
+/// A panel is as wide as a telephone's screen, so that its text stays readable there.
 inline constexpr double kPanelWidth = 340;
-inline constexpr double kPanelLeft = 48, kPanelRight = 330;  ///< between which things are drawn
+inline constexpr double kPanelLeft = 48, kPanelRight = 330;  ///< the left and right limits of the drawing area
 
-/// Opens a panel of this height, with what it shows in words. `style` is its class on the page: "plot", or "panel" for
-/// the smaller ones of the papers.
+/// Opens a panel of this height; `words` describe it to screen readers. `style` is its class on the page: "plot", or
+/// "panel" for the smaller ones of the papers.
 std::string BeginPanel(double height, std::string_view words, double width = kPanelWidth,
                        std::string_view style = "plot");
 
-/// Draws lines and numbers of a value axis at the left, over the width from `left` to `right`.
+/// Draws the grid lines and labels of a vertical axis; lines go from `left` to `right`, labels stand left of them.
 std::string UprightGrid(const Axis& axis, double left = kPanelLeft, double right = kPanelRight);
-/// Draws those of an axis that lies: lines between `top` and `bottom`, numbers beneath.
+/// Draws the grid lines and labels of a horizontal axis; lines go from `top` to `bottom`, labels stand below.
 std::string LyingGrid(const Axis& axis, double top, double bottom);
 
-/// Writes a text in the panel, escaped, cut after `most` characters. `anchor`: "start", "middle", "end".
-std::string PanelText(double x, double y, std::string_view text, std::string_view anchor, std::size_t most = 60);
+/// Writes a text in the panel, escaped and cut after `max_characters`. `anchor` is "start", "middle" or "end".
+std::string PanelText(double x, double y, std::string_view text, std::string_view anchor,
+                      std::size_t max_characters = 60);
 
 }  // namespace etude

@@ -6,7 +6,7 @@
 namespace etude {
 namespace {
 
-// Splits a row of pixels into its three colours.
+// Splits a row of pixels into its three colour channels.
 void Split(const unsigned char* pixels, int width, std::uint16_t* b, std::uint16_t* g, std::uint16_t* r) {
   for (int x = 0; x < width; ++x) {
     b[x] = pixels[4 * x];
@@ -30,7 +30,7 @@ std::vector<Shrinker::Cover> Shrinker::CoversOf(int large, int small) {
   for (int i = 0; i < small; ++i) {
     Cover& cover = covers[static_cast<std::size_t>(i)];
     const double begin = i * scale, end = begin + scale;
-    // All taps lie within the picture, also those that weigh nothing.
+    // Keep all taps within the picture, also those of weight zero.
     cover.first = std::clamp(static_cast<int>(begin + 1e-9), 0, std::max(0, large - kTaps));
     int sum = 0, widest = 0;
     for (int k = 0; k < std::min(kTaps, large); ++k) {
@@ -40,6 +40,7 @@ std::vector<Shrinker::Cover> Shrinker::CoversOf(int large, int small) {
       sum += cover.weights[k];
       if (cover.weights[k] > cover.weights[widest]) widest = k;
     }
+    // Give the rounding remainder to the largest weight, so that the weights sum to 256.
     cover.weights[widest] = static_cast<std::uint16_t>(cover.weights[widest] + 256 - sum);
   }
   return covers;
@@ -50,6 +51,7 @@ Shrinker::Shrinker(int large_width, int large_height, int small_width, int small
 
 void Shrinker::Shrink(const Image<std::uint32_t>& large, const PixelRect& rect, Image<std::uint32_t>& small) const {
   if (rect.IsEmpty()) return;
+  // Find the small pixels that the rectangle touches, and the large columns that they cover.
   const auto from = [](const std::vector<Cover>& covers, int at, int size) {
     return static_cast<int>(static_cast<std::int64_t>(at) * static_cast<int>(covers.size()) / size);
   };
@@ -61,6 +63,7 @@ void Shrinker::Shrink(const Image<std::uint32_t>& large, const PixelRect& rect, 
   const int first = columns_[static_cast<std::size_t>(left)].first;
   const int last = std::min(columns_[static_cast<std::size_t>(right) - 1].first + kTaps, large.width);
   std::vector<std::uint16_t> sums(4 * static_cast<std::size_t>(last - first + kTaps));
+  // For each small row, first sum the large rows, then the columns of that sum.
   for (int y = top; y < bottom; ++y) {
     const Cover& rows = rows_[static_cast<std::size_t>(y)];
     const int bytes = 4 * (last - first);
@@ -70,12 +73,14 @@ void Shrinker::Shrink(const Image<std::uint32_t>& large, const PixelRect& rect, 
     };
     const std::uint8_t *a = row(0), *b = row(1), *c = row(2), *d = row(3);
     const std::uint16_t p = rows.weights[0], q = rows.weights[1], s = rows.weights[2], t = rows.weights[3];
+    // Sum the rows, with fewer taps where the others weigh nothing.
     std::uint16_t* sum = sums.data();
     if (s == 0 && t == 0) {
       for (int i = 0; i < bytes; ++i) sum[i] = static_cast<std::uint16_t>(a[i] * p + b[i] * q);
     } else {
       for (int i = 0; i < bytes; ++i) sum[i] = static_cast<std::uint16_t>(a[i] * p + b[i] * q + c[i] * s + d[i] * t);
     }
+    // Sum the columns of each colour channel.
     std::uint32_t* out = &small.At(0, y);
     for (int x = left; x < right; ++x) {
       const Cover& columns = columns_[static_cast<std::size_t>(x)];
@@ -98,6 +103,7 @@ void PixelsToI420(const unsigned char* pixels, int stride, int width, int height
   for (std::size_t i = 0; i < 6; ++i) line[i] = &lines[i * count];
   std::uint8_t* blue = planes + count * height;
   std::uint8_t* red = blue + count * height / 4;
+  // Convert two rows at a time: luma for every pixel, chroma as the mean of 2 × 2 pixels.
   for (int y = 0; y < height; y += 2) {
     const unsigned char* upper = pixels + static_cast<std::ptrdiff_t>(y) * stride;
     Split(upper, width, line[0], line[1], line[2]);

@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// A line drawn over a picture, in its pixels; a dot where both ends are one.
+/// A line that is drawn over a picture, in its pixels; a dot if both ends are equal.
 struct SheetMark {
   glm::dvec2 a{0}, b{0};
   Rgb8 colour;
@@ -20,13 +20,13 @@ struct SheetPicture {
   std::vector<SheetMark> marks;
 };
 
-/// Pictures beside each other, and what they show.
+/// Pictures that stand beside each other, with a title.
 struct SheetRow {
   std::string title;
   std::vector<SheetPicture> pictures;
 };
 
-/// The pictures of all sensors of a world, for people to look at.
+/// The pictures of all sensors of a world, for visual inspection.
 struct SensorSheet {
   std::string title;
   std::vector<SheetRow> rows;

@@ -13,12 +13,11 @@ namespace {
 
 constexpr glm::dvec3 kEye{0, 1.35, 5.2};
 constexpr glm::dvec3 kTarget{0, 0.92, 0};
-// Empty border, in parts of the picture.
+// The empty border as a share of the picture's size.
 constexpr double kBorder = 0.07;
 constexpr double kGridSpacing = 0.5;
 constexpr double kGridLine = 0.008;
-// The floor becomes the backdrop between these distances from the origin; the shadow ends with it, before the room's
-// wall.
+// Between these distances from the origin, in metres, the floor fades into the backdrop, and the shadow with it.
 constexpr double kFadeFrom = 1.2, kFadeTo = 2.4;
 constexpr glm::vec3 kFloorPaint{0.205, 0.226, 0.248};
 constexpr glm::vec3 kGridPaint{0.36, 0.40, 0.43};
@@ -29,7 +28,7 @@ constexpr float kGhostStrength = 0.34f;
 
 Camera CameraOf(const Intrinsics& inside) { return LookAt(inside, kEye, kTarget); }
 
-/// Gives the share of a pixel that the lines of the grid across one axis cover.
+/// Returns the share of a pixel that the grid lines across one axis cover.
 float LineCover(float x, float footprint) {
   constexpr float kSpacing = kGridSpacing, kHalf = kGridLine / 2;
   const float nearest = std::abs(x - kSpacing * std::floor(x / kSpacing + 0.5f));
@@ -42,7 +41,8 @@ std::uint32_t ToPixel(const glm::vec3& paint) {
   return ToLevel(paint.r) << 16 | ToLevel(paint.g) << 8 | ToLevel(paint.b);
 }
 
-/// Gives a pixel of the floor: `line` of the grid's colour, lit as `light` says, seen as `fade` says.
+/// Returns a pixel of the floor: `line` is the share of grid colour, `light` scales the brightness, `fade` mixes with
+/// the backdrop.
 std::uint32_t FloorPixel(float line, float light, float fade) {
   const auto level = [&](int i) {
     const float paint = (kFloorPaint[i] + (kGridPaint[i] - kFloorPaint[i]) * line) * light;
@@ -51,7 +51,7 @@ std::uint32_t FloorPixel(float line, float light, float fade) {
   return level(0) << 16 | level(1) << 8 | level(2);
 }
 
-std::uint32_t Veiled(std::uint32_t pixel) {
+std::uint32_t BlendedWithGhost(std::uint32_t pixel) {
   const auto level = [&](int i, int shift) {
     const float under = static_cast<float>(pixel >> shift & 255) / 255;
     return ToLevel(under + (kGhostPaint[i] - under) * kGhostStrength) << shift;
@@ -79,9 +79,9 @@ Figure Placed(Figure figure, const FloorMove& move) {
 void Studio::Include(const Figure& placed, ViewBounds& bounds) {
   const Camera camera = CameraOf({});
   const auto include = [&](const glm::dvec3& point, double radius) {
-    constexpr double kNearest = 0.5;  // metres before the camera; who comes nearer is cut off
+    constexpr double kMinDistance = 0.5;  // metres in front of the camera; nearer points are clamped
     const glm::dvec3 seen = camera.R_CW * (point - camera.p_WC);
-    const double distance = std::max(seen.z, kNearest);
+    const double distance = std::max(seen.z, kMinDistance);
     const glm::dvec2 tangents(seen.x / distance, seen.y / distance);
     bounds.low = glm::min(bounds.low, tangents - radius / distance);
     bounds.high = glm::max(bounds.high, tangents + radius / distance);
@@ -98,6 +98,7 @@ void Studio::Include(const Figure& placed, ViewBounds& bounds) {
 Studio::Studio(int width, int height, double detail, const ViewBounds& bounds)
     : small_(width, height),
       shrinker_(static_cast<int>(width * detail), static_cast<int>(height * detail), width, height) {
+  // Choose the focal length so that the bounds fit between the borders.
   Intrinsics inside;
   inside.width = static_cast<int>(width * detail);
   inside.height = static_cast<int>(height * detail);
@@ -106,10 +107,11 @@ Studio::Studio(int width, int height, double detail, const ViewBounds& bounds)
   inside.fx = inside.fy = std::min(room.x / extent.x, room.y / extent.y);
   const glm::dvec2 middle = 0.5 * (bounds.low + bounds.high);
   inside.cx = inside.width / 2.0 - inside.fx * middle.x;
-  // What is left over goes above the head.
+  // Leave spare height above the head.
   inside.cy = inside.height * (1 - kBorder) - inside.fy * bounds.high.y;
   camera_ = CameraOf(inside);
 
+  // Intersect the ray of every pixel with the floor.
   const std::size_t pixels = static_cast<std::size_t>(inside.width) * inside.height;
   for (std::vector<float>* part : {&floor_.x, &floor_.z, &floor_.fade}) part->resize(pixels);
   floor_.footprint.resize(pixels, 1);
@@ -126,7 +128,7 @@ Studio::Studio(int width, int height, double detail, const ViewBounds& bounds)
       floor_.x[i] = static_cast<float>(point.x);
       floor_.z[i] = static_cast<float>(point.z);
       floor_.fade[i] = static_cast<float>(fade);
-      // Seen from above at a slant, a pixel covers more floor along the line of sight than across.
+      // At a slant, a pixel covers more floor along the line of sight than across it.
       floor_.footprint[i] = static_cast<float>(reach / inside.fx * std::sqrt(glm::length(way) / -way.y));
       floor_.seen = Union(floor_.seen, {x, y, x + 1, y + 1});
     }
@@ -135,10 +137,11 @@ Studio::Studio(int width, int height, double detail, const ViewBounds& bounds)
 }
 
 void Studio::PaintFloor(const FloorMove& placement) {
-  // The floor as the figure knows it: the placement undone.
+  // Express the floor point in the figure's original frame by inverting the placement.
   const float cosine = static_cast<float>(std::cos(placement.yaw)), sine = static_cast<float>(std::sin(placement.yaw));
   const float move_x = static_cast<float>(placement.x), move_z = static_cast<float>(placement.z);
-  const int width = floor_.seen.Width();  // known before pixels are written, or the loop is not one of lanes
+  const int width = floor_.seen.Width();  // a local copy: pixels that are written might alias it, and the loop would
+                                          // not vectorise
   for (int y = floor_.seen.top; y < floor_.seen.bottom; ++y) {
     const std::size_t first = static_cast<std::size_t>(y) * lit_.width + floor_.seen.left;
     const float *xs = &floor_.x[first], *zs = &floor_.z[first];
@@ -162,7 +165,7 @@ void Studio::Compose(const PixelRect& rect, const Mask* ghost) {
     const std::uint32_t *lit = &lit_.pixels[first], *shaded = &shaded_.pixels[first];
     std::uint32_t* out = &large_.pixels[first];
     for (int i = 0; i < width; ++i) {
-      std::uint32_t rgba = 0;  // as it lies in memory
+      std::uint32_t rgba = 0;  // the four bytes in memory order
       std::memcpy(&rgba, seen + 4 * i, sizeof rgba);
       const std::uint32_t what = rgba >> 24, body = (rgba & 255) << 16 | (rgba & 0xff00) | (rgba >> 16 & 255);
       const std::uint32_t in_light = lit[i], in_shadow = shaded[i];
@@ -170,7 +173,7 @@ void Studio::Compose(const PixelRect& rect, const Mask* ghost) {
       out[i] = what == Overlay::kBody ? body : ground;
     }
     for (int i = 0; ghost != nullptr && i < width; ++i) {
-      if (ghost->pixels[first + i] != 0 && seen[4 * i + 3] != Overlay::kBody) out[i] = Veiled(out[i]);
+      if (ghost->pixels[first + i] != 0 && seen[4 * i + 3] != Overlay::kBody) out[i] = BlendedWithGhost(out[i]);
     }
   }
 }
@@ -178,10 +181,12 @@ void Studio::Compose(const PixelRect& rect, const Mask* ghost) {
 void Studio::Draw(Canvas& canvas, const Box& box, Renderer& renderer, const Figure& placed, const FloorMove& placement,
                   const Mask* ghost) {
   assert(box.width == small_.width && box.height == small_.height);
+  // Redraw what the old and the new figure cover.
   PixelRect changed = figures_.drawn;
   renderer.DrawFigures({placed}, camera_, figures_);
   changed = Union(changed, figures_.drawn);
   const bool is_first = !painted_;
+  // If the placement has changed, the whole visible floor changes.
   if (is_first || painted_->yaw != placement.yaw || painted_->x != placement.x || painted_->z != placement.z) {
     PaintFloor(placement);
     painted_ = placement;

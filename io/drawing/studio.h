@@ -14,61 +14,61 @@
 
 namespace etude {
 
-/// The part of the camera's view that has to be shown: tangents to the right and downwards of its axis.
+/// The part of the camera's view that must be visible, as tangents to the right of and below its axis.
 struct ViewBounds {
   glm::dvec2 low{1e9};
   glm::dvec2 high{-1e9};
 };
 
-/// An endless floor with a grid of half metres, seen by a camera that stands still before the origin, at +Z. Bodies are
-/// put there (FloorMove) instead of moving the camera: the grid passes below a walker.
+/// An endless floor with a grid of 0.5 m, seen by a fixed camera in front of the origin, at +Z. The camera does not
+/// move; bodies are moved to the origin instead (FloorMove), and the grid moves under a walker.
 class Studio {
  public:
-  /// Widens `bounds` so that it holds a figure that was put in place.
+  /// Widens `bounds` so that it contains a figure that FloorMove has moved.
   static void Include(const Figure& placed, ViewBounds& bounds);
 
-  /// Makes a studio for pictures of this size that show `bounds`, as large as it fits. They are drawn `detail` times as
-  /// large and shrunk: 2 makes edges smooth, less is faster.
+  /// Makes a studio for pictures of this size that show `bounds` as large as possible. Pictures are drawn `detail`
+  /// times larger and then shrunk: 2 smooths the edges, smaller values are faster.
   Studio(int width, int height, double detail, const ViewBounds& bounds);
 
-  /// Draws a figure that `placement` has put in place; the grid moves with it. `ghost` (null = none), a Silhouette of
-  /// another figure, shimmers behind this one. The box has the studio's size and begins at a whole pixel. What has not
-  /// changed since the last picture is not drawn again.
+  /// Draws a figure that `placement` has moved; the grid moves with it. `ghost` is the Silhouette of another figure
+  /// that shows through behind this one (null = none). The box has the studio's size and begins at a whole pixel. Parts
+  /// that have not changed since the last picture are not drawn again.
   void Draw(Canvas& canvas, const Box& box, Renderer& renderer, const Figure& placed, const FloorMove& placement,
             const Mask* ghost = nullptr);
-  /// Gives the pixels, as fine as the studio draws, where a figure that was put in place is seen.
+  /// Returns the pixels that a moved figure covers, at the studio's internal resolution (`detail`).
   Mask Silhouette(Renderer& renderer, const Figure& placed) const;
-  /// Gives the place in the box where a point is seen.
+  /// Returns the pixel of the canvas at which a point is seen.
   glm::dvec2 PixelOf(const Box& box, const glm::dvec3& point) const;
 
  private:
-  /// The places where the rays of pixels meet the floor, one number per pixel.
+  /// The points where the rays of the pixels hit the floor, one number per pixel.
   struct Floor {
     std::vector<float> x, z;       ///< metres
-    std::vector<float> fade;       ///< how much the floor is still seen there; 0 for the backdrop
-    std::vector<float> footprint;  ///< metres of floor below one pixel
-    PixelRect seen{};              ///< outside is only backdrop
+    std::vector<float> fade;       ///< visibility of the floor there, 0…1; 0 shows only the backdrop
+    std::vector<float> footprint;  ///< metres of floor that one pixel covers
+    PixelRect seen{};              ///< outside this rectangle only the backdrop is seen
   };
 
   void PaintFloor(const FloorMove& placement);
   void Compose(const PixelRect& rect, const Mask* ghost);
 
-  Camera camera_;  ///< of pictures drawn larger than shown, and shrunk
+  Camera camera_;  ///< the camera of the enlarged pictures
   Floor floor_;
-  std::optional<FloorMove> painted_;    ///< how the floor lies in the next two
-  Image<std::uint32_t> lit_, shaded_;   ///< the empty studio, in the light and in a shadow
-  Overlay figures_;                     ///< of the last picture
-  bool has_ghost_ = false;              ///< likewise
-  Image<std::uint32_t> large_, small_;  ///< the last picture
+  std::optional<FloorMove> painted_;    ///< the placement for which lit_ and shaded_ were painted
+  Image<std::uint32_t> lit_, shaded_;   ///< the empty studio in light and in shadow
+  Overlay figures_;                     ///< the figures of the last picture
+  bool has_ghost_ = false;              ///< whether the last picture showed a ghost
+  Image<std::uint32_t> large_, small_;  ///< the last picture, enlarged and shrunk
   Shrinker shrinker_;
 };
 
-/// Turns a figure about the vertical axis and shifts it on the floor.
+/// Turns a figure about the vertical axis and moves it on the floor.
 Figure Placed(Figure figure, const FloorMove& move);
 
-/// Computes the way that a camera follows, for every frame: that of the hips, averaged over `smoothing` frames to
-/// either side. It stands still, which is calmer, when the whole motion stays within 45 cm of its middle. Needs at
-/// least one frame.
+/// Computes the path that the camera follows, one point per frame: the hip centre, averaged over `smoothing` frames to
+/// either side. If the whole motion stays within 45 cm of its middle, the camera stands still. Needs at least one
+/// frame.
 std::vector<glm::dvec3> CameraPath(const BodyMotion& motion, int smoothing);
 
 }  // namespace etude

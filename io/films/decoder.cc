@@ -48,7 +48,7 @@ Result<Child> StartReading(const Words& words, const Place& place) {
   return child;
 }
 
-/// Reads lines "key=value"; of several with one key the first.
+/// Reads lines "key=value"; the first of several values of one key counts.
 std::map<std::string, std::string> ReadKeys(std::FILE* file) {
   std::map<std::string, std::string> keys;
   std::array<char, 256> line;
@@ -68,7 +68,7 @@ double NumberOf(const std::string& text) {
   return value;
 }
 
-/// Reads a ratio such as "60/1"; 0 when it is none.
+/// Reads a ratio such as "60/1"; returns 0 if the text is no ratio.
 double RatioOf(const std::string& text) {
   const std::size_t slash = text.find('/');
   const double low = slash == std::string::npos ? 1 : NumberOf(text.substr(slash + 1));
@@ -80,6 +80,7 @@ double RatioOf(const std::string& text) {
 Result<FilmFacts> ProbeFilm(const std::filesystem::path& path, const std::string& program) {
   const Place place{.file = path.string()};
   if (!std::filesystem::is_regular_file(path)) return Fail(place, "no such file");
+  // Ask for the size, the rates, the number of packets and the rotation of the first video stream.
   ASSIGN_OR_RETURN(
       const Child child,
       StartReading({program, "-v", "error", "-select_streams", "v:0", "-count_packets", "-show_entries",
@@ -92,15 +93,17 @@ Result<FilmFacts> ProbeFilm(const std::filesystem::path& path, const std::string
     const std::string words = FirstLineOf(child.log.get());
     return Fail(place, "no film that ffmpeg can read{}{}", words.empty() ? "" : ": ", words);
   }
+  // Check the size before it is converted to integers.
   FilmFacts facts;
-  constexpr double kMostPixels = 64e6;
+  constexpr double kMaxPixels = 64e6;
   const double width = NumberOf(keys["width"]), height = NumberOf(keys["height"]);
   const double frames = NumberOf(keys["nb_read_packets"]);
-  constexpr double kMostFrames = 1e8;
-  if (!(width >= 1) || !(height >= 1) || !(width * height <= kMostPixels) || !(frames >= 1) || frames > kMostFrames) {
+  constexpr double kMaxFrames = 1e8;
+  if (!(width >= 1) || !(height >= 1) || !(width * height <= kMaxPixels) || !(frames >= 1) || frames > kMaxFrames) {
     return Fail(place, "{:g} frames of {:g} x {:g} pixels; allowed: at least one frame, up to 64 million pixels",
                 frames, width, height);
   }
+  // Swap the sides of a film that is shown rotated by 90°.
   facts.width = static_cast<int>(width);
   facts.height = static_cast<int>(height);
   facts.frames = static_cast<int>(frames);

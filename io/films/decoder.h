@@ -14,28 +14,28 @@ namespace etude {
 
 /// The facts of a film that are needed before its frames are read.
 struct FilmFacts {
-  int width = 0;  ///< as shown: a film that a telephone turned is told turned
+  int width = 0;  ///< width as shown, after the rotation that a telephone may have stored
   int height = 0;
-  double rate_hz = 0;  ///< frames a second; of films without a constant rate the mean
+  double rate_hz = 0;  ///< frames per second; the mean for films without a constant rate
   int frames = 0;
 };
 
-/// Asks ffprobe about the first video stream of a file; a picture is a film of one frame. Fails when it cannot be
-/// started, when there is no such stream, and for frames of more than 64 million pixels.
+/// Asks ffprobe about the first video stream of a file; a picture counts as a film of one frame. Fails if ffprobe
+/// cannot be started, if there is no video stream, and for frames of more than 64 million pixels.
 Result<FilmFacts> ProbeFilm(const std::filesystem::path& path, const std::string& program = "ffprobe");
 
-/// Reads the frames of any film (or picture) that ffmpeg knows, one after the other, through a pipe (started directly,
-/// no shell); every frame once, whatever its time.
+/// Reads the frames of any film or picture that ffmpeg knows, one after the other, through a pipe. ffmpeg is started
+/// directly, without a shell. Every frame is read once, whatever its timestamp.
 class Decoder {
  public:
-  /// Fails when `program` cannot be started. `facts` are those of the file.
+  /// Fails if `program` cannot be started. `facts` must be those of the same file.
   static Result<Decoder> Start(const std::filesystem::path& path, const FilmFacts& facts,
                                const std::string& program = "ffmpeg");
   ~Decoder();
   Decoder(Decoder&& other) noexcept;
   Decoder& operator=(Decoder&&) = delete;
 
-  /// Reads the next frame; false behind the last. Fails when ffmpeg has given up, with its last words.
+  /// Reads the next frame; returns false after the last one. Fails with ffmpeg's message if ffmpeg has stopped early.
   Result<bool> Next(ColourImage& frame);
 
  private:
@@ -45,9 +45,9 @@ class Decoder {
 
   std::filesystem::path path_;
   FilmFacts facts_;
-  pid_t child_;  ///< −1 once it has ended
-  File frames_;  ///< what ffmpeg writes
-  File log_;     ///< what it says on its standard error
+  pid_t child_;  ///< −1 after it has ended
+  File frames_;  ///< ffmpeg's output
+  File log_;     ///< ffmpeg's standard error
 };
 
 }  // namespace etude

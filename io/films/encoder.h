@@ -16,16 +16,16 @@
 
 namespace etude {
 
-/// Makes an MP4 of pictures by piping them into ffmpeg (started directly, no shell). The same pictures
-/// give the same bytes on every CPU. The file gets its name when it is whole; an encoder that is
-/// dropped before Finish leaves nothing behind.
+/// Encodes pictures as an MP4 by sending them to ffmpeg, which is started directly, without a shell. The same pictures
+/// give the same bytes on every CPU. The file gets its name when it is complete; an encoder that is destroyed before
+/// Finish leaves no file.
 class Encoder {
  public:
-  /// The form in which pictures are handed over: as they are, or as encoders take them (three planes, BT.601).
+  /// The form of the pictures: RGB, or I420 as encoders take it (three planes, BT.601).
   enum class Form { kRgb, kI420 };
 
-  /// Starts ffmpeg. Pictures must have this size (even numbers) and follow at `rate_hz`. `sound`: a WAV file that goes
-  /// with them, kept without a loss (FLAC); empty = silence. Fails when `program` cannot be started, saying why.
+  /// Starts ffmpeg. Pictures must have this size (even numbers) and follow at `rate_hz`. `sound` is a WAV file that is
+  /// stored losslessly (FLAC); empty = silence. Fails with the reason if `program` cannot be started.
   static Result<Encoder> Start(const FilePath& path, int width, int height, int rate_hz,
                                const std::filesystem::path& sound = {}, Form form = Form::kRgb,
                                const std::string& program = "ffmpeg");
@@ -33,11 +33,11 @@ class Encoder {
   Encoder(Encoder&& other) noexcept;
   Encoder& operator=(Encoder&&) = delete;
 
-  /// Sends a picture. Fails when ffmpeg has stopped; its message comes with the error.
+  /// Sends a picture. Fails with ffmpeg's message if ffmpeg has stopped.
   Result<void> Add(const ColourImage& picture);
   /// Sends the bytes of a picture in the encoder's form.
   Result<void> Add(std::span<const std::uint8_t> picture);
-  /// Waits for ffmpeg to end and puts the file at its path.
+  /// Waits until ffmpeg ends and moves the file to its path. Fails with ffmpeg's message if ffmpeg failed.
   Result<void> Finish();
 
  private:
@@ -47,9 +47,9 @@ class Encoder {
   int CloseAndWait();
 
   PartialFile film_;
-  pid_t child_;   ///< −1 once it has ended
-  int pictures_;  ///< the socket that ffmpeg reads from; −1 once closed
-  Log log_;       ///< what ffmpeg says on its standard error
+  pid_t child_;   ///< −1 after it has ended
+  int pictures_;  ///< the socket that ffmpeg reads; −1 after it is closed
+  Log log_;       ///< ffmpeg's standard error
 };
 
 }  // namespace etude

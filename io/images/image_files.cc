@@ -19,17 +19,17 @@
 namespace etude {
 namespace {
 
-// A picture of the largest size that does not compress at all, with room to spare.
-constexpr std::uintmax_t kLargestPictureFile = std::uintmax_t{1} << 28;
-// Of pictures that are no camera's: what GL and JPEG can hold.
-constexpr std::uint32_t kLargestSide = 16'384;
-constexpr int kRunsAlone = 3;  // zlib's Z_RLE
+// The size of an uncompressed picture with kLargestPicture pixels per side, rounded up.
+constexpr std::uintmax_t kMaxPictureFileBytes = std::uintmax_t{1} << 28;
+// The limit for pictures that no camera took: what GL and JPEG can hold.
+constexpr std::uint32_t kMaxSide = 16'384;
+constexpr int kRunLengthOnly = 3;  // zlib's Z_RLE
 
 // --- PNG
 
-/// The bytes of 8-bit sRGB pixels as a PNG file. `colour_type` is PNG_COLOR_TYPE_RGB or PNG_COLOR_TYPE_GRAY.
-/// Filtered rows of a camera's picture hold noise and runs of zeros, but no words that come again: looking for runs
-/// alone gives a file of the same size as zlib's usual search does, in a sixth of the time.
+/// Encodes 8-bit sRGB pixels as the bytes of a PNG file. `colour_type` is PNG_COLOR_TYPE_RGB or PNG_COLOR_TYPE_GRAY.
+/// Filtered rows of camera pictures hold noise and runs of zeros but no repeated strings: run-length coding gives the
+/// same file size as zlib's default strategy in a sixth of the time.
 std::string EncodePixels(const std::uint8_t* pixels, int width, int height, int colour_type) {
   assert(width > 0 && height > 0);
   std::string bytes;
@@ -45,7 +45,7 @@ std::string EncodePixels(const std::uint8_t* pixels, int width, int height, int 
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_ALL_FILTERS);
-  png_set_compression_strategy(png, kRunsAlone);
+  png_set_compression_strategy(png, kRunLengthOnly);
   png_write_info(png, info);
   const std::size_t row = png_get_rowbytes(png, info);
   for (int y = 0; y < height; ++y) png_write_row(png, pixels + static_cast<std::size_t>(y) * row);
@@ -65,7 +65,7 @@ constexpr const char* kDepthChannel = "Z";
 constexpr const char* kLabelChannel = "label";
 constexpr const char* kNormalChannels[] = {"N.X", "N.Y", "N.Z"};
 
-// Where OpenEXR puts a file's bytes.
+// Collects the bytes of a file that OpenEXR writes.
 class ByteStream : public Imf::OStream {
  public:
   ByteStream() : Imf::OStream("a picture in memory") {}
@@ -85,8 +85,9 @@ class ByteStream : public Imf::OStream {
   std::size_t at_ = 0;
 };
 
-// Throws what OpenEXR throws.
+// Writes an EXR file into `out`; OpenEXR's exceptions pass through.
 void WriteExr(const View& view, const NormalImage& normals, std::span<const DepthChannel> measured, Imf::OStream& out) {
+  // Add one channel for each picture that is not empty; colours are converted to linear light.
   const int width = std::max({view.colour.width, view.depth.width, view.labels.width});
   const int height = std::max({view.colour.height, view.depth.height, view.labels.height});
   Imf::Header header(width, height);
@@ -98,6 +99,7 @@ void WriteExr(const View& view, const NormalImage& normals, std::span<const Dept
     channels.insert(name, SliceOf(type, pixels, window, stride));
   };
 
+  // Colours: half floats, interleaved.
   std::vector<half> colour;
   for (const Rgb8& pixel : view.colour.pixels) {
     for (const std::uint8_t value : {pixel.r, pixel.g, pixel.b}) {
@@ -107,6 +109,7 @@ void WriteExr(const View& view, const NormalImage& normals, std::span<const Dept
   if (!colour.empty()) {
     for (int i = 0; i < 3; ++i) add(kColourChannels[i], Imf::HALF, colour.data() + i, 3 * sizeof(half));
   }
+  // Depth, labels, normals, and further depth images.
   if (!view.depth.pixels.empty()) add(kDepthChannel, Imf::FLOAT, view.depth.pixels.data(), sizeof(float));
   if (!view.labels.pixels.empty()) add(kLabelChannel, Imf::UINT, view.labels.pixels.data(), sizeof(std::uint32_t));
 
@@ -117,6 +120,7 @@ void WriteExr(const View& view, const NormalImage& normals, std::span<const Dept
     add(channel.name.c_str(), Imf::FLOAT, channel.depth.pixels.data(), sizeof(float));
   }
 
+  // Write all channels in one pass.
   Imf::OutputFile file(out, header, 0);
   file.setFrameBuffer(channels);
   file.writePixels(height);
@@ -142,7 +146,7 @@ std::string EncodePpm(const ColourImage& image) {
 }
 
 Result<ColourImage> LoadColourPng(const std::string& path) {
-  ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(path, kLargestPictureFile));
+  ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(path, kMaxPictureFileBytes));
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) {
@@ -168,10 +172,10 @@ Result<ColourImage> DecodeColourPng(std::string_view bytes, std::size_t most_pix
     return Fail({}, "not a PNG picture: {}", png.message);
   }
   const std::size_t pixels = std::size_t{png.width} * png.height;
-  if (png.width > kLargestSide || png.height > kLargestSide || pixels > most_pixels) {
+  if (png.width > kMaxSide || png.height > kMaxSide || pixels > most_pixels) {
     png_image_free(&png);
     return Fail({}, "a PNG picture of {} x {} pixels; allowed: at most {} in all, {} a side", png.width, png.height,
-                most_pixels, kLargestSide);
+                most_pixels, kMaxSide);
   }
   png.format = PNG_FORMAT_RGBA;
   std::vector<std::array<std::uint8_t, 4>> with_alpha(pixels);

@@ -11,22 +11,22 @@
 
 namespace etude {
 
-// Pictures as files: the one door to PNG and OpenEXR. Pictures of more than kMaxPictureSide pixels a
-// side are refused before memory is taken. Every error names the file.
+// Encodes and decodes pictures: the one door to PNG and OpenEXR. Pictures with more than kLargestPicture pixels per
+// side are refused before memory is taken. Errors name the file unless stated otherwise.
 
-/// Returns the bytes of a PNG file, for embedding in a page; the same for the same picture. `image` has at least one
-/// pixel.
+/// Returns the bytes of a PNG file, for embedding in a page. The same picture gives the same bytes. `image` must have
+/// at least one pixel.
 std::string EncodePng(const ColourImage& image);
-/// Returns the bytes of a mask as a grey PNG: 0 is black, anything else white.
+/// Returns a mask as the bytes of a grey PNG: 0 becomes black, any other value white.
 std::string EncodePng(const Mask& mask);
 
-/// Returns the bytes of a binary PPM file (P6), which every picture library reads, and which costs no time.
+/// Returns the bytes of a binary PPM file (P6), which every picture library reads and which needs no compression time.
 std::string EncodePpm(const ColourImage& image);
 
-/// Reads any PNG as 8-bit RGB; transparent parts lie on black.
+/// Reads any PNG as 8-bit RGB; transparent pixels are blended with black.
 Result<ColourImage> LoadColourPng(const std::string& path);
-/// Decodes the bytes of a PNG file of at most so many pixels; transparent parts keep their own colours. The error names
-/// no file.
+/// Decodes the bytes of a PNG file of at most `most_pixels` pixels. Transparency is ignored: pixels keep their stored
+/// colours. The error names no file.
 Result<ColourImage> DecodeColourPng(std::string_view bytes, std::size_t most_pixels);
 
 /// A depth image and the name of its channel.
@@ -35,10 +35,11 @@ struct DepthChannel {
   DepthImage depth;
 };
 
-/// Returns the bytes of an OpenEXR file (ZIP, lossless) with the channels R, G, B (half, linear light: 1 is the
-/// brightest that an 8-bit picture can show), Z (float, metres along the viewing axis), label (uint) and N.X, N.Y, N.Z
-/// (float, normals in the world), and further depth images (float) under names of their own. Empty pictures are left
-/// out; the others have one size. The same for the same pictures.
+/// Returns the bytes of an OpenEXR file (ZIP, lossless) with the channels R, G, B (half; linear light, 1 is the
+/// brightest value of an 8-bit picture), Z (float, metres along the viewing axis), label (uint), N.X, N.Y, N.Z (float,
+/// normals in world coordinates) and further depth images (float) under their own names. Empty pictures are left out;
+/// all others must have one size. The same pictures give the same bytes. Fails with OpenEXR's message, which names no
+/// file.
 Result<std::string> EncodeExr(const View& view, const NormalImage& normals = {},
                               std::span<const DepthChannel> measured = {});
 

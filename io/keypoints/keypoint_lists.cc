@@ -11,11 +11,10 @@ namespace etude {
 namespace {
 
 constexpr double kHalfPixel = 0.5;
-constexpr double kFarthestPixel = 1e6;
+constexpr double kMaxPixel = 1e6;
 
 }  // namespace
 
-/// Returns the member of that name, or null where there is none.
 const Json* Member(const Json& json, const char* name) {
   const auto found = json.is_object() ? json.find(name) : json.end();
   return json.is_object() && found != json.end() ? &*found : nullptr;
@@ -48,7 +47,6 @@ std::vector<std::string> TextsOf(const Json* list) {
   return texts;
 }
 
-/// Reads the triples x, y, confidence of a list; a point with a null was not seen.
 Result<std::vector<Keypoint>> Triples(const Json* list, const Place& place) {
   if (list == nullptr || !list->is_array() || list->size() % 3 != 0) {
     return Fail(place, "no list of keypoints; allowed: x, y, confidence of each");
@@ -63,7 +61,7 @@ Result<std::vector<Keypoint>> Triples(const Json* list, const Place& place) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Json& number = (*list)[i + k];
       v[k] = number.is_number() ? number.get<double>() : std::nan("");
-      if (!(std::abs(v[k]) <= kFarthestPixel)) return Fail(place, "a keypoint's number is {}", number.dump());
+      if (!(std::abs(v[k]) <= kMaxPixel)) return Fail(place, "a keypoint's number is {}", number.dump());
     }
     points.push_back({glm::dvec2(v[0], v[1]) + kHalfPixel, v[2]});
   }
@@ -77,13 +75,14 @@ Result<SeenPerson> ToPerson(const std::vector<Keypoint>& points, const std::stri
   if (found) {
     order = (*found)->landmarks;
   } else {
+    // No layout has this count: use the names if enough of them are known.
     std::size_t known = 0;
     for (const std::string& name : names) {
       order.push_back(LandmarkOfName(name));
       if (order.back() != Landmark::kNoLandmark) ++known;
     }
-    constexpr std::size_t kFewest = 12;
-    if (!layout.empty() || names.size() != points.size() || known < kFewest) return tl::unexpected(found.error());
+    constexpr std::size_t kMinKnown = 12;
+    if (!layout.empty() || names.size() != points.size() || known < kMinKnown) return tl::unexpected(found.error());
   }
   SeenPerson person;
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -99,7 +98,7 @@ namespace {
 std::optional<double> NumberOf(const Json* json) {
   if (json == nullptr || !json->is_number()) return std::nullopt;
   const double value = json->get<double>();
-  return std::abs(value) <= kFarthestPixel ? std::optional(value) : std::nullopt;
+  return std::abs(value) <= kMaxPixel ? std::optional(value) : std::nullopt;
 }
 
 const Json* FirstMember(const Json& json, std::initializer_list<const char*> names) {
@@ -109,7 +108,7 @@ const Json* FirstMember(const Json& json, std::initializer_list<const char*> nam
   return nullptr;
 }
 
-/// A point told by names; one without numbers was not seen.
+/// Reads a point with named coordinates; a point without numbers was not seen.
 Keypoint PointOf(const Json& json) {
   const auto x = NumberOf(Member(json, "x")), y = NumberOf(Member(json, "y"));
   const Json* sure = FirstMember(json, {"visibility", "score", "confidence"});
@@ -117,7 +116,7 @@ Keypoint PointOf(const Json& json) {
   return {glm::dvec2(*x, *y) + kHalfPixel, sure == nullptr ? 1 : NumberOf(sure).value_or(0)};
 }
 
-/// Points as [[x, y], …] with scores beside them, or [x, y, score].
+/// Reads points [[x, y], …] with a list of scores, or [x, y, score].
 Result<std::vector<Keypoint>> PointsOfPairs(const Json& list, const Json* scores, const Place& place) {
   std::vector<Keypoint> points;
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -186,7 +185,7 @@ bool IsKeypointList(const Json& json) {
 
 namespace {
 
-/// The number of a frame: itself, or the last one in a file's name.
+/// Returns the number of a frame: `id` itself, or the last number in a file's name.
 std::optional<long> FrameNumber(const Json& id) {
   if (id.is_number_integer()) return id.get<long>();
   if (!id.is_string()) return std::nullopt;
@@ -201,18 +200,18 @@ std::optional<long> FrameNumber(const Json& id) {
   return error == std::errc{} ? std::optional(number) : std::nullopt;
 }
 
-constexpr long kMostFrames = 1'000'000;
+constexpr long kMaxFrames = 1'000'000;
 
-/// Puts numbered frames in their places.
+/// Sorts numbered frames into a film.
 Result<PeopleOfFilm> Ordered(std::map<long, std::vector<SeenPerson>> numbered, const FilmOfKeypoints& of,
                              const Place& place) {
   PeopleOfFilm film;
   if (numbered.empty()) return Fail(place, "no frame");
   const long lowest = numbered.begin()->first, highest = numbered.rbegin()->first;
-  if (lowest < 0 || highest > kMostFrames)
-    return Fail(place, "frames {} to {}; allowed: 0 to {}", lowest, highest, kMostFrames);
+  if (lowest < 0 || highest > kMaxFrames)
+    return Fail(place, "frames {} to {}; allowed: 0 to {}", lowest, highest, kMaxFrames);
   const auto frames = static_cast<long>(of.frames);
-  // Without a film it is as long as the numbers say.
+  // Without a known film length, the numbers decide the length.
   const long first = frames > 0 ? (lowest > 0 && highest == frames ? 1 : 0) : std::min(lowest, 1L);
   const long count = frames > 0 ? std::max(frames, highest - first + 1) : highest - first + 1;
   film.frames.resize(static_cast<std::size_t>(count));
@@ -223,7 +222,7 @@ Result<PeopleOfFilm> Ordered(std::map<long, std::vector<SeenPerson>> numbered, c
   return film;
 }
 
-/// Names of MMPose's `keypoint_id2name`.
+/// Returns the names in MMPose's `keypoint_id2name`, in the order of their numbers.
 std::vector<std::string> MetaNames(const Json& json) {
   const Json* meta = Member(json, "meta_info");
   const Json* names = meta == nullptr ? nullptr : Member(*meta, "keypoint_id2name");
@@ -239,24 +238,27 @@ std::vector<std::string> MetaNames(const Json& json) {
   return list;
 }
 
-/// Results: one object a person, whose image says which frame. Scores above 1 are COCO's flags, or AlphaPose's own.
+/// Reads results: one object per person, whose image_id gives the frame. Confidences are divided by the largest one if
+/// it exceeds 1, because COCO's flags and AlphaPose's scores do.
 Result<PeopleOfFilm> ReadResults(const Json& list, const std::string& layout, const FilmOfKeypoints& of,
                                  const Place& place) {
+  // Collect the points of every frame and the largest confidence.
   std::map<long, std::vector<std::vector<Keypoint>>> numbered;
-  double most = 1;
+  double max_confidence = 1;
   for (const Json& one : list) {
     const Json* id = Member(one, "image_id");
     const auto number = id == nullptr ? std::nullopt : FrameNumber(*id);
     if (!number) return Fail(place, "a result whose image_id has no number: {}", ShowJson(one));
     ASSIGN_OR_RETURN(auto points, PointsOf(one, place));
-    for (const Keypoint& point : points) most = std::max(most, point.confidence);
+    for (const Keypoint& point : points) max_confidence = std::max(max_confidence, point.confidence);
     if (numbered[*number].size() >= kMostPeople) return Fail(place, "more than {} people in a frame", kMostPeople);
     numbered[*number].push_back(std::move(points));
   }
+  // Scale the confidences to 0…1 and order the landmarks.
   std::map<long, std::vector<SeenPerson>> people;
   for (auto& [number, persons] : numbered) {
     for (std::vector<Keypoint>& points : persons) {
-      for (Keypoint& point : points) point.confidence /= most;
+      for (Keypoint& point : points) point.confidence /= max_confidence;
       ASSIGN_OR_RETURN(const SeenPerson person, ToPerson(points, layout, {}, place));
       people[number].push_back(person);
     }
@@ -273,6 +275,7 @@ Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layou
   if (Member(list.front(), "image_id") != nullptr) return ReadResults(list, layout, of, place);
   const std::vector<std::string> names = MetaNames(json);
   std::map<long, std::vector<SeenPerson>> numbered;
+  // Read the number and the people of every frame.
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Json& frame = list[i];
     const Json* id = FirstMember(frame, {"frame_id", "frame"});

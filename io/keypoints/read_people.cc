@@ -21,15 +21,16 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kOurPixelCentre = 0.5;
-constexpr double kLargestPixel = 1e6;
+constexpr double kMaxPixel = 1e6;
 
-/// Orders names with the numbers in them by their value: frame 9 comes before frame 10.
+/// Returns true if name `a` sorts before `b`, with numbers compared by value: frame 9 comes before frame 10.
 bool NaturallyBefore(const fs::path& a, const fs::path& b) {
   const std::string x = a.filename().string(), y = b.filename().string();
   std::size_t i = 0, j = 0;
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   while (i < x.size() && j < y.size()) {
     if (is_digit(x[i]) && is_digit(y[j])) {
+      // Compare two numbers without their leading zeros.
       std::size_t end_x = i, end_y = j;
       while (end_x < x.size() && is_digit(x[end_x])) ++end_x;
       while (end_y < y.size() && is_digit(y[end_y])) ++end_y;
@@ -45,6 +46,7 @@ bool NaturallyBefore(const fs::path& a, const fs::path& b) {
       ++j;
     }
   }
+  // Equal up to leading zeros: the shorter remainder comes first, then plain order.
   return x.size() - i != y.size() - j ? x.size() - i < y.size() - j : x < y;
 }
 
@@ -60,8 +62,8 @@ Result<std::vector<fs::path>> FilesIn(const fs::path& folder, const char* ending
   return files;
 }
 
-/// Python writes a number that is none as a bare NaN, which JSON does not know: estimators say so of what they did not
-/// see. As null, which it does.
+/// Replaces bare NaN by null. Python writes NaN for a missing number, as estimators have for points they did not see,
+/// but JSON does not allow it.
 std::string WithNullForNan(std::string text) {
   constexpr std::string_view kNan = "NaN";
   bool in_string = false;
@@ -86,7 +88,7 @@ Result<std::vector<SeenPerson>> ReadFrame(const fs::path& file, const std::strin
   ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(file));
   ASSIGN_OR_RETURN(const Json json, ReadJson(WithNullForNan(text), file.string()));
   std::vector<SeenPerson> frame;
-  if (json.is_array()) {  // MMPose's: a list of people
+  if (json.is_array()) {  // MMPose: a list of people
     ASSIGN_OR_RETURN(auto people, PeopleOfList(json, layout, {}, place));
     std::ranges::copy_if(people, std::back_inserter(frame), IsAnySeen);
     return frame;
@@ -114,7 +116,7 @@ Result<PeopleOfFilm> ReadFolder(const fs::path& folder, const std::string& layou
   return film;
 }
 
-/// The names that a COCO file's category gives its keypoints.
+/// Returns the keypoint names of a COCO file's first category.
 std::vector<std::string> NamesOf(const Json& json) {
   const Json* categories = Member(json, "categories");
   if (categories == nullptr || !categories->is_array() || categories->empty()) return {};
@@ -123,7 +125,7 @@ std::vector<std::string> NamesOf(const Json& json) {
 
 struct CocoPerson {
   std::size_t frame;
-  std::vector<Keypoint> points;  ///< v as confidence
+  std::vector<Keypoint> points;  ///< the confidence holds COCO's v
 };
 
 Result<std::map<double, std::size_t>> FramesOf(const Json& images, PeopleOfFilm& film, const Place& place) {
@@ -135,8 +137,8 @@ Result<std::map<double, std::size_t>> FramesOf(const Json& images, PeopleOfFilm&
       return Fail(place, "two images with the id {}", id->dump());
     }
     if (width != nullptr && width->is_number() && height != nullptr && height->is_number()) {
-      const int w = static_cast<int>(std::clamp(width->get<double>(), 0.0, kLargestPixel));
-      const int h = static_cast<int>(std::clamp(height->get<double>(), 0.0, kLargestPixel));
+      const int w = static_cast<int>(std::clamp(width->get<double>(), 0.0, kMaxPixel));
+      const int h = static_cast<int>(std::clamp(height->get<double>(), 0.0, kMaxPixel));
       if (film.width != 0 && (w != film.width || h != film.height)) {
         return Fail(place, "images of {} x {} and of {} x {} pixels in one film", film.width, film.height, w, h);
       }
@@ -158,21 +160,22 @@ Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const
   const std::vector<std::string> names = NamesOf(json);
   PeopleOfFilm film;
   ASSIGN_OR_RETURN(const auto frames, FramesOf(*images, film, place));
+  // Collect the people of every image.
   std::vector<CocoPerson> people;
-  double most = 0;
+  double max_confidence = 0;
   for (const Json& annotation : *annotations) {
     const Json* id = Member(annotation, "image_id");
     const auto frame = id != nullptr && id->is_number() ? frames.find(id->get<double>()) : frames.end();
     if (frame == frames.end()) return Fail(place, "an annotation of an image that is not listed");
     ASSIGN_OR_RETURN(auto points, Triples(Member(annotation, "keypoints"), place));
-    for (const Keypoint& point : points) most = std::max(most, point.confidence);
+    for (const Keypoint& point : points) max_confidence = std::max(max_confidence, point.confidence);
     people.push_back({frame->second, std::move(points)});
   }
   film.frames.resize(frames.size());
   if (film.frames.empty()) return Fail(place, "no image");
   for (CocoPerson& person : people) {
-    // Flags, when a 2 is among them; else scores.
-    for (Keypoint& point : person.points) point.confidence /= most > 1 ? 2 : 1;
+    // COCO's flags if any value exceeds 1, else scores.
+    for (Keypoint& point : person.points) point.confidence /= max_confidence > 1 ? 2 : 1;
     ASSIGN_OR_RETURN(const SeenPerson seen, ToPerson(person.points, layout, names, place));
     if (film.frames[person.frame].size() >= kMostPeople)
       return Fail(place, "more than {} people in a frame", kMostPeople);
@@ -185,18 +188,19 @@ Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const
 
 namespace {
 
-/// Takes keypoints within 0…1 as shares of the film's pictures.
+/// Converts keypoints to pixels if all of them lie within 0…1, as shares of the film's width and height.
 void Denormalise(const FilmOfKeypoints& of, PeopleOfFilm& film) {
-  constexpr double kMost = 1.1;
+  constexpr double kMaxShare = 1.1;
   constexpr int kSmallPicture = 16;
   if (of.width < kSmallPicture || of.height < kSmallPicture) return;
+  // Return unchanged if any keypoint lies outside.
   std::size_t seen = 0;
   for (const auto& frame : film.frames) {
     for (const SeenPerson& person : frame) {
       for (const Keypoint& keypoint : person.keypoints) {
         const glm::dvec2 p = keypoint.pixel - kOurPixelCentre;
         if (keypoint.confidence <= 0) continue;
-        if (std::abs(p.x) > kMost || std::abs(p.y) > kMost) return;
+        if (std::abs(p.x) > kMaxShare || std::abs(p.y) > kMaxShare) return;
         ++seen;
       }
     }

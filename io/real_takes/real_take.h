@@ -9,10 +9,10 @@
 
 namespace etude {
 
-/// The distance of some cameras' capture from a reference, over all its markers or joints and all frames.
+/// The distance between the capture of some cameras and a reference, over all its markers or joints and all frames.
 struct RealDistance {
   std::string cameras;                                ///< "all", "1+4"
-  std::optional<double> median_mm = {}, p95_mm = {};  ///< nothing where these cameras gave no motion
+  std::optional<double> median_mm = {}, p95_mm = {};  ///< millimetres; absent if these cameras gave no motion
 
   bool operator==(const RealDistance&) const = default;
 };
@@ -20,8 +20,8 @@ struct RealDistance {
 /// A capture of real films beside a reference.
 struct RealTake {
   std::string name;
-  std::string recovery;   ///< what told where the person is: "keypoints", "marks", "silhouettes"
-  std::string reference;  ///< its file's name
+  std::string recovery;   ///< the source of the person's position in the films: "keypoints", "marks", "silhouettes"
+  std::string reference;  ///< the name of its file
   std::vector<std::string> films = {};
   int frames = 0;
   double rate_hz = 0;
@@ -30,12 +30,12 @@ struct RealTake {
   bool operator==(const RealTake&) const = default;
 };
 
-/// Returns the values of `RealTake::recovery`.
+/// Returns the allowed values of `RealTake::recovery`.
 const std::vector<std::string>& RealRecoveries();
 
-/// Writes a take as JSON; the bytes are the same for the same take.
+/// Writes a take as JSON; the same take gives the same bytes.
 std::string WriteRealTake(const RealTake& take);
-/// Reads what `WriteRealTake` writes. Every error names place, what was found, and what is allowed.
+/// Reads the output of `WriteRealTake`. Every error names the place, the value found and the allowed values.
 Result<RealTake> ReadRealTake(std::string_view text, const std::string& file);
 
 }  // namespace etude

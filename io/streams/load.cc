@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostFiles = 100'000;
+constexpr std::size_t kMaxFiles = 100'000;
 
 bool IsClip(const std::string& reference) {
   if (reference.starts_with("builtin:")) return true;
@@ -36,7 +36,7 @@ std::string Describe(const StreamRecording& recording, const MadeStream& made) {
   if (!recording.is_level) text += ", " + Describe(made.level);
   if (made.lost_frames > 0) text += fmt::format(", nobody in {} of {} frames", made.lost_frames, frames);
   for (const std::string& remark : recording.remarks) text += ", " + remark;
-  constexpr double kBackwards = -0.35;  // as CheckSides has it for clips
+  constexpr double kBackwards = -0.35;  // the same threshold as CheckSides uses for clips
   const auto feet = FeetForward(made.stream);
   if (feet && *feet < kBackwards) text += ", feet point backwards: mirrored? (--reflect)";
   return text;
@@ -48,14 +48,14 @@ Result<std::vector<std::string>> FilesBelow(const std::string& folder) {
   std::error_code error;
   for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     if (at->is_regular_file(error)) files.push_back(at->path().string());
-    if (files.size() > kMostFiles) return Fail({folder}, "over {} files", kMostFiles);
+    if (files.size() > kMaxFiles) return Fail({folder}, "over {} files", kMaxFiles);
   }
   if (error) return Fail({folder}, "{}", error.message());
   std::ranges::sort(files);
   return files;
 }
 
-/// Tells by its beginning whether a file of a folder may be a recording; labels and read-mes are none.
+/// Returns true if a file of a folder begins as a recording does; label files and read-mes do not.
 Result<bool> LooksLikeStream(const std::string& path) {
   if (IsClip(path)) return true;
   if (fs::path(path).extension() == ".tagstream") return false;
@@ -106,6 +106,7 @@ Result<std::vector<NamedStream>> LoadStream(const std::string& reference, const 
     return StreamsOf(library);
   }
   ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(reference));
+  // A file of no known recording format may be a clip.
   if (!reading.format && !DetectStreamFormat(text)) {
     if (const auto library = LoadClips({reference}, {}, clips)) return StreamsOf(*library);
   }
@@ -127,6 +128,7 @@ Result<LoadedStreams> LoadStreams(const std::vector<std::string>& references, co
                                   const StreamOptions& options, const OpenOptions& clips) {
   LoadedStreams loaded;
   for (const std::string& reference : references) {
+    // Load each reference: a folder, or what it expands to.
     std::error_code ignored;
     if (fs::is_directory(reference, ignored)) {
       RETURN_IF_ERROR(AddFolder(reference, reading, options, clips, loaded));
@@ -145,6 +147,7 @@ Result<LoadedStreams> LoadStreams(const std::vector<std::string>& references, co
       std::ranges::move(*streams, std::back_inserter(loaded.streams));
     }
   }
+  // Options for clips must apply to at least one clip.
   const bool is_told = clips.body.metres_per_unit || clips.body.up || (clips.roles && !clips.roles->joints.empty());
   const auto is_clip = [](const NamedStream& stream) { return stream.motion.has_value(); };
   if (is_told && !loaded.streams.empty() && std::ranges::none_of(loaded.streams, is_clip)) {

@@ -11,26 +11,28 @@
 
 namespace etude {
 
-/// Reads one recording or clip ("builtin:clap", a cell's motion in a run, any file that is a clip and no recording of
-/// a sensor: what a sensor without errors would say of it). `clips` tells how clips are opened.
+/// Reads one recording or clip. A clip ("builtin:clap", a cell's motion in a run, or any motion file that is no
+/// recording of a sensor) is read as a sensor without errors would record it. `clips` gives the options for opening
+/// clips.
 Result<std::vector<NamedStream>> LoadStream(const std::string& reference, const StreamReading& reading,
                                             const StreamOptions& options, const OpenOptions& clips = {});
 
-/// Makes recordings of clips, as a sensor without errors would.
+/// Makes recordings of clips, as a sensor without errors would make them.
 std::vector<NamedStream> StreamsOf(const ClipLibrary& library);
 
-/// The recordings of files, patterns and folders (with all below, sorted).
+/// The recordings of files, patterns and folders; folders include their subfolders, sorted by path.
 struct LoadedStreams {
   std::vector<NamedStream> streams;
-  std::vector<Error> refused;  ///< files of folders and patterns that could not be read; those named alone fail
+  std::vector<Error> refused;  ///< files of folders and patterns that could not be read; a file that is named directly
+                               ///< makes the load fail
   int passed_over = 0;         ///< files of folders that are no recordings
 };
-/// Loads recordings; fails when there is none, and when `clips` tells a joint map, a unit or an axis of what are no
-/// clips.
+/// Loads recordings. Fails if there are none, and if `clips` gives a joint map, a unit or an axis but no reference is a
+/// clip.
 Result<LoadedStreams> LoadStreams(const std::vector<std::string>& references, const StreamReading& reading,
                                   const StreamOptions& options, const OpenOptions& clips = {});
 
-/// Returns the files of labels that a path means: itself, or, of a folder, all tag streams in it.
+/// Returns the label files of a path: the path itself, or all tag streams in a folder.
 Result<std::vector<std::string>> LabelFiles(const std::string& path);
 /// Loads the labels of a file, or of all tag streams of a folder.
 Result<std::vector<Label>> LoadLabels(const std::string& path);

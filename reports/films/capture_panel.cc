@@ -30,7 +30,7 @@ ProjectedJoints ProjectAll(const BodyPose& pose, const Camera& camera, const Box
   ProjectedJoints projected;
   for (const Role role : AllRoles()) {
     const auto pixel = Project(camera, pose[role]);
-    // Far outside lies nothing to see, and cairo's fixed-point coordinates would overflow.
+    // Skip far points: they are invisible, and cairo's fixed-point coordinates would overflow.
     if (!pixel || glm::length(*pixel) > 1e4) continue;
     projected.points[Index(role)] = glm::dvec2{panel.x, panel.y} + *pixel * scale;
   }
@@ -55,7 +55,7 @@ void DrawJoints(Canvas& canvas, const ProjectedJoints& joints) {
   }
 }
 
-// Lays paint over the masked pixels of a picture; recorded masks have half its size.
+// Tints the masked pixels of a picture; recorded masks have half its size.
 void Tint(const Mask& mask, const Paint& paint, ColourImage& picture) {
   std::array<std::array<std::uint8_t, 256>, 3> tinted;
   for (int value = 0; value < 256; ++value) {
@@ -73,7 +73,7 @@ void Tint(const Mask& mask, const Paint& paint, ColourImage& picture) {
   }
 }
 
-// The part of the pictures, in their own proportions, that holds the person in every frame with some air.
+// Returns the part of the pictures, in their aspect ratio, that contains the person in every frame with a margin.
 Box CropAround(const BodyMotion& motion, const Camera& camera) {
   constexpr double kAirPixels = 45;
   const glm::dvec2 size{camera.intrinsics.width, camera.intrinsics.height};
@@ -120,6 +120,7 @@ Mask OutlineOf(const Mask& mask) {
 }
 
 Result<CapturePanel> CapturePanel::Make(const RunData& run, const CastCell& cell) {
+  // Read the tracks and the extras, and check that their lengths match.
   const Place place{.file = "recording " + cell.row->Id()};
   const BodyMotion* truth = FindTrack(*cell.recording, "truth");
   const BodyMotion* recovered = FindTrack(*cell.recording, "recovered");
@@ -132,6 +133,7 @@ Result<CapturePanel> CapturePanel::Make(const RunData& run, const CastCell& cell
   for (const auto& view : extras.views) fits = fits && view.masks.size() == frames;
   if (!fits) return Fail(place, "its tracks, masks and brightness differ in length, or it has no camera");
 
+  // Rebuild the room and find the crop of each camera.
   CapturePanel panel;
   panel.truth_ = *truth;
   panel.recovered_ = *recovered;
@@ -143,6 +145,7 @@ Result<CapturePanel> CapturePanel::Make(const RunData& run, const CastCell& cell
   }
   panel.method_ = cell.row->method;
   panel.clip_ = ClipInWords(cell.row->clip);
+  // Find the error of the cell, and of each frame if the run kept it.
   panel.error_mm_ = ValueOf(*cell.row, "mpjpe_mm");
   if (const Series* errors = FindSeries(run, *cell.row, "mpjpe_mm");
       errors != nullptr && errors->values.size() == frames) {
@@ -192,12 +195,12 @@ View CapturePanel::Seen(Renderer& renderer, std::size_t camera, int frame, Targe
 void CapturePanel::Draw(Canvas& canvas, Renderer& renderer, std::size_t camera, int frame) const {
   const std::size_t k = static_cast<std::size_t>(frame);
   const CaptureExtras::View& view = extras_.views[camera];
-  // The whole picture, laid so that its crop covers the canvas; the rest falls off the edge.
+  // Draw the whole picture so that its crop fills the canvas; the rest is cut off.
   const Box& crop = crops_[camera];
   const double scale = canvas.width() / crop.width;
   const Intrinsics& inside = view.truth.intrinsics;
   const Box panel{-crop.x * scale, -crop.y * scale, inside.width * scale, inside.height * scale};
-  // Painted before it is stretched: stretching is what a frame costs most.
+  // Tint before scaling, because scaling costs most of a frame's time.
   ColourImage picture = Seen(renderer, camera, frame, Targets::kColour).colour;
   Tint(view.masks[k], kMaskTint, picture);
   Tint(OutlineOf(view.masks[k]), kMaskEdge, picture);

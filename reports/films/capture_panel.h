@@ -14,32 +14,32 @@
 
 namespace etude {
 
-/// One method's capture: the views of its cameras, the person as found in the pictures (tinted, outlined) and the
-/// skeleton as recovered from them.
+/// One method's capture: the views of its cameras, the segmented person (tinted and outlined), and the recovered
+/// skeleton.
 class CapturePanel {
  public:
-  /// Fails when the recording's facts cannot be read, or do not belong to its tracks.
+  /// Fails if the recording's facts cannot be read or do not match its tracks.
   static Result<CapturePanel> Make(const RunData& run, const CastCell& cell);
 
   int Frames() const { return static_cast<int>(truth_.poses.size()); }
   double RateHz() const { return truth_.rate_hz; }
   std::size_t Cameras() const { return extras_.views.size(); }
-  /// Names a camera: "First camera".
+  /// Returns a camera's name: "First camera".
   std::string CameraName(std::size_t camera) const;
-  /// Gives a picture of each camera as it was taken in the middle of the motion.
+  /// Returns the still pictures that the cameras took in the middle of the motion.
   std::vector<Still> Stills() const;
-  /// Gives the title: "adaptive on clap".
+  /// Returns the title: "adaptive on clap".
   std::string Title() const;
   const std::string& Method() const { return method_; }
-  /// Names the clip that was performed: "clap"; empty when the recording does not tell.
+  /// Returns the name of the performed clip: "clap"; empty if the recording does not state it.
   const std::string& Clip() const { return clip_; }
-  /// Tells the error: "43 mm now, 51 mm on average"; empty when it was not measured.
+  /// Returns the error in words: "43 mm now, 51 mm on average"; empty if it was not measured.
   std::string ErrorWords(int frame) const;
 
-  /// Renders one camera's view, without noise.
+  /// Renders one camera's view without noise.
   View Seen(Renderer& renderer, std::size_t camera, int frame, Targets targets) const;
 
-  /// Gives the moments that the recording keeps (`CaptureExtras::moments`).
+  /// Returns the moments that the recording keeps (`CaptureExtras::moments`).
   const std::vector<CaptureExtras::Moment>& Moments() const { return extras_.moments; }
   const Mask& MaskOf(std::size_t camera, int frame) const {
     return extras_.views[camera].masks[static_cast<std::size_t>(frame)];
@@ -47,11 +47,11 @@ class CapturePanel {
   const BodyMotion& Truth() const { return truth_; }
   const BodyPose& Recovered(int frame) const { return recovered_.poses[static_cast<std::size_t>(frame)]; }
   const Camera& CameraOf(std::size_t camera) const { return extras_.views[camera].truth; }
-  /// Gives the part of the camera's pictures that holds the person in every frame, pixels.
+  /// Returns the part of the camera's pictures that contains the person in every frame, pixels.
   const Box& CropOf(std::size_t camera) const { return crops_[camera]; }
 
-  /// Draws the part of one camera's picture around the person, with mask and skeleton over it, without words, over the
-  /// whole canvas. The same canvas size gives the same picture, so callers may keep it.
+  /// Draws the part of one camera's picture around the person, with mask and skeleton over it and without text; it
+  /// fills the canvas. The same canvas size gives the same picture, so callers may keep it.
   void Draw(Canvas& canvas, Renderer& renderer, std::size_t camera, int frame) const;
 
  private:
@@ -60,15 +60,15 @@ class CapturePanel {
   StagedRoom stage_;
   std::vector<LensWarp> lenses_;   ///< one per camera
   std::vector<Box> crops_;         ///< one per camera, pixels of its pictures
-  std::vector<double> errors_mm_;  ///< one per frame; empty when the run kept no such curve
+  std::vector<double> errors_mm_;  ///< one per frame; empty if the run kept no such curve
   std::optional<double> error_mm_;
   std::string method_, clip_;
 };
 
-/// Draws the body's bones and joints as the camera sees them; `panel` is where its whole picture lies.
+/// Draws bones and joints as the camera sees them; `panel` is the rectangle of the camera's whole picture.
 void DrawSkeleton(Canvas& canvas, const BodyPose& pose, const Camera& camera, const Box& panel);
 
-/// Gives the pixels of the mask that touch something outside it.
+/// Returns the pixels of the mask that touch a pixel outside it.
 Mask OutlineOf(const Mask& mask);
 
 }  // namespace etude

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kShownCameras = 2;
 
-// Both cameras at one third and two thirds of the capture.
+// One third and two thirds of the capture, for both cameras.
 std::array<int, 2> StripFrames(const CapturePanel& capture) { return {capture.Frames() / 3, capture.Frames() * 2 / 3}; }
 
 constexpr std::size_t kPlateCameras = 2, kPlateColumns = 5;
@@ -26,7 +26,8 @@ constexpr double kRowTitleSize = 14, kSmallSize = 12;
 constexpr double kPlateRowHeight = kTitleRoom + kPictureHeight + kCaptionRoom;
 constexpr Paint kVeil{0.04, 0.05, 0.06, 0.55};
 
-/// Gives the box of the whole picture whose part about the person fills a canvas of kPictureWidth × kPictureHeight.
+/// Returns the rectangle of the whole picture that puts the person's part onto a canvas of kPictureWidth ×
+/// kPictureHeight.
 Box PanelOf(const CapturePanel& capture, std::size_t camera) {
   const Box& crop = capture.CropOf(camera);
   const Intrinsics& in = capture.CameraOf(camera).intrinsics;
@@ -51,7 +52,7 @@ void DrawStrokes(Canvas& canvas, const std::vector<CaptureExtras::Mark>& marks, 
   }
 }
 
-/// One row of the plate: pictures beside each other under a title.
+/// One row of the plate: pictures side by side under a title.
 class PlateRow {
  public:
   PlateRow(Canvas& canvas, double y, const std::string& title) : canvas_(canvas), y_(y) {
@@ -93,7 +94,7 @@ void DrawMoment(const CapturePanel& capture, Renderer& renderer, const CaptureEx
                [&](Canvas& canvas) { DrawSkeleton(canvas, capture.Recovered(frame), seen_by, panel); });
 }
 
-/// Gives frames evenly spread over the motion.
+/// Returns frames evenly spread over the motion.
 std::array<int, kPlateColumns> SequenceOf(const CapturePanel& capture) {
   std::array<int, kPlateColumns> frames{};
   for (std::size_t i = 0; i < kPlateColumns; ++i) {
@@ -129,6 +130,7 @@ Result<void> SaveStripPictures(const CapturePanel& capture, Renderer& renderer, 
 }
 
 std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer) {
+  // Measure the plate.
   if (capture.Moments().empty()) return std::nullopt;
   const std::size_t cameras = std::min(kPlateCameras, capture.Cameras());
   const std::size_t rows = cameras * (capture.Moments().size() + 1) + 1;
@@ -143,12 +145,14 @@ std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer
     return row;
   };
 
+  // One row of stages for each moment and camera.
   for (const CaptureExtras::Moment& moment : capture.Moments()) {
     for (std::size_t camera = 0; camera < cameras; ++camera) {
       PlateRow row = begin_row(fmt::format("T = {}, camera {}", moment.frame + 1, camera + 1));
       DrawMoment(capture, renderer, moment, camera, row);
     }
   }
+  // One row of pictures of the whole motion for each camera.
   const std::array<int, kPlateColumns> sequence = SequenceOf(capture);
   for (std::size_t camera = 0; camera < cameras; ++camera) {
     PlateRow row = begin_row(fmt::format("The whole sequence, camera {}", camera + 1));
@@ -158,6 +162,7 @@ std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer
       row.Add(picture, fmt::format("T = {}", frame + 1));
     }
   }
+  // One row of skeletons of the whole motion.
   PlateRow row = begin_row("The whole sequence, its skeletons");
   for (const int frame : sequence) {
     Canvas picture(kPictureWidth, kPictureHeight);
@@ -176,12 +181,12 @@ constexpr Box kSkeletonsBox{456, 52, 812, 656};
 constexpr double kSkeletonTop = 78, kSkeletonBottom = 62;
 constexpr Paint kGround{0.13, 0.15, 0.17, 1};
 constexpr Paint kTruthBone{0.62, 0.66, 0.69, 0.85};
-// Centimetres of a joint's error from which on a bone is red.
-constexpr double kReddest = 12;
+// Error of a joint, in centimetres, at which the colour scale ends.
+constexpr double kMaxErrorCm = 12;
 
-/// Gives green for no error, yellow halfway, red for kReddest centimetres and more.
+/// Returns green for no error, yellow for half of kMaxErrorCm, red for kMaxErrorCm centimetres and more.
 Paint PaintOfError(double cm) {
-  const double share = std::clamp(cm / kReddest, 0.0, 1.0);
+  const double share = std::clamp(cm / kMaxErrorCm, 0.0, 1.0);
   const double red = std::min(1.0, 2 * share), green = std::min(1.0, 2 - 2 * share);
   return {0.30 + 0.68 * red, 0.32 + 0.50 * green, 0.30, 1};
 }
@@ -194,7 +199,7 @@ Box ColumnOf(std::size_t index, std::size_t count) {
           kSkeletonsBox.height};
 }
 
-/// Puts a camera, somewhat to the side of the way the body faces, such that every true pose is seen with some air.
+/// Places a camera slightly to the side of the body's heading, so that it sees every true pose with a margin.
 Camera CameraBefore(const BodyMotion& truth, double width, double height) {
   glm::dvec3 low(1e9), high(-1e9);
   for (const BodyPose& pose : truth.poses) {
@@ -219,15 +224,15 @@ void DrawErrorLegend(Canvas& canvas, const Box& box) {
   canvas.DrawLine({box.x + 18, y - 6}, {box.x + 46, y - 6}, 8, kTruthBone);
   canvas.DrawText({box.x + 56, y}, "truth", kSize, kSoftInk, 60);
   const double right = box.x + box.width - 18;
-  const std::string most = fmt::format("{:g} cm off and more", kReddest);
-  const double words = canvas.TextWidth(most, kSize);
-  canvas.DrawText({right - words, y}, most, kSize, kSoftInk, words + 1);
+  const std::string upper_words = fmt::format("{:g} cm off and more", kMaxErrorCm);
+  const double words = canvas.TextWidth(upper_words, kSize);
+  canvas.DrawText({right - words, y}, upper_words, kSize, kSoftInk, words + 1);
   const double left = right - words - 12 - kBar;
   for (int i = 0; i < static_cast<int>(kBar); ++i) {
-    canvas.FillBox({left + i, y - 12, 1, 12}, PaintOfError(kReddest * i / kBar));
+    canvas.FillBox({left + i, y - 12, 1, 12}, PaintOfError(kMaxErrorCm * i / kBar));
   }
-  const std::string least = "recovered: 0";
-  canvas.DrawText({left - 10 - canvas.TextWidth(least, kSize), y}, least, kSize, kSoftInk, 200);
+  const std::string lower_words = "recovered: 0";
+  canvas.DrawText({left - 10 - canvas.TextWidth(lower_words, kSize), y}, lower_words, kSize, kSoftInk, 200);
 }
 
 }  // namespace
@@ -289,7 +294,7 @@ void CaptureScene::DrawSkeletons(Canvas& canvas, const CapturePanel& capture, co
   const BodyPose& recovered = capture.Recovered(frame);
   const auto seen = [&](const glm::dvec3& joint) -> std::optional<glm::dvec2> {
     const auto pixel = Project(camera_, joint);
-    // What a method put far away is not drawn over its neighbour.
+    // Do not draw joints far outside the column over its neighbour.
     if (!pixel || pixel->x < 0 || pixel->x > box.width) return std::nullopt;
     return glm::dvec2(box.x, box.y + kSkeletonTop) + *pixel;
   };

@@ -10,31 +10,31 @@
 
 namespace etude {
 
-/// Draws two moments of a capture as both cameras saw them, with mask and recovered skeleton.
+/// Draws two moments of a capture as the first two cameras saw them, with mask and recovered skeleton.
 std::vector<Picture> DrawStrip(const CapturePanel& capture, Renderer& renderer);
 
-/// Saves the same moments with colour, depth and labels, as EXR files for other programs.
+/// Saves the same moments with colour, depth and labels as EXR files for other programs.
 Result<void> SaveStripPictures(const CapturePanel& capture, Renderer& renderer, const FilePath& folder);
 
-/// Draws every stage of a capture's moments in the layout of paper B's figures 5.3 to 5.14: for each moment and camera
-/// the picture, the person cut out of it, the marks, the skeleton with its lengths fixed, and after inverse kinematics;
-/// beneath, as in figure 5.15, the whole motion as the cameras saw it, and its skeletons. At most two cameras. Nothing
-/// when the recording keeps no moments.
+/// Draws all stages of a capture's moments in the layout of paper B's figures 5.3 to 5.14: for each moment and camera
+/// the picture, the person cut out of it, the marks, the skeleton with its lengths fixed, and the skeleton after
+/// inverse kinematics. Below, as in figure 5.15, it draws the whole motion as the cameras saw it, and its skeletons. At
+/// most two cameras. Returns nullopt if the recording keeps no moments.
 std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer);
 
-/// Finds the recorded captures of one world that a film compares: of the typical cell's world (ChooseCell) every method
-/// that kept one, in the scenario's order, three at most. Empty when there is none; fails when one cannot be read.
+/// Finds the captures of one world that a film compares: in the typical cell's world (ChooseCell), every method that
+/// was recorded, in the scenario's order, three at most. Empty if there is none; fails if one cannot be read.
 Result<std::vector<CapturePanel>> FindCaptures(const RunData& run, const CastCell& typical);
 
-/// The film of a capture: what two cameras saw of a performer, and, side by side for each method, the true skeleton
-/// with the recovered one over it, whose bones tell by colour how far their joints are off.
+/// The film of a capture: the views of two cameras and, side by side for each method, the true skeleton with the
+/// recovered one over it. The colour of a recovered bone shows the error of its joints.
 class CaptureScene : public Scene {
  public:
-  /// The most methods that are shown, and the most frames.
+  /// The maximum number of methods, and of frames.
   static constexpr std::size_t kMostMethods = 3;
   static constexpr int kLongest = 8 * kFilmRate;
 
-  /// Shows captures of one world, one to kMostMethods; the renderer must outlive the scene.
+  /// Shows captures of one world, 1 to kMostMethods; the renderer must outlive the scene.
   CaptureScene(Renderer& renderer, std::vector<CapturePanel> captures);
 
   int Frames() const override;
@@ -49,7 +49,7 @@ class CaptureScene : public Scene {
 
   Renderer& renderer_;
   const std::vector<CapturePanel> captures_;
-  Camera camera_;  ///< before the skeletons; the width and height are a column's
+  Camera camera_;  ///< in front of the skeletons; its picture has the size of one column
 };
 
 }  // namespace etude

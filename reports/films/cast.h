@@ -8,22 +8,22 @@
 
 namespace etude {
 
-/// A recorded cell that is worth showing.
+/// A recorded cell to show.
 struct CastCell {
   const ScenarioSummary* scenario;
   const Row* row;
   const Recording* recording;
 };
 
-/// Chooses the cell that the film shows of this kind of task: among the recorded cells that ended well and have this
-/// track, those of the method that answers the scenario's question (else of any method), and of these the one in the
-/// middle by the first headline metric. It is a typical cell, not the best one.
+/// Chooses the cell that a film of this kind of task shows. Candidates are recorded cells with status ok and this
+/// track, preferably of the method that answers the scenario's question. Of these it takes the median by the first
+/// headline metric: a typical cell, not the best one.
 std::optional<CastCell> ChooseCell(const RunData& run, std::string_view task, std::string_view track);
 
 /// Chooses a cell of one scenario in the same way.
 std::optional<CastCell> ChooseCell(const RunData& run, const ScenarioSummary& scenario, std::string_view track);
 
-/// Finds the curve of that name of a cell, or null.
+/// Finds a curve of a cell by name; null if there is none.
 const Series* FindSeries(const RunData& run, const Row& row, std::string_view name);
 
 }  // namespace etude

@@ -19,7 +19,7 @@
 namespace etude {
 namespace {
 
-/// Moves every frame that a recording tells into the session.
+/// Clamps every frame number of a recording to the session.
 void KeepWithin(CoachedSessionFacts& facts) {
   const int last = facts.Frames() - 1;
   const auto keep = [&](int& frame) { frame = std::clamp(frame, 0, last); };
@@ -57,13 +57,13 @@ Result<CoachedSessionFacts> ReadCoachedSession(const CastCell& cell) {
 
 std::optional<CastCell> ChooseWorstSession(const RunData& run, const ScenarioSummary& scenario) {
   std::optional<CastCell> worst;
-  double most = -1;
+  double most_wrong = -1;
   for (const auto& [row, recorded] : RecordedRows(run)) {
     if (row->scenario != scenario.name) continue;
     const double wrong = ValueOf(*row, "corrections_unneeded_per_min").value_or(0) +
                          ValueOf(*row, "corrections_missed_per_min").value_or(0);
-    if (wrong <= most) continue;
-    most = wrong;
+    if (wrong <= most_wrong) continue;
+    most_wrong = wrong;
     worst = CastCell{&scenario, row, &recorded->recording};
   }
   return worst;
@@ -74,7 +74,7 @@ namespace {
 constexpr Rgb8 kSky{176, 212, 232}, kHills{122, 160, 138}, kGrass{126, 168, 92}, kTrunk{112, 84, 60};
 constexpr std::array<Rgb8, 3> kCrowns = {{{66, 118, 72}, {82, 136, 78}, {52, 100, 68}}};
 
-/// Makes a flat piece, seen from +Z or from above; corners in order.
+/// Returns a flat polygon that is visible from +Z or from above; corners in order.
 Surface Sheet(const std::vector<glm::dvec3>& corners, const glm::dvec3& normal, Rgb8 colour) {
   Surface sheet;
   sheet.positions = corners;
@@ -85,7 +85,7 @@ Surface Sheet(const std::vector<glm::dvec3>& corners, const glm::dvec3& normal, 
   return sheet;
 }
 
-/// Makes a frustum about the vertical: a trunk, or, with no width at its top, a crown.
+/// Returns a frustum about the vertical axis: a trunk, or, with a top radius of 0, a crown.
 Surface Cone(const glm::dvec3& foot, double height, double foot_radius, double top_radius, Rgb8 colour) {
   constexpr int kSides = 10;
   Surface cone;
@@ -117,17 +117,17 @@ void AddTree(const glm::dvec3& foot, double height, std::size_t kind, Figure& fo
 }
 
 constexpr Box kStage{12, 52, 1256, 520};
-constexpr Box kSaid{12, 52, 1064, 520};  // of the stage, what words may cover
+constexpr Box kSaid{12, 52, 1064, 520};  // the part of the stage that text may cover
 constexpr Box kInset{1086, 372, 170, 188};
 constexpr Box kHint{1046, 64, 210, 280};
 
-// Who stands where, and what is seen of them.
+// The positions of coach and learner, and the camera.
 constexpr FloorMove kCoachAt{.yaw = 0, .x = -1.05, .z = -0.3}, kLearnerAt{.yaw = 0, .x = 0.95, .z = -0.3};
 constexpr double kSessionEyeHeight = 1.35, kSessionDistance = 5.2, kSessionLookAt = 1.0, kSessionSeen = 2.5;
 
 constexpr int kBeforeCorrection = 3 * kFilmRate;
 
-/// The most frames that the timeline shows: of a longer film those around the present.
+/// The maximum number of frames that the timeline shows; for a longer film, those around the current one.
 constexpr int kTimelineFrames = 24 * kFilmRate;
 
 const Room kMeadow{.casts_shadows = false};
@@ -140,7 +140,7 @@ Paint PaintOfMode(const std::string& mode) {
   return kUndecidedPaint;
 }
 
-/// Gives the span that began last before a frame.
+/// Returns the last span that began at or before a frame.
 template <typename Span>
 const Span& InForce(const std::vector<Span>& spans, int frame) {
   const auto after = std::ranges::upper_bound(spans, frame, {}, &Span::begin_frame);
@@ -167,6 +167,7 @@ Surface SpotBelow(const BodyPose& pose) {
 
 Figure ForestFigure() {
   constexpr double kFar = 14, kNear = 8, kBack = kWallZ + 0.02;
+  // The sky, the hills in strips, and the meadow.
   Figure forest;
   forest.surfaces.push_back(
       Sheet({{-kFar, 0, kBack}, {kFar, 0, kBack}, {kFar, 10, kBack}, {-kFar, 10, kBack}}, {0, 0, 1}, kSky));
@@ -178,7 +179,7 @@ Figure ForestFigure() {
   }
   forest.surfaces.push_back(Sheet(
       {{-kFar, 0.004, kNear}, {kFar, 0.004, kNear}, {kFar, 0.004, kBack}, {-kFar, 0.004, kBack}}, {0, 1, 0}, kGrass));
-  // Where trees stand and how high they are: thrown once by hand, the middle left free for the dancers.
+  // The positions and heights of the trees were chosen by hand; the middle is free for the dancers.
   constexpr std::array<glm::dvec3, 12> kTrees = {{{-5.6, 3.0, -2.1},
                                                   {-4.7, 2.3, -1.8},
                                                   {-3.9, 2.9, -2.2},
@@ -235,6 +236,7 @@ const ColourImage& CoachedScene::Backdrop(const Camera& camera) {
 
 void CoachedScene::DrawStage(Canvas& canvas, int frame) {
   const auto t = static_cast<std::size_t>(frame);
+  // The camera sees coach and learner side by side.
   Intrinsics inside;
   inside.width = static_cast<int>(kStage.width);
   inside.height = static_cast<int>(kStage.height);
@@ -243,6 +245,7 @@ void CoachedScene::DrawStage(Canvas& canvas, int frame) {
   inside.cy = kStage.height / 2;
   const Camera camera = LookAt(inside, {0, kSessionEyeHeight, kSessionDistance}, {0, kSessionLookAt, 0});
   const BodyPose coach = PutAt(facts_.coach.poses[t], kCoachAt), learner = PutAt(facts_.learner.poses[t], kLearnerAt);
+  // Render the people, and copy their pixels over the backdrop.
   Figure spots;
   spots.surfaces = {SpotBelow(coach), SpotBelow(learner)};
   const std::vector<Figure> people{spots, PosedFigure(bear_, coach), PosedFigure(learner_, learner)};
@@ -253,12 +256,13 @@ void CoachedScene::DrawStage(Canvas& canvas, int frame) {
   }
   canvas.DrawImage(stage, kStage, kPanelRadius);
   DrawTag(canvas, kStage, fmt::format("The coach: {}", InForce(facts_.modes, frame).mode));
+  // Find the reason for the latest decision of the last two seconds.
   std::string why;
   for (const auto& decision : facts_.decisions) {
-    // What the coach does about the music and between clips, and by which rule it corrects, is for its log.
+    // Leave out events about music, clips and rules of correction: they belong in the log.
     const bool is_said = decision.event != "tag" && decision.event != "transition" && decision.event != "corrects";
     if (is_said && decision.frame <= frame && frame < decision.frame + 2 * kFilmRate && !decision.why.empty()) {
-      // Of a judgement its name, not the evidence.
+      // Show the name of a verdict, without its evidence.
       const std::string_view event = decision.event;
       why = event == "wrong"   ? "wrong: " + decision.why.substr(0, decision.why.find(':'))
             : event == "right" ? "judged right"
@@ -299,6 +303,7 @@ void CoachedScene::DrawTimeline(Canvas& canvas, int now) const {
   timeline.Label(0, "coach");
   timeline.Label(1, "truth");
   timeline.Label(2, "judged");
+  // The coach's modes, the performances with their verdicts, and the transitions.
   for (std::size_t i = 0; i < facts_.modes.size(); ++i) {
     const int end = i + 1 < facts_.modes.size() ? facts_.modes[i + 1].begin_frame : facts_.Frames();
     timeline.Bar(0, facts_.modes[i].begin_frame, end, PaintOfMode(facts_.modes[i].mode));
@@ -310,8 +315,8 @@ void CoachedScene::DrawTimeline(Canvas& canvas, int now) const {
     if (now >= end) timeline.Bar(2, begin, end, PaintOfWord(performance.called));
     timeline.Text(1, begin, end, PlainName(performance.move));
   }
-  for (const int seam : facts_.transitions) {
-    if (timeline.Shows(seam)) timeline.Tick(seam, 0, 0, kInk);
+  for (const int point : facts_.transitions) {
+    if (timeline.Shows(point)) timeline.Tick(point, 0, 0, kInk);
   }
   timeline.Tick(now, 0, 2, kInk);
 }

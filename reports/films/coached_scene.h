@@ -15,30 +15,32 @@
 
 namespace etude {
 
-/// A recorded session of a coach, as a film needs it: what the recording tells, every frame of it within the session,
-/// and its tracks.
+/// A recorded session of a coach in the form that a film needs: the extras of the recording, with every frame clamped
+/// to the session, and its tracks.
 struct CoachedSessionFacts : CoachExtras {
-  BodyMotion coach, learner, sensed;  ///< of one length
+  BodyMotion coach, learner, sensed;  ///< of equal length
 
   int Frames() const { return static_cast<int>(coach.poses.size()); }
 };
 
-/// Reads what the coach task keeps of a cell. Fails, naming the recording and the key, when it is not that.
+/// Reads the recording that the coach task keeps of a cell. Fails with the recording and the key if it is not such a
+/// recording.
 Result<CoachedSessionFacts> ReadCoachedSession(const CastCell& cell);
 
-/// Chooses the worst of a scenario's recorded sessions: the one with the most needless and missed corrections a minute.
-/// Gives nothing where nothing was recorded.
+/// Chooses the worst of a scenario's recorded sessions: the one with the most unneeded and missed corrections per
+/// minute. Returns nullopt if no session was recorded.
 std::optional<CastCell> ChooseWorstSession(const RunData& run, const ScenarioSummary& scenario);
 
-/// Makes paper A's scene: a meadow before a forest's edge and the sky. It stands behind z = −1, and hides the room's
-/// wall and floor from a camera that looks at the origin from +Z.
+/// Returns paper A's scene: a meadow in front of a forest and the sky. It stands behind z = −1 and hides the room's
+/// wall and floor from a camera at +Z that looks at the origin.
 Figure ForestFigure();
 
-/// Makes a soft dark spot on the meadow below a body: the forest is drawn without shadows.
+/// Returns a soft dark spot on the meadow below a body, because the forest is drawn without shadows.
 Surface SpotBelow(const BodyPose& pose);
 
-/// A coached session: the bear in its forest and the learner beside it, the learner's skeleton as the sensor saw it,
-/// the hint with the picture of its key pose, and a timeline of truth, judgements and transitions. A beat is a click.
+/// The film of a coached session: the bear in its forest with the learner beside it, the learner's skeleton as the
+/// sensor saw it, the hint with the picture of its key pose, and a timeline of truth, verdicts and transitions. Every
+/// beat clicks.
 class CoachedScene : public Scene {
  public:
   /// Shows at most `longest` frames, cut around the session's first correction. The renderer must outlive the scene.
@@ -51,13 +53,13 @@ class CoachedScene : public Scene {
   std::vector<double> Beats() const override;
 
  private:
-  /// Gives the stage without anybody, which is drawn once.
+  /// Returns the stage without people; it is drawn once.
   const ColourImage& Backdrop(const Camera& camera);
   void DrawStage(Canvas& canvas, int frame);
   void DrawSkeletonInset(Canvas& canvas, int frame) const;
   void DrawHint(Canvas& canvas, int frame) const;
   void DrawTimeline(Canvas& canvas, int now) const;
-  /// Gives the frames of the session that the timeline shows at one of them.
+  /// Returns the frames of the session that the timeline shows at frame `now`.
   FrameSpan TimelineAt(int now) const;
 
   CoachedSessionFacts facts_;

@@ -17,22 +17,22 @@ namespace etude {
 namespace {
 
 constexpr double kSecondsPerDoubling = 0.7;
-constexpr double kShortestRace = 4, kLongest = 8;  // seconds
+constexpr double kMinRaceSeconds = 4, kMaxRaceSeconds = 8;  // seconds
 
 constexpr Paint kGrid{0.24, 0.27, 0.29, 1};
 constexpr Paint kGoal{0.55, 0.82, 0.50, 1};
 constexpr Paint kTime{0.95, 0.955, 0.96, 0.35};
 constexpr double kTitleSize = 18, kTickSize = 17;
 constexpr double kPlotLeft = 64, kPlotRight = 28, kPlotTop = 44, kPlotBottom = 54;
-// What the axis can label: digits of a larger decade would not fit into an int.
-constexpr int kMostIterations = 100'000'000;
-// Below the goal nothing matters, and rounding would stretch the axis without end.
-constexpr int kMostDecadesBelowGoal = 2;
+// The largest iteration that the axis can label: the digits of a larger decade would not fit into an int.
+constexpr int kMaxLabelledIteration = 100'000'000;
+// Errors far below the goal are irrelevant, and rounding noise would extend the axis without limit.
+constexpr int kMaxDecadesBelowGoal = 2;
 
 }  // namespace
 
 RaceClock::RaceClock(int last_iteration) : last_(last_iteration) {
-  const double seconds = std::clamp(kSecondsPerDoubling * std::log2(1.0 + last_), kShortestRace, kLongest);
+  const double seconds = std::clamp(kSecondsPerDoubling * std::log2(1.0 + last_), kMinRaceSeconds, kMaxRaceSeconds);
   run_ = static_cast<int>(std::lround(seconds * kFilmRate));
 }
 
@@ -46,7 +46,7 @@ double RaceClock::ShareOf(double iteration) const {
   return last_ == 0 ? 0 : std::clamp(std::log1p(iteration) / std::log1p(last_), 0.0, 1.0);
 }
 
-/// The inside of the axes, which gives the place of a value in it.
+/// The area inside the axes; maps values to positions.
 struct ErrorPlot::Frame {
   Box box;
   const ErrorPlot& plot;
@@ -69,7 +69,7 @@ ErrorPlot::ErrorPlot(std::string title, std::string suffix, double goal, std::ve
     low = std::min(low, std::ranges::min(curve.values));
     high = std::max(high, std::ranges::max(curve.values));
   }
-  low = std::max(low, goal * std::pow(10, -kMostDecadesBelowGoal));
+  low = std::max(low, goal * std::pow(10, -kMaxDecadesBelowGoal));
   lowest_ = static_cast<int>(std::floor(std::log10(low)));
   highest_ = static_cast<int>(std::ceil(std::log10(high)));
 }
@@ -85,7 +85,7 @@ void ErrorPlot::Draw(Canvas& canvas, const Box& panel, double iteration) const {
   DrawIterationAxis(canvas, frame);
   const double now = frame.X(iteration);
   canvas.DrawLine({now, frame.box.y}, {now, frame.Bottom()}, 1.5, kTime);
-  // Curves that coincide are all seen: the later ones are thinner.
+  // Draw later curves thinner, so that coinciding curves are all visible.
   double width = 3 + 2.0 * (static_cast<double>(curves_.size()) - 1);
   for (const ErrorCurve& curve : curves_) {
     DrawCurve(canvas, frame, curve, iteration, width);
@@ -110,7 +110,7 @@ void ErrorPlot::DrawValueAxis(Canvas& canvas, const Frame& frame) const {
 }
 
 void ErrorPlot::DrawIterationAxis(Canvas& canvas, const Frame& frame) const {
-  double free_from = 0;  // where labels do not run into each other
+  double free_from = 0;  // first x at which the next label does not overlap
   const auto tick = [&](int at) {
     const std::string label = FormatCount(at);
     const double width = canvas.TextWidth(label, kTickSize), x = frame.X(at), left = x - width / 2;
@@ -120,7 +120,7 @@ void ErrorPlot::DrawIterationAxis(Canvas& canvas, const Frame& frame) const {
     free_from = left + width + 8;
   };
   tick(0);
-  for (int decade = 1; decade <= clock_.LastIteration() && decade <= kMostIterations; decade *= 10) {
+  for (int decade = 1; decade <= clock_.LastIteration() && decade <= kMaxLabelledIteration; decade *= 10) {
     for (const int digit : {1, 2, 5}) tick(digit * decade);
   }
   const std::string axis = "iteration, log scale";
@@ -140,13 +140,13 @@ void ErrorPlot::DrawCurve(Canvas& canvas, const Frame& frame, const ErrorCurve& 
 
 namespace {
 
-// Drawn this much larger and shrunk, which smooths edges.
+// Pictures are drawn this much larger and then shrunk, which smooths the edges.
 constexpr double kDetail = 1.5;
-// The share of the panel's width, on its left, that the text gets.
+// The share of the panel's width, on its left, for the text.
 constexpr double kWordsShare = 0.34;
-// From the front, turned far enough to tell near from far.
+// The bodies are turned from the front, so that near and far limbs can be distinguished.
 constexpr double kTurn = Radians(25);
-// Metres, a tenth of a pixel: the last iterations often move less, and need no new picture.
+// Metres, about a tenth of a pixel. The last iterations often move less and need no new picture.
 constexpr double kVisible = 0.0005;
 constexpr Paint kGhostRim{0.90, 0.93, 0.95, 0.55};
 constexpr Paint kMarkShadow{0.05, 0.06, 0.07, 0.8};
@@ -186,7 +186,7 @@ void DrawMarks(Canvas& canvas, const std::vector<std::pair<glm::dvec2, glm::dvec
   }
 }
 
-// Errors far below the goal are drawn alike.
+// Errors far below the goal are not distinguished.
 std::string ShortNumber(double value) { return value < 0.001 ? "< 0.001" : FormatNumber(value); }
 
 double LargestShift(const BodyPose& a, const BodyPose& b) {
@@ -242,7 +242,7 @@ ViewBounds ConvergenceStage::BoundsOf(const IkRace& race) const {
     constexpr double kMargin = 0.05;  // metres, for the ring
     if (target) Studio::Include({{{Part::kHead, Placed(*target), Placed(*target), kMargin}}}, bounds);
   }
-  // The bodies are centred in the space beside the text.
+  // Centre the bodies in the space beside the text.
   const double left_over = box_.width * (1 - kWordsShare) / box_.height;
   const glm::dvec2 extent = bounds.high - bounds.low;
   const double width = std::max(extent.x, extent.y * left_over);
@@ -276,11 +276,13 @@ ConvergencePanel::ConvergencePanel(const IkPath& path, const ConvergenceStage& s
 }
 
 void ConvergencePanel::Draw(Canvas& canvas, const Box& panel, Renderer& renderer, double iteration) {
+  // Draw the body, or reuse the last picture if no joint has moved visibly.
   const std::size_t entry = path_.EntryAt(iteration);
   const std::size_t seen = seen_[entry];
   if (!drawn_ || drawn_->entry != seen) drawn_ = {seen, stage_.Picture(renderer, path_.poses[seen], colour_)};
   canvas.Put(drawn_->picture, static_cast<int>(panel.x), static_cast<int>(panel.y), kPanelRadius);
 
+  // Write the method, the iteration and the errors beside it.
   const double x = panel.x + 18, room = panel.width * kWordsShare - 18;
   const auto figure = [&](double y, const std::string& label, const std::string& value, const Paint& paint) {
     canvas.DrawText({x, panel.y + y}, label, 17, kSoftInk, room);
@@ -293,12 +295,12 @@ void ConvergencePanel::Draw(Canvas& canvas, const Box& panel, Renderer& renderer
     figure(y, label, ShortNumber(now) + suffix, now < goal ? kGood : kInk);
   };
   canvas.DrawText({x, panel.y + 36}, path_.method, 25, colour_, panel.width - 36, true);
-  // The iteration that the shared clock shows, not the latest that was recorded.
+  // Show the iteration of the shared clock, not the last recorded one.
   const int reached = std::min(static_cast<int>(iteration), path_.iterations.back());
   figure(84, "iteration", FormatCount(reached), kInk);
   error(164, "worst position error", path_.position_cm, kGoalCm, " cm");
   error(244, "worst orientation error", path_.orientation_deg, kGoalDeg, "°");
-  // A method that has ended says so and keeps its last pose until the other has ended.
+  // After a method has ended, show how it ended, and its last pose until the other one ends.
   if (entry + 1 == path_.poses.size()) {
     const Paint& paint = path_.solved_at ? kGood : kWarn;
     canvas.DrawText({x, panel.y + 342}, path_.ending, 25, paint, panel.width - 36, true);

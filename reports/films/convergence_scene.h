@@ -12,19 +12,20 @@
 
 namespace etude {
 
-/// A clock that says which iteration is seen at which frame of a film, the same for every method. Time is a logarithm,
-/// each frame multiplies iteration + 1 by the same factor: the first steps, which change most, are seen one by one, the
-/// last ones pass quickly. Start and end are held for a while.
+/// Maps frames of a film to iterations, the same for every method. The scale is logarithmic: each frame multiplies
+/// iteration + 1 by the same factor, so that the first iterations, which change most, are shown one by one and the last
+/// ones pass quickly. The first and the last state are held for a while.
 class RaceClock {
  public:
-  /// Makes a clock for films of methods of which the longest takes `last_iteration` ≥ 0 steps: 6 to 10 seconds.
+  /// Makes a clock for a film whose slowest method takes `last_iteration` ≥ 0 steps; the film lasts 6 to 10 seconds.
   explicit RaceClock(int last_iteration);
 
   int LastIteration() const { return last_; }
   int Frames() const { return kOpening + run_ + kEnding; }
-  /// Gives the iteration at a frame, 0 … the last one, never falling; the fraction is the time within an iteration.
+  /// Returns the iteration at a frame, 0 … the last one, never decreasing; the fraction is the progress within an
+  /// iteration.
   double IterationAt(int frame) const;
-  /// Gives the place of an iteration, 0…1, on an axis that the clock crosses at constant speed.
+  /// Returns the position of an iteration, 0…1, on an axis along which the clock moves at constant speed.
   double ShareOf(double iteration) const;
 
  private:
@@ -34,21 +35,21 @@ class RaceClock {
   int run_;  ///< frames between opening and ending
 };
 
-/// One method's error: `values` at `iterations`.
+/// The error of one method: `values` at `iterations`.
 struct ErrorCurve {
   std::vector<int> iterations;
   std::vector<double> values;
   Paint colour;
 };
 
-/// A plot of errors along iterations, both axes logarithmic, that draws itself as time goes.
+/// A plot of errors over iterations, both axes logarithmic, that is drawn up to the current iteration.
 class ErrorPlot {
  public:
-  /// Plots errors with `suffix` behind a value, " cm", and `goal` > 0 as a line. Every curve has a value; without
-  /// curves there is nothing but the title.
+  /// Plots errors. `suffix` follows a value (" cm"), and `goal` > 0 is drawn as a line. Every curve must have a value;
+  /// without curves, only the title is drawn.
   ErrorPlot(std::string title, std::string suffix, double goal, std::vector<ErrorCurve> curves, const RaceClock& clock);
 
-  /// Draws the curves as far as they are known at `iteration`.
+  /// Draws the part of the curves up to `iteration`.
   void Draw(Canvas& canvas, const Box& panel, double iteration) const;
 
  private:
@@ -64,14 +65,14 @@ class ErrorPlot {
   int lowest_ = 0, highest_ = 0;  ///< decades at the lower and upper edge
 };
 
-/// The place where both methods of a race are seen: one camera that holds every pose of either, the true pose as a
-/// ghost. Words have room on the left.
+/// The stage on which both methods of a race are seen: one camera that contains every pose of both, with the true pose
+/// as a ghost. The left side is free for text.
 class ConvergenceStage {
  public:
-  /// Sets the stage for pictures of this size.
+  /// Makes the stage for pictures of this size.
   ConvergenceStage(const IkRace& race, Renderer& renderer, int width, int height);
 
-  /// Draws a body of that colour over the ghost. Rings mark its end effectors' targets, dots where the effectors are.
+  /// Draws a body of that colour over the ghost. Rings mark the targets of its end effectors, dots the end effectors.
   Image<std::uint32_t> Picture(Renderer& renderer, const BodyPose& pose, const Paint& colour) const;
 
  private:
@@ -81,17 +82,17 @@ class ConvergenceStage {
 
   Box box_;
   FloorMove move_;
-  double lift_;  ///< metres, so that nobody is below the floor
+  double lift_;  ///< metres, so that no body is below the floor
   BodyPose truth_;
   IkTargets targets_;
   mutable Studio studio_;  ///< keeps its last picture
   Mask ghost_, rim_;
 };
 
-/// One half of the convergence film: a method's state at a moment, as a picture and in numbers.
+/// One half of the convergence film: a method's state at a moment, as a picture and as numbers.
 class ConvergencePanel {
  public:
-  /// Both must outlive the panel.
+  /// `path` and `stage` must outlive the panel.
   ConvergencePanel(const IkPath& path, const ConvergenceStage& stage, const Paint& colour);
 
   /// Draws the state at `iteration`; `panel` has the size of the stage's pictures.
@@ -106,12 +107,12 @@ class ConvergencePanel {
   const IkPath& path_;
   const ConvergenceStage& stage_;
   Paint colour_;
-  std::vector<std::size_t> seen_;  ///< by entry: the latest one that looks different from the one before it
-  std::optional<Drawn> drawn_;     ///< time only goes forward: the latest picture is the one that is needed again
+  std::vector<std::size_t> seen_;  ///< for each entry, the latest one whose picture differs visibly from the one before
+  std::optional<Drawn> drawn_;     ///< the latest picture, which is needed again because iterations never decrease
 };
 
-/// Paper B's figures 5.1 and 5.2 in motion: a body settling under two methods side by side, and their errors drawing
-/// themselves beneath.
+/// Shows paper B's figures 5.1 and 5.2 as a film: a body that converges under two methods side by side, with the curves
+/// of their errors below.
 class ConvergenceScene : public Scene {
  public:
   /// The renderer must outlive the scene.
@@ -120,7 +121,7 @@ class ConvergenceScene : public Scene {
   ConvergenceScene& operator=(const ConvergenceScene&) = delete;
 
   int Frames() const override { return clock_.Frames(); }
-  /// Gives the last frame: both curves whole, both methods at their end.
+  /// Returns the last frame, with complete curves and the final poses.
   int PosterFrame() const override { return Frames() - 1; }
   std::string Words() const override;
   Canvas Draw(int frame) override;

@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-/// A cell and what it recorded.
+/// A cell and its recording.
 struct RecordedCell {
   const Row* row;
   const Recording* recording;
@@ -108,7 +108,7 @@ Result<IkRace> MakeRace(const std::array<RecordedCell, 2>& cells) {
     return Fail({.file = "recording " + cells[0].row->Id()}, "it lacks the track truth");
   }
   race.truth = truth->poses.front();
-  std::vector<std::optional<glm::dvec3>> targets;  // of both, as their world is the same
+  std::vector<std::optional<glm::dvec3>> targets;  // of both methods, because their world is the same
   for (std::size_t i = 0; i < 2; ++i) {
     ASSIGN_OR_RETURN(auto extras, ReadExtras(*cells[i].row, *cells[i].recording));
     if (i == 0) targets = extras.targets_m;
@@ -122,7 +122,7 @@ Result<IkRace> MakeRace(const std::array<RecordedCell, 2>& cells) {
   return race;
 }
 
-/// Says why this world cannot be shown: "trial 3 (adaptive: crashed)".
+/// Says why a world cannot be shown: "trial 3 (adaptive: crashed)".
 std::string WhyPassedOver(const RunData& run, const RecordedCell& cell, const std::string& missing) {
   const auto row = std::ranges::find_if(
       run.rows, [&](const Row& other) { return other.method == missing && cell.SharesWorld(other); });
@@ -147,10 +147,12 @@ Result<IkRace> FindIkRace(const RunData& run, const ScenarioSummary& scenario) {
   const Place nowhere;
   const std::vector<RecordedCell> cells = RecordedCells(run, scenario);
   const std::vector<std::string> methods = MethodsOf(cells, scenario);
+  // Two methods must have recordings.
   if (methods.empty()) return Fail(nowhere, "this run kept no recordings here (the scenario's key video)");
   if (methods.size() == 1) {
     return Fail(nowhere, "this run kept recordings of one method only here; two in the same world are needed");
   }
+  // Search the first world that both methods recorded, and note the worlds that only one recorded.
   std::vector<std::string> passed_over;
   for (const RecordedCell& cell : cells) {
     const bool is_first = cell.row->method == methods[0];

@@ -71,6 +71,7 @@ std::vector<Facts::Performance> PerformancesIn(const DetectionExtras& extras, co
     performance.begin_frame = std::clamp(event.begin_frame, 0, frames);
     performance.end_frame = std::clamp(event.end_frame, performance.begin_frame, frames);
     if (const auto known = poses.find(performance.move); known != poses.end()) performance.poses = known->second;
+    // Find the frame at which each key pose was reached, counted from the session's start.
     const auto window = std::span(seen.frames)
                             .subspan(static_cast<std::size_t>(performance.begin_frame),
                                      static_cast<std::size_t>(performance.end_frame - performance.begin_frame));
@@ -94,11 +95,11 @@ Result<DetectionExtras> ExtrasOf(const Recording& recording, const Place& place)
   return extras;
 }
 
-/// Adds the other methods in the same world, as many as the timeline has rows for.
+/// Adds other methods recorded in the same world, up to the number of timeline rows.
 Result<void> AddOtherJudges(const RunData& run, const CastCell& cell, Facts& facts) {
-  constexpr std::size_t kMostJudges = 2;
+  constexpr std::size_t kMaxJudges = 2;
   for (const auto& [row, recorded] : RecordedRows(run)) {
-    if (facts.judges.size() == kMostJudges) return {};
+    if (facts.judges.size() == kMaxJudges) return {};
     const bool same_world = row->scenario == cell.row->scenario && row->condition == cell.row->condition &&
                             row->trial == cell.row->trial && row->method != cell.row->method;
     if (!same_world) continue;
@@ -113,6 +114,7 @@ Result<void> AddOtherJudges(const RunData& run, const CastCell& cell, Facts& fac
 
 Result<JudgedSessionFacts> ReadJudgedSession(const RunData& run, const CastCell& cell) {
   const Place place{.file = "recording " + cell.row->Id()};
+  // Check the tracks.
   const BodyMotion* truth = FindTrack(*cell.recording, "truth");
   const BodyMotion* sensed = FindTrack(*cell.recording, "sensed");
   if (truth == nullptr || sensed == nullptr || sensed->poses.empty()) {
@@ -121,6 +123,7 @@ Result<JudgedSessionFacts> ReadJudgedSession(const RunData& run, const CastCell&
   if (truth->poses.size() != sensed->poses.size()) return Fail(place, "its tracks are not of one length");
   ASSIGN_OR_RETURN(const auto extras, ExtrasOf(*cell.recording, place));
   ASSIGN_OR_RETURN(const auto stream, StreamOf(*sensed, extras.joint_states, place));
+  // Rebuild the sensor's view, the performances and the verdicts.
   JudgedSessionFacts facts;
   facts.truth = *truth;
   facts.seen = SeeStream(stream, {});
@@ -129,6 +132,7 @@ Result<JudgedSessionFacts> ReadJudgedSession(const RunData& run, const CastCell&
   facts.judges.push_back(JudgeIn(extras, cell.row->method));
   RETURN_IF_ERROR(AddOtherJudges(run, cell, facts));
   if (facts.performances.empty()) return Fail(place, "nothing was asked for");
+  // Use the evidence curve only if it has one value per frame.
   const Series* score = FindSeries(run, *cell.row, "score");
   if (score != nullptr && score->values.size() == sensed->poses.size()) facts.evidence = score->values;
   return facts;
@@ -138,14 +142,14 @@ namespace {
 
 constexpr Box kSeenPanel{12, 52, 440, 520}, kAnglesPanel{464, 52, 804, 520};
 constexpr Box kFigure{12, 84, 440, 440};
-constexpr double kTall = 2.4;  // metres of the figure's box
+constexpr double kTall = 2.4;  // height of the figure's box, metres
 constexpr Paint kPanelGround{0.05, 0.06, 0.07, 0.78}, kGhost{0.80, 0.83, 0.85, 0.28};
 constexpr double kStripLeft = 156, kStripsTop = 116, kStripsHeight = 392, kStripGap = 8;
-constexpr double kHighestAngle = 180;
+constexpr double kMaxAngle = 180;
 
 Paint WithOpacity(const Paint& paint, double a) { return {paint.r, paint.g, paint.b, a}; }
 
-/// Gives the angles that any of the poses tells, in their order.
+/// Returns the angles that occur in any of the poses, in order of appearance.
 std::vector<Feature> FeaturesOf(const std::vector<TaughtPose>& poses) {
   std::vector<Feature> features;
   for (const TaughtPose& pose : poses) {
@@ -156,7 +160,7 @@ std::vector<Feature> FeaturesOf(const std::vector<TaughtPose>& poses) {
   return features;
 }
 
-/// A strip in which a value runs over the frames of a window.
+/// A horizontal strip with a value over the frames of a window.
 struct Strip {
   Box box;
   int begin, end;
@@ -168,7 +172,7 @@ struct Strip {
   double Y(double value) const { return box.y + box.height * (1 - std::clamp(value / highest, 0.0, 1.0)); }
 };
 
-/// Says how a move truly was danced: "truth: wrong (wrong side, late)".
+/// Describes a performance: "truth: wrong (wrong side, late)".
 std::string TruthWords(const JudgedSessionFacts::Performance& danced) {
   std::string fault = danced.fault == "none" ? "" : " (" + PlainName(danced.fault) + ")";
   if (const auto plus = fault.find('+'); plus != std::string::npos) fault.replace(plus, 1, ", ");
@@ -247,6 +251,7 @@ void JudgedScene::DrawSkeleton(Canvas& canvas, int now) const {
 
 void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
   canvas.FillBox(kAnglesPanel, kPanelGround, kPanelRadius);
+  // The heading: the move, the verdict and the truth.
   const std::size_t current = CurrentAt(now);
   const Performance& asked = facts_.performances[current];
   const bool is_open = now >= asked.begin_frame && now < asked.end_frame;
@@ -259,7 +264,7 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
   canvas.DrawText({left, kAnglesPanel.y + 53}, fmt::format("{}: {}", facts_.judges.front().method, verdict), 17,
                   called.empty() ? kSoftInk : PaintOfWord(called), 300, true);
   canvas.DrawText({left, kAnglesPanel.y + 77}, TruthWords(asked), 17, PaintOfWord(asked.truth), 300);
-  // Key poses, ticked off in their order.
+  // Key poses in order; a reached one is checked off.
   for (std::size_t k = 0; k < asked.poses.size(); ++k) {
     const bool is_reached = asked.reached[k] && now >= *asked.reached[k];
     const Box box{kAnglesPanel.x + 316 + 122 * static_cast<double>(k % 4),
@@ -269,6 +274,7 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
     canvas.DrawText({box.x + 8, box.y + 17}, fmt::format("pose {}{}", k + 1, is_reached ? " ✓" : ""), 16,
                     is_reached ? kBackdrop : kInk, box.width - 8, true);
   }
+  // One strip for each angle, and one for the evidence.
   const std::vector<Feature> features = FeaturesOf(asked.poses);
   const double rows = static_cast<double>(features.size()) + 1;
   const double height = std::min(84.0, kStripsHeight / rows - kStripGap);
@@ -290,10 +296,11 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
       path.emplace_back(strip.X(frame), strip.Y(at(frame)));
     return path;
   };
+  // Each angle's curve over the tolerance bands of the key poses.
   for (std::size_t row = 0; row < features.size(); ++row) {
     const Feature feature = features[row];
     const auto angle = [&](int frame) { return facts_.seen.frames[static_cast<std::size_t>(frame)].features[feature]; };
-    const Strip strip = strip_at(row, kHighestAngle);
+    const Strip strip = strip_at(row, kMaxAngle);
     const auto path = draw(strip, std::string(PlainNameOf(feature)), FormatFixed(angle(now), 0) + "°", angle);
     for (std::size_t k = 0; k < asked.poses.size(); ++k) {
       const bool is_reached = asked.reached[k] && now >= *asked.reached[k];
@@ -312,6 +319,7 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
     }
     if (path.size() > 1) canvas.DrawPath(path, 2, kInk);
   }
+  // The evidence, with the threshold of the verdict.
   if (facts_.evidence.empty()) return;
   const auto evidence = [&](int frame) { return facts_.evidence[static_cast<std::size_t>(frame)]; };
   const Strip strip = strip_at(features.size(), 1);

@@ -15,41 +15,43 @@
 
 namespace etude {
 
-/// A recorded session of the detection task, and how one or more methods judged it. Frames count from the session's
-/// first.
+/// A recorded session of the detection task, and the verdicts of one or more methods. Frames count from the session's
+/// first one.
 struct JudgedSessionFacts {
   struct Performance {
     std::string move, truth, fault;  ///< truth: right, grey, wrong; fault: "none", or names
     int begin_frame = 0, end_frame = 0;
-    std::vector<TaughtPose> poses;            ///< none: of the move no key pose is known
-    std::vector<std::optional<int>> reached;  ///< per pose: when it and all before it were first seen, in the window
+    std::vector<TaughtPose> poses;            ///< empty if no key pose of the move is known
+    std::vector<std::optional<int>> reached;  ///< for each pose, the frame at which it and all before it were first
+                                              ///< seen within the window
   };
   struct Judge {
     std::string method;
-    std::vector<std::optional<int>> called_right;  ///< per performance: the frame; nothing: called wrong
-    std::vector<DetectionExtras::Alarm> alarms;    ///< false ones
+    std::vector<std::optional<int>> called_right;  ///< for each performance, the frame of the verdict "right"; nullopt
+                                                   ///< if it was called wrong
+    std::vector<DetectionExtras::Alarm> alarms;    ///< the false ones
   };
 
   std::vector<Performance> performances;  ///< in order of time
-  std::vector<Judge> judges;              ///< the first is the one whose view and evidence are shown
+  std::vector<Judge> judges;              ///< the first one's view and evidence are shown
   BodyMotion truth;
   SeenStream seen;
-  std::vector<double> evidence;     ///< per frame; may be none at all
-  std::optional<double> threshold;  ///< of judging
+  std::vector<double> evidence;     ///< one per frame; may be empty
+  std::optional<double> threshold;  ///< the threshold of the verdict
 
   int Frames() const { return static_cast<int>(seen.filtered.frames.size()); }
 };
 
-/// Reads what the detection task keeps of a cell, and of the cells of other methods in the same world. Fails when it is
-/// not that.
+/// Reads the recording that the detection task keeps of a cell, and those of other methods in the same world. Fails if
+/// the cell has no such recording.
 Result<JudgedSessionFacts> ReadJudgedSession(const RunData& run, const CastCell& cell);
 
-/// The film of a session before the sensor: the skeleton as the sensor saw it over the body as it moved; the angles of
-/// the key poses asked for, each pose ticked off when it is reached; the evidence; and a timeline of truth, of the
-/// verdicts of every method, and of false alarms.
+/// The film of a judged session: the sensed skeleton over the true body; the angles of the expected key poses, each
+/// checked off when it is reached; the evidence; and a timeline of truth, of every method's verdicts, and of false
+/// alarms.
 class JudgedScene : public Scene {
  public:
-  /// Shows at most `longest` frames, from just before the performance that precedes the first misjudged one.
+  /// Shows at most `longest` frames, starting just before the performance that precedes the first misjudged one.
   JudgedScene(JudgedSessionFacts facts, std::string heading, int longest);
 
   int Frames() const override { return last_ - first_; }
@@ -60,9 +62,9 @@ class JudgedScene : public Scene {
  private:
   using Performance = JudgedSessionFacts::Performance;
 
-  /// Gives the performance asked for, or the last that was; before the first, the first.
+  /// Returns the performance that is expected at a frame, else the last one before it, else the first.
   std::size_t CurrentAt(int frame) const;
-  /// Gives "right" or "wrong" once it is known, else "".
+  /// Returns "right" or "wrong" once the verdict is known, else "".
   std::string CalledAt(std::size_t judge, std::size_t performance, int frame) const;
   bool IsMisjudged(std::size_t performance) const;
   void DrawSkeleton(Canvas& canvas, int now) const;

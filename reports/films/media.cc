@@ -26,6 +26,7 @@ constexpr const char *kConvergence = "convergence", *kTransitions = "transitions
 void Note(std::string& words, const std::string& more) { words += (words.empty() ? "" : " ") + more; }
 
 void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch& watch, Media& media) {
+  // Choose a capture, else a coach alone.
   const auto has_pictures = [](const ScenarioSummary& scenario) {
     return scenario.task == "transition" || scenario.task == "capture";
   };
@@ -33,7 +34,7 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
   std::string& why = media.film.why_not;
   const auto capture_cell = ChooseCell(run, "capture", "recovered");
   const auto coach_cell = capture_cell ? std::nullopt : ChooseCell(run, "transition", "coach");
-  // A coach alone is seen better beside the other methods.
+  // If methods can be compared, their film shows the coach better.
   const auto compares = [&](const ScenarioSummary& scenario) { return FindTransitionRace(run, scenario).has_value(); };
   if (!capture_cell && std::ranges::any_of(run.scenarios, compares)) return;
   if (!coach_cell && !capture_cell) {
@@ -45,17 +46,20 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
     why = "There are no pictures: " + ToString(renderer.error());
     return;
   }
+  // Make the film, and keep earlier reasons.
   const auto shoot = [&](Scene&& scene) {
     Film film = Shoot(scene, paths.films / kRunFilm, watch);
     if (!film.why_not.empty()) Note(why, film.why_not);
     film.why_not = why;
     media.film = std::move(film);
   };
+  // A coach alone.
   if (coach_cell) {
     auto made = CoachPanel::Make(*coach_cell, StageScene::kLongest);
     if (made) return shoot(StageScene(**renderer, std::move(*made)));
     return Note(why, "The coach cannot be shown: " + ToString(made.error()));
   }
+  // A capture: the strip, the stills, the EXR files and the film.
   const auto typical = CapturePanel::Make(run, *capture_cell);
   auto captures = FindCaptures(run, *capture_cell);
   if (!typical || !captures) {
@@ -68,7 +72,7 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
   shoot(CaptureScene(**renderer, std::move(*captures)));
 }
 
-// Of one recorded cell of each capture scenario, if it keeps moments.
+// Draws one plate for each capture scenario, of a recorded cell that keeps moments.
 void MakePlates(const RunData& run, Media& media) {
   for (const ScenarioSummary& scenario : run.scenarios) {
     if (scenario.task != "capture") continue;
@@ -82,7 +86,7 @@ void MakePlates(const RunData& run, Media& media) {
   }
 }
 
-/// The place of a film that cannot be made.
+/// Returns a film without content, with the reason.
 Film NoFilm(const FilePath& path, std::string why_not) {
   Film film;
   film.file = path.whole().filename().string();
@@ -90,7 +94,7 @@ Film NoFilm(const FilePath& path, std::string why_not) {
   return film;
 }
 
-/// Films methods side by side in one world; else says why there is no film of `what`.
+/// Makes a film of methods side by side in one world, or says why there is no film of `what`.
 template <typename SideBySide, typename Race>
 Film MakeComparingFilm(Result<Race> race, const std::string& scenario, std::string_view what, const FilePath& path,
                        const FilmWatch& watch) {
@@ -101,14 +105,15 @@ Film MakeComparingFilm(Result<Race> race, const std::string& scenario, std::stri
   return Shoot(scene, path, watch);
 }
 
-/// Names a film: "convergence.mp4", or, of several scenarios of one task, "convergence-SCENARIO.mp4".
+/// Returns the name of a film: "convergence.mp4", or, if several scenarios share the task, "convergence-SCENARIO.mp4".
 std::string FilmName(const RunData& run, std::size_t index, std::string_view what) {
   const ScenarioSummary& scenario = run.scenarios[index];
   const bool alone = std::ranges::count(run.scenarios, scenario.task, &ScenarioSummary::task) == 1;
   return alone ? fmt::format("{}.mp4", what) : fmt::format("{}-{}.mp4", what, FileNameOf(scenario.name, index));
 }
 
-/// Films a coached session, around a correction unless whole ones are wanted; else says why there is none.
+/// Makes the film of a coached session, cut around a correction unless whole sessions are wanted, or says why there is
+/// none.
 Film MakeSessionFilm(const std::optional<CastCell>& cell, const std::string& which, const FilePath& path,
                      const MediaOptions& options) {
   if (!cell) return NoFilm(path, "There is no film of a session: no motion of one was kept.");
@@ -123,7 +128,7 @@ Film MakeSessionFilm(const std::optional<CastCell>& cell, const std::string& whi
   return Shoot(scene, path, options.watch);
 }
 
-/// Films a typical session, and the worst where that is another learner's or another coach's.
+/// Makes films of a typical session and of the worst, unless both are the same.
 void MakeSessionFilms(const RunData& run, std::size_t index, const MediaPaths& paths, const MediaOptions& options,
                       Media& media) {
   const ScenarioSummary& scenario = run.scenarios[index];
@@ -140,7 +145,8 @@ void MakeSessionFilms(const RunData& run, std::size_t index, const MediaPaths& p
   add(worst, "the worst session", kWorstSession);
 }
 
-/// Films a typical session before the sensor; nothing where no motion of one was kept, which scenarios need not.
+/// Makes the film of a typical judged session. Returns nullopt if no motion was recorded, which scenarios may leave
+/// out.
 std::optional<Film> MakeJudgedFilm(const RunData& run, std::size_t index, const MediaPaths& paths,
                                    const MediaOptions& options) {
   const ScenarioSummary& scenario = run.scenarios[index];

@@ -21,32 +21,34 @@ struct ScenarioPicture {
   Picture picture;
 };
 
-/// All pictures and films made from a run's recordings, with plain words for those that could not be made.
+/// All pictures and films made from a run's recordings, with reasons for those that could not be made.
 struct Media {
-  Film film;  ///< of the run: a capture, or a coach alone; empty for other tasks, and where a scenario's film shows all
-  std::vector<Picture> strip;                ///< moments of the capture: stereo pictures, mask, recovered skeleton
-  std::vector<Still> stills;                 ///< the same capture's middle frame as its cameras took it
+  Film film;  ///< the run's film: a capture, or a coach alone; empty for other tasks, and if a scenario's film shows
+              ///< all of it
+  std::vector<Picture> strip;                ///< moments of the capture: pictures of both cameras with mask and
+                                             ///< recovered skeleton
+  std::vector<Still> stills;                 ///< the middle frame of the same capture as its cameras took it
   std::string strip_scenario;                ///< the scenario whose card shows the strip and the stills
-  std::vector<ScenarioPicture> plates;       ///< of captures: every stage of some moments
-  std::vector<ScenarioFilm> scenario_films;  ///< of single scenarios: methods side by side, sessions
+  std::vector<ScenarioPicture> plates;       ///< for captures: all stages of some moments
+  std::vector<ScenarioFilm> scenario_films;  ///< for single scenarios: methods side by side, and sessions
 };
 
-/// The folders that files go to which stand beside the page.
+/// The folders for files beside the page.
 struct MediaPaths {
-  FilePath films;     ///< a folder: the MP4s
-  FilePath pictures;  ///< a folder: colour, depth and labels of the strip's moments, as EXR
+  FilePath films;     ///< a folder for the MP4s
+  FilePath pictures;  ///< a folder for colour, depth and labels of the strip's moments, as EXR
 };
 
 struct MediaOptions {
-  bool whole_sessions = false;  ///< sessions are not cut: coached ones around a correction, judged ones to 24 s
+  bool whole_sessions = false;  ///< false: coached sessions are cut around a correction, judged ones to 24 s
   FilmWatch watch = {};
 };
 
-/// The names that films of this run may have.
+/// Returns the names that films of this run may have.
 std::set<std::string> FilmNames(const RunData& run);
 
-/// Draws what the recordings of a run show: the films, their posters, the strip and the pictures behind it.
-/// Whatever cannot be made is left out, with the reason in `why_not`; never a failure of the report.
+/// Draws the recordings of a run: the films, their posters, the strip and the pictures behind it. A part that cannot be
+/// made is left out with the reason in `why_not`; that is never a failure of the report.
 Media MakeMedia(const RunData& run, const MediaPaths& paths, const MediaOptions& options = {});
 
 }  // namespace etude

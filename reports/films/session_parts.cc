@@ -47,7 +47,7 @@ SessionTimeline::SessionTimeline(Canvas& canvas, const FrameSpan& shown) : canva
   canvas_.FillBox(kBox, {0.13, 0.15, 0.17, 1}, kPanelRadius);
 }
 
-double SessionTimeline::PlaceOf(int frame) const {
+double SessionTimeline::XOf(int frame) const {
   const double left = kBox.x + kTimelineBarsFrom, width = kBox.width - kTimelineBarsFrom - 12;
   const int length = shown_.end - shown_.begin;
   return left + width * std::clamp(frame - shown_.begin, 0, length) / std::max(1, length);
@@ -58,19 +58,19 @@ void SessionTimeline::Label(int row, const std::string& text) {
 }
 
 void SessionTimeline::Bar(int row, int begin, int end, const Paint& paint) {
-  const double left = PlaceOf(begin), right = PlaceOf(end);
+  const double left = XOf(begin), right = XOf(end);
   if (right > left) canvas_.FillBox({left, TopOf(row), right - left - 1, kTimelineBar}, paint, 4);
 }
 
 void SessionTimeline::Text(int row, int begin, int end, const std::string& text) {
   constexpr double kSize = 16;
-  const double left = PlaceOf(begin), room = PlaceOf(end) - left - 8;
+  const double left = XOf(begin), room = XOf(end) - left - 8;
   if (canvas_.TextWidth(text, kSize) <= room)
     canvas_.DrawText({left + 5, TopOf(row) + 19}, text, kSize, kBackdrop, room);
 }
 
 void SessionTimeline::Tick(int frame, int first_row, int last_row, const Paint& paint) {
-  canvas_.DrawLine({PlaceOf(frame), TopOf(first_row) - 5}, {PlaceOf(frame), TopOf(last_row) + kTimelineBar + 5}, 2,
+  canvas_.DrawLine({XOf(frame), TopOf(first_row) - 5}, {XOf(frame), TopOf(last_row) + kTimelineBar + 5}, 2,
                    paint);
 }
 

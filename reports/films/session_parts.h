@@ -9,10 +9,10 @@
 
 namespace etude {
 
-/// Draws the body from the front as lines, feet near the lower edge of a box that is `tall` metres high.
+/// Draws the body from the front as lines, with its feet near the lower edge of a box that is `tall` metres high.
 void DrawStickFigure(Canvas& canvas, const BodyPose& pose, const Box& box, double tall, const Paint& paint);
 
-/// Gives the place of a joint in that box.
+/// Returns the position of a joint in that box.
 glm::dvec2 StickJoint(const BodyPose& pose, Role role, const Box& box, double tall);
 
 /// Frames [begin, end) of a session.
@@ -23,34 +23,34 @@ struct FrameSpan {
 inline constexpr Paint kRightPaint{0.36, 0.74, 0.46, 1}, kWrongPaint{0.88, 0.36, 0.32, 1};
 inline constexpr Paint kUndecidedPaint{0.55, 0.58, 0.60, 1};
 
-/// Gives a move's or fault's name as people write it: "fast_sway" becomes "fast sway".
+/// Returns the name of a move or fault for people: "fast_sway" becomes "fast sway".
 std::string PlainName(std::string name);
 
-/// Names an angle of paper A's by what is bent or raised: "right arm".
+/// Returns the plain name of one of paper A's angles, after the limb that is bent or raised: "right arm".
 std::string_view PlainNameOf(Feature feature);
 
-/// Gives the colour of "right" and "wrong"; any other word has the undecided one.
+/// Returns the colour of "right" or "wrong"; any other word has the undecided colour.
 Paint PaintOfWord(const std::string& word);
 
-/// The strip below a film of a session: rows of bars over the frames shown, and a line at the present.
+/// The strip below a film of a session: rows of bars over the visible frames, and a line at the current frame.
 class SessionTimeline {
  public:
   static constexpr Box kBox{12, 584, 1256, 124};
 
-  /// Draws the strip's ground.
+  /// Draws the background of the strip.
   SessionTimeline(Canvas& canvas, const FrameSpan& shown);
 
   void Label(int row, const std::string& text);
-  /// Draws a bar over frames [begin, end); the part that is not shown is cut off.
+  /// Draws a bar over frames [begin, end), clipped to the visible frames.
   void Bar(int row, int begin, int end, const Paint& paint);
-  /// Writes a text on a bar, cut to it.
+  /// Writes a text on a bar if it fits.
   void Text(int row, int begin, int end, const std::string& text);
   /// Draws a line through these rows.
   void Tick(int frame, int first_row, int last_row, const Paint& paint);
   bool Shows(int frame) const { return frame >= shown_.begin && frame < shown_.end; }
 
  private:
-  double PlaceOf(int frame) const;
+  double XOf(int frame) const;
 
   Canvas& canvas_;
   FrameSpan shown_;

@@ -13,24 +13,25 @@
 namespace etude {
 namespace {
 
-// A person with raised arms, and some floor, fills the picture.
+// The picture's height in metres: a person with raised arms, and some floor.
 constexpr double kSeenHeight = 2.65;
 constexpr double kDistance = 4.2;
 constexpr double kEyeHeight = 1.45;
 constexpr double kLookAtHeight = 0.94;
-// Drawn this much larger and shrunk, which smooths edges at half the price of twice the size.
+// Pictures are drawn this much larger and then shrunk, which smooths edges at about half the cost of a factor of 2.
 constexpr double kCoachDetail = 1.5;
-// The camera follows slowly: a second to either side. Standing still also spares drawing the room anew.
+// The camera path is averaged over a second to either side. A camera that stands still also saves redrawing the room.
 constexpr int kCoachFollowFrames = 30;
-// How close to the room's wall the hips may come.
-constexpr double kNearestToWall = 1.0;
-// How long the change stays marked after the transition point, and how long its distances are shown around it.
+// The smallest distance of the hips from the room's wall, metres.
+constexpr double kMinWallDistance = 1.0;
+// Frames for which the change stays marked after the transition point, and frames around it that show its distances.
 constexpr int kCoachMarkFrames = 15;
 constexpr int kBarsBefore = 15, kBarsAfter = 60;
-// Beside the feet, above the time line.
+// Beside the feet, above the timeline.
 constexpr double kBarsWidth = 320, kBarsLift = 34;
 
-// Turned to face the camera at the transition point, in the middle of the room, never behind its wall.
+// Moves the motion to the middle of the room, facing the camera at the transition point, and forward so far that it
+// stays in front of the wall.
 void PutOnStage(BodyMotion& motion, int point) {
   const FloorMove move = ToOrigin(motion.poses[static_cast<std::size_t>(point)]);
   double backmost = 0;
@@ -38,23 +39,23 @@ void PutOnStage(BodyMotion& motion, int point) {
     pose = move.Apply(pose);
     backmost = std::min(backmost, pose[Role::kHipCentre].z);
   }
-  const FloorMove forward{0, 0, std::max(0.0, kWallZ + kNearestToWall - backmost)};
+  const FloorMove forward{0, 0, std::max(0.0, kWallZ + kMinWallDistance - backmost)};
   for (BodyPose& pose : motion.poses) pose = forward.Apply(pose);
 }
 
 Paint Faded(const Paint& paint) { return {paint.r, paint.g, paint.b, 0.55}; }
 
-// Long enough to watch one change of moves; kLongest is short enough to be made in seconds.
-constexpr int kShortestScene = 5 * kFilmRate;
-// A motion that is shown again rests on its last frame before it starts anew.
+// The film is long enough to watch one change of moves; kLongest limits the time that it takes to make.
+constexpr int kMinFrames = 5 * kFilmRate;
+// A motion that is repeated rests on its last frame before it starts again.
 constexpr int kRest = kFilmRate / 2;
 
 constexpr Box kCoachBox{12, 52, 1256, 656};
 
-// Which frame of a motion is seen at a frame of the film.
+// The frame of a motion that a frame of the film shows.
 struct Shown {
   int frame;
-  bool before;  ///< it has been seen whole already
+  bool before;  ///< the motion has been shown once already
 };
 Shown ShownAt(int film_frame, int length) {
   const int round = film_frame % (length + kRest);
@@ -127,21 +128,21 @@ std::string CoachPanel::CountdownAt(int frame) const {
 void CoachPanel::DrawTimeline(Canvas& canvas, const Box& panel, int frame) const {
   const double left = panel.x + 16, width = panel.width - 32, y = panel.y + panel.height - 18;
   const double last = std::max(1, Frames() - 1);
-  const auto place = [&](int at) { return left + width * at / last; };
+  const auto x_of = [&](int at) { return left + width * at / last; };
   const std::vector<int>& points = facts_.transition_frames;
   double from = left;
   for (std::size_t segment = 0; segment <= points.size(); ++segment) {
-    const double to = segment < points.size() ? place(points[segment]) : left + width;
+    const double to = segment < points.size() ? x_of(points[segment]) : left + width;
     canvas.DrawLine({from, y}, {to, y}, 4, Faded(PaintOfSegment(facts_, segment)));
     from = to;
   }
-  for (const int point : points) canvas.DrawLine({place(point), y - 8}, {place(point), y + 8}, 2, kInk);
+  for (const int point : points) canvas.DrawLine({x_of(point), y - 8}, {x_of(point), y + 8}, 2, kInk);
   if (facts_.request_frame && *facts_.request_frame >= 0) {
-    canvas.DrawRing({place(std::min(*facts_.request_frame, Frames() - 1)), y}, 5, 2, kInk);
+    canvas.DrawRing({x_of(std::min(*facts_.request_frame, Frames() - 1)), y}, 5, 2, kInk);
   }
   const auto passed =
       static_cast<std::size_t>(std::ranges::count_if(points, [&](int point) { return point <= frame; }));
-  canvas.DrawDot({place(frame), y}, 6, PaintOfSegment(facts_, passed));
+  canvas.DrawDot({x_of(frame), y}, 6, PaintOfSegment(facts_, passed));
 }
 
 void CoachPanel::DrawDistances(Canvas& canvas, const Box& panel, int frame) const {
@@ -159,9 +160,9 @@ void CoachPanel::DrawDistances(Canvas& canvas, const Box& panel, int frame) cons
   if (frame >= *near && frame < *near + kCoachMarkFrames) DrawMark(canvas, panel, "change");
 }
 
-int StageScene::Frames() const { return std::clamp(coach_.Frames(), kShortestScene, kLongest); }
+int StageScene::Frames() const { return std::clamp(coach_.Frames(), kMinFrames, kLongest); }
 
-// Just after the change of moves.
+// Shows the moment just after the change of moves.
 int StageScene::PosterFrame() const { return std::min(coach_.FirstPoint() + 4, Frames() - 1); }
 
 std::string StageScene::Words() const { return fmt::format("The coach changes moves ({}).", coach_.Title()); }

@@ -15,18 +15,18 @@
 
 namespace etude {
 
-/// The coach changes from one move to another, seen from the front by a
-/// camera that follows when it must. Around each transition point stand its distances.
+/// A coach that changes from one move to another, seen from the front by a camera that follows. Around each transition
+/// point, its distances are shown.
 class CoachPanel {
  public:
-  /// Cuts the recording to at most `longest` frames around the first transition point. Fails when the recording's facts
+  /// Cuts the recording to at most `longest` frames around the first transition point. Fails if the recording's facts
   /// cannot be read.
   static Result<CoachPanel> Make(const CastCell& cell, int longest);
 
   int Frames() const { return static_cast<int>(motion_.poses.size()); }
-  /// Gives the first frame after the change (after the first change, when it goes through an in-between clip).
+  /// Returns the first frame after the first transition point; with an in-between clip there are two points.
   int FirstPoint() const { return facts_.transition_frames.front(); }
-  /// Gives the title: "clap → side kick, by fuzzy-bridge".
+  /// Returns the title: "clap → side kick, by fuzzy-bridge".
   std::string Title() const;
   void Draw(Canvas& canvas, const Box& panel, Renderer& renderer, int frame, bool shown_before) const;
 
@@ -40,15 +40,15 @@ class CoachPanel {
 
   Character bear_;
   BodyMotion motion_;
-  std::vector<glm::dvec3> followed_;  ///< what the camera follows, one per frame
-  TransitionFacts facts_;             ///< of the motion as cut; at least one transition point
+  std::vector<glm::dvec3> followed_;  ///< the point that the camera follows, one per frame
+  TransitionFacts facts_;             ///< facts of the cut motion; at least one transition point
   std::string method_;
 };
 
-/// The film of a run whose coach has nothing beside it: it changes moves.
+/// The film of a run that recorded a coach without cameras: the coach changes moves.
 class StageScene : public Scene {
  public:
-  /// The most frames of a motion that are shown.
+  /// The maximum number of frames of a motion that is shown.
   static constexpr int kLongest = 7 * kFilmRate;
 
   StageScene(Renderer& renderer, CoachPanel coach) : renderer_(renderer), coach_(std::move(coach)) {}

@@ -18,16 +18,16 @@ constexpr Paint kFaint{0.95, 0.955, 0.96, 0.18};
 constexpr double kTextSize = 15, kJumpRoom = 210;
 constexpr double kSide = 12, kStripTop = 24, kStripBottom = 34, kClipHeight = 6;
 
-// The metric jump_cm, from the frames shown so far.
+// Computes the metric jump_cm from the frames shown so far.
 std::optional<double> JumpAtPoints(const TransitionPath& path, int frame) {
-  std::optional<double> most;
+  std::optional<double> largest;
   for (const int point : path.facts.transition_frames) {
     const int last = std::min({point + kWindowReach, frame, static_cast<int>(path.jumps_cm.size()) - 1});
     for (int at = std::max(0, point - kWindowReach); frame > point && at <= last; ++at) {
-      most = std::max(most.value_or(0), path.jumps_cm[static_cast<std::size_t>(at)]);
+      largest = std::max(largest.value_or(0), path.jumps_cm[static_cast<std::size_t>(at)]);
     }
   }
-  return most;
+  return largest;
 }
 
 constexpr double kHeadingSize = 16, kLabelSize = 15, kValueSize = 15;
@@ -37,12 +37,12 @@ constexpr std::size_t kRows = kFeatureCount / 2;
 constexpr Paint kTrack{0.30, 0.34, 0.37, 1};
 constexpr Paint kBeyond{0.98, 0.52, 0.45, 1};
 
-// What a full bar stands for: the threshold alone, or the largest of them where no threshold is told.
+// Returns the value of a full bar: the squared threshold, or the largest partial distance if there is no threshold.
 double FullBar(const TransitionFacts& facts, const PerFeature& partials) {
   return facts.threshold ? *facts.threshold * *facts.threshold : std::ranges::max(partials);
 }
 
-// Beside narrow bars an angle has paper A's abbreviation.
+// Beside narrow bars, the label is paper A's abbreviation.
 void DrawBar(Canvas& canvas, const Box& row, Feature feature, std::optional<double> partial, double full,
              bool has_threshold) {
   const bool is_wide = row.width >= kRoomForLong;
@@ -56,7 +56,7 @@ void DrawBar(Canvas& canvas, const Box& row, Feature feature, std::optional<doub
   if (!partial) return;
   const double share = full > 0 ? std::clamp(*partial / full, 0.0, 1.0) : 0;
   const bool beyond = has_threshold && *partial >= full;
-  // Never narrower than its round ends.
+  // Never narrower than its rounded ends.
   const double width = std::max(track.width * share, kBarHeight);
   if (share > 0.005) canvas.FillBox({track.x, track.y, width, kBarHeight}, beyond ? kBeyond : kWarm, kBarHeight / 2);
   canvas.DrawText({track.x + track.width + 6, baseline}, FormatFixed(*partial, 3), kValueSize, kSoftInk, kValueWidth);
@@ -64,7 +64,7 @@ void DrawBar(Canvas& canvas, const Box& row, Feature feature, std::optional<doub
 
 }  // namespace
 
-/// The inside of the axes, which gives the place of a value in it.
+/// The area inside the axes; maps values to positions.
 struct JumpStrip::Frame {
   Box box;
   const JumpStrip& strip;
@@ -87,7 +87,7 @@ void JumpStrip::Draw(Canvas& canvas, const Box& box, const TransitionPath& path,
                     *this};
   const int shown = path.FrameAt(time);
   std::string jump = fmt::format("jump {} cm", FormatFixed(path.jumps_cm[static_cast<std::size_t>(shown)], 1));
-  if (const auto most = JumpAtPoints(path, shown)) jump += fmt::format(", worst {}", FormatFixed(*most, 1));
+  if (const auto largest = JumpAtPoints(path, shown)) jump += fmt::format(", worst {}", FormatFixed(*largest, 1));
   canvas.DrawText({frame.box.x, box.y + 16}, path.IsRecordedAt(time) ? jump : "jump —", kTextSize, kInk, kJumpRoom);
   if (path.facts.natural_limit_cm) {
     const double y = frame.Y(*path.facts.natural_limit_cm);

@@ -13,11 +13,11 @@
 namespace etude {
 namespace {
 
-// Older recordings tell the wait only; what tells neither is aligned at its transition.
+// Older recordings state only the wait. A recording without request and wait is aligned at its last transition point.
 int RequestOf(const TransitionFacts& facts, double rate_hz) {
   if (facts.request_frame) return *facts.request_frame;
-  constexpr double kLongestWait = 3600;
-  const double wait = std::clamp(facts.wait_s.value_or(0), 0.0, kLongestWait);
+  constexpr double kMaxWaitSeconds = 3600;
+  const double wait = std::clamp(facts.wait_s.value_or(0), 0.0, kMaxWaitSeconds);
   return facts.transition_frames.back() - static_cast<int>(std::lround(wait * rate_hz));
 }
 
@@ -36,11 +36,11 @@ std::vector<const RecordedTransition*> ShownOf(const RecordedRequest& world, con
 }
 
 constexpr int kBefore = kFilmRate, kAfter = 3 * kFilmRate / 2;
-// The film ends by then: a method that waits longer is seen still waiting.
+// The film ends by then; a method that waits longer is shown waiting.
 constexpr int kLatest = 4 * kFilmRate;
 // Long enough to see what leads to a transition and what follows it; the same stretch is shown in slow motion.
 constexpr int kSlowBefore = kFilmRate / 3, kSlowAfter = 2 * kFilmRate / 3;
-constexpr int kLongestSlow = 5 * kFilmRate / 2;
+constexpr int kMaxSlowFrames = 5 * kFilmRate / 2;
 
 }  // namespace
 
@@ -56,6 +56,7 @@ std::size_t TransitionPath::PointsBefore(int time) const {
 }
 
 Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSummary& scenario) {
+  // Find the world with recordings of the most methods.
   const std::vector<RecordedRequest> worlds = RecordedRequestsOf(run, scenario);
   const RecordedRequest* best = nullptr;
   std::vector<const RecordedTransition*> shown;
@@ -69,6 +70,7 @@ Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSumm
     return Fail({}, "this run kept no recordings of transitions here (the scenario's key video)");
   }
   if (shown.size() < 2) return Fail({}, "no world kept recordings of two methods with a transition");
+  // Collect the path of each method.
   TransitionRace race{.world = best->Name(), .request = best->Request(), .choice = {}, .paths = {}};
   race.choice = fmt::format("the first of {} recorded in which most of them have one",
                             Plural(static_cast<long long>(worlds.size()), "world"));
@@ -94,7 +96,7 @@ TransitionClock::TransitionClock(const TransitionRace& race) {
   first_ = -kBefore;
   last_ = std::clamp(latest + kAfter, kBefore, kLatest + kAfter);
   slow_first_ = std::clamp(earliest - kSlowBefore, first_, last_);
-  slow_last_ = std::clamp(std::min(latest + kSlowAfter, slow_first_ + kLongestSlow), slow_first_, last_);
+  slow_last_ = std::clamp(std::min(latest + kSlowAfter, slow_first_ + kMaxSlowFrames), slow_first_, last_);
 }
 
 int TransitionClock::TimeAt(int frame) const {

@@ -9,21 +9,21 @@
 
 namespace etude {
 
-/// The path of one method through a request, frame by frame from the request on.
+/// The path of one method through a request; times are frames after the request.
 struct TransitionPath {
   std::string method;
-  std::size_t method_index = 0;  ///< in the scenario: its colour
+  std::size_t method_index = 0;  ///< index in the scenario, which decides the colour
   TransitionFacts facts;
   BodyMotion motion;
   std::vector<double> jumps_cm;  ///< largest second difference of any joint, one per frame
-  int request = 0;               ///< index into `motion` of the frame shown at the request; may lie outside of it
+  int request = 0;               ///< index into `motion` of the frame at the request; may lie outside of it
 
-  /// Gives the frame shown so many frames after the request; before the recording the first, after it the last.
+  /// Returns the frame `time` frames after the request; the first one before the recording, the last one after it.
   int FrameAt(int time) const;
   bool IsRecordedAt(int time) const;
-  /// Gives the time after the request of a frame of the motion.
+  /// Returns the time of a frame of the motion, in frames after the request.
   int TimeOf(int frame) const { return frame - request; }
-  /// Counts the transition points before the frame shown at that time.
+  /// Returns the number of transition points before that time.
   std::size_t PointsBefore(int time) const;
   int FirstPoint() const { return TimeOf(facts.transition_frames.front()); }
   int LastPoint() const { return TimeOf(facts.transition_frames.back()); }
@@ -33,18 +33,17 @@ struct TransitionPath {
 struct TransitionRace {
   std::string world;    ///< "trial 30"
   std::string request;  ///< "clap → side kick"
-  std::string choice;   ///< why this world and these methods, in words
+  std::string choice;   ///< why this world and these methods were chosen, in words
   std::vector<TransitionPath> paths;
 };
 constexpr std::size_t kMostTransitionPaths = 4;
 
-/// Finds the first world that kept recordings of the most methods (at most kMostTransitionPaths, the scenario's first).
-/// Fails, saying why, when no world kept those of two.
+/// Finds the first world that has recordings of the most methods (at most kMostTransitionPaths, the scenario's first).
+/// Fails with the reason if no world has recordings of two.
 Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSummary& scenario);
 
-/// A clock that says which moment of a request is seen at which frame of a film, the same for every method: from a
-/// second before the request until after the last transition, and then all once more, slower. Times are frames after
-/// the request.
+/// Maps frames of a film to times of a request, the same for every method: from a second before the request until after
+/// the last transition, and then once more in slow motion. Times are frames after the request.
 class TransitionClock {
  public:
   static constexpr int kSlowness = 4;
@@ -56,7 +55,7 @@ class TransitionClock {
   int Frames() const { return Run() + kRest + kSlowness * (slow_last_ - slow_first_ + 1) + kRest; }
   int TimeAt(int frame) const;
   bool IsSlow(int frame) const { return frame >= Run() + kRest; }
-  /// Gives the frame of the film that first shows this moment.
+  /// Returns the frame of the film that shows this time first.
   int FrameOf(int time) const;
 
  private:

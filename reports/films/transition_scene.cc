@@ -15,9 +15,9 @@ namespace etude {
 namespace {
 
 constexpr double kStageDetail = 1.5;
-// The camera follows a walking body smoothly: a mean over a second to either side.
+// The camera path of a walking body is averaged over a second to either side.
 constexpr int kFollowFrames = 30;
-// Poses change little from one frame to the next: enough to know how much room they need.
+// Poses change little from frame to frame, so every third one is enough to find the visible space.
 constexpr int kLookedAtEvery = 3;
 
 std::vector<FloorMove> PlacementsOf(const TransitionPath& path) {
@@ -37,7 +37,7 @@ std::vector<std::vector<FloorMove>> AllPlacements(const TransitionRace& race) {
   return placements;
 }
 
-// How long a change stays marked, and the pose that was left shimmers on.
+// Frames for which a change stays marked, and for which the pose that was left stays visible as a ghost.
 constexpr int kMarkFrames = kFilmRate / 2, kGhostFrames = kFilmRate;
 constexpr double kPanelMargin = 12;
 constexpr Paint kPlate{0.13, 0.15, 0.17, 1};
@@ -56,7 +56,7 @@ TransitionStage StageFor(const TransitionRace& race, const TransitionClock& cloc
   return {race, clock.First(), clock.Last(), static_cast<int>(body.width), static_cast<int>(body.height)};
 }
 
-// One scale for all methods, so that jumps compare across columns.
+// One scale for all methods, so that jumps can be compared across columns.
 double HighestJump(const TransitionRace& race, const TransitionClock& clock) {
   double highest = 1;
   for (const TransitionPath& path : race.paths) {
@@ -107,7 +107,7 @@ Box TransitionPanel::BodyBox(const Box& column) {
           column.height - kCaptionHeight - kStripHeight - kDistanceBarsHeight - 2 * kGap};
 }
 
-// Clips are named by what meets; a recording that does not tell knows the first and the last.
+// A clip between two points has the name that the recording gives it, else "in-between".
 std::string TransitionPanel::ClipAt(int time) const {
   const std::size_t points = path_.PointsBefore(time);
   if (points == 0) return path_.facts.from;
@@ -131,6 +131,7 @@ void TransitionPanel::Draw(Canvas& canvas, const Box& column, Renderer& renderer
 void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& renderer, int time) {
   const int frame = path_.FrameAt(time);
   const std::size_t points = path_.PointsBefore(time);
+  // Show the pose that was left as a ghost for a second.
   std::optional<int> left;
   if (points > 0) left = path_.facts.transition_frames[points - 1];
   const int since = left ? time - path_.TimeOf(*left) : 0;
@@ -138,6 +139,7 @@ void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& rendere
   if (!drawn_ || drawn_->frame != frame || drawn_->ghost != ghost) {
     drawn_ = {frame, ghost, stage_.Picture(renderer, path_, index_, frame, ghost)};
   }
+  // Mark a change with a bright rim.
   const bool just_changed = left && since <= kMarkFrames;
   const Box plate{box.x, box.y, box.width, box.height + kCaptionHeight};
   if (just_changed) {
@@ -147,6 +149,7 @@ void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& rendere
   }
   canvas.FillBox(plate, kPlate, kPanelRadius);
   canvas.Put(drawn_->picture, static_cast<int>(box.x), static_cast<int>(box.y), kPanelRadius);
+  // Veil the picture before the recording begins.
   constexpr double kMarkRoom = 112;
   if (!path_.IsRecordedAt(time)) {
     canvas.FillBox(box, kVeil, kPanelRadius);
@@ -155,7 +158,7 @@ void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& rendere
                     box.width - 32);
   }
   DrawTag(canvas, box, path_.method, kMarkRoom);
-  // The method's own colour on the page, beneath its name.
+  // The method's colour on the page, below its name.
   canvas.FillBox({box.x + 14, box.y + 45, 44, 4}, MethodPaint(path_.method_index), 2);
   if (just_changed) DrawMark(canvas, box, "change");
   DrawWords(canvas, {box.x, box.y + box.height, box.width, kCaptionHeight}, time);

@@ -13,13 +13,13 @@
 
 namespace etude {
 
-/// The stage on which all methods of a race are seen: one camera that stands still, everyone facing it at the request.
+/// The stage on which all methods of a race are seen: one fixed camera; every body faces it at the request.
 class TransitionStage {
  public:
-  /// Sets the stage for pictures of this size that show the moments `first` … `last`, in frames after the request.
+  /// Makes a stage for pictures of this size that show the times `first` … `last`, in frames after the request.
   TransitionStage(const TransitionRace& race, int first, int last, int width, int height);
 
-  /// Draws a path's frame; `ghost`, another frame of it, shimmers behind.
+  /// Draws a frame of a path; another frame of it, `ghost`, shows through behind.
   Image<std::uint32_t> Picture(Renderer& renderer, const TransitionPath& path, std::size_t index, int frame,
                                std::optional<int> ghost) const;
 
@@ -32,17 +32,17 @@ class TransitionStage {
   mutable Studio studio_;                           ///< keeps its last picture
 };
 
-/// One method's column of the film that compares transitions: the performer, how jerky it is, and the distances at its
+/// One method's column of the film that compares transitions: the performer, its jumps, and the distances at its
 /// transition points.
 class TransitionPanel {
  public:
   static constexpr double kCaptionHeight = 52, kStripHeight = 132, kGap = 8;
 
-  /// All must outlive the panel; `index` is the path's place in the race that the stage was made for.
+  /// All references must outlive the panel; `index` is the path's index in the race for which the stage was made.
   TransitionPanel(const TransitionPath& path, std::size_t index, const TransitionStage& stage, const JumpStrip& strip)
       : path_(path), index_(index), stage_(stage), strip_(strip) {}
 
-  /// Gives the part of a column of the film that shows the performer; its caption is beneath.
+  /// Returns the part of a column that shows the performer; the caption is below it.
   static Box BodyBox(const Box& column);
   void Draw(Canvas& canvas, const Box& column, Renderer& renderer, int time);
 
@@ -60,10 +60,10 @@ class TransitionPanel {
   std::size_t index_;
   const TransitionStage& stage_;
   const JumpStrip& strip_;
-  std::optional<Drawn> drawn_;  ///< slow moments show one picture several times
+  std::optional<Drawn> drawn_;  ///< slow motion shows each picture several times
 };
 
-/// The film of one request under two to four methods side by side: when each changes, how smoothly, and by which
+/// The film of one request under two to four methods side by side: when each one changes, how smoothly, and with which
 /// distances.
 class TransitionScene : public Scene {
  public:
@@ -73,7 +73,7 @@ class TransitionScene : public Scene {
   TransitionScene& operator=(const TransitionScene&) = delete;
 
   int Frames() const override { return clock_.Frames(); }
-  /// Gives a frame just after everyone has changed.
+  /// Returns a frame just after all methods have changed.
   int PosterFrame() const override;
   std::string Words() const override;
   Canvas Draw(int frame) override;

@@ -57,16 +57,16 @@ std::vector<RecordedRequest> RecordedRequestsOf(const RunData& run, const Scenar
   if (scenario.task != "transition" || run.recordings.empty()) return worlds;
   std::map<std::string_view, const Recording*> recordings;
   for (const CellRecording& recorded : run.recordings) recordings.emplace(recorded.cell, &recorded.recording);
-  std::map<std::pair<std::string, int>, std::size_t> places;
+  std::map<std::pair<std::string, int>, std::size_t> index_of;
   for (const Row& row : run.rows) {
     if (row.scenario != scenario.name) continue;
     const auto found = recordings.find(row.Id());
     if (found == recordings.end() || FindTrack(*found->second, "coach") == nullptr) continue;
     auto facts = ReadTransitionFacts(*found->second, row.Id());
     if (!facts) continue;
-    const auto [place, is_new] = places.try_emplace({CompactLabel(row.condition), row.trial}, worlds.size());
+    const auto [entry, is_new] = index_of.try_emplace({CompactLabel(row.condition), row.trial}, worlds.size());
     if (is_new) worlds.emplace_back();
-    worlds[place->second].transitions.push_back({&row, found->second, *std::move(facts)});
+    worlds[entry->second].transitions.push_back({&row, found->second, *std::move(facts)});
   }
   const auto order = [&](const RecordedTransition& s) { return std::ranges::find(scenario.methods, s.row->method); };
   for (RecordedRequest& world : worlds) std::ranges::stable_sort(world.transitions, {}, order);

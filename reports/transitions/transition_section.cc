@@ -33,8 +33,8 @@ std::string DistanceWords(double distance, std::optional<double> threshold) {
                      fmt::format("{:g}", *threshold));
 }
 
-// More than a reader takes in; the recordings hold them all.
-constexpr std::size_t kMostWorlds = 6;
+// Limits for readability; the recordings hold everything.
+constexpr std::size_t kMaxWorlds = 6;
 constexpr std::size_t kMostMethods = 12;
 constexpr std::size_t kMaxCandidates = 24;
 
@@ -46,7 +46,7 @@ std::span<const RecordedTransition> Shown(const RecordedRequest& world) {
   return std::span(world.transitions).first(std::min(world.transitions.size(), kMostMethods));
 }
 
-/// Writes the way through the clips: "clap 41 → in-between 0 … in-between 12 → side kick 3".
+/// Returns the path through the clips: "clap 41 → in-between 0 … in-between 12 → side kick 3".
 std::string WayOf(const TransitionFacts& facts) {
   std::string text;
   for (const PointFacts& point : facts.points) {
@@ -57,7 +57,7 @@ std::string WayOf(const TransitionFacts& facts) {
   return text.empty() ? std::string(kNoValue) : text;
 }
 
-/// Gives the largest distance of the frames that met, which the threshold is about.
+/// Returns the largest distance of all transition points, which is compared with the threshold.
 std::optional<double> WorstDistance(const TransitionFacts& facts) {
   std::optional<double> worst;
   for (const PointFacts& point : facts.points) {
@@ -107,13 +107,13 @@ std::string Distances(const RecordedRequest& world) {
   return table.Html();
 }
 
-/// Writes a frame: "clap 28", or the frame alone.
+/// Returns a frame with its clip, "clap 28", or the frame alone.
 std::string FrameIn(const std::string& clip, int frame) {
   return clip.empty() ? std::to_string(frame) : fmt::format("{} {}", clip, frame);
 }
 
-/// Gives the transition point that a candidate was looked at for: through an in-between there are two. Its clips are
-/// empty when unknown.
+/// Returns the transition point for which a candidate was considered; with an in-between there are two. Its clips are
+/// empty if the point is unknown.
 PointFacts PointOf(const CandidateFacts& candidate, const TransitionFacts& facts) {
   const int point = candidate.point.value_or(facts.points.size() == 1 ? 0 : -1);
   const bool is_told = point >= 0 && point < static_cast<int>(facts.points.size());
@@ -131,7 +131,7 @@ TableRow CandidateRow(const CandidateFacts& candidate, const TransitionFacts& fa
   return row;
 }
 
-/// Says how many of all pairs of frames are listed.
+/// Returns a note on how many of all pairs of frames are listed; "" if all are.
 std::string HowMany(const TransitionFacts& facts) {
   const auto listed = static_cast<long long>(facts.candidates.size());
   if (!facts.pairs_seen || *facts.pairs_seen <= listed) return "";
@@ -154,7 +154,7 @@ std::string CandidatesTable(const std::string& methods, const TransitionFacts& f
                      LeftOutHtml(facts.candidates.size(), shown, "candidates", "the recording"));
 }
 
-/// Writes the candidates of all methods; those that differ in the join alone share theirs.
+/// Writes the candidates of all methods; methods that differ only in the join share one table.
 std::string AllCandidates(const RecordedRequest& world) {
   std::string html;
   std::vector<bool> told(world.transitions.size());
@@ -225,6 +225,7 @@ std::string DistanceTable::Html() const {
     row.cells.emplace_back("");
     table.rows.push_back(std::move(row));
   }
+  // One row for each transition point.
   for (const Point& point : points_) {
     const PerFeature& partials = *point.facts.partials;
     const double sum = std::accumulate(partials.begin(), partials.end(), 0.0);
@@ -259,15 +260,15 @@ std::string MostlyBy(const PerFeature& partials) {
 
 std::string TransitionsHtml(const std::vector<RecordedRequest>& worlds) {
   std::string html;
-  for (std::size_t i = 0; i < std::min(worlds.size(), kMostWorlds); ++i) html += WorldHtml(worlds[i]);
-  return html + LeftOutHtml(worlds.size(), kMostWorlds, "requests", "the folder recordings");
+  for (std::size_t i = 0; i < std::min(worlds.size(), kMaxWorlds); ++i) html += WorldHtml(worlds[i]);
+  return html + LeftOutHtml(worlds.size(), kMaxWorlds, "requests", "the folder recordings");
 }
 
 std::string TransitionsMarkdown(const std::vector<RecordedRequest>& worlds) {
   if (worlds.empty()) return "";
   std::string text = "\n<details><summary>Why each transition went where it went</summary>\n";
-  for (std::size_t i = 0; i < std::min(worlds.size(), kMostWorlds); ++i) text += WorldMarkdown(worlds[i]);
-  const std::string rest = LeftOutWords(worlds.size(), kMostWorlds, "requests", "the folder recordings");
+  for (std::size_t i = 0; i < std::min(worlds.size(), kMaxWorlds); ++i) text += WorldMarkdown(worlds[i]);
+  const std::string rest = LeftOutWords(worlds.size(), kMaxWorlds, "requests", "the folder recordings");
   return text + (rest.empty() ? "" : "\n" + rest + "\n") + "\n</details>\n";
 }
 

@@ -23,6 +23,7 @@ std::string RecordedWorld::Name() const {
 
 std::vector<RecordedWorld> RecordedWorlds(const RunData& run) {
   std::map<std::string_view, const Recording*> recordings;
+  // Find the recordings that hold motions.
   for (const CellRecording& recorded : run.recordings) {
     const bool moves =
         std::ranges::any_of(recorded.recording.tracks, [](const Track& track) { return !track.motion.poses.empty(); });
@@ -30,13 +31,14 @@ std::vector<RecordedWorld> RecordedWorlds(const RunData& run) {
   }
   std::vector<RecordedWorld> worlds;
   if (recordings.empty()) return worlds;
-  std::map<std::string, std::size_t> places;  // of worlds
+  // Group their cells by world.
+  std::map<std::string, std::size_t> index_of;  // indices into `worlds`
   for (const Row& row : run.rows) {
     const auto recorded = recordings.find(row.Id());
     const auto scenario = std::ranges::find(run.scenarios, row.scenario, &ScenarioSummary::name);
     if (recorded == recordings.end() || scenario == run.scenarios.end()) continue;
     const std::string world = fmt::format("{}/{}/{}", row.scenario, CompactLabel(row.condition), row.trial);
-    const auto [place, is_new] = places.emplace(world, worlds.size());
+    const auto [entry, is_new] = index_of.emplace(world, worlds.size());
     if (is_new) {
       const auto index = static_cast<std::size_t>(scenario - run.scenarios.begin());
       const auto before = std::ranges::count(worlds, index, &RecordedWorld::scenario);
@@ -44,8 +46,9 @@ std::vector<RecordedWorld> RecordedWorlds(const RunData& run) {
                         .file = fmt::format("motions/{}-{}.js", FileNameOf(scenario->name, index), before + 1),
                         .cells = {}});
     }
-    worlds[place->second].cells.push_back({&row, recorded->second});
+    worlds[entry->second].cells.push_back({&row, recorded->second});
   }
+  // Order the cells of each world by method.
   for (RecordedWorld& world : worlds) {
     std::ranges::stable_sort(world.cells, {}, [&](const RecordedCell& cell) {
       return IndexOf(run.scenarios[world.scenario], cell.row->method);
@@ -67,7 +70,7 @@ std::string ViewerIndexHtml(const RunData& run) {
 std::string WatchHtml(const RunData& run, std::size_t scenario) {
   std::vector<RecordedWorld> worlds = RecordedWorlds(run);
   std::erase_if(worlds, [&](const RecordedWorld& world) { return world.scenario != scenario; });
-  // One trial of several conditions: these tell them apart.
+  // If all worlds have the same trial, name them by their conditions.
   const bool one_trial = worlds.size() > 1 && std::ranges::all_of(worlds, [&](const RecordedWorld& world) {
                            return world.cells.front().row->trial == worlds.front().cells.front().row->trial;
                          });

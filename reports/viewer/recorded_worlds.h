@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// A cell that kept a recording with motions.
+/// A cell with a recording that holds motions.
 struct RecordedCell {
   const Row* row = nullptr;
   const Recording* recording = nullptr;
@@ -17,21 +17,22 @@ struct RecordedCell {
 /// The recorded cells of one world.
 struct RecordedWorld {
   std::size_t scenario = 0;  ///< index into RunData::scenarios
-  std::string file;          ///< of its motions, below `report`: "motions/capture-1.js"; harmless characters only
+  std::string file;          ///< path of its motions below `report`: "motions/capture-1.js"; only harmless characters
   std::vector<RecordedCell> cells;  ///< in the order of the scenario's methods; never empty
 
-  /// Names the world: "joint_noise_deg=5, trial 3".
+  /// Returns the name of the world: "joint_noise_deg=5, trial 3".
   std::string Name() const;
 };
 
-/// Lists the worlds of which a run kept motions, in the order of its rows. The run must outlive them.
+/// Lists the worlds of which a run recorded motions, in the order of its rows. The run must outlive the result.
 std::vector<RecordedWorld> RecordedWorlds(const RunData& run);
 
-/// Writes the element of the page that says which file holds the motions of which cells, as JSON for the viewer; "" for
-/// a run without any.
+/// Writes the page's JSON element that tells the viewer which file holds the motions of which cells; "" for a run
+/// without recorded motions.
 std::string ViewerIndexHtml(const RunData& run);
 
-/// Writes buttons that open the recorded worlds of a scenario; the script shows them, for without it they do nothing.
+/// Writes buttons that open the recorded worlds of a scenario. They are hidden until the script shows them, because
+/// they need it.
 std::string WatchHtml(const RunData& run, std::size_t scenario);
 
 }  // namespace etude

@@ -20,11 +20,11 @@
 namespace etude {
 namespace {
 
-/// The look of a track of a recording.
+/// How the viewer shows a track of a recording.
 struct TrackLook {
   std::string_view task, track;
-  std::string_view label;  ///< "": the method
-  std::string_view kind;   ///< "shown", "ghost" (what errors are taken against), "partner" (stands aside)
+  std::string_view label;  ///< "" = the method's name
+  std::string_view kind;   ///< "shown", "ghost" (the reference of errors) or "partner" (stands aside)
   std::vector<std::string_view> against = {};
   bool has_contacts = false;
 };
@@ -54,8 +54,8 @@ TrackLook LookOf(const std::string& task, const std::string& track) {
   return found == Looks().end() ? TrackLook{task, track, track, "shown"} : *found;
 }
 
-/// Returns what the distance of a joint from the bodies that it is held against means, in the unit of the task's
-/// headline.
+/// Returns what the distance between a joint and its reference means for a task, and the unit of the task's headline
+/// metric.
 std::pair<std::string_view, std::string_view> ErrorOf(const std::string& task) {
   if (task == "capture") return {"distance from the true joint", "mm"};
   if (task == "ik") return {"distance from the true joint", "cm"};
@@ -65,7 +65,7 @@ std::pair<std::string_view, std::string_view> ErrorOf(const std::string& task) {
 
 bool AreEqual(const BodyPose& a, const BodyPose& b) { return a.joints == b.joints; }
 
-/// Returns a motion without the frames at its end that repeat the one before them: the last one lasts.
+/// Returns a motion without the frames at its end that repeat the one before them; the viewer keeps the last one.
 std::span<const BodyPose> UntilItRests(const BodyMotion& motion) {
   std::span<const BodyPose> poses = motion.poses;
   while (poses.size() > 1 && AreEqual(poses.back(), poses[poses.size() - 2])) poses = poses.first(poses.size() - 1);
@@ -87,12 +87,13 @@ Json ContactsOf(const BodyMotion& motion) {
   return runs;
 }
 
-/// Gathers one world's data; `cell` counts its cells.
+/// Collects the data of one world.
 class Writer {
  public:
   explicit Writer(const RecordedWorld& world, const std::string& task) : world_(world), task_(task) {}
 
   Json Write(const ScenarioSummary& scenario, const std::string& title) {
+    // The world's header, with empty lists.
     const auto [error, unit] = ErrorOf(task_);
     json_ = {{"file", world_.file},     {"title", title},
              {"rate_hz", RateHz()},     {"floor_m", 0},
@@ -100,6 +101,7 @@ class Writer {
              {"notes", Json::array()},  {"cells", Json::array()},
              {"bodies", Json::array()}, {"targets_m", Json::array()},
              {"steps", Json::array()},  {"marks", Json::array()}};
+    // Add each cell with its extras and tracks.
     for (cell_ = 0; cell_ < world_.cells.size(); ++cell_) {
       const RecordedCell& cell = world_.cells[cell_];
       json_["cells"].push_back({{"id", cell.row->Id()},
@@ -112,6 +114,7 @@ class Writer {
         if (!track.motion.poses.empty()) AddTrack(cell, track, track.name == "wanted" ? begin + wanted_ : begin);
       }
     }
+    // Resolve the references of errors, and let the world start at frame 0.
     FindReferences();
     StartAtZero();
     if (task_ == "ik") json_["floor_m"] = lowest_;
@@ -135,12 +138,14 @@ class Writer {
 
   void AddTrack(const RecordedCell& cell, const Track& track, int begin) {
     const TrackLook look = LookOf(task_, track.name);
+    // Share a body that another method has recorded identically.
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       if (bodies_[i].track != track.name || bodies_[i].begin != begin || look.label.empty()) continue;
       if (!std::ranges::equal(UntilItRests(*bodies_[i].motion), UntilItRests(track.motion), AreEqual)) continue;
       json_["bodies"][i]["cell"] = -1;
       return;
     }
+    // Quantise the joints and encode them in Base64.
     bodies_.push_back({track.name, &track.motion, begin, cell_});
     BodyMotion moving{.rate_hz = track.motion.rate_hz, .poses = {}};
     const std::span<const BodyPose> poses = UntilItRests(track.motion);
@@ -149,6 +154,7 @@ class Writer {
     std::string bytes;
     for (const std::uint16_t step : motion.steps)
       bytes += {static_cast<char>(step & 255), static_cast<char>(step >> 8)};
+    // Track the lowest joint, which is the floor of the ik task.
     for (const BodyPose& pose : poses) {
       for (const glm::dvec3& joint : pose.joints) lowest_ = std::min(lowest_, joint.y);
     }
@@ -164,7 +170,7 @@ class Writer {
                                {"contacts", look.has_contacts ? ContactsOf(track.motion) : Json::array()}});
   }
 
-  // A body that several methods share is there for each of them.
+  // A shared body is a reference for every method.
   void FindReferences() {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       for (const std::string_view track : LookOf(task_, bodies_[i].track).against) {
@@ -193,7 +199,7 @@ class Writer {
     if (std::ranges::find(marks, mark) == marks.end()) marks.push_back(std::move(mark));
   }
 
-  /// Adds what a cell's extras tell, and gives the frame of the world at which its recording begins: transitions have
+  /// Adds the extras of a cell, and returns the frame of the world at which its recording begins: all transitions have
   /// their requests at the same time.
   int AddExtras(const std::string& method, const Recording& recording) {
     wanted_ = 0;
@@ -240,7 +246,7 @@ class Writer {
     return begin;
   }
 
-  /// Marks a judgement: a hit where it agrees with the truth, which is neither where the truth itself is not sure.
+  /// Marks a verdict: "hit" if it agrees with the truth, "miss" if not, "grey" if the truth itself is undecided.
   void MarkJudgement(std::string_view lane, int frame, const std::string& truth, bool called_right,
                      const std::string& text) {
     const bool agrees = (truth == "right") == called_right;
@@ -266,6 +272,7 @@ class Writer {
 
   int Add(const std::string& method, const CoachExtras& extras) {
     const std::string lane = world_.cells.size() > 1 ? " of " + method : "";
+    // Performances and their verdicts.
     for (const CoachExtras::Performance& danced : extras.performances) {
       Mark("danced" + lane, danced.begin_frame, danced.end_frame, danced.truth,
            Performed(danced.move, danced.truth, danced.faults));
@@ -273,6 +280,7 @@ class Writer {
       MarkJudgement("judged" + lane, danced.end_frame, danced.truth, danced.called == "right",
                     fmt::format("{}: called {}", danced.move, danced.called));
     }
+    // Corrections with their reasons, transitions, and spoken words.
     for (const int frame : extras.corrections) {
       std::string why;
       for (const CoachExtras::Decision& decision : extras.decisions) {
@@ -293,9 +301,9 @@ class Writer {
   const RecordedWorld& world_;
   const std::string& task_;
   std::size_t cell_ = 0;
-  int wanted_ = 0;  ///< of the cell's recording, the frame from which the wanted clip goes on
+  int wanted_ = 0;  ///< the frame of the cell's recording at which the wanted clip starts
   double lowest_ = 0;
-  std::vector<Body> bodies_;  ///< as json_["bodies"]
+  std::vector<Body> bodies_;  ///< in the order of json_["bodies"]
   Json json_;
 };
 
@@ -317,14 +325,14 @@ QuantisedMotion Quantise(const BodyMotion& motion) {
     }
   }
   const glm::dvec3 range = high - quantised.low;
-  constexpr double kMost = 65535;
-  quantised.step = std::max({range.x, range.y, range.z}) / kMost;
+  constexpr double kMaxStep = 65535;
+  quantised.step = std::max({range.x, range.y, range.z}) / kMaxStep;
   quantised.steps.reserve(3 * kRoleCount * motion.poses.size());
   for (const BodyPose& pose : motion.poses) {
     for (const glm::dvec3& joint : pose.joints) {
       for (int axis = 0; axis < 3; ++axis) {
         const double steps = quantised.step > 0 ? (joint[axis] - quantised.low[axis]) / quantised.step : 0;
-        quantised.steps.push_back(static_cast<std::uint16_t>(std::clamp(std::round(steps), 0.0, kMost)));
+        quantised.steps.push_back(static_cast<std::uint16_t>(std::clamp(std::round(steps), 0.0, kMaxStep)));
       }
     }
   }

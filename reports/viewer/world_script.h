@@ -13,12 +13,13 @@ namespace etude {
 /// A motion in 16-bit steps: joint j of frame f is at low + step · steps[60 f + 3 j + axis], metres.
 struct QuantisedMotion {
   glm::dvec3 low{0};
-  double step = 0;  ///< of all axes; a place is off by at most half of it, and by the rounding of doubles
+  double step = 0;  ///< the same for all axes; a position is off by at most half of it, plus the rounding of doubles
   std::vector<std::uint16_t> steps;
 
   glm::dvec3 At(std::size_t frame, Role role) const;
 };
-/// The step is the widest axis' range by 65,535: as fine as 16 bits allow. A motion that stands still has step 0.
+/// Quantises a motion. The step is the range of the widest axis divided by 65,535, the finest that 16 bits allow; it is
+/// 0 if the motion stands still.
 QuantisedMotion Quantise(const BodyMotion& motion);
 
 /// Writes the motions of one world as the script beside the page that the viewer loads: `etudeMotion({…});`, in ASCII.

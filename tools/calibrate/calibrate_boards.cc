@@ -38,7 +38,7 @@ Result<std::vector<Board>> ReadBoards(const std::vector<std::string>& texts) {
   return boards;
 }
 
-/// The pictures of a folder, in the order of their names.
+/// Lists the pictures of a folder, sorted by name.
 Result<std::vector<fs::path>> PicturesIn(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
@@ -54,22 +54,22 @@ Result<std::vector<fs::path>> PicturesIn(const fs::path& folder) {
 }
 
 Result<ColourImage> ReadPicture(const fs::path& path) {
-  constexpr std::size_t kMostPixels = 100'000'000;
+  constexpr std::size_t kMaxPixels = 100'000'000;
   ASSIGN_OR_RETURN(const std::string bytes, ReadWholeFile(path));
   if (bytes.starts_with("\x89PNG")) return LoadColourPng(path.string());
-  auto picture = ReadJpeg(bytes, kMostPixels);
+  auto picture = ReadJpeg(bytes, kMaxPixels);
   if (!picture) return Fail({path.string()}, "{}", picture.error().message);
   return picture;
 }
 
-/// The boards that the pictures of one camera showed.
+/// The boards found in the pictures of one camera.
 struct CameraBoards {
   std::string name;
   std::size_t looked = 0, with_board = 0, corners = 0;
-  double period_s = 0;  ///< of a film, between looks; 0: of a folder
+  double period_s = 0;  ///< time between two searched frames of a film; 0 for a folder of pictures
   int every = 1;
-  ColourImage best;  ///< the picture with most corners
-  std::size_t most = 0;
+  ColourImage best;  ///< the picture with the most corners
+  std::size_t most_corners = 0;
 };
 
 Result<void> AddPicture(std::size_t camera, const std::string& moment, const ColourImage& picture, int look,
@@ -79,9 +79,9 @@ Result<void> AddPicture(std::size_t camera, const std::string& moment, const Col
   ++seen.looked;
   seen.with_board += *corners > 0 ? 1 : 0;
   seen.corners += *corners;
-  if (seen.best.pixels.empty() || *corners > seen.most) {
+  if (seen.best.pixels.empty() || *corners > seen.most_corners) {
     seen.best = picture;
-    seen.most = *corners;
+    seen.most_corners = *corners;
   }
   return {};
 }
@@ -97,7 +97,7 @@ Result<void> AddFolder(std::size_t camera, const fs::path& folder, const Calibra
   return {};
 }
 
-/// Every so many pictures of a film; a picture's number names its moment.
+/// Searches every n-th frame of a film; the frame's number identifies its moment.
 Result<void> AddFilm(std::size_t camera, const fs::path& film, const CalibrateOptions& options, BoardViews& views,
                      CameraBoards& seen) {
   ASSIGN_OR_RETURN(const FilmFacts facts, ProbeFilm(film));
@@ -119,7 +119,7 @@ Result<void> AddFilm(std::size_t camera, const fs::path& film, const CalibrateOp
   }
 }
 
-/// The board that is looked for: one of OpenCV's, or our own.
+/// Makes the search for the board of the options: a board of OpenCV's kind, or our own.
 Result<BoardViews> SearchFor(const CalibrateOptions& options) {
   const auto printed = ReadPrintedBoard(options.boards.front());
   if (!printed) {
@@ -140,7 +140,7 @@ Result<BoardViews> SearchFor(const CalibrateOptions& options) {
   return BoardViews(board, std::move(finder));
 }
 
-/// The residual of each view.
+/// Returns the RMS residual of each view, pixels.
 std::vector<double> ResidualsOf(const RefinedRig& rig, std::span<const TargetView> views) {
   std::vector<double> rms;
   for (const TargetView& view : views) {
@@ -149,7 +149,8 @@ std::vector<double> ResidualsOf(const RefinedRig& rig, std::span<const TargetVie
   return rms;
 }
 
-/// Views whose boards are numbered without gaps, in their order: as `CalibrateFromPlanes` numbers them.
+/// Numbers the boards of the views without gaps, in order of appearance, as `CalibrateFromPlanes` does. Views without a
+/// homography are dropped.
 std::vector<TargetView> Numbered(std::vector<TargetView> views) {
   std::vector<std::optional<std::size_t>> number;
   std::size_t count = 0;
@@ -163,22 +164,23 @@ std::vector<TargetView> Numbered(std::vector<TargetView> views) {
   return views;
 }
 
-/// Calibrates, and again without pictures that are blurred or moved: those three times as far off as most.
-Result<RefinedRig> CalibrateWithoutBlurred(const BoardViews& search, const CalibrateOptions& options,
+/// Calibrates, then repeats the calibration without the pictures whose residual exceeds three times the median: they
+/// are blurred, or the board moved.
+Result<RefinedRig> CalibrateWithoutOutliers(const BoardViews& search, const CalibrateOptions& options,
                                            std::vector<TargetView>& views) {
   views = Numbered(std::move(views));
   const std::size_t all = views.size();
-  constexpr int kMostRounds = 3;
+  constexpr int kMaxRounds = 3;
   for (int round = 0;; ++round) {
     ASSIGN_OR_RETURN(RefinedRig rig, CalibrateFromPlanes(search.sizes(), views, RefineOptionsOf(options)));
     const std::vector<double> rms = ResidualsOf(rig, views);
-    constexpr double kFar = 3, kLeastPx = 0.3;
-    const double limit = std::max(kLeastPx, kFar * UpperMedian(rms));
+    constexpr double kFar = 3, kMinLimitPx = 0.3;
+    const double limit = std::max(kMinLimitPx, kFar * UpperMedian(rms));
     std::vector<TargetView> kept;
     for (std::size_t i = 0; i < views.size(); ++i) {
       if (rms[i] <= limit) kept.push_back(views[i]);
     }
-    if (search.Told().empty() || kept.size() == views.size() || round == kMostRounds) {
+    if (search.Told().empty() || kept.size() == views.size() || round == kMaxRounds) {
       if (views.size() < all) {
         options.listener.print(fmt::format("{} of {} pictures of boards left out: three times as far off as most\n", all - views.size(), all));
       }
@@ -188,7 +190,7 @@ Result<RefinedRig> CalibrateWithoutBlurred(const BoardViews& search, const Calib
   }
 }
 
-/// The views of one camera, as if there were no other.
+/// Returns the views of one camera, as if it were the only one.
 std::vector<TargetView> ViewsOf(std::size_t camera, std::span<const TargetView> views) {
   std::vector<TargetView> own;
   for (const TargetView& view : views) {
@@ -197,27 +199,30 @@ std::vector<TargetView> ViewsOf(std::size_t camera, std::span<const TargetView> 
   return own;
 }
 
-/// Finds the films' times, says them, and gives the views at common moments.
-Result<std::vector<TargetView>> SetInStep(const CalibrateOptions& options, const BoardViews& search,
+/// Finds the films' delays, reports them, and returns the views at common moments.
+Result<std::vector<TargetView>> SynchroniseFilms(const CalibrateOptions& options, const BoardViews& search,
                                           const std::vector<CameraBoards>& seen) {
   const bool are_films = std::ranges::all_of(seen, [](const CameraBoards& s) { return s.period_s > 0; });
+  // Only films have clocks to compare.
   if (!are_films || seen.size() < 2) return search.views();
   std::vector<double> period_s;
   for (const CameraBoards& s : seen) period_s.push_back(s.period_s);
+  // Find the delay of each film by the joint reprojection error.
   constexpr double kLooks = 2;
-  const double most_s = options.sync_s > 0 ? options.sync_s : kLooks * period_s.front();
-  ASSIGN_OR_RETURN(const FilmDelays steps, FindFilmDelays(search.sizes(), search.sightings(), period_s, most_s,
+  const double max_delay_s = options.sync_s > 0 ? options.sync_s : kLooks * period_s.front();
+  ASSIGN_OR_RETURN(const FilmSteps steps, FindFilmSteps(search.sizes(), search.sightings(), period_s, max_delay_s,
                                                         RefineOptionsOf(options), options.listener.progress("times of films")));
+  // Report each delay, and doubt a delay at the limit of the search.
   for (std::size_t i = 1; i < seen.size(); ++i) {
     const double delay_s = steps.delay_s[i];
     if (delay_s == 0) continue;
     constexpr double kMs = 1000;
     options.listener.print(fmt::format(
         "{}: shows a moment {:.0f} ms ({:.2f} frames) {} than {}; mended: its corners are taken between frames\n",
-        seen[i].name, kMs * std::abs(delay_s), std::abs(delay_s) / seen[i].period_s * seen[i].every,
-        delay_s > 0 ? "later" : "earlier", seen.front().name));
-    if (std::abs(delay_s) > most_s - 0.5 * period_s.front()) {
-      options.listener.print(fmt::format("doubtful: that is as far as was looked; --sync {:.1f} looks further\n", 2 * most_s + 0.1));
+        seen[i].name, kMs * std::abs(late_s), std::abs(late_s) / seen[i].period_s * seen[i].every,
+        late_s > 0 ? "later" : "earlier", seen.front().name));
+    if (std::abs(late_s) > max_delay_s - 0.5 * period_s.front()) {
+      options.listener.print(fmt::format("doubtful: that is as far as was looked; --sync {:.1f} looks further\n", 2 * max_delay_s + 0.1));
     }
   }
   if (steps.after_px < steps.before_px) {
@@ -227,7 +232,7 @@ Result<std::vector<TargetView>> SetInStep(const CalibrateOptions& options, const
   return SynchronisedViews(search.sightings(), period_s, steps.delay_s);
 }
 
-/// Says how well each camera explains its own boards alone, and where cameras disagree.
+/// Prints the residual of each camera, together with the others and alone, and warns where they differ much.
 void TellResiduals(const RefinedRig& rig, const CalibrateOptions& options, std::span<const PictureSize> sizes,
                    std::span<const TargetView> views, const std::vector<CameraBoards>& seen) {
   const std::vector<double> rms = ResidualsOf(rig, views);
@@ -243,8 +248,8 @@ void TellResiduals(const RefinedRig& rig, const CalibrateOptions& options, std::
     const double together = rig.camera_rms_px[camera];
     options.listener.print(fmt::format("{:<17}{:>14.3f}{:>10}{:>12.3f}{:>10.3f}\n", seen[camera].name, together,
                alone ? fmt::format("{:.3f}", alone->rms_px) : "-", UpperMedian(own), std::ranges::max(own)));
-    constexpr double kTimes = 3, kLeastPx = 0.5;
-    do_disagree = do_disagree || (alone && together > kLeastPx && together > kTimes * alone->rms_px);
+    constexpr double kTimes = 3, kMinLimitPx = 0.5;
+    do_disagree = do_disagree || (alone && together > kMinLimitPx && together > kTimes * alone->rms_px);
   }
   if (!do_disagree) return;
   options.listener.print(fmt::format(
@@ -253,16 +258,17 @@ void TellResiduals(const RefinedRig& rig, const CalibrateOptions& options, std::
       seen.front().every > 1 ? " (--every 1 would tell)" : ""));
 }
 
-/// The digits at a name's end: 0 of cam_0; "" of none.
+/// Returns the digits at the end of a name: "0" for cam_0; "" if there are none.
 std::string NumberAtEnd(const std::string& name) {
   std::size_t from = name.size();
   while (from > 0 && std::isdigit(static_cast<unsigned char>(name[from - 1]))) --from;
   return name.substr(from);
 }
 
-constexpr const char* kOpenCv = "opencv";  // of --beside: no file, its calibrateCamera
+constexpr const char* kOpenCv = "opencv";  // value of --beside that is no file: OpenCV's calibrateCamera
 
-/// Compares with what OpenCV makes of the very same corners; it knows one camera, so each is taken alone.
+/// Compares with OpenCV's calibration from the same corners. OpenCV calibrates one camera, so each camera is compared
+/// alone.
 Result<void> CompareWithOpenCv(const CalibrateOptions& options, std::span<const PictureSize> sizes,
                                std::span<const TargetView> views, const std::vector<CameraBoards>& seen) {
   options.listener.print(fmt::format("\nbeside OpenCV's calibrateCamera, on the same corners, each camera alone:\n"));
@@ -285,12 +291,13 @@ Result<void> CompareWithOpenCv(const CalibrateOptions& options, std::span<const 
   return {};
 }
 
-/// Compares with another calibration of these cameras, on the very same corners.
+/// Compares with another calibration of these cameras, on the same corners.
 Result<void> CompareBeside(const CalibrateOptions& options, const RefinedRig& rig, std::span<const TargetView> views,
                            const std::vector<CameraBoards>& seen) {
   const std::string& file = options.beside;
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
   ASSIGN_OR_RETURN(const std::vector<NamedCamera> theirs, ReadRig(text, file));
+  // Match cameras by name, else by the number at the end of the name.
   std::vector<Camera> cameras;
   for (const CameraBoards& own : seen) {
     auto same = std::ranges::find(theirs, own.name, &NamedCamera::name);
@@ -300,7 +307,8 @@ Result<void> CompareBeside(const CalibrateOptions& options, const RefinedRig& ri
     if (same == theirs.end()) return Fail({file}, "no camera {}, nor of that number", own.name);
     cameras.push_back(same->camera);
   }
-  const auto placed = LocateBoards(cameras, views);
+  // Place the boards for the other calibration, then compare intrinsics, residuals and distances between cameras.
+  const auto placed = PlaceBoards(cameras, views);
   if (!placed) return Fail({file}, "{}", placed.error().message);
   options.listener.print(fmt::format("\nbeside {}, on the same corners:\n", file));
   constexpr double kPercent = 100;
@@ -318,8 +326,10 @@ Result<void> CompareBeside(const CalibrateOptions& options, const RefinedRig& ri
   return {};
 }
 
-/// Draws each camera's best picture with the corners of all: yellow below half a pixel, orange below one, else red.
+/// Draws each camera's best picture with the corners of all its pictures: yellow below half a pixel of error, orange
+/// below one, else red.
 std::string PictureOfBoards(const RefinedRig& rig, std::span<const TargetView> views, std::vector<CameraBoards> seen) {
+  // One panel for each camera, one below the other.
   constexpr int kWidth = 640, kGap = 8;
   double height = kGap;
   for (const CameraBoards& s : seen) height += kWidth * static_cast<double>(s.best.height) / s.best.width + kGap;
@@ -332,6 +342,7 @@ std::string PictureOfBoards(const RefinedRig& rig, std::span<const TargetView> v
     const Box panel{kGap, top, kWidth, scale * s.best.height};
     canvas.DrawImage(s.best, panel);
     canvas.FillBox(panel, {0, 0, 0, 0.35});
+    // Draw each corner with its error, enlarged 20 times.
     for (const TargetView& view : views) {
       for (const PointPair& pair : view.pairs) {
         const CalibrationTargetPose& place = rig.targets[view.target];
@@ -360,6 +371,7 @@ std::string PictureOfBoards(const RefinedRig& rig, std::span<const TargetView> v
 Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options) {
   ASSIGN_OR_RETURN(BoardViews search, SearchFor(options));
   std::vector<CameraBoards> seen(options.inputs.size());
+  // Find the boards in each camera's folder or film.
   for (std::size_t camera = 0; camera < options.inputs.size(); ++camera) {
     fs::path input = options.inputs[camera];
     CameraBoards& own = seen[camera];
@@ -371,8 +383,9 @@ Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options) {
                own.with_board, own.corners));
   }
   if (!search.Told().empty()) options.listener.print(fmt::format("the board: {}\n", search.Told()));
-  ASSIGN_OR_RETURN(std::vector<TargetView> views, SetInStep(options, search, seen));
-  ASSIGN_OR_RETURN(RefinedRig refined, CalibrateWithoutBlurred(search, options, views));
+  // Synchronise the films, calibrate, and report the residuals.
+  ASSIGN_OR_RETURN(std::vector<TargetView> views, SynchroniseFilms(options, search, seen));
+  ASSIGN_OR_RETURN(RefinedRig refined, CalibrateWithoutOutliers(search, options, views));
   TellResiduals(refined, options, search.sizes(), views, seen);
   if (options.beside == kOpenCv) {
     RETURN_IF_ERROR(CompareWithOpenCv(options, search.sizes(), views, seen));
@@ -383,7 +396,8 @@ Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options) {
     RETURN_IF_ERROR(WriteFileAtomically(options.picture, PictureOfBoards(refined, views, seen)));
     TellWritten(options.listener, options.picture);
   }
-  AlignToBoard(options.world == "floor" ? BoardPlacement::kOnFloor : BoardPlacement::kOnWall, refined.cameras);
+  // Set the world frame to the first board, and name the cameras after their inputs.
+  TurnToStance(options.world == "floor" ? BoardStance::kOnFloor : BoardStance::kOnWall, refined.cameras);
   Calibrated rig;
   rig.rms_px = refined.camera_rms_px;
   rig.points.resize(refined.cameras.size());

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "8x8x0.2" as numbers; nothing of anything else.
+/// Parses numbers joined by 'x', as "8x8x0.2"; returns nullopt for any other text.
 std::optional<std::vector<double>> NumbersByX(std::string_view text) {
   std::vector<double> numbers;
   while (true) {
@@ -95,6 +95,7 @@ Result<Calibrated> FromPairs(const CalibrateOptions& options) {
   RETURN_IF_ERROR(SetSize(options.size, cameras));
   Calibrated rig;
   for (const CameraPairs& of : cameras) {
+    // Calibrate by refinement with a lens, or by a linear method, which knows no lens.
     const auto complain = [&](const Error& error) { return Fail({file}, "camera {}: {}", of.name, error.message); };
     rig.points.push_back(of.pairs.size());
     if (options.method == "refined") {
@@ -117,6 +118,7 @@ Result<Calibrated> FromPairs(const CalibrateOptions& options) {
 
 std::string TextOf(const Calibrated& rig) {
   std::string text;
+  // Reprojection error, intrinsics, lens, position, and paper B's parameters of each camera.
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     const Camera& camera = rig.cameras[i].camera;
     const Intrinsics& in = camera.intrinsics;

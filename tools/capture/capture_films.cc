@@ -13,6 +13,7 @@
 namespace etude {
 
 Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
+  // Check the options that exclude each other, and read the reference.
   RETURN_IF_ERROR(FormatOfName(options.output));
   if (options.keypoints.empty() && options.marks.empty() && !options.silhouettes) {
     return Fail({}, "what shall tell where the person is? allowed: --keypoints DIR, --marks DIR or --silhouettes");
@@ -27,6 +28,7 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
     return Fail({}, "--stature: the keypoints tell how tall the person is");
   }
   RETURN_IF_ERROR(CheckPlace(options.place));
+  // Open the films, and resample the reference to their frame rate.
   ASSIGN_OR_RETURN(FilmedSession session, OpenFilms(options));
   const FilmFacts facts = session.views.front().facts;
   options.listener.print(fmt::format("{} films, {} frames at {:g} Hz\n", session.views.size(), facts.frames, facts.rate_hz));
@@ -35,6 +37,7 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
                facts.rate_hz));
     reference = AtRate(std::move(*reference), facts.rate_hz);
   }
+  // Begin the facts for programs.
   Json seen = Json::array();
   for (const FilmedView& view : session.views) {
     seen.push_back({{"film", view.path.string()}, {"camera", view.camera.name}});
@@ -42,6 +45,7 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
   Json told = {{"films", std::move(seen)}, {"frames", facts.frames}, {"rate_hz", facts.rate_hz},
                {"keypoints", nullptr},     {"silhouettes", nullptr}, {"output", options.output}};
   bool is_whole = false;
+  // With silhouettes alone, the rig must be placed in the world before the person is found.
   if (options.silhouettes && options.keypoints.empty()) {
     const auto place = PlaceRig(session.rig, options.place);
     if (!place) return Fail({options.rig}, "{}", place.error().message);

@@ -28,10 +28,10 @@ RecoverPersonOptions RecoverOptionsOf(const CaptureFilmsOptions& options, const 
   RecoverPersonOptions recover = UsualRecovery(views.front().facts.rate_hz, longer_side);
   recover.person = static_cast<std::size_t>(options.person - 1);
   recover.cutoff_hz = options.smooth_hz;
-  recover.max_gap_s = options.max_gap_s;
-  constexpr double kLeastShare = 0.004;  // of the picture's longer side: what rounding and lenses leave
-  recover.min_outlier_px = kLeastShare * longer_side;
-  if (options.outlier_px > 0) recover.triangulate.robust.outlier_px = recover.min_outlier_px = options.outlier_px;
+  recover.longest_gap_s = options.longest_gap_s;
+  constexpr double kMinOutlierShare = 0.004;  // of the picture's longer side: errors left by rounding and lenses
+  recover.least_outlier_px = kMinOutlierShare * longer_side;
+  if (options.outlier_px > 0) recover.triangulate.robust.outlier_px = recover.least_outlier_px = options.outlier_px;
   recover.mends = recover.match.may_be_swapped = true;
   return recover;
 }
@@ -74,7 +74,7 @@ std::string ReportText(const RecoveredPerson& person, const std::vector<FilmedVi
   return text;
 }
 
-/// Encodes what was found out of keypoints, for programs.
+/// Encodes the findings from keypoints, for programs.
 Json FactsOf(const RecoveredPerson& person, const std::vector<FilmedView>& views,
              const std::vector<std::string>& told) {
   Json cameras = Json::array(), fit = Json::array();
@@ -104,7 +104,7 @@ Json FactsOf(const RecoveredPerson& person, const std::vector<FilmedView>& views
           {"told", told}};
 }
 
-/// Tells how far the joints of the written motion are from the points that they were fitted to.
+/// Reports the distances of the written motion's joints from the points that they were fitted to.
 std::string FitText(const RecoveredPerson& person) {
   std::string text;
   const MarkerMotion skeleton = JointMarkers(person.motion);
@@ -119,7 +119,7 @@ std::string FitText(const RecoveredPerson& person) {
   return text;
 }
 
-/// Follows the person by the films' outlines, too.
+/// Tracks the person with the silhouettes, too.
 Result<UnmarkedMotion> WithOutlines(const RecoveredPerson& person, std::size_t chosen, const ReducedTake& take,
                                     const CaptureFilmsOptions& options) {
   return RecoverByOutlines(take, options, person.motion.rate_hz,
@@ -130,7 +130,7 @@ AdjustPersonOptions AdjustOf(const RecoverPersonOptions& recover) {
   return {.rate_hz = recover.rate_hz, .min_confidence = recover.triangulate.min_confidence};
 }
 
-/// Compares joints of outlines and keypoints together with a reference; pairs as if there were no other camera.
+/// Compares the joints from silhouettes and keypoints with a reference, for all cameras and for each pair alone.
 Result<std::vector<ComparedColumn>> CompareWithOutlines(const MarkerMotion& reference, const BodyMotion& both,
                                                         const SeenFilms& films, const ReducedTake& take,
                                                         const RecoverPersonOptions& recover,
@@ -152,8 +152,8 @@ Result<std::vector<ComparedColumn>> CompareWithOutlines(const MarkerMotion& refe
   return columns;
 }
 
-/// Compares the person with a reference. Points of a pair of cameras are found among the same persons as if there were
-/// no other camera.
+/// Compares the person with a reference, for all cameras and for each pair alone. For a pair, the person is recovered
+/// again from the keypoints of these two films.
 std::vector<ComparedColumn> CompareWithReference(const MarkerMotion& reference, const RecoveredPerson& person,
                                                  const SeenFilms& films, const RecoverPersonOptions& options) {
   const auto column = [&](std::string heading, const RecoveredPerson& of) {
@@ -187,7 +187,7 @@ std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const 
     overlays.push_back(
         {view.camera.name, view.path, view.facts, view.camera.camera, view.fit, clocks[i].offset, {}, clocks[i].drift});
     for (auto seen : person.people[chosen].seen[i]) {
-      // Matched persons are told without the lens.
+      // Keypoints of matched persons have no lens distortion; put it back before drawing.
       for (Keypoint& keypoint : seen ? std::span<Keypoint>(seen->keypoints) : std::span<Keypoint>()) {
         const auto rig = DistortPixel(view.camera.camera, keypoint.pixel);
         keypoint = rig && keypoint.confidence > 0 ? Keypoint{view.fit.ToFilm(*rig), keypoint.confidence} : Keypoint{};
@@ -198,8 +198,8 @@ std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const 
   return overlays;
 }
 
-/// Says what the keypoints say against the rig.
-void TellDoubts(const MatchedPerson& person, const std::vector<FilmedView>& views, double min_confidence,
+/// Prints where keypoints contradict the rig.
+void TellDoubts(const MatchedPerson& person, const std::vector<FilmedView>& views, double least_confidence,
                 ToldLines& told) {
   std::vector<Camera> cameras;
   std::vector<std::string> names;
@@ -215,9 +215,11 @@ void TellDoubts(const MatchedPerson& person, const std::vector<FilmedView>& view
 Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession session,
                               const std::optional<MarkerMotion>& reference, Json& facts) {
   std::vector<FilmedView>& views = session.views;
+  // Read the keypoints and triangulate the person in the rig's coordinates.
   const RecoverPersonOptions recover = RecoverOptionsOf(options, views);
   ASSIGN_OR_RETURN(SeenFilms films, SeeFilms(options, recover, session));
   ASSIGN_OR_RETURN(RecoveredPerson located, LocatePerson(films.cameras, films.people, recover));
+  // Move the rig and the points into the world: metres, Y up, the floor as the options say.
   const auto place = PlaceRig(session.rig, located.landmarks, recover.rate_hz, options.place);
   if (!place) return Fail({options.rig}, "{}", place.error().message);
   films.told.Tell(fmt::format("rig, {}: {}", session.rig.format, place->told));
@@ -232,6 +234,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
       }
     }
   }
+  // Fit the skeleton: each frame alone, or all frames at once.
   ASSIGN_OR_RETURN(RecoveredPerson person, FitLocated(std::move(located), recover));
   const std::size_t chosen = IndexOfPerson(person, recover.person).value_or(0);
   if (options.poses == "bundle" && options.smooth_hz == 0) {
@@ -239,11 +242,13 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
       films.told.Tell("doubtful: no motion explains all keypoints at once; every frame is by itself");
     }
   }
+  // Report the people, the repairs, the doubts and the residuals.
   options.listener.print(PeopleText(person, views));
   TellMends(person, chosen, views, films.told);
   TellDoubts(person.people[chosen], views, recover.triangulate.min_confidence, films.told);
   options.listener.print(ReportText(person, views) + FitText(person));
   facts["keypoints"] = FactsOf(person, views, films.told.lines);
+  // Refine the motion with silhouettes, if asked.
   ReducedTake take;
   std::optional<UnmarkedMotion> both;
   if (options.silhouettes) {
@@ -257,12 +262,14 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
       films.told.Tell("doubtful: no motion explains keypoints and outlines at once; the joints are the keypoints' own");
     }
   }
+  // Write the motion and the points.
   RETURN_IF_ERROR(WriteMotion(options, person.clip, person.motion));
   if (!options.points.empty()) {
     const std::string name = fs::path(options.output).stem().string();
     RETURN_IF_ERROR(WriteFileAtomically(options.points, WriteTrc(ToMarkers(person.landmarks, recover.rate_hz), name)));
     TellWritten(options.listener, options.points);
   }
+  // Compare with the reference, if there is one.
   if (reference) {
     const std::string what = fmt::format("Distance of the {} to {}, median, mm.",
                                          both ? "joints" : "triangulated keypoints", options.reference);
@@ -276,6 +283,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
     RETURN_IF_ERROR(TellColumns(what + " Where it was made of the same keypoints,\nthis is agreement, not error.",
                                 columns, views, options));
   }
+  // Write the film and the page.
   if (!options.film.empty()) {
     ASSIGN_OR_RETURN(const bool is_whole,
                      WriteFilm(options, OverlaysOf(views, person, chosen, films.clocks), person.motion));

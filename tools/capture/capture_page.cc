@@ -16,27 +16,27 @@ namespace {
 
 constexpr double kHeight = 190, kTop = 8, kBottom = 166, kWide = 900, kRight = 890;
 
-/// The curve as an SVG path; of more frames than the panel has room for, the largest of each few.
+/// Returns the curve as an SVG path. If there are more frames than points, each point is the maximum of several frames.
 std::string PathOf(const TakeCurve& curve, const Axis& across, const Axis& up, double rate_hz) {
-  constexpr std::size_t kMostPoints = 450;
-  const std::size_t stride = (curve.values.size() + kMostPoints - 1) / kMostPoints;
+  constexpr std::size_t kMaxPoints = 450;
+  const std::size_t stride = (curve.values.size() + kMaxPoints - 1) / kMaxPoints;
   std::string path;
   bool is_down = false;
   for (std::size_t from = 0; from < curve.values.size(); from += stride) {
-    std::optional<double> most;
+    std::optional<double> largest;
     for (std::size_t i = from; i < std::min(from + stride, curve.values.size()); ++i) {
-      if (curve.values[i]) most = std::max(most.value_or(*curve.values[i]), *curve.values[i]);
+      if (curve.values[i]) largest = std::max(largest.value_or(*curve.values[i]), *curve.values[i]);
     }
-    if (most) {
+    if (largest) {
       path += fmt::format("{}{:.1f} {:.1f}", is_down ? "L" : "M", across.At(static_cast<double>(from) / rate_hz),
-                          up.At(*most));
+                          up.At(*largest));
     }
-    is_down = most.has_value();
+    is_down = largest.has_value();
   }
   return path;
 }
 
-/// A figure of curves over time with its legend.
+/// Returns a figure with curves over time and a legend.
 std::string CurvesHtml(const std::vector<TakeCurve>& curves, double rate_hz, std::string_view caption) {
   std::vector<double> all;
   std::size_t frames = 1;
@@ -100,6 +100,7 @@ std::string ToldHtml(const CapturePage& page) {
 }
 
 std::string ResidualsHtml(const CameraResiduals& residuals, double rate_hz) {
+  // One table row for each camera: number of frames, median, 95th percentile, and the share of rejected keypoints.
   std::vector<TakeCurve> curves;
   std::vector<std::vector<std::string>> rows;
   std::vector<std::string> heads = {"Camera", "Frames", "Median, " + residuals.unit, "95 %, " + residuals.unit};
@@ -117,8 +118,8 @@ std::string ResidualsHtml(const CameraResiduals& residuals, double rate_hz) {
       if (values.empty()) return std::string("—");
       return fmt::format("{:.1f}", values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))]);
     };
-    constexpr double kMedian = 0.5, kMost = 0.95, kPercent = 100;
-    rows.push_back({camera.name, fmt::format("{}", values.size()), rank(kMedian), rank(kMost)});
+    constexpr double kMedian = 0.5, k95Percent = 0.95, kPercent = 100;
+    rows.push_back({camera.name, fmt::format("{}", values.size()), rank(kMedian), rank(k95Percent)});
     if (has_keypoints) rows.back().push_back(fmt::format("{:.1f} %", kPercent * camera.left_out.value_or(0)));
   }
   return CurvesHtml(curves, rate_hz, residuals.caption) + NumbersHtml(heads, rows);

@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// A line over the frames of a take; frames without a value are gaps.
+/// A curve over the frames of a take; frames without a value are gaps.
 struct TakeCurve {
   std::string name;
   std::vector<std::optional<double>> values;
@@ -19,35 +19,37 @@ struct TakeCurve {
 /// One camera of a captured take.
 struct CapturedCamera {
   std::string name;
-  TakeCurve residual;              ///< how far what it shows is from what was found, as `CameraResiduals` says
-  std::optional<double> left_out;  ///< share of keypoints that disagreed with the other cameras', where there are any
+  TakeCurve residual;              ///< the measure of `CameraResiduals`, frame by frame
+  std::optional<double> left_out;  ///< share of keypoints that disagreed with the other cameras'; absent without
+                                   ///< keypoints
 };
 
-/// The distances of what the cameras show from what was found, by one kind of measure.
+/// The differences between what each camera shows and the recovered motion, by one measure.
 struct CameraResiduals {
-  std::string caption;  ///< of the curves
-  std::string unit;     ///< theirs
+  std::string caption;  ///< the caption of the curves
+  std::string unit;     ///< the unit of the curves
   std::vector<CapturedCamera> cameras;
 };
 
-/// The findings of `etude capture`, for people to read.
+/// The findings of `etude capture`, in the form of a page.
 struct CapturePage {
   std::string title;
-  std::string verdict;  ///< a sentence or two
+  std::string verdict;  ///< one or two sentences
   double rate_hz = 30;
-  std::string mp4;                         ///< the overlay film's bytes, or "" where it is too heavy for a page
-  std::string film;                        ///< where it is written, "" = nowhere
-  Picture still;                           ///< the frame in the middle
-  std::vector<std::string> told;           ///< what was found out, mended or is doubtful, a line each
-  std::vector<CameraResiduals> residuals;  ///< of keypoints, of outlines, or of both
-  std::vector<TakeCurve> feet_cm;          ///< heights above the floor
-  std::string limbs;                       ///< a sentence: where their lengths come from
-  std::vector<std::pair<std::string, double>> lengths_cm;          ///< of limbs
-  std::vector<std::pair<std::string, std::array<double, 2>>> fit;  ///< of joints, if any: median and 95 %, mm
+  std::string mp4;                         ///< the bytes of the overlay film; "" if it is too large for a page
+  std::string film;                        ///< the path to which it is written, "" = nowhere
+  Picture still;                           ///< the middle frame
+  std::vector<std::string> told;           ///< findings, repairs and doubts, one line each
+  std::vector<CameraResiduals> residuals;  ///< for keypoints, for silhouettes, or for both
+  std::vector<TakeCurve> feet_cm;          ///< heights above the floor, cm
+  std::string limbs;                       ///< a sentence that says where the limb lengths come from
+  std::vector<std::pair<std::string, double>> lengths_cm;          ///< limb lengths
+  std::vector<std::pair<std::string, std::array<double, 2>>> fit;  ///< for joints: median and 95th percentile, mm; may
+                                                                   ///< be empty
   std::string version, command;
 };
 
-/// Writes one HTML page that holds all it needs and forbids itself the network, in the manner of a run's page.
+/// Writes one HTML page that contains all it needs and forbids itself network access, in the style of a run's page.
 std::string WriteCapturePage(const CapturePage& page);
 
 }  // namespace etude

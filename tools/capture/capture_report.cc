@@ -13,8 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The median distance of a frame's keypoints to the points that all cameras make, as the camera shows them.
-std::optional<double> ResidualOf(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPositions& places) {
+/// Returns the median distance in pixels between a frame's keypoints and the projected points of all cameras; nullopt
+/// if no point is shared.
+std::optional<double> ResidualOf(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPlaces& places) {
   std::vector<double> distances;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     if (!(seen.keypoints[i].confidence > 0) || !places[i]) continue;
@@ -62,6 +63,7 @@ CapturePage PageOf(const CaptureFilmsOptions& options, const std::vector<FilmedV
                    const RecoveredPerson& person, std::size_t chosen, const SeenFilms& films,
                    const UnmarkedMotion* both) {
   constexpr double kPercent = 100;
+  // The verdict: points found, residuals, and doubts.
   CapturePage page = BeginPage(options, person.motion, person.body.lengths, films.told.lines);
   page.verdict = fmt::format(
       "{} cameras, {} frames at {:g} Hz: {:.1f} % of the points found, {:.1f} px off the keypoints in the median",
@@ -73,6 +75,7 @@ CapturePage PageOf(const CaptureFilmsOptions& options, const std::vector<FilmedV
     page.verdict += fmt::format("; body and outlines differ by {:.0f} %", MedianOf(page.residuals.back()));
   }
   page.verdict += fmt::format("; {}.", DoubtsOf(films.told.lines));
+  // The limb lengths and the fit of the skeleton.
   page.limbs = options.poses == "bundle" && options.smooth_hz == 0
                    ? "Limbs are as long as explains all keypoints best."
                    : "Limbs are as long as in the median of what was seen.";
@@ -154,9 +157,9 @@ Result<bool> WritePage(const CaptureFilmsOptions& options, CapturePage page, con
     return WriteOverlayFilm(film, overlays, motion, watch, &page.still);
   }));
   if (!is_whole) return false;
-  constexpr std::uintmax_t kMostBytes = 16'000'000;
+  constexpr std::uintmax_t kMaxFilmBytes = 16'000'000;
   std::error_code unreadable;
-  if (fs::file_size(film, unreadable) <= kMostBytes && !unreadable) {
+  if (fs::file_size(film, unreadable) <= kMaxFilmBytes && !unreadable) {
     ASSIGN_OR_RETURN(page.mp4, ReadWholeFile(film.string()));
   }
   RETURN_IF_ERROR(WriteFileAtomically(options.report, WriteCapturePage(page)));

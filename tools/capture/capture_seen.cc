@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reads the people of a film, in the file's pixels; the view learns whether the file names their pictures' size.
+/// Reads the people of a film, in pixels of the keypoint file. Sets `view.is_sized` if the file states the size of the
+/// pictures.
 Result<SeenPeople> ReadPeople(const CaptureFilmsOptions& options, FilmedView& view) {
   const bool is_marks = !options.marks.empty();
   ASSIGN_OR_RETURN(const fs::path entry,
@@ -22,6 +23,7 @@ Result<SeenPeople> ReadPeople(const CaptureFilmsOptions& options, FilmedView& vi
   const FilmOfKeypoints of{view.facts.width, view.facts.height, static_cast<std::size_t>(view.facts.frames)};
   ASSIGN_OR_RETURN(PeopleOfFilm film, is_marks ? ReadMarkedPictures(entry) : ReadKeypoints(entry, options.layout, of));
   if (!film.told.empty()) options.listener.print(fmt::format("{}: {}\n", entry.filename().string(), film.told));
+  // The file must match the film: number of frames, and picture size up to a quarter turn.
   if (film.frames.size() != static_cast<std::size_t>(view.facts.frames)) {
     return Fail({entry.string()}, "{} frames, the film {} {}", film.frames.size(), view.path.string(),
                 view.facts.frames);
@@ -35,7 +37,7 @@ Result<SeenPeople> ReadPeople(const CaptureFilmsOptions& options, FilmedView& vi
   return std::move(film.frames);
 }
 
-/// Brings all people into the rig's pictures and says what was done for that.
+/// Maps all keypoints to the rig's pictures and reports what was done.
 void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<SeenPeople>& people,
                double min_confidence, ToldLines& told_lines) {
   std::vector<PictureOfFilm> films;
@@ -46,13 +48,15 @@ void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<S
         {view.camera.camera, view.fit, {view.facts.width, view.facts.height}, std::move(people[i]), view.is_sized});
     names.push_back(view.camera.name);
   }
-  SessionGuess session = GuessSession(films, names, rig.R_WF, min_confidence);
+  // Find out whether films were exchanged between cameras.
+  SessionGuess session = GuessSession(films, names, rig.R_WF, least_confidence);
   if (!session.mended.empty()) told_lines.Tell("mended: " + session.mended);
   for (std::size_t i = 0; i < views.size(); ++i) {
     films[i].camera = views[i].camera.camera = session.cameras[i];
     films[i].people = people[i] = std::move(session.people[i]);
   }
-  const std::vector<PictureGuess> guesses = GuessPictures(films, min_confidence);
+  // Find each film's rotation, scale and shift, and apply them.
+  const std::vector<PictureGuess> guesses = GuessPictures(films, least_confidence);
   for (std::size_t i = 0; i < views.size(); ++i) {
     FilmedView& view = views[i];
     const PictureGuess& guess = guesses[i];
@@ -66,7 +70,7 @@ void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<S
         for (Keypoint& keypoint : person.keypoints) keypoint.pixel = guess.fit.ToRig(keypoint.pixel);
       }
     }
-    // Keypoints of unfitted pictures say nothing of the film's own.
+    // Keypoints of pictures that were not scaled to the rig say nothing about the film's own fit.
     const bool is_films_own = guess.fit.scale == view.fit.scale && guess.fit.shift == view.fit.shift;
     if (is_films_own) view.fit = guess.fit;
   }
@@ -74,17 +78,18 @@ void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<S
 
 constexpr double kMsPerSecond = 1000;
 
-/// Finds the films' clocks as --sync asks, and tells them.
+/// Estimates the films' clocks within the range of --sync, and reports them.
 void Synchronise(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
                  const RecoverPersonOptions& recover, SeenFilms& films) {
   const double rate = recover.rate_hz;
   std::size_t shortest = films.people.front().size();
   for (const SeenPeople& people : films.people) shortest = std::min(shortest, people.size());
-  // Beyond half of a film there is too little in common to judge by.
-  const int most =
+  // Limit the search to half a film: beyond that, the films share too few frames.
+  const int max_frames =
       std::clamp(static_cast<int>(std::lround(options.sync_s * rate)), 1, std::max(1, static_cast<int>(shortest / 2)));
-  const SyncOptions clocks{.max_frames = most, .max_px = recover.triangulate.robust.outlier_px};
+  const SyncOptions clocks{.most_frames = max_frames, .most_px = recover.triangulate.robust.outlier_px};
   const std::vector<ClockOffset> found = EstimateOffsets(films.cameras, films.people, {clocks, recover.match.follow});
+  // Report each clock, and the cameras whose clock no keypoints determine.
   std::string untold;
   std::string told = fmt::format("clocks, after {}'s:", views.front().camera.name);
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -100,7 +105,7 @@ void Synchronise(const CaptureFilmsOptions& options, const std::vector<FilmedVie
                    untold, options.sync_s));
 }
 
-/// The clocks that the films' own rates say; said where they differ.
+/// Sets the clocks from the films' frame rates, and reports rates that differ.
 void ClocksOfRates(const std::vector<FilmedView>& views, SeenFilms& films) {
   const double rate = views.front().facts.rate_hz;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -113,10 +118,10 @@ void ClocksOfRates(const std::vector<FilmedView>& views, SeenFilms& films) {
   }
 }
 
-/// Names films that seem late where keypoints err too much to mend them.
-void DoubtClocks(const std::vector<FilmedView>& views, const RecoverPersonOptions& recover, int most,
+/// Reports films that seem delayed if the keypoints are too noisy to correct the delay.
+void WarnOfDelays(const std::vector<FilmedView>& views, const RecoverPersonOptions& recover, int max_frames,
                  SeenFilms& films) {
-  const SyncOptions clocks{.max_frames = most, .max_px = recover.triangulate.robust.outlier_px};
+  const SyncOptions clocks{.most_frames = max_frames, .most_px = recover.triangulate.robust.outlier_px};
   const auto guessed = EstimateOffsets(films.cameras, films.people, {clocks, recover.match.follow});
   for (std::size_t i = 1; i < views.size(); ++i) {
     const double frames = guessed[i].frames;
@@ -127,7 +132,8 @@ void DoubtClocks(const std::vector<FilmedView>& views, const RecoverPersonOption
   }
 }
 
-/// Tells the drift that a film's keypoints show, where its rate is taken for the first one's though both tell another.
+/// Reports the drift that the keypoints of a film show, if its rate was taken as equal to the first film's although the
+/// files state different rates.
 void TellDrift(const std::vector<FilmedView>& views, std::size_t film, const FilmClock& taken, const FilmClock& nearest,
                std::size_t frames, SeenFilms& films) {
   const double rate = views.front().facts.rate_hz, own = views[film].facts.rate_hz;
@@ -139,19 +145,21 @@ void TellDrift(const std::vector<FilmedView>& views, std::size_t film, const Fil
                   views[film].camera.name, over_film(nearest.drift - taken.drift), over_film(rate / own - 1)));
 }
 
-/// Mends clocks that the keypoints contradict.
-void MendClocks(const std::vector<FilmedView>& views, const RecoverPersonOptions& recover, bool is_set,
+/// Corrects clocks that the keypoints contradict.
+void CorrectClocks(const std::vector<FilmedView>& views, const RecoverPersonOptions& recover, bool is_set,
                 SeenFilms& films) {
   const double rate = recover.rate_hz;
   const std::size_t frames = films.people.front().size();
-  constexpr double kMostSeconds = 0.5;
-  const int most = is_set ? 1
-                          : std::clamp(static_cast<int>(std::lround(kMostSeconds * rate)), 1,
+  // Search half a second around the clocks, or one frame if --sync has set them.
+  constexpr double kMaxSeconds = 0.5;
+  const int max_frames = is_set ? 1
+                          : std::clamp(static_cast<int>(std::lround(kMaxSeconds * rate)), 1,
                                        std::max(1, static_cast<int>(frames / 4)));
-  const auto found = FindClocks(films.cameras, films.people, films.clocks, most, recover.match.follow);
+  const auto found = FindClocks(films.cameras, films.people, films.clocks, max_frames, recover.match.follow);
   const bool has_own_rates = std::ranges::any_of(films.clocks, [](const FilmClock& clock) { return clock.drift != 0; });
   const bool is_any_mended = std::ranges::any_of(found, &FoundClock::is_mended);
-  if (!is_set && !is_any_mended && !has_own_rates) DoubtClocks(views, recover, most, films);
+  if (!is_set && !is_any_mended && !has_own_rates) WarnOfDelays(views, recover, max_frames, films);
+  // Report the delay in the middle of the film, and the drift over it.
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (!found[i].is_mended) TellDrift(views, i, films.clocks[i], found[i].nearest, frames, films);
     if (!found[i].is_mended) continue;
@@ -173,15 +181,15 @@ void MendClocks(const std::vector<FilmedView>& views, const RecoverPersonOptions
   }
 }
 
-/// "3 to 20, 25": frames counted from 1.
+/// Returns ranges of frames, counted from 1: "3 to 20, 25".
 std::string FramesText(const std::vector<std::size_t>& frames) {
   std::string text;
-  constexpr std::size_t kMostRanges = 12;
+  constexpr std::size_t kMaxRanges = 12;
   std::size_t ranges = 0;
   for (std::size_t i = 0; i < frames.size(); ++ranges) {
     std::size_t j = i;
     while (j + 1 < frames.size() && frames[j + 1] == frames[j] + 1) ++j;
-    if (ranges == kMostRanges) return text + fmt::format(", … ({} in all)", frames.size());
+    if (ranges == kMaxRanges) return text + fmt::format(", … ({} in all)", frames.size());
     text += text.empty() ? "" : ", ";
     text += i == j ? fmt::format("{}", frames[i] + 1) : fmt::format("{} to {}", frames[i] + 1, frames[j] + 1);
     i = j + 1;
@@ -197,6 +205,7 @@ Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPers
   SeenFilms films{.cameras = {}, .people = {}, .clocks = {}, .told = {options.listener.print}};
   for (const std::string& line : session.told) films.told.Tell(line);
   films.clocks.resize(views.size());
+  // Read the keypoints, map them to the rig's pictures and remove the lens distortion.
   for (FilmedView& view : views) {
     ASSIGN_OR_RETURN(SeenPeople people, ReadPeople(options, view));
     films.people.push_back(std::move(people));
@@ -206,9 +215,11 @@ Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPers
     films.people[i] = UndistortPeople(views[i].camera.camera, std::move(films.people[i]));
     films.cameras.push_back(MatrixOf(views[i].camera.camera));
   }
+  // Set the clocks: from frame rates, from --sync, and from the keypoints themselves.
   ClocksOfRates(views, films);
   if (options.sync_s > 0) Synchronise(options, views, recover, films);
-  MendClocks(views, recover, options.sync_s > 0, films);
+  CorrectClocks(views, recover, options.sync_s > 0, films);
+  // Resample all keypoints at the times of the first film's frames.
   const std::size_t frames = films.people.front().size();
   for (std::size_t i = 0; i < views.size(); ++i) {
     films.people[i] = PeopleInTime(films.people[i], films.clocks[i], frames, recover.match.follow);
@@ -218,6 +229,7 @@ Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPers
 
 void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vector<FilmedView>& views,
                ToldLines& told) {
+  // Films in which nobody matches the person.
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto is_seen = [](const auto& seen) { return seen.has_value(); };
     if (std::ranges::any_of(person.people[chosen].seen[i], is_seen)) continue;
@@ -225,6 +237,7 @@ void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vec
                      "its camera as the rig says? It is left out",
                      views[i].camera.name));
   }
+  // Repairs: exchanged sides and exchanged people.
   for (const Mend& mend : person.mends) {
     const char* what = "";
     switch (mend.kind) {
@@ -246,6 +259,7 @@ void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vec
     }
     told.Tell(fmt::format("mended: {}: {}, frames {}", views[mend.camera].camera.name, what, FramesText(mend.frames)));
   }
+  // Cameras that disagree with the others, and large triangulation errors.
   constexpr double kDoubtful = 0.1;
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (person.report.rejected[i] <= kDoubtful) continue;

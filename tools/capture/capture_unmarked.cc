@@ -19,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostPictures = 4000;  // small ones, of all films together: they are held in memory, 2 GB
+constexpr std::size_t kMaxPictures = 4000;  // reduced pictures of all films together; they are held in memory, about 2
+                                             // GB
 
 Result<ColourImage> ReadRoom(const std::string& folder, const FilmedView& view) {
   ASSIGN_OR_RETURN(const fs::path entry, EntryOfFilm(folder, view.path.stem().string()));
@@ -34,7 +35,7 @@ Result<ColourImage> ReadRoom(const std::string& folder, const FilmedView& view) 
   return std::move(pictures.front());
 }
 
-/// The clocks that the films' own rates say; told where they differ.
+/// Sets the clocks from the films' frame rates, and reports rates that differ.
 std::vector<FilmClock> ClocksByRates(const std::vector<FilmedView>& views, ToldLines& told) {
   const FilmFacts& first = views.front().facts;
   std::vector<FilmClock> clocks;
@@ -54,8 +55,8 @@ std::vector<FilmClock> ClocksByRates(const std::vector<FilmedView>& views, ToldL
   return clocks;
 }
 
-/// Takes of a film the pictures nearest to the first film's moments.
-std::vector<ColourImage> InTime(std::vector<ColourImage> film, const FilmClock& clock, std::size_t frames) {
+/// Selects the pictures of a film that are nearest to the times of the first film's frames.
+std::vector<ColourImage> NearestInTime(std::vector<ColourImage> film, const FilmClock& clock, std::size_t frames) {
   if (clock == FilmClock{} && film.size() == frames) return film;
   std::vector<ColourImage> in_time;
   for (std::size_t k = 0; k < frames; ++k) {
@@ -71,10 +72,10 @@ Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vect
                              const std::vector<FilmClock>& clocks) {
   std::size_t pictures = 0;
   for (const FilmedView& view : views) pictures += view.facts.frames;
-  if (pictures > kMostPictures) {
+  if (pictures > kMaxPictures) {
     return Fail({views.front().path.string()},
                 "{} films of {} frames in all; at most {} pictures are held in memory, that is {} frames of each",
-                views.size(), pictures, kMostPictures, kMostPictures / views.size());
+                views.size(), pictures, kMaxPictures, kMaxPictures / views.size());
   }
   ReducedTake take;
   for (const FilmedView& view : views) {
@@ -85,7 +86,7 @@ Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vect
     if (film.empty() || film.size() != static_cast<std::size_t>(view.facts.frames)) {
       return Fail({view.path.string()}, "{} frames, though it tells of {}", film.size(), view.facts.frames);
     }
-    take.pictures.push_back(InTime(std::move(film), clocks[take.pictures.size()], views.front().facts.frames));
+    take.pictures.push_back(NearestInTime(std::move(film), clocks[take.pictures.size()], views.front().facts.frames));
     if (options.rooms.empty()) continue;
     ASSIGN_OR_RETURN(ColourImage room, ReadRoom(options.rooms, view));
     take.rooms.push_back(std::move(room));
@@ -186,7 +187,7 @@ std::vector<double> KnownOf(const std::vector<std::optional<double>>& values) {
   return known;
 }
 
-/// Tells what was found and what is doubtful, a line each.
+/// Reports the findings and the doubts, one line each.
 void TellUnmarked(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
                   const UnmarkedMotion& person, ToldLines& told) {
   told.Tell(fmt::format("stature: {:.2f} m{}; outlines cost {:.0f} a picture", person.stature_m,
@@ -194,10 +195,10 @@ void TellUnmarked(const CaptureFilmsOptions& options, const std::vector<FilmedVi
   if (person.held > 0) {
     told.Tell(fmt::format("doubtful: {} frames show nobody to two cameras and hold the last pose", person.held));
   }
-  constexpr double kMostApart = 0.5, kDoubtfulShare = 0.1, kPercent = 100;
+  constexpr double kMaxApart = 0.5, kDoubtfulShare = 0.1, kPercent = 100;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const std::vector<double> apart = KnownOf(person.apart[i]);
-    const auto far = std::ranges::count_if(apart, [](double share) { return share > kMostApart; });
+    const auto far = std::ranges::count_if(apart, [](double share) { return share > kMaxApart; });
     const double share = static_cast<double>(far) / static_cast<double>(std::max<std::size_t>(1, apart.size()));
     if (share <= kDoubtfulShare) continue;
     told.Tell(fmt::format("doubtful: {}: in {:.0f} % of its frames body and outline share less than half",
@@ -224,6 +225,7 @@ Result<bool> CaptureUnmarked(const CaptureFilmsOptions& options, const FilmedSes
                              const std::optional<MarkerMotion>& reference, Json& facts) {
   if (!options.points.empty()) return Fail({}, "--points: silhouettes have no keypoints to write");
   const std::vector<FilmedView>& views = session.views;
+  // Recover the motion from the silhouettes.
   ToldLines told{options.listener.print};
   for (const std::string& line : session.told) told.Tell(line);
   const std::vector<FilmClock> clocks = ClocksByRates(views, told);
@@ -231,6 +233,7 @@ Result<bool> CaptureUnmarked(const CaptureFilmsOptions& options, const FilmedSes
   ASSIGN_OR_RETURN(const UnmarkedMotion person, RecoverByOutlines(take, options, views.front().facts.rate_hz));
   TellUnmarked(options, views, person, told);
   facts["silhouettes"] = {{"stature_m", person.stature_m}, {"cost", person.cost}, {"held_frames", person.held}};
+  // Write the motion, the film, the comparison and the page.
   RETURN_IF_ERROR(WriteMotion(options, person.clip, person.motion));
   if (!options.film.empty()) {
     ASSIGN_OR_RETURN(const bool is_whole,

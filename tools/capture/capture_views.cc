@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reduces a name to its letters and digits in lower case: cam_01 and Cam01 are one name.
+/// Reduces a name to its letters and digits in lower case, so that cam_01 and Cam01 are equal.
 std::string Bare(std::string_view name) {
   std::string bare;
   for (const char c : name) {
@@ -50,7 +50,7 @@ Result<NamedCamera> CameraOfFilm(const CaptureFilmsOptions& options, const std::
               NamesOf(rig));
 }
 
-/// The files of a rig: one, or two that belong together, beside each other or in a folder.
+/// The files of a rig: one file, or two that belong together, in one folder.
 struct RigPaths {
   fs::path first, second;
 };
@@ -84,11 +84,13 @@ Result<RigFile> OpenRig(const std::string& path) {
   return ReadRigPair(text, other, paths.first.string());
 }
 
-/// Finds the size of a camera's pictures that the rig does not tell: the film's, or turned, or another one scaled, as
-/// the principal point lies nearest to the middle. Lengths of another size are brought to the film's.
+/// Estimates the picture size of a camera for which the rig file gives none. Candidates are the film's size, the same
+/// turned by 90°, and scaled versions; the one whose middle is nearest to the principal point wins. Intrinsics of a
+/// scaled size are converted to the film's scale.
 void FindSize(FilmedView& view, std::vector<std::string>& told) {
   Intrinsics& in = view.camera.camera.intrinsics;
   const glm::dvec2 film(view.facts.width, view.facts.height), middle(in.cx, in.cy);
+  // The deviation of the principal point from the middle, as the logarithm of a ratio.
   const auto off = [&](const glm::dvec2& size) {
     return std::max(std::abs(std::log(2 * middle.x / size.x)), std::abs(std::log(2 * middle.y / size.y)));
   };
@@ -104,6 +106,7 @@ void FindSize(FilmedView& view, std::vector<std::string>& told) {
       }
     }
   }
+  // Report a size that is not the film's.
   if (best != film) {
     told.push_back(
         fmt::format("{}: the rig tells no size, but a middle at ({:.0f}, {:.0f}): taken as of pictures of {:.0f} "
@@ -115,7 +118,8 @@ void FindSize(FilmedView& view, std::vector<std::string>& told) {
   in.height = static_cast<int>(std::lround(best.y / scale));
 }
 
-/// Checks that films run together: as many frames of one rate, or as long where rates differ.
+/// Checks that the films cover the same time: equal numbers of frames at equal rates, equal durations at different
+/// rates.
 Result<void> CheckTogether(const std::vector<FilmedView>& views, bool may_differ_in_time) {
   const FilmedView& first = views.front();
   for (const FilmedView& view : views) {
@@ -169,16 +173,17 @@ std::string BytesOf(Clip clip, const BodyMotion& motion, MotionFormat format, co
 Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options) {
   ASSIGN_OR_RETURN(RigFile rig_file, OpenRig(options.rig));
   const std::vector<NamedCamera>& rig = rig_file.cameras;
-  constexpr std::size_t kMostFilms = 64;
-  if (options.films.size() < 2 || options.films.size() > kMostFilms) {
+  constexpr std::size_t kMaxFilms = 64;
+  if (options.films.size() < 2 || options.films.size() > kMaxFilms) {
     return Fail({}, "{} film{}; allowed: 2 to {}, one of each camera", options.films.size(),
-                options.films.size() == 1 ? "" : "s", kMostFilms);
+                options.films.size() == 1 ? "" : "s", kMaxFilms);
   }
   if (!options.cameras.empty() && options.cameras.size() != options.films.size()) {
     return Fail({}, "--cameras names {} cameras for {} films", options.cameras.size(), options.films.size());
   }
   std::vector<FilmedView> views;
   std::vector<std::string> told;
+  // Assign a camera to each film, and a fit from the camera's pictures to the film's.
   for (std::size_t i = 0; i < options.films.size(); ++i) {
     FilmedView view{.path = options.films[i], .facts = {}, .camera = {}, .fit = {}};
     ASSIGN_OR_RETURN(view.camera, CameraOfFilm(options, rig, i));
@@ -192,7 +197,7 @@ Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options) {
     if (in.width == 0) FindSize(view, told);
     const bool is_turned = options.fit == "none" && in.width != in.height && in.width == view.facts.height &&
                            in.height == view.facts.width;
-    if (is_turned) {  // keypoints will tell which way
+    if (is_turned) {  // the keypoints decide the direction later
       view.fit = {.quarter_turns = 1, .size = {in.width, in.height}};
       views.push_back(std::move(view));
       continue;
@@ -226,7 +231,8 @@ MarkerMotion InTimeWith(const MarkerMotion& motion, MarkerMotion reference, Told
                            std::min(reference.frames.size(), frames)));
   }
   const double own_rate = reference.rate_hz;
-  constexpr double kWritten = 1e-5;  // 29.97 is how 30000/1001 is written
+  constexpr double kWritten = 1e-5;  // the file says 29.97 for 30000/1001
+  // Different rates: measure the drift, and undo it if that halves the share of large distances.
   if (std::abs(own_rate - motion.rate_hz) > kWritten * own_rate) {
     const auto clock = MeasureClock(motion, reference);
     const bool is_mended = clock && clock->after < 0.5 * clock->before;

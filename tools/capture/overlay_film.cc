@@ -11,8 +11,8 @@
 namespace etude {
 namespace {
 
-constexpr double kTallest = 720;
-constexpr double kWidest = 1920;
+constexpr double kMaxHeight = 720;
+constexpr double kMaxWidth = 1920;
 constexpr Paint kLeftLimb{0.25, 0.75, 1.0, 0.95}, kRightLimb{1.0, 0.55, 0.2, 0.95}, kMiddleLimb{1, 1, 1, 0.95},
     kDot{0.3, 1.0, 0.3, 0.8};
 
@@ -21,11 +21,11 @@ Paint PaintOf(Role role) {
   return name.starts_with("left_") ? kLeftLimb : name.starts_with("right_") ? kRightLimb : kMiddleLimb;
 }
 
-/// Lays the films out side by side.
+/// Places the films side by side.
 std::vector<Box> Layout(std::span<const OverlayView> views, int& width, int& height) {
   double sum = 0;
   for (const OverlayView& view : views) sum += static_cast<double>(view.facts.width) / view.facts.height;
-  const double tall = std::min(kTallest, kWidest / sum);
+  const double tall = std::min(kMaxHeight, kMaxWidth / sum);
   std::vector<Box> boxes;
   double x = 0;
   for (const OverlayView& view : views) {
@@ -63,7 +63,7 @@ class ViewPainter {
   glm::dvec2 OnCanvas(const glm::dvec2& film) const {
     return {box_.x + film.x * box_.width / view_.facts.width, box_.y + film.y * box_.height / view_.facts.height};
   }
-  /// Gives the pixel of a place; nothing outside the film.
+  /// Returns the pixel of a point; nullopt outside the film.
   std::optional<glm::dvec2> PixelOf(const glm::dvec3& place) const {
     const auto rig = Project(view_.camera, place);
     if (!rig || !IsInside(view_.fit.ToFilm(*rig))) return std::nullopt;
@@ -74,15 +74,15 @@ class ViewPainter {
   const Box box_;
 };
 
-/// A film's pictures, from the first to the last.
-class FilmRoll {
+/// Reads the pictures of a film in order.
+class FilmReader {
  public:
-  static Result<FilmRoll> Start(const OverlayView& view) {
+  static Result<FilmReader> Start(const OverlayView& view) {
     ASSIGN_OR_RETURN(Decoder decoder, Decoder::Start(view.film, view.facts));
-    return FilmRoll(view, std::move(decoder));
+    return FilmReader(view, std::move(decoder));
   }
 
-  /// Gives the picture nearest to that frame of the motion, which is no earlier than the one before.
+  /// Returns the picture nearest to that frame of the motion. Frames must be asked for in ascending order.
   Result<const ColourImage*> At(std::size_t frame) {
     const long wanted = std::clamp(std::lround((static_cast<double>(frame) - view_->offset) / (1 + view_->drift)), 0l,
                                    static_cast<long>(view_->facts.frames) - 1);
@@ -94,7 +94,7 @@ class FilmRoll {
   }
 
  private:
-  FilmRoll(const OverlayView& view, Decoder decoder) : view_(&view), decoder_(std::move(decoder)) {}
+  FilmReader(const OverlayView& view, Decoder decoder) : view_(&view), decoder_(std::move(decoder)) {}
 
   const OverlayView* view_;
   Decoder decoder_;
@@ -102,31 +102,31 @@ class FilmRoll {
   long shown_ = -1;
 };
 
-/// All films as they run, one picture of each beside the other in memory.
-class FilmRolls {
+/// Reads all films in parallel and writes their pictures one after the other into one buffer.
+class FilmReaders {
  public:
-  static Result<FilmRolls> Start(std::span<const OverlayView> views) {
-    FilmRolls all;
+  static Result<FilmReaders> Start(std::span<const OverlayView> views) {
+    FilmReaders all;
     for (const OverlayView& view : views) {
-      ASSIGN_OR_RETURN(FilmRoll roll, FilmRoll::Start(view));
-      all.rolls_.push_back(std::move(roll));
+      ASSIGN_OR_RETURN(FilmReader reader, FilmReader::Start(view));
+      all.readers_.push_back(std::move(reader));
       all.bytes_ += BytesOf(view);
     }
     return all;
   }
 
   std::size_t bytes() const { return bytes_; }
-  /// Writes the pictures of a frame of the motion, which is no earlier than the one before.
+  /// Writes the pictures for a frame of the motion. Frames must be asked for in ascending order.
   Result<void> Write(std::size_t frame, std::span<std::uint8_t> into) {
-    for (FilmRoll& roll : rolls_) {
-      ASSIGN_OR_RETURN(const ColourImage* picture, roll.At(frame));
+    for (FilmReader& reader : readers_) {
+      ASSIGN_OR_RETURN(const ColourImage* picture, reader.At(frame));
       const std::size_t count = picture->pixels.size() * sizeof(Rgb8);
       std::memcpy(into.data(), picture->pixels.data(), count);
       into = into.subspan(count);
     }
     return {};
   }
-  /// Reads the first picture of `from`, and leaves the rest there.
+  /// Reads the first picture from `from` and advances `from` behind it.
   static ColourImage TakePicture(const OverlayView& view, std::span<const std::uint8_t>& from) {
     ColourImage picture(view.facts.width, view.facts.height);
     std::memcpy(picture.pixels.data(), from.data(), BytesOf(view));
@@ -139,7 +139,7 @@ class FilmRolls {
     return static_cast<std::size_t>(view.facts.width) * static_cast<std::size_t>(view.facts.height) * sizeof(Rgb8);
   }
 
-  std::vector<FilmRoll> rolls_;
+  std::vector<FilmReader> readers_;
   std::size_t bytes_ = 0;
 };
 
@@ -151,23 +151,23 @@ Result<bool> WriteOverlayFilm(const std::filesystem::path& path, std::span<const
   const std::vector<Box> boxes = Layout(views, width, height);
   std::vector<ViewPainter> painters;
   for (std::size_t i = 0; i < views.size(); ++i) painters.emplace_back(views[i], boxes[i]);
-  ASSIGN_OR_RETURN(FilmRolls rolls, FilmRolls::Start(views));
+  ASSIGN_OR_RETURN(FilmReaders readers, FilmReaders::Start(views));
   const std::size_t frames = motion.poses.size();
   const auto draw = [&](int at, std::span<const std::uint8_t> pictures) {
     const auto frame = static_cast<std::size_t>(at);
     Canvas canvas(width, height);
     for (std::size_t i = 0; i < views.size(); ++i) {
-      painters[i].Draw(canvas, FilmRolls::TakePicture(views[i], pictures), motion.poses[frame], frame);
+      painters[i].Draw(canvas, FilmReaders::TakePicture(views[i], pictures), motion.poses[frame], frame);
     }
     return canvas;
   };
   const auto fill = [&](int frame, std::span<std::uint8_t> into) -> Result<void> {
-    RETURN_IF_ERROR(rolls.Write(static_cast<std::size_t>(frame), into));
+    RETURN_IF_ERROR(readers.Write(static_cast<std::size_t>(frame), into));
     if (middle && frame == static_cast<int>(frames / 2)) *middle = PictureOf(draw(frame, into), middle->caption);
     return {};
   };
   const int rate = std::max(1, static_cast<int>(std::lround(motion.rate_hz)));
-  return EncodeFedFrames(path, static_cast<int>(frames), rate, {rolls.bytes(), fill}, draw, watch);
+  return EncodeFedFrames(path, static_cast<int>(frames), rate, {readers.bytes(), fill}, draw, watch);
 }
 
 }  // namespace etude

@@ -21,16 +21,18 @@ struct OverlayView {
   std::filesystem::path film;
   FilmFacts facts;
   Camera camera;
-  PixelFit fit;                                      ///< from the rig's pixels to the film's
-  double offset = 0;                                 ///< its frame k was taken at k + offset of the motion's frames
-  std::vector<std::optional<SeenPerson>> keypoints;  ///< of each frame of the motion, in the film's pixels; dots
-  double drift = 0;                                  ///< … at (1 + drift) k + offset, if its rate is another one
+  PixelFit fit;                                      ///< maps the rig's pixels to the film's
+  double offset = 0;                                 ///< frame k of the film was taken at k + offset frames of the
+                                                     ///< motion
+  std::vector<std::optional<SeenPerson>> keypoints;  ///< for each frame of the motion, in the film's pixels
+  double drift = 0;                                  ///< frame k was taken at (1 + drift) k + offset if the rates
+                                                     ///< differ
 };
 
-/// Writes the films side by side, each with the skeleton as its camera would show it (lines) and the keypoints that it
-/// was made of (dots). As many frames as `motion` has. Fails when a film cannot be read or ffmpeg cannot be started.
-/// False when it was stopped; there is no file then.
-/// @param middle where there is one, it becomes the frame in the middle
+/// Writes the films side by side, each with the skeleton as its camera would show it (lines) and the keypoints (dots),
+/// with as many frames as `motion` has. Fails if a film cannot be read or ffmpeg cannot be started. Returns false if it
+/// was stopped; there is no file then.
+/// @param middle if not null, receives the middle frame
 Result<bool> WriteOverlayFilm(const std::filesystem::path& path, std::span<const OverlayView> views,
                               const BodyMotion& motion, const FilmWatch& watch, Picture* middle = nullptr);
 

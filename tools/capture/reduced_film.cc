@@ -10,7 +10,7 @@ double ReductionOf(const Intrinsics& in, int side) {
   return std::max(1.0, static_cast<double>(std::max(in.width, in.height)) / side);
 }
 
-/// The film's pixels that one pixel of the reduced picture covers: left ≤ x < right, top ≤ y < bottom.
+/// The film's pixels that one reduced pixel covers: left ≤ x < right, top ≤ y < bottom.
 struct Patch {
   int left = 0, top = 0, right = 0, bottom = 0;
 };
@@ -25,8 +25,8 @@ Image<Patch> PatchesOf(const FilmFacts& facts, const Camera& camera, const Pixel
       const auto seen = DistortPixel(camera, reduction * glm::dvec2(x + 0.5, y + 0.5));
       if (!seen) continue;
       const glm::dvec2 low = fit.ToFilm(*seen) - half, high = low + 2.0 * half;
-      const auto within = [](double value, int most) {
-        return static_cast<int>(std::lround(std::clamp<double>(value, 0, most)));
+      const auto within = [](double value, int size) {
+        return static_cast<int>(std::lround(std::clamp<double>(value, 0, size)));
       };
       patches.At(x, y) = {within(low.x, facts.width), within(low.y, facts.height), within(high.x, facts.width),
                           within(high.y, facts.height)};
@@ -63,12 +63,13 @@ Camera ReducedCamera(const Camera& camera, int side) {
 }
 
 Result<std::vector<ColourImage>> ReadReduced(const std::filesystem::path& path, const FilmFacts& facts,
-                                             const Camera& camera, const PixelFit& fit, int side, std::size_t most) {
+                                             const Camera& camera, const PixelFit& fit, int side,
+                                             std::size_t max_pictures) {
   const Image<Patch> patches = PatchesOf(facts, camera, fit, side);
   ASSIGN_OR_RETURN(Decoder decoder, Decoder::Start(path, facts));
   std::vector<ColourImage> pictures;
   ColourImage frame;
-  while (pictures.size() < most) {
+  while (pictures.size() < max_pictures) {
     ASSIGN_OR_RETURN(const bool is_there, decoder.Next(frame));
     if (!is_there) break;
     ColourImage& picture = pictures.emplace_back(patches.width, patches.height);

@@ -11,14 +11,15 @@
 
 namespace etude {
 
-/// Gives the pinhole whose pictures are the camera's, made smaller until their longer side has `side` pixels; never
-/// larger.
+/// Returns a pinhole camera whose pictures are those of `camera`, reduced until the longer side has `side` pixels.
+/// Smaller pictures are not enlarged.
 Camera ReducedCamera(const Camera& camera, int side);
 
-/// Reads a film's pictures as `ReducedCamera` would take them: the lens undone, `fit` undone, every pixel the mean of
-/// the film's that it covers; black where the film shows nothing. At most `most` of them. `camera` is the rig's, with
-/// its lens.
+/// Reads at most `max_pictures` pictures of a film, reduced to those of `ReducedCamera`: the lens distortion and `fit`
+/// are undone, and every pixel is the mean of the film's pixels that it covers. Pixels that the film does not show are
+/// black. `camera` is the rig's camera with its lens.
 Result<std::vector<ColourImage>> ReadReduced(const std::filesystem::path& path, const FilmFacts& facts,
-                                             const Camera& camera, const PixelFit& fit, int side, std::size_t most);
+                                             const Camera& camera, const PixelFit& fit, int side,
+                                             std::size_t max_pictures);
 
 }  // namespace etude

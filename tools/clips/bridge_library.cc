@@ -12,8 +12,8 @@
 namespace etude {
 namespace {
 
-/// Is true of the clips by which a coach corrects (paper A, section 3.3): shaking the head, waving, a slow
-/// demonstration; and the puzzled act.
+/// Returns true for the clips with which a coach corrects (paper A, section 3.3): shaking the head, waving, a slow
+/// demonstration, and the puzzled act.
 bool IsCorrective(const std::string& source) {
   const std::string slow = "builtin:" + std::string(kSlowDemonstrationPrefix);
   const bool is_act = source == "builtin:head_shake" || source == "builtin:wave" || source == "builtin:puzzled";
@@ -29,12 +29,12 @@ Result<std::vector<std::string>> ListReferences(const std::vector<std::string>& 
   return all;
 }
 
-/// Is true when a reference names the clip; that of a glTF file names all its animations.
+/// Returns true if a reference names the clip; a glTF file's reference names all its animations.
 bool Names(const std::string& reference, const LibraryClip& clip) {
   return clip.source == reference || clip.source.starts_with(reference + "#");
 }
 
-/// Names the clips; files of the same name are told apart by their folders.
+/// Returns the clips' names; files of equal names are distinguished by their folders.
 std::vector<std::string> UniqueNames(const std::vector<LibraryClip>& clips) {
   std::vector<std::string> names;
   for (const LibraryClip& clip : clips) {
@@ -55,6 +55,7 @@ Result<BridgeLibrary> LoadBridgeLibrary(const BridgeLibraryOptions& options) {
   ASSIGN_OR_RETURN(const auto references, ListReferences(named));
   ASSIGN_OR_RETURN(const auto clips, LoadClips(references, {}, options.reading, options.on_progress));
 
+  // Collect the motions, and note which clips are corrective.
   std::vector<BodyMotion> motions;
   for (const LibraryClip& clip : clips.clips) {
     const bool is_wanted =
@@ -64,6 +65,7 @@ Result<BridgeLibrary> LoadBridgeLibrary(const BridgeLibraryOptions& options) {
     motions.push_back(clip.motion);
     loaded.sources.push_back(clip.source);
   }
+  // Tag all clips on one body, and build the in-betweens.
   loaded.tag_rules.memberships = loaded.system.memberships;
   loaded.tag_rules.weights = loaded.system.weights;
   loaded.tag_rules.min_clips = options.min_clips;

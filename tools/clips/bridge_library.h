@@ -12,17 +12,18 @@
 
 namespace etude {
 
-/// What a library of clips is made of, and the rules by which its frames are tagged and matched.
+/// The clips of a library, and the rules by which their frames are tagged and matched.
 struct BridgeLibraryOptions {
   std::vector<std::string> clips;  ///< references; each clip counts once
-  std::vector<std::string> to;     ///< the corrective clips; empty: the coach's own among `clips`. They join the library
+  std::vector<std::string> to;     ///< the corrective clips, added to the library; empty = the coach's own among
+                                   ///< `clips`
   FuzzySystem system;
-  double threshold = 0.4;          ///< frames of a smaller fuzzy distance match
-  int min_clips = 2;               ///< the least number of clips in which a bridge frame's tags occur
-  int most_per_class = 0;          ///< the number of bridge frames kept per clip and pose; 0: all
+  double threshold = 0.4;          ///< frames match if their fuzzy distance is smaller
+  int min_clips = 2;               ///< minimum number of clips in which the tags of a bridge frame must occur
+  int most_per_class = 0;          ///< maximum number of bridge frames per clip and pose; 0 = all
   bool within_class = false;       ///< compares only frames with the same ten tags
   OpenOptions reading;
-  OnProgress on_progress = {};     ///< told of clips read
+  OnProgress on_progress = {};     ///< gets the number of clips read
 };
 
 /// The clips of `etude bridge`, performed by one body and tagged.
@@ -31,17 +32,17 @@ struct BridgeLibrary {
   TagRules tag_rules;
   MatchRules match_rules;
   MotionLibrary library;
-  std::vector<std::string> sources;  ///< what opens the clips again
-  std::vector<int> corrective;       ///< the clips that every other one must lead into
+  std::vector<std::string> sources;  ///< the references that open the clips again
+  std::vector<int> corrective;       ///< indices of the clips that every other clip must lead into
 };
 
-/// Loads the clips, has one body perform them, and finds their bridge frames. Fails as `LoadClips` does.
+/// Loads the clips, retargets them to one body, tags them, and finds their bridge frames. Fails as `LoadClips` does.
 Result<BridgeLibrary> LoadBridgeLibrary(const BridgeLibraryOptions& options);
 
-/// Returns the tags of a library, as its file holds them.
+/// Returns the tags of a library in the form of the tags file.
 BridgeTags TagsOf(const BridgeLibrary& loaded);
 
-/// Writes the tags of a library to a file, after reading them back.
+/// Writes the tags of a library to a file. Fails without writing if the text does not read back as the same tags.
 Result<void> WriteTags(const BridgeLibrary& loaded, const std::string& path);
 
 }  // namespace etude

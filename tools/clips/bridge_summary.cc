@@ -14,16 +14,16 @@ namespace etude {
 namespace {
 
 /// The widest matrix that fits a terminal; --json has wider ones.
-constexpr int kWidestMatrix = 24;
+constexpr int kMaxMatrixClips = 24;
 
-/// A clip's row of the table.
+/// One clip's row of the table.
 struct ClipSummary {
   int frames = 0, bridge_frames = 0;
-  int poses = 0;           ///< different combinations of tags among its bridge frames
-  int reached = 0;         ///< other clips that it leads into
-  double frame_share = 0;  ///< mean over the other clips, likewise the next
+  int poses = 0;           ///< number of different tag combinations among its bridge frames
+  int reached = 0;         ///< number of other clips that it leads into
+  double frame_share = 0;  ///< mean over the other clips, as is the next member
   double in_between_share = 0;
-  std::optional<double> worst_wait_s;  ///< of the clips that it leads into
+  std::optional<double> worst_wait_s;  ///< over the clips that it leads into
 };
 
 ClipSummary Summarize(const TaggedClip& clip, const Coverage& coverage, int from) {
@@ -104,7 +104,7 @@ std::string ClipsAsText(const BridgeLibrary& loaded, const std::vector<ClipSumma
   return text;
 }
 
-/// Writes the percentage of the row's bridge frames that match one of the column; "." is none at all.
+/// Writes the percentage of the row's bridge frames that match one of the column's; "." means none.
 std::string MatrixAsText(const BridgeLibrary& loaded, const Coverage& coverage) {
   std::string text;
   const int count = coverage.ClipCount(), width = NameWidth(loaded.library);
@@ -151,7 +151,7 @@ std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& cov
                   total.frames, total.bridge_frames, Percent(total.bridge_frames, total.frames), loaded.system.name,
                   loaded.match_rules.threshold, loaded.match_rules.within_class ? ", within the class" : "");
   text += ClipsAsText(loaded, clips, wait_s);
-  if (coverage.ClipCount() <= kWidestMatrix) {
+  if (coverage.ClipCount() <= kMaxMatrixClips) {
     text += MatrixAsText(loaded, coverage);
   } else {
     text += fmt::format("\nThe matrix of {} × {} clips is in --json.\n", clips.size(), clips.size());
@@ -170,6 +170,7 @@ std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& cov
 Json BridgeSummaryAsJson(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s) {
   const std::vector<ClipSummary> clips = SummarizeAll(loaded, coverage);
   const auto or_null = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
+  // One object for each clip, and one for each ordered pair of clips.
   Json of_clips = Json::array(), pairs = Json::array(), ways = Json::array();
   for (int from = 0; from < coverage.ClipCount(); ++from) {
     const ClipSummary& clip = clips[from];
@@ -193,6 +194,7 @@ Json BridgeSummaryAsJson(const BridgeLibrary& loaded, const Coverage& coverage, 
                        {"in_between_share", pair.in_between_share}});
     }
   }
+  // For each corrective clip, the clips that do not lead into it.
   for (int wanted : loaded.corrective) {
     ways.push_back({{"into", loaded.library.names[wanted]},
                     {"not_from", NamesOf(coverage.WithoutWayInto(wanted), loaded.library)}});

@@ -8,12 +8,12 @@
 
 namespace etude {
 
-/// Writes candidates, reachability and the ways into the corrective clips, for people at a terminal. A matrix wider
-/// than 24 clips is left to the JSON.
+/// Writes the number of bridge frames, the reachability, and the ways into the corrective clips, as text for a
+/// terminal. For more than 24 clips the matrix is only in the JSON.
 std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s);
 
-/// Gives the same for programs (docs/schemas/bridge-summary.schema.json). Shares of a clip are means over the
-/// other clips; a clip that leads nowhere has no worst wait.
+/// Writes the same for programs (docs/schemas/bridge-summary.schema.json). Shares of a clip are means over the other
+/// clips; a clip that leads nowhere has no worst wait.
 Json BridgeSummaryAsJson(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s);
 
 }  // namespace etude

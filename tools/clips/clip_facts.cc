@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// The lowest joint of a pose, finger tips aside: rigs place them carelessly.
+/// Returns the lowest joint of a pose. Finger tips are ignored, because rigs place them carelessly.
 Role LowestJoint(const BodyPose& pose) {
   Role lowest = Role::kHipCentre;
   for (const Role role : AllRoles()) {
@@ -41,7 +41,8 @@ void RemarkOnPenetration(const BodyMotion& motion, std::vector<std::string>& rem
       100.0 * static_cast<double>(frames) / static_cast<double>(motion.poses.size())));
 }
 
-/// True if trunk and legs stand: who sits or lies has seats, cushions and the body's own thickness below the joints.
+/// Returns true if trunk and legs are upright. A person who sits or lies has seats, cushions or the body's own
+/// thickness below the joints.
 bool IsUpright(const BodyPose& pose) {
   constexpr double kSteep = 0.7;
   using enum Role;
@@ -51,8 +52,9 @@ bool IsUpright(const BodyPose& pose) {
   return trunk.y > kSteep * glm::length(trunk) && pose[kHipCentre].y - ankles > kSteep * leg;
 }
 
-/// A height at which a body may stay, and for how long: nobody jumps for a second, some sit on high chairs, and of who
-/// dances toes lie up to 5 cm above the lowest twentieth for two seconds, 9 for one.
+/// Describes floating: the lowest joint stays above `height_m` for more than `longest_s`. Nobody jumps for a second,
+/// but some people sit on high chairs. In recorded dance, toes stay up to 5 cm above their lowest twentieth for two
+/// seconds, 9 cm for one.
 struct Hovering {
   double height_m, longest_s;
   bool is_upright;
@@ -83,7 +85,7 @@ void RemarkOnFloating(const BodyMotion& motion, std::vector<std::string>& remark
 }  // namespace
 
 std::vector<std::string> RemarksOn(const BodyMotion& motion, const MotionStatistics& statistics) {
-  constexpr double kFast_m_s = 10;  // sprinters' feet
+  constexpr double kFast_m_s = 10;  // the feet of sprinters
   std::vector<std::string> remarks;
   if (statistics.speed_median_m_s > kFast_m_s) {
     remarks.push_back(fmt::format("the fastest joint moves at {:.1f} m/s in the median frame; is the frame time right?",
@@ -95,10 +97,10 @@ std::vector<std::string> RemarksOn(const BodyMotion& motion, const MotionStatist
 }
 
 std::optional<std::string> RemarkOnSliding(const BodyMotion& motion, const RestBody& rest) {
-  constexpr std::size_t kMostPoses = 120;
-  constexpr double kLeast = 0.002, kMmPerMetre = 1000;
-  const auto misfit = MeasureRigidMisfit(rest, motion.poses, kMostPoses);
-  if (!misfit || misfit->mean_m < kLeast) return std::nullopt;
+  constexpr std::size_t kMaxPoses = 120;
+  constexpr double kMinMisfit = 0.002, kMmPerMetre = 1000;
+  const auto misfit = MeasureRigidMisfit(rest, motion.poses, kMaxPoses);
+  if (!misfit || misfit->mean_m < kMinMisfit) return std::nullopt;
   return fmt::format(
       "joints slide: a skeleton that keeps its lengths stays {:.1f} mm off (worst joint, mean over the frames), {:.0f} "
       "mm at {:.2f} s ({})",
@@ -108,7 +110,7 @@ std::optional<std::string> RemarkOnSliding(const BodyMotion& motion, const RestB
 
 namespace {
 
-/// Names a material: "Fur", or "Fur (texture of 1024 x 1024)".
+/// Returns the name of a material: "Fur", or "Fur (texture of 1024 x 1024)".
 std::string NameOf(const Material& material) {
   if (!material.texture) return material.name;
   const ColourImage& picture = material.texture->picture;
@@ -163,7 +165,7 @@ BodyFacts FactsOfBody(const OpenedClip& clip) {
   return facts;
 }
 
-/// Collects what can be told of a file that gives no clip.
+/// Collects the facts of a file that gives no clip.
 ClipFacts FactsWithoutClip(const std::string& reference, const OpenOptions& options, Error complaint) {
   ClipFacts facts;
   facts.name = facts.source = reference;

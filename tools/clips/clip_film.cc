@@ -32,7 +32,7 @@ PartColours SidedColours() {
   return colours;
 }
 
-constexpr double kDot = 0.012;  // of the picture's height
+constexpr double kDot = 0.012;  // radius as a share of the picture's height
 
 double TurnFor(Viewpoint from) {
   switch (from) {
@@ -46,11 +46,11 @@ double TurnFor(Viewpoint from) {
   return Radians(90);
 }
 
-// Moving pictures hide rough edges: half the pixels of a sheet's.
+// Moving pictures hide rough edges, so less detail than on a sheet is enough (1.5 instead of 2).
 constexpr double kDetail = 1.5;
-// The camera follows slowly: half a second to either side.
+// The camera path is averaged over half a second to either side.
 constexpr int kSmoothing = 15;
-// Enough of the clip's frames to know how much room it needs.
+// The number of frames from which the visible space is determined.
 constexpr int kLookedAt = 200;
 
 }  // namespace

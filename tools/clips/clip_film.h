@@ -17,23 +17,24 @@
 
 namespace etude {
 
-/// The figure that is seen performing a clip.
+/// The figure that performs a clip in the picture.
 enum class ActorKind {
   kOwn,        ///< the file's own meshes
-  kMannequin,  ///< in the actor's own proportions
-  kBear,       ///< in the bear's
-  kBody,       ///< capsules around the joints; the left side has another colour than the right one
+  kMannequin,  ///< a mannequin with the performer's proportions
+  kBear,       ///< the bear, with its own proportions
+  kBody,       ///< capsules around the joints; left and right have different colours
 };
 
-/// A clip with the figure that performs it, frame by frame at the body's rate.
+/// A clip with the figure that performs it, frame by frame at the body motion's rate.
 class ClipActor {
  public:
-  /// Chooses, without a kind, the file's own figure if it has one, the bear for built-in clips, else the mannequin.
-  /// Refused: the own figure of a file without meshes.
+  /// Makes an actor. Without a kind, it is the file's own figure if it has one, the bear for built-in clips, else the
+  /// mannequin. Fails if the own figure of a file without meshes is asked for.
   static Result<ClipActor> Make(OpenedClip clip, std::optional<ActorKind> kind);
 
   const OpenedClip& clip() const { return clip_; }
-  /// Gives the motion of the figure that is seen: the bear's joints are not where the actor's are.
+  /// Returns the motion of the visible figure. It differs from the clip's body for the bear, whose joints have other
+  /// positions.
   const BodyMotion& motion() const { return motion_; }
   Figure FigureAt(std::size_t frame) const;
 
@@ -43,17 +44,19 @@ class ClipActor {
   OpenedClip clip_;
   ActorKind kind_;
   BodyMotion motion_;
-  std::optional<RecordedFigure> own_;           // of kOwn
-  std::shared_ptr<const Character> character_;  // of kMannequin, kBear
+  std::optional<RecordedFigure> own_;           // for kOwn
+  std::shared_ptr<const Character> character_;  // for kMannequin and kBear
 };
 
-/// The side that a clip is seen from: as its first frame faces the camera, turned by 40 degrees, or from the side.
+/// The direction from which a clip is seen, relative to the heading of its first frame: from the front, turned by 40
+/// degrees, or from the side.
 enum class Viewpoint { kFront, kThreeQuarter, kSide };
 
-/// A clip before the camera: its figure, and where it is put in every frame.
+/// A clip in front of the camera: its figure, and its position in every frame.
 class Shot {
  public:
-  /// Puts the clip before the camera; `smoothing` is CameraPath's: 0 keeps a walker in the middle of every picture.
+  /// Places the clip in front of the camera. `smoothing` is that of CameraPath; 0 keeps a walker in the middle of every
+  /// picture.
   Shot(ClipActor actor, Viewpoint from, int smoothing);
 
   const ClipActor& actor() const { return actor_; }
@@ -63,7 +66,7 @@ class Shot {
   const FloorMove& PlacementAt(int frame) const { return placements_[static_cast<std::size_t>(frame)]; }
   Figure PlacedFigure(int frame) const;
 
-  /// Widens `bounds` so that it holds these frames' figures.
+  /// Widens `bounds` so that it contains the figures of these frames.
   void Include(const std::vector<int>& frames, ViewBounds& bounds) const;
   /// Draws a frame, with a dot on the left hand and the left foot.
   void Draw(Canvas& canvas, const Box& box, Studio& studio, Renderer& renderer, int frame) const;
@@ -73,20 +76,21 @@ class Shot {
   std::vector<FloorMove> placements_;
 };
 
-/// Gives `count` frames spread evenly over a shot, first and last among them; fewer when it has fewer.
+/// Returns `count` frames spread evenly over a shot, including the first and the last; all frames if the shot has
+/// fewer.
 std::vector<int> SpreadFrames(const Shot& shot, int count);
 
-/// Draws the legend of Shot::Draw's dots; `right` is where the words end.
+/// Draws the legend of the dots of Shot::Draw; the text ends at x = `right`.
 void DrawLegend(Canvas& canvas, double right, double baseline);
 
 struct FilmOptions {
   Viewpoint from = Viewpoint::kThreeQuarter;
-  int width = 720;  ///< even numbers
+  int width = 720;  ///< must be even, as must the height
   int height = 720;
-  FilmWatch watch = {};  ///< stopped early, it leaves no file
+  FilmWatch watch = {};  ///< if it stops the film, no file is left
 };
 
-/// Films a clip from its first to its last frame as an MP4; the camera follows. False when it was stopped.
+/// Writes an MP4 of a whole clip; the camera follows the body. Returns false if it was stopped.
 Result<bool> FilmClip(ClipActor actor, const FilmOptions& options, const std::filesystem::path& path,
                       Renderer& renderer);
 

@@ -7,9 +7,9 @@
 
 namespace etude {
 
-/// Draws as an SVG picture when the feet of a clip stand: for each foot the height of its toe tip above the body's
-/// lowest joint and its speed over time, with kFootRules' limits as dashed lines, and bars where FindFootContacts lets
-/// it stand. The title is `name` with the share of time. Needs a frame.
+/// Draws an SVG picture of the ground contacts of a clip's feet: for each foot the height of its toe tip above the
+/// body's lowest joint and its speed over time, with the limits of kFootRules as dashed lines, and bars where
+/// FindFootContacts finds contact. The title is `name` with the share of contact time. Needs at least one frame.
 std::string ContactIndexSvg(const std::string& name, const BodyMotion& motion);
 
 }  // namespace etude

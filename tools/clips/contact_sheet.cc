@@ -13,9 +13,9 @@ namespace {
 constexpr double kSheetDetail = 2;
 constexpr int kMargin = 16;
 constexpr int kGap = 6;
-constexpr int kTitle = 46;       // room for a clip's name and facts above its pictures
-constexpr double kLegend = 190;  // room that the legend leaves beside the first clip's name
-constexpr int kNarrowest = 640;  // titles need some room, however few pictures there are
+constexpr int kTitle = 46;       // space for a clip's name and facts above its pictures
+constexpr double kLegend = 190;  // space reserved for the legend beside the first clip's name
+constexpr int kMinSheetWidth = 640;  // minimum width of a sheet, so that titles fit
 constexpr double kNameSize = 16, kFactsSize = 12.5, kTimeSize = 12;
 
 int RowsOf(int pictures, int columns) { return (pictures + columns - 1) / columns; }
@@ -25,7 +25,7 @@ void DrawTitle(Canvas& canvas, const ClipFacts& facts, double y, double room) {
   canvas.DrawText({kMargin, y + 37}, FactsAsLine(facts), kFactsSize, kSoftInk, room);
 }
 
-/// Draws a clip's pictures in rows of `columns`, from `y` downwards.
+/// Draws the pictures of a clip in rows of `columns`, from `y` downwards.
 void DrawPictures(Canvas& canvas, const Shot& shot, const std::vector<int>& frames, const SheetOptions& options,
                   double y, Studio& studio, Renderer& renderer) {
   for (int k = 0; k < static_cast<int>(frames.size()); ++k) {
@@ -46,7 +46,7 @@ constexpr double kRowHeight = kRowTitle + kSensorHeight + kCaption + kGap;
 
 Paint PaintOf(const Rgb8& colour) { return {colour.r / 255.0, colour.g / 255.0, colour.b / 255.0, 1}; }
 
-// The largest box of the picture's shape in the middle of another.
+// Returns the largest box with the picture's aspect ratio, centred in another box.
 Box Inside(const ColourImage& picture, const Box& box) {
   const double scale = std::min(box.width / picture.width, box.height / picture.height);
   const double width = scale * picture.width, height = scale * picture.height;
@@ -60,7 +60,7 @@ void DrawMarks(Canvas& canvas, const SheetPicture& shown, const Box& box) {
     return p.x >= 0 && p.y >= 0 && p.x <= picture.width && p.y <= picture.height;
   };
   for (const SheetMark& mark : shown.marks) {
-    if (!inside(mark.a) || !inside(mark.b)) continue;  // nothing is drawn over the neighbours
+    if (!inside(mark.a) || !inside(mark.b)) continue;  // never draw over neighbouring pictures
     const glm::dvec2 corner{box.x, box.y};
     if (mark.a == mark.b) {
       canvas.DrawDot(corner + mark.a * scale, 3, PaintOf(mark.colour));
@@ -88,6 +88,7 @@ Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetO
   std::vector<Shot> shots;
   std::vector<std::vector<int>> frames;
   int columns = 1, height = kMargin;
+  // Choose the frames of each clip and measure the sheet.
   for (ClipActor& actor : actors) {
     shots.emplace_back(std::move(actor), options.from, 0);
     frames.push_back(SpreadFrames(shots.back(), options.frames));
@@ -95,11 +96,12 @@ Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetO
     columns = std::max(columns, std::min(options.columns, pictures));
     height += kTitle + RowsOf(pictures, options.columns) * (options.height + kGap) + kMargin;
   }
-  const int width = std::max(2 * kMargin + columns * (options.width + kGap) - kGap, kNarrowest);
+  const int width = std::max(2 * kMargin + columns * (options.width + kGap) - kGap, kMinSheetWidth);
   if (width > kLargestSheet || height > kLargestSheet) {
     return Fail({}, "the sheet would have {} × {} pixels; allowed: {} a side: fewer clips, fewer or smaller pictures",
                 width, height, kLargestSheet);
   }
+  // Use one scale for all clips.
   ViewBounds bounds;
   for (std::size_t i = 0; i < shots.size(); ++i) shots[i].Include(frames[i], bounds);
   Studio studio(options.width, options.height, kSheetDetail, bounds);
@@ -107,6 +109,7 @@ Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetO
   Canvas canvas(width, height);
   canvas.FillBox({0, 0, static_cast<double>(width), static_cast<double>(height)}, kBackdrop);
   DrawLegend(canvas, width - kMargin, kMargin + 14);
+  // Draw the title and the pictures of each clip.
   double y = kMargin;
   for (std::size_t i = 0; i < shots.size(); ++i) {
     const double legend = i == 0 ? kLegend : 0;

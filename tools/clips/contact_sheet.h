@@ -12,21 +12,21 @@ namespace etude {
 
 struct SheetOptions {
   Viewpoint from = Viewpoint::kThreeQuarter;
-  int width = 200;  ///< of one picture, pixels
+  int width = 200;  ///< of each picture, pixels
   int height = 260;
-  int frames = 12;   ///< pictures of each clip
-  int columns = 12;  ///< pictures beside each other
+  int frames = 12;   ///< number of pictures of each clip
+  int columns = 12;  ///< maximum number of pictures in a row
 };
 
-/// The largest side of a sheet, pixels; larger sheets are refused.
+/// The maximum width and height of a sheet, pixels; a larger sheet is refused.
 constexpr int kLargestSheet = 16'000;
 
-/// Draws clips below each other, each as pictures evenly spread over its time, all at one scale. Gives the bytes of a
-/// PNG file.
+/// Draws each clip as a block of pictures, evenly spread over its time, one block below the other, all at one scale.
+/// Returns the bytes of a PNG file. Fails if the sheet is too large.
 Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetOptions& options, Renderer& renderer);
 
-/// Draws what sensors see, row below row, all pictures at one width. Gives the bytes of a PNG file. Fails for a sheet
-/// that is too large or has nothing to show.
+/// Draws what sensors see, one row below the other, all pictures in boxes of one size. Returns the bytes of a PNG file.
+/// Fails if the sheet is too large or has no picture.
 Result<std::string> DrawSensorSheet(const SensorSheet& sheet);
 
 }  // namespace etude

@@ -9,10 +9,10 @@ namespace etude {
 namespace {
 
 constexpr double kApart = 1.6;       // metres
-constexpr double kBrightness = 1.8;  // the lamp hangs far from most
+constexpr double kBrightness = 1.8;  // raised, because the lamp is far from most characters
 constexpr Rgb8 kPale{250, 240, 190};
 
-// Over the whole square, a little from above; its first row is nearest.
+// Shows the whole square from slightly above; the first row is nearest to the camera.
 Camera CameraOver(std::size_t side, int width, int height) {
   const double depth = kApart * static_cast<double>(side - 1);
   const Intrinsics seen{
@@ -29,7 +29,7 @@ CrowdStage::CrowdStage(int characters, int width, int height, Renderer& renderer
       camera_(CameraOver(side_, width, height)),
       renderer_(renderer) {}
 
-glm::dvec3 CrowdStage::PlaceOf(std::size_t character) const {
+glm::dvec3 CrowdStage::GridPointOf(std::size_t character) const {
   const double across = static_cast<double>(character % side_) - 0.5 * static_cast<double>(side_ - 1);
   return {kApart * across, 0, kApart * static_cast<double>(side_ - 1 - character / side_)};
 }
@@ -41,8 +41,8 @@ Canvas CrowdStage::Draw(std::span<const Character> crowd, const std::string& str
   for (std::size_t i = 0; i < crowd.size(); ++i) {
     Figure figure{BodyCapsules(crowd[i].pose), crowd[i].stands_out ? pale : PerformerColours()};
     for (Capsule& capsule : figure.shape) {
-      capsule.a += PlaceOf(i);
-      capsule.b += PlaceOf(i);
+      capsule.a += GridPointOf(i);
+      capsule.b += GridPointOf(i);
     }
     figures.push_back(std::move(figure));
   }

@@ -10,25 +10,25 @@
 
 namespace etude {
 
-/// Draws a crowd: so many bodies in rows on a square, each about its own place, all before one camera.
+/// Draws a crowd with one camera: the bodies stand in rows on a square, each around its own grid point.
 class CrowdStage {
  public:
-  /// Sets the stage for pictures of this size in pixels; `renderer` must outlive it.
+  /// Prepares pictures of this size in pixels; `renderer` must outlive this object.
   CrowdStage(int characters, int width, int height, Renderer& renderer);
 
-  /// A character: a pose about the floor's origin; who stands out is all of one pale colour.
+  /// A character: its pose relative to the floor's origin. If `stands_out` is true, all of it has one pale colour.
   struct Character {
     BodyPose pose;
     bool stands_out = false;
   };
-  /// Draws a crowd, at most as many as there are places, with a caption of two lines.
+  /// Draws a crowd with a caption of two lines. It must not have more characters than the constructor was given.
   Canvas Draw(std::span<const Character> crowd, const std::string& strong, const std::string& soft);
 
  private:
-  glm::dvec3 PlaceOf(std::size_t character) const;
+  glm::dvec3 GridPointOf(std::size_t character) const;
 
   int width_, height_;
-  std::size_t side_;  ///< places of a row
+  std::size_t side_;  ///< grid points per row
   Camera camera_;
   Renderer& renderer_;
 };

@@ -13,12 +13,12 @@
 namespace etude {
 namespace {
 
-constexpr int kSheetWidth = 1200, kLeastHeight = 760;
+constexpr int kSheetWidth = 1200, kMinHeight = 760;
 constexpr double kEdge = 18, kColumn = 360, kLine = 18, kFoot = 56, kTop = 44;
 constexpr double kLabelSize = 13;
 constexpr Paint kBone{0.45, 0.49, 0.52, 1}, kLeader{0.30, 0.33, 0.36, 1};
 
-/// A joint in the picture, and what stands beside it.
+/// A joint in the picture and its label.
 struct SheetJoint {
   glm::dvec2 at{0};  ///< pixels
   std::string words;
@@ -26,19 +26,20 @@ struct SheetJoint {
   bool plays = false;
 };
 
-std::vector<glm::dvec3> PlacesOf(const Clip& clip) {
+std::vector<glm::dvec3> PositionsOf(const Clip& clip) {
   std::vector<GlobalTransform> globals;
   ComputeGlobals(clip.skeleton, clip.frames.empty() ? RestPose(clip.skeleton) : clip.frames.front(), globals);
-  std::vector<glm::dvec3> places;
-  for (const GlobalTransform& joint : globals) places.push_back(joint.position);
-  return places;
+  std::vector<glm::dvec3> positions;
+  for (const GlobalTransform& joint : globals) positions.push_back(joint.position);
+  return positions;
 }
 
-/// The directions that lie to the right and upward in the picture. Up is Y or Z, along which the body is longer.
-std::pair<glm::dvec3, glm::dvec3> ViewOf(const std::vector<glm::dvec3>& places,
+/// Returns the directions that point right and up in the picture. Up is Y or Z, whichever the body extends further
+/// along.
+std::pair<glm::dvec3, glm::dvec3> ViewOf(const std::vector<glm::dvec3>& positions,
                                          const std::array<RoleOnSheet, kRoleCount>& roles) {
-  glm::dvec3 low = places.front(), high = low;
-  for (const glm::dvec3& place : places) low = glm::min(low, place), high = glm::max(high, place);
+  glm::dvec3 low = positions.front(), high = low;
+  for (const glm::dvec3& position : positions) low = glm::min(low, position), high = glm::max(high, position);
   const glm::dvec3 size = high - low;
   const bool is_z_up = size.z > size.y;
   const glm::dvec3 up = is_z_up ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
@@ -46,7 +47,7 @@ std::pair<glm::dvec3, glm::dvec3> ViewOf(const std::vector<glm::dvec3>& places,
        {std::pair{Role::kLeftShoulder, Role::kRightShoulder}, {Role::kLeftHip, Role::kRightHip}}) {
     const int a = roles[Index(left)].joint, b = roles[Index(right)].joint;
     if (a < 0 || b < 0) continue;
-    const glm::dvec3 across = places[a] - places[b], level = across - glm::dot(across, up) * up;
+    const glm::dvec3 across = positions[a] - positions[b], level = across - glm::dot(across, up) * up;
     if (glm::length(level) > 0.5 * glm::length(across)) return {glm::normalize(level), up};
   }
   const double depth = is_z_up ? size.y : size.z;
@@ -71,14 +72,15 @@ void Label(const std::array<RoleOnSheet, kRoleCount>& roles, std::vector<SheetJo
   }
 }
 
-/// Writes labels of one side below each other, each as near to its joint's height as the others leave it.
+/// Draws the labels of one side below each other, each as near to the height of its joint as the other labels allow.
 void DrawColumn(Canvas& canvas, std::vector<const SheetJoint*> joints, bool is_left) {
   std::ranges::stable_sort(joints, {}, [](const SheetJoint* joint) { return joint->at.y; });
   const double bottom = canvas.height() - kFoot;
   double y = kTop;
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const SheetJoint& joint = *joints[i];
-    const double last = bottom - kLine * static_cast<double>(joints.size() - i);  // leaves room for those that follow
+    // Leave space for the labels that follow.
+    const double last = bottom - kLine * static_cast<double>(joints.size() - i);
     y = std::clamp(joint.at.y, std::min(y, last), last);
     const double width = std::min(canvas.TextWidth(joint.words, kLabelSize, joint.plays), kColumn);
     const double x = is_left ? kEdge + kColumn - width : canvas.width() - kEdge - kColumn;
@@ -100,17 +102,19 @@ std::string MissingRoles(const std::array<RoleOnSheet, kRoleCount>& roles) {
 }  // namespace
 
 Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet, kRoleCount>& roles) {
-  const std::vector<glm::dvec3> places = PlacesOf(clip);
-  const auto [right, up] = ViewOf(places, roles);
-  std::vector<SheetJoint> joints(places.size());
+  const std::vector<glm::dvec3> positions = PositionsOf(clip);
+  const auto [right, up] = ViewOf(positions, roles);
+  // Project the joints onto the picture's plane.
+  std::vector<SheetJoint> joints(positions.size());
   glm::dvec2 low(INFINITY), high(-INFINITY);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    joints[i] = {.at = {glm::dot(right, places[i]), -glm::dot(up, places[i])},
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    joints[i] = {.at = {glm::dot(right, positions[i]), -glm::dot(up, positions[i])},
                  .words = Quote(clip.skeleton.joints[i].name)};
     low = glm::min(low, joints[i].at), high = glm::max(high, joints[i].at);
   }
   const double size = std::max(high.x - low.x, high.y - low.y);
   if (!std::isfinite(size) || size <= 0) return Fail({}, "a skeleton of no size: there is nothing to draw");
+  // Label the joints with names and roles, and put each label on the side of its joint.
   Label(roles, joints);
 
   const auto is_labelled = [&](std::size_t i) { return joints[i].plays || !clip.skeleton.joints[i].is_end_site; };
@@ -120,17 +124,19 @@ Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet
     if (is_labelled(i)) columns[joints[i].at.x < middle ? 0 : 1].push_back(&joints[i]);
   }
   const double lines = static_cast<double>(std::max(columns[0].size(), columns[1].size()));
-  const double height = std::max<double>(kLeastHeight, kTop + kLine * (lines + 1) + kFoot);
+  const double height = std::max<double>(kMinHeight, kTop + kLine * (lines + 1) + kFoot);
   if (height > kLargestSheet) return Fail({}, "{} joints: too many for one picture", joints.size());
 
   Canvas canvas(kSheetWidth, static_cast<int>(height));
   canvas.FillBox({0, 0, kSheetWidth, height}, kBackdrop);
-  const double room_x = kSheetWidth - 2 * (kEdge + kColumn + 30), room_y = kLeastHeight - kTop - kFoot - 40;
+  // Scale the skeleton into the space between the labels.
+  const double room_x = kSheetWidth - 2 * (kEdge + kColumn + 30), room_y = kMinHeight - kTop - kFoot - 40;
   const double scale =
       std::min(room_x / std::max(high.x - low.x, 1e-9 * size), room_y / std::max(high.y - low.y, 1e-9 * size));
   const glm::dvec2 centre(kSheetWidth / 2.0, (kTop + height - kFoot) / 2);
   for (SheetJoint& joint : joints) joint.at = centre + scale * (joint.at - (low + high) / 2.0);
 
+  // Draw bones, labels and joints.
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const int parent = clip.skeleton.joints[i].parent;
     if (parent >= 0) canvas.DrawLine(joints[parent].at, joints[i].at, 4, kBone);
@@ -138,6 +144,7 @@ Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet
   DrawColumn(canvas, columns[0], true);
   DrawColumn(canvas, columns[1], false);
   for (const SheetJoint& joint : joints) canvas.DrawDot(joint.at, joint.plays ? 5 : 3, joint.paint);
+  // Draw the title, the missing roles and the legend of colours.
   canvas.DrawText({kEdge, 26}, clip.name, 17, kInk, kSheetWidth - 2 * kEdge, true);
   canvas.DrawText({kEdge, height - 32}, MissingRoles(roles), kLabelSize, kInk, kSheetWidth - 2 * kEdge, true);
   canvas.DrawText(

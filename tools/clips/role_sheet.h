@@ -9,17 +9,17 @@
 
 namespace etude {
 
-/// The joint of a skeleton that plays a role, or may.
+/// The joint that plays a role, or that is proposed for it, and the reason.
 struct RoleOnSheet {
   enum class By { kNobody, kName, kComposed, kAnatomy, kProposed };
   int joint = -1;
   By by = By::kNobody;
 };
 
-/// Draws the skeleton of a clip as its first frame has it (at rest where it has none), every joint with its name and,
-/// in another colour, the role that it plays; roles that nobody plays are listed below. It is seen from the front where
-/// both shoulders or hips are known, else along the file's thinnest axis. Gives the bytes of a PNG file. Refused: a
-/// skeleton of no size, one of so many joints that the sheet would be larger than kLargestSheet.
+/// Draws the skeleton of a clip in its first frame (at rest if there is none). Every joint has its name and, in another
+/// colour, the role that it plays; roles without a joint are listed below. The view is from the front if both shoulders
+/// or both hips are known, else along the skeleton's thinnest axis. Returns the bytes of a PNG file. Fails if the
+/// skeleton has no size, or so many joints that the sheet would exceed kLargestSheet.
 Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet, kRoleCount>& roles);
 
 }  // namespace etude

@@ -20,7 +20,7 @@ std::optional<Carrier> Between(const std::optional<Carrier>& a, const std::optio
   return Carrier{glm::mix(a->position, b->position, share), glm::slerp(a->rotation, b->rotation, share)};
 }
 
-/// Returns the twin's carriers at a time of its own; empty outside.
+/// Returns the twin's carriers at a time on the twin's clock; all are empty outside the twin.
 std::array<std::optional<Carrier>, kRoleCount> CarriersAt(const TwinMotion& twin, double time_s) {
   const double frame = time_s * twin.rate_hz;
   if (frame < 0 || frame > static_cast<double>(twin.frames.size()) - 1) return {};
@@ -45,7 +45,7 @@ std::vector<Pair> PairsAt(const JointRecording& recording, const TwinMotion& twi
   return pairs;
 }
 
-/// Finds the rotation and translation that bring `from` closest to `to` (Kabsch 1976).
+/// Finds the rotation and translation that map `from` closest to `to` (Kabsch 1976).
 void FitRigid(const std::vector<glm::dvec3>& from, const std::vector<glm::dvec3>& to, TwinAlignment& alignment) {
   glm::dvec3 mean_from(0), mean_to(0);
   const auto count = static_cast<double>(from.size());
@@ -70,7 +70,7 @@ void FitRigid(const std::vector<glm::dvec3>& from, const std::vector<glm::dvec3>
   alignment.p_ST = mean_to - alignment.R_ST * mean_from;
 }
 
-/// Sets the offsets to the mean place of each joint in its carrier.
+/// Sets each offset to the joint's mean position in its carrier's frame.
 void FitOffsets(const std::vector<Pair>& pairs, TwinAlignment& alignment) {
   std::array<glm::dvec3, kRoleCount> sums{};
   std::array<double, kRoleCount> counts{};
@@ -94,12 +94,12 @@ double RootMeanSquare(const std::vector<Pair>& pairs, const TwinAlignment& align
   return std::sqrt(sum / static_cast<double>(pairs.size()));
 }
 
-/// Fits rotation, translation and offsets by turns until the remaining distance settles; `alignment` holds the start.
-void Settle(const std::vector<Pair>& pairs, int most_turns, TwinAlignment& alignment) {
+/// Fits rotation with translation, and offsets, alternately until the residual converges. `alignment` holds the start.
+void FitAlternately(const std::vector<Pair>& pairs, int max_iterations, TwinAlignment& alignment) {
   constexpr double kSettled = 1e-6;  // metres
   std::vector<glm::dvec3> from(pairs.size()), to(pairs.size());
   alignment.rms_m = 1e300;
-  for (int turn = 0; turn < most_turns; ++turn) {
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const glm::dvec3 offset = alignment.offsets[pairs[i].joint].value_or(glm::dvec3(0));
       from[i] = pairs[i].carrier.position + pairs[i].carrier.rotation * offset;
@@ -113,7 +113,7 @@ void Settle(const std::vector<Pair>& pairs, int most_turns, TwinAlignment& align
   }
 }
 
-/// Computes the mean speed of the joints at each frame, of those that are seen there and in the frame before.
+/// Computes the mean joint speed of each frame, over the joints seen in this frame and the one before.
 std::vector<std::optional<double>> Speeds(const JointRecording& recording) {
   std::vector<std::optional<double>> speeds(recording.frames.size());
   for (std::size_t t = 1; t < speeds.size(); ++t) {
@@ -121,7 +121,8 @@ std::vector<std::optional<double>> Speeds(const JointRecording& recording) {
     for (std::size_t j = 0; j < kRoleCount; ++j) {
       const auto &a = recording.frames[t - 1][j], &b = recording.frames[t][j];
       if (!a || !b) continue;
-      sum += std::min(glm::distance(*a, *b) * recording.rate_hz, 3.0);  // a jump counts no more than a fast move
+      // Limit the influence of a jump to that of a fast movement.
+      sum += std::min(glm::distance(*a, *b) * recording.rate_hz, 3.0);
       ++count;
     }
     if (count > 0) speeds[t] = sum / count;
@@ -129,7 +130,7 @@ std::vector<std::optional<double>> Speeds(const JointRecording& recording) {
   return speeds;
 }
 
-/// Returns the twin's carriers as a recording at `rate_hz`, for speeds.
+/// Returns the twin's carrier positions as a recording at `rate_hz`, for Speeds.
 JointRecording AtRate(const TwinMotion& twin, double rate_hz) {
   JointRecording recording{.rate_hz = rate_hz, .frames = {}, .sensor_at = {}};
   const auto frames = static_cast<std::size_t>(twin.DurationSeconds() * rate_hz);
@@ -143,7 +144,7 @@ JointRecording AtRate(const TwinMotion& twin, double rate_hz) {
   return recording;
 }
 
-/// Pearson's correlation of a[t] and b[t + lag]; nothing with less than a second of both.
+/// Returns Pearson's correlation of a[t] and b[t + lag]; nullopt if they overlap in less than a second.
 std::optional<double> CorrelationAt(const std::vector<std::optional<double>>& a,
                                     const std::vector<std::optional<double>>& b, long lag, double rate_hz) {
   double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
@@ -162,13 +163,13 @@ std::optional<double> CorrelationAt(const std::vector<std::optional<double>>& a,
   return (sab - sa * sb / n) / std::sqrt(va * vb);
 }
 
-/// Finds the shift at which both move at the same times; at least half of the shorter one overlaps.
+/// Finds the shift with the highest correlation of speeds. At least half of the shorter recording must overlap.
 double ShiftBySpeeds(const JointRecording& recording, const TwinMotion& twin) {
   const auto a = Speeds(recording), b = Speeds(AtRate(twin, recording.rate_hz));
-  const long na = static_cast<long>(a.size()), nb = static_cast<long>(b.size()), least = std::min(na, nb) / 2;
+  const long na = static_cast<long>(a.size()), nb = static_cast<long>(b.size()), min_overlap = std::min(na, nb) / 2;
   double best = -2;
   long best_lag = 0;
-  for (long lag = least - na; lag <= nb - least; ++lag) {
+  for (long lag = min_overlap - na; lag <= nb - min_overlap; ++lag) {
     const auto correlation = CorrelationAt(a, b, lag, recording.rate_hz);
     if (correlation && *correlation > best) {
       best = *correlation;
@@ -185,13 +186,13 @@ bool IsEnough(const std::vector<Pair>& pairs, const JointRecording& recording, s
   return joints >= 3 && static_cast<double>(pairs.size() * stride) >= recording.rate_hz * static_cast<double>(joints);
 }
 
-constexpr int kTurnsOfSearch = 8, kTurnsAtEnd = 200;
+constexpr int kSearchIterations = 8, kFinalIterations = 200;
 
-/// Returns the best of the shifts from `centre - reach` to `centre + reach`.
+/// Returns the best alignment for shifts from `start.shift_s − reach_s` to `start.shift_s + reach_s`.
 std::optional<TwinAlignment> BestShift(const JointRecording& recording, const TwinMotion& twin,
                                        const TwinAlignment& start, double reach_s, double step_s) {
-  constexpr std::size_t kFramesOfSearch = 150;
-  const std::size_t stride = std::max<std::size_t>(1, recording.frames.size() / kFramesOfSearch);
+  constexpr std::size_t kSearchFrames = 150;
+  const std::size_t stride = std::max<std::size_t>(1, recording.frames.size() / kSearchFrames);
   std::optional<TwinAlignment> best;
   const long steps = std::lround(reach_s / step_s);
   for (long i = -steps; i <= steps; ++i) {
@@ -199,7 +200,7 @@ std::optional<TwinAlignment> BestShift(const JointRecording& recording, const Tw
     tried.shift_s = start.shift_s + static_cast<double>(i) * step_s;
     const auto pairs = PairsAt(recording, twin, tried.shift_s, stride);
     if (!IsEnough(pairs, recording, stride)) continue;
-    Settle(pairs, kTurnsOfSearch, tried);
+    FitAlternately(pairs, kSearchIterations, tried);
     if (!best || tried.rms_m < best->rms_m) best = tried;
   }
   return best;
@@ -208,7 +209,7 @@ std::optional<TwinAlignment> BestShift(const JointRecording& recording, const Tw
 std::optional<TwinMatch> Finish(const JointRecording& recording, const TwinMotion& twin, TwinAlignment alignment) {
   const auto pairs = PairsAt(recording, twin, alignment.shift_s, 1);
   if (!IsEnough(pairs, recording, 1)) return std::nullopt;
-  Settle(pairs, kTurnsAtEnd, alignment);
+  FitAlternately(pairs, kFinalIterations, alignment);
   TwinMatch match{.alignment = alignment, .truth = {}};
   for (std::size_t t = 0; t < recording.frames.size(); ++t) {
     const auto carriers = CarriersAt(twin, static_cast<double>(t) / recording.rate_hz + alignment.shift_s);

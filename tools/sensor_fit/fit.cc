@@ -10,7 +10,8 @@
 namespace etude {
 namespace {
 
-/// Returns a place for every joint of every frame: where the twin has none, the last or else the next one it had.
+/// Returns a position for every joint in every frame. Where the twin has none, it is the last known position, or the
+/// first one before that.
 BodyMotion WholeMotion(const RealRecording& real) {
   BodyMotion motion{.rate_hz = real.recording.rate_hz, .poses = std::vector<BodyPose>(real.match.truth.size())};
   for (const Role role : AllRoles()) {
@@ -20,15 +21,15 @@ BodyMotion WholeMotion(const RealRecording& real) {
     const auto parent = ParentOf(role);
     for (std::size_t t = 0; t < motion.poses.size(); ++t) {
       if (real.match.truth[t][j]) last = real.match.truth[t][j];
-      // A joint without any truth is not compared; it lies where it cannot hide another.
+      // A joint that the twin never shows is not compared; put it where it cannot occlude another joint.
       motion.poses[t].joints[j] = last ? *last : parent ? motion.poses[t][*parent] : glm::dvec3(0, 0, 1);
     }
   }
   return motion;
 }
 
-/// Bodies do not shiver: what is faster than 6 Hz in the twin's motion is its own noise, which a sensor would see as
-/// its own. A Gaussian whose pass ends there (−3 dB), as biomechanics filters optical recordings.
+/// Low-pass filters the twin's motion at 6 Hz (−3 dB, Gaussian), as is usual for optical recordings in biomechanics.
+/// Faster parts are the twin's own noise; without the filter, the simulated sensor would reproduce it as motion.
 BodyMotion WithoutShiver(const BodyMotion& motion) {
   constexpr double kPassHz = 6;
   const double deviation_s = std::sqrt(std::log(2.0)) / (2 * kPi * kPassHz);
@@ -39,7 +40,8 @@ BodyMotion WithoutShiver(const BodyMotion& motion) {
     for (std::size_t j = 0; j < kRoleCount; ++j) {
       glm::dvec3 sum(0);
       double weights = 0;
-      const long reach = std::min({kReach, t, count - 1 - t});  // as far to both sides: no lag at the ends
+      const long reach = std::min({kReach, t, count - 1 - t});  // equal reach to both sides, so that the ends have no
+                                                                // lag
       for (long d = -reach; d <= reach; ++d) {
         const double off = static_cast<double>(d) / motion.rate_hz / deviation_s;
         const double weight = std::exp(-0.5 * off * off);
@@ -64,11 +66,13 @@ Camera SensorOf(const RealRecording& real, const BodyMotion& motion, const Intri
 
 constexpr WorldKey kFitWorlds{.suite_seed = 1, .scenario = "sensor-fit", .trial = 0};
 
-/// Moves `value` by real ÷ simulated, at most threefold at once, and keeps it within what a sensor file may say.
+/// Multiplies `value` by real ÷ simulated, limited to a factor of three per step, and clamps it to the range that a
+/// sensor file allows.
 void Scale(double& value, const std::optional<double>& real, const std::optional<double>& simulated, Range allowed) {
   if (!real || !simulated || *real <= 0 || *simulated <= 0) return;
-  constexpr double kMost = 3;
-  value = std::clamp(value * std::clamp(*real / *simulated, 1 / kMost, kMost), allowed.lowest, allowed.highest);
+  constexpr double kMaxFactor = 3;
+  value =
+      std::clamp(value * std::clamp(*real / *simulated, 1 / kMaxFactor, kMaxFactor), allowed.lowest, allowed.highest);
 }
 
 void FitGroups(const SensorStatistics& real, const SensorStatistics& simulated, SkeletonSensorOptions& sensor) {
@@ -81,11 +85,12 @@ void FitGroups(const SensorStatistics& real, const SensorStatistics& simulated, 
 }
 
 void FitCorrelations(const SensorStatistics& real, const SensorStatistics& simulated, SkeletonSensorOptions& sensor) {
-  constexpr double kStep = 0.8, kMost = 0.98;
+  constexpr double kStep = 0.8, kMaxCorrelation = 0.98;
   for (std::size_t b = 0; b < kBoneKindCount; ++b) {
     if (!real.correlation[b] || !simulated.correlation[b]) continue;
     double& rho = sensor.correlation[b];
-    rho = std::clamp(rho + kStep * (*real.correlation[b] - *simulated.correlation[b]), -kMost, kMost);
+    rho = std::clamp(rho + kStep * (*real.correlation[b] - *simulated.correlation[b]), -kMaxCorrelation,
+                     kMaxCorrelation);
   }
 }
 
@@ -156,9 +161,11 @@ SensorStatisticsSummary SimulatedStatistics(const RealRecording& real, const Ske
 }
 
 SkeletonSensorOptions FitSensor(const RealRecording& real, const SensorFitOptions& options) {
+  // Start from the given sensor, with the measured distance.
   const SensorStatistics measured = StatisticsOf(real);
   SkeletonSensorOptions sensor = options.start;
   if (const double distance = MeanDistance(real); distance > 0) sensor.reference_distance_m = distance;
+  // Correct each setting by the ratio or difference of the statistics that it controls.
   for (int step = 0; step < options.steps; ++step) {
     const SensorStatistics simulated = SimulatedStatistics(real, sensor, options.worlds, kFitWorlds).mean;
     FitGroups(measured, simulated, sensor);

@@ -12,7 +12,7 @@ namespace {
 
 using enum Role;
 
-/// The target that carries each role's joint: one near the joint, on one of the bones that end in it.
+/// The target that carries each role's joint: one near the joint, on a bone that ends in it.
 using T = BodyTarget;
 constexpr std::array<BodyTarget, kRoleCount> kTargetOfRole = {
     T::kHips,       T::kChest,        T::kChest,        T::kHead,        // trunk and head
@@ -21,7 +21,7 @@ constexpr std::array<BodyTarget, kRoleCount> kTargetOfRole = {
     T::kLeftThigh,  T::kLeftTibia,    T::kLeftTibia,    T::kLeftFoot,    // left leg
     T::kRightThigh, T::kRightTibia,   T::kRightTibia,   T::kRightFoot};  // right leg
 
-/// Joint files have a line of headings.
+/// Returns true if the text is a joint file, which has a line of headings.
 bool IsJointCsv(std::string_view text) {
   return text.substr(0, text.find('\n')).find("_x_m") != std::string_view::npos;
 }
@@ -38,8 +38,8 @@ TwinMotion TwinOfTargets(const std::vector<TargetFrame>& targets) {
   return twin;
 }
 
-/// The orientations of a body that has none: of its trunk, and of each limb as the trunk would have to swing to follow
-/// it.
+/// Computes orientations for the bones of a body that is given only by joint positions: that of the trunk, and for each
+/// limb the trunk's, swung into the limb's direction.
 class BoneFrames {
  public:
   explicit BoneFrames(const RolePositions& places) : places_(places) {
@@ -61,7 +61,7 @@ class BoneFrames {
     if (!parent || region == Region::kTrunk) return Carrier{*place, *trunk_};
     const auto bone = Between(*parent, role);
     if (!bone) return std::nullopt;
-    // Where the limb points most of the time, seen from the trunk: the swing has no answer opposite to it.
+    // The limb's most frequent direction, relative to the trunk. The swing is undefined for the opposite direction.
     const double side = RoleName(role).starts_with("left") ? 1 : -1;
     const glm::dvec3 usual =
         glm::normalize(region == Region::kArm ? glm::dvec3(side, -0.4, 0.5) : glm::dvec3(0, -1, 0.2));
@@ -104,7 +104,7 @@ TwinMotion TwinOfJoints(const JointCsv& csv) {
   return twin;
 }
 
-/// Returns the usual rate at which so many frames last `seconds` most nearly.
+/// Returns the usual frame rate at which `frames` frames last closest to `seconds`.
 double UsualRate(std::size_t frames, double seconds) {
   double best = 60, best_error = 1e300;
   for (const double rate : {30.0, 50.0, 60.0, 100.0, 120.0, 200.0, 240.0}) {

@@ -14,7 +14,7 @@ namespace {
 
 using enum Role;
 
-/// The errors of one joint where both systems saw it, and the frames.
+/// The errors of one joint in the frames in which both systems saw it, with these frames.
 struct ErrorSeries {
   std::vector<glm::dvec3> errors;
   std::vector<std::size_t> frames;
@@ -44,7 +44,7 @@ ErrorSeries ErrorsOf(const JointRecording& recording, const TwinMatch& match, Ro
   return series;
 }
 
-/// Tells whether the twin's joint is at rest around a frame.
+/// Returns true if the twin's joint is at rest for five frames around `frame`.
 bool IsPlanted(const TwinMatch& match, std::size_t frame, std::size_t joint, double rate_hz) {
   constexpr std::size_t kReach = 5;
   constexpr double kResting = 0.1;  // m/s
@@ -55,7 +55,7 @@ bool IsPlanted(const TwinMatch& match, std::size_t frame, std::size_t joint, dou
   return true;
 }
 
-/// Returns the deviation of the distance of two joints over its mean, percent.
+/// Returns the standard deviation of the distance between two joints over its mean, per cent.
 std::optional<double> Variation(const JointRecording& recording, Role a, Role b) {
   std::vector<double> lengths;
   for (const RolePositions& places : recording.frames) {
@@ -69,7 +69,7 @@ std::optional<double> Variation(const JointRecording& recording, Role a, Role b)
   return mean > 0 ? std::optional(100 * std::sqrt(squares / count) / mean) : std::nullopt;
 }
 
-/// Returns |p(t−1) − 2 p(t) + p(t+1)| where all three were seen.
+/// Returns |p(t−1) − 2 p(t) + p(t+1)|; nullopt unless all three were seen.
 std::optional<double> SecondDifference(const JointRecording& recording, std::size_t t, std::size_t j) {
   if (t == 0 || t + 1 >= recording.frames.size()) return std::nullopt;
   const auto &before = recording.frames[t - 1][j], &here = recording.frames[t][j], &after = recording.frames[t + 1][j];
@@ -137,6 +137,7 @@ void MeasureCorrelations(const JointRecording& recording, const TwinMatch& match
   struct Sums {
     double both = 0, first = 0, second = 0;
   };
+  // Sum the products of the errors at both ends of each bone, about their means.
   std::array<Sums, kBoneKindCount> all_sums{};
   for (const Bone& bone : AllBones()) {
     ErrorSeries parent, child;  // frames in which both were seen
@@ -156,6 +157,7 @@ void MeasureCorrelations(const JointRecording& recording, const TwinMatch& match
       sums.second += glm::dot(b, b);
     }
   }
+  // Normalise the sums to correlations.
   for (std::size_t b = 0; b < kBoneKindCount; ++b) {
     const Sums& sums = all_sums[b];
     if (sums.first > 0 && sums.second > 0) result.correlation[b] = sums.both / std::sqrt(sums.first * sums.second);
@@ -164,9 +166,9 @@ void MeasureCorrelations(const JointRecording& recording, const TwinMatch& match
 
 void MeasureQuiet(const JointRecording& recording, SensorStatistics& result) {
   MeanOf white;
-  constexpr std::size_t kReach = 5, kFewest = 20;
+  constexpr std::size_t kReach = 5, kMinLengths = 20;
   constexpr double kQuiet = 0.005;
-  // The middle length of a vector of three independent normal values with variance 6 each (1, −2, 1).
+  // The median length of a vector of three independent normal variables with variance 6 each (weights 1, −2, 1).
   const double middle_length = 1.5381722544550522 * std::sqrt(6.0);
   for (const Role role : AllRoles()) {
     if (GroupOf(role) != JointGroup::kTorso) continue;
@@ -177,7 +179,7 @@ void MeasureQuiet(const JointRecording& recording, SensorStatistics& result) {
       if (!before || !after || glm::distance(*before, *after) > kQuiet) continue;
       if (const auto difference = SecondDifference(recording, t, j)) lengths.push_back(*difference);
     }
-    if (lengths.size() >= kFewest) white.Add(1000 * UpperMedian(std::move(lengths)) / middle_length);
+    if (lengths.size() >= kMinLengths) white.Add(1000 * UpperMedian(std::move(lengths)) / middle_length);
   }
   result.quiet_white_mm = white.Value();
 }
@@ -208,7 +210,7 @@ void MeasureJumps(const JointRecording& recording, SensorStatistics& result) {
   result.hand_jump_cm = 100 * LowerPercentile(std::move(jumps), 0.99);
 }
 
-/// Returns every value of some statistics, in one order.
+/// Returns pointers to all values of a set of statistics, in a fixed order.
 std::vector<std::optional<double>*> ValuesOf(SensorStatistics& s) {
   std::vector<std::optional<double>*> values = {
       &s.shoulders_and_hips_mm, &s.planted_feet_mm,        &s.quiet_white_mm,     &s.arm_bones_percent,
@@ -276,6 +278,7 @@ std::vector<StatisticRow> RowsOf(const SensorStatistics& statistics) {
                        HeldBy held_by = HeldBy::kRatio) {
     rows.push_back({std::move(name), unit, held_by, value});
   };
+  // Errors.
   for (const JointGroup group : AllJointGroups()) {
     if (group == JointGroup::kFeet) continue;
     add(fmt::format("error of {}", GroupName(group)), "mm", statistics.error_mm[Index(group)]);
@@ -283,6 +286,7 @@ std::vector<StatisticRow> RowsOf(const SensorStatistics& statistics) {
   add("error of shoulders and hips", "mm", statistics.shoulders_and_hips_mm);
   add("error of all feet", "mm", statistics.error_mm[Index(JointGroup::kFeet)]);
   add("error of planted feet", "mm", statistics.planted_feet_mm);
+  // Ratios and correlations.
   for (const JointGroup group : AllJointGroups()) {
     add(fmt::format("depth : across, {}", GroupName(group)), "", statistics.depth_ratio[Index(group)]);
   }
@@ -291,6 +295,7 @@ std::vector<StatisticRow> RowsOf(const SensorStatistics& statistics) {
     std::ranges::replace(name, '_', ' ');
     add("correlation along " + name, "", statistics.correlation[Index(kind)], HeldBy::kDifference);
   }
+  // Noise at rest, varying lengths, jumps.
   add("white part, quiet torso", "mm", statistics.quiet_white_mm);
   add("length of arm bones varies", "%", statistics.arm_bones_percent);
   add("length of leg bones varies", "%", statistics.leg_bones_percent);

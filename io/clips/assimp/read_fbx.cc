@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns the axis of the file that points up (0 = X, 1 = Y, 2 = Z) and whether it does so downwards.
+/// Returns the axis of the file that points up (0 = X, 1 = Y, 2 = Z) and its sign, −1 if it points down.
 std::pair<int, int> UpOf(const aiScene& scene) {
   std::int32_t axis = 1, sign = 1;
   if (scene.mMetaData != nullptr) {
@@ -35,8 +35,8 @@ void Append(std::string& bytes, std::uint32_t number) {
   bytes.append(raw.data(), raw.size());
 }
 
-/// The nodes and animations of a scene as a GLB file. assimp's own writer leaves out transforms within .01 of none, so
-/// that joints a centimetre from their parent fall on it.
+/// Writes the nodes and animations of a scene as a GLB file. assimp's own writer leaves out transforms within 0.01 of
+/// the identity, which moves a joint that is a centimetre from its parent onto the parent.
 class MotionGlb {
  public:
   explicit MotionGlb(const aiScene& scene) {
@@ -56,6 +56,7 @@ class MotionGlb {
     json.resize((json.size() + 3) / 4 * 4, ' ');
     std::string bytes = "glTF";
     constexpr std::uint32_t kVersion = 2, kJson = 0x4E4F534A, kBinary = 0x004E4942, kHeads = 12 + 8 + 8;
+    // The header, the JSON chunk, and the binary chunk.
     for (const std::size_t number :
          {std::size_t{kVersion}, kHeads + json.size() + numbers_.size(), json.size(), std::size_t{kJson}}) {
       Append(bytes, static_cast<std::uint32_t>(number));
@@ -86,6 +87,7 @@ class MotionGlb {
   void AddAnimation(const aiAnimation& animation) {
     Json samplers = Json::array(), channels = Json::array();
     const double rate = animation.mTicksPerSecond > 0 ? animation.mTicksPerSecond : 1;
+    // Adds one channel: the keys of a node's translation, rotation or scale.
     const auto add = [&](std::size_t node, const char* path, const auto* keys, unsigned count, auto numbers_of) {
       std::vector<float> times, values;
       for (unsigned i = 0; i < count; ++i) {
@@ -97,6 +99,7 @@ class MotionGlb {
       samplers.push_back({{"input", AddNumbers(times, count)}, {"output", AddNumbers(values, count)}});
     };
     const auto vector = [](const aiVector3D& v) { return std::array{v.x, v.y, v.z}; };
+    // One channel for each property that a node's keys move; nodes that are not in the scene are left out.
     for (unsigned i = 0; i < animation.mNumChannels; ++i) {
       const aiNodeAnim& moved = *animation.mChannels[i];
       const auto node = by_name_.find(moved.mNodeName.C_Str());
@@ -112,7 +115,7 @@ class MotionGlb {
         {{"name", animation.mName.C_Str()}, {"samplers", std::move(samplers)}, {"channels", std::move(channels)}});
   }
 
-  /// Adds `count` numbers, or vectors of 3 or 4; returns their accessor.
+  /// Adds `count` scalars, or vectors of 3 or 4 numbers; returns the index of their accessor.
   std::size_t AddNumbers(const std::vector<float>& numbers, unsigned count) {
     constexpr int kFloat = 5126;
     const std::size_t width = numbers.size() / count, bytes = numbers.size() * sizeof(float);
@@ -126,20 +129,21 @@ class MotionGlb {
   }
 
   Json nodes_ = Json::array(), animations_ = Json::array(), accessors_ = Json::array(), views_ = Json::array();
-  std::map<std::string, std::size_t> by_name_;  ///< the first of a name
+  std::map<std::string, std::size_t> by_name_;  ///< the first node of each name
   std::string numbers_;
 };
 
 bool GlbOfFbxByAssimp(std::string_view bytes, std::string& said) {
   try {
     Assimp::Importer importer;
-    // A joint is one node, its pivots folded in, which other formats do not know.
+    // Fold the pivots into one node for each joint, because other formats do not know pivots.
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
     const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_GlobalScale, "fbx");
     if (scene == nullptr || scene->mRootNode == nullptr) {
       said = std::string("a damaged FBX file: ") + importer.GetErrorString();
       return false;
     }
+    // Turn a scene with Z up to Y up.
     if (const auto [axis, sign] = UpOf(*scene); axis == 2) {
       aiMatrix4x4 turn;
       aiMatrix4x4::RotationX(static_cast<ai_real>(-sign * std::numbers::pi / 2), turn);
