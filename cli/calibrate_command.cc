@@ -57,7 +57,7 @@ Result<int> CalibrateCommand(const CalibrateCommandOptions& asked) {
   for (const std::string* path : {&options.output, &options.picture}) {
     if (!path->empty()) RETURN_IF_ERROR(CheckOutput(*path, asked.overwrite));
   }
-  Aside aside(asked.as_json);
+  StdoutToStderr aside(asked.as_json);
   ASSIGN_OR_RETURN(const Calibrated rig, CalibrateRig(options));
   aside.End();
   if (asked.as_json) {

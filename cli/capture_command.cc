@@ -59,7 +59,7 @@ struct CaptureCommandOptions {
 };
 
 Result<int> CaptureCommand(const CaptureCommandOptions& options) {
-  Aside aside(options.as_json);
+  StdoutToStderr aside(options.as_json);
   const CaptureFilmsOptions& capture = options.capture;
   for (const std::string* path :
        {&capture.output, &capture.points, &capture.film, &capture.report, &capture.distances}) {

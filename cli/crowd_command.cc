@@ -170,7 +170,7 @@ Result<int> CrowdCommand(const CrowdCommandOptions& given) {
     }
     RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   }
-  Aside aside(options.as_json);
+  StdoutToStderr aside(options.as_json);
   ASSIGN_OR_RETURN(Json facts, FollowCrowd(options));
   if (facts.is_null()) return TellStopped();
   if (!options.output.empty()) TellWritten(options.output);

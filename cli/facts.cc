@@ -21,14 +21,14 @@ Result<void> PrintFacts(const std::string& command, Json facts) {
   return {};
 }
 
-Aside::Aside(bool is_active) {
+StdoutToStderr::StdoutToStderr(bool is_active) {
   if (!is_active) return;
   std::fflush(stdout);
   output_ = ::dup(STDOUT_FILENO);
   ::dup2(STDERR_FILENO, STDOUT_FILENO);
 }
 
-void Aside::End() {
+void StdoutToStderr::End() {
   if (output_ < 0) return;
   std::fflush(stdout);
   ::dup2(output_, STDOUT_FILENO);

@@ -23,13 +23,13 @@ Result<void> PrintFacts(const std::string& command, Json facts);
 
 /// Redirects standard output to standard error while it lives, so that text for people does not mix with facts for
 /// programs.
-class Aside {
+class StdoutToStderr {
  public:
   /// Has no effect unless `is_active`.
-  explicit Aside(bool is_active);
-  ~Aside() { End(); }
-  Aside(const Aside&) = delete;
-  Aside& operator=(const Aside&) = delete;
+  explicit StdoutToStderr(bool is_active);
+  ~StdoutToStderr() { End(); }
+  StdoutToStderr(const StdoutToStderr&) = delete;
+  StdoutToStderr& operator=(const StdoutToStderr&) = delete;
   /// Restores standard output.
   void End();
 

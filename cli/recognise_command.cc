@@ -218,7 +218,7 @@ Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options, const
       const LeaveOneOut out,
       LeaveOnePersonOut(loaded.streams, parts, options.labels.empty() ? "the recordings" : options.labels, watch));
   // Print accuracy, confusions and the F-score of action points.
-  Aside people(options.as_json);
+  StdoutToStderr people(options.as_json);
   fmt::print("{} people, {} recordings\n", out.people.size(), loaded.streams.size());
   const auto accuracy = Accuracy(out.verdicts), nearest = Accuracy(out.nearest);
   const auto f_score = MeanFScore(out.points, out.detections, kActionPointTolerance);

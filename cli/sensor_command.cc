@@ -168,7 +168,7 @@ Result<int> SensorStatsCommand(const SensorStatsOptions& options) {
   if (!compares && !options.simulate.empty()) {
     return Fail({"--simulate"}, "needs --reference: the simulated sensor sees the reference's motion");
   }
-  Aside aside(options.as_json);
+  StdoutToStderr aside(options.as_json);
   Json facts = {{"recordings", Json::array()}, {"match", nullptr}};
   ASSIGN_OR_RETURN(const auto columns, compares ? ComparedColumns(options, facts) : PlainColumns(options, facts));
   const bool has_simulated = columns.size() >= 2 && compares;
@@ -246,7 +246,7 @@ void PrintHalves(const RealRecording& real, const SensorFitOptions& options, Jso
 }
 
 Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
-  Aside aside(options.as_json);
+  StdoutToStderr aside(options.as_json);
   RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   ASSIGN_OR_RETURN(const auto base, LoadSensor(options.base));
   ASSIGN_OR_RETURN(const auto real, LoadRealRecording(options.file, options.reading));

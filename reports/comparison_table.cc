@@ -220,13 +220,13 @@ std::string ComparisonTableHtml(const ScenarioSummary& scenario) {
   const auto others = std::ranges::find_if(
       all, [&](const Shown& shown) { return shown.comparison->metric != all.front().comparison->metric; });
   const std::span<const Shown> lead(all.begin(), others), rest(others, all.end());
-  std::size_t left = kMostTableRows;
+  std::size_t left = kMaxTableRows;
   std::string html = ShownHtml(scenario, lead, left);
   if (!rest.empty() && left > 0) {
     html += fmt::format("<details><summary>and {} more, by the other metrics</summary>{}</details>", rest.size(),
                         ShownHtml(scenario, rest, left));
   }
-  return html + LeftOutHtml(all.size(), kMostTableRows, "comparisons", kAllComparisons) +
+  return html + LeftOutHtml(all.size(), kMaxTableRows, "comparisons", kAllComparisons) +
          fmt::format("<p class=\"quiet legend\">{}</p>", EscapeMarkup(Legend(scenario)));
 }
 
@@ -243,14 +243,14 @@ std::string ComparisonTableMarkdown(const ScenarioSummary& scenario) {
                           {"p (Holm)"},
                           {"effect"},
                           {"mind"}}};
-  for (const Shown& shown : std::span(all).first(std::min(all.size(), kMostTableRows))) {
+  for (const Shown& shown : std::span(all).first(std::min(all.size(), kMaxTableRows))) {
     const Line line = LineOf(*shown.condition, *shown.comparison, scenario.unit);
     table.rows.push_back(
         {{line.metric, line.methods + (shown.against == Against::kRival ? " (strongest other)" : ""), line.condition,
           fmt::format("{} ({})", line.difference, line.interval), VerdictName(shown.comparison->verdict), line.beyond,
           line.pairs, line.p, line.effect, line.notes}});
   }
-  const std::string rest = LeftOutWords(all.size(), kMostTableRows, "comparisons", kAllComparisons);
+  const std::string rest = LeftOutWords(all.size(), kMaxTableRows, "comparisons", kAllComparisons);
   return fmt::format("\n<details><summary>Every comparison ({})</summary>\n{}{}\n{}\n\n</details>\n", all.size(),
                      TableMarkdown(table), rest.empty() ? "" : fmt::format("\n{}\n", EscapeMarkdown(rest)),
                      EscapeMarkdown(Legend(scenario)));

@@ -35,11 +35,11 @@ std::string WhatIsComparedText(const ScenarioSummary& scenario) {
   std::string text = scenario.description.empty() ? "" : "\n" + EscapeMarkdown(scenario.description) + "\n";
   if (scenario.descriptions.empty()) return text;
   text += "\n";
-  for (std::size_t i = 0; i < std::min(scenario.descriptions.size(), kMostListed); ++i) {
+  for (std::size_t i = 0; i < std::min(scenario.descriptions.size(), kMaxListed); ++i) {
     text += fmt::format("- {}: {}\n", EscapeMarkdown(MethodLabel(scenario, scenario.methods[i])),
                         EscapeMarkdown(scenario.descriptions[i]));
   }
-  const std::string rest = LeftOutWords(scenario.methods.size(), kMostListed, "methods", "manifest.json");
+  const std::string rest = LeftOutWords(scenario.methods.size(), kMaxListed, "methods", "manifest.json");
   return rest.empty() ? text : text + "\n" + EscapeMarkdown(rest) + "\n";
 }
 
@@ -61,11 +61,11 @@ std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
   for (const SuccessFinding& success : findings.successes) {
     text += fmt::format("- {}\n", EscapeMarkdown(SuccessSentence(success)));
   }
-  for (const ReasonCount& reason : std::span(findings.reasons).first(std::min(findings.reasons.size(), kMostListed))) {
+  for (const ReasonCount& reason : std::span(findings.reasons).first(std::min(findings.reasons.size(), kMaxListed))) {
     text += fmt::format("  - {} × {} in {}: {}\n", FormatCount(reason.cells), EscapeMarkdown(StatusName(reason.status)),
                         EscapeMarkdown(reason.method), EscapeMarkdown(reason.reason));
   }
-  const std::string rest = LeftOutWords(findings.reasons.size(), kMostListed, "reasons", "cells.jsonl");
+  const std::string rest = LeftOutWords(findings.reasons.size(), kMaxListed, "reasons", "cells.jsonl");
   if (!rest.empty()) text += fmt::format("  - {}\n", EscapeMarkdown(rest));
   return text + PosePairsMarkdown(run, scenario) + TransitionsMarkdown(RecordedRequestsOf(run, scenario)) +
          PaperAMarkdown(scenario) + PaperBMarkdown(run, scenario);

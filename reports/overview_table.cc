@@ -156,7 +156,7 @@ Table OverviewTable(const ScenarioSummary& scenario, std::span<const std::string
                              .title = metrics[i],
                              .sign = std::string(ArrowOf(words.direction))});
   }
-  for (const OverviewRow& row : rows.first(std::min(rows.size(), kMostTableRows))) {
+  for (const OverviewRow& row : rows.first(std::min(rows.size(), kMaxTableRows))) {
     TableRow shown{.cells = {row.method},
                    .attributes = fmt::format("{} data-ids=\"{}\"{}", row.is_yardstick ? " class=\"yardstick\"" : "",
                                              EscapeMarkup(row.cell), row.kept)};
@@ -186,12 +186,12 @@ std::string MissingHtml(const RunData& run, const ScenarioSummary& scenario) {
   std::string html = "<details><summary>Missing values, and why</summary><ul class=\"reasons\">";
   std::size_t count = 0;
   for (const auto& [why, metrics] : metrics_of) {
-    if (++count > kMostListed) break;
+    if (++count > kMaxListed) break;
     const std::string more = metrics.size() > 1 ? fmt::format(" and {} more", metrics.size() - 1) : "";
     html += fmt::format("<li>{} <span class=\"quiet\">({}{})</span></li>", EscapeMarkup(why),
                         EscapeMarkup(metrics.front()), more);
   }
-  return html + "</ul>" + LeftOutHtml(metrics_of.size(), kMostListed, "reasons", "the CSV file in report/tables") +
+  return html + "</ul>" + LeftOutHtml(metrics_of.size(), kMaxListed, "reasons", "the CSV file in report/tables") +
          "</details>";
 }
 
@@ -251,7 +251,7 @@ std::string OverviewTableHtml(const RunData& run, const ScenarioSummary& scenari
   const std::vector<OverviewRow> rows = RowsOf(run, scenario, metrics);
   if (rows.empty() || metrics.empty()) return "";
   return TableHtml(OverviewTable(scenario, metrics, rows, "Method", "Condition")) +
-         LeftOutHtml(rows.size(), kMostTableRows, "rows", kAllNumbers) + MissingHtml(run, scenario);
+         LeftOutHtml(rows.size(), kMaxTableRows, "rows", kAllNumbers) + MissingHtml(run, scenario);
 }
 
 std::string OverviewTableMarkdown(const ScenarioSummary& scenario) {
@@ -260,7 +260,7 @@ std::string OverviewTableMarkdown(const ScenarioSummary& scenario) {
   if (rows.empty()) return "";
   const std::string text =
       TableMarkdown(OverviewTable(scenario, scenario.headline_metrics, rows, "method", "condition"));
-  const std::string rest = LeftOutWords(rows.size(), kMostTableRows, "rows", kAllNumbers);
+  const std::string rest = LeftOutWords(rows.size(), kMaxTableRows, "rows", kAllNumbers);
   return rest.empty() ? text : fmt::format("{}\n{}\n", text, rest);
 }
 
@@ -268,17 +268,17 @@ std::string PosePairsHtml(const RunData& run, const ScenarioSummary& scenario) {
   Table pairs = PosePairs(run, scenario, "Poses", "Apart");
   const std::size_t all = pairs.rows.size();
   if (all == 0) return "";
-  pairs.rows.resize(std::min(all, kMostListed));
+  pairs.rows.resize(std::min(all, kMaxListed));
   return fmt::format("<details><summary>Pair by pair</summary>{}{}<p class=\"quiet legend\">{}</p></details>",
-                     TableHtml(pairs), LeftOutHtml(all, kMostListed, "pairs", "cells.jsonl"), kLegend);
+                     TableHtml(pairs), LeftOutHtml(all, kMaxListed, "pairs", "cells.jsonl"), kLegend);
 }
 
 std::string PosePairsMarkdown(const RunData& run, const ScenarioSummary& scenario) {
   Table pairs = PosePairs(run, scenario, "poses", "apart");
   const std::size_t all = pairs.rows.size();
   if (all == 0) return "";
-  pairs.rows.resize(std::min(all, kMostListed));
-  const std::string rest = LeftOutWords(all, kMostListed, "pairs", "cells.jsonl");
+  pairs.rows.resize(std::min(all, kMaxListed));
+  const std::string rest = LeftOutWords(all, kMaxListed, "pairs", "cells.jsonl");
   return fmt::format("{}\n{}{}{}\n", TableMarkdown(pairs), rest, rest.empty() ? "" : " ", kLegend);
 }
 

@@ -46,7 +46,7 @@ void AddSimulatedRows(const ScenarioSummary& scenario, std::size_t& rows, Table&
     for (const MethodSummary& method : condition.methods) {
       const MetricSummary* metric = FindSummary(method, kMetric);
       if (metric == nullptr || !metric->median) continue;
-      if (++rows > kMostTableRows) continue;
+      if (++rows > kMaxTableRows) continue;
       const std::string label = ConditionLabel(condition.condition);
       table.rows.push_back({.cells = {fmt::format("simulated: {}{}{}", scenario.name, label.empty() ? "" : ", ", label),
                                       MethodLabel(scenario, method.method) + " (error)", kNoValue,
@@ -164,7 +164,7 @@ std::string RealTakesSection(const RunData& run, std::span<const RealTake> takes
   for (const ScenarioSummary& scenario : run.scenarios) {
     if (scenario.task == "capture") AddSimulatedRows(scenario, rows, table);
   }
-  return html + TableHtml(table) + LeftOutHtml(rows, kMostTableRows, "rows", "the CSV files in report/tables") +
+  return html + TableHtml(table) + LeftOutHtml(rows, kMaxTableRows, "rows", "the CSV files in report/tables") +
          "</section>\n";
 }
 

@@ -195,13 +195,13 @@ std::string WhatIsCompared(const ScenarioSummary& scenario) {
   std::string html;
   if (!scenario.description.empty()) html += fmt::format("<p>{}</p>", EscapeMarkup(scenario.description));
   html += "<dl class=\"compared\">";
-  for (std::size_t i = 0; i < std::min(scenario.methods.size(), kMostListed); ++i) {
+  for (std::size_t i = 0; i < std::min(scenario.methods.size(), kMaxListed); ++i) {
     const std::string& method = scenario.methods[i];
     html += fmt::format("<div><dt>{}{}</dt><dd>{}</dd></div>", MarkKeySvg(i, i),
                         EscapeMarkup(MethodLabel(scenario, method)),
                         i < scenario.descriptions.size() ? EscapeMarkup(scenario.descriptions[i]) : "");
   }
-  return html + "</dl>" + LeftOutHtml(scenario.methods.size(), kMostListed, "methods", "manifest.json");
+  return html + "</dl>" + LeftOutHtml(scenario.methods.size(), kMaxListed, "methods", "manifest.json");
 }
 
 std::string Expectations(const ScenarioSummary& scenario) {
@@ -252,12 +252,12 @@ std::string Failures(const RunData& run, const ScenarioSummary& scenario, const 
   if (!findings.reasons.empty()) {
     html += "<ul class=\"reasons\">";
     for (const ReasonCount& reason :
-         std::span(findings.reasons).first(std::min(findings.reasons.size(), kMostListed))) {
+         std::span(findings.reasons).first(std::min(findings.reasons.size(), kMaxListed))) {
       html += fmt::format("<li data-ids=\"{}\"><b>{} × {}</b> in {}: {}</li>",
                           EscapeMarkup(FirstCellOf(run, scenario, reason)), FormatCount(reason.cells),
                           StatusName(reason.status), EscapeMarkup(reason.method), EscapeMarkup(reason.reason));
     }
-    html += "</ul>" + LeftOutHtml(findings.reasons.size(), kMostListed, "reasons", "cells.jsonl");
+    html += "</ul>" + LeftOutHtml(findings.reasons.size(), kMaxListed, "reasons", "cells.jsonl");
   }
   const std::string title = others == 0
                                 ? fmt::format("{} ok", Plural(findings.cells, "cell"))
@@ -312,10 +312,10 @@ std::string Files(const RunData& run, const ScenarioSummary& scenario, std::size
   link("../manifest.json", "the scenario’s text, and all that repeats the run");
   std::size_t motions = 0;
   for (const auto& [row, recorded] : RecordedRows(run)) {
-    if (row->scenario != scenario.name || row->task != "capture" || ++motions > kMostListed) continue;
+    if (row->scenario != scenario.name || row->task != "capture" || ++motions > kMaxListed) continue;
     link("motions/" + MotionFileOf(recorded->cell), "recovered motion");
   }
-  return Folded("Files", html + "</ul>" + LeftOutHtml(motions, kMostListed, "motions", "report/motions"));
+  return Folded("Files", html + "</ul>" + LeftOutHtml(motions, kMaxListed, "motions", "report/motions"));
 }
 
 std::string ScenarioFilms(const ScenarioSummary& scenario, const Media& media) {

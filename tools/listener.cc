@@ -10,7 +10,7 @@ void TellWritten(const Listener& listener, const std::string& path) {
   listener.print(fmt::format("written: {}\n", Visible(path)));
 }
 
-void ToldLines::Tell(const std::string& line) {
+void MessageLog::Tell(const std::string& line) {
   print(line + "\n");
   lines.push_back(line);
 }

@@ -30,7 +30,7 @@ struct Listener {
 void TellWritten(const Listener& listener, const std::string& path);
 
 /// Prints lines and keeps them, for the page and the facts of a tool.
-struct ToldLines {
+struct MessageLog {
   std::function<void(const std::string& text)> print;
   std::vector<std::string> lines = {};
 

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kMostMethods = 100;
+constexpr std::size_t kMaxMethods = 100;
 constexpr double kLongestTime_s = 86'400;
 /// The keys about a program, which no task reads.
 constexpr std::string_view kProgramKeys[] = {"exec", "options", "files", "time_s"};
@@ -156,8 +156,8 @@ std::vector<MethodEntry> ReadMethods(Fields& fields, const TaskKind& kind) {
     return complain({list == nullptr ? fields.node().place : list->place,
                      "a scenario needs 'methods', a list of at least one {name: …}"});
   }
-  if (list->items.size() > kMostMethods) {
-    return complain({list->place, fmt::format("{} methods; at most {}", list->items.size(), kMostMethods)});
+  if (list->items.size() > kMaxMethods) {
+    return complain({list->place, fmt::format("{} methods; at most {}", list->items.size(), kMaxMethods)});
   }
   std::vector<std::string> names;
   for (const Node& item : list->items) {

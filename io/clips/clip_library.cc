@@ -51,7 +51,7 @@ Result<ClipLibrary> LoadClips(const std::vector<std::string>& references, const 
     for (const std::string& one : expanded) {
       RETURN_IF_ERROR(one.starts_with(kBuiltinPrefix) ? AddBuiltin(one, place, library)
                                                       : AddFile(one, options, library));
-      if (library.clips.size() > kMostClips) return Fail(place, "more than {} clips", kMostClips);
+      if (library.clips.size() > kMaxClips) return Fail(place, "more than {} clips", kMaxClips);
     }
   }
   if (on_progress) on_progress(done, references.size());

@@ -159,7 +159,7 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
                 kProcessorSeconds, kMemoryBytes >> 30, kMaxGlbBytes >> 30);
   }
   if (signal == 0) return Fail({path}, "{}", kReaderFailed);
-  return Fail({path}, "{} {} ({})", kReaderFell, signal, ::strsignal(signal));
+  return Fail({path}, "{} {} ({})", kReaderCrashed, signal, ::strsignal(signal));
 }
 
 Result<FbxMotion> ReadFbx(std::string_view bytes, const std::string& path) { return FbxReader().Read(bytes, path); }

@@ -23,7 +23,7 @@ struct FbxMotion {
 };
 
 /// The beginning of the complaint about a file that crashed its reader; the signal's number follows.
-inline constexpr std::string_view kReaderFell = "a damaged FBX file: its reader ended with signal";
+inline constexpr std::string_view kReaderCrashed = "a damaged FBX file: its reader ended with signal";
 
 /// Reads the motion of FBX files, one after the other; meshes, materials, cameras and lights are left out. Files may be
 /// hostile, so assimp reads them in a child process with limited memory and processor time. If a file ends the child,

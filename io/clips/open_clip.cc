@@ -35,7 +35,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reads files until their total size exceeds kLargestClipFile.
+/// Reads files until their total size exceeds kMaxClipFileBytes.
 class CappedReader {
  public:
   Result<std::string> Read(const fs::path& path) {
@@ -43,7 +43,7 @@ class CappedReader {
     const std::uintmax_t size = fs::file_size(path, not_there);
     if (!not_there && size > left_) {
       return Fail({path.string(), 0, 0}, "{} MB; at most {} MB of a clip are read", (size + 999'999) / 1'000'000,
-                  kLargestClipFile / 1'000'000);
+                  kMaxClipFileBytes / 1'000'000);
     }
     auto bytes = ReadWholeFile(path);
     if (bytes) left_ -= std::min<std::uintmax_t>(left_, bytes->size());
@@ -51,7 +51,7 @@ class CappedReader {
   }
 
  private:
-  std::uintmax_t left_ = kLargestClipFile;
+  std::uintmax_t left_ = kMaxClipFileBytes;
 };
 
 Result<std::string> ReadBeside(const std::string& path, const std::string& uri, CappedReader& reader) {
@@ -68,8 +68,8 @@ Result<std::string> ReadBeside(const std::string& path, const std::string& uri, 
   return bytes;
 }
 
-Result<ColourImage> DecodeTexture(std::string_view bytes, std::size_t most_pixels) {
-  return bytes.starts_with("\x89PNG") ? DecodeColourPng(bytes, most_pixels) : ReadJpeg(bytes, most_pixels);
+Result<ColourImage> DecodeTexture(std::string_view bytes, std::size_t max_pixels) {
+  return bytes.starts_with("\x89PNG") ? DecodeColourPng(bytes, max_pixels) : ReadJpeg(bytes, max_pixels);
 }
 
 ClipFile FileOfOne(ClipFormat format, Clip clip) {
@@ -117,7 +117,7 @@ Result<Clip> ReadAcclaim(std::string_view bytes, const std::string& path, Capped
 }
 
 /// Returns the roles that the bones of a VRM file play. Spine, hands, feet and the crown are found as in other files.
-std::optional<TaughtRoles> RolesOfBones(const std::map<std::string, int>& bones, const Skeleton& skeleton) {
+std::optional<JointMapOverrides> RolesOfBones(const std::map<std::string, int>& bones, const Skeleton& skeleton) {
   constexpr std::pair<const char*, Role> kBones[] = {
       {"leftUpperArm", Role::kLeftShoulder}, {"rightUpperArm", Role::kRightShoulder},
       {"leftLowerArm", Role::kLeftElbow},    {"rightLowerArm", Role::kRightElbow},
@@ -212,7 +212,7 @@ Result<void> KeepWanted(const SplitReference& wanted, const Character& figure, s
 }
 
 /// Returns the roles that the user assigned, else those of the file; null without either.
-const TaughtRoles* TaughtBy(const OpenOptions& options, const std::optional<TaughtRoles>& file) {
+const JointMapOverrides* TaughtBy(const OpenOptions& options, const std::optional<JointMapOverrides>& file) {
   if (options.roles && !options.roles->joints.empty()) return &*options.roles;
   return file ? &*file : nullptr;
 }

@@ -47,11 +47,11 @@ struct ClipFile {
                             ///< people
   std::vector<std::string> notes = {};    ///< for clips that are bodies already: how each was made of markers
   std::vector<std::string> remarks = {};  ///< repairs that were made while reading
-  std::optional<TaughtRoles> roles = {};  ///< roles that the bone table of a VRM file assigns
+  std::optional<JointMapOverrides> roles = {};  ///< roles that the bone table of a VRM file assigns
 };
 
 /// The maximum size of a file, or of a .gltf with its buffers, bytes. A larger file is refused before memory is taken.
-constexpr std::uintmax_t kLargestClipFile = 500'000'000;
+constexpr std::uintmax_t kMaxClipFileBytes = 500'000'000;
 
 /// Reads a motion file; the content decides the format, not the name. Known are BVH, glTF, GLB, FBX, DeepMimic's
 /// motions, Acclaim's AMC, AMASS's .npz, our own .npz and .mot, arrays of joints (.npy, arranged as `layout` says:
@@ -64,7 +64,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
 
 /// The options with which a clip is opened.
 struct OpenOptions {
-  std::optional<TaughtRoles> roles;  ///< the user's joint map (--joint-map)
+  std::optional<JointMapOverrides> roles;  ///< the user's joint map (--joint-map)
   BodyOptions body;
   const RecordedMotions* recorded = nullptr;  ///< reads "RUN#CELL@NAME"; null = such a reference is treated as a file
 };
@@ -83,7 +83,7 @@ struct SourceClip {
                           ///< floor
   std::vector<std::string> remarks = {};  ///< repairs made while reading the file; UnderstandClip appends them to the
                                           ///< body's note
-  std::optional<TaughtRoles> roles = {};  ///< as in ClipFile::roles; those of OpenOptions have priority
+  std::optional<JointMapOverrides> roles = {};  ///< as in ClipFile::roles; those of OpenOptions have priority
 };
 
 /// Reads the clips of one file or built-in name (as ExpandReference returns them): the one clip of a BVH, all

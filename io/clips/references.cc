@@ -105,7 +105,7 @@ Result<std::vector<std::string>> ExpandReference(const std::string& reference, c
                 "as 'mocap/*.bvh'",
                 reference);
   }
-  if (found.size() > kMostClips) return Fail(place, "'{}' stands for more than {} clips", reference, kMostClips);
+  if (found.size() > kMaxClips) return Fail(place, "'{}' stands for more than {} clips", reference, kMaxClips);
   return found;
 }
 
@@ -135,7 +135,7 @@ Result<std::vector<std::string>> ExpandReferences(const std::vector<std::string>
   for (const std::string& reference : references) {
     ASSIGN_OR_RETURN(auto expanded, ExpandReference(reference, {}));
     all.insert(all.end(), expanded.begin(), expanded.end());
-    if (all.size() > kMostClips) return Fail({}, "more than {} clips", kMostClips);
+    if (all.size() > kMaxClips) return Fail({}, "more than {} clips", kMaxClips);
   }
   return all;
 }

@@ -23,7 +23,7 @@ struct BuiltinClip {
 Result<BuiltinClip> LoadBuiltinClip(const std::string& name, const Place& place);
 
 /// The maximum number of clips that a reference may stand for.
-constexpr std::size_t kMostClips = 1000;
+constexpr std::size_t kMaxClips = 1000;
 
 /// Lists the clips that a reference stands for, in order; each can be opened on its own. A reference is a built-in clip
 /// ("builtin:clap"; "builtin:*" are all moves, "builtin:acts" and "builtin:songs" the others), a clip of a package
@@ -32,7 +32,7 @@ constexpr std::size_t kMostClips = 1000;
 /// interpreted. Relative names start at the current folder. Fails at `place` if nothing matches.
 Result<std::vector<std::string>> ExpandReference(const std::string& reference, const Place& place);
 
-/// Lists the clips that all references stand for, in order. Fails if there are more than `kMostClips`.
+/// Lists the clips that all references stand for, in order. Fails if there are more than `kMaxClips`.
 Result<std::vector<std::string>> ExpandReferences(const std::vector<std::string>& references);
 
 /// A reference such as "dance.glb#Jump", split into the file and its animation. If a file whose name holds '#' exists,

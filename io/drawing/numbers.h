@@ -29,8 +29,8 @@ std::string Plural(long long count, std::string_view singular);
 
 /// The maximum number of list entries and table rows that a page shows, because browsers cannot scroll a page with
 /// hundreds of methods and conditions. The files beside the page hold all of them.
-constexpr std::size_t kMostListed = 40;
-constexpr std::size_t kMostTableRows = 400;
+constexpr std::size_t kMaxListed = 40;
+constexpr std::size_t kMaxTableRows = 400;
 
 /// Says how many entries are left out: "60 more reasons are left out here; cells.jsonl has all."; "" if `total` does
 /// not exceed `shown`.

@@ -122,7 +122,7 @@ std::string BeginPanel(double height, std::string_view words, double width, std:
                      EscapeMarkup(words));
 }
 
-std::string UprightGrid(const Axis& axis, double left, double right) {
+std::string VerticalAxisGrid(const Axis& axis, double left, double right) {
   std::string svg;
   for (const double tick : axis.Ticks()) {
     svg += fmt::format("<path d=\"M{} {:.1f}H{}\"/>", left, axis.At(tick), right) +
@@ -131,7 +131,7 @@ std::string UprightGrid(const Axis& axis, double left, double right) {
   return svg;
 }
 
-std::string LyingGrid(const Axis& axis, double top, double bottom) {
+std::string HorizontalAxisGrid(const Axis& axis, double top, double bottom) {
   std::string svg;
   for (const double tick : axis.Ticks()) {
     svg += fmt::format("<path d=\"M{:.1f} {}V{}\"/>", axis.At(tick), top, bottom) +

@@ -47,9 +47,9 @@ std::string BeginPanel(double height, std::string_view words, double width = kPa
                        std::string_view style = "plot");
 
 /// Draws the grid lines and labels of a vertical axis; lines go from `left` to `right`, labels stand left of them.
-std::string UprightGrid(const Axis& axis, double left = kPanelLeft, double right = kPanelRight);
+std::string VerticalAxisGrid(const Axis& axis, double left = kPanelLeft, double right = kPanelRight);
 /// Draws the grid lines and labels of a horizontal axis; lines go from `top` to `bottom`, labels stand below.
-std::string LyingGrid(const Axis& axis, double top, double bottom);
+std::string HorizontalAxisGrid(const Axis& axis, double top, double bottom);
 
 /// Writes a text in the panel, escaped and cut after `max_characters`. `anchor` is "start", "middle" or "end".
 std::string PanelText(double x, double y, std::string_view text, std::string_view anchor,

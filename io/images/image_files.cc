@@ -19,7 +19,7 @@
 namespace etude {
 namespace {
 
-// The size of an uncompressed picture with kLargestPicture pixels per side, rounded up.
+// The size of an uncompressed picture with kMaxPictureSide pixels per side, rounded up.
 constexpr std::uintmax_t kMaxPictureFileBytes = std::uintmax_t{1} << 28;
 // The limit for pictures that no camera took: what GL and JPEG can hold.
 constexpr std::uint32_t kMaxSide = 16'384;
@@ -165,17 +165,17 @@ Result<ColourImage> LoadColourPng(const std::string& path) {
   return image;
 }
 
-Result<ColourImage> DecodeColourPng(std::string_view bytes, std::size_t most_pixels) {
+Result<ColourImage> DecodeColourPng(std::string_view bytes, std::size_t max_pixels) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) {
     return Fail({}, "not a PNG picture: {}", png.message);
   }
   const std::size_t pixels = std::size_t{png.width} * png.height;
-  if (png.width > kMaxSide || png.height > kMaxSide || pixels > most_pixels) {
+  if (png.width > kMaxSide || png.height > kMaxSide || pixels > max_pixels) {
     png_image_free(&png);
     return Fail({}, "a PNG picture of {} x {} pixels; allowed: at most {} in all, {} a side", png.width, png.height,
-                most_pixels, kMaxSide);
+                max_pixels, kMaxSide);
   }
   png.format = PNG_FORMAT_RGBA;
   std::vector<std::array<std::uint8_t, 4>> with_alpha(pixels);

@@ -11,7 +11,7 @@
 
 namespace etude {
 
-// Encodes and decodes pictures: the one door to PNG and OpenEXR. Pictures with more than kLargestPicture pixels per
+// Encodes and decodes pictures: the one door to PNG and OpenEXR. Pictures with more than kMaxPictureSide pixels per
 // side are refused before memory is taken. Errors name the file unless stated otherwise.
 
 /// Returns the bytes of a PNG file, for embedding in a page. The same picture gives the same bytes. `image` must have
@@ -25,9 +25,9 @@ std::string EncodePpm(const ColourImage& image);
 
 /// Reads any PNG as 8-bit RGB; transparent pixels are blended with black.
 Result<ColourImage> LoadColourPng(const std::string& path);
-/// Decodes the bytes of a PNG file of at most `most_pixels` pixels. Transparency is ignored: pixels keep their stored
+/// Decodes the bytes of a PNG file of at most `max_pixels` pixels. Transparency is ignored: pixels keep their stored
 /// colours. The error names no file.
-Result<ColourImage> DecodeColourPng(std::string_view bytes, std::size_t most_pixels);
+Result<ColourImage> DecodeColourPng(std::string_view bytes, std::size_t max_pixels);
 
 /// A depth image and the name of its channel.
 struct DepthChannel {

@@ -168,7 +168,7 @@ Result<std::vector<SeenPerson>> PeopleOfList(const Json& list, const std::string
     return people;
   }
   if (!list.is_array()) return Fail(place, "people are {}; allowed: a list", ShowJson(list));
-  if (list.size() > kMostPeople) return Fail(place, "{} people; allowed: {}", list.size(), kMostPeople);
+  if (list.size() > kMaxPeople) return Fail(place, "{} people; allowed: {}", list.size(), kMaxPeople);
   for (const Json& one : list) {
     ASSIGN_OR_RETURN(const auto points, PointsOf(one, place));
     ASSIGN_OR_RETURN(const SeenPerson person, ToPerson(points, layout, names, place));
@@ -251,7 +251,7 @@ Result<PeopleOfFilm> ReadResults(const Json& list, const std::string& layout, co
     if (!number) return Fail(place, "a result whose image_id has no number: {}", ShowJson(one));
     ASSIGN_OR_RETURN(auto points, PointsOf(one, place));
     for (const Keypoint& point : points) max_confidence = std::max(max_confidence, point.confidence);
-    if (numbered[*number].size() >= kMostPeople) return Fail(place, "more than {} people in a frame", kMostPeople);
+    if (numbered[*number].size() >= kMaxPeople) return Fail(place, "more than {} people in a frame", kMaxPeople);
     numbered[*number].push_back(std::move(points));
   }
   // Scale the confidences to 0…1 and order the landmarks.

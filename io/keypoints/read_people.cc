@@ -96,7 +96,7 @@ Result<std::vector<SeenPerson>> ReadFrame(const fs::path& file, const std::strin
   const Json* people = Member(json, "people");
   if (people == nullptr || !people->is_array())
     return Fail(place, "no list 'people'; allowed: JSON as OpenPose writes it, or MMPose's list of people");
-  if (people->size() > kMostPeople) return Fail(place, "{} people; allowed: {}", people->size(), kMostPeople);
+  if (people->size() > kMaxPeople) return Fail(place, "{} people; allowed: {}", people->size(), kMaxPeople);
   for (const Json& person : *people) {
     ASSIGN_OR_RETURN(const auto points, Triples(Member(person, "pose_keypoints_2d"), place));
     if (points.empty()) continue;
@@ -177,8 +177,8 @@ Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const
     // COCO's flags if any value exceeds 1, else scores.
     for (Keypoint& point : person.points) point.confidence /= max_confidence > 1 ? 2 : 1;
     ASSIGN_OR_RETURN(const SeenPerson seen, ToPerson(person.points, layout, names, place));
-    if (film.frames[person.frame].size() >= kMostPeople)
-      return Fail(place, "more than {} people in a frame", kMostPeople);
+    if (film.frames[person.frame].size() >= kMaxPeople)
+      return Fail(place, "more than {} people in a frame", kMaxPeople);
     film.frames[person.frame].push_back(seen);
   }
   return film;

@@ -119,7 +119,7 @@ Mask OutlineOf(const Mask& mask) {
   return outline;
 }
 
-Result<CapturePanel> CapturePanel::Make(const RunData& run, const CastCell& cell) {
+Result<CapturePanel> CapturePanel::Make(const RunData& run, const ShownCell& cell) {
   // Read the tracks and the extras, and check that their lengths match.
   const Place place{.file = "recording " + cell.row->Id()};
   const BodyMotion* truth = FindTrack(*cell.recording, "truth");

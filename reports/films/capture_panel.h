@@ -7,7 +7,7 @@
 #include "bench/recordings/capture_extras.h"
 #include "io/drawing/canvas.h"
 #include "io/drawing/film.h"
-#include "reports/films/cast.h"
+#include "reports/films/shown_cell.h"
 #include "sim/camera/lens.h"
 #include "sim/render/renderer.h"
 #include "sim/stage/stage.h"
@@ -19,7 +19,7 @@ namespace etude {
 class CapturePanel {
  public:
   /// Fails if the recording's facts cannot be read or do not match its tracks.
-  static Result<CapturePanel> Make(const RunData& run, const CastCell& cell);
+  static Result<CapturePanel> Make(const RunData& run, const ShownCell& cell);
 
   int Frames() const { return static_cast<int>(truth_.poses.size()); }
   double RateHz() const { return truth_.rate_hz; }

@@ -237,7 +237,7 @@ void DrawErrorLegend(Canvas& canvas, const Box& box) {
 
 }  // namespace
 
-Result<std::vector<CapturePanel>> FindCaptures(const RunData& run, const CastCell& typical) {
+Result<std::vector<CapturePanel>> FindCaptures(const RunData& run, const ShownCell& typical) {
   std::vector<CapturePanel> captures;
   for (const std::string& method : typical.scenario->methods) {
     const auto row = std::ranges::find_if(run.rows, [&](const Row& each) {
@@ -246,7 +246,7 @@ Result<std::vector<CapturePanel>> FindCaptures(const RunData& run, const CastCel
     });
     if (row == run.rows.end() || row->result.status != Status::kOk) continue;
     const auto recorded = std::ranges::find(run.recordings, row->Id(), &CellRecording::cell);
-    if (recorded == run.recordings.end() || captures.size() == CaptureScene::kMostMethods) continue;
+    if (recorded == run.recordings.end() || captures.size() == CaptureScene::kMaxMethods) continue;
     ASSIGN_OR_RETURN(auto panel, CapturePanel::Make(run, {typical.scenario, &*row, &recorded->recording}));
     captures.push_back(std::move(panel));
   }

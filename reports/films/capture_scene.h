@@ -24,17 +24,17 @@ std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer
 
 /// Finds the captures of one world that a film compares: in the typical cell's world (ChooseCell), every method that
 /// was recorded, in the scenario's order, three at most. Empty if there is none; fails if one cannot be read.
-Result<std::vector<CapturePanel>> FindCaptures(const RunData& run, const CastCell& typical);
+Result<std::vector<CapturePanel>> FindCaptures(const RunData& run, const ShownCell& typical);
 
 /// The film of a capture: the views of two cameras and, side by side for each method, the true skeleton with the
 /// recovered one over it. The colour of a recovered bone shows the error of its joints.
 class CaptureScene : public Scene {
  public:
   /// The maximum number of methods, and of frames.
-  static constexpr std::size_t kMostMethods = 3;
+  static constexpr std::size_t kMaxMethods = 3;
   static constexpr int kLongest = 8 * kFilmRate;
 
-  /// Shows captures of one world, 1 to kMostMethods; the renderer must outlive the scene.
+  /// Shows captures of one world, 1 to kMaxMethods; the renderer must outlive the scene.
   CaptureScene(Renderer& renderer, std::vector<CapturePanel> captures);
 
   int Frames() const override;

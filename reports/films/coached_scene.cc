@@ -35,7 +35,7 @@ void KeepWithin(CoachedSessionFacts& facts) {
 
 }  // namespace
 
-Result<CoachedSessionFacts> ReadCoachedSession(const CastCell& cell) {
+Result<CoachedSessionFacts> ReadCoachedSession(const ShownCell& cell) {
   const Place place{.file = "recording " + cell.row->Id()};
   auto extras = ReadCoachExtras(cell.recording->extras_json);
   CoachedSessionFacts facts;
@@ -55,8 +55,8 @@ Result<CoachedSessionFacts> ReadCoachedSession(const CastCell& cell) {
   return facts;
 }
 
-std::optional<CastCell> ChooseWorstSession(const RunData& run, const ScenarioSummary& scenario) {
-  std::optional<CastCell> worst;
+std::optional<ShownCell> ChooseWorstSession(const RunData& run, const ScenarioSummary& scenario) {
+  std::optional<ShownCell> worst;
   double most_wrong = -1;
   for (const auto& [row, recorded] : RecordedRows(run)) {
     if (row->scenario != scenario.name) continue;
@@ -64,7 +64,7 @@ std::optional<CastCell> ChooseWorstSession(const RunData& run, const ScenarioSum
                          ValueOf(*row, "corrections_missed_per_min").value_or(0);
     if (wrong <= most_wrong) continue;
     most_wrong = wrong;
-    worst = CastCell{&scenario, row, &recorded->recording};
+    worst = ShownCell{&scenario, row, &recorded->recording};
   }
   return worst;
 }

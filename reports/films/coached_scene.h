@@ -9,8 +9,8 @@
 #include "engine/motion/body.h"
 #include "engine/motion/character.h"
 #include "io/drawing/film.h"
-#include "reports/films/cast.h"
 #include "reports/films/session_parts.h"
+#include "reports/films/shown_cell.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
@@ -25,11 +25,11 @@ struct CoachedSessionFacts : CoachExtras {
 
 /// Reads the recording that the coach task keeps of a cell. Fails with the recording and the key if it is not such a
 /// recording.
-Result<CoachedSessionFacts> ReadCoachedSession(const CastCell& cell);
+Result<CoachedSessionFacts> ReadCoachedSession(const ShownCell& cell);
 
 /// Chooses the worst of a scenario's recorded sessions: the one with the most unneeded and missed corrections per
 /// minute. Returns nullopt if no session was recorded.
-std::optional<CastCell> ChooseWorstSession(const RunData& run, const ScenarioSummary& scenario);
+std::optional<ShownCell> ChooseWorstSession(const RunData& run, const ScenarioSummary& scenario);
 
 /// Returns paper A's scene: a meadow in front of a forest and the sky. It stands behind z = −1 and hides the room's
 /// wall and floor from a camera at +Z that looks at the origin.

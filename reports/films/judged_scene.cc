@@ -96,7 +96,7 @@ Result<DetectionExtras> ExtrasOf(const Recording& recording, const Place& place)
 }
 
 /// Adds other methods recorded in the same world, up to the number of timeline rows.
-Result<void> AddOtherJudges(const RunData& run, const CastCell& cell, Facts& facts) {
+Result<void> AddOtherJudges(const RunData& run, const ShownCell& cell, Facts& facts) {
   constexpr std::size_t kMaxJudges = 2;
   for (const auto& [row, recorded] : RecordedRows(run)) {
     if (facts.judges.size() == kMaxJudges) return {};
@@ -112,7 +112,7 @@ Result<void> AddOtherJudges(const RunData& run, const CastCell& cell, Facts& fac
 
 }  // namespace
 
-Result<JudgedSessionFacts> ReadJudgedSession(const RunData& run, const CastCell& cell) {
+Result<JudgedSessionFacts> ReadJudgedSession(const RunData& run, const ShownCell& cell) {
   const Place place{.file = "recording " + cell.row->Id()};
   // Check the tracks.
   const BodyMotion* truth = FindTrack(*cell.recording, "truth");

@@ -10,8 +10,8 @@
 #include "engine/recognition/sight.h"
 #include "engine/recognition/taught_move.h"
 #include "io/drawing/film.h"
-#include "reports/films/cast.h"
 #include "reports/films/session_parts.h"
+#include "reports/films/shown_cell.h"
 
 namespace etude {
 
@@ -44,7 +44,7 @@ struct JudgedSessionFacts {
 
 /// Reads the recording that the detection task keeps of a cell, and those of other methods in the same world. Fails if
 /// the cell has no such recording.
-Result<JudgedSessionFacts> ReadJudgedSession(const RunData& run, const CastCell& cell);
+Result<JudgedSessionFacts> ReadJudgedSession(const RunData& run, const ShownCell& cell);
 
 /// The film of a judged session: the sensed skeleton over the true body; the angles of the expected key poses, each
 /// checked off when it is reached; the evidence; and a timeline of truth, of every method's verdicts, and of false

@@ -8,10 +8,10 @@
 
 #include "io/drawing/escape.h"
 #include "reports/films/capture_scene.h"
-#include "reports/films/cast.h"
 #include "reports/films/coached_scene.h"
 #include "reports/films/convergence_scene.h"
 #include "reports/films/judged_scene.h"
+#include "reports/films/shown_cell.h"
 #include "reports/films/stage_scene.h"
 #include "reports/films/transition_race.h"
 #include "reports/films/transition_scene.h"
@@ -114,7 +114,7 @@ std::string FilmName(const RunData& run, std::size_t index, std::string_view wha
 
 /// Makes the film of a coached session, cut around a correction unless whole sessions are wanted, or says why there is
 /// none.
-Film MakeSessionFilm(const std::optional<CastCell>& cell, const std::string& which, const FilePath& path,
+Film MakeSessionFilm(const std::optional<ShownCell>& cell, const std::string& which, const FilePath& path,
                      const MediaOptions& options) {
   if (!cell) return NoFilm(path, "There is no film of a session: no motion of one was kept.");
   auto facts = ReadCoachedSession(*cell);
@@ -132,7 +132,7 @@ Film MakeSessionFilm(const std::optional<CastCell>& cell, const std::string& whi
 void MakeSessionFilms(const RunData& run, std::size_t index, const MediaPaths& paths, const MediaOptions& options,
                       Media& media) {
   const ScenarioSummary& scenario = run.scenarios[index];
-  const auto add = [&](const std::optional<CastCell>& cell, const std::string& which, std::string_view file) {
+  const auto add = [&](const std::optional<ShownCell>& cell, const std::string& which, std::string_view file) {
     Film film = MakeSessionFilm(cell, which, paths.films / FilmName(run, index, file), options);
     media.scenario_films.push_back({scenario.name, std::move(film)});
   };

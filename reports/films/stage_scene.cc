@@ -64,7 +64,7 @@ Shown ShownAt(int film_frame, int length) {
 
 }  // namespace
 
-Result<CoachPanel> CoachPanel::Make(const CastCell& cell, int longest) {
+Result<CoachPanel> CoachPanel::Make(const ShownCell& cell, int longest) {
   ASSIGN_OR_RETURN(auto facts, ReadTransitionFacts(*cell.recording, cell.row->Id()));
   if (facts.transition_frames.empty()) {
     return Fail({.file = "recording " + cell.row->Id()}, "its extras lack a whole transition_frame within the motion");

@@ -9,7 +9,7 @@
 #include "engine/motion/character.h"
 #include "io/drawing/canvas.h"
 #include "io/drawing/film.h"
-#include "reports/films/cast.h"
+#include "reports/films/shown_cell.h"
 #include "reports/transitions/recorded_requests.h"
 #include "sim/render/renderer.h"
 
@@ -21,7 +21,7 @@ class CoachPanel {
  public:
   /// Cuts the recording to at most `longest` frames around the first transition point. Fails if the recording's facts
   /// cannot be read.
-  static Result<CoachPanel> Make(const CastCell& cell, int longest);
+  static Result<CoachPanel> Make(const ShownCell& cell, int longest);
 
   int Frames() const { return static_cast<int>(motion_.poses.size()); }
   /// Returns the first frame after the first transition point; with an in-between clip there are two points.

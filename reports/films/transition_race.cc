@@ -30,7 +30,7 @@ std::vector<const RecordedTransition*> ShownOf(const RecordedRequest& world, con
   for (const std::string& method : methods) {
     const auto found = std::ranges::find_if(
         world.transitions, [&](const RecordedTransition& s) { return s.row->method == method && CanBeShown(s); });
-    if (found != world.transitions.end() && shown.size() < kMostTransitionPaths) shown.push_back(&*found);
+    if (found != world.transitions.end() && shown.size() < kMaxTransitionPaths) shown.push_back(&*found);
   }
   return shown;
 }

@@ -36,9 +36,9 @@ struct TransitionRace {
   std::string choice;   ///< why this world and these methods were chosen, in words
   std::vector<TransitionPath> paths;
 };
-constexpr std::size_t kMostTransitionPaths = 4;
+constexpr std::size_t kMaxTransitionPaths = 4;
 
-/// Finds the first world that has recordings of the most methods (at most kMostTransitionPaths, the scenario's first).
+/// Finds the first world that has recordings of the most methods (at most kMaxTransitionPaths, the scenario's first).
 /// Fails with the reason if no world has recordings of two.
 Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSummary& scenario);
 

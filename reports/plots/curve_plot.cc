@@ -51,7 +51,7 @@ std::string CurvePlotSvg(const std::vector<PlotCurve>& curves, CurveAxes axes, c
   axes.across.from = kSmallLeft, axes.across.to = kSmallWidth - kSmallRight;
   axes.up.from = kSmallHeight - kSmallBottom, axes.up.to = kSmallTop;
   std::string svg = BeginPanel(kSmallHeight, title, kSmallWidth, "panel") +
-                    UprightGrid(axes.up, kSmallLeft, kSmallWidth - kSmallRight) +
+                    VerticalAxisGrid(axes.up, kSmallLeft, kSmallWidth - kSmallRight) +
                     PanelText(kSmallLeft, kSmallHeight - 5, "0", "start") +
                     PanelText(kSmallWidth - kSmallRight, kSmallHeight - 5, fmt::format("{}", axes.across.high), "end");
   for (const PlotCurve& curve : curves) {

@@ -75,7 +75,7 @@ std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condit
   Axis axis = AxisAroundZero(values);
   axis.from = kStageNames, axis.to = kPanelRight;
   const double bottom = kBarStep * static_cast<double>(bars.size()) + 4;
-  std::string svg = BeginPanel(bottom + 18, Describe(budget, words)) + LyingGrid(axis, 0, bottom);
+  std::string svg = BeginPanel(bottom + 18, Describe(budget, words)) + HorizontalAxisGrid(axis, 0, bottom);
   double y = 6;
   for (const Bar& bar : bars) {
     svg += BarSvg(bar, y, axis, words.scale);

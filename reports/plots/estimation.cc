@@ -62,7 +62,7 @@ class Plot {
       dots += Dot(cast_.baseline, world, world.baseline_cell, kBaselineX + left[i], y1, "") +
               Dot(cast_.method, world, world.method_cell, kMethodX + right[i], y2, "");
     }
-    return BeginPanel(kHeight, fmt::format("{} under both methods", words_.plain_label)) + UprightGrid(axis) +
+    return BeginPanel(kHeight, fmt::format("{} under both methods", words_.plain_label)) + VerticalAxisGrid(axis) +
            fmt::format("<path class=\"pairs\" d=\"{}\"/>", lines) + dots +
            PanelText(kBaselineX, kBottom + 18, c_.baseline, "middle", 22) +
            PanelText(kMethodX, kBottom + 18, c_.method, "middle", 22) + "</svg>";
@@ -88,7 +88,7 @@ class Plot {
     const std::string band = fmt::format("<rect class=\"band\" x=\"{}\" y=\"{:.1f}\" width=\"{}\" height=\"{:.1f}\"/>",
                                          kPanelLeft, high, kPanelRight - kPanelLeft, std::max(1.0, low - high));
     return BeginPanel(kHeight, fmt::format("paired differences, {} minus {}", c_.method, c_.baseline)) + band +
-           UprightGrid(axis) +
+           VerticalAxisGrid(axis) +
            fmt::format("<path class=\"zero\" d=\"M{} {:.1f}H{}\"/>", kPanelLeft, axis.At(0), kPanelRight) + dots +
            Interval(axis, kAggregateX, c_.difference, c_.ci_low, c_.ci_high) + Units(axis) +
            PanelText(kWorldsX, kBottom + 18, "each world", "middle") +
@@ -321,7 +321,7 @@ std::string LeftOutStripHtml(const Comparison& c, SamplingUnit unit) {
       BeginPanel(kStripHeight, text) +
       fmt::format("<rect class=\"band\" x=\"{:.1f}\" y=\"{}\" width=\"{:.1f}\" height=\"{}\"/>", axis.At(-practical),
                   kStripTop, std::max(1.0, axis.At(practical) - axis.At(-practical)), kStripBottom - kStripTop) +
-      LyingGrid(axis, kStripTop, kStripBottom) +
+      HorizontalAxisGrid(axis, kStripTop, kStripBottom) +
       fmt::format("<path class=\"zero\" d=\"M{:.1f} {}V{}\"/>", axis.At(0), kStripTop, kStripBottom);
   const LeftOut& extreme = Extreme(c.beyond, PracticalOf(c));
   for (const LeftOut& left : c.beyond.left_out) {

@@ -165,8 +165,8 @@ std::string GrowthPlotSvg(const std::vector<GrowthCurve>& curves, const std::str
   frames.from = kGrowthLeft, frames.to = kGrowthWidth - kGrowthRight;
   values.from = kGrowthHeight - kGrowthBottom, values.to = kGrowthTop;
   std::string svg = BeginPanel(kGrowthHeight, title, kGrowthWidth, "panel") +
-                    UprightGrid(values, kGrowthLeft, kGrowthWidth - kGrowthRight) +
-                    LyingGrid(frames, kGrowthTop, kGrowthHeight - kGrowthBottom) +
+                    VerticalAxisGrid(values, kGrowthLeft, kGrowthWidth - kGrowthRight) +
+                    HorizontalAxisGrid(frames, kGrowthTop, kGrowthHeight - kGrowthBottom) +
                     PanelText(kGrowthWidth - kGrowthRight, kGrowthHeight - 4, "frames in the library", "end");
   for (const GrowthCurve& curve : curves) {
     if (!curve.points.empty()) svg += Line(curve, frames, values);

@@ -47,7 +47,7 @@ StripRow RowOf(std::size_t method, const std::vector<Dot>& dots, const MetricWor
 
 std::vector<StripRow> RowsOf(const RunData& run, const ScenarioSummary& scenario, const ConditionSummary& condition,
                              const std::string& metric, const MetricWords& words) {
-  std::vector<std::vector<Dot>> dots(std::min(scenario.methods.size(), kMostListed));
+  std::vector<std::vector<Dot>> dots(std::min(scenario.methods.size(), kMaxListed));
   const KeptCells kept(run);
   for (const Row* row : RowsUnder(run, scenario.name, condition.condition)) {
     const std::size_t index = IndexOf(scenario, row->method);
@@ -120,7 +120,7 @@ std::string StripsHtml(const RunData& run, const ScenarioSummary& scenario, cons
   return fmt::format(
       "<figure class=\"worlds\" data-s=\"{}\" data-c=\"{}\"><figcaption>{}</figcaption>{}{}{}</svg></figure>",
       EscapeMarkup(scenario.name), EscapeMarkup(CompactLabel(condition.condition)),
-      EscapeMarkup(Caption(condition, words, rows)), BeginPanel(bottom + kFoot, described), LyingGrid(axis, 0, bottom),
+      EscapeMarkup(Caption(condition, words, rows)), BeginPanel(bottom + kFoot, described), HorizontalAxisGrid(axis, 0, bottom),
       strips);
 }
 

@@ -97,7 +97,7 @@ std::string PanelOf(const RunData& run, const ScenarioSummary& scenario, const C
       "<figure><figcaption>{}{}: {}, per cent, by {}{}. What never is done stays.</figcaption>{}{}{}{}</svg></figure>",
       EscapeMarkup(condition_label), condition_label.empty() ? "How long it takes" : "", rule.share,
       EscapeMarkup(words.plain_label), words.suffix.empty() ? "" : " (" + words.suffix.substr(1) + ")",
-      BeginPanel(kCurveHeight, described), UprightGrid(share), LyingGrid(time, kCurveTop, kCurveBottom), lines);
+      BeginPanel(kCurveHeight, described), VerticalAxisGrid(share), HorizontalAxisGrid(time, kCurveTop, kCurveBottom), lines);
 }
 
 std::string SectionOf(const RunData& run, const ScenarioSummary& scenario, const Censored& rule) {

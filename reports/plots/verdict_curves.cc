@@ -40,7 +40,7 @@ std::string Figure(const std::string& caption, const std::string& words, const s
 std::string SharePanel(const std::string& caption, const std::string& words,
                        const std::map<std::size_t, SharePoints>& curves,
                        const std::map<std::size_t, std::pair<double, double>>& marked = {}) {
-  std::string drawn = UprightGrid(kSharesUp) + LyingGrid(kSharesAcross, kRocTop, kRocBottom);
+  std::string drawn = VerticalAxisGrid(kSharesUp) + HorizontalAxisGrid(kSharesAcross, kRocTop, kRocBottom);
   for (const auto& [method, curve] : curves) {
     SharePoints placed;
     for (const auto& [x, y] : curve) placed.emplace_back(kSharesAcross.At(x), kSharesUp.At(y));
@@ -96,7 +96,7 @@ std::string WaitPanel(const std::string& caption, const std::string& words,
     time.high = std::max(time.high, curve.back().first);
   }
   if (!(time.high > time.low)) return "";
-  std::string drawn = UprightGrid(kSharesUp) + LyingGrid(time, kRocTop, kRocBottom);
+  std::string drawn = VerticalAxisGrid(kSharesUp) + HorizontalAxisGrid(time, kRocTop, kRocBottom);
   for (const auto& [method, curve] : curves) {
     SharePoints steps{{time.from, kSharesUp.At(1)}};
     for (const auto& [at, left] : curve) {

@@ -13,7 +13,7 @@ namespace etude {
 namespace {
 
 constexpr std::size_t kMostTabled = 1;
-constexpr std::size_t kMostMethods = 16;
+constexpr std::size_t kMaxMethods = 16;
 constexpr std::size_t kMostSessions = 5;
 constexpr std::size_t kMostMoves = 60;  // of a confusion: its cells grow with the square
 
@@ -117,7 +117,7 @@ std::string Confusions(const ScenarioSummary& scenario, const std::string& prefi
   const std::string asked = MethodInQuestion(scenario);
   for (const auto& [method, of_method] : verdicts) {
     const MoveConfusion confusion = ConfusionOf(of_method.performances);
-    if (confusion.counts.empty() || confusion.moves.size() > kMostMoves || method >= kMostMethods) continue;
+    if (confusion.counts.empty() || confusion.moves.size() > kMostMoves || method >= kMaxMethods) continue;
     const std::string& name = scenario.methods[method];
     std::string& html = name == asked || asked.empty() ? open : folded;
     html += ConfusionTable(fmt::format("{}what {} takes moves for, per cent of those danced", prefix, name), confusion);

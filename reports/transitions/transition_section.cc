@@ -24,7 +24,7 @@ TableCell Bar(double partial, double full, bool has_threshold) {
   return {"",
           {},
           fmt::format("{}<i class=\"{}\" style=\"width:{:.0f}%\"></i>",
-                      partial < kLeastShown ? "0" : FormatFixed(partial, 3), alone ? "over" : "", 100 * share)};
+                      partial < kMinShownPartial ? "0" : FormatFixed(partial, 3), alone ? "over" : "", 100 * share)};
 }
 
 std::string DistanceWords(double distance, std::optional<double> threshold) {
@@ -35,7 +35,7 @@ std::string DistanceWords(double distance, std::optional<double> threshold) {
 
 // Limits for readability; the recordings hold everything.
 constexpr std::size_t kMaxWorlds = 6;
-constexpr std::size_t kMostMethods = 12;
+constexpr std::size_t kMaxMethods = 12;
 constexpr std::size_t kMaxCandidates = 24;
 
 std::string NumberOr(std::optional<double> value, int decimals) {
@@ -43,7 +43,7 @@ std::string NumberOr(std::optional<double> value, int decimals) {
 }
 
 std::span<const RecordedTransition> Shown(const RecordedRequest& world) {
-  return std::span(world.transitions).first(std::min(world.transitions.size(), kMostMethods));
+  return std::span(world.transitions).first(std::min(world.transitions.size(), kMaxMethods));
 }
 
 /// Returns the path through the clips: "clap 41 → in-between 0 … in-between 12 → side kick 3".
@@ -179,7 +179,7 @@ std::string WorldHtml(const RecordedRequest& world) {
       fmt::format("<details class=\"transitions\"><summary>Why each transition went where it went: {}, {}</summary>",
                   EscapeMarkup(world.Request()), EscapeMarkup(world.Name()));
   html += WaysTable(world) + Distances(world) + AllCandidates(world);
-  return html + LeftOutHtml(world.transitions.size(), kMostMethods, "methods", "the folder recordings") + "</details>";
+  return html + LeftOutHtml(world.transitions.size(), kMaxMethods, "methods", "the folder recordings") + "</details>";
 }
 
 std::string WorldMarkdown(const RecordedRequest& world) {
@@ -251,7 +251,7 @@ std::string MostlyBy(const PerFeature& partials) {
   std::ranges::stable_sort(order, std::ranges::greater{}, [&](std::size_t k) { return partials[k]; });
   std::string text;
   for (const std::size_t k : std::span(order).first(kNamed)) {
-    if (partials[k] < kLeastShown) break;
+    if (partials[k] < kMinShownPartial) break;
     text +=
         fmt::format("{}{} {}", text.empty() ? "" : ", ", FeatureName(AllFeatures()[k]), FormatFixed(partials[k], 3));
   }

@@ -11,7 +11,7 @@
 namespace etude {
 
 /// A partial distance below this is written as 0.
-constexpr double kLeastShown = 0.0005;
+constexpr double kMinShownPartial = 0.0005;
 
 /// Explains paper A's abbreviations of the ten features.
 constexpr std::string_view kFeatureLegend =
@@ -48,7 +48,7 @@ std::string TransitionsHtml(const std::vector<RecordedRequest>& worlds);
 std::string TransitionsMarkdown(const std::vector<RecordedRequest>& worlds);
 
 /// Names the largest partial distances, at most three: "LF 0.051, RF 0.036, LHE 0.035"; "all alike" if all are below
-/// kLeastShown.
+/// kMinShownPartial.
 std::string MostlyBy(const PerFeature& partials);
 
 }  // namespace etude

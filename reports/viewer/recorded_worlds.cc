@@ -75,14 +75,14 @@ std::string WatchHtml(const RunData& run, std::size_t scenario) {
                            return world.cells.front().row->trial == worlds.front().cells.front().row->trial;
                          });
   std::string html;
-  for (const RecordedWorld& world : std::span(worlds).first(std::min(worlds.size(), kMostListed))) {
+  for (const RecordedWorld& world : std::span(worlds).first(std::min(worlds.size(), kMaxListed))) {
     html += fmt::format(" <button type=\"button\" data-cell=\"{}\">{}</button>",
                         EscapeMarkup(world.cells.front().row->Id()),
                         EscapeMarkup(one_trial ? ConditionLabel(world.cells.front().row->condition) : world.Name()));
   }
   if (html.empty()) return "";
   return fmt::format("<p class=\"watch\" hidden>Motions:{}</p>{}", html,
-                     LeftOutHtml(worlds.size(), kMostListed, "recorded worlds", "report/motions"));
+                     LeftOutHtml(worlds.size(), kMaxListed, "recorded worlds", "report/motions"));
 }
 
 }  // namespace etude

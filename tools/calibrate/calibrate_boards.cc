@@ -210,7 +210,7 @@ Result<std::vector<TargetView>> SynchroniseFilms(const CalibrateOptions& options
   // Find the delay of each film by the joint reprojection error.
   constexpr double kLooks = 2;
   const double max_delay_s = options.sync_s > 0 ? options.sync_s : kLooks * period_s.front();
-  ASSIGN_OR_RETURN(const FilmSteps steps, FindFilmSteps(search.sizes(), search.sightings(), period_s, max_delay_s,
+  ASSIGN_OR_RETURN(const FilmDelays steps, FindFilmDelays(search.sizes(), search.sightings(), period_s, max_delay_s,
                                                         RefineOptionsOf(options), options.listener.progress("times of films")));
   // Report each delay, and doubt a delay at the limit of the search.
   for (std::size_t i = 1; i < seen.size(); ++i) {
@@ -219,9 +219,9 @@ Result<std::vector<TargetView>> SynchroniseFilms(const CalibrateOptions& options
     constexpr double kMs = 1000;
     options.listener.print(fmt::format(
         "{}: shows a moment {:.0f} ms ({:.2f} frames) {} than {}; mended: its corners are taken between frames\n",
-        seen[i].name, kMs * std::abs(late_s), std::abs(late_s) / seen[i].period_s * seen[i].every,
-        late_s > 0 ? "later" : "earlier", seen.front().name));
-    if (std::abs(late_s) > max_delay_s - 0.5 * period_s.front()) {
+        seen[i].name, kMs * std::abs(delay_s), std::abs(delay_s) / seen[i].period_s * seen[i].every,
+        delay_s > 0 ? "later" : "earlier", seen.front().name));
+    if (std::abs(delay_s) > max_delay_s - 0.5 * period_s.front()) {
       options.listener.print(fmt::format("doubtful: that is as far as was looked; --sync {:.1f} looks further\n", 2 * max_delay_s + 0.1));
     }
   }
@@ -308,7 +308,7 @@ Result<void> CompareBeside(const CalibrateOptions& options, const RefinedRig& ri
     cameras.push_back(same->camera);
   }
   // Place the boards for the other calibration, then compare intrinsics, residuals and distances between cameras.
-  const auto placed = PlaceBoards(cameras, views);
+  const auto placed = LocateBoards(cameras, views);
   if (!placed) return Fail({file}, "{}", placed.error().message);
   options.listener.print(fmt::format("\nbeside {}, on the same corners:\n", file));
   constexpr double kPercent = 100;
@@ -397,7 +397,7 @@ Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options) {
     TellWritten(options.listener, options.picture);
   }
   // Set the world frame to the first board, and name the cameras after their inputs.
-  TurnToStance(options.world == "floor" ? BoardStance::kOnFloor : BoardStance::kOnWall, refined.cameras);
+  AlignToBoard(options.world == "floor" ? BoardPlacement::kOnFloor : BoardPlacement::kOnWall, refined.cameras);
   Calibrated rig;
   rig.rms_px = refined.camera_rms_px;
   rig.points.resize(refined.cameras.size());

@@ -14,7 +14,7 @@ namespace etude {
 struct CaptureFilmsOptions {
   std::vector<std::string> films;
   std::string rig;                   ///< a calibration: a file or folder that ReadRigFile or ReadRigPair can read
-  PlaceOptions place;                ///< its unit, up axis and floor
+  PlacementOptions place;                ///< its unit, up axis and floor
   std::string keypoints;             ///< a folder with an entry for each film
   std::string marks;                 ///< a folder of annotation pictures with an entry for each film
   bool silhouettes = false;          ///< use the person's silhouettes, alone or together with keypoints
@@ -32,7 +32,7 @@ struct CaptureFilmsOptions {
   int person = 1;
   std::string poses = "frames";  ///< for keypoints: "frames" fits each frame alone, "bundle" fits all frames at once
   double smooth_hz = 0;
-  double longest_gap_s = 0.5;
+  double max_gap_s = 0.5;
   double outlier_px = 0;  ///< 0 = from the residuals, at most 3 % of the picture's longer side
   double sync_s = 0;      ///< maximum difference of the films' clocks, seconds; 0 = they agree
   std::string command_line;  ///< the command as typed, for the page

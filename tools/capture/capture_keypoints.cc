@@ -28,10 +28,10 @@ RecoverPersonOptions RecoverOptionsOf(const CaptureFilmsOptions& options, const 
   RecoverPersonOptions recover = UsualRecovery(views.front().facts.rate_hz, longer_side);
   recover.person = static_cast<std::size_t>(options.person - 1);
   recover.cutoff_hz = options.smooth_hz;
-  recover.longest_gap_s = options.longest_gap_s;
+  recover.max_gap_s = options.max_gap_s;
   constexpr double kMinOutlierShare = 0.004;  // of the picture's longer side: errors left by rounding and lenses
-  recover.least_outlier_px = kMinOutlierShare * longer_side;
-  if (options.outlier_px > 0) recover.triangulate.robust.outlier_px = recover.least_outlier_px = options.outlier_px;
+  recover.min_outlier_px = kMinOutlierShare * longer_side;
+  if (options.outlier_px > 0) recover.triangulate.robust.outlier_px = recover.min_outlier_px = options.outlier_px;
   recover.mends = recover.match.may_be_swapped = true;
   return recover;
 }
@@ -199,8 +199,8 @@ std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const 
 }
 
 /// Prints where keypoints contradict the rig.
-void TellDoubts(const MatchedPerson& person, const std::vector<FilmedView>& views, double least_confidence,
-                ToldLines& told) {
+void TellDoubts(const MatchedPerson& person, const std::vector<FilmedView>& views, double min_confidence,
+                MessageLog& told) {
   std::vector<Camera> cameras;
   std::vector<std::string> names;
   for (const FilmedView& view : views) {
@@ -273,7 +273,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   if (reference) {
     const std::string what = fmt::format("Distance of the {} to {}, median, mm.",
                                          both ? "joints" : "triangulated keypoints", options.reference);
-    const MarkerMotion in_time = InTimeWith(ToMarkers(person.landmarks, recover.rate_hz), *reference, films.told);
+    const MarkerMotion in_time = SynchroniseWith(ToMarkers(person.landmarks, recover.rate_hz), *reference, films.told);
     std::vector<ComparedColumn> columns;
     if (both) {
       ASSIGN_OR_RETURN(columns, CompareWithOutlines(in_time, person.motion, films, take, recover, options));

@@ -50,8 +50,8 @@ std::string CurvesHtml(const std::vector<TakeCurve>& curves, double rate_hz, std
   Axis up = AxisAroundZero(all);
   up.from = kBottom, up.to = kTop;
   const Axis across{.low = 0, .high = static_cast<double>(frames) / rate_hz, .from = kPanelLeft, .to = kRight};
-  std::string svg = BeginPanel(kHeight, caption, kWide, "plot wide") + LyingGrid(across, kTop, kBottom) +
-                    UprightGrid(up, kPanelLeft, kRight);
+  std::string svg = BeginPanel(kHeight, caption, kWide, "plot wide") + HorizontalAxisGrid(across, kTop, kBottom) +
+                    VerticalAxisGrid(up, kPanelLeft, kRight);
   std::string legend;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     svg += MethodLine(i, PathOf(curves[i], across, up, rate_hz));

@@ -50,7 +50,7 @@ struct SeenFilms {
   std::vector<ProjectionMatrix> cameras;  ///< without lens distortion, as are the keypoints
   std::vector<SeenPeople> people;         ///< at the times of the first film's frames
   std::vector<FilmClock> clocks;          ///< the clock of each film
-  ToldLines told;
+  MessageLog told;
 };
 
 /// Reads the keypoints or marks of all films, finds how they map to the rig's pictures and to a common time, and
@@ -61,7 +61,7 @@ Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPers
 /// Reports repairs of a person's keypoints and remaining doubts, one line each.
 /// @param chosen index into the person's `people`
 void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vector<FilmedView>& views,
-               ToldLines& told);
+               MessageLog& told);
 
 /// Begins the page of `--report` with the parts that every capture has: title, messages, feet, limb lengths and
 /// command.
@@ -107,7 +107,7 @@ ComparedColumn CompareColumn(std::string heading, const MarkerMotion& markers, c
 
 /// Synchronises a reference with a motion if their rates differ but were taken as equal. It measures the drift between
 /// both, reports it, and undoes it if that halves the share of large distances. It also reports different lengths.
-MarkerMotion InTimeWith(const MarkerMotion& motion, MarkerMotion reference, ToldLines& told);
+MarkerMotion SynchroniseWith(const MarkerMotion& motion, MarkerMotion reference, MessageLog& told);
 
 /// Prints the medians (one row for each marker of the first column and one for all) and the 95th percentiles, under the
 /// heading `words`, and writes the file of `--distances` if its name is not empty.
@@ -135,12 +135,12 @@ ReducedTake PairOf(const ReducedTake& take, const CameraPair& pair);
 
 /// Findings from keypoints that support silhouettes: the person's keypoints, by the take's cameras, and the limb
 /// lengths. Both may be absent.
-struct SeenBeside {
+struct KeypointSupport {
   const MatchedPerson* person = nullptr;
   std::optional<LimbLengths> lengths = {};
 };
 Result<UnmarkedMotion> RecoverByOutlines(const ReducedTake& take, const CaptureFilmsOptions& options, double rate_hz,
-                                         const SeenBeside& beside = {});
+                                         const KeypointSupport& beside = {});
 
 /// Returns the joints of a reference, by their own names or computed from an estimator's landmarks. Joints that
 /// landmarks give only by rules of thumb are left out.

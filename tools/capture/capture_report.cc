@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 /// Returns the median distance in pixels between a frame's keypoints and the projected points of all cameras; nullopt
 /// if no point is shared.
-std::optional<double> ResidualOf(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPlaces& places) {
+std::optional<double> ResidualOf(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPositions& places) {
   std::vector<double> distances;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     if (!(seen.keypoints[i].confidence > 0) || !places[i]) continue;

@@ -39,7 +39,7 @@ Result<SeenPeople> ReadPeople(const CaptureFilmsOptions& options, FilmedView& vi
 
 /// Maps all keypoints to the rig's pictures and reports what was done.
 void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<SeenPeople>& people,
-               double min_confidence, ToldLines& told_lines) {
+               double min_confidence, MessageLog& told_lines) {
   std::vector<PictureOfFilm> films;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -49,14 +49,14 @@ void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<S
     names.push_back(view.camera.name);
   }
   // Find out whether films were exchanged between cameras.
-  SessionGuess session = GuessSession(films, names, rig.R_WF, least_confidence);
+  SessionGuess session = GuessSession(films, names, rig.R_WF, min_confidence);
   if (!session.mended.empty()) told_lines.Tell("mended: " + session.mended);
   for (std::size_t i = 0; i < views.size(); ++i) {
     films[i].camera = views[i].camera.camera = session.cameras[i];
     films[i].people = people[i] = std::move(session.people[i]);
   }
   // Find each film's rotation, scale and shift, and apply them.
-  const std::vector<PictureGuess> guesses = GuessPictures(films, least_confidence);
+  const std::vector<PictureGuess> guesses = GuessPictures(films, min_confidence);
   for (std::size_t i = 0; i < views.size(); ++i) {
     FilmedView& view = views[i];
     const PictureGuess& guess = guesses[i];
@@ -87,7 +87,7 @@ void Synchronise(const CaptureFilmsOptions& options, const std::vector<FilmedVie
   // Limit the search to half a film: beyond that, the films share too few frames.
   const int max_frames =
       std::clamp(static_cast<int>(std::lround(options.sync_s * rate)), 1, std::max(1, static_cast<int>(shortest / 2)));
-  const SyncOptions clocks{.most_frames = max_frames, .most_px = recover.triangulate.robust.outlier_px};
+  const SyncOptions clocks{.max_frames = max_frames, .max_px = recover.triangulate.robust.outlier_px};
   const std::vector<ClockOffset> found = EstimateOffsets(films.cameras, films.people, {clocks, recover.match.follow});
   // Report each clock, and the cameras whose clock no keypoints determine.
   std::string untold;
@@ -121,7 +121,7 @@ void ClocksOfRates(const std::vector<FilmedView>& views, SeenFilms& films) {
 /// Reports films that seem delayed if the keypoints are too noisy to correct the delay.
 void WarnOfDelays(const std::vector<FilmedView>& views, const RecoverPersonOptions& recover, int max_frames,
                  SeenFilms& films) {
-  const SyncOptions clocks{.most_frames = max_frames, .most_px = recover.triangulate.robust.outlier_px};
+  const SyncOptions clocks{.max_frames = max_frames, .max_px = recover.triangulate.robust.outlier_px};
   const auto guessed = EstimateOffsets(films.cameras, films.people, {clocks, recover.match.follow});
   for (std::size_t i = 1; i < views.size(); ++i) {
     const double frames = guessed[i].frames;
@@ -228,7 +228,7 @@ Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPers
 }
 
 void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vector<FilmedView>& views,
-               ToldLines& told) {
+               MessageLog& told) {
   // Films in which nobody matches the person.
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto is_seen = [](const auto& seen) { return seen.has_value(); };

@@ -36,7 +36,7 @@ Result<ColourImage> ReadRoom(const std::string& folder, const FilmedView& view) 
 }
 
 /// Sets the clocks from the films' frame rates, and reports rates that differ.
-std::vector<FilmClock> ClocksByRates(const std::vector<FilmedView>& views, ToldLines& told) {
+std::vector<FilmClock> ClocksByRates(const std::vector<FilmedView>& views, MessageLog& told) {
   const FilmFacts& first = views.front().facts;
   std::vector<FilmClock> clocks;
   for (const FilmedView& view : views) {
@@ -95,7 +95,7 @@ Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vect
 }
 
 Result<UnmarkedMotion> RecoverByOutlines(const ReducedTake& take, const CaptureFilmsOptions& options, double rate_hz,
-                                         const SeenBeside& beside) {
+                                         const KeypointSupport& beside) {
   std::vector<std::vector<std::optional<SeenPerson>>> people;
   for (std::size_t c = 0; beside.person != nullptr && c < take.cameras.size(); ++c) {
     people.push_back(beside.person->seen[c]);
@@ -147,9 +147,9 @@ namespace {
 
 Result<std::vector<ComparedColumn>> CompareWithReference(const MarkerMotion& reference, const UnmarkedMotion& person,
                                                          const ReducedTake& take, const CaptureFilmsOptions& options,
-                                                         ToldLines& told) {
+                                                         MessageLog& told) {
   const MarkerMotion motion = JointMarkers(person.motion);
-  const MarkerMotion joints = InTimeWith(motion, JointsOfReference(reference), told);
+  const MarkerMotion joints = SynchroniseWith(motion, JointsOfReference(reference), told);
   std::vector<ComparedColumn> columns{CompareColumn("all", motion, joints)};
   const std::vector<CameraPair> pairs = PairsOf(take.cameras.size());
   const OnProgress tell = options.listener.progress("pairs of cameras");
@@ -189,7 +189,7 @@ std::vector<double> KnownOf(const std::vector<std::optional<double>>& values) {
 
 /// Reports the findings and the doubts, one line each.
 void TellUnmarked(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
-                  const UnmarkedMotion& person, ToldLines& told) {
+                  const UnmarkedMotion& person, MessageLog& told) {
   told.Tell(fmt::format("stature: {:.2f} m{}; outlines cost {:.0f} a picture", person.stature_m,
                          options.stature_m > 0 ? "" : ", found from the outlines", person.cost));
   if (person.held > 0) {
@@ -226,7 +226,7 @@ Result<bool> CaptureUnmarked(const CaptureFilmsOptions& options, const FilmedSes
   if (!options.points.empty()) return Fail({}, "--points: silhouettes have no keypoints to write");
   const std::vector<FilmedView>& views = session.views;
   // Recover the motion from the silhouettes.
-  ToldLines told{options.listener.print};
+  MessageLog told{options.listener.print};
   for (const std::string& line : session.told) told.Tell(line);
   const std::vector<FilmClock> clocks = ClocksByRates(views, told);
   ASSIGN_OR_RETURN(const ReducedTake take, ReadTake(options, views, clocks));

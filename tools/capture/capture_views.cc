@@ -224,7 +224,7 @@ ComparedColumn CompareColumn(std::string heading, const MarkerMotion& markers, c
   return {std::move(heading), CompareMarkers(markers, reference), CompareAllMarkers(markers, reference)};
 }
 
-MarkerMotion InTimeWith(const MarkerMotion& motion, MarkerMotion reference, ToldLines& told) {
+MarkerMotion SynchroniseWith(const MarkerMotion& motion, MarkerMotion reference, MessageLog& told) {
   const std::size_t frames = motion.frames.size();
   if (reference.frames.size() != frames) {
     told.Tell(fmt::format("reference: {} frames beside {}: the first {} are compared", reference.frames.size(), frames,

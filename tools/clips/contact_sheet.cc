@@ -97,9 +97,9 @@ Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetO
     height += kTitle + RowsOf(pictures, options.columns) * (options.height + kGap) + kMargin;
   }
   const int width = std::max(2 * kMargin + columns * (options.width + kGap) - kGap, kMinSheetWidth);
-  if (width > kLargestSheet || height > kLargestSheet) {
+  if (width > kMaxSheetSide || height > kMaxSheetSide) {
     return Fail({}, "the sheet would have {} × {} pixels; allowed: {} a side: fewer clips, fewer or smaller pictures",
-                width, height, kLargestSheet);
+                width, height, kMaxSheetSide);
   }
   // Use one scale for all clips.
   ViewBounds bounds;
@@ -127,8 +127,8 @@ Result<std::string> DrawSensorSheet(const SensorSheet& sheet) {
   if (columns == 0) return Fail({}, "there is no picture to show");
   const double width = 2 * kMargin + static_cast<double>(columns) * (kSensorWidth + kGap) - kGap;
   const double height = kHead + static_cast<double>(sheet.rows.size()) * kRowHeight + kMargin;
-  if (width > kLargestSheet || height > kLargestSheet) {
-    return Fail({}, "the sheet would have {:g} × {:g} pixels; allowed: {} a side", width, height, kLargestSheet);
+  if (width > kMaxSheetSide || height > kMaxSheetSide) {
+    return Fail({}, "the sheet would have {:g} × {:g} pixels; allowed: {} a side", width, height, kMaxSheetSide);
   }
   Canvas canvas(static_cast<int>(width), static_cast<int>(height));
   canvas.FillBox({0, 0, width, height}, kBackdrop);

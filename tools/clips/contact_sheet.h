@@ -19,7 +19,7 @@ struct SheetOptions {
 };
 
 /// The maximum width and height of a sheet, pixels; a larger sheet is refused.
-constexpr int kLargestSheet = 16'000;
+constexpr int kMaxSheetSide = 16'000;
 
 /// Draws each clip as a block of pictures, evenly spread over its time, one block below the other, all at one scale.
 /// Returns the bytes of a PNG file. Fails if the sheet is too large.

@@ -125,7 +125,7 @@ Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet
   }
   const double lines = static_cast<double>(std::max(columns[0].size(), columns[1].size()));
   const double height = std::max<double>(kMinHeight, kTop + kLine * (lines + 1) + kFoot);
-  if (height > kLargestSheet) return Fail({}, "{} joints: too many for one picture", joints.size());
+  if (height > kMaxSheetSide) return Fail({}, "{} joints: too many for one picture", joints.size());
 
   Canvas canvas(kSheetWidth, static_cast<int>(height));
   canvas.FillBox({0, 0, kSheetWidth, height}, kBackdrop);

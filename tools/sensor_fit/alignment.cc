@@ -238,9 +238,9 @@ std::optional<TwinMatch> AlignTwin(const JointRecording& recording, const TwinMo
 }
 
 std::optional<TwinMatch> RealignTwin(const JointRecording& recording, const TwinMotion& twin,
-                                     const TwinAlignment& start, double most_shift_s) {
+                                     const TwinAlignment& start, double max_shift_s) {
   const double frame_s = 1 / recording.rate_hz;
-  const auto near = BestShift(recording, twin, start, most_shift_s, 0.5 * frame_s);
+  const auto near = BestShift(recording, twin, start, max_shift_s, 0.5 * frame_s);
   if (!near) return std::nullopt;
   const auto fine = BestShift(recording, twin, *near, 0.4 * frame_s, 0.1 * frame_s);
   return Finish(recording, twin, fine.value_or(*near));

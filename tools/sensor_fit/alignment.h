@@ -26,7 +26,7 @@ struct TwinAlignment {
 /// The twin's joints at the frames of a recording.
 struct TwinMatch {
   TwinAlignment alignment;
-  std::vector<RolePlaces> truth;  ///< as many frames as the recording, in the sensor's frame
+  std::vector<RolePositions> truth;  ///< as many frames as the recording, in the sensor's frame
 };
 
 /// Finds time shift, rotation, translation and offsets by least squares over all joints. The shift comes from the
@@ -36,8 +36,8 @@ struct TwinMatch {
 std::optional<TwinMatch> AlignTwin(const JointRecording& recording, const TwinMotion& twin);
 
 /// Aligns a recording that differs little from one that is aligned already: starts from that alignment and searches
-/// only shifts within `most_shift_s` of it.
+/// only shifts within `max_shift_s` of it.
 std::optional<TwinMatch> RealignTwin(const JointRecording& recording, const TwinMotion& twin,
-                                     const TwinAlignment& start, double most_shift_s);
+                                     const TwinAlignment& start, double max_shift_s);
 
 }  // namespace etude

@@ -23,7 +23,7 @@ std::optional<RealRecording> MakeRealRecording(JointRecording recording, TwinMot
 SensorStatistics StatisticsOf(const RealRecording& real);
 
 /// Simulates the sensor's recording of the twin's motion from the real sensor's position; if that is unknown, the
-/// sensor stands at its usual distance in front of the body (`SensorPlace`). Joints are absent where the twin's are.
+/// sensor stands at its usual distance in front of the body (`SensorPlacement`). Joints are absent where the twin's are.
 JointRecording Simulate(const RealRecording& real, const SkeletonSensorOptions& options, const WorldKey& world);
 
 /// Summarises the statistics of `worlds` simulated recordings, each aligned with the twin like a real one.

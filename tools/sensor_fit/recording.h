@@ -18,7 +18,7 @@ namespace etude {
 /// frame is the recording's own; Y points up.
 struct JointRecording {
   double rate_hz = kJudgedRateHz;
-  std::vector<RolePlaces> frames;
+  std::vector<RolePositions> frames;
   /// The position of the sensor in that frame: the origin for a Kinect, unknown for other files.
   std::optional<glm::dvec3> sensor_at;
 

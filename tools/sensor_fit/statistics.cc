@@ -224,7 +224,7 @@ std::vector<std::optional<double>*> ValuesOf(SensorStatistics& s) {
 std::string CellText(const StatisticRow& row) { return row.value ? fmt::format("{:.2f}", *row.value) : "-"; }
 
 bool IsWithin(const StatisticRow& reference, const StatisticRow& other) {
-  if (reference.held_by == HeldBy::kDifference) {
+  if (reference.held_by == ComparedBy::kDifference) {
     return std::abs(*other.value - *reference.value) <= kCorrelationTolerance;
   }
   return *reference.value > 0 && std::abs(*other.value / *reference.value - 1) <= kSizeTolerance;
@@ -233,7 +233,7 @@ bool IsWithin(const StatisticRow& reference, const StatisticRow& other) {
 std::string Held(const StatisticRow& reference, const StatisticRow& other) {
   if (!reference.value || !other.value) return "";
   const char* mark = IsWithin(reference, other) ? "" : " !";
-  if (reference.held_by == HeldBy::kDifference) {
+  if (reference.held_by == ComparedBy::kDifference) {
     return fmt::format("{:+.2f}{}", *other.value - *reference.value, mark);
   }
   return *reference.value > 0 ? fmt::format("x{:.2f}{}", *other.value / *reference.value, mark) : "";
@@ -275,7 +275,7 @@ SensorStatisticsSummary Summarise(const std::vector<SensorStatistics>& recording
 std::vector<StatisticRow> RowsOf(const SensorStatistics& statistics) {
   std::vector<StatisticRow> rows;
   const auto add = [&](std::string name, const char* unit, const std::optional<double>& value,
-                       HeldBy held_by = HeldBy::kRatio) {
+                       ComparedBy held_by = ComparedBy::kRatio) {
     rows.push_back({std::move(name), unit, held_by, value});
   };
   // Errors.
@@ -293,7 +293,7 @@ std::vector<StatisticRow> RowsOf(const SensorStatistics& statistics) {
   for (const BoneKind kind : AllBoneKinds()) {
     std::string name(BoneName(kind));
     std::ranges::replace(name, '_', ' ');
-    add("correlation along " + name, "", statistics.correlation[Index(kind)], HeldBy::kDifference);
+    add("correlation along " + name, "", statistics.correlation[Index(kind)], ComparedBy::kDifference);
   }
   // Noise at rest, varying lengths, jumps.
   add("white part, quiet torso", "mm", statistics.quiet_white_mm);

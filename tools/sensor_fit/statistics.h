@@ -42,12 +42,12 @@ struct SensorStatisticsSummary {
 SensorStatisticsSummary Summarise(const std::vector<SensorStatistics>& recordings);
 
 /// The comparison of two values of a statistic: by ratio or by difference.
-enum class HeldBy { kRatio, kDifference };
+enum class ComparedBy { kRatio, kDifference };
 
 struct StatisticRow {
   std::string name;
   std::string unit;
-  HeldBy held_by;
+  ComparedBy held_by;
   std::optional<double> value;
 };
 

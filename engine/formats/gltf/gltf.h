@@ -29,9 +29,9 @@ struct GltfContent {
 /// material has no texture.
 using FetchFile = std::function<Result<std::string>(const std::string& uri)>;
 
-/// Decodes a PNG or JPEG file with at most `most_pixels` pixels. An error tells what is wrong with the picture, but not
+/// Decodes a PNG or JPEG file with at most `max_pixels` pixels. An error tells what is wrong with the picture, but not
 /// where it is.
-using DecodePicture = std::function<Result<ColourImage>(std::string_view bytes, std::size_t most_pixels)>;
+using DecodePicture = std::function<Result<ColourImage>(std::string_view bytes, std::size_t max_pixels)>;
 
 /// Reads glTF 2.0 as text (.gltf) or binary (.glb), in metres with Y up, as the format defines. Without `fetch`, the
 /// file must contain all its data.

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/keypoints/rig_warnings.h"
 #include "engine/keypoints/guess_session.h"
+#include "engine/keypoints/rig_warnings.h"
 #include "tests/engine/keypoints/crowd.h"
 #include "tests/support/kept_lines.h"
 

@@ -177,7 +177,7 @@ void Fbx(std::string_view bytes) {
     constexpr std::size_t kLongest = 320;
     Require(!told.empty() && told.size() < kLongest && ToString(motion.error()).find('\n') == std::string::npos,
             "a refusal is one short line");
-    if (told.starts_with(kReaderFell)) std::fprintf(stderr, "ASSIMP FELL: %s\n", told.c_str());
+    if (told.starts_with(kReaderCrashed)) std::fprintf(stderr, "ASSIMP FELL: %s\n", told.c_str());
     Sign(told.substr(0, kSigned));
     return;
   }

@@ -185,7 +185,7 @@ TEST_F(ClipFileTest, WhatIsNeitherIsToldWithWhatIsAllowed) {
 
 TEST_F(ClipFileTest, AFileThatIsTooLargeIsRefusedBeforeItIsRead) {
   const std::string path = Write("huge.bvh", "HIERARCHY");
-  std::filesystem::resize_file(path, kLargestClipFile + 1);  // takes no room on the disk
+  std::filesystem::resize_file(path, kMaxClipFileBytes + 1);  // takes no room on the disk
   EXPECT_NE(Complaint(path).find("501 MB; at most 500 MB"), std::string::npos);
 }
 
@@ -216,7 +216,7 @@ TEST_F(ClipFileTest, NothingOutsideTheFolderIsRead) {
 
 TEST_F(ClipFileTest, BuffersCountTogetherWithTheFile) {
   Write("numbers.bin", AnimationBytes());
-  std::filesystem::resize_file(In("numbers.bin"), kLargestClipFile - 10);
+  std::filesystem::resize_file(In("numbers.bin"), kMaxClipFileBytes - 10);
   EXPECT_NE(Complaint(Write("a.gltf", GltfWithAnimations("numbers.bin"))).find("at most 500 MB"), std::string::npos);
 }
 

@@ -9,7 +9,7 @@
 #include "io/drawing/look.h"
 #include "reports/films/capture_panel.h"
 #include "reports/films/capture_scene.h"
-#include "reports/films/cast.h"
+#include "reports/films/shown_cell.h"
 #include "reports/films/stage_scene.h"
 #include "tests/reports/support/example_run.h"
 #include "tests/support/gtest_printers.h"
@@ -207,7 +207,7 @@ TEST(CaptureScene, ShowsTheMethodsOfOneWorldSideBySideAndColoursTheirErrors) {
   RunData run = ExampleRun();
   AddRecordings(run);
   // The same capture by another method, which put one hand half a metre too high.
-  const CastCell first = *ChooseCell(run, "capture", "recovered");
+  const ShownCell first = *ChooseCell(run, "capture", "recovered");
   CellRecording worse = run.recordings.back();
   worse.cell = [&] {
     Row row = *first.row;

@@ -83,7 +83,7 @@ struct RecordedSession {
   ScenarioSummary scenario;
   Row row;
   Recording recording = SessionRecording();
-  CastCell Cell() const { return {&scenario, &row, &recording}; }
+  ShownCell Cell() const { return {&scenario, &row, &recording}; }
 };
 
 TEST(CoachedSession, ReadsWhatTheTaskKeeps) {

@@ -62,7 +62,7 @@ struct RecordedWorld {
       run.rows.push_back(row);
     }
   }
-  CastCell Cell(std::size_t i) const { return {&run.scenarios.front(), &run.rows[i], &run.recordings[i].recording}; }
+  ShownCell Cell(std::size_t i) const { return {&run.scenarios.front(), &run.rows[i], &run.recordings[i].recording}; }
 };
 
 TEST(JudgedSession, TicksKeyPosesOffAsTheyAreDanced) {

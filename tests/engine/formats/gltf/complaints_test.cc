@@ -12,8 +12,8 @@ namespace etude {
 namespace {
 
 /// A picture of two pixels made of the first bytes of a file.
-Result<ColourImage> FirstBytes(std::string_view bytes, std::size_t most_pixels) {
-  if (bytes.size() < 4 || most_pixels < 2) return Fail({}, "{} bytes, {} pixels", bytes.size(), most_pixels);
+Result<ColourImage> FirstBytes(std::string_view bytes, std::size_t max_pixels) {
+  if (bytes.size() < 4 || max_pixels < 2) return Fail({}, "{} bytes, {} pixels", bytes.size(), max_pixels);
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(bytes[i]); };
   ColourImage picture(2, 1);
   picture.pixels = {{byte(0), byte(1), byte(2)}, {byte(3), byte(1), 255}};

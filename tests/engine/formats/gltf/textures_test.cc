@@ -17,9 +17,9 @@ using testing::SmallBinary;
 
 constexpr std::string_view kPng = "\x89PNG of two pixels", kOther = "RIFF of another kind";
 
-/// As wide as `most_pixels` allows at least two.
-Result<ColourImage> TwoPixels(std::string_view bytes, std::size_t most_pixels) {
-  if (most_pixels < 2) return Fail({}, "too many pixels");
+/// As wide as `max_pixels` allows at least two.
+Result<ColourImage> TwoPixels(std::string_view bytes, std::size_t max_pixels) {
+  if (max_pixels < 2) return Fail({}, "too many pixels");
   if (bytes != kPng) return Fail({}, "a damaged PNG picture: {} bytes", bytes.size());
   ColourImage picture(2, 1);
   picture.pixels = {{200, 100, 50}, {255, 255, 255}};

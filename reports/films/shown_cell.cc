@@ -1,4 +1,4 @@
-#include "reports/films/cast.h"
+#include "reports/films/shown_cell.h"
 
 #include <algorithm>
 #include <vector>
@@ -10,8 +10,8 @@
 namespace etude {
 namespace {
 
-std::vector<CastCell> RecordedCells(const RunData& run, const ScenarioSummary& scenario, std::string_view track) {
-  std::vector<CastCell> cells;
+std::vector<ShownCell> RecordedCells(const RunData& run, const ScenarioSummary& scenario, std::string_view track) {
+  std::vector<ShownCell> cells;
   const KeptCells kept(run);
   for (const Row& row : run.rows) {
     if (row.scenario != scenario.name || row.result.status != Status::kOk) continue;
@@ -23,30 +23,30 @@ std::vector<CastCell> RecordedCells(const RunData& run, const ScenarioSummary& s
   return cells;
 }
 
-CastCell MiddleOf(std::vector<CastCell> cells, const std::string& metric) {
+ShownCell MiddleOf(std::vector<ShownCell> cells, const std::string& metric) {
   // Cells without a value come last; equal values keep the order of the run.
-  std::ranges::stable_sort(cells, [&](const CastCell& a, const CastCell& b) {
+  std::ranges::stable_sort(cells, [&](const ShownCell& a, const ShownCell& b) {
     const auto x = ValueOf(*a.row, metric), y = ValueOf(*b.row, metric);
     return x.has_value() != y.has_value() ? x.has_value() : x && *x < *y;
   });
   const auto valued =
-      std::ranges::count_if(cells, [&](const CastCell& c) { return ValueOf(*c.row, metric).has_value(); });
+      std::ranges::count_if(cells, [&](const ShownCell& c) { return ValueOf(*c.row, metric).has_value(); });
   return cells[static_cast<std::size_t>(valued > 0 ? (valued - 1) / 2 : 0)];
 }
 
 }  // namespace
 
-std::optional<CastCell> ChooseCell(const RunData& run, const ScenarioSummary& scenario, std::string_view track) {
-  const std::vector<CastCell> cells = RecordedCells(run, scenario, track);
+std::optional<ShownCell> ChooseCell(const RunData& run, const ScenarioSummary& scenario, std::string_view track) {
+  const std::vector<ShownCell> cells = RecordedCells(run, scenario, track);
   if (cells.empty()) return std::nullopt;
   const ScenarioFindings findings = FindingsOf(run, scenario);
-  std::vector<CastCell> preferred;
+  std::vector<ShownCell> preferred;
   std::ranges::copy_if(cells, std::back_inserter(preferred),
-                       [&](const CastCell& cell) { return cell.row->method == findings.answer.method; });
+                       [&](const ShownCell& cell) { return cell.row->method == findings.answer.method; });
   return MiddleOf(preferred.empty() ? cells : preferred, findings.metric);
 }
 
-std::optional<CastCell> ChooseCell(const RunData& run, std::string_view task, std::string_view track) {
+std::optional<ShownCell> ChooseCell(const RunData& run, std::string_view task, std::string_view track) {
   for (const ScenarioSummary& scenario : run.scenarios) {
     if (scenario.task != task) continue;
     if (auto cell = ChooseCell(run, scenario, track)) return cell;

@@ -9,7 +9,7 @@
 namespace etude {
 
 /// A recorded cell to show.
-struct CastCell {
+struct ShownCell {
   const ScenarioSummary* scenario;
   const Row* row;
   const Recording* recording;
@@ -18,10 +18,10 @@ struct CastCell {
 /// Chooses the cell that a film of this kind of task shows. Candidates are recorded cells with status ok and this
 /// track, preferably of the method that answers the scenario's question. Of these it takes the median by the first
 /// headline metric: a typical cell, not the best one.
-std::optional<CastCell> ChooseCell(const RunData& run, std::string_view task, std::string_view track);
+std::optional<ShownCell> ChooseCell(const RunData& run, std::string_view task, std::string_view track);
 
 /// Chooses a cell of one scenario in the same way.
-std::optional<CastCell> ChooseCell(const RunData& run, const ScenarioSummary& scenario, std::string_view track);
+std::optional<ShownCell> ChooseCell(const RunData& run, const ScenarioSummary& scenario, std::string_view track);
 
 /// Finds a curve of a cell by name; null if there is none.
 const Series* FindSeries(const RunData& run, const Row& row, std::string_view name);
