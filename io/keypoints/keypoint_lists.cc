@@ -11,7 +11,7 @@ namespace etude {
 namespace {
 
 constexpr double kHalfPixel = 0.5;
-constexpr double kMaxPixel = 1e6;
+constexpr double kMaxListedPixel = 1e6;
 
 }  // namespace
 
@@ -61,7 +61,7 @@ Result<std::vector<Keypoint>> Triples(const Json* list, const Place& place) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Json& number = (*list)[i + k];
       v[k] = number.is_number() ? number.get<double>() : std::nan("");
-      if (!(std::abs(v[k]) <= kMaxPixel)) return Fail(place, "a keypoint's number is {}", number.dump());
+      if (!(std::abs(v[k]) <= kMaxListedPixel)) return Fail(place, "a keypoint's number is {}", number.dump());
     }
     points.push_back({glm::dvec2(v[0], v[1]) + kHalfPixel, v[2]});
   }
@@ -98,7 +98,7 @@ namespace {
 std::optional<double> NumberOf(const Json* json) {
   if (json == nullptr || !json->is_number()) return std::nullopt;
   const double value = json->get<double>();
-  return std::abs(value) <= kMaxPixel ? std::optional(value) : std::nullopt;
+  return std::abs(value) <= kMaxListedPixel ? std::optional(value) : std::nullopt;
 }
 
 const Json* FirstMember(const Json& json, std::initializer_list<const char*> names) {
