@@ -53,6 +53,23 @@ Result<void> CheckControls(std::string_view text, const Place& place) {
   return {};
 }
 
+/// Refuses a carriage return without its line feed: yaml-cpp ends a line there since 0.8, and before took it for text.
+Result<void> CheckLineEnds(std::string_view text, const std::string& file) {
+  int line = 1;
+  std::size_t start = 0;  // of the line
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (text[at] == '\n') {
+      ++line;
+      start = at + 1;
+    }
+    if (text[at] == '\r' && text.substr(at + 1, 1) != "\n") {
+      return Fail({file, line, static_cast<int>(at - start) + 1},
+                  "a carriage return without a line feed; allowed: lines that end in \\n or \\r\\n");
+    }
+  }
+  return {};
+}
+
 class Builder {
  public:
   explicit Builder(std::string file) : file_(std::move(file)) {}
@@ -143,6 +160,7 @@ Result<Node> ParseYaml(std::string_view text, const std::string& file, std::size
     return Fail(whole, "{} bytes of YAML; at most {} are read", text.size(), largest);
   }
   if (auto utf8 = CheckUtf8(text, file); !utf8) return tl::unexpected(utf8.error());
+  RETURN_IF_ERROR(CheckLineEnds(text, file));
   if (EstimateNesting(text) > kDeepestNesting) return Fail(whole, "nested deeper than {} levels", kDeepestNesting);
   Builder builder(file);
   try {

@@ -61,7 +61,7 @@ TEST(DocumentGolden, OfSpoiltDocuments) {
     add(std::string("title: t\n") + line + "\n");
     add(std::string(line) + "\n");
   }
-  EXPECT_TRUE(print.Is(963, 41.3572793865));
+  EXPECT_TRUE(print.Is(963, 41.5607157477));
 }
 
 TEST(DocumentGolden, OfLimits) {
