@@ -75,6 +75,12 @@ write_basic_package_version_file("${CMAKE_BINARY_DIR}/EtudeConfigVersion.cmake" 
 install(FILES "${CMAKE_BINARY_DIR}/EtudeConfig.cmake" "${CMAKE_BINARY_DIR}/EtudeConfigVersion.cmake"
   DESTINATION "${config}" COMPONENT development)
 
+# Packages for two Debians are two versions, in the order of these: 0.3.0+deb12, 0.3.0+deb13.
+cmake_host_system_information(RESULT system QUERY DISTRIB_INFO)
+set(package_version "${PROJECT_VERSION}")
+if(system_ID STREQUAL debian AND system_VERSION_ID)  # what comes after the last release has no number
+  string(APPEND package_version "+deb${system_VERSION_ID}")
+endif()
 set(CPACK_PACKAGE_NAME etude)
 set(CPACK_PACKAGE_VENDOR "The Etude authors")
 set(CPACK_PACKAGE_CONTACT "The Etude authors <etude@localhost>")
@@ -92,6 +98,7 @@ find_package(Etude) reads.")
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 file(WRITE "${CMAKE_BINARY_DIR}/triggers" "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA "${CMAKE_BINARY_DIR}/triggers")
+set(CPACK_DEBIAN_PACKAGE_VERSION "${package_version}")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -113,5 +120,5 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS python3)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "${draws}")  # which pictures are drawn with
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libetude (= ${PROJECT_VERSION}), libglm-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libetude (= ${package_version}), libglm-dev")
 include(CPack)

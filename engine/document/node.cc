@@ -55,6 +55,23 @@ Result<void> CheckControls(std::string_view text, const Place& place) {
   return {};
 }
 
+// Refuses a carriage return without a line feed. yaml-cpp 0.8 ends a line there; older versions take it for text.
+Result<void> CheckLineEnds(std::string_view text, const std::string& file) {
+  int line = 1;
+  std::size_t start = 0;  // of the line
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (text[at] == '\n') {
+      ++line;
+      start = at + 1;
+    }
+    if (text[at] == '\r' && text.substr(at + 1, 1) != "\n") {
+      return Fail({file, line, static_cast<int>(at - start) + 1},
+                  "a carriage return without a line feed; allowed: lines that end in \\n or \\r\\n");
+    }
+  }
+  return {};
+}
+
 // Converts yaml-cpp's tree to nodes with positions.
 class Builder {
  public:
@@ -148,6 +165,7 @@ Result<Node> ParseYaml(std::string_view text, const std::string& file, std::size
     return Fail(whole, "{} bytes of YAML; at most {} are read", text.size(), max_bytes);
   }
   if (auto utf8 = CheckUtf8(text, file); !utf8) return tl::unexpected(utf8.error());
+  RETURN_IF_ERROR(CheckLineEnds(text, file));
   if (EstimateNesting(text) > kMaxNesting) return Fail(whole, "nested deeper than {} levels", kMaxNesting);
   Builder builder(file);
   try {

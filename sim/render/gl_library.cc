@@ -31,10 +31,10 @@ Result<GlLibrary> Load() {
   auto by_egl = LoadEgl();
   if (by_egl) return by_egl;
   const bool is_short = IsOfThisMachine(by_osmesa.error()) || IsOfThisMachine(by_egl.error());
-  return tl::unexpected(
-      Error{{},
-            fmt::format("nothing can be drawn: {}; {}", by_osmesa.error().message, by_egl.error().message),
-            is_short ? ErrorKind::kMachine : ErrorKind::kInput});
+  const std::string why =
+      fmt::format("nothing can be drawn: {}; {}", by_osmesa.error().message, by_egl.error().message);
+  if (is_short) return FailOfMachine("{}", why);
+  return Fail({}, "{}", why);
 }
 
 }  // namespace
@@ -43,8 +43,8 @@ Result<void*> OpenGlLibrary(const char* name, const char* file) {
   if (void* const library = ::dlopen(file, RTLD_LAZY | RTLD_LOCAL)) return library;
   const std::string why = ::dlerror();
   const bool is_installed = why.find(std::strerror(ENOENT)) == std::string::npos;
-  return tl::unexpected(Error{
-      {}, fmt::format("{} cannot be loaded: {}", name, why), is_installed ? ErrorKind::kMachine : ErrorKind::kInput});
+  if (is_installed) return FailOfMachine("{} cannot be loaded: {}", name, why);
+  return Fail({}, "{} cannot be loaded: {}", name, why);
 }
 
 Result<void> CheckGlChoice() {

@@ -30,6 +30,14 @@ TEST(Document, KnowsTheLineAndColumnOfEveryValue) {
   EXPECT_EQ(ToString(node->Find("b")->items[0].place), "t.yaml:3:5");
 }
 
+TEST(Document, TakesLineEndsOfUnixAndWindowsAndNoOthers) {
+  EXPECT_EQ(Complaint("speed: 2.5\r\ncount: 5\r\n"), "");
+  const std::string told = "a carriage return without a line feed; allowed: lines that end in \\n or \\r\\n";
+  EXPECT_EQ(Complaint("speed: 2.5\rcount: 5\n"), "t.yaml:1:11: " + told);
+  EXPECT_EQ(Complaint("speed: 2.5\ncount: 5 # few\r"), "t.yaml:2:15: " + told);
+  EXPECT_EQ(Complaint("speed: 2.5\r\r\n"), "t.yaml:1:11: " + told);
+}
+
 TEST(Document, AcceptsWhatIsAllowed) {
   EXPECT_EQ(Complaint("{speed: 2.5, count: 5, solver: dls, on: true, names: [a, b]}"), "");
 }
