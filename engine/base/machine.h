@@ -12,7 +12,10 @@ namespace etude {
 /// process can be started, the disk is full. Such an error is not an answer of the method.
 template <typename... Args>
 tl::unexpected<Error> FailOfMachine(fmt::format_string<Args...> format, Args&&... args) {
-  return tl::unexpected<Error>(Error{{}, fmt::format(format, std::forward<Args>(args)...), ErrorKind::kMachine});
+  Error error;
+  error.message = fmt::format(format, std::forward<Args>(args)...);
+  error.kind = ErrorKind::kMachine;
+  return tl::unexpected<Error>(std::move(error));
 }
 
 /// Returns the same error, attributed to this machine; its place becomes part of its message.
