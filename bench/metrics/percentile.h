@@ -7,7 +7,8 @@
 
 namespace etude {
 
-/// The 95th percentile, linear between neighbours of the sorted list (rank 0.95 (n − 1)). Needs a value.
+/// Returns the 95th percentile, interpolated linearly between order statistics (rank 0.95 (n − 1)). At least one value
+/// is required.
 inline double Percentile95(std::vector<double> values) {
   assert(!values.empty());
   std::sort(values.begin(), values.end());
