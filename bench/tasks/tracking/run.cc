@@ -70,7 +70,7 @@ struct Outcome {
   std::string first_broken_limit;
 };
 
-Outcome MeasureFrames(const TrackingWorld& world, double rate_hz, const Angles& angles) {
+Outcome MeasureAnswer(const TrackingWorld& world, double rate_hz, const Angles& angles) {
   Outcome outcome{{}, {rate_hz, {}}, {rate_hz, {}}, ""};
   std::vector<EffectorError> errors;
   for (std::size_t k = 0; k < angles.size(); ++k) {
@@ -165,7 +165,7 @@ std::vector<std::string> TrackingMetrics() {
 CellResult ScoreTracking(const TrackingWorld& world, double rate_hz, const TrackingAnswer& answer, bool keeps_motion) {
   assert(answer.angles.size() == world.truth.size());
   // Errors frame by frame.
-  Outcome outcome = MeasureFrames(world, rate_hz, answer.angles);
+  Outcome outcome = MeasureAnswer(world, rate_hz, answer.angles);
   const Angles truth = TrueAngles(world);
   const PoseErrors poses = ComparePoses(outcome.found.poses, outcome.truth.poses);
   const Series position = AlongFrames("position_error_cm", outcome.frames,
