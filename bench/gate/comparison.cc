@@ -132,7 +132,7 @@ std::vector<std::string> DropIncomparable(Snapshot& before, Snapshot& after) {
 SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& after, const std::set<std::string>& exact,
                                     const TailRules& tails) {
   SnapshotComparison comparison;
-  // What is in one snapshot only.
+  // List what only one of the snapshots contains.
   comparison.only_before = OnlyIn(before, after);
   comparison.only_after = OnlyIn(after, before);
   for (const SnapshotScenario& scenario : before.scenarios) {

@@ -153,7 +153,7 @@ Result<GateReport> JudgeRun(const FinishedRun& run, const Snapshot* baseline, co
       report.expectations.push_back({scenario.name, result});
   }
   if (!report.incomplete.empty()) return report;
-  // What has no verdict, and methods without answers.
+  // Find cells that prevent a verdict, and methods without answers.
   report.incomplete = WhyIncomplete(run);
   report.silent = DescribeSilentMethods(run);
   for (const FinishedScenario& scenario : run.scenarios) {

@@ -34,7 +34,7 @@ bool Alarms(const SnapshotComparison& comparison) {
 }
 
 /// Returns the snapshot with `method` alone, under the name of the first method.
-Snapshot InPlaceOfTheFirst(Snapshot snapshot, const std::string& method) {
+Snapshot WithMethodAsFirst(Snapshot snapshot, const std::string& method) {
   for (SnapshotScenario& scenario : snapshot.scenarios) {
     const std::string first = scenario.methods.front().first;
     std::erase_if(scenario.cells, [&](const SnapshotCells& cells) { return cells.method != method; });
@@ -129,9 +129,9 @@ Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions) {
     // Each other method in place of the first.
     methods = first.scenarios.front().methods;
     real.resize(methods.size());
-    const Snapshot before = InPlaceOfTheFirst(first, methods.front().first);
+    const Snapshot before = WithMethodAsFirst(first, methods.front().first);
     for (std::size_t m = 1; m < methods.size(); ++m) {
-      real[m].Add(Alarms(CompareSnapshots(before, InPlaceOfTheFirst(first, methods[m].first), {}, no_tails)));
+      real[m].Add(Alarms(CompareSnapshots(before, WithMethodAsFirst(first, methods[m].first), {}, no_tails)));
     }
   }
   // The rates.

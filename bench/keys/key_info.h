@@ -47,10 +47,9 @@ struct KeyCondition {
 struct KeyInfo {
   std::string key;
   ValueKind value;
-  std::string
-      fallback;         ///< the default as it would be written, or its meaning in (parentheses); "" = the key is
-                        ///< required
-  std::string meaning;  ///< one sentence
+  std::string fallback;  ///< the default as it would be written, or its meaning in (parentheses); "" = the key is
+                         ///< required
+  std::string meaning;   ///< one sentence
   KeyCondition only_with = {};
 
   /// Returns the allowed values and the condition: "0…1; with `weights: adaptive`".

@@ -133,8 +133,8 @@ std::string Section(const MetricInfo& metric) {
   }
   text += ".\n\n| vector | value | where from |\n|---|---|---|\n";
   for (const MetricVector& vector : metric.vectors) {
-    text +=
-        fmt::format("| {} | {} | {} |\n", EscapeTableCell(vector.title), EscapeTableCell(ExpectedText(vector)), EscapeTableCell(vector.source));
+    text += fmt::format("| {} | {} | {} |\n", EscapeTableCell(vector.title), EscapeTableCell(ExpectedText(vector)),
+                        EscapeTableCell(vector.source));
   }
   return text;
 }

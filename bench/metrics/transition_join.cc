@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kCmPerMetre = 100;
 constexpr int kLiveFrames = 10;
-constexpr double kMinJudgedSpeed = 0.05;   // metres per second; clips that move less are not judged
+constexpr double kMinJudgedSpeed = 0.05;  // metres per second; clips that move less are not judged
 constexpr double kVelocitySeconds = 0.1;  // converts velocities to distances
 
 int LastFrame(const JoinView& view) { return static_cast<int>(view.shown.size()) - 1; }

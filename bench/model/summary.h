@@ -104,9 +104,9 @@ struct Comparison {
   std::optional<double> effect_size;  ///< rank-biserial correlation, −1…1; positive favours `method`, or, without a
                                       ///< direction, larger values
   Verdict verdict = Verdict::kInconclusive;  ///< on these worlds
-  std::string why_open;            ///< says why the verdict is inconclusive, if a reason is known
-  std::vector<std::string> notes;  ///< what else a reader should know before trusting the figures
-  Beyond beyond;                   ///< the same comparison for other units like these
+  std::string why_open;                      ///< says why the verdict is inconclusive, if a reason is known
+  std::vector<std::string> notes;            ///< what else a reader should know before trusting the figures
+  Beyond beyond;                             ///< the same comparison for other units like these
 };
 
 /// The cost of one stage: how much smaller the error is if the truth replaces the stage, mean over worlds.

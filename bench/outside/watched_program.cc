@@ -107,7 +107,7 @@ constexpr std::chrono::milliseconds kLookEvery{20};  // interval of measuring me
                                                      // runs
 
 tl::unexpected<OutsideFailure> NotStarted(const Error& error) {
-  // That it is of this machine is told by who did not ask it.
+  // The caller, who did not ask the program, says that this machine is the cause.
   return tl::unexpected<OutsideFailure>(
       {Status::kFailed, IsOfThisMachine(error) ? error.message : ToString(error), false});
 }

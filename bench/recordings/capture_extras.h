@@ -31,12 +31,11 @@ namespace etude {
 ///                   "R_CW": [nine numbers, row by row], "p_WC": [x, y, z],
 ///                   "distortion": [k1, k2, p1, p2, k3],        only for a lens with distortion (OpenCV's)
 ///                   "mask_width": 320, "mask_height": 240,
-///                   "still": "/9j/4AAQ…",                      the picture of frame n / 2: JPEG in base64; may be absent
+///                   "still": "/9j/4AAQ…",                      frame n / 2 as JPEG in base64; may be absent
 ///                   "masks": ["120 14 306 …", …]}, …],         one text per frame, see EncodeMask
 ///      "moments": [{"frame": 9, "fixed": [[x, y, z], …],          of the twenty roles, lengths fixed, before IK
 ///                   "marks": [[[u, v, u, v, r, g, b], …], …]}],    per camera; absent if none were requested
-///      "bvh": "HIERARCHY\
-/// …"}                              the recovered clip as a BVH file's text
+///      "bvh": "HIERARCHY\n…"}                              the recovered clip as a BVH file's text
 struct CaptureExtras {
   struct View {
     Camera truth;                        ///< the camera that took the pictures

@@ -176,8 +176,8 @@ ValueKind HeadlineKind() {
 
 std::vector<std::string> ReadHeadline(Fields& fields, const TaskKind& kind, std::vector<OutsideMetric>& own) {
   const Node* list = fields.Raw("metrics");
-  if (list != nullptr && list->kind != Node::Kind::kSequence) fields.Texts("metrics");  // complains that it is not a
-                                                                                        // list
+  // Texts complains that it is not a list.
+  if (list != nullptr && list->kind != Node::Kind::kSequence) fields.Texts("metrics");
   if (list == nullptr || list->items.empty()) return kind.default_metrics;
   // Mappings are metrics of the scenario's own; if there are only such, the task's come first.
   const auto is_own = [](const Node& item) { return item.kind == Node::Kind::kMapping; };

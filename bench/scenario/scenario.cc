@@ -303,8 +303,8 @@ Result<Scenario> ParseScenario(const Node& node, const std::string& file) {
   scenario.file = file;
   ScenarioFields().Read(fields, scenario);
   if (const TaskKind* kind = FindTaskKind(scenario.task)) {
-    for (const KeyInfo& key : kind->condition_keys) fields.Raw(key.key);  // marks them as known; the task reads the
-                                                                          // values
+    // Mark the task's keys as known; the task reads their values.
+    for (const KeyInfo& key : kind->condition_keys) fields.Raw(key.key);
   }
   RETURN_IF_ERROR(fields.Finish());
   return scenario;

@@ -38,7 +38,7 @@ std::string NotWithFailures(Verdict of_pairs) {
 
 /// Says in how many worlds the method is better and worse: a median does not show differences in fewer than half of the
 /// worlds.
-std::string WhatTheMedianHides(const Comparison& c) {
+std::string DescribeWhatMedianHides(const Comparison& c) {
   const int tied = c.pairs - c.differing;
   const long better = std::lround(c.share_better * c.pairs - 0.5 * tied);  // ties count half
   const std::string ties = 2 * tied > c.pairs ? "in most worlds the same, " : "";
@@ -58,7 +58,7 @@ std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int compariso
     return fmt::format("{} of {} pairs differ: too few to exclude rare differences that would move the mean",
                        c.differing, c.pairs);
   }
-  if (within && metric.aggregate == Aggregate::kMedian) return WhatTheMedianHides(c);
+  if (within && metric.aggregate == Aggregate::kMedian) return DescribeWhatMedianHides(c);
   if (c.differing == 0 && c.ci_low) {
     return fmt::format("no pair differs, but {} worlds are too few to exclude a difference that matters", c.pairs);
   }
@@ -132,7 +132,7 @@ void JudgeOnTheseWorlds(std::span<Question* const> family) {
 }
 
 /// Copies the findings on these worlds to `beyond`, for a scenario in which every world is its own unit.
-void SayTheSameBeyond(Comparison& comparison) {
+void CopyVerdictsBeyond(Comparison& comparison) {
   Beyond& beyond = comparison.beyond;
   beyond.units = comparison.pairs;
   beyond.differing = comparison.differing;
@@ -293,7 +293,7 @@ std::vector<std::optional<double>> HolmCorrected(std::span<const std::optional<d
 void JudgeFamily(std::span<Question* const> family, SamplingUnit unit) {
   JudgeOnTheseWorlds(family);
   if (!IsEveryWorldItsOwn(unit)) return JudgeBeyond(family, unit);
-  for (Question* question : family) SayTheSameBeyond(question->comparison);
+  for (Question* question : family) CopyVerdictsBeyond(question->comparison);
 }
 
 std::vector<AcrossVerdict> JudgeAcross(const Study& study, const std::vector<ConditionSummary>& conditions) {

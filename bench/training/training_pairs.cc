@@ -119,7 +119,7 @@ PairTable::PairTable(std::span<const LabelledPair> pairs) {
 void PairTable::AddUp(const Block& block, const FeatureWeights& weights, float (&squared)[kBlock]) {
   std::array<float, kFeatureCount> factors;
   for (std::size_t k = 0; k < kFeatureCount; ++k) factors[k] = static_cast<float>(weights[k]);
-  // As many at a time as have their sums in registers.
+  // The pairs are processed in groups whose sums fit into registers.
   constexpr int kStep = 16;
   for (int first = 0; first < kBlock; first += kStep) {
     std::array<float, kStep> sums{};

@@ -153,8 +153,7 @@ struct CaptureMethod {
   CaptureSeat seat = CaptureSeat::kNone;
   SeatedSegmenter* program = nullptr;  ///< the program in that seat during a run
   Segmenter segmenter = Segmenter::kHue;
-  PersonPieces pieces =
-      PersonPieces::kLargest;  ///< of methods that read silhouettes all large ones, whatever stands here
+  PersonPieces pieces = PersonPieces::kLargest;  ///< methods that read silhouettes always use all large pieces
   MarkSource marks = MarkSource::kAnnotator;
   Calibration calibration = Calibration::kDlt;
   Sync sync = Sync::kAssumed;
@@ -190,8 +189,8 @@ struct PersonSource {
   bool for_silhouettes = false;
   bool has_keypoints = false;          ///< … unless this is set
   SeatedSegmenter* program = nullptr;  ///< replaces the segmenter
-  bool has_true_marks = false;      ///< exact marks at the true joints, where the picture shows them
-  bool has_coloured_marks = false;  ///< marks from the suit's colours
+  bool has_true_marks = false;         ///< exact marks at the true joints, where the picture shows them
+  bool has_coloured_marks = false;     ///< marks from the suit's colours
   auto operator<=>(const PersonSource&) const = default;
 };
 

@@ -228,8 +228,8 @@ BridgeOptions LiveBridgeOptions(const StudioOptions& options) {
 }
 
 Result<CaptureBody> BodyFor(CaptureStages& stages, const CaptureRun& run) {
-  if (run.method.recovery == Recovery::kKeypoints) return PaperBody({});  // replaced by the body measured from the
-                                                                          // points
+  // The points determine the body later.
+  if (run.method.recovery == Recovery::kKeypoints) return PaperBody({});
   if (run.method.lengths == LengthSource::kKnown) {
     ASSIGN_OR_RETURN(const CaptureBody* body, stages.GetKnownBody(run.method));
     return *body;

@@ -171,7 +171,8 @@ Result<CalibratedCameras> MakeCameras(const CaptureWorld& world, const Calibrati
 }
 
 /// Returns the truth that a method with these oracles is given, for the frames that the annotator marks.
-std::vector<KnownMeasurement> KnownMeasurementsOf(const CaptureWorld& world, const Oracle& oracle, const std::vector<bool>& marked) {
+std::vector<KnownMeasurement> KnownMeasurementsOf(const CaptureWorld& world, const Oracle& oracle,
+                                                  const std::vector<bool>& marked) {
   std::vector<KnownMeasurement> known(world.truth.size());
   for (std::size_t k = 0; k < known.size(); ++k) {
     if (marked[k]) known[k] = ToldOf(world.truth[k], oracle);

@@ -28,7 +28,7 @@ double ThresholdOf(std::vector<double> right, double minutes, double needless_pe
 /// Sets the evidence from which on a performance counts as right (CoachOptions::right_from), for methods that do not
 /// set it. It is set on sessions of other people under the same condition, who are never interrupted, so that the given
 /// number of right performances a minute is taken for mistakes. `key` is that of any judged world; the other people are
-/// keyed apart from it. Methods whose judgement is told, or made by a program in the recogniser's seat, are not
+/// keyed apart from it. Methods whose judgement is an oracle's, or made by a program in the recogniser's seat, are not
 /// changed.
 Result<void> SetThresholds(const CoachCondition& condition, const CoachStage& stage, const WorldKey& key,
                            std::vector<CoachMethod>& methods);

@@ -131,8 +131,8 @@ Result<SessionVerdict> ReadSessionAnswer(const Json& answer, const DetectionWorl
     const std::string move = alarm.RequiredChoice("move", moves);
     const int frame = alarm.Integer("frame", 0, frames - 1);
     if (auto done = alarm.Finish(); !done) fields.Note(done.error());
-    if (const auto taught = repertoire.TaughtIndexOf(move)) calls.emplace(*taught, frame);  // an unknown move was
-                                                                                            // complained of above
+    // An unknown move was complained of above.
+    if (const auto taught = repertoire.TaughtIndexOf(move)) calls.emplace(*taught, frame);
   }
   // False alarms are detections outside every performance of their move.
   for (const auto& [move, frame] : calls) {

@@ -47,7 +47,7 @@ struct MethodDecision {
 ///     events: 8        # performances in one session
 ///     people: mixed    # who dances: toddler, school-child, adult, expert, absent, or a mixture
 ///     fault_share: 0.5 # of them have a fault
-///     severity: 0.7    # of every fault; else thrown
+///     severity: 0.7    # of every fault; else random
 ///     noise: 1         # times every error of the sensor
 ///     sensor: v2       # which sensor: v1, v2, a sensor file, or cameras
 ///     turn_deg: 0      # how far the performer is turned away from the sensor
@@ -58,7 +58,7 @@ struct DetectionOptions {
   double noise = 1;
   SkeletonSensorOptions sensor = SensorV2();  ///< strength aside; the task opens what the condition names
   double turn_deg = 0;
-  std::optional<double> distance_m;  ///< else thrown in each trial, 2.5–3 m
+  std::optional<double> distance_m;  ///< else drawn in each trial, 2.5–3 m
   double sensor_height_m = 1;
   OccluderKind occluder = OccluderKind::kNone;
   bool has_cameras = false;  ///< `sensor: cameras`: nothing of the above is read but the session

@@ -63,8 +63,8 @@ Result<IkAnswer> ReadIkAnswer(const Json& json, const KinematicTree& tree) {
 std::vector<int> RecordedIterations(int last) {
   for (int share = 2 * kEveryUpTo;; share /= 2) {
     std::vector<int> iterations = Growing(last, share);
-    if (iterations.size() <= kMaxRecordedSteps || share == 1) return iterations;  // with share 1 they double, so there
-                                                                                  // are never too many
+    // With share 1 they double, so there are never too many.
+    if (iterations.size() <= kMaxRecordedSteps || share == 1) return iterations;
   }
 }
 

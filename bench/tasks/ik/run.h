@@ -21,7 +21,7 @@ CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMe
 /// Returns which parts of their targets the effectors of a world must meet: positions, axes or both.
 IkAsked AskedOf(const IkProblem& problem);
 
-/// What a method reports about its cost.
+/// The cost that a method reports, and the reason if it failed.
 struct IkAccount {
   std::optional<int> iterations, fk_evaluations;  ///< empty if the method does not report them
   int max_steps = 0;

@@ -103,7 +103,7 @@ std::vector<std::string> PoseDistanceMetrics() {
 CellResult ScorePairs(const PairWorld& world, const PairVerdict& verdict, const PoseDistance* distance) {
   CellResult result = CellResult::Ended(Status::kOk, "");
   Digest digest;
-  for (double distance : verdict.distances) digest.Add(distance);
+  for (double value : verdict.distances) digest.Add(value);
   for (bool alike : verdict.alike) digest.Add(std::int64_t{alike});
   result.digests.emplace_back("verdict", digest.Hex());
 

@@ -20,8 +20,8 @@
 
 namespace etude {
 
-/// Returns the booking of the studio's cameras for a person who stands as in `first` and will dance there: half a metre
-/// to every side, and as high as a jump. The limb lengths are those of that pose.
+/// Describes, for the studio's cameras, a person who stands as in `first` and will dance there: half a metre to every
+/// side, and as high as a jump. The limb lengths are those of that pose.
 Booking BookFor(std::span<const BodyPose> places, const BodyPose& first, std::size_t frames);
 std::vector<BodyPose> PlacesAround(const BodyPose& first);
 

@@ -23,7 +23,7 @@ IkProblem ProblemAt(const TrackingWorld& world, std::size_t frame, const std::ve
 /// Appends a frame's solution to the answer; a solution of bad input is an error that says what is wrong with
 /// `problem`.
 Result<void> StoreSolution(IkSolution solution, const IkProblem& problem, const TrackingWorld& world,
-                  const TrackingMethod& method, TrackingAnswer& answer) {
+                           const TrackingMethod& method, TrackingAnswer& answer) {
   if (solution.status == IkStatus::kBadInput) {
     return Fail({}, "frame {}: {}", answer.angles.size(), FindFault(world.tree, problem, method.options));
   }
