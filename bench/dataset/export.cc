@@ -42,17 +42,17 @@ object per problem, under the same names: `SCENARIO/CONDITION/TRIAL.json`. Judge
     etude score THIS_FOLDER PREDICTIONS -o RESULT --name METHOD
 )";
 
-/// The whole path of a folder, without a slash at its end.
+/// Returns the absolute path of a folder without a slash at its end.
 fs::path Named(const fs::path& path) {
   std::error_code error;
   const fs::path named = fs::weakly_canonical(fs::absolute(path, error), error);
   return named.has_filename() ? named : named.parent_path();
 }
 
-/// The folder beside `path` that is filled first.
+/// Returns the temporary folder beside `path` that is filled first.
 fs::path PartialOf(const fs::path& path) { return Named(path).string() + ".partial"; }
 
-/// Opens and locks a folder; −1 when another process holds it.
+/// Opens and locks a folder; returns −1 if another process has the lock.
 int Lock(const fs::path& folder) {
   const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (lock < 0 || LockUnlessTaken(lock, folder)) return lock;
@@ -60,13 +60,13 @@ int Lock(const fs::path& folder) {
   return -1;
 }
 
-/// True if an export puts this at the top of its folder.
+/// Returns true if an export writes this name at the top of its folder.
 bool IsOfExport(const fs::path& name) {
   constexpr std::array kParts = {"inputs", "truth", "README.md", "manifest.json"};
   return std::ranges::any_of(kParts, [&](const char* part) { return name == part || name == TemporaryName(part); });
 }
 
-/// A folder that is being filled under another name, and gets its own when it is whole; else it goes away again.
+/// A folder that is filled under a temporary name and renamed when it is complete; otherwise it is deleted.
 class NewFolder {
  public:
   static Result<NewFolder> Begin(const fs::path& path) {
@@ -81,7 +81,7 @@ class NewFolder {
     RETURN_IF_ERROR(MakeFolder(Inside(partial.parent_path()) / partial.filename()));
     NewFolder folder(path, Lock(partial));
     if (folder.lock_ < 0) return Fail(place, "another export is writing it; choose another folder with -o");
-    // What is there is of an export that was killed, or somebody else's.
+    // An existing folder is from a killed export, or not ours.
     for (fs::directory_iterator entry(folder.partial_, error), end; !error && entry != end; entry.increment(error)) {
       if (IsOfExport(entry->path().filename())) continue;
       ::close(std::exchange(folder.lock_, -1));
@@ -107,7 +107,7 @@ class NewFolder {
   /// What is written below it follows no link, even if one takes its place.
   FilePath partial() const { return Inside(partial_.parent_path()) / partial_.filename(); }
 
-  /// Gives the folder its name, when all that it holds is on its disk.
+  /// Syncs the folder's contents to disk and gives it its final name.
   Result<void> Finish() {
     RETURN_IF_ERROR(SyncTree(partial_));
     if (!IsOurs(partial_)) return Fail({partial_.string()}, "was exchanged for something else while it was filled");
@@ -130,7 +130,7 @@ class NewFolder {
   }
 
   fs::path path_, partial_;
-  int lock_;  ///< −1 once it is finished
+  int lock_;  ///< −1 when finished
 };
 
 Result<void> SavePayload(const Payload& payload, const FilePath& folder, const char* name) {
@@ -143,7 +143,7 @@ Result<void> SavePayload(const Payload& payload, const FilePath& folder, const c
 
 class Exporter {
  public:
-  static constexpr std::size_t kParts = 3;  ///< of a world: its problem is made, written, its truth written
+  static constexpr std::size_t kParts = 3;  ///< of a world: problem made, problem written, truth written
 
   Exporter(const PreparedScenario& scenario, FilePath folder, bool films)
       : scenario_(scenario), folder_(std::move(folder)), films_(films) {}
@@ -154,7 +154,7 @@ class Exporter {
     return SavePayload(*setting, folder_ / "inputs" / place, "setting.json");
   }
 
-  /// Adds the world's line to `index`; `on_part` is called of each of kParts that is done.
+  /// Writes a world and its line of `index`; calls `on_part` after each of kParts.
   Result<void> SaveWorld(int condition, int trial, const std::string& place, ExportOutcome& outcome,
                          std::vector<std::string>& index, const std::function<void(std::size_t)>& on_part) {
     const auto world = scenario_.task(condition).MakeWorld(scenario_.KeyOf(condition, trial), /*keeps_motion=*/false);
@@ -171,7 +171,7 @@ class Exporter {
       return {};
     }
     ++outcome.problems;
-    // One after the other: a world's pictures need much memory.
+    // One after the other, because a world's pictures need much memory.
     {
       const auto problem = world->MakeProblem();
       if (!problem) return About(path, problem.error());
@@ -186,7 +186,7 @@ class Exporter {
   }
 
  private:
-  /// Films at the rate that the setting tells; a task without one has no pictures.
+  /// Writes films at the rate of the setting; a task without a rate has no pictures.
   Result<void> SaveFilms(const Payload& problem, int condition, const std::string& path) const {
     const auto setting = scenario_.task(condition).Setting();
     if (!setting) return About(path, setting.error());

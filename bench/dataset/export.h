@@ -13,14 +13,14 @@ namespace etude {
 
 struct ExportOptions {
   std::vector<std::string> scenarios;  ///< files, or folders of *.yaml
-  std::optional<std::uint64_t> seed;   ///< else each scenario's own, else 1
-  std::optional<SecretKey> key = {};   ///< of secret worlds, in the place of a seed
-  bool reuse_key = false;              ///< take a key that was used before (used_keys.h)
-  std::optional<int> trials;           ///< else each scenario's own
-  std::vector<std::string> clips;      ///< replaces the scenarios' clips when not empty
-  std::string joint_map;               ///< replaces the scenarios' joint maps when not empty
+  std::optional<std::uint64_t> seed;   ///< default: each scenario's own, else 1
+  std::optional<SecretKey> key = {};   ///< of secret worlds, instead of a seed
+  bool reuse_key = false;              ///< allow a key that was used before (used_keys.h)
+  std::optional<int> trials;           ///< default: each scenario's own
+  std::vector<std::string> clips;      ///< if not empty, replaces the scenarios' clips
+  std::string joint_map;               ///< if not empty, replaces the scenarios' joint maps
   std::string clip_facts = {};         ///< RunOptions::clip_facts
-  bool films = false;                  ///< of each camera of a capture, beside its pictures
+  bool films = false;                  ///< also write a film of each camera of a capture
   std::string output;
   std::string program_version;
 };
@@ -30,7 +30,7 @@ struct ExportOutcome {
   std::size_t skipped = 0;  ///< worlds in which no method can run; listed with the reason
 };
 
-/// Writes the problems of all worlds, and apart from them what is true about them (docs/datasets.md):
+/// Writes the problems of all worlds and, separately, their truths (docs/datasets.md):
 ///
 ///     manifest.json                                what makes the same worlds again: as of a run
 ///     README.md
@@ -39,14 +39,14 @@ struct ExportOutcome {
 ///     inputs/SCENARIO/CONDITION/TRIAL/problem.json, with its files beside
 ///     truth/SCENARIO/CONDITION/TRIAL/truth.json, with its files beside
 ///
-/// Secret worlds stand under names, and in an order, that tell nothing of their trials; the index leaves out trial and
-/// clip. Whole or not at all, and on its disk. Refused, before anything is written: a folder that holds something, or
-/// that another export is writing. The process is to be in the pinned environment, which makes the pictures the same on
-/// every machine. `on_progress` is told of thirds of worlds: problems made,
-/// written with their films, truths written.
+/// Secret worlds have names, and an order, that reveal nothing of their trials; the index then leaves out trial and
+/// clip. The data set is written completely, and synced to disk, or not at all. A non-empty folder, and one that
+/// another export is writing, are errors before anything is written. The process must be in the pinned environment, so
+/// that pictures are the same on every machine. `on_progress` counts thirds of worlds: problem made, problem written
+/// with its films, truth written.
 Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress& on_progress);
 
-/// Takes away what an export to this folder has left that was killed.
+/// Removes what a killed export to this folder has left.
 void RemoveUnfinishedExport(const std::filesystem::path& output);
 
 }  // namespace etude

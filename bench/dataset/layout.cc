@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongestName = 120;  // bytes; file systems take 255
+constexpr std::size_t kLongestName = 120;  // bytes; file systems allow 255
 
 bool IsPlain(char c) {
   const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -23,7 +23,7 @@ bool IsPlain(char c) {
 
 std::string TrialName(int trial) { return fmt::format("{:03}", trial); }
 
-/// Finds the name of the world that a file name stands for: "7.json", "007.json" and "007.JSON" are trial "007".
+/// Returns the name of the world that a file name means: "7.json", "007.json" and "007.JSON" are trial "007".
 std::optional<std::string> WorldOf(const fs::path& name) {
   std::string extension = name.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -36,7 +36,7 @@ std::optional<std::string> WorldOf(const fs::path& name) {
   return is_number ? TrialName(trial) : stem;
 }
 
-/// Lists all files below `folder`, in order of their names, relative to it. What is no file and no folder goes into
+/// Lists all files below `folder`, sorted by name, relative to it. Entries that are neither files nor folders go into
 /// `faults`.
 Result<std::vector<fs::path>> AnswersBelow(const fs::path& folder, PredictionFaults& faults) {
   const Place place{folder.string(), 0, 0};

@@ -54,7 +54,7 @@ Result<std::vector<PreparedScenario>> PrepareTarget(const SuiteSetup& suite, con
   return scenarios;
 }
 
-/// Names a world: "ik/joint_noise_deg=5/007".
+/// Returns the name of a world: "ik/joint_noise_deg=5/007".
 std::string NameOf(const Plan& plan, std::size_t w) {
   const Scenario& scenario = plan.scenario_of(w).scenario();
   const World& world = plan.world(w);
@@ -62,7 +62,8 @@ std::string NameOf(const Plan& plan, std::size_t w) {
                      WorldName(plan.scenario_of(w), world.condition, world.trial));
 }
 
-constexpr std::uintmax_t kLargestAnswer = std::uintmax_t{16} << 20;  // as a program's; 60 s of poses take 3 MB
+constexpr std::uintmax_t kLargestAnswer = std::uintmax_t{16} << 20;  // the same limit as for a program's reply; 60 s of
+                                                                     // poses take 3 MB
 
 Result<CellResult> JudgeFile(TaskWorld& world, const FilePath& file) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file, kLargestAnswer));
@@ -72,7 +73,7 @@ Result<CellResult> JudgeFile(TaskWorld& world, const FilePath& file) {
   return judged;
 }
 
-/// Judges the answer in `file` to world `w`; what is wrong with it goes into `faults`. Programs measure it later.
+/// Judges the answer in `file` to world `w`; its faults go into `faults`. Metrics that are programs measure it later.
 FinishedCell JudgeWorld(const Plan& plan, std::size_t w, const std::optional<FilePath>& file,
                         PredictionFaults& faults) {
   const PreparedScenario& scenario = plan.scenario_of(w);
@@ -81,7 +82,7 @@ FinishedCell JudgeWorld(const Plan& plan, std::size_t w, const std::optional<Fil
   const auto ended = [&](Status status, const std::string& reason) {
     return FinishedCell{scenario.EndedRow(world.condition, world.trial, method, status, reason), {}};
   };
-  const bool has_programs = !scenario.scenario().outside_metrics.empty();  // that measure
+  const bool has_programs = !scenario.scenario().outside_metrics.empty();  // metrics that are programs
   const bool is_filmed = scenario.scenario().recordings.KeepsTrial(world.trial);
   const auto built =
       scenario.task(world.condition).MakeWorld(scenario.KeyOf(world.condition, world.trial), is_filmed || has_programs);
@@ -108,7 +109,7 @@ FinishedCell JudgeWorld(const Plan& plan, std::size_t w, const std::optional<Fil
   return cell;
 }
 
-/// Counts how far scoring has come.
+/// Reports the progress of scoring.
 class Meter {
  public:
   Meter(std::size_t cells, const std::function<void(const Progress&)>& on_progress) : on_progress_(on_progress) {
@@ -129,7 +130,7 @@ class Meter {
   Progress progress_;
 };
 
-/// Puts a row per answer into `cells`, or into `answered` where programs have yet to measure it. False when stopped.
+/// Adds a row per answer to `cells`, or to `answered` if programs have yet to measure it. Returns false if stopped.
 Result<bool> JudgeAll(const Plan& plan, const ScoreOptions& options, CellTable& cells, TemporaryLines& answered,
                       PredictionFaults& faults, Meter& meter) {
   ASSIGN_OR_RETURN(const auto files, FindPredictions(options.predictions, plan, faults));
@@ -148,7 +149,7 @@ Result<bool> JudgeAll(const Plan& plan, const ScoreOptions& options, CellTable& 
   return true;
 }
 
-/// Describes what repeats this run beside the manifest: the answers, by their fingerprint.
+/// Returns what is needed to repeat this run beside the manifest: the digest of the answers.
 Result<Json> DescribeAnswers(const Plan& plan, CellTable& cells, CellTable& answered) {
   Digest digest;
   std::size_t answers = 0;

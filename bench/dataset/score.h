@@ -16,11 +16,11 @@ struct ScoreOptions {
   std::string target;
   std::string predictions;            ///< the folder of answers
   std::string output;                 ///< the result folder
-  std::string name = "predictions";   ///< what the method is called that gave them
-  bool alone = false;                 ///< do not run the scenarios' own methods beside
-  bool allow_missing = false;         ///< a world without an answer is a failed cell instead of a complaint
+  std::string name = "predictions";   ///< the name of the method that gave the answers
+  bool alone = false;                 ///< do not run the scenarios' own methods
+  bool allow_missing = false;         ///< a world without an answer becomes a failed cell instead of an error
   int jobs = 0;                       ///< worker processes for the scenarios' own methods; 0 = one per processor
-  std::optional<std::uint64_t> seed;  ///< of scenario files; a manifest has its own
+  std::optional<std::uint64_t> seed;  ///< for scenario files; a manifest has its own
   std::optional<SecretKey> key = {};  ///< of secret worlds
   std::optional<int> trials;
   std::vector<std::string> clips;
@@ -34,12 +34,13 @@ struct ScoreOptions {
 
 struct ScoreOutcome {
   RunOutcome run;
-  PredictionFaults faults;  ///< when there are any, nothing was written
+  PredictionFaults faults;  ///< if there are any, nothing was written
 };
 
 /// Scores answers from files and writes an ordinary result folder, in which they are one more method of each scenario,
-/// compared with its first; those are run beside by workers, as in a run. With `alone` they are not, and nothing is
-/// compared or expected. The process is to be in the pinned environment, because it judges the answers itself.
+/// compared with its first method. Workers run the scenarios' own methods as in a run; with `alone` they are not run,
+/// and nothing is compared or expected. The process must be in the pinned environment, because it judges the answers
+/// itself.
 Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
                                       const std::function<void(const Progress&)>& on_progress);
 

@@ -31,7 +31,7 @@ bool IsCommonKey(const std::string& key) {
   return std::any_of(keys.begin(), keys.end(), [&](const KeyInfo& known) { return known.key == key; });
 }
 
-/// The digest of all that shapes the worlds of a condition: its task, the task's own keys, the clips.
+/// Returns the digest of everything that shapes the worlds of a condition: its task, the task's own keys, the clips.
 std::string WorldDigest(const std::string& task, const Node& condition, std::span<const std::string> clip_digests) {
   Digest digest;
   digest.Add(std::string_view(task));
@@ -58,8 +58,8 @@ std::string MethodDigest(const MethodEntry& method) {
 
 constexpr const char* kBuiltInName = "built in";
 
-// Fast, with metrics of every kind: medians, a share, a count. The changes are real ones, from hardly any to a
-// large one: joints may not turn further from a start that is 15° (standard deviation) off.
+// It is fast and has metrics of every kind: medians, a share, a count. The changes are real ones, from very small to
+// large: joints may not turn further from a start that is 15° (standard deviation) off.
 constexpr const char* kBuiltInScenario = R"(
 scenario: gate-self-test
 question: Does the gate see what it should, and nothing else?
@@ -77,7 +77,7 @@ metrics: [orientation_error_deg, position_error_cm, hidden_angle_error_deg, solv
 
 namespace fs = std::filesystem;
 
-/// Values of two versions of a metric never mix.
+/// Complains of metric versions that differ from this program's: values of two versions are never mixed.
 Result<void> CheckMetricVersions(const Json& manifest, const Place& place) {
   const Json versions = manifest.value("metrics", Json::object());
   for (const auto& [id, version] : versions.items()) {
@@ -90,7 +90,7 @@ Result<void> CheckMetricVersions(const Json& manifest, const Place& place) {
   return {};
 }
 
-/// The scenarios of manifest.json, read from the texts that it keeps.
+/// Reads the scenarios of manifest.json from the texts that it keeps.
 Result<std::vector<FinishedScenario>> LoadScenarios(const FilePath& path) {
   ASSIGN_OR_RETURN(const auto manifest, ReadJsonFile(path));
   const Place place{path.string(), 0, 0};

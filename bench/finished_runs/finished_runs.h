@@ -12,28 +12,28 @@
 
 namespace etude {
 
-/// Collects what a gate must know of a scenario that has been run. `clip_digests`: of the clips it had loaded, in
-/// order. What worlds are digests of leaves out all that does not shape them (questions, expectations, gate rules,
-/// comments), so that editing those keeps a baseline valid.
+/// Collects what a gate needs to know of a scenario that has been run. `clip_digests` are those of the loaded clips, in
+/// order. The digests of worlds leave out everything that does not shape the worlds (questions, expectations, gate
+/// rules, comments), so that editing those keeps a baseline valid.
 FinishedScenario FinishScenario(const Scenario& scenario, const ScenarioSetup& setup,
                                 std::span<const std::string> clip_digests);
 
-/// A scenario ready to be run under any seed, in this process and without a folder: what the gate's test of itself
-/// does hundreds of times. A method that crashes takes the program with it.
+/// A scenario that can be run under any seed, in this process and without a folder, as the gate's self-test does
+/// hundreds of times. A method that crashes ends the program.
 struct Rehearsal {
   SourceTexts sources;
   ScenarioSetup setup;
   Scenario scenario;
 };
 
-/// Reads the first scenario of a file; "" = a small one of task ik that is built in. `trials` replaces its own.
+/// Reads the first scenario of a file; "" = a small built-in one of task ik. `trials` replaces its own number.
 Result<Rehearsal> ReadRehearsal(const std::string& file, std::optional<int> trials);
 
 /// Runs all its cells under `seed`.
 Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed);
 
-/// Reads a result folder with its scenarios and times. A run that is under way or was interrupted has no data,
-/// only the reason. Fails like LoadRun, and when cells.jsonl holds a row twice or one that the manifest has not.
+/// Reads a result folder with its scenarios and times. A run that has not ended or was interrupted has no data, only
+/// the reason. Fails like LoadRun, and if cells.jsonl has a duplicate row or one that the manifest does not have.
 Result<FinishedRun> LoadFinishedRun(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
 }  // namespace etude

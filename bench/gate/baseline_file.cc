@@ -42,7 +42,7 @@ Json EncodeValues(const SnapshotValues& kept) {
   return values;
 }
 
-/// The lines of an array, one value each.
+/// Collects the lines of an array, one value each.
 class Lines {
  public:
   void Add(const Json& json) {
@@ -58,19 +58,19 @@ class Lines {
   std::optional<Error> error_;
 };
 
-constexpr std::string_view kLetters = "oufbs";   // no baseline is made where the machine ended a cell
-constexpr std::string_view kAnswers = "ou";      // a method gave an answer, right or not
-constexpr std::int64_t kMostTrials = 1'000'000;  // as a scenario may ask for
+constexpr std::string_view kLetters = "oufbs";   // a baseline is never made if the machine ended a cell
+constexpr std::string_view kAnswers = "ou";      // statuses with an answer, right or not
+constexpr std::int64_t kMostTrials = 1'000'000;  // the limit of a scenario
 constexpr std::int64_t kMostVersions = 1'000'000;
 
-/// The seal of a baseline: the digest of its JSON without the seal, so that its layout may change.
+/// Returns the seal of a baseline: the digest of its JSON without the seal, so that the text's layout may change.
 Result<std::string> SealOf(Json baseline) {
   baseline.erase("seal");
   ASSIGN_OR_RETURN(const auto text, WriteJson(baseline));
   return Digest().Add(std::string_view(text)).Hex();
 }
 
-/// The cells that a line can be about, by "scenario, condition, method".
+/// The cells that a line describes, by "scenario, condition, method".
 struct Slot {
   std::size_t trials = 0;
   SnapshotCells* cells = nullptr;
@@ -178,7 +178,7 @@ class BaselineReader {
   }
 
   /// Checks the size of the table before it is allocated: two long lists of names in a small file would make a huge
-  /// one. No line may come twice, so a file with as many lines as cells fills every cell.
+  /// table. No line may be duplicate, so a file with as many lines as cells fills every cell.
   Result<void> CountLines(const JsonObject& head) const {
     std::size_t cells = 0, lists = 0;
     for (const SnapshotScenario& scenario : snapshot_.scenarios) {
@@ -192,7 +192,7 @@ class BaselineReader {
                 values->size(), cells, lists);
   }
 
-  /// Makes an empty place for each line that must follow.
+  /// Makes an empty slot for each line that must follow.
   void MakeSlots() {
     for (SnapshotScenario& scenario : snapshot_.scenarios) {
       for (const auto& [condition, world] : scenario.worlds) {
@@ -208,7 +208,7 @@ class BaselineReader {
     }
   }
 
-  /// Finds the slot that a line belongs to, by its "scenario, condition, method".
+  /// Finds the slot of a line, by its "scenario, condition, method".
   Result<Slots::const_iterator> FindSlot(const JsonObject& line, std::string_view what) const {
     ASSIGN_OR_RETURN(const auto scenario, line.Text("scenario"));
     ASSIGN_OR_RETURN(const auto condition, line.Text("condition"));
@@ -230,7 +230,8 @@ class BaselineReader {
     if (statuses.find_first_not_of(kLetters) != std::string::npos || statuses.size() != cells.trials) {
       return Fail(place, "the statuses of {} are not {} letters of '{}'", name, cells.trials, kLetters);
     }
-    const bool skipped = statuses.find_first_not_of('s') == std::string::npos;  // with a reason, and nothing is said
+    const bool skipped = statuses.find_first_not_of('s') == std::string::npos;  // skipped cells have a reason, and are
+                                                                                // not judged
     if (skipped || statuses.find_first_of(kAnswers) != std::string::npos) return {};
     return Fail(place,
                 "all {} cells of {} failed: nothing could be worse; allowed: a baseline in which each method has "
@@ -265,7 +266,8 @@ class BaselineReader {
     return CheckNulls(line, *kept, name);
   }
 
-  /// A world without a value cannot get worse, so a null that slipped in would switch it off: they are counted.
+  /// Counts the nulls. A world without a value cannot get worse, so an additional null would exclude the world from the
+  /// gate.
   Result<void> CheckNulls(const JsonObject& line, const SnapshotValues& kept, const std::string& name) const {
     std::int64_t allowed = 0;
     if (line.Has("nulls")) {
@@ -312,7 +314,7 @@ Result<std::string> WriteBaseline(const Snapshot& snapshot) {
   }
   auto head = WriteJson({{"schema", kBaselineSchema}, {"etude", snapshot.program_version}, {"suite", snapshot.suite}});
   if (!head) return head;
-  head->pop_back();  // its brace, to go on in it
+  head->pop_back();  // removes the closing brace, to append more keys
   const std::string text = fmt::format("{},\n\"scenarios\":[{}\n],\n\"statuses\":[{}\n],\n\"values\":[{}\n]", *head,
                                        scenarios.text(), statuses.text(), values.text());
   ASSIGN_OR_RETURN(const auto json, ReadJson(text + "}", "a baseline"));

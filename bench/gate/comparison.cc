@@ -29,7 +29,7 @@ const SnapshotValues* FindValues(const SnapshotCells& cells, const std::string& 
   return FindIn(cells.metrics, [&](const SnapshotValues& values) { return values.metric == metric; });
 }
 
-/// Lists what `one` holds and `other` does not, once at the level at which it is missing.
+/// Lists what `one` contains and `other` does not, at the highest level that is missing.
 std::vector<std::string> OnlyIn(const Snapshot& one, const Snapshot& other) {
   std::vector<std::string> only;
   for (const SnapshotScenario& scenario : one.scenarios) {
@@ -132,11 +132,13 @@ std::vector<std::string> DropIncomparable(Snapshot& before, Snapshot& after) {
 SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& after, const std::set<std::string>& exact,
                                     const TailRules& tails) {
   SnapshotComparison comparison;
+  // List what only one of the snapshots contains.
   comparison.only_before = OnlyIn(before, after);
   comparison.only_after = OnlyIn(after, before);
   for (const SnapshotScenario& scenario : before.scenarios) {
     const SnapshotScenario* partner = FindScenario(after, scenario.name);
     if (partner == nullptr) continue;
+    // Methods whose settings changed.
     for (const auto& [method, digest] : scenario.methods) {
       const std::string* other = FindDigest(partner->methods, method);
       if (other != nullptr && *other != digest) comparison.settings_changed.push_back(scenario.name + ", " + method);
@@ -145,6 +147,7 @@ SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& afte
       const SnapshotCells* others = FindCells(*partner, cells);
       if (others == nullptr) continue;
       const std::vector<bool> compared = WorldsToCompare(cells, *others);
+      // Measure the share of ok cells and every metric, world by world.
       const auto add = [&](const std::string& metric, const auto& values, const auto& other_values) {
         const MoveColumns columns{values, other_values, compared, cells.statuses, others->statuses};
         MetricMove& move = comparison.moves.emplace_back(
@@ -152,7 +155,7 @@ SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& afte
         move.tail = FindTail(columns, *FindGateMetric(metric), RuleOf(scenario.name, tails));
       };
       add(kOkShare, OkIn(cells.statuses), OkIn(others->statuses));
-      // An exact comparison also counts `unsolved` against `failed`, which the share of ok cells does not see.
+      // An exact comparison also counts `unsolved` against `failed`, which the share of ok cells does not show.
       if (exact.contains(scenario.name)) comparison.moves.back().differing = CountDiffering(cells, *others, compared);
       for (const SnapshotValues& values : cells.metrics) {
         const SnapshotValues* other = FindValues(*others, values.metric);
@@ -160,6 +163,7 @@ SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& afte
       }
     }
   }
+  // Judge all moves as one family, then single worlds by the tail rule.
   JudgeMoves(comparison.moves, exact);
   for (MetricMove& move : comparison.moves) JudgeTail(move, RuleOf(move.identity.scenario, tails));
   return comparison;

@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::string_view kStatusLetters = "ouftcmbs";  // in the order of Status
 
-/// The rows of a run that are not held stand where their identities have them: none is there twice.
+/// Checks the rows of a run that does not fit in memory: they must be in the order of their identities, so none is
+/// duplicate.
 Result<void> CheckRowsInOrder(const FinishedRun& run, const Place& place) {
   std::vector<std::string> wanted;
   std::size_t scenario = 0, next = 0;
@@ -35,7 +36,7 @@ Result<void> CheckRowsInOrder(const FinishedRun& run, const Place& place) {
   return Fail(place, "holds {} rows; the manifest makes more", CountRows(run.data));
 }
 
-/// Puts the rows of one scenario into its part of a snapshot.
+/// Collects the rows of one scenario into a snapshot.
 class ScenarioTaker {
  public:
   explicit ScenarioTaker(const FinishedScenario& one) {
@@ -45,7 +46,7 @@ class ScenarioTaker {
     for (const std::string& id : study.gate.metrics) taken_.metrics.emplace_back(id, FindMetric(id)->version);
     for (const std::vector<SweptValue>& condition : study.conditions) {
       for (const ComparedMethod& method : study.methods) {
-        places_[{CompactLabel(condition), method.name}] = taken_.cells.size();
+        slots_[{CompactLabel(condition), method.name}] = taken_.cells.size();
         SnapshotCells& cells = taken_.cells.emplace_back(
             SnapshotCells{CompactLabel(condition), method.name, std::string(trials, 'f'), {}});
         for (const std::string& id : study.gate.metrics) {
@@ -60,7 +61,7 @@ class ScenarioTaker {
       condition_ = row.condition;
       label_ = CompactLabel(row.condition);
     }
-    SnapshotCells& cells = taken_.cells[places_.at({label_, row.method})];
+    SnapshotCells& cells = taken_.cells[slots_.at({label_, row.method})];
     const auto trial = static_cast<std::size_t>(row.trial);
     cells.statuses[trial] = StatusLetter(row.result.status);
     for (SnapshotValues& kept : cells.metrics) kept.values[trial] = ValueOf(row, kept.metric);
@@ -70,7 +71,7 @@ class ScenarioTaker {
 
  private:
   SnapshotScenario taken_;
-  std::map<std::pair<std::string, std::string>, std::size_t> places_;  ///< in `cells`, by condition and method
+  std::map<std::pair<std::string, std::string>, std::size_t> slots_;  ///< in `cells`, by condition and method
   std::vector<SweptValue> condition_;
   std::string label_;
 };
@@ -116,8 +117,8 @@ Result<void> CheckRows(FinishedRun& run, const Place& place) {
 char StatusLetter(Status status) { return kStatusLetters[static_cast<std::size_t>(status)]; }
 
 Status StatusOf(char letter) {
-  const std::size_t place = kStatusLetters.find(letter);
-  return place < kStatusLetters.size() ? static_cast<Status>(place) : Status::kFailed;
+  const std::size_t index = kStatusLetters.find(letter);
+  return index < kStatusLetters.size() ? static_cast<Status>(index) : Status::kFailed;
 }
 
 Snapshot TakeSnapshot(const FinishedRun& run) {

@@ -12,10 +12,10 @@
 
 namespace etude {
 
-/// A name with what its values depend on: when that differs, so does what the name stands for.
+/// A name with the digest of what its values depend on: if the digest differs, so do the values.
 using NamedDigests = std::vector<std::pair<std::string, std::string>>;
 
-/// A scenario as a run has run it.
+/// A scenario as it was run.
 struct FinishedScenario {
   Study study;
   std::uint64_t seed = 1;
@@ -23,28 +23,28 @@ struct FinishedScenario {
   NamedDigests methods;  ///< by method: its settings
 };
 
-/// A result folder, with all that a gate must know beside the rows (made by bench/finished_runs).
+/// A result folder, with everything that a gate needs beside the rows (made by bench/finished_runs).
 struct FinishedRun {
   RunData data;
   std::vector<FinishedScenario> scenarios;
-  /// The reason why it cannot be judged as a whole: it did not end, or rows are missing. Empty = it is whole.
+  /// Why the run cannot be judged as a whole: it did not end, or rows are missing. Empty = it is complete.
   std::vector<std::string> incomplete;
 };
 
-/// The identities of all cells that a scenario asks for, in canonical order.
+/// Returns the identities of all cells that a scenario requires, in canonical order.
 std::vector<std::string> CellsOf(const Study& study);
 
-/// Checks `data.rows` against what the scenarios ask for, and notes what is missing. Fails on a row that is
-/// there twice, or that no scenario asks for.
+/// Checks `data.rows` against the cells that the scenarios require, and records missing ones. Fails on a duplicate row
+/// and on a row that no scenario requires.
 Result<void> CheckRows(FinishedRun& run, const Place& place);
 
-/// The values of one metric, by trial; nothing where a cell has none.
+/// The values of one metric, by trial; nothing if a cell has none.
 struct SnapshotValues {
   std::string metric;
   std::vector<std::optional<double>> values;
 };
 
-/// The statuses and values of one method under one condition, trial by trial.
+/// The statuses and values of one method under one condition, by trial.
 struct SnapshotCells {
   std::string condition;  ///< CompactLabel
   std::string method;
@@ -62,20 +62,20 @@ struct SnapshotScenario {
   std::vector<SnapshotCells> cells;                  ///< conditions × methods
 };
 
-/// The part of a run that is kept so that another can be compared with it, world by world: a baseline.
+/// The part of a run that is kept as a baseline, so that later runs can be compared with it world by world.
 struct Snapshot {
   std::string suite;
   std::string program_version;
   std::vector<SnapshotScenario> scenarios;
-  std::string unsealed = {};  ///< of one that was read: why its seal does not vouch for it; else ""
+  std::string unsealed = {};  ///< why its seal does not match, if it was read from a file; else ""
 };
 
 /// 'o' ok, 'u' unsolved, 'f' failed, 't' timeout, 'c' crashed, 'm' out of memory, 'b' bad output, 's' skipped.
 char StatusLetter(Status status);
-/// The status of a letter; kFailed of any that is none.
+/// Returns the status of a letter; kFailed for an unknown one.
 Status StatusOf(char letter);
 
-/// Takes the gated metrics of a whole run.
+/// Returns the snapshot of a complete run: its gated metrics.
 Snapshot TakeSnapshot(const FinishedRun& run);
 
 }  // namespace etude

@@ -12,8 +12,8 @@
 namespace etude {
 namespace {
 
-/// The times of one method, by world (condition, trial). Cells that ended because of the machine, or sooner than
-/// the clock ticks, have none.
+/// Returns the times of one method, by world (condition, trial). Cells that were ended by the machine, or took less
+/// than the clock's resolution, have none.
 std::map<std::pair<std::string, int>, double> SecondsOf(const FinishedRun& run, const std::string& scenario,
                                                         const std::string& method) {
   std::map<std::pair<std::string, int>, double> seconds;
@@ -115,7 +115,7 @@ std::vector<std::string> DescribeSilentMethods(const FinishedRun& run) {
     std::string first;
     std::map<std::string, int> causes;
   };
-  constexpr std::size_t kMostCauses = 1000, kToldCauses = 3;
+  constexpr std::size_t kMaxCauses = 1000, kToldCauses = 3;
   std::map<std::pair<std::string, std::string>, Cells> methods;  // by scenario and method
   ForEachRow(run.data, [&](const Row& row, std::size_t) {
     const CellResult& result = row.result;
@@ -123,9 +123,10 @@ std::vector<std::string> DescribeSilentMethods(const FinishedRun& run) {
     Cells& cells = methods[{row.scenario, row.method}];
     cells.has_answer |= result.status == Status::kOk || result.status == Status::kUnsolved;
     if (cells.attempted++ == 0) cells.first = row.Id();
-    if (cells.has_answer || cells.causes.size() == kMostCauses) return;
+    if (cells.has_answer || cells.causes.size() == kMaxCauses) return;
     ++cells.causes[fmt::format("{}: {}", StatusName(result.status), result.reason)];
   });
+  // Describe each method without an answer by its most frequent causes.
   std::vector<std::string> sentences;
   for (const auto& [name, cells] : methods) {
     if (cells.has_answer) continue;
@@ -153,11 +154,13 @@ Result<GateReport> JudgeRun(const FinishedRun& run, const Snapshot* baseline, co
       report.expectations.push_back({scenario.name, result});
   }
   if (!report.incomplete.empty()) return report;
+  // Find cells that prevent a verdict, and methods without answers.
   report.incomplete = WhyIncomplete(run);
   report.silent = DescribeSilentMethods(run);
   for (const FinishedScenario& scenario : run.scenarios) {
     for (const ComparedMethod& method : scenario.study.methods) report.runs_programs |= method.settings.empty();
   }
+  // Time rules, and the baseline.
   report.ratios = JudgeTimeRatios(run);
   if (baseline == nullptr) return report;
   report.baseline_version = baseline->program_version;

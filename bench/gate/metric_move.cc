@@ -37,15 +37,15 @@ Movement MovementOf(const Comparison& comparison, const MetricInfo& metric) {
   return Movement::kUnclear;
 }
 
-/// The one of two answers about the same metric that has to be told.
-Movement MoreTelling(Movement a, Movement b) {
+/// Returns the more important of two results about the same metric: worse, then better, then unclear.
+Movement MoreImportant(Movement a, Movement b) {
   for (Movement movement : {Movement::kWorse, Movement::kBetter, Movement::kUnclear}) {
     if (a == movement || b == movement) return movement;
   }
   return Movement::kNoMatter;
 }
 
-Comparison AskedOfTheMean(Comparison comparison) {
+Comparison AsComparisonOfMeans(Comparison comparison) {
   comparison.difference = comparison.mean;
   comparison.ci_low = comparison.mean_low;
   comparison.ci_high = comparison.mean_high;
@@ -57,15 +57,15 @@ void JudgeByThreshold(MetricMove& move) {
   move.movement = Movement::kNoMatter;
   if (move.comparison.differing > 0) {
     const Movement own = MovementOf(move.comparison, metric);
-    move.movement = MoreTelling(own, MovementOf(AskedOfTheMean(move.comparison), metric));
+    move.movement = MoreImportant(own, MovementOf(AsComparisonOfMeans(move.comparison), metric));
     move.by_mean = move.movement != own;
   }
   if (move.presence) {
-    move.movement = MoreTelling(move.movement, MovementOf(*move.presence, *FindGateMetric(kOkShare)));
+    move.movement = MoreImportant(move.movement, MovementOf(*move.presence, *FindGateMetric(kOkShare)));
   }
 }
 
-/// Holm's correction over all comparisons in which anything differs.
+/// Applies Holm's correction over all comparisons in which anything differs.
 void CorrectTogether(std::span<MetricMove> moves) {
   std::vector<Comparison*> family;
   std::vector<std::optional<double>> p_values;
@@ -83,7 +83,7 @@ void CorrectTogether(std::span<MetricMove> moves) {
 
 constexpr char kOk = 'o', kUnsolved = 'u';
 
-/// The change of a world in practical thresholds; positive = worse.
+/// Returns the change of a world in practical thresholds; positive = worse.
 double Worse(double before, double after, const MetricInfo& metric) {
   switch (metric.direction) {
     case Direction::kLowerIsBetter:
@@ -107,7 +107,7 @@ const MetricInfo* FindGateMetric(std::string_view id) {
     metric.label = "cells that ended ok";
     metric.direction = Direction::kHigherIsBetter;
     metric.aggregate = Aggregate::kMean;
-    metric.practical = 0.02;  // as of the catalogue's solved shares
+    metric.practical = 0.02;  // as for the catalogue's solved shares
     return metric;
   }();
   return id == kOkShare ? &ok : FindMetric(id);
@@ -122,6 +122,7 @@ std::string_view MovementWords(Movement movement) {
 MetricMove MeasureMove(MoveIdentity identity, const MoveColumns& columns, std::uint64_t seed) {
   MetricMove move;
   move.identity = std::move(identity);
+  // Collect the compared worlds.
   std::vector<Pair> values, presence;
   std::vector<std::optional<double>> all_before, all_after;
   for (std::size_t t = 0; t < columns.compared.size(); ++t) {
@@ -135,13 +136,14 @@ MetricMove MeasureMove(MoveIdentity identity, const MoveColumns& columns, std::u
     presence.push_back({before ? 1.0 : 0.0, after ? 1.0 : 0.0});
     if (before && after) values.push_back({*before, *after});
   }
+  // Aggregates before and after.
   const MetricInfo& metric = *FindGateMetric(move.identity.metric);
   move.worlds = static_cast<int>(presence.size());
   move.before = AggregateOfPresent(all_before, metric.aggregate);
   move.after = AggregateOfPresent(all_after, metric.aggregate);
   const std::string purpose = fmt::format("gate/{}/{}/{}/{}", move.identity.scenario, move.identity.condition,
                                           move.identity.metric, move.identity.method);
-  if (move.differing == 0) return move;  // nothing to test, and most of a gate's comparisons are like this
+  if (move.differing == 0) return move;  // nothing to test: most of a gate's comparisons
   move.comparison = ComparePaired(values, metric, seed, purpose);
   if (move.lost + move.gained > 0) {
     move.presence = ComparePaired(presence, *FindGateMetric(kOkShare), seed, purpose + "/presence");
@@ -190,7 +192,7 @@ std::vector<TailWorld> FindTail(const MoveColumns& columns, const MetricInfo& me
 
 int WorldsThatFail(int compared, const TailRule& rule) {
   if (rule.worlds == 0) return 0;
-  constexpr double kRounding = 1e-9;  // 0.02 of 150 is 3, whatever the product's last bit
+  constexpr double kRounding = 1e-9;  // so that 0.02 of 150 is 3 in spite of rounding
   return std::max(rule.worlds, static_cast<int>(std::ceil(rule.share * compared - kRounding)));
 }
 

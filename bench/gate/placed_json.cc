@@ -10,12 +10,12 @@
 namespace etude {
 namespace {
 
-/// An object or a list that has been opened and not closed.
+/// An object or a list that is open.
 struct Level {
   bool is_object = false;
   bool key_comes = false;           ///< the next string is a key
-  std::string key;                  ///< the last one
-  std::map<std::string, int> keys;  ///< with their lines
+  std::string key;                  ///< the last key
+  std::map<std::string, int> keys;  ///< the keys so far, with their lines
 };
 
 class Walk {
@@ -47,7 +47,7 @@ class Walk {
     return {};
   }
 
-  /// A key, or a value, from its opening quote to its closing one.
+  /// Reads a string, a key or a value, from its opening to its closing quote.
   Result<void> String() {
     const std::size_t from = at_;
     for (++at_; at_ < text_.size() && text_[at_] != '"'; ++at_) at_ += text_[at_] == '\\';
@@ -57,14 +57,15 @@ class Walk {
     }
     Level& level = levels_.back();
     level.key_comes = false;
-    level.key = Json::parse(text_.substr(from, at_ + 1 - from)).get<std::string>();  // "a" and "\u0061" are one key
+    level.key = Json::parse(text_.substr(from, at_ + 1 - from)).get<std::string>();  // "a" and "\u0061" are the same
+                                                                                     // key
     const auto [first, is_new] = level.keys.emplace(level.key, line_);
     if (is_new) return {};
     return Fail({file_, line_, 0}, "the key {} stands twice in one object, first in line {}; allowed: once",
                 Quote(level.key), first->second);
   }
 
-  /// A value begins here: is it an entry of a list in the outermost object?
+  /// Records the line of a value that begins here, if it is an entry of a list in the outermost object.
   void NoteEntry() {
     if (levels_.size() == 2 && levels_[0].is_object && !levels_[1].is_object) {
       places_.lines[levels_[0].key].push_back(line_);
@@ -123,7 +124,7 @@ Result<std::string> JsonObject::Text(std::string_view key) const {
 Result<std::int64_t> JsonObject::Whole(std::string_view key, std::int64_t lowest, std::int64_t highest) const {
   const Json& value = At(key);
   const std::string allowed = fmt::format("a whole number, {}…{}", lowest, highest);
-  // What does not fit into 64 bits with a sign would come out negative.
+  // A number that does not fit into 64 bits with a sign would become negative.
   const bool fits =
       value.is_number_integer() && !(value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX);
   if (!fits || value.get<std::int64_t>() < lowest || value.get<std::int64_t>() > highest) return Wrong(key, allowed);

@@ -14,22 +14,22 @@
 
 namespace etude {
 
-/// The lines of a JSON document's entries, which a JSON library forgets when it has read it.
+/// The line numbers of a JSON document's entries, which a JSON library does not keep.
 struct JsonPlaces {
-  /// The line of each entry, from 1, of every list in the outermost object.
+  /// The line, from 1, of each entry of every list in the outermost object.
   std::map<std::string, std::vector<int>> lines;
 };
 
-/// Walks over a document that is valid JSON (ReadJson). Fails, with the line, on a key that stands twice in one object:
-/// a JSON library would keep one of the two and not tell.
+/// Finds the lines of a valid JSON document (ReadJson). Fails, with the line, on a duplicate key in an object: a JSON
+/// library would silently keep one of the two.
 Result<JsonPlaces> FindJsonPlaces(const std::string& text, const std::string& file);
 
-/// A JSON object read strictly: every key that must be there is, no other one is, and each value is of its kind, where
-/// a JSON library would make 1 of 1.9, 18446744073709551615 of −1, or throw in its own words. Complaints name the
-/// place, the key, what was found and what is allowed. Null is no text and no number.
+/// Reads a JSON object strictly: every required key exists, no unknown one does, and each value is of its kind. A JSON
+/// library would turn 1.9 into 1, −1 into 18446744073709551615, or throw its own messages. Complaints name the place,
+/// the key, the value found and what is allowed. Null is neither a text nor a number.
 class JsonObject {
  public:
-  /// `what` is what complaints call it: "a line of statuses". `json` must outlive it.
+  /// Checks the keys of `json`, which must outlive the result. `what` is its name in complaints: "a line of statuses".
   static Result<JsonObject> Of(const Json& json, Place place, std::string what,
                                std::initializer_list<std::string_view> required,
                                std::initializer_list<std::string_view> optional = {});
@@ -57,7 +57,7 @@ class JsonObject {
   std::string what_;
 };
 
-/// A value as complaints show it: null, "text", 1.5, a list, an object.
+/// Returns a value as complaints show it: null, "text", 1.5, a list, an object.
 std::string DescribeJson(const Json& json);
 
 }  // namespace etude

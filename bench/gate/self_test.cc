@@ -15,7 +15,7 @@ namespace {
 constexpr std::array kSizes = {1.0, 2.0, 4.0};  // practical thresholds
 constexpr double kSpread = 3;                   // practical thresholds, standard deviation over the worlds
 
-/// A count of what happened, until all is counted.
+/// Counts events.
 struct Tally {
   int count = 0, of = 0;
   void Add(bool happened) {
@@ -33,8 +33,8 @@ bool Alarms(const SnapshotComparison& comparison) {
   return std::any_of(comparison.moves.begin(), comparison.moves.end(), IsRegression);
 }
 
-/// The run as if `method` alone had been in it, under the name of the first one.
-Snapshot InPlaceOfTheFirst(Snapshot snapshot, const std::string& method) {
+/// Returns the snapshot with `method` alone, under the name of the first method.
+Snapshot WithMethodAsFirst(Snapshot snapshot, const std::string& method) {
   for (SnapshotScenario& scenario : snapshot.scenarios) {
     const std::string first = scenario.methods.front().first;
     std::erase_if(scenario.cells, [&](const SnapshotCells& cells) { return cells.method != method; });
@@ -44,7 +44,7 @@ Snapshot InPlaceOfTheFirst(Snapshot snapshot, const std::string& method) {
   return snapshot;
 }
 
-/// The first list of values that a difference can be put into; null when there is none.
+/// Returns the first list of values into which a difference can be injected; null if there is none.
 SnapshotValues* FindTarget(Snapshot& snapshot) {
   for (SnapshotValues& values : snapshot.scenarios.front().cells.front().metrics) {
     const MetricInfo& metric = *FindMetric(values.metric);
@@ -62,14 +62,14 @@ void Inject(SnapshotValues& values, double size, std::uint64_t seed) {
   }
 }
 
-constexpr double kFarBeyond = 2, kShort = 0.9;  // times what the rule lets pass
+constexpr double kFarBeyond = 2, kShort = 0.9;  // multiples of what the rule allows
 
 template <typename AnySnapshot>
 auto& TargetOf(AnySnapshot& snapshot, const std::string& metric) {
   return *std::ranges::find(snapshot.scenarios.front().cells.front().metrics, metric, &SnapshotValues::metric);
 }
 
-/// `count` different trials that have a value, in the order drawn; fewer where there are no more.
+/// Returns `count` different trials with a value, in the order drawn; fewer if there are no more.
 std::vector<std::size_t> DrawTrials(const SnapshotValues& values, std::size_t count, std::uint64_t seed) {
   std::vector<std::size_t> trials;
   for (std::size_t t = 0; t < values.values.size(); ++t) {
@@ -104,15 +104,18 @@ Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions) {
     const Snapshot first = TakeSnapshot(*first_run);
     const std::string& name = first.scenarios.front().name;
     const TailRules rules = TailRulesOf(*first_run), no_tails = {{name, TailRule{.worlds = 0, .lost = 0}}};
+    // Reruns must not alarm, by either rule.
     reruns.Add(Alarms(CompareSnapshots(first, TakeSnapshot(*same_run), {name})));
 
     tail_reruns.Add(Alarms(CompareSnapshots(first, TakeSnapshot(*same_run), {}, rules)));
 
+    // False alarms between two seeds.
     const SnapshotComparison nothing_changed = CompareSnapshots(first, TakeSnapshot(*other_run), {}, no_tails);
     gates.Add(Alarms(nothing_changed));
     for (const MetricMove& move : nothing_changed.moves) comparisons.Add(IsRegression(move));
     report.comparisons = static_cast<int>(nothing_changed.moves.size());
 
+    // Injected differences of known size, and a few far worse worlds.
     for (std::size_t k = 0; k < kSizes.size(); ++k) {
       Snapshot worse = first;
       SnapshotValues* values = FindTarget(worse);
@@ -123,13 +126,15 @@ Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions) {
     }
     tails.Try(first, target, first_seed, rules.at(name));
 
+    // Each other method in place of the first.
     methods = first.scenarios.front().methods;
     real.resize(methods.size());
-    const Snapshot before = InPlaceOfTheFirst(first, methods.front().first);
+    const Snapshot before = WithMethodAsFirst(first, methods.front().first);
     for (std::size_t m = 1; m < methods.size(); ++m) {
-      real[m].Add(Alarms(CompareSnapshots(before, InPlaceOfTheFirst(first, methods[m].first), {}, no_tails)));
+      real[m].Add(Alarms(CompareSnapshots(before, WithMethodAsFirst(first, methods[m].first), {}, no_tails)));
     }
   }
+  // The rates.
   report.rerun_alarms = reruns.Result();
   report.tail_rerun_alarms = tail_reruns.Result();
   report.tails = tails.Results();
@@ -158,6 +163,7 @@ void InjectedTails::Try(const Snapshot& first, const std::string& target, std::u
   const auto worse_by = [&](double times) { return [=](std::optional<double>& value) { *value += times * worse; }; };
   const auto present = static_cast<int>(DrawTrials(TargetOf(first, target), SIZE_MAX, seed).size());
   const int needed = WorldsThatFail(present, rule);
+  // Worlds worse by twice what the rule allows: found if they are enough.
   std::set<int> counts = {1, 2, 3, 5, 10};
   if (needed > 0) counts.insert(needed);
   for (const int count : counts) {
@@ -166,6 +172,7 @@ void InjectedTails::Try(const Snapshot& first, const std::string& target, std::u
                       kFarBeyond * rule.times),
           needed > 0 && count >= needed, compare(static_cast<std::size_t>(count), worse_by(kFarBeyond)));
   }
+  // Worlds just within the rule are not found; a lost value is.
   if (needed > 0 && needed <= present) {
     Count(fmt::format("{} in {} of {} worlds worse by {} × what matters", target, needed, present, kShort * rule.times),
           false, compare(static_cast<std::size_t>(needed), worse_by(kShort)));

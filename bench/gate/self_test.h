@@ -10,68 +10,68 @@
 
 namespace etude {
 
-/// A count of something that happened, with the 95 % Wilson interval of its share.
+/// A count of events, with the 95 % Wilson interval of its share.
 struct Rate {
   int count = 0;
   int of = 0;
   double low = 0, high = 1;
 };
 
-/// The share of made changes that a gate found.
+/// The share of injected changes that a gate found.
 struct PowerResult {
   std::string change;
   Rate found;
 };
 
-/// The figures of a gate that has tested itself.
+/// The results of a gate's test of itself.
 struct SelfTestReport {
-  int comparisons = 0;                ///< of one gate
-  Rate rerun_alarms;                  ///< gates by the rule `exact` between two runs of one seed: must be none
-  Rate tail_rerun_alarms;             ///< gates by the tail rule between them: must be none
-  Rate false_alarms;                  ///< gates between runs of two seeds that cry regression
-  Rate false_alarm_comparisons;       ///< of all comparisons of these gates
-  std::vector<PowerResult> injected;  ///< changes of known size, put into one metric of one method
-  std::vector<PowerResult> tails;     ///< a few worlds made far worse, or losing their value, in the same metric
-  std::vector<PowerResult> real;      ///< the first method replaced by each other one
+  int comparisons = 0;                ///< number of comparisons of one gate
+  Rate rerun_alarms;                  ///< gates by the rule `exact` between two runs of one seed: must be zero
+  Rate tail_rerun_alarms;             ///< gates by the tail rule between two runs of one seed: must be zero
+  Rate false_alarms;                  ///< gates between runs of two seeds that report a regression
+  Rate false_alarm_comparisons;       ///< among all comparisons of these gates
+  std::vector<PowerResult> injected;  ///< changes of known size, injected into one metric of one method
+  std::vector<PowerResult> tails;     ///< a few worlds made far worse, or without their value, in the same metric
+  std::vector<PowerResult> real;      ///< the first method replaced by each other method
 
-  /// True if the gate keeps its promise: reruns never alarm, false alarms are not clearly above kFalseAlarmLimit, and
-  /// the tail rule finds as many far worse worlds as it counts.
+  /// Returns true if the gate keeps its promise: reruns never alarm, the interval of false alarms does not lie above
+  /// kFalseAlarmLimit, and the tail rule finds the number of far worse worlds that it is set to.
   bool Holds() const;
-  bool tails_found = true;  ///< every gate in which the tail rule had to fail did, and no other
+  bool tails_found = true;  ///< the tail rule failed exactly the gates that it had to fail
 };
 
-/// The share of gates that may cry regression although nothing changed: alpha of the comparisons' Holm correction.
+/// The share of gates that may report a regression although nothing changed: alpha of Holm's correction.
 constexpr double kFalseAlarmLimit = 0.05;
 
-/// Makes a whole run of one and the same scenario under a seed.
+/// Makes a complete run of one scenario under a seed.
 using RunUnderSeed = std::function<Result<FinishedRun>(std::uint64_t seed)>;
 
 /// Measures the gate on `repetitions` pairs of seeds (2i − 1, 2i):
-///  - false alarms: trial t of the one seed against trial t of the other. Both are drawn alike, so the sign of every
-///    difference is a coin's throw: whatever the gate cries is false. The worlds differ, which makes the differences
-///    far larger than those of a real gate, but nothing else about the test. The tail rule, which is about the same
-///    worlds, is off.
-///  - reruns: the first seed against itself, run again.
-///  - injected: the first seed against itself, with a difference added to the values of the first method, first
-///    condition, in the first gated metric that is a median and has a direction: k times its practical threshold for
-///    the worse, in every world another one (normal, standard deviation of three thresholds).
-///  - tails: the first seed against itself, with n worlds of that metric made worse by twice what the scenario's tail
-///    rule lets pass, n = 1 up to what it counts; and with one value lost.
-///  - real: the first seed's worlds, in which another method takes the first one's place.
-/// Fails when a run does, or when the scenario has no metric to inject into.
+/// - false alarms: trial t of one seed against trial t of the other. Both have the same distribution, so the sign of
+///   every difference is random and every alarm is false. The differences are far larger than those of a real gate,
+///   because the worlds differ, but the test is otherwise the same. The tail rule, which is for the same worlds, is
+///   off.
+/// - reruns: the first seed against a second run of it.
+/// - injected: the first seed against itself, with a random difference added to every value of the first method, first
+///   condition, in the first gated metric that is a median and has a direction: normal with a mean of k practical
+///   thresholds for the worse and a standard deviation of three thresholds.
+/// - tails: the first seed against itself, with n worlds of that metric made worse by twice what the scenario's tail
+///   rule allows, n from 1 to the number that is a regression; and with one value lost.
+/// - real: the first seed's worlds, in which another method replaces the first one.
+/// Fails if a run does, or if the scenario has no metric for injection.
 Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions);
 
-/// Makes few worlds of a snapshot far worse, and counts in how many gates that is found: every one in which the tail
-/// rule says so, and no other by this rule.
+/// Makes a few worlds of a snapshot far worse, and counts the gates that find it: all those in which the tail rule
+/// applies must, and no other may by this rule.
 class InjectedTails {
  public:
-  /// Changes `target` (scenario 0, cells 0, this metric) of copies of `first`: n worlds worse by twice the rule's
-  /// `times`, n = 1, 2, 3, 5, 10 and as many as fail by the rule; that many by nine tenths of it; one value lost.
-  /// `seed` keys which worlds.
+  /// Changes `target` (scenario 0, cells 0, this metric) in copies of `first`: n worlds worse by twice the rule's
+  /// `times`, n = 1, 2, 3, 5, 10 and the number that is a regression; that number worse by nine tenths of `times`; one
+  /// value lost. `seed` keys the choice of worlds.
   void Try(const Snapshot& first, const std::string& target, std::uint64_t seed, const TailRule& rule);
 
   std::vector<PowerResult> Results() const;
-  /// True if all gates did as the rule says.
+  /// Returns true if all gates behaved as the rule says.
   bool AsTheRuleSays() const { return as_the_rule_says_; }
 
  private:

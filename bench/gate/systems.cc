@@ -14,17 +14,17 @@
 namespace etude {
 namespace {
 
-/// The largest difference of a metric's values.
+/// The largest difference of a metric's values between two systems.
 struct Difference {
   const char* metric;
   double most;
 };
 
-/// A system on which the quick suite was run, and how its results differ from Debian 12's. tests/cli/systems_test.py
-/// measures it anew; docs/guide/install.md shows it.
+/// A system on which the quick suite was run, with its differences from Debian 12. tests/cli/systems_test.py measures
+/// it again; docs/guide/install.md shows it.
 struct MeasuredSystem {
   const char* name;
-  const char *compiler, *glibc, *ceres, *mesa;  ///< beginnings of their versions
+  const char *compiler, *glibc, *ceres, *mesa;  ///< prefixes of their versions
   int cells_that_differ;
   std::span<const Difference> differences;
 };
@@ -53,7 +53,7 @@ std::string Describe(const RunSystem& system, const MeasuredSystem* measured) {
 
 using LargestDifferences = std::map<std::string, double, std::less<>>;
 
-/// The largest differences of the values that both snapshots hold, by metric; those that do not differ are left out.
+/// Returns the largest differences of values in both snapshots, by metric; metrics without a difference are left out.
 LargestDifferences DifferencesOf(const Snapshot& before, const Snapshot& after) {
   LargestDifferences largest;
   const auto add = [&](const SnapshotCells& a, const SnapshotCells& b) {
@@ -80,7 +80,7 @@ LargestDifferences DifferencesOf(const Snapshot& before, const Snapshot& after) 
   return largest;
 }
 
-/// What two systems were measured to differ by at most: as far as each is from Debian 12, together.
+/// Returns the measured bounds on the differences between two systems: the sum of their differences from Debian 12.
 LargestDifferences MeasuredBetween(const MeasuredSystem& a, const MeasuredSystem& b) {
   LargestDifferences measured;
   for (const MeasuredSystem* system : {&a, &b}) {

@@ -8,9 +8,9 @@
 
 namespace etude {
 
-/// Tells in lines of text on which systems two runs were computed, where these differ; by how much results were
-/// measured to differ between them (on the quick suite, docs/guide/install.md); and which gated values of the two
-/// snapshots, those of the runs, differ by more. Nothing where the systems are one.
+/// Returns lines of text that say on which systems two runs were computed, if these differ; by how much results were
+/// measured to differ between them (on the quick suite, docs/guide/install.md); and which gated values of the runs'
+/// snapshots differ by more. Empty if the systems are the same.
 std::vector<std::string> CompareSystems(const RunSystem& a, const RunSystem& b, const Snapshot& before,
                                         const Snapshot& after);
 

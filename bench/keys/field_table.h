@@ -18,7 +18,8 @@
 
 namespace etude {
 
-/// Access to a member within members: `Path(&Method::filter, &FilterOptions::kind)(method)` is `method.filter.kind`.
+/// Returns access to a member of members: `Path(&Method::filter, &FilterOptions::kind)(method)` is
+/// `method.filter.kind`.
 template <typename... Members>
 constexpr auto Path(Members... members) {
   // clang-format off
@@ -26,11 +27,11 @@ constexpr auto Path(Members... members) {
   // clang-format on
 }
 
-/// Values by the names that files call them.
+/// Values with the names that files use for them.
 template <typename Value>
 using NamedValues = std::vector<std::pair<std::string, Value>>;
 
-// What a field's member may be when it holds a number; an absent key leaves it alone.
+// The types that a number's member may have; an absent key leaves the value unchanged.
 void ReadNumber(Fields& fields, const std::string& key, Range range, double& value);
 void ReadNumber(Fields& fields, const std::string& key, Range range, int& value);
 void ReadNumber(Fields& fields, const std::string& key, Range range, std::optional<double>& value);
@@ -45,20 +46,20 @@ inline std::string DegreesText(const std::optional<double>&) { return "(none)"; 
 
 /// Reads `count` numbers into `values`.
 void ReadNumbers(Fields& fields, const std::string& key, Count count, Range range, std::vector<double>& values);
-/// Reads a list of names; complains of one that is not `known`.
+/// Reads a list of names; complains of unknown ones.
 std::vector<std::string> ReadNames(Fields& fields, const std::string& key, const std::vector<std::string>& known);
 
-/// The items of a list; none where there is no list.
+/// Returns the items of a list; empty if there is no list.
 std::span<const Node> ReadItems(Fields& fields, const std::string& key);
 
-/// One key of a mapping that is read into `Options`: declared once, for the reader, the page of keys and the schema. A
-/// `member` is a pointer to one, or a Path to one further in; what it holds in `Options{}` is the default.
+/// One key of a mapping that is read into `Options`: declared once, for the reader, the reference page and the schema.
+/// A `member` is a pointer to member, or a Path to a nested one; its value in `Options{}` is the default.
 template <typename Options>
 struct Field {
   KeyInfo info;
   std::function<void(Fields&, Options&)> read;
 
-  /// A double, an int (then only whole numbers are taken), or an optional of one.
+  /// A number: a double, an int (which accepts integers only), or an optional of these.
   template <typename Member>
   static Field Number(const std::string& key, Member member, Range range, std::string meaning) {
     using Value = std::remove_cvref_t<std::invoke_result_t<Member, Options&>>;
@@ -78,7 +79,7 @@ struct Field {
             }};
   }
 
-  /// A vector of `count` numbers; `allowed` says for people how many, and which.
+  /// A list of `count` numbers; `allowed` tells people how many and which.
   template <typename Member>
   static Field Numbers(const std::string& key, Member member, Count count, std::string allowed, Range range,
                        std::string meaning) {
@@ -100,7 +101,7 @@ struct Field {
             }};
   }
 
-  /// A field that takes any text; `allowed` tells people which.
+  /// Any text; `allowed` tells people which.
   template <typename Member>
   static Field Text(const std::string& key, Member member, std::string allowed, std::string meaning) {
     return {{key, TextKind(std::move(allowed)), Default(member), std::move(meaning)},
@@ -117,7 +118,7 @@ struct Field {
             [=](Fields& fields, Options& options) { std::invoke(member, options) = fields.Texts(key); }};
   }
 
-  /// One of several values by its name.
+  /// One of several named values.
   template <typename Member, typename Value = std::remove_cvref_t<std::invoke_result_t<Member, Options&>>>
   static Field Name(const std::string& key, Member member, const NamedValues<Value>& values, std::string meaning) {
     std::vector<std::string> names;
@@ -134,7 +135,7 @@ struct Field {
             }};
   }
 
-  /// One of several values by its name; `find` gives the value of a name, or something that points to it.
+  /// One of several named values; `find` returns the value of a name, or a pointer to it.
   template <typename Member, typename Find>
   static Field Name(const std::string& key, Member member, const std::vector<std::string>& names, Find find,
                     std::string meaning) {
@@ -166,25 +167,25 @@ struct Field {
             }};
   }
 
-  /// The unit, where the key does not say it or says it too shortly.
+  /// Adds the unit, if the key does not say it or abbreviates it.
   Field Unit(const std::string& unit) const {
     Field field = *this;
     field.info.value.allowed += " (" + unit + ")";
     return field;
   }
-  /// Adds a remark on the values that it may have.
+  /// Adds a remark on the allowed values.
   Field And(const std::string& words) const {
     Field field = *this;
     field.info.value.allowed += "; " + words;
     return field;
   }
-  /// Says what an absent key means, when that is no value: "(the scenario's)".
+  /// Says what an absent key means if that is not a value: "(the scenario's)".
   Field WhenAbsent(const std::string& words) const {
     Field field = *this;
     field.info.fallback = words;
     return field;
   }
-  /// It may only stand where `key` has one of these values.
+  /// The key is allowed only if `key` has one of these values.
   Field With(const std::string& key, std::vector<std::string> values) const {
     Field field = *this;
     field.info.only_with = {key, std::move(values)};
@@ -199,14 +200,14 @@ struct Field {
   }
 };
 
-/// All keys of a mapping, in the order in which they are read and documented. A key may stand here several times, where
-/// no two of its conditions can hold at once: two solvers may call settings of their own alike.
+/// All keys of a mapping, in the order in which they are read and documented. A key may occur several times if no two
+/// of its conditions can hold at once: two solvers may have settings of the same name.
 template <typename Options>
 struct FieldTable {
   std::vector<Field<Options>> fields;
-  std::function<void(Fields&, Options&)> check = {};  ///< complains of what only all values together show
+  std::function<void(Fields&, Options&)> check = {};  ///< complains of values that do not fit together
 
-  /// Complaints stay in `mapping`; absent keys leave `options` as they are. `check` is left to the caller.
+  /// Reads the keys. Complaints stay in `mapping`; absent keys leave `options` unchanged. The caller runs `check`.
   void ReadKeys(Fields& mapping, Options& options) const {
     const std::vector<KeyInfo> keys = Infos();
     for (const Field<Options>& field : fields) {
@@ -232,19 +233,19 @@ struct FieldTable {
   }
 };
 
-/// Reads a mapping that holds these keys and no others, on top of `options`. `what` it is, for complaints.
+/// Reads a mapping with these keys and no others, on top of `options`. Complaints call it `what`.
 template <typename Options>
 Result<Options> ReadMapping(const Node& node, const std::string& what, const FieldTable<Options>& table,
                             Options options = {}) {
   Fields fields(node, what);
   table.ReadKeys(fields, options);
-  RETURN_IF_ERROR(fields.Finish());  // a key that nobody knows explains what is missing
+  RETURN_IF_ERROR(fields.Finish());  // first, because an unknown key explains a missing value
   if (table.check) table.check(fields, options);
   RETURN_IF_ERROR(fields.Finish());
   return options;
 }
 
-/// Reads the mapping under `key`, where there is one, on top of `value`; complaints stay in `fields`.
+/// Reads the mapping of `key`, if there is one, on top of `value`; complaints stay in `fields`.
 template <typename Value>
 void ReadNested(Fields& fields, const std::string& key, const FieldTable<Value>& table, Value& value) {
   const Node* node = fields.Raw(key);
@@ -257,7 +258,7 @@ void ReadNested(Fields& fields, const std::string& key, const FieldTable<Value>&
   }
 }
 
-/// Reads the list of mappings under `key`, where there is one; each of them is `what`. Complaints stay in `fields`.
+/// Reads the list of mappings of `key`, if there is one; complaints call each item `what` and stay in `fields`.
 template <typename Value>
 std::vector<Value> ReadListed(Fields& fields, const std::string& key, const std::string& what,
                               const FieldTable<Value>& table) {
@@ -275,8 +276,8 @@ std::vector<Value> ReadListed(Fields& fields, const std::string& key, const std:
 
 enum class Keep { kThese, kOthers };
 
-/// The fields of another table that `keys` name, or all others, read into a part of `Options`: a key that two tasks
-/// have is told once. `part` is a member, or a Path to one.
+/// Returns the fields of another table that `keys` name, or all others, to be read into a part of `Options`: a key of
+/// two tasks is declared once. `part` is a member, or a Path to one.
 template <typename Options, typename Part, typename Member>
 std::vector<Field<Options>> FieldsOf(const FieldTable<Part>& table, Member part, Keep keep,
                                      const std::vector<std::string>& keys) {
@@ -314,10 +315,10 @@ Field<Options> SettingField(const std::string& chooser, const std::string& metho
           }};
 }
 
-/// The settings of a registry's methods (choices, joins), as fields that go with the key `chooser`. A row of the
-/// registry has a `name` and `settings`; the values are read into a vector of doubles, which `member` gives: all
-/// settings of the method that was chosen, in its order, as soon as one is written. Two methods may have settings of
-/// one name.
+/// Returns the settings of a registry's methods (solvers, choices, joins) as fields that depend on the key `chooser`.
+/// An entry of the registry has a `name` and `settings`. Values are read into a vector of doubles given by `member`: as
+/// soon as one setting is written, all settings of the chosen method, in its order. Two methods may have settings of
+/// the same name.
 template <typename Options, typename Registry, typename Member>
 std::vector<Field<Options>> SettingFields(const std::string& chooser, const Registry& registry, Member member) {
   std::vector<Field<Options>> fields;

@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// The value of `key` in `mapping`, or what the absent key means.
+/// Returns the value of `key` in `mapping`, or its default.
 std::string ValueOf(const std::string& key, std::span<const KeyInfo> keys, const Node& mapping) {
   const Node* value = mapping.Find(key);
   if (value != nullptr) return value->scalar;
@@ -21,7 +21,7 @@ std::string ValueOf(const std::string& key, std::span<const KeyInfo> keys, const
   return chooser == keys.end() ? "" : chooser->fallback;
 }
 
-/// The key that decides about this one, if it may not stand there itself.
+/// Returns the key on which this one depends, if that key is itself not allowed.
 const KeyInfo* MisplacedChooser(const KeyInfo& key, std::span<const KeyInfo> keys, const Node& mapping) {
   const auto chooser = std::ranges::find(keys, key.only_with.key, &KeyInfo::key);
   return chooser == keys.end() || MayStand(*chooser, keys, mapping) ? nullptr : &*chooser;
@@ -45,7 +45,7 @@ ValueKind NumberKind(Range range, bool is_whole) {
 ValueKind FlagKind() { return {"true, false", R"({"type":"boolean"})"}; }
 
 ValueKind TextKind(std::string allowed, const std::string& pattern) {
-  Json schema{{"type", {"string", "number"}}};  // what reads as a number is a text, too
+  Json schema{{"type", {"string", "number"}}};  // text that looks like a number is a text, too
   if (!pattern.empty()) schema["pattern"] = pattern;
   return {std::move(allowed), schema.dump()};
 }

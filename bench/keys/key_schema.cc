@@ -14,27 +14,27 @@ Json ScalarToJson(const Node& node) {
   if (text == "true" || text == "false") return text == "true";
   const auto number = AsNumber(node);
   if (!number) return text;
-  std::int64_t whole = 0;  // 5 stays 5 and does not become 5.0
+  std::int64_t whole = 0;  // so that 5 stays 5 and does not become 5.0
   const char* end = text.data() + text.size();
   const auto [stop, status] = std::from_chars(text.data(), end, whole);
   if (status == std::errc() && stop == end) return whole;
   return *number;
 }
 
-/// The keys of this name, in their order.
+/// Returns the keys of this name, in their order.
 std::vector<KeyInfo> Variants(const std::string& name, std::span<const KeyInfo> keys) {
   std::vector<KeyInfo> variants;
   std::ranges::copy_if(keys, std::back_inserter(variants), [&](const KeyInfo& key) { return key.key == name; });
   return variants;
 }
 
-/// One schema, or any of several.
+/// Returns one schema, or a choice of several.
 Json AnyOf(std::vector<Json> schemas) {
   if (schemas.size() == 1) return std::move(schemas.front());
   return {{"anyOf", std::move(schemas)}};
 }
 
-/// The schema of a mapping that holds a key with a condition.
+/// Returns the schema of a mapping that holds a key with a condition.
 Json ConditionSchema(const KeyInfo& key, std::span<const KeyInfo> keys, bool says_all) {
   const KeyCondition& condition = key.only_with;
   Json schema{

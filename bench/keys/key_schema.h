@@ -8,22 +8,22 @@
 
 namespace etude {
 
-/// A value of a document as JSON. A document keeps only the text of its values: what reads as a number, true or false
-/// is one, even in quotes.
+/// Returns a value of a document as JSON. A document keeps values as text, so whatever reads as a number, true or false
+/// becomes one, even in quotes.
 Json ToJson(const Node& node);
 
-/// The JSON Schema (draft 7, which editors know best) of a key's value, with description and default.
+/// Returns the JSON Schema (draft 7, the best supported by editors) of a key's value, with description and default.
 Json KeySchema(const KeyInfo& key);
 
-/// The JSON Schema of a mapping with these keys and no others. A key may stand there several times, with other
-/// conditions each.
+/// Returns the JSON Schema of a mapping with these keys and no others. A key may be listed several times with different
+/// conditions.
 Json MappingSchema(std::span<const KeyInfo> keys);
 
-/// A schema as text, a key a line: only what holds described keys, or would be a very long line, takes several.
+/// Writes a schema as text, one line a key; objects of described keys, and long lines, take several lines.
 std::string SchemaText(const Json& schema, const std::string& indent = {});
 
-/// The conditions between keys and the values of others, as `dependencies`. `says_all`: an absent key has its default;
-/// else another part of the file may say it.
+/// Returns the conditions between keys and other keys' values, as `dependencies`. `says_all`: true = an absent key has
+/// its default; false = another part of the file may contain it.
 Json ConditionSchemas(std::span<const KeyInfo> keys, bool says_all);
 
 }  // namespace etude

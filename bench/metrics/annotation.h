@@ -6,15 +6,16 @@
 
 namespace etude {
 
-/// The places that two people marked for the same thing in the same picture, pixels; empty where one did not mark it.
+/// The positions that two annotators marked for the same joint or limb in the same picture, pixels; empty if one did
+/// not mark it.
 struct MarkedTwice {
   std::optional<glm::dvec2> first, second;
 };
 
-/// `annotator_distance_px`: mean distance of what both marked; nothing when they marked nothing both.
+/// Returns `annotator_distance_px`: the mean distance of what both marked; nothing if both marked nothing in common.
 std::optional<double> AnnotatorDistancePx(std::span<const MarkedTwice> joints);
 
-/// `annotator_overlap`: of what either marked, the share that both did; nothing when nobody marked anything.
+/// Returns `annotator_overlap`: of what at least one marked, the share that both marked; nothing if none was marked.
 std::optional<double> AnnotatorOverlap(std::span<const MarkedTwice> limbs);
 
 }  // namespace etude

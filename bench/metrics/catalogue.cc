@@ -24,7 +24,8 @@ const MetricInfo* FindInCatalogue(std::string_view id) {
   return found != by_id.end() && (*found)->id == id ? *found : nullptr;
 }
 
-/// Returns in what two definitions differ, of all that judges and draws their values; "" = in nothing.
+/// Names the first difference of two definitions that affects how their values are judged or drawn; "" if there is
+/// none.
 std::string FindDifference(const MetricInfo& a, const MetricInfo& b) {
   if (a.version != b.version) return fmt::format("version {} and {}", a.version, b.version);
   if (a.direction != b.direction) return "direction";

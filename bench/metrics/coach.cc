@@ -13,7 +13,7 @@ namespace {
 
 using enum PerformanceTruth;
 
-/// The last performance whose window had closed when the correction was decided on; none before the first.
+/// Returns the last performance whose window had closed when the correction was decided; null if there was none.
 const CoachedPerformance* CauseOf(const GivenCorrection& correction, const CoachedSession& session) {
   const CoachedPerformance* cause = nullptr;
   for (const CoachedPerformance& performance : session.performances) {
@@ -22,7 +22,8 @@ const CoachedPerformance* CauseOf(const GivenCorrection& correction, const Coach
   return cause;
 }
 
-/// Tells whether a correction of performance `i` was decided on before the window of the next one had closed for good.
+/// Returns true if a correction was decided between the end of the window of performance `i` and the end of the next
+/// one's.
 bool IsAnswered(const CoachedSession& session, std::size_t i) {
   const bool is_last = i + 1 == session.performances.size();
   const int first = session.performances[i].end_frame;
@@ -32,7 +33,7 @@ bool IsAnswered(const CoachedSession& session, std::size_t i) {
   });
 }
 
-/// Returns the waits from the decision to correct until the act begins, or the session ends.
+/// Returns the times from the decision to correct until the act begins (censored if the session ends first).
 std::vector<Wait> FeedbackWaits(const CoachedSession& session) {
   std::vector<Wait> waits;
   for (const GivenCorrection& correction : session.corrections) {

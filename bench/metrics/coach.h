@@ -9,19 +9,21 @@ namespace etude {
 /// The truth about a performance.
 enum class PerformanceTruth { kRight, kGrey, kWrong };
 
-/// One performance that a coach asked for and judged in its window; one whose window was cut off is none.
+/// One performance that the coach asked for and judged in its window. A performance whose window was cut off is not
+/// counted.
 struct CoachedPerformance {
   int begin_frame = 0;  ///< of its window
   int end_frame = 0;    ///< the first after it
   PerformanceTruth truth = PerformanceTruth::kRight;
-  std::optional<int> called_wrong;  ///< the frame in which the coach took it for a mistake
+  std::optional<int> called_wrong;  ///< the frame in which the coach called it wrong
   bool called_right = false;
 };
 
-/// A corrective act that the coach decided on.
+/// A correction that the coach decided to give.
 struct GivenCorrection {
   int decided_frame = 0;
-  std::optional<int> act_frame;  ///< the act's first frame, way there excluded; empty: the session ended before
+  std::optional<int> act_frame;  ///< the first frame of the act, without the transition to it; empty if the session
+                                 ///< ended before
 };
 
 /// A coached session (docs/reference/metrics.md, Coach). Performances and corrections in order of time.
@@ -38,38 +40,40 @@ struct CoachedSession {
 struct CorrectionTally {
   int due = 0;           ///< performances that were wrong
   int given = 0;         ///< corrections
-  int missed = 0;        ///< of those due, without a correction until the next performance's window has closed
-  int unneeded = 0;      ///< of those given, after a performance that was right, or before any
-  int wrong_praise = 0;  ///< performances that were wrong and called right
+  int missed = 0;        ///< of those due, without a correction before the next performance's window has closed
+  int unneeded = 0;      ///< of those given, after a right performance, or before any
+  int wrong_praise = 0;  ///< performances that were wrong and were called right
 };
 CorrectionTally TallyCorrections(const CoachedSession& session);
 
-/// The share of mistakes that was answered by a correction within one repetition. Empty without mistakes.
+/// Returns the share of mistakes that were answered by a correction within one repetition. Empty without mistakes.
 std::optional<double> AnsweredShare(const CorrectionTally& tally);
 
-/// `decision_delay_s`: from a wrong performance's first frame until it is called wrong; one that is not was waited for
-/// until its window closed. Kaplan–Meier median; empty when it is never reached.
+/// Returns `decision_delay_s`: the time from a wrong performance's first frame until it is called wrong; a performance
+/// never called wrong is censored when its window closes. Kaplan–Meier median; empty if it is never reached.
 std::optional<double> DecisionDelaySeconds(const CoachedSession& session);
-/// `feedback_delay_s`: from the decision to correct to the act's first frame, given up at the session's end. Likewise.
+/// Returns `feedback_delay_s`: the time from the decision to correct to the act's first frame, censored at the
+/// session's end. Kaplan–Meier median; empty if it is never reached.
 std::optional<double> FeedbackDelaySeconds(const CoachedSession& session);
-/// `feedback_delay_max_s`: the longest of those waits, of the acts that began. Empty when none did.
+/// Returns `feedback_delay_max_s`: the longest of these times among the acts that began. Empty if none began.
 std::optional<double> LongestFeedbackDelaySeconds(const CoachedSession& session);
 
-/// `repetitions_until_right`: `moves` holds, per move, what its performances were, in order of time. Of the moves whose
-/// first performance was wrong: how many performances until the first right one, it included; Kaplan–Meier median,
-/// given up after the last one.
+/// Returns `repetitions_until_right`. `moves` holds, per move, the truth of its performances in order of time. For each
+/// move whose first performance was wrong, it counts the performances up to and including the first right one, censored
+/// after the last one. Kaplan–Meier median; empty if it is never reached.
 std::optional<double> RepetitionsUntilRight(std::span<const std::vector<PerformanceTruth>> moves);
 
-/// `retention`: the mean of the chances to be right in a test. Empty when there are none.
+/// Returns `retention`: the mean probability of a right performance in a test. Empty without tests.
 std::optional<double> Retention(std::span<const double> chances);
 
-/// `beat_error_ms`: the 95th percentile of the errors' sizes, seconds in, milliseconds out. Empty without any.
+/// Returns `beat_error_ms`: the 95th percentile of the absolute errors, in milliseconds from seconds. Empty without
+/// errors.
 std::optional<double> BeatErrorMs(std::span<const double> errors_s);
 
-/// `switch_jump_cm`: the middle value, or the mean of the middle two. Empty without any.
+/// Returns the median, used by `switch_jump_cm`. Empty without values.
 std::optional<double> MedianOf(std::vector<double> values);
-/// `switch_natural_share`: of the transitions with these jumps, the share that is natural (IsNatural) beside the
-/// windows of the unbroken song, of which it needs one. Empty without transitions.
+/// Returns `switch_natural_share`: the share of transitions whose jumps are natural (IsNatural) compared with the
+/// windows of the unbroken song, of which at least one is required. Empty without transitions.
 std::optional<double> NaturalShare(std::span<const double> jumps_cm, const std::vector<double>& natural_jumps_cm);
 
 }  // namespace etude

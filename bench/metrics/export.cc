@@ -116,8 +116,8 @@ std::string ExpectedText(const MetricVector& vector) {
                               : fmt::format("{:.9g}", *vector.expected);
 }
 
-/// Escapes the bar, which would end a table's cell.
-std::string InTable(std::string_view content) {
+/// Escapes the bar, which would end a table cell.
+std::string EscapeTableCell(std::string_view content) {
   std::string text(content);
   for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) text.insert(at, "\\");
   return text;
@@ -133,8 +133,8 @@ std::string Section(const MetricInfo& metric) {
   }
   text += ".\n\n| vector | value | where from |\n|---|---|---|\n";
   for (const MetricVector& vector : metric.vectors) {
-    text +=
-        fmt::format("| {} | {} | {} |\n", InTable(vector.title), InTable(ExpectedText(vector)), InTable(vector.source));
+    text += fmt::format("| {} | {} | {} |\n", EscapeTableCell(vector.title), EscapeTableCell(ExpectedText(vector)),
+                        EscapeTableCell(vector.source));
   }
   return text;
 }

@@ -7,17 +7,17 @@
 
 namespace etude {
 
-/// The whole catalogue with its test vectors, for other implementations to prove their agreement by
-/// (docs/schemas/metrics.schema.json): one line of JSON.
+/// Returns the whole catalogue with its test vectors as one line of JSON (docs/schemas/metrics.schema.json), so that
+/// other implementations can prove their agreement.
 Json MetricsJson();
 
-/// docs/reference/metrics.md.
+/// Returns the text of docs/reference/metrics.md.
 std::string MetricsPage();
 
-/// The definitions of AddedMetrics as a manifest keeps them, as in the catalogue's JSON but without test vectors, and
-/// with `reads`; by id.
+/// Returns the definitions of AddedMetrics by id, as a manifest keeps them: the catalogue's JSON without test vectors
+/// and with `reads`.
 Json AddedMetricsJson();
-/// Adds the metrics of such a list (AddMetric). Fails, naming `place`, on what is none.
+/// Adds the metrics of such a list (AddMetric). Fails, naming `place`, at an item that is not a valid metric.
 Result<void> ReadAddedMetrics(const Json& list, const Place& place);
 
 }  // namespace etude

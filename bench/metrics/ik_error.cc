@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// `goal` in centimetres and in degrees.
+/// Returns true if the largest errors are below `goal`, in centimetres and in degrees.
 bool AreWithin(const IkErrorSummary& errors, const IkAsked& asked, double goal) {
   return (!asked.positions || errors.position_max_cm < goal) && (!asked.axes || errors.axis_max_deg < goal);
 }
@@ -22,7 +22,7 @@ double ShareOfFrames(std::span<const TrackedFrame> frames, bool (*is_solved)(con
   return *Share(solved, static_cast<std::int64_t>(frames.size()));
 }
 
-/// The sum of all third differences' sizes; the rate is the same for both motions that are compared.
+/// Returns the sum of the absolute third differences. The rate cancels in the ratio of two motions.
 double TotalJerk(std::span<const std::vector<double>> frames) {
   double sum = 0;
   for (std::size_t f = 3; f < frames.size(); ++f) {
@@ -100,7 +100,7 @@ FrameIterations SummariseIterations(std::span<const int> iterations) {
 std::optional<double> AngleJerkRatio(std::span<const std::vector<double>> found,
                                      std::span<const std::vector<double>> truth) {
   assert(found.size() == truth.size());
-  constexpr double kRounding = 1e-9;  // radians: third differences of a truth that stands still
+  constexpr double kRounding = 1e-9;  // radians: tolerance for the third differences of a truth that stands still
   const double true_jerk = TotalJerk(truth);
   if (true_jerk <= kRounding * CountThirdDifferences(truth)) return std::nullopt;
   return TotalJerk(found) / true_jerk;

@@ -9,41 +9,41 @@
 
 namespace etude {
 
-/// The outcome of testing a distance against a threshold on the pairs of frames that a transition could have used:
-/// every bridge frame of the old clip that the wait allows with every bridge frame of the new one
+/// The result of testing a distance against a threshold on all pairs of frames that a transition could have used: every
+/// bridge frame of the old clip within the allowed wait × every bridge frame of the new clip
 /// (docs/reference/metrics.md, Matching).
 struct MatchTally {
   std::int64_t pairs = 0;
-  std::int64_t matching = 0;        ///< their distance is below the threshold
-  std::int64_t falsely_smooth = 0;  ///< they match, and yet their pose gap is more than 20 cm (IsFalselySmooth)
+  std::int64_t matching = 0;        ///< pairs whose distance is below the threshold
+  std::int64_t falsely_smooth = 0;  ///< matching pairs whose pose gap exceeds 20 cm (IsFalselySmooth)
 };
 
-/// Share of the pairs that match; empty where there is no pair.
+/// Returns the share of the pairs that match; empty without pairs.
 std::optional<double> MatchingShare(const MatchTally& tally);
 
-/// Share of the matching pairs that are falsely smooth; empty where nothing matches.
+/// Returns the share of the matching pairs that are falsely smooth; empty without matching pairs.
 std::optional<double> FalseSmoothShare(const MatchTally& tally);
 
-/// True if a direct transition could be made, which takes a pair.
+/// Returns true if a direct transition is possible: at least one pair matches.
 constexpr bool HasDirectMatch(const MatchTally& tally) { return tally.matching > 0; }
 
-/// Two poses whose worst joint is less than this apart, metres, are close: hard to tell apart.
+/// Two poses are close (hard to tell apart) if their worst joint distance is below this, metres.
 constexpr double kCloseGap = 0.15;
 
-/// Mean distance of the twenty joints, centimetres; both poses stand where they are.
+/// Returns the mean distance of the twenty joints, centimetres, without aligning the poses.
 double MeanJointDistanceCm(const BodyPose& a, const BodyPose& b);
 
-/// The frames that a search answered for one query, in the order in which they are asked for; empty: none.
+/// The frames that a search returned for one query, in the order in which queries ask for them; empty: none.
 using FoundFrames = std::vector<int>;
 
-/// `search_agreement`: the share of the queries answered exactly as a loop over all frames answers them. One entry per
-/// query in both; empty where there is no query.
+/// Returns `search_agreement`: the share of queries with exactly the same result as a loop over all frames. Both have
+/// one entry per query; empty without queries.
 std::optional<double> SearchAgreement(const std::vector<FoundFrames>& found, const std::vector<FoundFrames>& truth);
 
-/// `matches_per_query`: how many frames are answered on average.
+/// Returns `matches_per_query`: the mean number of frames returned; empty without queries.
 std::optional<double> MatchesPerQuery(const std::vector<FoundFrames>& found);
 
-/// The mean of something counted per query (`distances_per_query`, `boxes_per_query`); empty where there is no query.
+/// Returns the mean of a count per query (`distances_per_query`, `boxes_per_query`); empty without queries.
 std::optional<double> MeanPerQuery(std::span<const std::int64_t> counts);
 
 }  // namespace etude

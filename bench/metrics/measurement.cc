@@ -10,6 +10,7 @@
 namespace etude {
 namespace {
 
+/// Averages `error_of` over the measured values that have a truth.
 template <typename ErrorOf>
 MeasuredError Compare(std::span<const Sighted> things, ErrorOf error_of) {
   double sum = 0;

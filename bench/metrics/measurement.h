@@ -7,34 +7,34 @@
 
 namespace etude {
 
-/// One thing in one frame: what was measured of it, and the truth, where there is one of each.
+/// A measurement in one frame and the truth, each if it exists.
 struct Sighted {
   std::optional<glm::dvec3> found;
   std::optional<glm::dvec3> truth;
 };
 
-/// The errors of measurements against the truth, and how many measurements there are.
+/// The mean error of measurements, and the share of true values that were measured.
 struct MeasuredError {
-  std::optional<double> mean;      ///< over what was measured; empty when nothing was
-  std::optional<double> coverage;  ///< share of what has a truth that was measured; empty when nothing has
+  std::optional<double> mean;      ///< over all measured values; empty if there are none
+  std::optional<double> coverage;  ///< share of the true values that were measured; empty without true values
 };
 
-/// Angle between the direction read and the true one, degrees: `limb_direction_error_deg`, `limb_direction_coverage`.
-/// One entry per limb and frame; directions need no length of one.
+/// Returns the angle between the measured and the true direction, degrees (`limb_direction_error_deg`), and its
+/// coverage (`limb_direction_coverage`). One entry per limb and frame; directions need not be unit vectors.
 MeasuredError LimbDirectionErrorDeg(std::span<const Sighted> limbs);
 
-/// Distance of a point found to the true one, millimetres: `triangulation_error_mm`, `triangulation_coverage`. One
-/// entry per end effector and frame, metres.
+/// Returns the distance between the triangulated and the true point, millimetres (`triangulation_error_mm`), and its
+/// coverage (`triangulation_coverage`). One entry per end effector and frame, metres.
 MeasuredError TriangulationErrorMm(std::span<const Sighted> ends);
 
-/// A calibrated camera and the points that it was calibrated by.
+/// A calibrated camera and the point pairs it was calibrated from.
 struct CameraFit {
   ProjectionMatrix matrix;
   std::span<const PointPair> pairs;
 };
 
-/// `reprojection_rms_px`: each camera's root mean square distance between measured and reprojected pixels, then the
-/// mean over the cameras. Needs a camera; infinite when a point lies behind one.
+/// Returns `reprojection_rms_px`: the root mean square reprojection error of each camera, pixels, averaged over the
+/// cameras. At least one camera is required; infinite if a point lies behind a camera.
 double MeanReprojectionRmsPx(std::span<const CameraFit> cameras);
 
 }  // namespace etude

@@ -28,7 +28,7 @@ glm::dmat3 ToGlm(const Eigen::Matrix3d& m) {
   return result;
 }
 
-// The sum over all pairs of successive limbs, and their number.
+// Returns the sum of the angle errors over all pairs of successive limbs, degrees, and adds their number to `count`.
 double AngleErrorsDeg(const BodyPose& found, const BodyPose& truth, int& count) {
   const auto angle = [](const BodyPose& pose, Role grandparent, const Bone& bone) {
     const glm::dvec3 upper = pose[bone.parent] - pose[grandparent], lower = pose[bone.child] - pose[bone.parent];
@@ -48,6 +48,7 @@ double AngleErrorsDeg(const BodyPose& found, const BodyPose& truth, int& count) 
 
 Similarity AlignSimilarity(std::span<const glm::dvec3> points, std::span<const glm::dvec3> targets) {
   assert(points.size() == targets.size() && !points.empty());
+  // Covariance of the centred points.
   const glm::dvec3 mean = MeanOf(points), target_mean = MeanOf(targets);
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   double scatter = 0;
@@ -57,7 +58,7 @@ Similarity AlignSimilarity(std::span<const glm::dvec3> points, std::span<const g
     scatter += glm::dot(p, p);
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  // The guard: a mirrored body must not count as a good one, so the last axis turns round instead.
+  // Forbid reflections: a mirrored body must not count as a good one, so the last singular vector is flipped instead.
   const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
   const Eigen::Vector3d signs(1, 1, sign);
   Similarity similarity;
@@ -83,6 +84,7 @@ double FramePaMpjpeMm(const BodyPose& found, const BodyPose& truth) {
 PoseErrors ComparePoses(std::span<const BodyPose> found, std::span<const BodyPose> truth) {
   assert(found.size() == truth.size() && !found.empty());
   constexpr double kNear_mm = 50, kAucEnd_mm = 200, kCmPerMetre = 100;
+  // Sum the errors over all frames, joints and limbs.
   PoseErrors sums;
   int angles = 0;
   for (std::size_t f = 0; f < found.size(); ++f) {
@@ -92,7 +94,7 @@ PoseErrors ComparePoses(std::span<const BodyPose> found, std::span<const BodyPos
     for (std::size_t i = 0; i < kRoleCount; ++i) {
       const double error_mm = kMmPerMetre * glm::distance(found[f].joints[i], truth[f].joints[i]);
       sums.pck_50mm += error_mm < kNear_mm;
-      // The area under a step at `error_mm` is what lies right of it.
+      // The area under a step function at `error_mm` is what lies right of the step.
       sums.auc_200mm += std::max(0.0, 1 - error_mm / kAucEnd_mm);
     }
     sums.joint_angle_error_deg += AngleErrorsDeg(found[f], truth[f], angles);
@@ -100,6 +102,7 @@ PoseErrors ComparePoses(std::span<const BodyPose> found, std::span<const BodyPos
       sums.bone_length_error_cm += kCmPerMetre * std::abs(BoneLength(found[f], bone) - BoneLength(truth[f], bone));
     }
   }
+  // Divide by the counts.
   const auto frames = static_cast<double>(found.size());
   const double joints = frames * static_cast<double>(kRoleCount);
   PoseErrors means = std::move(sums);

@@ -18,13 +18,13 @@ struct Similarity {
   glm::dvec3 Apply(const glm::dvec3& p) const { return scale * (rotation * p) + translation; }
 };
 
-/// The similarity that brings `points` closest to `targets` in the sense of least squares (Procrustes;
-/// Umeyama 1991). Never a reflection. Points all in one place keep their scale. As many of one as of the other.
+/// Returns the similarity that maps `points` to `targets` with the least squared error (Procrustes; Umeyama 1991). It
+/// is never a reflection. If all points coincide, the scale is 1. Both spans have the same size, at least one.
 Similarity AlignSimilarity(std::span<const glm::dvec3> points, std::span<const glm::dvec3> targets);
 
-/// Mean distance of a joint to the true one, millimetres.
+/// Returns the mean joint error (MPJPE) of one frame, millimetres.
 double FrameMpjpeMm(const BodyPose& found, const BodyPose& truth);
-/// The mean joint error after `AlignSimilarity` of this frame.
+/// Returns the mean joint error after `AlignSimilarity` of this frame, millimetres.
 double FramePaMpjpeMm(const BodyPose& found, const BodyPose& truth);
 
 /// The errors of a recovered motion against the true one (docs/reference/metrics.md), over all joints and frames.
@@ -38,19 +38,20 @@ struct PoseErrors {
   std::vector<double> frame_mpjpe_mm;
 };
 
-/// Measures a recovered motion; both have the same number of frames, at least one.
+/// Measures a recovered motion. Both have the same number of frames, at least one.
 PoseErrors ComparePoses(std::span<const BodyPose> found, std::span<const BodyPose> truth);
 
-/// `mpjpe_seen_mm` and `mpjpe_held_mm`: the mean of one value per frame over the frames that have a flag; nothing when
-/// none has. As many of one as of the other.
+/// Returns the mean of one value per frame over the frames whose flag is set (`mpjpe_seen_mm`, `mpjpe_held_mm`);
+/// nothing if no flag is set. Both have the same size.
 std::optional<double> MeanOfFlagged(std::span<const double> values, const std::vector<bool>& flags);
 
-/// `jerk_error_mps3`: the mean length of the difference of the third differences of found and true joints, times rate³,
-/// over all joints and all runs of four successive frames that are judged; nothing when there is no such run.
+/// Returns `jerk_error_mps3`: the mean length of the difference between the third differences of found and true joints,
+/// times rate³, over all joints and all runs of four successive judged frames; nothing if there is no such run.
 std::optional<double> JerkErrorMps3(std::span<const BodyPose> found, std::span<const BodyPose> truth,
                                     const std::vector<bool>& judged, double rate_hz);
 
-/// `limb_length_error_mm`: mean absolute difference of lengths in metres, as many of one as of the other, at least one.
+/// Returns `limb_length_error_mm`: the mean absolute difference of the lengths, from metres. Both have the same size,
+/// at least one.
 double LimbLengthErrorMm(std::span<const double> found_m, std::span<const double> true_m);
 
 }  // namespace etude

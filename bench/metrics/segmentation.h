@@ -7,8 +7,7 @@
 
 namespace etude {
 
-/// The agreement of one mask, or the mean of many, with the true one; nothing where a share has no pixels
-/// to be a share of.
+/// The agreement of one mask with the true one, or the mean of many. A share whose denominator has no pixels is empty.
 struct MaskScore {
   std::optional<double> iou = {};           ///< |found ∩ true| / |found ∪ true|
   std::optional<double> precision = {};     ///< |found ∩ true| / |found|
@@ -18,10 +17,10 @@ struct MaskScore {
   std::optional<double> pwc = {};           ///< 100 |found ≠ true| / |pixels|: percentage of wrong classification
 };
 
-/// All three have the same size; `shadow` marks the pixels where the room lies in the person's shadow.
+/// Scores a mask. All three have the same size; `shadow` marks the pixels of the room that lie in the person's shadow.
 MaskScore ScoreMask(const Mask& found, const Mask& truth, const Mask& shadow);
 
-/// Each value's mean over the images that have it.
+/// Returns the mean of each value over the images that have it.
 MaskScore MeanScore(std::span<const MaskScore> scores);
 
 }  // namespace etude

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kCmPerMetre = 100;
 constexpr int kLiveFrames = 10;
-constexpr double kSlowestJudged = 0.05;   // metres per second
-constexpr double kVelocitySeconds = 0.1;  // of movement count like a distance
+constexpr double kMinJudgedSpeed = 0.05;  // metres per second; clips that move less are not judged
+constexpr double kVelocitySeconds = 0.1;  // converts velocities to distances
 
 int LastFrame(const JoinView& view) { return static_cast<int>(view.shown.size()) - 1; }
 
@@ -23,7 +23,7 @@ bool HasArrived(const BodyPose& shown, const BodyPose& wanted) {
                              [&](Role role) { return glm::distance(shown[role], wanted[role]) <= kArrived; });
 }
 
-/// The largest second difference of any joint at a frame; nothing where a neighbour is missing.
+/// Returns the largest second difference of any joint at a frame; nothing if a neighbour frame is missing.
 std::optional<double> JumpCm(std::span<const BodyPose> poses, int frame) {
   if (frame < 1 || frame + 1 >= static_cast<int>(poses.size())) return std::nullopt;
   double worst = 0;
@@ -34,7 +34,7 @@ std::optional<double> JumpCm(std::span<const BodyPose> poses, int frame) {
   return kCmPerMetre * worst;
 }
 
-/// The jump of the clips themselves at a frame of the join.
+/// Returns the larger jump of the two clips themselves at a frame of the join.
 double OwnJumpCm(const JoinView& view, int frame) {
   return std::max(JumpCm(view.left, frame).value_or(0), JumpCm(view.wanted, frame - view.last).value_or(0));
 }
@@ -45,7 +45,7 @@ double MeanOf(std::span<const double> values) {
   return sum / static_cast<double>(values.size());
 }
 
-/// The least mean of ten successive speeds; nothing when there are fewer.
+/// Returns the smallest mean of ten successive speeds; nothing if there are fewer.
 std::optional<double> SlowestTen(std::span<const double> speeds) {
   std::optional<double> slowest;
   for (std::size_t i = 0; i + kLiveFrames <= speeds.size(); ++i) {
@@ -80,9 +80,9 @@ double JoinSlideCmps(const JoinView& view) {
 }
 
 bool IsCalmlyNatural(const JoinView& view, double limit_cm) {
-  constexpr double kLeastLimit_cm = 1;  // a clip that stands still does not forbid to move
+  constexpr double kMinLimit_cm = 1;  // a clip that stands still must not forbid all motion
   constexpr double kOwnAllowance = 1.25;
-  const double limit = std::max(limit_cm, kLeastLimit_cm);
+  const double limit = std::max(limit_cm, kMinLimit_cm);
   const int end = JoinEnd(view);
   for (int frame = view.first; frame <= end; ++frame) {
     const auto jump = JumpCm(view.shown, frame);
@@ -99,17 +99,18 @@ double Liveness(const JoinView& view) {
   const auto before = slowest(view.first - second, view.first), after = slowest(end, end + second);
   if (!join || !(before || after)) return 1;
   const double clips = std::min(before.value_or(*join), after.value_or(*join));
-  return clips < kSlowestJudged ? 1 : std::min(1.0, *join / clips);
+  return clips < kMinJudgedSpeed ? 1 : std::min(1.0, *join / clips);
 }
 
 RealFrames::Row RealFrames::RowOf(const BodyPose& before, const BodyPose& now, double rate_hz) {
-  // Hands and feet differ most: with them in front a far frame is seen to be far after a few numbers.
+  // Hands and feet come first because they differ most: the search then rejects a distant frame after a few numbers.
   using enum Role;
   static constexpr std::array kOrder = {kLeftHand,       kRightHand,    kLeftFoot,      kRightFoot, kHead,
                                         kLeftElbow,      kRightElbow,   kLeftKnee,      kRightKnee, kHipCentre,
                                         kShoulderCentre, kLeftWrist,    kRightWrist,    kLeftAnkle, kRightAnkle,
                                         kSpine,          kLeftShoulder, kRightShoulder, kLeftHip,   kRightHip};
   static_assert(kOrder.size() == kRoleCount);
+  // Joint positions and scaled velocities, relative to the body's place and heading.
   const FloorMove to_origin = ToOrigin(now);
   Row row{};
   auto next = row.begin();
@@ -133,20 +134,22 @@ RealFrames::RealFrames(std::span<const BodyMotion> clips) {
 
 double RealFrames::DistanceCm(const BodyPose& before, const BodyPose& now, double rate_hz, std::size_t& nearest) const {
   assert(!rows_.empty());
-  const Row asked = RowOf(before, now, rate_hz);
+  const Row query = RowOf(before, now, rate_hz);
   constexpr std::size_t kStep = 12;
   static_assert(kNumbers % kStep == 0);
+  // The squared distance to a row; the sum stops once it reaches `enough`.
   const auto squared = [&](const Row& row, double enough) {
     double sum = 0;
     for (std::size_t i = 0; i < kNumbers && sum < enough; i += kStep) {
       for (std::size_t k = i; k < i + kStep; ++k) {
-        const double off = static_cast<double>(asked[k]) - static_cast<double>(row[k]);
+        const double off = static_cast<double>(query[k]) - static_cast<double>(row[k]);
         sum += off * off;
       }
     }
     return sum;
   };
   constexpr double kNever = 1e300;
+  // A good first candidate lets most rows stop early.
   nearest = std::min(nearest, rows_.size() - 1);
   double best = squared(rows_[nearest], kNever);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -164,7 +167,7 @@ double StrangeCmSeconds(const JoinView& view, const RealFrames& real) {
   const int end = JoinEnd(view);
   for (int frame = view.first + 1; frame <= end; ++frame) {
     sum += real.DistanceCm(view.shown[frame - 1], view.shown[frame], view.rate_hz, nearest);
-    ++nearest;  // motion goes on
+    ++nearest;  // the next frame is probably near the next row
   }
   return sum / view.rate_hz;
 }
@@ -200,14 +203,14 @@ std::optional<double> BalanceCm(const JoinView& view, std::span<const Support> s
 }
 
 bool IsCleanByVersion1(const CleanMeasures& m) {
-  constexpr double kMostSlide_cmps = 6, kLatest_s = 1.5, kStrangest_cm_s = 10, kLeastLive = 0.5;
-  return m.natural && m.calmly_natural && m.slide_cmps <= std::max(kMostSlide_cmps, m.own_slide_cmps) && m.settle_s &&
-         *m.settle_s <= kLatest_s && m.strange_cm_s <= kStrangest_cm_s && m.live >= kLeastLive;
+  constexpr double kMaxSlide_cmps = 6, kMaxSettle_s = 1.5, kMaxStrange_cm_s = 10, kMinLive = 0.5;
+  return m.natural && m.calmly_natural && m.slide_cmps <= std::max(kMaxSlide_cmps, m.own_slide_cmps) && m.settle_s &&
+         *m.settle_s <= kMaxSettle_s && m.strange_cm_s <= kMaxStrange_cm_s && m.live >= kMinLive;
 }
 
 bool IsClean(const CleanMeasures& m) {
-  constexpr double kMostSkipped = 1.0 / 3;
-  return IsCleanByVersion1(m) && m.supported && m.skipped_share <= kMostSkipped;
+  constexpr double kMaxSkipped = 1.0 / 3;
+  return IsCleanByVersion1(m) && m.supported && m.skipped_share <= kMaxSkipped;
 }
 
 }  // namespace etude

@@ -10,57 +10,60 @@
 
 namespace etude {
 
-/// A join as it was shown, beside the clips it joins (docs/reference/metrics.md, Transitions). All at the judged rate,
-/// metres.
+/// A join as it was shown, with the clips that it joins (docs/reference/metrics.md, Transitions). All motions have the
+/// judged rate and are in metres.
 struct JoinView {
   std::span<const BodyPose> shown;   ///< the spliced motion
-  std::span<const BodyPose> left;    ///< the old clip: left[f] is its own frame where shown[f] stands, from 0 on
-  std::span<const BodyPose> wanted;  ///< the wanted clip in its place: wanted[k] where shown[last + k] stands
-  int request = 0;                   ///< the frame shown when the wanted clip was asked for
+  std::span<const BodyPose> left;    ///< the old clip, continued: left[f] is its own frame at the time of shown[f],
+                                     ///< from 0 on
+  std::span<const BodyPose> wanted;  ///< the wanted clip, placed where it is shown: wanted[k] belongs to shown[last +
+                                     ///< k]
+  int request = 0;                   ///< the frame shown when the wanted clip was requested
   int first = 0;                     ///< the frame of the first transition point
   int last = 0;                      ///< of the last one
   double rate_hz = kJudgedRateHz;
-  std::vector<SupportingClip> between = {};  ///< clips on the way, in their places
+  std::vector<SupportingClip> between = {};  ///< the clips in between, placed where they are shown
 };
 
-/// A frame has arrived when its worst joint is this close to the wanted clip's own frame. Metres.
+/// A frame has arrived if every joint is at most this far from the wanted clip's own frame. Metres.
 constexpr double kArrived = 0.05;
 
-/// The first frame from the last transition point on, from which to the motion's end every frame has arrived; none when
-/// the last frame has not.
+/// Returns the first frame, from the last transition point on, after which every frame up to the motion's end has
+/// arrived; nothing if the last frame has not.
 std::optional<int> SettledFrame(const JoinView& view);
 
-/// `settle_s`: from the request to SettledFrame.
+/// Returns `settle_s`, the time from the request to SettledFrame; nothing if the join never settles.
 std::optional<double> SettleSeconds(const JoinView& view);
 
-/// The last frame that belongs to the join: SettledFrame, or the motion's last frame when it never settles; five frames
-/// after the last transition point at least, as far as the motion goes.
+/// Returns the last frame of the join: SettledFrame, or the motion's last frame if it never settles, but at least five
+/// frames after the last transition point if the motion is that long.
 int JoinEnd(const JoinView& view);
 
-/// `join_slide_cmps`: as FootSlideCmps, from the first transition point to the join's end, a second after the last
-/// point at least. Needs a frame after the first point.
+/// Returns `join_slide_cmps`: FootSlideCmps from the first transition point to the join's end, or to a second after the
+/// last point if that is later. A frame after the first point is required.
 double JoinSlideCmps(const JoinView& view);
 
-/// `calm_natural_share` of one transition: no frame from the first transition point to the join's end jumps more than
-/// `limit_cm`, the calmer clip's own limit (1 cm at least), or by a quarter more than one of the two clips itself does
-/// at that very frame.
+/// Returns true if the transition counts for `calm_natural_share`: at no frame from the first transition point to the
+/// join's end is the jump larger than all of `limit_cm` (the limit of the calmer clip), 1 cm, and 1.25 times the jump
+/// of either clip at that same frame.
 bool IsCalmlyNatural(const JoinView& view, double limit_cm);
 
-/// `live`: the slowest ten frames of the join, by mean joint speed, over the slowest ten in the second before it and in
-/// the second after it, whichever is slower; at most 1. 1 where these are slower than 5 cm/s, or too short to tell.
+/// Returns `live`: the mean joint speed in the slowest ten frames of the join, divided by that of the slowest ten
+/// frames in the second before or in the second after it, whichever is slower; at most 1. It is 1 if these are slower
+/// than 5 cm/s, or too few.
 double Liveness(const JoinView& view);
 
-/// The frames of a library's clips, to be asked how far a frame is from all of them.
+/// The frames of a library's clips, for finding the distance from a frame to the nearest of them.
 class RealFrames {
  public:
   RealFrames() = default;
   explicit RealFrames(std::span<const BodyMotion> clips);
 
-  /// The distance to the nearest of them, centimetres: the root of the mean over joints of the squared distance of
-  /// positions plus that of velocities × 0.1 s, both bodies turned to one heading with their hip centres above one
-  /// point of the floor. `before` is the frame before `now`. Needs a frame: a clip's first has no velocity, and is
-  /// none. The search begins at frame `nearest`, and leaves the nearest there: the answer is the same wherever it
-  /// begins.
+  /// Returns the distance to the nearest frame, centimetres: the root of the mean over joints of the squared distance
+  /// of positions plus that of velocities × 0.1 s, with both bodies turned to one heading and their hip centres above
+  /// one point of the floor. `before` is the frame before `now`. At least one frame with a velocity (not the first of a
+  /// clip) is required. The search begins at frame `nearest` and stores the nearest there; the result does not depend
+  /// on where it begins.
   double DistanceCm(const BodyPose& before, const BodyPose& now, double rate_hz, std::size_t& nearest) const;
 
  private:
@@ -71,52 +74,53 @@ class RealFrames {
   std::vector<Row> rows_;
 };
 
-/// `strange_cm_s`: the sum over the join's frames after the first transition point of their distance to the nearest
-/// real frame, times the duration of a frame.
+/// Returns `strange_cm_s`: the distance to the nearest real frame, integrated over the join's frames after the first
+/// transition point.
 double StrangeCmSeconds(const JoinView& view, const RealFrames& real);
 
-/// Finds what holds the body up from the first transition point to the join's end, 1.2 s after that point at least, as
-/// far as the motion goes: FindSupport, asked of the clips, never of the frames shown.
+/// Finds what supports the body from the first transition point to the join's end, but for at least 1.2 s if the motion
+/// is that long. Support is found from the clips, never from the shown frames (FindSupport).
 std::vector<Support> JoinSupport(const JoinView& view);
 
-/// A transition floats when nothing holds the body for so many frames in a row. Fewer are not seen.
+/// A transition floats if the body is unsupported for at least this many frames in a row. Shorter gaps are not visible.
 constexpr int kFloatingFrames = 4;
-/// `unsupported_frames`: the most frames in a row that nothing holds up.
+/// Returns `unsupported_frames`: the largest number of unsupported frames in a row.
 int UnsupportedFrames(std::span<const Support> support);
-/// `supported_share` of one transition.
+/// Returns true if the transition counts for `supported_share`.
 bool IsSupported(std::span<const Support> support);
 
-/// `balance_cm`: how far the ground point of the mass centre is from the joints that bear the body (BalanceOffset),
-/// mean over the frames of `support` that have such joints; none where the body only flies or floats. `support` is
+/// Returns `balance_cm`: the distance from the floor projection of the centre of mass to the joints that bear the body
+/// (BalanceOffset), mean over the frames of `support` with such joints; nothing if there are none. `support` is
 /// JoinSupport's.
 std::optional<double> BalanceCm(const JoinView& view, std::span<const Support> support);
 
-/// The start of the wanted clip that is left out, before the frame at which it is entered; nothing of a motion that
-/// goes on unbroken, which enters no clip.
+/// The start of the wanted clip that the transition skips. A motion that continues without a transition enters no clip.
 struct SkippedStart {
-  std::optional<int> entered_frame;  ///< of the wanted clip
-  int frames = 1;                    ///< of the wanted clip
+  std::optional<int> entered_frame;  ///< the frame at which the wanted clip is entered
+  int frames = 1;                    ///< number of frames of the wanted clip
   double rate_hz = kJudgedRateHz;
 };
-/// `skipped_s`: as a time.
+/// Returns `skipped_s`: the skipped time.
 constexpr double SkippedSeconds(const SkippedStart& start) { return start.entered_frame.value_or(0) / start.rate_hz; }
-/// `skipped_share`: as a share of the clip's frames.
+/// Returns `skipped_share`: the skipped share of the clip's frames.
 constexpr double SkippedShare(const SkippedStart& start) {
   return static_cast<double>(start.entered_frame.value_or(0)) / start.frames;
 }
 
-/// The demands of `clean_share` on a transition.
+/// The measures of a transition that `clean_share` depends on.
 struct CleanMeasures {
   bool natural = false, calmly_natural = false, supported = false;
   double slide_cmps = 0, strange_cm_s = 0, live = 0;
-  double own_slide_cmps = 0;  ///< foot slide of the clip that slides more, over all of it
+  double own_slide_cmps = 0;  ///< foot slide of the clip that slides more, over the whole clip
   double skipped_share = 0;
   std::optional<double> settle_s;
 };
-/// `clean_share_v1`: both kinds of natural, slide ≤ 6 cm/s or what a clip slides itself, settled within 1.5 s,
-/// strange ≤ 10 cm·s, live ≥ 0.5. Neither `supported` nor `skipped_share` is asked for.
+/// Returns true if the transition is clean by `clean_share_v1`: natural and calmly natural, slide ≤ 6 cm/s or what a
+/// clip slides itself, settled within 1.5 s, strange ≤ 10 cm·s, live ≥ 0.5. `supported` and `skipped_share` are not
+/// considered.
 bool IsCleanByVersion1(const CleanMeasures& measures);
-/// `clean_share`: all of these, supported, and no more than a third of the wanted clip skipped.
+/// Returns true if the transition is clean by `clean_share`: all of the above, supported, and at most a third of the
+/// wanted clip skipped.
 bool IsClean(const CleanMeasures& measures);
 
 }  // namespace etude

@@ -34,7 +34,7 @@ Jump JumpAt(const BodyMotion& motion, int frame) {
   return jump;
 }
 
-/// The smallest rotation that takes one limb direction to the next: positions know no twist.
+/// Returns the smallest rotation that takes one limb direction to the next: positions do not determine the twist.
 glm::dquat StepRotation(const glm::dvec3& from, const glm::dvec3& to) {
   const glm::dvec3 normal = glm::cross(from, to);
   const double length = glm::length(normal);
@@ -45,6 +45,7 @@ double RotationAngle(const glm::dquat& q) {
   return 2.0 * std::atan2(glm::length(glm::dvec3(q.x, q.y, q.z)), std::abs(q.w));
 }
 
+/// Returns the largest change of any limb's rotation between the step into a frame and the step out of it, radians.
 double RotationStepChangeAt(const BodyMotion& motion, int frame) {
   double largest = 0;
   for (const Bone& bone : AllBones()) {
@@ -56,7 +57,7 @@ double RotationStepChangeAt(const BodyMotion& motion, int frame) {
   return largest;
 }
 
-/// The largest third difference of any joint over the frames frame − 1 … frame + 2.
+/// Returns the largest third difference of any joint over the frames frame − 1 … frame + 2.
 double ThirdDifferenceAt(const BodyMotion& motion, int frame) {
   double largest = 0;
   for (std::size_t joint = 0; joint < kRoleCount; ++joint) {
@@ -100,7 +101,7 @@ std::vector<double> SecondDifferencesCm(const BodyMotion& motion) {
 std::vector<double> NaturalJumpsCm(const BodyMotion& clip) {
   const std::vector<double> differences = SecondDifferencesCm(clip);
   std::vector<double> jumps;
-  // Frames at the clip's ends have no second difference, so a whole window starts at frame 1.
+  // The first frame has no second difference, so the first whole window starts at frame 1.
   constexpr std::size_t kWindow = 2 * kWindowReach + 1;
   for (std::size_t first = 1; first + kWindow < differences.size(); ++first) {
     const auto begin = differences.begin() + static_cast<std::ptrdiff_t>(first);
@@ -112,7 +113,7 @@ std::vector<double> NaturalJumpsCm(const BodyMotion& clip) {
 double NaturalLimitCm(std::vector<double> natural_jumps) { return Quantile(natural_jumps, 0.95); }
 
 bool IsNatural(std::optional<double> jump_cm, std::vector<double> natural_jumps_cm) {
-  // The percentile of few windows is one of them: without the slack, rounding would judge motion against itself.
+  // With few windows the percentile is one of them, and rounding alone could make a motion fail against itself.
   constexpr double kSlack = 1 + 1e-9;
   return jump_cm && *jump_cm <= kSlack * NaturalLimitCm(std::move(natural_jumps_cm));
 }
@@ -123,7 +124,7 @@ double FootSlideCmps(const BodyMotion& motion, int point) {
 
 double FootSlideCmps(std::span<const BodyPose> poses, int first, int last, double rate_hz) {
   assert(first + 1 < static_cast<int>(poses.size()));
-  constexpr double kHeight = 0.025;  // metres: a foot this high counts no more
+  constexpr double kHeight = 0.025;  // metres: a foot at this height or above does not count
   const int end = std::min(last, static_cast<int>(poses.size()) - 1);
   double sum = 0;
   int samples = 0;

@@ -7,13 +7,13 @@
 
 namespace etude {
 
-/// A file that goes with a problem or its truth, such as a picture.
+/// A file that accompanies a problem or its truth, such as a picture.
 struct Attachment {
-  std::string name;  ///< as the JSON beside it names it: a plain file name
+  std::string name;  ///< the plain file name by which the JSON refers to it
   std::string bytes;
 };
 
-/// The part of a world that a method outside the program is given, or the truth about it (docs/outside-methods.md).
+/// The part of a world that an outside method is given, or the truth about it (docs/outside-methods.md).
 struct Payload {
   JsonPtr json;  ///< never null
   std::vector<Attachment> files;

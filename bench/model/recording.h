@@ -16,15 +16,15 @@ struct Track {
   BodyMotion motion;
 };
 
-/// The motion of that name, or null.
+/// Returns the motion of that name, or null.
 const BodyMotion* FindTrack(const Recording& recording, std::string_view name);
 
-/// Writes a pose as recordings hold it, and as it is told to and by methods outside the program: x, y, z of the twenty
-/// joints in the order of AllRoles, sixty numbers, metres, Y up. Every digit is kept, so methods outside see what
-/// built-in ones see.
+/// Encodes a pose for recordings and for the exchange with outside methods: x, y, z of the twenty joints in the order
+/// of AllRoles, sixty numbers, metres, Y up. Every digit is kept, so outside methods see the same values as built-in
+/// ones.
 Json EncodePose(const BodyPose& pose);
 
-/// Adds every joint's place to a digest.
+/// Adds the position of every joint to a digest.
 void AddTo(Digest& digest, const BodyPose& pose);
 
 }  // namespace etude

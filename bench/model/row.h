@@ -14,14 +14,15 @@ namespace etude {
 /// The time and memory that one cell took on this machine.
 struct CellUsage {
   double wall_s = 0;
-  double cpu_s = 0;  ///< of the worker and of the method outside
-  /// The largest resident size of either while the cell was run; cells shorter than a look at it share one look.
+  double cpu_s = 0;  ///< of the worker and of the outside method
+  /// The largest resident size of either while the cell ran. It is sampled, so cells shorter than the sampling interval
+  /// may share one sample.
   double peak_mb = 0;
-  /// The building of the world, in the row of the first cell that was run in it.
+  /// The time to build the world; given in the row of the first cell that ran in it.
   double world_wall_s = 0, world_cpu_s = 0;
 };
 
-/// The end of a cell (world × method). Every cell becomes a row with one of these.
+/// How a cell (world × method) ended. Every cell becomes a row with one of these.
 enum class Status { kOk, kUnsolved, kFailed, kTimeout, kCrashed, kOutOfMemory, kBadOutput, kSkipped };
 inline constexpr std::array<Named<Status>, 8> kStatuses = {{{"ok", Status::kOk},
                                                             {"unsolved", Status::kUnsolved},
@@ -33,30 +34,30 @@ inline constexpr std::array<Named<Status>, 8> kStatuses = {{{"ok", Status::kOk},
                                                             {"skipped", Status::kSkipped}}};
 
 std::string_view StatusName(Status status);
-/// True if a cell ended so because of the limits of the machine it was run on (timeout, crashed, out of memory): its
-/// row says nothing about the method that another run could repeat.
+/// Returns true if the status depends on the limits of the machine (timeout, crashed, out of memory), so another run
+/// need not repeat it.
 bool DependsOnMachine(Status status);
-/// The status of that name; nothing when there is none.
+/// Returns the status of that name; nothing if there is none.
 std::optional<Status> FindStatus(std::string_view name);
 
-/// One measured value of a cell; a missing value says why, and never counts as zero.
+/// One measured value of a cell. A missing value has a reason, and never counts as zero.
 struct MetricValue {
   std::string id;  ///< an id of bench/metrics, unit in the name
   std::optional<double> value;
   std::string null_reason;  ///< only when `value` is empty
 };
 
-/// A curve of a cell: one value per frame or iteration, e.g. the error of each frame.
+/// A curve of a cell: one value per frame or iteration, e.g. the error in each frame.
 struct Series {
   std::string name;  ///< e.g. "mpjpe_mm"
   std::string axis;  ///< what the values are along: "frame", "iteration", "effector", "angle"
   std::vector<double> values;
-  std::vector<std::string> names = {};  ///< of categories, where `values` are indices into them
+  std::vector<std::string> names = {};  ///< names of categories, if `values` are indices into them
 };
 
 struct Track;  // bench/model/recording.h, which brings motions along
 
-/// Everything needed to show a cell again without rerunning it: what a film draws.
+/// All data needed to show a cell again without running it: what a film draws.
 struct Recording {
   Recording();
   Recording(std::vector<Track> motions, std::string extras);
@@ -76,12 +77,12 @@ struct CellResult {
   Status status = Status::kFailed;
   std::string reason = "the task did not fill this cell";
   std::vector<MetricValue> metrics;
-  /// Fingerprint of each stage's output, in order: the first one that differs names the culprit.
+  /// The digest of each stage's output, in order: the first one that differs between two runs shows where they part.
   std::vector<std::pair<std::string, std::string>> digests;
   std::vector<Series> series;
   std::optional<Recording> recording;
 
-  /// A cell that ended without measurements.
+  /// Returns the result of a cell that ended without measurements.
   static CellResult Ended(Status status, std::string reason) {
     CellResult result;
     result.status = status;
@@ -102,14 +103,14 @@ struct SweptValue {
   bool operator==(const SweptValue&) const = default;
 };
 
-/// One line of cells.jsonl: a cell's identity and what came of it.
+/// One line of cells.jsonl: a cell's identity and its result.
 struct Row {
   std::string scenario;
   std::string task;
   std::vector<SweptValue> condition;  ///< empty when nothing is swept
   int trial = 0;
   std::string clip;                ///< "" for tasks without clips
-  std::vector<std::string> units;  ///< that the world was drawn from (Study::unit); empty = it is its own
+  std::vector<std::string> units;  ///< that the world was drawn from (Study::unit); empty = the world is its own unit
   std::string method;
   CellResult result;  ///< `series` and `recording` live in files of their own
 
@@ -117,12 +118,12 @@ struct Row {
   std::string Id() const;
 };
 
-/// A row's value of a metric; nothing when it is missing or was not measured.
+/// Returns a row's value of a metric; nothing if it is missing or was not measured.
 std::optional<double> ValueOf(const Row& row, std::string_view metric);
 
-/// The condition for people to read: "key=value, key=value", or "" when nothing is swept.
+/// Returns the condition for display: "key=value, key=value", or "" if nothing is swept.
 std::string ConditionLabel(const std::vector<SweptValue>& condition);
-/// The condition in identities: "key=value,key=value", or "-".
+/// Returns the condition as identities contain it: "key=value,key=value", or "-".
 std::string CompactLabel(const std::vector<SweptValue>& condition);
 
 }  // namespace etude

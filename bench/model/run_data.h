@@ -14,17 +14,18 @@
 
 namespace etude {
 
-/// The rows of a run that is too large to be held in memory, in canonical order: scenario, condition, trial, method.
+/// The rows of a run that does not fit in memory, in canonical order: scenario, condition, trial, method. `place` is
+/// the index of a row in this order.
 class RowSource {
  public:
   virtual ~RowSource() = default;
   virtual std::size_t size() const = 0;
-  /// The places of all rows of whole worlds at equal steps, about so many rows or all that there are.
+  /// Returns the indices of all rows of evenly spaced whole worlds: about `rows` rows, or all if there are fewer.
   virtual std::vector<std::size_t> PlacesAtEqualSteps(std::size_t rows) const = 0;
-  /// Makes `row` the one at this place, whatever it was; its memory is used again. Without series and recording.
+  /// Replaces `row` by the row at this index, reusing its memory. Series and recording are not read.
   virtual void Read(std::size_t place, Row& row) const = 0;
   virtual std::vector<Series> SeriesOf(std::size_t place) const = 0;
-  /// Processor time of the cell; nothing where the folder tells of none.
+  /// Returns the processor time of the cell; nothing if the folder does not record it.
   virtual std::optional<double> CpuSecondsOf(std::size_t place) const = 0;
 };
 
@@ -38,7 +39,7 @@ struct CellRecording {
   Recording recording;
 };
 
-/// What a result may depend on beside this program, as a run's manifest tells.
+/// The software that a result may depend on beside this program, as the run's manifest records it.
 struct RunSystem {
   std::string compiler;  ///< "12.2.0"
   std::string glibc;     ///< "2.36"
@@ -47,41 +48,43 @@ struct RunSystem {
   friend bool operator==(const RunSystem&, const RunSystem&) = default;
 };
 
-/// A whole result folder in memory; of a run of many cells some of its worlds, and a way to all others.
+/// A result folder in memory: all rows, or, for a very large run, the rows of some worlds and a source of all others.
 struct RunData {
   std::string suite;
-  std::uint64_t seed = 1;  ///< of secret worlds a number that their key's digest makes
-  std::string key_digest;  ///< of secret worlds; else ""
-  std::string fence;       ///< what programs that are methods ran in; "" = there were none
+  std::uint64_t seed = 1;  ///< for secret worlds a number derived from the digest of their key
+  std::string key_digest;  ///< for secret worlds; "" otherwise
+  std::string fence;       ///< the sandbox that outside methods ran in; "" = there were no outside methods
   std::string program_version;
   std::string command_line;  ///< from host.json
   std::string host;          ///< one line about the machine
   RunSystem system;
   double wall_seconds = 0;
   std::vector<Row> rows;  ///< canonical order: scenario, condition, trial, method
-  /// All rows, when there are too many to be held; `rows`, `series` and `cpu_seconds` are then those of whole worlds at
-  /// equal steps.
+  /// Reads all rows of a run that does not fit in memory; null otherwise. `rows`, `series` and `cpu_seconds` then hold
+  /// those of evenly spaced whole worlds.
   std::shared_ptr<const RowSource> source;
   std::vector<ScenarioSummary> scenarios;
   std::vector<CellSeries> series;
   std::vector<CellRecording> recordings;
-  std::string seal;      ///< the text of its seal; "" = it has none, or was not loaded
-  std::string unsealed;  ///< why the folder is not as the run wrote it, when it was read all the same; else ""
-  std::map<std::string, double> cpu_seconds;  ///< processor time, by Row::Id(); empty where the folder tells of none
+  std::string seal;      ///< the text of the folder's seal; "" = it has none, or the seal was not loaded
+  std::string unsealed;  ///< why the folder differs from what the run wrote, if it was read nevertheless; "" otherwise
+  std::map<std::string, double> cpu_seconds;  ///< processor time, by Row::Id(); empty if the folder does not record it
 };
 
-/// Says what the worlds were drawn by, and whether a program that was asked could have known it: "seed 1", "seed 1,
-/// open worlds", "secret worlds, key 0123456789abcdef…". Under a sweep secret worlds of two conditions are not the
-/// same, which it says, too: a difference between conditions is then one between other worlds.
+/// Says how the worlds were drawn, and whether an outside program could have known them: "seed 1", "seed 1, open
+/// worlds", "secret worlds, key 0123456789abcdef…". Secret worlds differ between the conditions of a sweep; the text
+/// then says so, because a difference between conditions is also one between worlds.
 std::string DescribeWorlds(const RunData& run);
 
+/// Returns the number of rows of the run, also those that are not in memory.
 std::size_t CountRows(const RunData& run);
-/// Hands on every row of the run, also those that are not held, and its place.
+/// Calls `use` with every row of the run and its index, also with rows that are not in memory.
 void ForEachRow(const RunData& run, const std::function<void(const Row& row, std::size_t place)>& use);
+/// Returns the row at this index, without series and recording if it is read from `source`.
 Row RowAt(const RunData& run, std::size_t place);
-/// The place of the row of this identity; nothing where there is none.
+/// Returns the index of the row with this identity; nothing if there is none.
 std::optional<std::size_t> FindRow(const RunData& run, const std::string& id);
-/// Processor time of a row at its place; nothing where the folder tells of none.
+/// Returns the processor time of the row at this index; nothing if the folder does not record it.
 std::optional<double> CpuSecondsOf(const RunData& run, const Row& row, std::size_t place);
 
 }  // namespace etude

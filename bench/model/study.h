@@ -10,38 +10,42 @@
 
 namespace etude {
 
-/// A statement of a scenario about what should come out, judged after the run and shown in the report.
+/// A claim that a scenario makes about its results, judged after the run and shown in the report.
 struct Expectation {
   std::string metric;
   std::string of;                           ///< the method judged
-  std::string below, above;                 ///< the method it is compared with on the same worlds; at most one is set
-  std::optional<double> at_most, at_least;  ///< or the bound its statistic must keep
-  std::string statistic = "median";         ///< median, mean or p95; for bounds
-  double confidence = 0.95;                 ///< of a comparison: its interval, and 1 − the level of its test
-  std::vector<SweptValue> where;            ///< judged in these conditions only; empty = in all of them
+  std::string below, above;                 ///< the method it is compared with in the same worlds; at most one is set
+  std::optional<double> at_most, at_least;  ///< or the bound of its statistic
+  std::string statistic = "median";         ///< median, mean or p95; used by bounds
+  double confidence = 0.95;                 ///< of a comparison: of its interval; the level of its test is 1 −
+                                            ///< confidence
+  std::vector<SweptValue> where;            ///< the conditions in which it is judged; empty = all of them
   Place place;
 };
 
-/// A ratio of processor times measured in the same run, the only way in which times are judged.
+/// A bound on the ratio of processor times in one run. Times are judged only by such ratios, because runs on different
+/// machines cannot be compared.
 struct TimeRatio {
   std::string of, over;  ///< methods
-  double at_most = 1;    ///< of the median of paired ratios
+  double at_most = 1;    ///< the largest allowed median of the paired ratios
   Place place;
 };
 
-/// The rule by which single worlds are a regression of their own, whatever all worlds together say: on the same worlds
-/// any difference comes from the code. How the defaults were measured: docs/gate.md.
+/// The rule by which a few worlds alone are a regression, whatever the statistics over all worlds say: in the same
+/// worlds any difference comes from the code. docs/gate.md tells how the defaults were measured.
 struct TailRule {
-  double times = 20;    ///< a world is far worse when it is worse by more than so many practical thresholds
-  int worlds = 4;       ///< so many far worse worlds of one comparison are a regression; 0 = none ever is …
-  double share = 0.05;  ///< … where they are also so large a share of the worlds compared: rounding moves some of many
-  int lost = 1;         ///< so many worlds that lost their value or answer are one; 0 = none ever is
+  double times = 20;    ///< a world is far worse if it is worse by more than this many practical thresholds
+  int worlds = 4;       ///< this many far worse worlds of one comparison are a regression; 0 = never …
+  double share = 0.05;  ///< … if they are also at least this share of the worlds compared: rounding may move a few of
+                        ///< many worlds
+  int lost = 1;         ///< this many worlds that lost their value or answer are a regression; 0 = never
 };
 
 /// The rules by which `etude gate` compares one scenario with a baseline.
 struct GateRules {
-  std::vector<std::string> metrics;  ///< the headline metrics when the file names none
-  bool exact = false;                ///< every difference is a regression; else only one that matters (threshold)
+  std::vector<std::string> metrics;  ///< the headline metrics if the file names none
+  bool exact = false;                ///< true: every difference is a regression; false: only one above the practical
+                                     ///< threshold
   TailRule tail;
   std::vector<TimeRatio> time_ratios;
 };
@@ -49,26 +53,27 @@ struct GateRules {
 /// One of the methods compared.
 struct ComparedMethod {
   std::string name;
-  std::string against;      ///< the method it is compared with; the first is its own
-  bool has_oracle = false;  ///< part of its work is done by the truth: it shows what could be, and competes with none
-  std::vector<std::string> oracle = {};  ///< which stages the truth stands for
-  std::string settings = {};     ///< all else that is said of it, the same text for the same; "" = of an outside method
-  std::string description = {};  ///< what it is, in a sentence, or the settings that it has
+  std::string against;      ///< the method it is compared with; the first method is compared with itself
+  bool has_oracle = false;  ///< the truth replaces some of its stages: it shows an upper bound and does not compete
+  std::vector<std::string> oracle = {};  ///< the stages that the truth replaces
+  std::string settings = {};     ///< its other settings as text, equal for equal settings; "" = an outside method
+  std::string description = {};  ///< what it is, in a sentence, or its settings
 };
 
-/// The comparisons and expectations of a scenario, without how its worlds are made: all that judging its rows takes.
+/// The comparisons and expectations of a scenario, without how its worlds are made: all that is needed to judge its
+/// rows.
 struct Study {
   std::string scenario;
   std::string task;
   std::string question;
-  std::string description = {};  ///< what its worlds are, in a sentence; "" = nobody said
+  std::string description = {};  ///< what its worlds are, in a sentence; "" = not described
   SamplingUnit unit = SamplingUnit::kWorld;
   int trials = 1;
   std::vector<ComparedMethod> methods;              ///< at least one
   std::vector<std::vector<SweptValue>> conditions;  ///< at least one
   std::vector<std::string> metrics;                 ///< headline metrics, most important first
-  std::vector<std::string> across;  ///< swept parameters under all of whose values a verdict must be the same
-  std::string rival;                ///< the method that all others must beat; "" = the best is found
+  std::vector<std::string> across;  ///< swept parameters; a verdict must be the same under all of their values
+  std::string rival;                ///< the method that all others must beat; "" = the best method is found
   std::vector<Expectation> expectations;
   GateRules gate;
 };

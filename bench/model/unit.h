@@ -8,13 +8,13 @@
 
 namespace etude {
 
-/// The unit that the worlds of a scenario were drawn from: worlds that share such a unit resemble each other, so a
-/// claim beyond them counts units, not worlds.
+/// The unit that the worlds of a scenario were drawn from. Worlds that share a unit resemble each other, so a claim
+/// beyond these worlds counts units, not worlds.
 enum class SamplingUnit {
-  kWorld,     ///< every world is drawn for itself
+  kWorld,     ///< every world is drawn independently
   kPerson,    ///< every world has a person of its own
   kClip,      ///< the clip that a world shows first
-  kClipPair,  ///< each clip of a world, in whatever part: clip left × clip entered
+  kClipPair,  ///< each clip of a world, in either role: clip left × clip entered
   kLibrary,   ///< the folder that a world's clips come from
 };
 inline constexpr std::array<Named<SamplingUnit>, 5> kSamplingUnits = {{{"world", SamplingUnit::kWorld},
@@ -24,10 +24,10 @@ inline constexpr std::array<Named<SamplingUnit>, 5> kSamplingUnits = {{{"world",
                                                                        {"library", SamplingUnit::kLibrary}}};
 std::string_view SamplingUnitName(SamplingUnit unit);
 
-/// "6 clips", "1 person"; a clip-pair counts its clips.
+/// Returns a count with its noun: "6 clips", "1 person". For kClipPair the noun is "clip".
 std::string CountUnits(int count, SamplingUnit unit);
 
-/// True if no two worlds share a unit, so that worlds are units.
+/// Returns true if no two worlds share a unit, so that worlds are the units.
 constexpr bool IsEveryWorldItsOwn(SamplingUnit unit) {
   return unit == SamplingUnit::kWorld || unit == SamplingUnit::kPerson;
 }

@@ -9,21 +9,21 @@
 
 namespace etude {
 
-/// A folder that holds attachments, and goes away with all that is in it.
+/// A folder with attachments, which is deleted with its contents at the end of its life.
 class AttachmentFolder {
  public:
-  static constexpr std::size_t kNameLength = 6;  ///< of its name below `attachment_root`
+  static constexpr std::size_t kNameLength = 6;  ///< of the folder's name in `attachment_root`
 
   /// Holds no folder yet.
   AttachmentFolder() = default;
-  /// Makes a folder in `attachment_root` that holds the files; none when there are no files.
+  /// Makes a folder in `attachment_root` with the files; no folder if there are no files.
   static Result<AttachmentFolder> Write(const std::filesystem::path& attachment_root,
                                         std::span<const Attachment> files);
   AttachmentFolder(AttachmentFolder&& other) noexcept;
   AttachmentFolder& operator=(AttachmentFolder&& other) noexcept;
   ~AttachmentFolder();
 
-  /// The folder's path; "" when there is none.
+  /// Returns the folder's path; "" if there is none.
   std::string path() const { return path_.string(); }
 
  private:

@@ -21,12 +21,12 @@ namespace {
 
 constexpr int kProblems = 3;
 
-/// The worlds that a task's specimens are made of: easy ones, and harder ones.
+/// The worlds of a task's specimens: easy ones, and harder ones.
 struct Recipe {
   const char* task;
   std::vector<std::string> clips;
   std::array<const char*, 2> conditions;
-  const char* plain_method = "";  ///< a built-in one that solves the worlds, where some may stay unsolved
+  const char* plain_method = "";  ///< a built-in method that solves the worlds, if some methods do not
 };
 
 const std::vector<Recipe>& Recipes() {
@@ -82,15 +82,15 @@ Result<Specimen> MakeSpecimen(const TaskKind& kind, const Recipe& recipe, const 
 
 constexpr int kLongestEndingMs = 2000;
 
-/// A method's result in a form that can be compared: its answer, or why it gave none.
+/// A method's result in comparable form: its answer, or why it gave none.
 struct Attempt {
   Status status = Status::kFailed;
   std::string said;
-  std::string fault;    ///< why it must not be like that; "" = it may
-  bool was_put = true;  ///< else the program could not be started
+  std::string fault;    ///< why this result is not allowed; "" = it is
+  bool was_put = true;  ///< false: the program could not be started
 };
 
-/// Returns an answer with all angles, the numbers below keys that end in "_deg", multiplied by `factor`.
+/// Returns an answer with all angles (numbers below keys that end in "_deg") multiplied by `factor`.
 Json WithAngles(const Json& answer, double factor, bool is_angle = false) {
   if (answer.is_number()) return is_angle ? Json(answer.get<double>() * factor) : answer;
   if (!answer.is_structured()) return answer;
@@ -101,7 +101,7 @@ Json WithAngles(const Json& answer, double factor, bool is_angle = false) {
   return changed;
 }
 
-/// A program in a seat that is told more than it knows of.
+/// A program in a seat that is sent additional keys which it does not know.
 class ProgramWithUnknownKeys final : public SeatedProgram {
  public:
   using SeatedProgram::SeatedProgram;
@@ -123,7 +123,7 @@ class ConformanceTest {
                   const std::function<void(const ConformanceCheck&)>& report)
       : method_(options), takes_seat_(takes_seat), time_s_(options.time_s), specimens_(specimens), report_(report) {}
 
-  /// Makes all checks, and tells whether all were passed.
+  /// Makes all checks. Returns true if all passed.
   Result<bool> Run() {
     RETURN_IF_ERROR(CheckAnswers());
     if (!all_passed_) return false;
@@ -169,7 +169,7 @@ class ConformanceTest {
     return attempt;
   }
 
-  /// Runs a whole session with the program in its seat; a digest of all steps stands for what it said.
+  /// Runs a whole session with the program in its seat; the digest of all steps stands for its answers.
   template <typename Program>
   Attempt Play(const Specimen& specimen, const SpecimenProblem& problem, const std::string& id) {
     const auto start = Clock::now();
@@ -214,7 +214,8 @@ class ConformanceTest {
     return {};
   }
 
-  /// Says of a method that solved nothing whether a plain one does, and how the answers would be right.
+  /// For a method that solved nothing, reports whether a plain one solves the worlds, and how the answers would be
+  /// right.
   void CheckAgainstPlain() {
     int plain = 0, in_radians = 0;
     for (std::size_t i = 0; i < first_.size(); ++i) {
@@ -233,7 +234,7 @@ class ConformanceTest {
            fmt::format("none of {}, of which damped-least-squares solves {}{}", first_.size(), plain, unit));
   }
 
-  /// Says what is wrong with a second attempt at problem `i` of the first setting; "" when nothing is.
+  /// Returns what is wrong with a second attempt at problem `i` of the first setting; "" if nothing.
   std::string Compare(const Attempt& again, std::size_t i) const {
     if (!again.fault.empty()) return again.fault;
     if (again.said == first_[i].said) return "";
@@ -255,7 +256,7 @@ class ConformanceTest {
                      Compare(Ask(specimens_[0], specimens_[0].problems[last]), last));
   }
 
-  /// Asks a new program from the last problem to the first.
+  /// Sends the problems to a new program in reverse order.
   void CheckOrder() {
     method_.End(kLongestEndingMs);
     std::string difference;
@@ -282,7 +283,7 @@ class ConformanceTest {
     ReportDifference("takes long lines, keys it does not know, and ids of any text", Compare(AskAtLength(id), 0));
   }
 
-  /// Puts the first problem with more said than the program knows of.
+  /// Sends the first problem with additional keys which the program does not know.
   Attempt AskAtLength(const std::string& id) {
     const SpecimenProblem& problem = specimens_[0].problems[0];
     if (takes_seat_) return Play<ProgramWithUnknownKeys>(specimens_[0], problem, id);
@@ -296,7 +297,7 @@ class ConformanceTest {
   const double time_s_;
   const std::vector<Specimen>& specimens_;
   const std::function<void(const ConformanceCheck&)>& report_;
-  std::vector<Attempt> first_;  ///< at the problems of the first setting
+  std::vector<Attempt> first_;  ///< of the problems of the first setting
   double slowest_s_ = 0, peak_mb_ = 0;
   int repeated_ = 0;
   bool all_passed_ = true, solves_nothing_ = false;

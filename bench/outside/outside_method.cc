@@ -22,20 +22,21 @@ template <typename T>
 using Outcome = OutsideOutcome<T>;
 
 constexpr int kMostFailures = 3;
-constexpr int kEndingMs = 500;     // from the end of its input to its own
-constexpr double kLongestS = 1e9;  // beyond any run, within what the clock can hold
+constexpr int kEndingMs = 500;     // from the end of its input to its own end
+constexpr double kLongestS = 1e9;  // longer than any run, and within the range of the clock
 
-/// The error of a reply to what has not been read: it was said before the question.
+/// The error of a reply that came before its question was read.
 Error TooEarly() { return {{}, "answered before it was asked"}; }
 
-/// The hint is given with a fence and without one, so that the same program fails with the same words everywhere.
+/// The hint is the same with and without a sandbox, so that a program fails with the same message everywhere.
 constexpr const char* kHint = " (a fence shows it the system and what its key 'files' lists)";
 
 tl::unexpected<OutsideFailure> Failed(Status status, std::string reason) {
   return tl::unexpected<OutsideFailure>({status, std::move(reason)});
 }
 
-/// Blames a program for what it said; OurFailure is for what cannot be said to it; NotAsked blames this machine.
+/// Errors by their cause: BadOutput is the program's output, OurFailure a message that cannot be sent, NotAsked this
+/// machine.
 tl::unexpected<OutsideFailure> BadOutput(const Error& error) { return Failed(Status::kBadOutput, error.message); }
 tl::unexpected<OutsideFailure> OurFailure(const Error& error) { return Failed(Status::kFailed, ToString(error)); }
 tl::unexpected<OutsideFailure> NotAsked(const Error& error) {
@@ -69,7 +70,7 @@ struct OutsideMethod::State {
   void EndSession();
   std::string Stop(int patience_ms);
 
-  /// The id that stands for a name in the conversation, and tells nothing of it.
+  /// Returns the id that replaces a name in the conversation and reveals nothing about it.
   std::string IdOf(char kind, const std::string& name) const {
     return fmt::format("{}{:016x}", kind, RandomStream({options.seed, "exchange", 0}, kind + name).Bits());
   }
@@ -83,20 +84,20 @@ struct OutsideMethod::State {
   struct Session {
     std::string id;
     AttachmentFolder files;
-    int steps = 0;  ///< put so far
+    int steps = 0;  ///< number of steps sent so far
   };
-  std::optional<Session> session;  ///< that goes on
-  std::set<std::string> answered;  ///< what the running program was asked before
-  int repeated = 0;                ///< lines passed over since the problem was put
+  std::optional<Session> session;  ///< the session in progress
+  std::set<std::string> answered;  ///< ids of the questions that the running program was asked before
+  int repeated = 0;                ///< lines ignored since the problem was sent
 
   struct Failures {
     int times = 0;  ///< in a row
     OutsideFailure last;
   };
-  std::map<std::string, Failures> failures;  ///< by what was attempted
+  std::map<std::string, Failures> failures;  ///< by the name of the step
 };
 
-/// Tries a step that is the same for many problems, unless it has failed too often in a row.
+/// Tries a step that many problems share, unless it has failed too often in a row.
 template <typename Act>
 Outcome<void> OutsideMethod::State::Attempt(const std::string& what, Act act) {
   Failures& failed = failures[what];
@@ -111,7 +112,7 @@ Outcome<void> OutsideMethod::State::Attempt(const std::string& what, Act act) {
   return tl::unexpected(failed.last);
 }
 
-/// Makes the program run and know the setting.
+/// Starts the program and sends the setting, if necessary.
 Outcome<void> OutsideMethod::State::MakeReady(const std::string& setting_id, const Payload& setting) {
   EndSession();
   if (!options.seed.IsPlain() && setting_in_force && setting_in_force != setting_id) Stop(kEndingMs);
@@ -161,7 +162,7 @@ Outcome<Json> OutsideMethod::State::Solve(const std::string& setting_id, const P
   const auto line = ProblemLine(problem_id, *problem.json, files->path());
   if (!line) return OurFailure(line.error());
   const auto read = [&](const std::string& said) { return ReadAnswer(said, problem_id); };
-  RETURN_IF_ERROR(HearBefore(read));  // it may be put again, and what has come till now answers its last time
+  RETURN_IF_ERROR(HearBefore(read));  // lines up to now answer an earlier time this problem was sent
   answered.erase(problem_id);
   auto answer = Exchange(*line, options.time_s, read);
   answered.insert(problem_id);
@@ -178,7 +179,7 @@ Outcome<void> OutsideMethod::State::Start() {
   answered.clear();
   auto reply = Exchange(*hello, StartSeconds(), ReadHello);
   const bool ended = !reply && (reply.error().status == Status::kCrashed || reply.error().status == Status::kFailed);
-  if (ended) {  // or was it the fence?
+  if (ended) {  // the sandbox may be the cause
     if (auto tried = options.fence.Try(); !tried) return NotAsked(tried.error());
     reply.error().reason += kHint;
   }
@@ -198,8 +199,8 @@ Outcome<void> OutsideMethod::State::TellSetting(const std::string& id, const Pay
   return {};
 }
 
-/// Hears what was said since the last reply: answers given again are passed over, one to the question to come is
-/// refused.
+/// Reads the lines since the last reply: repeated answers are ignored, and an answer to the question that follows is an
+/// error.
 template <typename Read>
 Outcome<void> OutsideMethod::State::HearBefore(Read read) {
   program.Receive();
@@ -213,7 +214,7 @@ Outcome<void> OutsideMethod::State::HearBefore(Read read) {
   return {};
 }
 
-/// Says a line and gives what `read` makes of the reply.
+/// Sends a line and returns the reply as parsed by `read`.
 template <typename Read>
 auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Read read, Looks looks)
     -> Outcome<typename decltype(read(line))::value_type> {
@@ -225,6 +226,7 @@ auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Rea
     const auto said = program.WaitForLine(deadline, seconds);
     if (!said) return tl::unexpected(said.error());
     auto reply = read(*said);
+    // Ignore repeated answers while there is time.
     if (!reply && IsRepeated(*said)) {
       if (Clock::now() >= deadline) return tl::unexpected(TookTooLong(seconds));
       ++repeated;
@@ -234,6 +236,7 @@ auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Rea
       const auto again = read(program.WithoutFolder(*said));
       return BadOutput((again ? reply : again).error());
     }
+    // A valid reply must come after the program has read the question.
     if (program.UnreadBytes() > line.size()) return BadOutput(TooEarly());
     RETURN_IF_ERROR(looks == Looks::kAlways ? program.Look() : program.LookAgain());
     if constexpr (std::is_void_v<typename decltype(reply)::value_type>) {
@@ -244,15 +247,15 @@ auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Rea
   }
 }
 
-/// Tells whether a line answers what has an answer. When it comes must not matter: it may come with the first answer,
-/// or only after the next question.
+/// Returns true if a line repeats an answer. The result must not depend on when the line comes: with the first answer,
+/// or after the next question.
 bool OutsideMethod::State::IsRepeated(const std::string& line) const {
   const Answered about = QuestionAnsweredBy(line);
   if (session && about.id == session->id) return about.step && *about.step < session->steps - 1;
   return answered.contains(about.id);
 }
 
-/// Ends the session: what the program says of it counts as said again.
+/// Ends the session: later lines about it count as repeated.
 void OutsideMethod::State::EndSession() {
   if (session) answered.insert(session->id);
   session.reset();
@@ -260,7 +263,7 @@ void OutsideMethod::State::EndSession() {
 
 std::string OutsideMethod::State::Stop(int patience_ms) {
   session.reset();
-  setting_files = {};  // deleted first: we may be killed while we wait for the program to end
+  setting_files = {};  // deleted first, because we may be killed while waiting for the program
   setting_in_force.reset();
   return program.Stop(patience_ms);
 }
@@ -303,7 +306,7 @@ OutsideReply OutsideMethod::Step(const Payload& step) {
   return reply;
 }
 
-/// Stops a program that gave no answer that can be read; charges what it used.
+/// Returns the reply, with the resources used. Stops a program whose answer cannot be read.
 OutsideReply OutsideMethod::State::ReplyOf(Outcome<Json> said) {
   if (!said) Stop(0);
   OutsideReply reply;

@@ -12,67 +12,67 @@
 
 namespace etude {
 
-/// The version of the protocol spoken with methods outside (docs/outside-methods.md).
+/// The version of the protocol for outside methods (docs/outside-methods.md).
 constexpr int kProtocolVersion = 1;
 
 struct OutsideOptions {
   std::vector<std::string> command;  ///< program and arguments
-  std::string task;                  ///< the kind of task, told in the handshake
-  std::string options_json = {};     ///< an object told in the handshake; "" = {}
+  std::string task;                  ///< the kind of task, sent in the handshake
+  std::string options_json = {};     ///< an object sent in the handshake; "" = {}
   double time_s = 300;               ///< per problem, or per step of a session
-  double memory_mb = 4096;           ///< resident, with all that the program has started
-  std::string error_file = {};       ///< its standard error is kept here, up to 1 MiB; "" = it shares ours
-  /// Handshake and setting may take this long each, where time_s is less: programs load libraries and models then.
+  double memory_mb = 4096;           ///< resident, with all processes that the program has started
+  std::string error_file = {};       ///< keeps its standard error, up to 1 MiB; "" = it shares ours
+  /// The time limit of handshake and setting each, if time_s is less: programs load libraries and models then.
   double start_s = 30;
-  Fence fence = {};                     ///< that it runs in
-  std::vector<std::string> files = {};  ///< what the fence shows it (ProgramView)
-  /// Keys the ids that stand for the names of settings and problems. Of a secret one, the program is started anew for
-  /// every setting, so that it carries nothing in its memory from one condition to the next.
+  Fence fence = {};                     ///< the sandbox that it runs in
+  std::vector<std::string> files = {};  ///< files that the sandbox shows it (ProgramView)
+  /// Keys the ids that replace the names of settings and problems. With a secret seed the program is restarted for
+  /// every setting, so that its memory cannot carry anything from one condition to the next.
   Seed seed = 1;
 };
 
-/// Returns the seconds that Ask may take at most, with the start_s above: handshake, setting, problem, and the clearing
-/// away.
+/// Returns the longest time that Ask may take with the start_s above, seconds: handshake, setting, problem, and
+/// cleaning up.
 double LongestAskSeconds(double time_s);
 
 /// The outcome of one problem.
 struct OutsideReply {
-  Status status = Status::kFailed;  ///< kOk: `answer` is what it said; else it gave none, and why
+  Status status = Status::kFailed;  ///< kOk: `answer` is valid; else there is no answer, for `reason`
   std::string reason;
-  bool was_asked = true;  ///< false: something of this machine, which `reason` tells, is to blame: no answer of its own
-  JsonPtr answer;         ///< an object, whose numbers are finite
-  double cpu_s = 0;       ///< of the program since its last reply; zero when it ended before it was looked at
-  double peak_mb = 0;     ///< the largest resident size seen while it worked on this; looked at 50 times a second
-  int repeated = 0;       ///< lines that were passed over before this reply, because they answered what had an answer
+  bool was_asked = true;  ///< false: this machine is the cause, as `reason` says; the program was not asked
+  JsonPtr answer;         ///< an object with finite numbers
+  double cpu_s = 0;       ///< of the program since its last reply; zero if it ended before it was measured
+  double peak_mb = 0;     ///< the largest resident size while it worked on this, sampled 50 times a second
+  int repeated = 0;       ///< lines ignored before this reply, because they answered questions that had an answer
 };
 
-/// A program that answers problems over its standard input and output. Started at its first problem, kept for
-/// the next ones, and started anew after it has failed. What it says again of a question that it has answered is passed
-/// over, whenever it comes. What goes wrong in its start or in a setting three times
-/// in a row is not tried again: the reply is the same as that of the third time.
+/// A program that answers problems over its standard input and output. It is started at its first problem, kept for the
+/// next ones, and restarted after it has failed. Repeated answers to an answered question are ignored at any time.
+/// After three failures in a row of its start or of a setting there is no further attempt: the reply is the same as the
+/// third time.
 class OutsideMethod {
  public:
   explicit OutsideMethod(OutsideOptions options);
   OutsideMethod(OutsideMethod&&) noexcept;
   ~OutsideMethod();
 
-  /// Puts one problem. `setting_id` names the setting that the problem belongs to; the program is told
-  /// `setting` first when another one is in force. Attachments lie in a folder while it works.
+  /// Sends one problem. `setting_id` names its setting; the program is sent `setting` first if another one is in force.
+  /// Attachments are in a folder while it works.
   OutsideReply Ask(const std::string& setting_id, const Payload& setting, const std::string& problem_id,
                    const Payload& problem);
 
-  /// Begins a session, which replaces one that still goes on: like a problem, but answered with `ready`, and step by
-  /// step from then on. kOk: it goes on.
+  /// Begins a session, and ends one in progress. It is sent like a problem, but the program replies `ready`, and then
+  /// answers step by step. kOk: the session is in progress.
   OutsideReply Begin(const std::string& setting_id, const Payload& setting, const std::string& session_id,
                      const Payload& session);
-  /// Puts the next step of the session. Any reply but kOk ends it, and the program is started anew for the next one,
-  /// unless it merely gave no answer (kUnsolved). Only while a session goes on.
+  /// Sends the next step of the session, which must be in progress. Any reply but kOk ends it; the program is then
+  /// restarted for the next one, unless it merely gave no answer (kUnsolved).
   OutsideReply Step(const Payload& step);
 
-  /// Tells what the program calls itself: "name version"; "" before its first handshake.
+  /// Returns the program's own name: "name version"; "" before its first handshake.
   std::string ProgramName() const;
-  /// Ends its input, waits, and says how it ended: "exit code 0", "signal 9 (Killed)" when it had to be killed, "not
-  /// running". The next problem starts it anew.
+  /// Closes its input, waits, and returns how it ended: "exit code 0", "signal 9 (Killed)" if it had to be killed, "not
+  /// running". The next problem starts it again.
   std::string End(int patience_ms);
 
  private:

@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Absolute, without a slash at its end.
+/// Returns the absolute path without a slash at its end.
 fs::path Whole(const fs::path& path) {
   std::error_code error;
   const fs::path whole = fs::absolute(path, error).lexically_normal();
@@ -23,7 +23,7 @@ ProgramView ViewOf(const std::vector<std::string>& command, const std::vector<st
   std::error_code error;
   for (const std::string& file : files) view.shown.push_back(Whole(file));
   for (const std::string& word : command) {
-    // A plain word may happen to be the name of a folder.
+    // A plain word may also be the name of a folder, so only paths count.
     const bool is_file = fs::is_regular_file(word, error);
     if (!is_file && (word.find('/') == std::string::npos || !fs::exists(word, error))) {
       view.command.push_back(word);

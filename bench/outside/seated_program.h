@@ -9,23 +9,23 @@
 
 namespace etude {
 
-/// A method outside in a seat of a world's loop. Once it has failed it is asked no more.
+/// An outside method in a seat of a world's loop. Once it has failed it is not asked again.
 class SeatedProgram : public LiveProgram {
  public:
-  /// Makes one whose sessions are named by `id`. `method` and `setting` must outlive it.
+  /// Its sessions are named by `id`. `method` and `setting` must outlive it.
   SeatedProgram(OutsideMethod& method, std::string setting_id, const Payload& setting, std::string id);
 
   bool Begin(const Payload& session) override;
   JsonPtr Step(const Payload& step) override;
 
-  /// Tells how it failed, if it has.
+  /// How it failed, if it has.
   const std::optional<CellResult>& failure() const { return failure_; }
-  /// False when it has failed since this machine kept us from asking it.
+  /// False if it failed because this machine could not ask it.
   bool was_asked() const { return was_asked_; }
   double cpu_s() const { return cpu_s_; }
   double peak_mb() const { return peak_mb_; }
   int repeated() const { return repeated_; }
-  /// The digest of all that it has answered.
+  /// Returns the digest of all its answers.
   std::string AnswersDigest() const { return answers_.Hex(); }
 
  private:

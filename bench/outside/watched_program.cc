@@ -23,10 +23,10 @@
 namespace etude {
 namespace {
 
-constexpr long kTail = 4096;  ///< bytes in which the last line is looked for
+constexpr long kTail = 4096;  ///< bytes in which the last line is searched
 
-/// Opens the file of a log for appending, and makes its folder. That stands in a run, which may be a stranger's that is
-/// gone on with, so that no link is followed there.
+/// Opens a log file for appending, and creates its folder. The run that contains it may come from somebody else and be
+/// resumed here, so links are not followed.
 Result<Descriptor> OpenLog(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.parent_path();
   const FilePath path = Inside(folder.parent_path()) / folder.filename() / file.filename();
@@ -47,10 +47,10 @@ ErrorLog::~ErrorLog() {
   if (memory_ >= 0) ::close(memory_);
 }
 
-// Where there is no memory file, the program writes to the real one at once.
+// Without a memory file, the program writes to the real one directly.
 std::string ErrorLog::path() const {
   const int file = memory_ < 0 ? unbuffered_.number() : memory_;
-  if (memory_ >= 0) ::fchmod(memory_, S_IRUSR | S_IWUSR);  // the last program may have shut it
+  if (memory_ >= 0) ::fchmod(memory_, S_IRUSR | S_IWUSR);  // the last program may have changed the mode
   return file < 0 ? "" : fmt::format("/proc/{}/fd/{}", ::getpid(), file);
 }
 
@@ -59,8 +59,8 @@ long ErrorLog::Size() const {
   return memory_ >= 0 && ::fstat(memory_, &status) == 0 ? static_cast<long>(status.st_size) : 0;
 }
 
-// A hole takes no memory, and what the program appends meanwhile stays, which a file made shorter would lose: that is
-// done only before the program meets the limit of its files.
+// Punches a hole, which takes no memory and loses nothing that the program appends meanwhile. Truncating would lose it,
+// so that is done only when the file comes near the program's size limit.
 void ErrorLog::Trim() {
   const long end = Size() - kTail;
   if (end <= kLargest) return;
@@ -87,8 +87,8 @@ std::string ErrorLog::LastLine() const {
   return tail.substr(tail.find_last_of('\n') + 1);  // npos + 1 = 0
 }
 
-// The file is made only when there is something to keep: most runs have none. What a program says is not worth failing
-// a cell: where the file cannot be written it is lost.
+// The file is created only if there is output: most runs have none. If it cannot be written, the output is lost: that
+// is no reason to fail a cell.
 void ErrorLog::Save() {
   const long size = Size();
   if (size == 0) return;
@@ -103,10 +103,11 @@ void ErrorLog::Save() {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLookEvery{20};  // at memory, and at whether it still runs
+constexpr std::chrono::milliseconds kLookEvery{20};  // interval of measuring memory, and of checking whether it still
+                                                     // runs
 
 tl::unexpected<OutsideFailure> NotStarted(const Error& error) {
-  // That it is of this machine is told by who did not ask it.
+  // The caller, who did not ask the program, says that this machine is the cause.
   return tl::unexpected<OutsideFailure>(
       {Status::kFailed, IsOfThisMachine(error) ? error.message : ToString(error), false});
 }
@@ -127,6 +128,7 @@ OutsideOutcome<void> WatchedProgram::Start() {
     if (!made) return NotStarted(made.error());
     attachment_root_.emplace(std::move(*made));
   }
+  // The files that it may see.
   std::vector<std::string> command = options_.command;
   auto program = FindProgram(command.front());
   if (!program) return NotStarted(program.error());
@@ -138,6 +140,7 @@ OutsideOutcome<void> WatchedProgram::Start() {
     view.shown.push_back(python / "etude");
     environment.push_back("PYTHONPATH=" + python.string());
   }
+  // Start it in its control group, behind its sandbox.
   group_ = ControlGroup::Make(options_.fence.groups(), options_.memory_mb);
   const FencedCommand fenced = options_.fence.Around(view.command, view.shown, view.start);
   environment.insert(environment.end(), fenced.environment.begin(), fenced.environment.end());
@@ -181,7 +184,7 @@ OutsideOutcome<std::string> WatchedProgram::WaitForLine(Clock::time_point deadli
     if (looks) {
       RETURN_IF_ERROR(Look());
       next_look = Clock::now() + kLookEvery;
-      over = child_->HasEnded();  // what it has started may keep its output open
+      over = child_->HasEnded();  // its child processes may keep its output open
     }
     if (over || watched[0].revents != 0 || watched[1].revents != 0) {
       over = !child_->Receive(kLongestReply) || over;
@@ -195,10 +198,10 @@ OutsideOutcome<void> WatchedProgram::Look() {
   errors_.Trim();
   const TreeLoad load = meter_->Count();
   const ScratchUse scratch = options_.fence.MeasureScratch(child_->FirstStarted());
-  // A peak is known to a tenth, or 4 MB.
+  // A peak is known to a tenth or 4 MB, so smaller increases need no exact count.
   const double held_mb = group_.IsUp() ? group_.HeldMb() + scratch.names_mb
                                        : meter_->HeldMb(scratch.Mb(), std::min(options_.memory_mb, 1.1 * peak_mb_ + 4));
-  cpu_s_ = std::max(cpu_s_, load.cpu_s);  // it may have vanished meanwhile
+  cpu_s_ = std::max(cpu_s_, load.cpu_s);  // the process may have ended meanwhile
   peak_mb_ = std::max(peak_mb_, held_mb);
   if (held_mb > options_.memory_mb) return TooMuchMemory();
   for (const auto& [count, limit, what] : {std::tuple{load.processes, ProgramLimits::kProcesses, "processes"},
@@ -221,7 +224,7 @@ tl::unexpected<OutsideFailure> WatchedProgram::TooMuchMemory() const {
   return TooMuch(fmt::format("held more than {:g} MB of memory", options_.memory_mb));
 }
 
-/// Says how a program ended from which no whole line will come any more.
+/// Returns how a program ended that will send no further whole line.
 OutsideFailure WatchedProgram::HowItEnded() {
   const std::string part = WithoutFolder(std::string(child_->PartOfLine().substr(0, 1000))).substr(0, 100);
   if (child_->PartOfLine().size() > kLongestReply) {
@@ -240,7 +243,7 @@ OutsideFailure WatchedProgram::HowItEnded() {
   if (const std::string words = WithoutFolder(errors_.LastLine()); !words.empty()) {
     reason += "; its last words: " + Printable(words, 200);
   }
-  // An exit code is the program's own word, an exception for instance; a signal may be the machine's.
+  // An exit code is the program's own (an exception, for instance); a signal may come from the machine.
   return {end.starts_with("exit code") ? Status::kFailed : Status::kCrashed, std::move(reason)};
 }
 
@@ -248,7 +251,7 @@ std::string WatchedProgram::WithoutFolder(std::string text) const {
   if (!attachment_root_) return text;
   const std::string folder = attachment_root_->path().string();
   for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos;) {
-    const std::size_t own = at + folder.size();  // below it, each has a folder of its own
+    const std::size_t own = at + folder.size();  // each message has a folder of its own below it
     const bool is_named = own < text.size() && text[own] == '/';
     text.replace(at, folder.size() + (is_named ? 1 + AttachmentFolder::kNameLength : 0), "FILES");
   }

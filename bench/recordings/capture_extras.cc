@@ -6,11 +6,11 @@
 namespace etude {
 namespace {
 
-using SortedJson = nlohmann::json;  // keys by the alphabet
+using SortedJson = nlohmann::json;  // keys are sorted alphabetically
 
 constexpr const char* kFormat = "etude-capture";
 constexpr int kVersion = 1;
-constexpr int kLargestSide = 4096;  // pixels
+constexpr int kMaxSide = 4096;  // pixels
 
 SortedJson ToJson(const CaptureExtras::View& view) {
   const Intrinsics& in = view.truth.intrinsics;
@@ -184,8 +184,8 @@ std::string EncodeMask(const Mask& mask) {
 }
 
 Result<Mask> DecodeMask(std::string_view text, int width, int height) {
-  if (width < 0 || height < 0 || width > kLargestSide || height > kLargestSide) {
-    return Fail({}, "a mask of {} × {} pixels; at most {} a side", width, height, kLargestSide);
+  if (width < 0 || height < 0 || width > kMaxSide || height > kMaxSide) {
+    return Fail({}, "a mask of {} × {} pixels; at most {} a side", width, height, kMaxSide);
   }
   Mask mask(width, height);
   std::size_t at = 0;

@@ -13,54 +13,55 @@
 
 namespace etude {
 
-/// The extras of task `capture`: what a recording holds beside its tracks "truth" and "recovered" (both at 30 Hz, frame
-/// k of the tracks belongs to frame k here): enough to draw the stereo views again. To show frame k of camera c: render
-/// the truth, dressed in `colours` (or as its stage dresses it), in Room{texture_seed, brightness[k], casts_shadows} as
-/// seen by cameras[c].truth, lay masks[k] over it, and project the recovered joints with MatrixOf(cameras[c].truth).
+/// The extras of task `capture`: what a recording holds beside its tracks "truth" and "recovered" (both at 30 Hz; frame
+/// k of the tracks is frame k here), enough to draw the stereo views again. To show frame k of camera c: render the
+/// truth, dressed in `colours` (or as its stage dresses it), in Room{texture_seed, brightness[k], casts_shadows} as
+/// seen by cameras[c].truth, draw masks[k] over it, and project the recovered joints with MatrixOf(cameras[c].truth).
 ///
-/// As JSON (what `Recording::extras_json` holds):
+/// As JSON (the content of `Recording::extras_json`):
 ///
 ///     {"format": "etude-capture", "version": 1,
 ///      "room": {"texture_seed": 7, "casts_shadows": true},
 ///      "colours": [[r, g, b], …],                          sixteen, by Part: Figure::colours
-///      "stage": {"seed": 7, "scene": 0.5, "everyday": false},    of what sim/stage is made; absent in the studio
+///      "stage": {"seed": 7, "scene": 0.5, "everyday": false},    the options of sim/stage; absent in the studio
 ///                                                                  of people in usual clothes;
-///                                                                  "coded": true of a performer in that suit
+///                                                                  "coded": true for a performer in that suit
 ///      "brightness": [1.0, 1.01, …],                       one per frame
 ///      "cameras": [{"width": 640, "height": 480, "fx": …, "fy": …, "cx": …, "cy": …, "skew": 0,
 ///                   "R_CW": [nine numbers, row by row], "p_WC": [x, y, z],
-///                   "distortion": [k1, k2, p1, p2, k3],        only of a lens that has one (OpenCV's)
+///                   "distortion": [k1, k2, p1, p2, k3],        only for a lens with distortion (OpenCV's)
 ///                   "mask_width": 320, "mask_height": 240,
-///                   "still": "/9j/4AAQ…",                      the picture of frame n / 2: JPEG in base64; may be
-///                   absent "masks": ["120 14 306 …", …]}, …],     one text per frame, see EncodeMask
+///                   "still": "/9j/4AAQ…",                      frame n / 2 as JPEG in base64; may be absent
+///                   "masks": ["120 14 306 …", …]}, …],         one text per frame, see EncodeMask
 ///      "moments": [{"frame": 9, "fixed": [[x, y, z], …],          of the twenty roles, lengths fixed, before IK
-///                   "marks": [[[u, v, u, v, r, g, b], …], …]}],    of each camera; absent when none were asked for
+///                   "marks": [[[u, v, u, v, r, g, b], …], …]}],    per camera; absent if none were requested
 ///      "bvh": "HIERARCHY\n…"}                              the recovered clip as a BVH file's text
 struct CaptureExtras {
   struct View {
     Camera truth;                        ///< the camera that took the pictures
-    std::vector<Mask> masks;             ///< the person as found, one per frame, at half the pictures' size
-    std::string still_jpeg_base64 = {};  ///< the middle frame's picture as it was taken; may be empty
+    std::vector<Mask> masks;             ///< the segmented person, one per frame, at half the pictures' size
+    std::string still_jpeg_base64 = {};  ///< the middle frame's picture; may be empty
   };
 
-  /// A stroke that was drawn in a picture.
+  /// A stroke drawn in a picture.
   struct Mark {
     glm::dvec2 a{0}, b{0};  ///< pixels
     Rgb8 colour{};          ///< the limb's
   };
-  /// A frame of which every stage can be shown.
+  /// A frame for which every stage can be shown.
   struct Moment {
     std::size_t frame = 0;
     BodyPose fixed;                        ///< with the known limb lengths, before inverse kinematics
-    std::vector<std::vector<Mark>> marks;  ///< of each camera
+    std::vector<std::vector<Mark>> marks;  ///< per camera
   };
 
   std::uint64_t texture_seed = 1;
   bool casts_shadows = true;
-  std::uint64_t stage_seed = 0;    ///< of what stands and moves in the room (sim/stage); with `scene` > 0
+  std::uint64_t stage_seed = 0;    ///< seed of the furniture and moving things in the room (sim/stage), with `scene` >
+                                   ///< 0
   double scene = 0;                ///< 0 = the studio
   bool wears_everyday = false;     ///< the performer's wardrobe on that stage
-  bool wears_coded = false;        ///< likewise
+  bool wears_coded = false;        ///< the same
   std::array<Rgb8, 16> colours{};  ///< of the performer, by Part
   std::vector<double> brightness;  ///< one per frame
   std::vector<View> views;
@@ -69,15 +70,15 @@ struct CaptureExtras {
 };
 
 std::string WriteCaptureExtras(const CaptureExtras& extras);
-/// Reads what WriteCaptureExtras writes. Fails, naming what is missing or wrong, when `json` is something else.
+/// Reads what WriteCaptureExtras writes. Fails, naming what is missing or wrong, if `json` is anything else.
 Result<CaptureExtras> ReadCaptureExtras(std::string_view json);
 
-/// Writes a mask as run lengths in scan order, separated by blanks: that many 0s, then that many 1s, then 0s, … The
+/// Returns a mask as run lengths in scan order, separated by blanks: the number of 0s, then of 1s, then of 0s, … The
 /// last run of 0s is left out, so an empty mask is the empty text.
 std::string EncodeMask(const Mask& mask);
 Result<Mask> DecodeMask(std::string_view text, int width, int height);
 
-/// Halves a mask's size: a pixel is set when at least two of its four are.
+/// Halves a mask's size: a pixel is set if at least two of its four are.
 Mask HalveMask(const Mask& mask);
 
 }  // namespace etude

@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// A kind of value that JSON itself has: how to tell it, and what another one is not.
+/// A type of value that JSON has: how to recognise it, and how a complaint describes another one.
 struct JsonKind {
   bool (Json::*is)() const noexcept;
   const char* complaint;
@@ -187,7 +187,7 @@ Result<void> RecordFields::ReadObject(const std::string& text, const std::functi
   RecordFields fields(nullptr, &*json, nullptr);
   describe(fields);
   auto done = fields.Finish();
-  if (!done) done.error().message.erase(0, 1);  // the dot before the first key
+  if (!done) done.error().message.erase(0, 1);  // removes the dot before the first key
   return done;
 }
 
@@ -211,7 +211,7 @@ void RecordFields::Tell(const char* key, const char* meaning) {
 
 const Json* RecordFields::Find(const char* key, bool must, const char* meaning) {
   if (read_ == nullptr) return nullptr;
-  const auto found = read_->find(key);  // the end of whatever is no object
+  const auto found = read_->find(key);  // end() for anything that is not an object
   if (found != read_->end()) return &*found;
   if (must) Note(key, Fail({}, ": it is missing"), meaning);
   return nullptr;

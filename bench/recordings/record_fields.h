@@ -12,24 +12,23 @@
 
 namespace etude {
 
-/// Writes one value of a recording as JSON. Instantiated for truth values, numbers, texts, points (three numbers),
-/// poses (sixty numbers), one number per feature (an object by FeatureName), lists of these, and optional ones, which
-/// are null when they hold nothing.
+/// Encodes one value of a recording as JSON. Instantiated for booleans, numbers, texts, points (three numbers), poses
+/// (sixty numbers), one number per feature (an object by FeatureName), lists of these, and optional ones, which are
+/// null if empty.
 template <typename Value>
 void EncodeValue(const Value& value, Json& json);
 
-/// Reads what EncodeValue writes. A complaint says what was found and what is allowed; it begins with a colon, or with
-/// the index of the entry that it is about.
+/// Reads what EncodeValue writes. A complaint tells what was found and what is allowed; it begins with a colon, or with
+/// the index of the entry concerned.
 template <typename Value>
 Result<void> DecodeValue(const Json& json, Value& value);
 
 /// The keys of one JSON object of a recording. Each format is declared once, as a function `Describe(RecordFields&,
-/// Record&)` that names every key, the member that holds its value and what it means, in the order of writing; the same
-/// function then writes a record, reads one, and makes the page about it. Keys that it does not name are ignored when a
-/// record is read.
+/// Record&)` that names every key, its member and its meaning, in the order of writing; the same function writes a
+/// record, reads one, and makes its reference page. Unknown keys are ignored on reading.
 class RecordFields {
  public:
-  /// The record as JSON on one line.
+  /// Returns the record as JSON on one line.
   template <typename Record>
   static std::string Write(Record record) {
     const JsonPtr json = NewObject();
@@ -38,7 +37,8 @@ class RecordFields {
     return TextOf(*json);
   }
 
-  /// Complaints name the place within the object: "events[2].score: \"high\" is no number (how right it looked)".
+  /// Reads a record. Complaints name the position within the object: "events[2].score: \"high\" is no number (how right
+  /// it looked)".
   template <typename Record>
   static Result<Record> Read(const std::string& text) {
     Record record;
@@ -46,7 +46,7 @@ class RecordFields {
     return record;
   }
 
-  /// The keys of a record and of the objects in it, as a list in Markdown.
+  /// Returns the keys of a record and of the objects in it, as a list in Markdown.
   template <typename Record>
   static std::string Page() {
     std::string page;
@@ -56,10 +56,10 @@ class RecordFields {
     return page;
   }
 
-  /// Two keys, "format" and "version", which must hold these values.
+  /// The keys "format" and "version", which must have these values.
   void Format(std::string_view name, int version);
 
-  /// A value that must be there.
+  /// A required value.
   template <typename Value>
   void Required(const char* key, Value& value, const char* meaning) {
     Tell(key, meaning);
@@ -67,7 +67,7 @@ class RecordFields {
     if (const Json* found = Find(key, /*must=*/true, meaning)) Note(key, DecodeValue(*found, value), meaning);
   }
 
-  /// A value whose key is absent when there is none.
+  /// An optional value; its key is absent if it is empty.
   template <typename Value>
   void Optional(const char* key, std::optional<Value>& value, const char* meaning) {
     Tell(key, meaning);
@@ -75,7 +75,7 @@ class RecordFields {
     if (const Json* found = Find(key)) Note(key, DecodeValue(*found, value.emplace()), meaning);
   }
 
-  /// A value that keeps its default where the key is absent or holds something else.
+  /// A value that keeps its default if the key is absent or has another type.
   template <typename Value>
   void Tolerated(const char* key, Value& value, const char* meaning) {
     Tell(key, meaning);
@@ -84,7 +84,7 @@ class RecordFields {
     if (const Json* found = Find(key); found != nullptr && DecodeValue(*found, read)) value = std::move(read);
   }
 
-  /// A list that must be there, of objects, of lists of them, or of values.
+  /// A required list of objects, of lists of them, or of values.
   template <typename Entry>
   void List(const char* key, std::vector<Entry>& entries, const char* meaning) {
     Tell(key, meaning);
@@ -96,7 +96,7 @@ class RecordFields {
     TellEntry<Entry>();
   }
 
-  /// A list that may be absent, and of which entries that are not as they should be are left out.
+  /// An optional list; entries of a wrong type are left out.
   template <typename Entry>
   void ToleratedList(const char* key, std::vector<Entry>& entries, const char* meaning) {
     Tell(key, meaning);
@@ -177,15 +177,15 @@ class RecordFields {
 
   Json& Added(const char* key);
   void Tell(const char* key, const char* meaning);
-  /// The value under the key when a record is read. Complains when it must be there and is not.
+  /// Returns the value of the key when a record is read. Complains if a required key is missing.
   const Json* Find(const char* key, bool must = false, const char* meaning = "");
   void Note(const char* key, const Result<void>& read, const char* meaning);
   Result<void> Finish();
 
   Json* written_;               ///< the object, when a record is written
   const Json* read_;            ///< the object, when one is read
-  std::string* page_;           ///< the page, when the format is told
-  int depth_ = 0;               ///< of the page's list
+  std::string* page_;           ///< the page, when the format is documented
+  int depth_ = 0;               ///< nesting depth of the page's list
   std::optional<Error> error_;  ///< the first complaint
 };
 

@@ -11,52 +11,52 @@
 
 namespace etude {
 
-// What the recording of a cell holds beside its tracks (`Recording::extras_json`), task by task; that of `capture` is
-// CaptureExtras. The keys and what they mean stand in task_extras.cc, once for whoever writes, reads or documents them.
-// Frames count from the first of the recording unless said otherwise.
+// The contents of a cell's recording beside its tracks (`Recording::extras_json`), by task; that of `capture` is
+// CaptureExtras. The keys and their meanings are in task_extras.cc, once for writing, reading and documenting. Frames
+// count from the first of the recording unless stated otherwise.
 
-/// The extras of task `ik`. Tracks "truth", "start" and, step by step, "solution"; the lists have
-/// one entry a frame of these.
+/// The extras of task `ik`. Tracks "truth", "start" and, step by step, "solution"; the lists have one entry per frame
+/// of these.
 struct IkExtras {
   std::vector<int> iterations;
   std::vector<double> position_error_max_cm, orientation_error_max_deg;
-  std::vector<double> axis_error_max_deg;  ///< of the worst single axis, which "solved" is judged by
+  std::vector<double> axis_error_max_deg;  ///< of the worst single axis, by which "solved" is judged
   std::vector<std::optional<glm::dvec3>> targets_m;
 };
 std::string WriteIkExtras(const IkExtras& extras);
-/// Leaves empty whatever is missing or of another kind. Fails when the text is no JSON object.
+/// Reads the extras; members that are missing or of another type stay empty. Fails if the text is not a JSON object.
 Result<IkExtras> ReadIkExtras(const std::string& json);
 
-/// The extras of task `transition`: a transition that has a way, some seconds before and after it. Tracks "coach",
-/// "left" and "wanted" (docs/reference/recordings.md): what measures of the join look at.
+/// The extras of task `transition`: a transition, with some seconds before and after it. Tracks "coach", "left" and
+/// "wanted" (docs/reference/recordings.md), from which the join's metrics can be computed.
 struct TransitionExtras {
   /// A transition point: two frames, at which the motion changed clips. Frames count in their clips.
   struct Point {
-    std::string from, to;  ///< clips; "in-between" for frames of the method's own
+    std::string from, to;  ///< clips; "in-between" for the method's own frames
     std::optional<int> from_frame = {}, to_frame = {};
     std::optional<double> distance = {};
     std::optional<PerFeature> partials = {};  ///< S_k Δ_k², which sum to distance²
   };
-  /// A pair of frames that was looked at on the way. Frames count in their clips.
+  /// A pair of frames that was considered. Frames count in their clips.
   struct Candidate {
-    std::optional<int> point;  ///< for which of the transition points it was looked at
+    std::optional<int> point;  ///< the transition point for which it was considered
     int from_frame = 0, to_frame = 0;
     double distance = 0;
     std::optional<PerFeature> partials;
-    std::optional<double> cost;  ///< what the choice ranks by, where that is not the distance
+    std::optional<double> cost;  ///< what the choice ranks by, if not by the distance
     std::string outcome;         ///< "taken", "too far", "later", "worse"
 
     bool operator==(const Candidate&) const = default;
   };
 
   std::optional<int> transition_frame;  ///< the first of `transition_frames`
-  std::vector<int> transition_frames;   ///< the last ones before a change
+  std::vector<int> transition_frames;   ///< the last frames before a change of clip
   std::string from, to;                 ///< clips
-  std::string branch;                   ///< which way was taken: "front half", "in-between", …
+  std::string branch;                   ///< the kind of transition: "front half", "in-between", …
   std::string why;                      ///< one sentence
-  std::optional<int> request_frame;     ///< negative: before the recording begins
+  std::optional<int> request_frame;     ///< negative: before the start of the recording
   std::optional<double> wait_s, threshold, natural_limit_cm;
-  std::optional<double> distance;  ///< with `partials`: of the worst transition point
+  std::optional<double> distance;  ///< as `partials`: of the worst transition point
   std::optional<PerFeature> weights, partials;
   std::optional<std::int64_t> pairs_seen, pairs_matched;
   std::vector<Point> points;
@@ -64,8 +64,8 @@ struct TransitionExtras {
   std::vector<Candidate> candidates;
 };
 std::string WriteTransitionExtras(const TransitionExtras& extras);
-/// Leaves empty whatever is missing or of another kind: recordings of older runs, and of methods outside, tell less.
-/// Fails when the text is no JSON object.
+/// Reads the extras; members that are missing or of another type stay empty, because recordings of older runs and of
+/// outside methods hold less. Fails if the text is not a JSON object.
 Result<TransitionExtras> ReadTransitionExtras(const std::string& json);
 
 /// The extras of task `detection`: a session before the sensor. Tracks "truth" and "sensed", as the recogniser saw it.
@@ -93,11 +93,11 @@ struct DetectionExtras {
     int frame = 0;
   };
 
-  std::optional<double> threshold;  ///< of judging; absent for an answer from outside
+  std::optional<double> threshold;  ///< of judging; absent for an outside method
   std::vector<Move> moves;
   std::vector<Event> events;
   std::vector<Alarm> alarms;
-  std::vector<std::string> joint_states;  ///< a letter a joint, one text a frame (StateLetters)
+  std::vector<std::string> joint_states;  ///< one letter per joint, one text per frame (StateLetters)
 };
 std::string WriteDetectionExtras(const DetectionExtras& extras);
 /// Fails, naming the key, when a key is missing or of another kind.
@@ -105,7 +105,7 @@ Result<DetectionExtras> ReadDetectionExtras(const std::string& json);
 
 /// The extras of task `coach`: a session with a learner. Tracks "coach", "truth" (the learner as danced) and "sensed".
 struct CoachExtras {
-  /// A stretch of frames in one mode, up to the next.
+  /// An interval of frames in one mode, up to the next one.
   struct Mode {
     std::string mode;
     int begin_frame = 0;
@@ -116,13 +116,13 @@ struct CoachExtras {
     int begin_frame = 0, end_frame = 0;
     std::string faults;
   };
-  /// The text on the screen, up to the next.
+  /// The text on the screen, up to the next change.
   struct Words {
     int begin_frame = 0;
     std::string say = {}, hint = {};
     std::optional<BodyPose> picture = {};  ///< the key pose that the hint is about
   };
-  /// Something that the coach decided.
+  /// A decision of the coach.
   struct Decision {
     int frame = 0;
     std::string event, why;
@@ -134,14 +134,14 @@ struct CoachExtras {
   std::vector<Words> words;
   std::vector<Decision> decisions;
   std::vector<int> corrections, transitions;
-  std::vector<double> beats_s;  ///< when the music's beats sounded, ascending
+  std::vector<double> beats_s;  ///< times of the music's beats, ascending
   std::vector<std::string> joint_states;
 };
 std::string WriteCoachExtras(const CoachExtras& extras);
 /// Fails, naming the key, when a key is missing or of another kind.
 Result<CoachExtras> ReadCoachExtras(const std::string& json);
 
-/// The page docs/reference/recordings.md: the keys of all of them, in Markdown.
+/// Returns the page docs/reference/recordings.md: the keys of all formats, in Markdown.
 std::string RecordingsAsMarkdown();
 
 }  // namespace etude

@@ -12,7 +12,7 @@ bool Contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// A list of metrics that the task reports, each once.
+/// Reads a list of metrics that the task reports, each at most once.
 std::vector<std::string> ReadMetricList(Fields& fields, const std::string& task,
                                         const std::vector<std::string>& known) {
   const char* key = "metrics";
@@ -24,7 +24,7 @@ std::vector<std::string> ReadMetricList(Fields& fields, const std::string& task,
   return metrics;
 }
 
-/// The swept values of `where`, each of which must be one of the sweep's own.
+/// Reads `where`: swept parameters with one of their values each.
 std::vector<SweptValue> ReadWhere(Fields& fields, const Scenario& scenario) {
   std::vector<SweptValue> where;
   const Node* node = fields.Raw("where");
@@ -33,6 +33,7 @@ std::vector<SweptValue> ReadWhere(Fields& fields, const Scenario& scenario) {
     fields.Complain(node->place, "'where' must map swept parameters to one of their values, found " + Describe(*node));
     return where;
   }
+  // The values that the sweep has.
   std::vector<std::string> known;
   for (const Condition& condition : scenario.conditions) {
     for (const SweptValue& swept : condition.swept) {
@@ -49,7 +50,7 @@ std::vector<SweptValue> ReadWhere(Fields& fields, const Scenario& scenario) {
     }
     where.push_back({entry.key, entry.value.scalar});
   }
-  // `together` steps parameters in parallel, so not every combination of known values is a condition.
+  // `together` steps parameters in parallel, so some combinations of known values are no condition.
   const auto has = [](const Condition& condition, const SweptValue& swept) {
     return std::find(condition.swept.begin(), condition.swept.end(), swept) != condition.swept.end();
   };
@@ -62,7 +63,7 @@ std::vector<SweptValue> ReadWhere(Fields& fields, const Scenario& scenario) {
   return where;
 }
 
-/// A name that must be one of `known`, which only a scenario tells; `allowed` says it for people.
+/// A key whose value must be one of `known`, which depends on the scenario; `allowed` describes the value for people.
 template <typename Options>
 Field<Options> KnownName(const std::string& key, std::string Options::*member, std::string allowed,
                          const std::vector<std::string>& known, std::string meaning) {

@@ -5,17 +5,17 @@
 
 namespace etude {
 
-/// The metrics that a task's cells report.
+/// Returns the metrics that a task's cells report.
 std::vector<std::string> MetricsOf(const TaskKind& kind);
 
-/// Those and the scenario's own.
+/// Returns the task's metrics and those that the scenario defines itself.
 std::vector<std::string> MetricsOf(const TaskKind& kind, const Scenario& scenario);
 
-/// Adds a metric to a list of them. Complains of one that is not `known`, or stands there already.
+/// Adds a metric to `metrics`. Complains if it is not in `known` or already in the list.
 void NoteMetric(Fields& fields, const std::string& task, const std::vector<std::string>& known, const std::string& name,
                 const Place& place, std::vector<std::string>& metrics);
 
-// The keys of `expect`, `gate` and its `time_ratios`: they name methods and conditions of `scenario`, which must
+// The keys of `expect`, `gate` and its `time_ratios`. They name methods and conditions of `scenario`, which must
 // outlive the tables, and `metrics` of its task.
 FieldTable<Expectation> ExpectationFields(const Scenario& scenario, const std::vector<std::string>& metrics);
 FieldTable<GateRules> GateFields(const Scenario& scenario, const std::vector<std::string>& metrics);

@@ -18,7 +18,7 @@
 namespace etude {
 namespace {
 
-/// A sweep has its task's parameters and this.
+/// The keys of a sweep, beside the task's parameters.
 std::vector<KeyInfo> SweepKeys() {
   return {{"together",
            {"a mapping of parameters to as many values each, or a list of such", "{}"},
@@ -83,14 +83,14 @@ namespace {
 
 Json Ref(const std::string& definition) { return {{"$ref", "#/definitions/" + definition}}; }
 Json ListOf(Json item) { return {{"type", "array"}, {"items", std::move(item)}}; }
-/// The condition that `key` has this value.
+/// Returns the schema condition that `key` has this value.
 Json Says(const std::string& key, const std::string& value) {
   return {{"properties", {{key, {{"const", value}}}}}, {"required", {key}}};
 }
 Json Has(const char* key) { return {{"required", {key}}}; }
 Json If(Json condition, Json then) { return {{"if", std::move(condition)}, {"then", std::move(then)}}; }
 
-/// A scenario's keys by name: those of every task, of files, and `own`.
+/// Returns the allowed key names of a scenario: those of every task, of files, and `own`.
 Json Names(std::span<const KeyInfo> own) {
   std::vector<std::string> names = NamesOf(CommonScenarioKeys(), &KeyInfo::key);
   for (const std::vector<std::string>& more : {NamesOf(FileKeys(), &KeyInfo::key), NamesOf(own, &KeyInfo::key)}) {
@@ -99,7 +99,7 @@ Json Names(std::span<const KeyInfo> own) {
   return {{"enum", names}};
 }
 
-/// The parameters of a task, each with what it may be swept over; lists and mappings cannot be swept.
+/// Returns the schema of a task's sweep: each parameter with its values. Lists and mappings cannot be swept.
 Json SweepSchema(const TaskKind& kind) {
   Json parameters = Json::object();
   for (const KeyInfo& key : kind.condition_keys) {
@@ -116,7 +116,8 @@ Json SweepSchema(const TaskKind& kind) {
   return {{"type", "object"}, {"properties", std::move(parameters)}, {"additionalProperties", false}};
 }
 
-/// A method with `exec` is a program; any other has the keys of its task. A program in a seat has both.
+/// Returns the schema of a method. A method with `exec` is a program; any other has the keys of its task. A program
+/// with a `seat` has both.
 Json MethodSchema(const TaskKind& kind) {
   std::vector<KeyInfo> keys;
   for (const KeyInfo& common : OutsideMethodFields().Describe()) {
@@ -130,7 +131,7 @@ Json MethodSchema(const TaskKind& kind) {
   return {{"if", std::move(asked_whole)}, {"then", Ref("outside-method")}, {"else", MappingSchema(keys)}};
 }
 
-/// The keys that a scenario of this task has beside those of every scenario.
+/// Returns the schema of the keys that a scenario of this task has beside the common ones.
 Json TaskSchema(const TaskKind& kind) {
   Json properties = Json::object();
   for (const KeyInfo& key : kind.condition_keys) properties[key.key] = KeySchema(key);
@@ -142,16 +143,16 @@ Json TaskSchema(const TaskKind& kind) {
   properties["metrics"] = ListOf({{"anyOf", {metric, Ref("outside-metric")}}});
   return {{"description", kind.question},
           {"properties", std::move(properties)},
-          {"if", own},  // its expectations may name metrics of its own
+          {"if", own},  // its expectations may name the scenario's own metrics
           {"else", {{"properties", ours}}},
           {"propertyNames", Names(kind.condition_keys)},
           {"dependencies", ConditionSchemas(kind.condition_keys, false)}};
 }
 
-/// The keys of every scenario and, once its task is known, those of the task.
+/// Returns the schema of the common keys and, once the task is known, of the task's keys.
 Json AnyScenarioSchema() {
   Json schema = MappingSchema(CommonScenarioKeys());
-  schema.erase("required");              // defaults may say it
+  schema.erase("required");              // `defaults` may hold them
   schema.erase("additionalProperties");  // each task has its own
   std::vector<KeyInfo> of_any_task;
   Json branches = Json::array();
@@ -168,26 +169,30 @@ Json AnyScenarioSchema() {
   return schema;
 }
 
-/// A file's scenario, or one of its list; what is required may come from defaults, or from another file.
+/// Returns the schema of a file: one scenario, or a list of them. Required keys may come from `defaults` or from an
+/// included file.
 Json ScenarioSchema() {
   std::vector<std::string> required;
   for (const KeyInfo& key : CommonScenarioKeys()) {
     if (key.IsRequired()) required.push_back(key.key);
   }
   const Json has_defaults{{"anyOf", {Has("defaults"), Has("include")}}};
+  // A scenario in a list: without the keys of the file.
   Json listed{{"allOf", {Ref("scenario"), Has("scenario")}}, {"properties", Json::object()}};
   Json tops = Json::array();
   for (const KeyInfo& key : FileKeys()) listed["properties"][key.key] = false;
-  for (const TaskKind& kind : AllTaskKinds()) {  // a task that all scenarios of the file have
+  for (const TaskKind& kind : AllTaskKinds()) {  // if `defaults` names the task of all scenarios of the file
     Json in_list = ListOf({{"if", {{"not", Has("task")}}}, {"then", Ref(kind.name)}});
     tops.push_back(If({{"properties", {{"defaults", Says("task", kind.name)}}}, {"required", {"defaults"}}},
                       {{"properties", {{"scenarios", std::move(in_list)}}}}));
   }
+  // A required key must be in every scenario if `defaults` lacks it.
   for (const std::string& key : required) {
     const Json default_says{{"properties", {{"defaults", {{"required", {key}}}}}}, {"required", {"defaults"}}};
     tops.push_back({{"if", {{"anyOf", {default_says, Has("include")}}}},
                     {"else", {{"properties", {{"scenarios", ListOf({{"required", {key}}})}}}}}});
   }
+  // A file with `scenarios`.
   Json of_list = MappingSchema(FileKeys());
   of_list["properties"]["scenarios"]["items"] = std::move(listed);
   of_list["properties"]["defaults"] = {{"allOf", {Ref("scenario")}}, {"properties", {{"scenario", false}}}};
@@ -195,6 +200,7 @@ Json ScenarioSchema() {
   Json only_defaults = of_list;  // a file that others include
   for (const char* key : {"required", "allOf"}) only_defaults.erase(key);
   only_defaults["properties"].erase("scenarios");
+  // A file with a single scenario.
   Json single{{"allOf", {Ref("scenario"), {{"if", has_defaults}, {"else", {{"required", required}}}}, Has("scenario")}},
               {"properties", only_defaults["properties"]}};
   const Json is_included{{"not", {{"anyOf", {Has("scenario"), Has("question"), Has("task"), Has("methods")}}}},

@@ -9,18 +9,19 @@ namespace etude {
 
 /// The keys of one kind of mapping in a scenario file.
 struct KeyGroup {
-  std::string path;   ///< where such a mapping stands: "expect[]", an item of the list under `expect`; "" = the top
+  std::string path;   ///< where such a mapping stands: "expect[]" = an item of the list under `expect`; "" = the top of
+                      ///< the file
   std::string title;  ///< "An expectation"
   std::vector<KeyInfo> keys;
 };
 
-/// Every key that a scenario file can hold: those of all scenarios, then those of each task and of its methods.
+/// Returns every key that a scenario file can hold: those of all scenarios, then those of each task and of its methods.
 std::vector<KeyGroup> AllKeyGroups();
 
-/// AllKeyGroups as the reference page docs/reference/keys.md.
+/// Returns AllKeyGroups as the reference page docs/reference/keys.md.
 std::string KeysAsMarkdown();
-/// AllKeyGroups as the JSON Schema docs/schemas/scenario.schema.json, by which editors complete and check scenario
-/// files.
+/// Returns AllKeyGroups as the JSON Schema docs/schemas/scenario.schema.json, with which editors complete and check
+/// scenario files.
 std::string KeysAsSchema();
 
 }  // namespace etude

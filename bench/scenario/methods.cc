@@ -26,7 +26,7 @@ std::string ReadOptions(Fields& method) {
   }
   const auto text = WriteJson(ToJson(*options));
   if (text) return *text;
-  method.Complain(options->place, text.error().message);  // bytes that are no UTF-8
+  method.Complain(options->place, text.error().message);  // bytes that are not UTF-8
   return "{}";
 }
 
@@ -37,8 +37,8 @@ void ReadProgram(Fields& method, MethodEntry& entry) {
                   "'exec' needs a program and its arguments, such as [python3, my_solver.py]");
 }
 
-/// The keys of a built-in method are its task's: it reads their values. Their names are checked here, where it is
-/// known that `against` and `exec` may stand beside them.
+/// Checks the key names of a built-in method. Its task reads the values, but does not know that `against` and `exec`
+/// may stand beside them.
 void CheckKeysOfBuiltIn(Fields& method, const TaskKind& kind) {
   for (const char* key : {"options", "files", "time_s"}) {
     const Node* value = method.Raw(key);
@@ -57,7 +57,7 @@ Result<MethodEntry> ReadBuiltIn(const Node& node, const TaskKind& kind) {
   return entry;
 }
 
-/// A program in one seat of its task's loop: has the task's keys for all else, whose values the task reads.
+/// Reads a program that takes one seat of its task's loop. It also has the task's keys, whose values the task reads.
 Result<MethodEntry> ReadSeated(const Node& node, const TaskKind& kind) {
   Fields method(node, "a method of task " + kind.name + " with 'exec'");
   MethodEntry entry;
@@ -84,6 +84,7 @@ Result<MethodEntry> ReadMethod(const Node& node, const TaskKind& kind) {
   if (entry->exec.empty() && node.Find("seat") != nullptr) {
     return Fail(node.Find("seat")->place, "'seat' is for methods with 'exec'");
   }
+  // The task reads the mapping without the keys that are read here.
   entry->node = node;
   std::erase_if(entry->node.entries, [&](const Node::Entry& key) {
     const bool is_outside = std::ranges::find(kProgramKeys, key.key) != std::end(kProgramKeys);
@@ -113,10 +114,10 @@ const FieldTable<MethodEntry>& OutsideMethodFields() {
       {{{"name", PlainNameKind(), "", "Its name, unique in the scenario."},
         [](Fields& method, MethodEntry& entry) { entry.name = ReadPlainName(method, "name"); }},
        {{"against", TextKind("a method"), "(the first method)", "The method it is compared with."},
-        [](Fields&, MethodEntry&) {}},  // read when all names are known
+        [](Fields&, MethodEntry&) {}},  // read once all names are known
        {{"description", TextKind("a sentence"), "(its settings)",
          "What it is, for those who read the results; changes nothing of them."},
-        [](Fields&, MethodEntry&) {}},  // of every method alike
+        [](Fields&, MethodEntry&) {}},  // read for all methods in ReadMethods
        {{"exec",
          {"a list: a program and its arguments",
           R"({"type":"array","minItems":1,"items":{"type":["string","number"],"minLength":1}})"},
@@ -151,6 +152,7 @@ std::vector<MethodEntry> ReadMethods(Fields& fields, const TaskKind& kind) {
     fields.Complain(error.place, error.message);
     return std::vector<MethodEntry>{};
   };
+  // A list of at least one method.
   const Node* list = fields.Raw("methods");
   if (list == nullptr || list->kind != Node::Kind::kSequence || list->items.empty()) {
     return complain({list == nullptr ? fields.node().place : list->place,
@@ -159,6 +161,7 @@ std::vector<MethodEntry> ReadMethods(Fields& fields, const TaskKind& kind) {
   if (list->items.size() > kMaxMethods) {
     return complain({list->place, fmt::format("{} methods; at most {}", list->items.size(), kMaxMethods)});
   }
+  // Read every method; names are unique.
   std::vector<std::string> names;
   for (const Node& item : list->items) {
     auto method = ReadMethod(item, kind);
@@ -169,7 +172,7 @@ std::vector<MethodEntry> ReadMethods(Fields& fields, const TaskKind& kind) {
     names.push_back(method->name);
     methods.push_back(*std::move(method));
   }
-  for (std::size_t i = 0; i < methods.size(); ++i) {  // only now are all names known
+  for (std::size_t i = 0; i < methods.size(); ++i) {  // `against` needs all names
     Fields method(list->items[i], "a method");
     methods[i].against = method.Choice("against", names, names.front());
     methods[i].description = method.Text("description", "");

@@ -15,12 +15,12 @@
 namespace etude {
 namespace {
 
-constexpr int kMostExampleFrames = 10'000;
+constexpr int kMaxExampleFrames = 10'000;
 constexpr const char* kIdPattern = "^[a-z][a-z0-9_]{0,59}$";
-/// The keys of a row of cells.jsonl beside metrics.
+/// The keys of a row of cells.jsonl beside metrics, which a metric's name must not equal.
 constexpr std::string_view kRowKeys[] = {"cell",  "scenario", "task",   "condition", "trial",        "clip",
                                          "units", "method",   "status", "reason",    "null_reasons", "ok_share"};
-/// Their cells keep no motion.
+/// Tasks whose cells keep no motion.
 constexpr std::string_view kTasksWithoutMotion[] = {"pose-distance", "search"};
 
 bool IsMetricId(const std::string& name) {
@@ -38,13 +38,14 @@ void ReadName(Fields& metric, OutsideMetric& own) {
                               own.info.id));
 }
 
-/// Puts `poses` in the place of `frames` and `joints_m`: joints that are not told of are at the origin.
+/// Replaces `frames` and `joints_m` of a track by `poses`. Joints without positions are at the origin.
 Result<void> SpellOut(Json& track, const Place& place) {
   if (!track.is_object()) return Fail(place, "a track must be a mapping, found {}", ShowJson(track));
   if (track.contains("poses")) return {};
+  // The track has the short form: a number of frames, and positions of some joints.
   const Json frames = track.value("frames", Json());
-  if (!frames.is_number_integer() || frames < 1 || frames > kMostExampleFrames) {
-    return Fail(place, "a track needs 'poses', or 'frames', from 1 to {}, and 'joints_m'; found {}", kMostExampleFrames,
+  if (!frames.is_number_integer() || frames < 1 || frames > kMaxExampleFrames) {
+    return Fail(place, "a track needs 'poses', or 'frames', from 1 to {}, and 'joints_m'; found {}", kMaxExampleFrames,
                 ShowJson(track));
   }
   const std::size_t roles = AllRoles().size();
@@ -175,8 +176,10 @@ ValueKind HeadlineKind() {
 
 std::vector<std::string> ReadHeadline(Fields& fields, const TaskKind& kind, std::vector<OutsideMetric>& own) {
   const Node* list = fields.Raw("metrics");
-  if (list != nullptr && list->kind != Node::Kind::kSequence) fields.Texts("metrics");  // complains of it
+  // Texts complains that it is not a list.
+  if (list != nullptr && list->kind != Node::Kind::kSequence) fields.Texts("metrics");
   if (list == nullptr || list->items.empty()) return kind.default_metrics;
+  // Mappings are metrics of the scenario's own; if there are only such, the task's come first.
   const auto is_own = [](const Node& item) { return item.kind == Node::Kind::kMapping; };
   std::vector<std::string> names;
   if (std::ranges::all_of(list->items, is_own)) names = kind.default_metrics;

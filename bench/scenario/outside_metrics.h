@@ -12,11 +12,11 @@ namespace etude {
 const FieldTable<OutsideMetric>& OutsideMetricFields();
 const FieldTable<MetricExample>& MetricExampleFields();
 
-/// The values of `metrics`: names, and mappings of OutsideMetricFields.
+/// Describes the values of `metrics`: names, and mappings of OutsideMetricFields.
 ValueKind HeadlineKind();
 
-/// Reads `metrics`: the headline metrics; the task's own when the file names none of them. Metrics of the scenario's
-/// own go into `own`, too, and are added to the catalogue (AddMetric). Complaints stay in `fields`.
+/// Reads `metrics`: the headline metrics, or the task's if the file names none of them. Metrics that the scenario
+/// defines are also added to `own` and to the catalogue (AddMetric). Complaints stay in `fields`.
 std::vector<std::string> ReadHeadline(Fields& fields, const TaskKind& kind, std::vector<OutsideMetric>& own);
 
 }  // namespace etude

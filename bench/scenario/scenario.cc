@@ -23,7 +23,7 @@ namespace {
 
 constexpr Range kTrials{0, 1'000'000};
 constexpr Range kBodies{0, 1000};
-constexpr double kLargestSeed = 9007199254740992;  // 2^53: every whole number up to it is exact
+constexpr double kMaxSeed = 9007199254740992;  // 2^53: every integer up to it is exact in a double
 
 void ReadFilmedTrials(Fields& video, const Scenario& scenario, RecordingSelection& selection) {
   const Node* trials = video.Raw("trials");
@@ -63,7 +63,7 @@ std::vector<NamedClips> ReadLibraries(Fields& fields, const TaskKind& kind) {
   return read;
 }
 
-/// The value of `key`; null when it is absent or empty, as by default: `streams: []`.
+/// Returns the value of `key`; null if it is absent or empty, like the default `streams: []`.
 const Node* FindFilled(Fields& fields, const char* key) {
   const Node* node = fields.Raw(key);
   const bool is_empty =
@@ -71,7 +71,7 @@ const Node* FindFilled(Fields& fields, const char* key) {
   return is_empty ? nullptr : node;
 }
 
-/// Checks that recordings and labels stand only where the task can read what people did from them.
+/// Complains of recordings and labels in a scenario that cannot use them.
 void CheckStreams(Fields& fields, const Scenario& scenario, const TaskKind& kind) {
   for (const char* key : {"streams", "labels", "reading"}) {
     const Node* named = FindFilled(fields, key);
@@ -135,7 +135,8 @@ FieldTable<RecordingSelection> VideoFields(const Scenario& scenario) {
             [&](Fields& video, Selection& selection) { ReadFilmedTrials(video, scenario, selection); }}}};
 }
 
-/// A key is read where those before it are right: methods are asked about their task, expectations about methods.
+/// The keys of every scenario. A key is read only if those before it are right, because methods depend on the task and
+/// expectations on methods.
 const FieldTable<Scenario>& ScenarioFields() {
   using Key = Field<Scenario>;
   static const auto when_right = [](auto read) {
@@ -172,7 +173,7 @@ const FieldTable<Scenario>& ScenarioFields() {
                  "Teaches which joints of the clips play which roles, where names do not tell.")
            .WhenAbsent("(names tell)"),
        Key::Number("trials", &Scenario::trials, {1, kTrials.highest}, "Worlds per condition."),
-       Key::Number("seed", &Scenario::seed, {0, kLargestSeed}, "Of all worlds; `etude run --seed` wins over it.")
+       Key::Number("seed", &Scenario::seed, {0, kMaxSeed}, "Of all worlds; `etude run --seed` wins over it.")
            .WhenAbsent("1"),
        {{"unit", NameKind(NamesOf(kSamplingUnits)), "(the task's)",
          "What worlds are drawn from: what a claim beyond these worlds counts."},
@@ -247,7 +248,7 @@ std::span<const KeyInfo> CommonScenarioKeys() {
 }
 
 void AddLibraries(std::span<const NamedClips> libraries, Scenario& scenario) {
-  std::vector<Condition> once;  // the conditions of one library, without its name
+  std::vector<Condition> once;  // the conditions of one library, without the library's name
   for (Condition condition : scenario.conditions) {
     if (condition.library != scenario.conditions.front().library) continue;
     if (!condition.library.empty()) condition.swept.erase(condition.swept.begin());
@@ -302,7 +303,8 @@ Result<Scenario> ParseScenario(const Node& node, const std::string& file) {
   scenario.file = file;
   ScenarioFields().Read(fields, scenario);
   if (const TaskKind* kind = FindTaskKind(scenario.task)) {
-    for (const KeyInfo& key : kind->condition_keys) fields.Raw(key.key);  // their values are read by the task
+    // Mark the task's keys as known; the task reads their values.
+    for (const KeyInfo& key : kind->condition_keys) fields.Raw(key.key);
   }
   RETURN_IF_ERROR(fields.Finish());
   return scenario;
@@ -355,9 +357,9 @@ std::vector<std::string> StagesOf(const Node* oracle) {
   return stages;
 }
 
-/// The settings of a built-in method: its entry without its name, its oracle and what is told of it.
+/// Returns the settings of a built-in method as text: its entry without name, oracle and description.
 std::string SettingsOf(const MethodEntry& method) {
-  if (!method.exec.empty()) return "";  // what a program is, nobody knows
+  if (!method.exec.empty()) return "";  // the settings of a program are unknown
   Node settings = method.node;
   std::erase_if(settings.entries, [](const Node::Entry& entry) {
     return entry.key == "name" || entry.key == "oracle" || entry.key == "description";
@@ -366,7 +368,7 @@ std::string SettingsOf(const MethodEntry& method) {
   return text ? *text : "";
 }
 
-/// Says what a method is where its file does not: "solver ccd, weights fixed", "a program".
+/// Returns a method's description, or one made from its settings: "solver ccd, weights fixed", "a program".
 std::string DescriptionOf(const MethodEntry& method) {
   if (!method.description.empty()) return method.description;
   std::string text = method.exec.empty() ? "" : "a program";

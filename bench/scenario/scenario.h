@@ -16,33 +16,33 @@
 
 namespace etude {
 
-/// Clips that belong together, such as a user's dances: worlds are made of one such library at a time.
+/// Clips that belong together, such as one user's dances. Each world uses the clips of one library.
 struct NamedClips {
   std::string name;
   std::vector<std::string> clips;  ///< references as written
 };
 
-/// Recordings of people, which worlds are made of in place of simulated ones.
+/// Recordings of people, from which worlds are made instead of from simulated people.
 struct StreamSource {
   std::vector<std::string> files;  ///< references as written
-  std::string labels;              ///< file, or folder of tag streams, that says what was done in streams or clips
+  std::string labels;              ///< file, or folder of tag streams, with what was performed in the streams or clips
   StreamReading reading;
   StreamOptions making;
 };
 
-/// One value of each swept parameter, and the scenario's mapping with those values put in.
+/// One value of each swept parameter, and the scenario's mapping with those values inserted.
 struct Condition {
-  std::vector<SweptValue> swept;  ///< empty when nothing is swept; a library's name first, where there are any
+  std::vector<SweptValue> swept;  ///< empty if nothing is swept; the library's name comes first, if there are libraries
   Node node;
-  std::string library = {};  ///< whose clips its worlds are made of; "" = the scenario's
+  std::string library = {};  ///< the library of its worlds; "" = the scenario's `clips`
 };
 
 /// A value of a condition that names a file.
 struct NamedFile {
   std::string key;
-  const Node* node = nullptr;  ///< its scalar is the file, within the condition
+  const Node* node = nullptr;  ///< the scalar within the condition that holds the file's name
 };
-/// The values by which `condition` names files, in the order of the task's keys (ValueKind::names_file).
+/// Returns the values of `condition` that name files, in the order of the task's keys (ValueKind::names_file).
 std::vector<NamedFile> FilesNamedBy(const Condition& condition, const TaskKind& kind);
 
 /// The cells that keep their motions for videos.
@@ -57,24 +57,25 @@ struct RecordingSelection {
 /// One of the methods compared.
 struct MethodEntry {
   std::string name;
-  std::string against;            ///< the method it is compared with; the first is its own
-  Node node;                      ///< the mapping that its task reads; unused for a method outside without a seat
-  std::vector<std::string> exec;  ///< a method outside: program and arguments; empty = built in
-  std::string options_json;       ///< a method outside: what its key `options` holds, told to it as it is
-  std::optional<double> time_s;   ///< a method outside: its own limit per problem or step, instead of Limits::time_s
-  std::string seat = {};          ///< a method outside: its seat in the task's loop; "" = it is asked once a world
-  std::vector<std::string> files = {};  ///< a method outside: what a fence shows it; empty = its program's own folder
-  std::string description = {};         ///< what it is, in a sentence, for those who read results; "" = nobody said
+  std::string against;            ///< the method it is compared with; the first method is compared with itself
+  Node node;                      ///< the mapping that its task reads; not used for an outside method without a seat
+  std::vector<std::string> exec;  ///< an outside method's program and arguments; empty = built in
+  std::string options_json;       ///< an outside method's `options`, sent to it unchanged
+  std::optional<double> time_s;   ///< an outside method's own limit per problem or step, instead of Limits::time_s
+  std::string seat = {};          ///< an outside method's seat in the task's loop; "" = it is asked once per world
+  std::vector<std::string> files = {};  ///< files that the sandbox shows an outside method; empty = its program's own
+                                        ///< folder
+  std::string description = {};         ///< what it is, in a sentence, for readers of the results; "" = not described
 
-  /// True when its task runs it, wholly or around its seat.
+  /// Returns true if the task runs it, entirely or around its seat.
   bool RunsInTask() const { return exec.empty() || !seat.empty(); }
 };
 
-/// A cell of which a metric's value is known.
+/// A cell for which a metric's value is known.
 struct MetricExample {
   std::string title;
-  std::string cell_json;           ///< an object as the metric's program is given it: `tracks`, `extras`
-  std::optional<double> expected;  ///< nothing: the metric has no value
+  std::string cell_json;           ///< an object with `tracks` and `extras`, as the metric's program receives it
+  std::optional<double> expected;  ///< nothing = the metric has no value
   double tolerance = 1e-9;         ///< absolute
   Place place;
 };
@@ -82,36 +83,36 @@ struct MetricExample {
 /// A metric that another program measures on the motions of a cell (docs/outside-methods.md).
 struct OutsideMetric {
   MetricInfo info;
-  MethodEntry program;  ///< its name is the metric's
+  MethodEntry program;  ///< its name is the metric's name
   std::vector<MetricExample> vectors;
 };
 
-/// The time and memory that one cell, or the building of one world, may take before it is ended.
+/// The time and memory that one cell, or the building of one world, may use before it is ended.
 struct Limits {
   double time_s = 300;
-  double memory_mb = 4096;  ///< resident, of the worker and of the methods outside that it has started, each
+  double memory_mb = 4096;  ///< resident; for the worker and for each outside method that it has started
 };
 
-/// A question put to several methods on the same worlds (docs/scenarios.md), as its file says it. The keys
-/// of its task are read by the task itself, from each condition's mapping.
+/// A question that several methods answer in the same worlds (docs/scenarios.md), as its file states it. The task reads
+/// its own keys from each condition's mapping.
 struct Scenario {
   std::string file;
   std::string name;
   std::string question;
-  std::string description;  ///< what its worlds are, in a sentence; "" = nobody said
+  std::string description;  ///< what its worlds are, in a sentence; "" = not described
   std::string task;
   std::vector<std::string> clips;     ///< references as written
-  std::vector<NamedClips> libraries;  ///< instead of `clips`: every condition once for each
+  std::vector<NamedClips> libraries;  ///< instead of `clips`: every condition is repeated for each library
   StreamSource streams;
-  std::string joint_map;  ///< file that teaches the joints of the clips (docs/clips.md), "" = none
+  std::string joint_map;  ///< file that maps the joints of the clips to roles (docs/clips.md); "" = none
   SamplingUnit unit = SamplingUnit::kWorld;
   int trials = 10;
   std::optional<std::uint64_t> seed;
   std::vector<Condition> conditions;                ///< at least one
   std::vector<MethodEntry> methods;                 ///< at least one
-  std::vector<std::string> metrics;                 ///< headline metrics; the task's own when the file names none
-  std::vector<OutsideMetric> outside_metrics = {};  ///< those that other programs measure; headline metrics, too
-  std::vector<std::string> across;  ///< swept parameters under all of whose values a verdict must be the same
+  std::vector<std::string> metrics;                 ///< headline metrics; the task's if the file names none
+  std::vector<OutsideMetric> outside_metrics = {};  ///< those that other programs measure; also in `metrics`
+  std::vector<std::string> across;  ///< swept parameters; a verdict must be the same under all of their values
   std::string rival;                ///< "" = the best method is found
   std::vector<Expectation> expectations;
   RecordingSelection recordings;
@@ -126,31 +127,32 @@ struct ScenarioProgram {
   const MethodEntry* entry = nullptr;
   const char* role = "method";  ///< or "metric"
 };
-/// The methods that are programs, then the metrics.
+/// Returns the methods that are programs, then the metrics.
 std::vector<ScenarioProgram> ProgramsIn(const Scenario& scenario);
 
-/// Adds those of `libraries` whose names the scenario does not know: all of its conditions once more for each. A
-/// scenario without libraries has those alone from then on.
+/// Adds the libraries whose names the scenario does not have yet, and repeats all of its conditions for each.
+/// Conditions without a library are dropped.
 void AddLibraries(std::span<const NamedClips> libraries, Scenario& scenario);
 
-/// The texts of scenario files and of all that they include, by path: what a manifest keeps of them.
+/// The texts of scenario files and of all included files, by path, as a manifest keeps them.
 using SourceTexts = std::map<std::string, std::string>;
 
-/// The scenarios of a file on disk, as ParseScenarios; the texts that it and what it includes hold go into `texts`.
+/// Reads the scenarios of a file on disk like ParseScenarios; adds the texts of the file and of all included files to
+/// `texts`.
 Result<std::vector<Scenario>> ReadScenarios(const std::string& file, SourceTexts& texts);
 
-/// All scenarios of one file, in order. Everything is checked here but the values of the tasks' own keys, which the
-/// tasks read (`bench/run`). A key that is not documented (bench/scenario/keys.h) is refused.
+/// Parses all scenarios of one file, in order. Checks everything except the values of the tasks' own keys, which the
+/// tasks read (`bench/run`). An undocumented key (bench/scenario/keys.h) is an error.
 Result<std::vector<Scenario>> ParseScenarios(const std::string& file, const SourceTexts& texts);
 
-/// The keys of every scenario, whatever its task.
+/// Returns the keys that every scenario has, whatever its task.
 std::span<const KeyInfo> CommonScenarioKeys();
 const FieldTable<Limits>& LimitFields();
 const FieldTable<StreamSource>& ReadingFields();
-/// Names methods of `scenario`, which must outlive it.
+/// The keys of `video`. They name methods of `scenario`, which must outlive the table.
 FieldTable<RecordingSelection> VideoFields(const Scenario& scenario);
 
-/// The part of a scenario by which its rows are judged.
+/// Returns the part of a scenario that is needed to judge its rows.
 Study StudyOf(const Scenario& scenario);
 
 }  // namespace etude

@@ -9,9 +9,9 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kDeepestInclude = 8;
-constexpr int kMostInclusions = 100;
-constexpr std::size_t kMostScenarios = 1000;
+constexpr std::size_t kMaxIncludeDepth = 8;
+constexpr int kMaxInclusions = 100;
+constexpr std::size_t kMaxScenarios = 1000;
 
 using Entries = std::vector<Node::Entry>;
 
@@ -21,7 +21,7 @@ std::size_t CountAll(const Entries& entries) {
   return count;
 }
 
-/// Adds a key, or replaces the value that it has.
+/// Adds a key, or replaces its value if it exists.
 void Put(const Node::Entry& entry, Entries& entries) {
   const auto known =
       std::find_if(entries.begin(), entries.end(), [&](const auto& other) { return other.key == entry.key; });
@@ -36,11 +36,13 @@ bool IsKeyOfFiles(const std::string& key) {
   return std::ranges::any_of(FileKeys(), [&](const KeyInfo& other) { return other.key == key; });
 }
 
+/// Follows `include` and `defaults`, with limits on depth and size.
 class Collector {
  public:
   explicit Collector(const TextOf& text_of) : text_of_(text_of) {}
 
   Result<std::vector<Node>> Scenarios(const std::string& file) {
+    // A file of defaults alone is not a scenario file.
     ASSIGN_OR_RETURN(const auto top, Open(file, {file, 0, 0}));
     const Node* list = top.Find("scenarios");
     if (list == nullptr && top.Find("defaults") != nullptr) {
@@ -49,24 +51,27 @@ class Collector {
                   "such as shared/, which a run of this one leaves out");
     }
     ASSIGN_OR_RETURN(auto defaults, DefaultsOf(top, file));
+    // A file with a single scenario.
     if (list == nullptr) {
       Node scenario = top;
       std::erase_if(scenario.entries, [](const auto& entry) { return entry.key == "include"; });
       return std::vector<Node>{WithDefaults(std::move(scenario), defaults)};
     }
+    // A file with a list of scenarios: check its keys and size.
     Fields fields(top, "a file of several scenarios");
     for (const KeyInfo& key : FileKeys()) fields.Raw(key.key);
     RETURN_IF_ERROR(fields.Finish());
     if (list->kind != Node::Kind::kSequence || list->items.empty()) {
       return Fail(list->place, "'scenarios' must be a list of at least one scenario, found {}", Describe(*list));
     }
-    if (list->items.size() > kMostScenarios) {
-      return Fail(list->place, "{} scenarios; at most {} in a file", list->items.size(), kMostScenarios);
+    if (list->items.size() > kMaxScenarios) {
+      return Fail(list->place, "{} scenarios; at most {} in a file", list->items.size(), kMaxScenarios);
     }
     if (list->items.size() * CountAll(defaults) > kMostValues) {
       return Fail(list->place, "{} scenarios with defaults of {} values; at most {} values in all", list->items.size(),
                   CountAll(defaults), kMostValues);
     }
+    // Insert the defaults into each.
     std::vector<Node> scenarios;
     for (const Node& item : list->items) {
       for (const Node::Entry& entry : item.entries) {
@@ -80,7 +85,7 @@ class Collector {
 
  private:
   static Node WithDefaults(Node scenario, const Entries& defaults) {
-    if (scenario.kind != Node::Kind::kMapping) return scenario;  // refused by who reads it
+    if (scenario.kind != Node::Kind::kMapping) return scenario;  // the reader of the scenario complains
     for (const Node::Entry& entry : defaults) {
       if (scenario.Find(entry.key) == nullptr) scenario.entries.push_back(entry);
     }
@@ -93,9 +98,10 @@ class Collector {
     return ParseYaml(text, file);
   }
 
-  /// The keys that `include` and `defaults` of a file give to its scenarios.
+  /// Returns the keys that `include` and `defaults` of a file give to its scenarios.
   Result<Entries> DefaultsOf(const Node& top, const std::string& file) {
     Entries found;
+    // Included files first, a later one replaces an earlier one.
     if (const Node* list = top.Find("include")) {
       const auto names = AsTexts(*list);
       if (!names) return Fail(names.error().place, "'include': {}", names.error().message);
@@ -107,6 +113,7 @@ class Collector {
         for (const Node::Entry& entry : *included) Put(entry, found);
       }
     }
+    // The file's own defaults win.
     const Node* own = top.Find("defaults");
     if (own == nullptr) return found;
     if (own->kind != Node::Kind::kMapping) {
@@ -125,8 +132,8 @@ class Collector {
     if (std::find(chain_.begin(), chain_.end(), file) != chain_.end()) {
       return Fail(asked_at, "'{}' includes itself", file);
     }
-    if (chain_.size() > kDeepestInclude) return Fail(asked_at, "included more than {} files deep", kDeepestInclude);
-    if (++inclusions_ > kMostInclusions) return Fail(asked_at, "more than {} inclusions", kMostInclusions);
+    if (chain_.size() > kMaxIncludeDepth) return Fail(asked_at, "included more than {} files deep", kMaxIncludeDepth);
+    if (++inclusions_ > kMaxInclusions) return Fail(asked_at, "more than {} inclusions", kMaxInclusions);
     ASSIGN_OR_RETURN(const auto top, Open(file, asked_at));
     Fields fields(top, "an included file");
     for (const char* key : {"include", "defaults"}) fields.Raw(key);
@@ -146,7 +153,7 @@ class Collector {
 std::span<const KeyInfo> FileKeys() {
   static const std::vector<KeyInfo> keys = {
       {"scenarios",
-       {"a list of scenarios", fmt::format(R"({{"type":"array","minItems":1,"maxItems":{}}})", kMostScenarios)},
+       {"a list of scenarios", fmt::format(R"({{"type":"array","minItems":1,"maxItems":{}}})", kMaxScenarios)},
        "",
        "The scenarios, run in this order."},
       {"defaults",

@@ -12,7 +12,7 @@ namespace {
 struct Steps {
   double from = 0, to = 0;
   std::size_t count = 0;
-  double step = 0;  ///< 0: spread evenly from `from` to `to`, both included
+  double step = 0;  ///< 0 = `count` values from `from` to `to`, both included
   bool logarithmic = false;
 };
 
@@ -24,7 +24,8 @@ double ValueAt(const Steps& steps, std::size_t i) {
   return steps.from + share * (steps.to - steps.from);
 }
 
-/// Writes a number with 12 digits of a range's largest value, lest 0.3 − 3 × 0.1 reads -5.55111512313e-17.
+/// Writes a number with 12 digits relative to the largest value of the range, so that 0.3 − 3 × 0.1 reads 0 and not
+/// -5.55111512313e-17.
 std::string Write(double value, const Steps& steps) {
   const double largest = std::max(std::abs(steps.from), std::abs(steps.to));
   const double unit = std::pow(10, std::floor(std::log10(largest)) - 11);
@@ -34,6 +35,7 @@ std::string Write(double value, const Steps& steps) {
 
 Result<Steps> ReadRange(const Node::Entry& swept, std::size_t most) {
   ASSIGN_OR_RETURN(const RangeWords words, ReadMapping(swept.value, "a range", RangeFields(most)));
+  // Check the keys.
   const auto& [from, to, step, count, is_logarithmic] = words;
   Steps steps{.from = from, .to = to, .logarithmic = is_logarithmic};
   const Place& place = swept.value.place;
@@ -46,6 +48,7 @@ Result<Steps> ReadRange(const Node::Entry& swept, std::size_t most) {
   if (!std::isfinite(steps.logarithmic ? steps.to / steps.from : steps.to - steps.from)) {
     return Fail(place, "{} and {} are too far apart", steps.from, steps.to);
   }
+  // The number of values: given, or from the step.
   if (count) {
     steps.count = *count;
     return steps;
@@ -80,6 +83,7 @@ FieldTable<RangeWords> RangeFields(std::size_t most) {
 
 Result<std::vector<Node>> SweptValues(const Node::Entry& swept, std::size_t most) {
   const Node& value = swept.value;
+  // A range.
   if (value.kind == Node::Kind::kMapping) {
     ASSIGN_OR_RETURN(const auto steps, ReadRange(swept, most));
     std::vector<Node> values;
@@ -92,6 +96,7 @@ Result<std::vector<Node>> SweptValues(const Node::Entry& swept, std::size_t most
     }
     return values;
   }
+  // A list.
   if (value.kind != Node::Kind::kSequence || value.items.empty()) {
     return Fail(value.place,
                 "'{}' needs a list of values to sweep over, or a range such as {{from: 5, to: 20, step: 5}}, "
@@ -112,13 +117,13 @@ Result<std::vector<Node>> SweptValues(const Node::Entry& swept, std::size_t most
 
 namespace {
 
-/// A point of an axis: the keys that are set there.
+/// A point of an axis: the keys that it sets.
 using Point = std::vector<Node::Entry>;
 using Axis = std::vector<Point>;
 
 constexpr const char* kTogether = "together";
 
-/// "1" and "1.0" are the same number, though they read differently.
+/// Returns true for equal values: "1" and "1.0" are the same number, though their texts differ.
 bool SameValue(const Node& a, const Node& b) {
   if (a.scalar == b.scalar) return true;
   const auto x = AsNumber(a), y = AsNumber(b);
@@ -130,7 +135,7 @@ bool SamePoint(const Point& a, const Point& b) {
                     [](const Node::Entry& x, const Node::Entry& y) { return SameValue(x.value, y.value); });
 }
 
-/// The condition with the keys of `point` set.
+/// Returns the condition with the keys of `point` set.
 Condition At(Condition condition, const Point& point) {
   for (const Node::Entry& entry : point) {
     condition.swept.push_back({entry.key, entry.value.scalar});
@@ -140,7 +145,7 @@ Condition At(Condition condition, const Point& point) {
   return condition;
 }
 
-/// Parameters stepped through together: the first point has the first value of each.
+/// Reads the axis of parameters that are stepped in parallel: the first point has the first value of each.
 Result<Axis> ReadAxis(const std::vector<Node::Entry>& parameters) {
   Axis axis;
   for (const Node::Entry& parameter : parameters) {
@@ -153,6 +158,7 @@ Result<Axis> ReadAxis(const std::vector<Node::Entry>& parameters) {
     }
     for (std::size_t i = 0; i < axis.size(); ++i) axis[i].push_back({parameter.key, parameter.place, values[i]});
   }
+  // No point may occur twice.
   for (std::size_t i = 0; i < axis.size(); ++i) {
     const auto repeated = [&](const Point& other) { return SamePoint(axis[i], other); };
     const auto here = axis.begin() + static_cast<std::ptrdiff_t>(i);
@@ -166,7 +172,7 @@ Result<Axis> ReadAxis(const std::vector<Node::Entry>& parameters) {
   return axis;
 }
 
-/// The groups of `together`: one mapping, or a list of them.
+/// Reads the groups of `together`: one mapping, or a list of them.
 Result<std::vector<Node>> ReadGroups(const Node& together) {
   const bool is_list = together.kind == Node::Kind::kSequence && !together.items.empty();
   const std::vector<Node> groups = is_list ? together.items : std::vector{together};
@@ -180,7 +186,7 @@ Result<std::vector<Node>> ReadGroups(const Node& together) {
   return groups;
 }
 
-/// Only a task's own parameters can be swept.
+/// Complains of a parameter that is not one of the task's: no other can be swept.
 Result<void> CheckParameter(const Node::Entry& parameter, const TaskKind& kind, bool in_group) {
   for (const KeyInfo& common : CommonScenarioKeys()) {
     if (common.key != parameter.key) continue;
@@ -199,6 +205,7 @@ Result<std::vector<Axis>> ReadAxes(const Node& sweep, const TaskKind& kind) {
   }
   std::vector<Axis> axes;
   std::vector<std::string> seen;
+  // Each parameter may be swept once.
   const auto add = [&](const std::vector<Node::Entry>& parameters, bool in_group) -> Result<void> {
     for (const Node::Entry& parameter : parameters) {
       RETURN_IF_ERROR(CheckParameter(parameter, kind, in_group));
@@ -211,6 +218,7 @@ Result<std::vector<Axis>> ReadAxes(const Node& sweep, const TaskKind& kind) {
     axes.push_back(std::move(axis));
     return {};
   };
+  // Single parameters are axes of their own; each group of `together` is one.
   for (const Node::Entry& swept : sweep.entries) {
     if (swept.key != kTogether) {
       RETURN_IF_ERROR(add({swept}, false));
@@ -235,6 +243,7 @@ std::vector<Condition> ReadSweep(Fields& fields, const TaskKind& kind) {
     fields.Complain(axes.error().place, axes.error().message);
     return conditions;
   }
+  // The product of the axes, checked for its size before it is built.
   const std::size_t values = CountValues(fields.node());
   for (const Axis& axis : *axes) {
     const std::size_t count = conditions.size() * axis.size();

@@ -11,27 +11,28 @@
 
 namespace etude {
 
-/// The values of a swept parameter: those of a list, or of a range: `{from: 5, to: 20, step: 5}`,
-/// `{from: 1, to: 100, count: 5, scale: log}`. A range's values are written with at most 12 digits, so that
-/// 0.1 + 2 × 0.1 reads 0.3; all stand where the range stands. At least one, at most `most`.
+/// Returns the values of a swept parameter, from a list or a range: `{from: 5, to: 20, step: 5}`, `{from: 1, to: 100,
+/// count: 5, scale: log}`. A range's values are written with at most 12 digits, so that 0.1 + 2 × 0.1 reads 0.3; they
+/// have the place of the range. At least one value, at most `most`.
 Result<std::vector<Node>> SweptValues(const Node::Entry& swept, std::size_t most);
 
-/// The keys of a range of values.
+/// The values of the keys of a range.
 struct RangeWords {
   double from = 0, to = 0;
   std::optional<double> step;
   std::optional<std::uint64_t> count;
   bool is_logarithmic = false;
 };
-/// The keys of a range of at most so many values.
+/// The keys of a range of at most `most` values.
 FieldTable<RangeWords> RangeFields(std::size_t most);
 
-/// The number of values that the mappings of a file's scenarios and of their conditions may hold: each is a copy.
+/// The largest number of values in the mappings of a file's scenarios and of their conditions together: each condition
+/// is a copy.
 constexpr std::size_t kMostValues = 300'000;
 constexpr std::size_t kMostConditions = 1000;
 
-/// Reads `sweep`: the product of its axes, the last one varying fastest. An axis is a swept parameter, or
-/// several that are stepped through `together`. Complaints stay in `fields`.
+/// Reads `sweep`: the product of its axes, the last one varying fastest. An axis is one swept parameter, or several
+/// that are stepped in parallel (`together`). Complaints stay in `fields`.
 std::vector<Condition> ReadSweep(Fields& fields, const TaskKind& kind);
 
 }  // namespace etude

@@ -14,10 +14,11 @@
 namespace etude {
 namespace {
 
-/// Sign flips of more units are drawn, and no drawn p lies below 1 / 10,000.
-constexpr int kMostDrawnComparisons = 500;
+/// With more comparisons than this the sign flips cannot decide: many units need drawn signs, and no drawn p lies below
+/// 1 / 10,000.
+constexpr int kMaxDrawnComparisons = 500;
 
-/// Sums over the worlds of each unit, and over all.
+/// The sums of differences and the numbers of worlds of each unit, and the sum over all worlds.
 struct UnitSums {
   std::vector<double> sums;
   std::vector<int> worlds;
@@ -36,7 +37,7 @@ UnitSums SumUnits(const UnitSample& sample) {
   return found;
 }
 
-/// Indices of the units that have a world, by name.
+/// Returns the indices of the units that have a world, sorted by name.
 std::vector<std::size_t> OrderOfUnits(const UnitSample& sample, const UnitSums& sums) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < sample.names.size(); ++i) {
@@ -47,7 +48,7 @@ std::vector<std::size_t> OrderOfUnits(const UnitSample& sample, const UnitSums& 
   return order;
 }
 
-/// The standard error of an estimate from its values with one unit left out each (Tukey 1958).
+/// Returns the standard error of an estimate from its leave-one-unit-out values (jackknife, Tukey 1958).
 double JackknifeError(std::span<const LeftOut> left_out) {
   const double n = static_cast<double>(left_out.size());
   double mean = 0, squares = 0;
@@ -56,20 +57,22 @@ double JackknifeError(std::span<const LeftOut> left_out) {
   return std::sqrt((n - 1) / n * squares);
 }
 
-/// An exact interval of the median of at least kFewestUnits values (order statistics), whatever their distribution.
+/// Returns the distribution-free interval of the median of at least kMinUnits values, from order statistics.
 std::pair<double, double> MedianInterval(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const int n = static_cast<int>(values.size());
-  int rank = 1;  // of the interval's ends, counted from outside
+  int rank = 1;  // of the interval's ends, counted from the outermost values
   while (2 * FairCoinUpperTail(n - rank, n) <= kAlpha) ++rank;
   return {values[static_cast<std::size_t>(rank - 1)], values[static_cast<std::size_t>(n - rank)]};
 }
 
+/// Returns true if sign flips can reach 5 % among these comparisons (Bonferroni), also where the signs are drawn.
 bool CanFlipSigns(int units, int comparisons) {
-  return SmallestP(units) * comparisons <= kAlpha && comparisons <= kMostDrawnComparisons;
+  return SmallestP(units) * comparisons <= kAlpha && comparisons <= kMaxDrawnComparisons;
 }
 
-/// The t test of an estimate. Where its error is zero, which no t distribution knows, the p is the smallest of the signs.
+/// The t test of an estimate. A standard error of zero has no t distribution: then p is the smallest that sign flips of
+/// this many units can reach.
 PairedTest StudentTest(double estimate, double error, int units, std::string how) {
   if (estimate == 0) return {1.0, std::move(how)};
   if (error <= 1e-12 * std::abs(estimate)) return {SmallestP(units), std::move(how)};
@@ -96,6 +99,7 @@ UnitSample UnitsOf(const PairedWorlds& paired, const ConditionTable& table, cons
 
 Beyond MeasureBeyond(const UnitSample& sample, int comparisons, std::uint64_t seed, const std::string& purpose) {
   Beyond beyond;
+  // Reduce the worlds to one mean difference per unit.
   const UnitSums sums = SumUnits(sample);
   const std::vector<std::size_t> order = OrderOfUnits(sample, sums);
   beyond.units = static_cast<int>(order.size());
@@ -103,23 +107,27 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons, std::uint64_t se
   std::vector<double> means;
   for (std::size_t unit : order) means.push_back(KeepThirtyBits(sums.sums[unit] / sums.worlds[unit]));
   beyond.differing = static_cast<int>(std::count_if(means.begin(), means.end(), [](double mean) { return mean != 0; }));
+  // Estimate: the mean over units, or over worlds if a world has several units.
   const bool one_way = sample.IsOneWay();
   const double n = static_cast<double>(means.size()), worlds = static_cast<double>(sample.differences.size());
   const double sum_of_means = std::accumulate(means.begin(), means.end(), 0.0);
   const double estimate = one_way ? sum_of_means / n : sums.total / worlds;
+  // Leave out one unit at a time, with all of its worlds.
   for (std::size_t i = 0; i < order.size(); ++i) {
     const double rest = one_way ? n - 1 : worlds - sums.worlds[order[i]];
-    if (rest == 0) continue;  // every world shows it: nothing is left without
+    if (rest == 0) continue;  // all worlds share this unit: nothing is left without it
     const double sum = one_way ? sum_of_means - means[i] : sums.total - sums.sums[order[i]];
     beyond.left_out.push_back({sample.names[order[i]], sum / rest});
   }
   beyond.difference = estimate;
   if (beyond.units < kFewestUnits || beyond.left_out.size() < means.size()) return beyond;
+  // Interval by Student's t from the jackknife's standard error.
   const double error = JackknifeError(beyond.left_out);
   const double half = StudentQuantile(1 - kAlpha / 2, beyond.units - 1) * error;
   beyond.low = KeepThirtyBits(estimate - half);
   beyond.high = KeepThirtyBits(estimate + half);
   std::tie(beyond.median_low, beyond.median_high) = MedianInterval(means);
+  // Choose the test by the design and the counts, never by the result.
   if (!one_way) {
     beyond.test = StudentTest(estimate, error, beyond.units, "t test, clips left out in turn");
   } else if (CanFlipSigns(beyond.units, comparisons)) {
@@ -133,11 +141,13 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons, std::uint64_t se
 
 std::optional<Verdict> VerdictBeyond(const Beyond& beyond, const MetricInfo& metric) {
   if (!beyond.low || !beyond.p_holm) return std::nullopt;
+  // An interval within ± threshold is "no difference" if the median's agrees and enough units differ.
   const auto is_within = [&](double low, double high) { return low >= -metric.practical && high <= metric.practical; };
   if (is_within(*beyond.low, *beyond.high)) {
     const bool holds = is_within(*beyond.median_low, *beyond.median_high) && beyond.differing >= kFewestUnits;
     return holds ? Verdict::kNoDifference : Verdict::kInconclusive;
   }
+  // Otherwise a clear verdict needs the interval, the test and the threshold.
   const bool beyond_zero = *beyond.low > 0 || *beyond.high < 0;
   if (!beyond_zero || *beyond.p_holm > kAlpha || std::abs(*beyond.difference) < metric.practical ||
       metric.direction == Direction::kNeither) {

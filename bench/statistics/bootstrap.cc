@@ -11,16 +11,17 @@
 namespace etude {
 namespace {
 
-/// One less than a round number, so that the 2.5 % and 97.5 % points are replicates.
+/// One less than a round number, so that the 2.5 % and 97.5 % quantiles are replicates.
 constexpr std::size_t kResamples = 1999;
 
-/// Median of sorted values, of which the one at `without` is left out.
+/// Returns the median of sorted values without the one at index `without`.
 double MedianWithout(std::span<const double> sorted, std::size_t without) {
   const auto at = [&](std::size_t i) { return sorted[i < without ? i : i + 1]; };
   const std::size_t count = sorted.size() - 1;
   return 0.5 * (at((count - 1) / 2) + at(count / 2));
 }
 
+/// Returns the aggregate with each value left out in turn.
 std::vector<double> Jackknife(std::span<const double> sorted, Aggregate aggregate) {
   std::vector<double> values(sorted.size());
   const double n = static_cast<double>(sorted.size()), mean = Mean(sorted);
@@ -30,7 +31,8 @@ std::vector<double> Jackknife(std::span<const double> sorted, Aggregate aggregat
   return values;
 }
 
-/// Indices below `count`, two of each 64 random bits; no index is favoured by more than count / 2³².
+/// Calls `use` with `count` random indices below `count`, two from each 64 random bits. No index is favoured by more
+/// than count / 2³².
 template <typename Use>
 void DrawIndices(RandomStream& dice, std::size_t count, const Use& use) {
   std::array<std::uint64_t, 128> buffer;
@@ -52,7 +54,7 @@ double ResampledMean(std::span<const double> sorted, RandomStream& dice) {
   return sum / static_cast<double>(sorted.size());
 }
 
-/// The median of a resample that drew each value so often; walking to the middle saves sorting it.
+/// Returns the median of a resample in which value i occurs `counts[i]` times. Walking to the middle avoids sorting.
 double MedianOfDrawn(std::span<const double> sorted, std::span<const int> counts) {
   const int low = static_cast<int>(sorted.size() - 1) / 2, high = static_cast<int>(sorted.size()) / 2;
   std::size_t index = 0;
@@ -69,7 +71,7 @@ double ResampledMedian(std::span<const double> sorted, RandomStream& dice, std::
   return MedianOfDrawn(sorted, counts);
 }
 
-/// The correction of one end's level; nothing where it is undefined.
+/// Returns the corrected level of one end of the interval; nothing where the correction is undefined.
 std::optional<double> BcaLevel(double level, double bias, double acceleration) {
   const double z = bias + NormalQuantile(level);
   const double stretch = 1 - acceleration * z;
@@ -77,7 +79,8 @@ std::optional<double> BcaLevel(double level, double bias, double acceleration) {
   return NormalCdf(bias + z / stretch);
 }
 
-/// Sixth of the jackknife's skewness (Efron 1987, equation 7.3 with the jackknife's influence values).
+/// Returns a sixth of the jackknife's skewness (Efron 1987, equation 7.3 with the jackknife's influence values);
+/// nothing for a jackknife without spread.
 std::optional<double> Acceleration(std::span<const double> jackknife) {
   const double mean = Mean(jackknife);
   double squares = 0, cubes = 0, largest = 0;
@@ -87,19 +90,20 @@ std::optional<double> Acceleration(std::span<const double> jackknife) {
     cubes += pull * pull * pull;
     largest = std::max(largest, std::abs(value));
   }
-  // A constant sample's jackknife differs by rounding alone.
+  // The jackknife of a constant sample differs by rounding alone.
   const double noise = 1e-12 * largest;
   if (squares <= noise * noise * static_cast<double>(jackknife.size())) return std::nullopt;
   return cubes / (6 * squares * std::sqrt(squares));
 }
 
-/// The replicate at a level, one of the sorted: the rank is whole, so no last bit of `level` shows.
+/// Returns the replicate at a level. The rank is rounded to an integer, so the last bits of `level` have no effect.
 double AtLevel(std::span<const double> sorted, double level) {
   const double rank = std::round(level * static_cast<double>(sorted.size() + 1));
   return sorted[static_cast<std::size_t>(std::clamp(rank, 1.0, static_cast<double>(sorted.size()))) - 1];
 }
 
-/// The interval of the median by the normal approximation of the binomial: so many values lie below it.
+/// Returns the interval of the median from order statistics: the number of values below the median is binomial, here by
+/// its normal approximation.
 Interval OrderStatisticsInterval(std::span<const double> sorted, double confidence) {
   const double n = static_cast<double>(sorted.size());
   const double below = std::floor(0.5 * n - 0.5 * std::sqrt(n) * NormalQuantile(0.5 + confidence / 2));
@@ -122,7 +126,8 @@ std::vector<double> Sorted(std::span<const double> values) {
   return sorted;
 }
 
-/// The interval of a sample of one value all over, or of one too large to be resampled.
+/// Returns the interval of a sample whose values are all equal, or which is too large to be resampled; nothing for
+/// others.
 std::optional<Interval> IntervalWithoutDice(std::span<const double> sorted, Aggregate aggregate, double confidence) {
   if (sorted.front() == sorted.back()) return Interval{sorted.front(), sorted.front(), IntervalKind::kPercentile};
   if (static_cast<int>(sorted.size()) <= kLargestResampled) return std::nullopt;
@@ -148,6 +153,7 @@ double AggregateOf(std::span<const double> values, Aggregate aggregate) {
 
 Interval BcaInterval(std::vector<double>& replicates, double estimate, std::span<const double> jackknife,
                      double confidence) {
+  // The share of replicates below the estimate gives the bias; those that equal it count half.
   std::sort(replicates.begin(), replicates.end());
   const auto [first, last] = std::equal_range(replicates.begin(), replicates.end(), estimate);
   const double below = static_cast<double>(first - replicates.begin()) + 0.5 * static_cast<double>(last - first);
@@ -155,6 +161,7 @@ Interval BcaInterval(std::vector<double>& replicates, double estimate, std::span
   const double tail = (1 - confidence) / 2;
   const Interval percentile{AtLevel(replicates, tail), AtLevel(replicates, 1 - tail), IntervalKind::kPercentile};
   if (share_below <= 0 || share_below >= 1) return percentile;
+  // Correct both ends for bias and acceleration.
   const double bias = NormalQuantile(share_below);
   const auto acceleration = Acceleration(jackknife);
   if (!acceleration) return percentile;
@@ -185,6 +192,7 @@ std::optional<MedianAndMean> BootstrapMedianAndMean(std::span<const double> valu
     return MedianAndMean{*median, *IntervalWithoutDice(sorted, Aggregate::kMean, confidence)};
   }
   RandomStream dice = DiceOf(seed, purpose);
+  // Both aggregates see the same resamples, in the order in which BootstrapInterval would draw them.
   std::vector<double> medians(kResamples), means(kResamples);
   std::vector<int> counts;
   for (std::size_t i = 0; i < kResamples; ++i) {

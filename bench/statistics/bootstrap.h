@@ -12,26 +12,26 @@ namespace etude {
 
 double Mean(std::span<const double> values);
 
-/// Median or mean, as the metric is aggregated.
+/// Returns the median or the mean of the values. `values` must not be empty.
 double AggregateOf(std::span<const double> values, Aggregate aggregate);
 
-/// A sample smaller than this has no interval: the sign test of five values can't reach 95 %.
+/// Smaller samples have no interval: the sign test of five values cannot reach 95 %.
 constexpr int kSmallestSample = 6;
 
-/// The bias-corrected and accelerated bootstrap interval (Efron 1987, section 3) of any statistic, from its
-/// bootstrap replicates, which get sorted, its estimate, and its values with one observation left out each.
-/// Replicates equal to the estimate count half on either side. Its ends are replicates. Where the correction is
-/// undefined — all replicates on one side of the estimate, or a jackknife without spread — it is the percentile
-/// interval (Efron 1979), and its kind says so.
+/// Returns the bias-corrected and accelerated (BCa) bootstrap interval of any statistic (Efron 1987, section 3).
+/// `replicates` are its bootstrap replicates, which are sorted here; `jackknife` holds its values with one observation
+/// left out each. Replicates that equal the estimate count half on either side. The ends of the interval are
+/// replicates. Where the correction is undefined (all replicates on one side of the estimate, or a jackknife without
+/// spread), the result is the percentile interval (Efron 1979), and its kind says so.
 Interval BcaInterval(std::vector<double>& replicates, double estimate, std::span<const double> jackknife,
                      double confidence = kConfidence);
 
-/// A larger sample is not resampled: closed forms say the same there, and cost nothing.
+/// Larger samples are not resampled: closed forms give the same interval there at no cost.
 constexpr int kLargestResampled = 20'000;
 
-/// The BCa interval of the values' aggregate, from 1,999 resamples of a stream keyed by `seed` and `purpose`. It
-/// depends on the values, not on their order. Nothing for fewer than kSmallestSample values; of more than
-/// kLargestResampled that of order statistics of the median, Student's of the mean.
+/// Returns the BCa interval of the values' aggregate, from 1,999 resamples drawn from a stream keyed by `seed` and
+/// `purpose`. It depends on the values, not on their order. Samples above kMaxResampled get the interval of order
+/// statistics for the median and Student's for the mean. Returns nothing for fewer than kMinSample values.
 std::optional<Interval> BootstrapInterval(std::span<const double> values, Aggregate aggregate, std::uint64_t seed,
                                           const std::string& purpose, double confidence = kConfidence);
 
@@ -39,7 +39,7 @@ struct MedianAndMean {
   Interval median, mean;
 };
 
-/// Gives the BootstrapIntervals of median and mean, to the bit, but draws the resamples once.
+/// Returns what two calls of BootstrapInterval return for median and mean, bit for bit, but draws the resamples once.
 std::optional<MedianAndMean> BootstrapMedianAndMean(std::span<const double> values, std::uint64_t seed,
                                                     const std::string& purpose, double confidence = kConfidence);
 

@@ -12,6 +12,7 @@
 namespace etude {
 namespace {
 
+/// Returns the interval of the difference of two shares, from differences that are −1, 0 or 1.
 Interval ShareInterval(std::span<const double> differences, double confidence) {
   const auto gained = std::count(differences.begin(), differences.end(), 1.0);
   const auto lost = std::count(differences.begin(), differences.end(), -1.0);
@@ -19,14 +20,15 @@ Interval ShareInterval(std::span<const double> differences, double confidence) {
                              confidence);
 }
 
-/// Share of the pairs in which the method has the better value; ties count half.
+/// Returns the share of the pairs in which the method has the better value; ties count half.
 double ShareBetter(std::span<const double> differences, double sign) {
   double better = 0;
   for (double difference : differences) better += difference == 0 ? 0.5 : (sign * difference > 0 ? 1.0 : 0.0);
   return better / static_cast<double>(differences.size());
 }
 
-/// Computes the intervals of the pairs' differences; none of the median where the metric is aggregated by the mean.
+/// Computes the intervals of the differences' median and mean; the median's is left empty where the metric is
+/// aggregated by the mean.
 MedianAndMean IntervalsOf(std::span<const Pair> pairs, std::span<const double> differences, const MetricInfo& metric,
                           std::uint64_t seed, const std::string& purpose, double confidence) {
   if (metric.aggregate == Aggregate::kMedian) {
@@ -55,11 +57,13 @@ Comparison ComparePaired(std::span<const Pair> pairs, const MetricInfo& metric, 
   result.metric = metric.id;
   result.pairs = static_cast<int>(pairs.size());
   if (pairs.empty()) return result;
+  // Paired differences, and how many are not zero.
   std::vector<double> differences;
   for (const Pair& pair : pairs) {
     differences.push_back(DifferenceOf(pair, metric));
     result.differing += differences.back() != 0;
   }
+  // Estimates with their intervals.
   result.difference = AggregateOf(differences, metric.aggregate);
   result.mean = Mean(differences);
   if (result.pairs >= kSmallestSample) {
@@ -71,9 +75,10 @@ Comparison ComparePaired(std::span<const Pair> pairs, const MetricInfo& metric, 
     result.ci_high = own.high;
     result.interval = own.kind;
   }
+  // Both tests, the effect size, and the verdict as the only comparison.
   result.signed_rank = SignedRankTest(differences);
   result.sign_flip = SignFlipTest(differences, metric.aggregate, seed, purpose);
-  // Without a direction, what is larger counts as better here.
+  // For a metric without a direction, larger values count as better here.
   const double sign = metric.direction == Direction::kLowerIsBetter ? -1 : 1;
   result.share_better = ShareBetter(differences, sign);
   result.effect_size = RankBiserial(differences) * sign + 0.0;
@@ -94,11 +99,13 @@ bool SeesTooFewDiffer(const Comparison& comparison, const MetricInfo& metric) {
 Verdict VerdictOf(const Comparison& comparison, const MetricInfo& metric, double confidence) {
   if (!comparison.ci_low || !comparison.p_holm) return Verdict::kInconclusive;
   const double low = *comparison.ci_low, high = *comparison.ci_high, difference = *comparison.difference;
+  // An interval within ± threshold is "no difference" if the interval of the mean is, too.
   const auto is_within = [&](double from, double to) { return from >= -metric.practical && to <= metric.practical; };
   if (is_within(low, high)) {
     const bool holds = is_within(*comparison.mean_low, *comparison.mean_high) && !SeesTooFewDiffer(comparison, metric);
     return holds ? Verdict::kNoDifference : Verdict::kInconclusive;
   }
+  // Otherwise a clear verdict needs the interval, the test and the threshold.
   const bool beyond_zero = low > 0 || high < 0;
   const bool significant = *comparison.p_holm <= 1 - confidence;
   if (!beyond_zero || !significant || std::abs(difference) < metric.practical) return Verdict::kInconclusive;

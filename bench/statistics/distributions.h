@@ -2,25 +2,25 @@
 
 namespace etude {
 
-/// Φ(x) of the standard normal.
+/// Returns Φ(x), the cumulative distribution of the standard normal.
 double NormalCdf(double x);
-/// Φ⁻¹(p), 0 < p < 1.
+/// Returns Φ⁻¹(p), the quantile of the standard normal, 0 < p < 1.
 double NormalQuantile(double p);
 
-/// Student's t of so many degrees of freedom (> 0): the p-quantile, and P(|T| ≥ |t|).
+/// Return, for Student's t with `freedom` > 0 degrees of freedom, the p-quantile and P(|T| ≥ |t|).
 double StudentQuantile(double p, int freedom);
 double StudentTwoSided(double t, int freedom);
 
-/// P(B ≥ successes) of B ~ Binomial(trials, ½), 0 ≤ successes ≤ trials.
+/// Returns P(B ≥ successes) for B ~ Binomial(trials, ½), 0 ≤ successes ≤ trials.
 double FairCoinUpperTail(int successes, int trials);
 
-/// The value with 30 bits of mantissa. What stands in a summary must not depend on the last bit of the
-/// machine's exp and log.
+/// Returns the value rounded to 30 bits of mantissa. Every value of a summary that went through exp or log passes here,
+/// because their last bits differ between machines.
 double KeepThirtyBits(double value);
 
-/// The smallest mean difference, in standard deviations of the `count` independent differences (> 1), that a two-sided
-/// paired t test at 5 % among so many comparisons (Bonferroni, the first step of Holm) finds with a chance of 80 %:
-/// (t(1 − 0.05 / 2m) + t(0.8)) / √n, both of n − 1 degrees of freedom.
+/// Returns the smallest mean difference, in standard deviations of the `count` > 1 independent differences, that a
+/// two-sided paired t test at 5 % finds with a power of 80 % among `comparisons` (Bonferroni, the first step of Holm):
+/// (t(1 − 0.05 / 2m) + t(0.8)) / √n, both with n − 1 degrees of freedom.
 double SmallestFinding(int count, int comparisons);
 
 }  // namespace etude

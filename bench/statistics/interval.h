@@ -14,12 +14,12 @@ struct Interval {
   IntervalKind kind = IntervalKind::kBca;
 };
 
-/// The score interval of a share (Wilson 1927): honest at 0 of n and n of n, where a bootstrap sees nothing.
-/// `of` > 0.
+/// Returns the score interval of the share count / of (Wilson 1927). It has a width also at 0 of n and n of n, where a
+/// bootstrap interval has none. `of` > 0.
 Interval WilsonInterval(int count, int of, double confidence = kConfidence);
 
-/// The interval of the difference of two shares measured on the same worlds, (gained − lost) / pairs: adjusted Wald
-/// (Bonett & Price 2012), which adds one imagined world to each kind of disagreement. `pairs` > 0.
+/// Returns the interval of the difference of two shares measured on the same worlds, (gained − lost) / pairs: adjusted
+/// Wald (Bonett & Price 2012), which adds one fictitious world to each kind of disagreement. `pairs` > 0.
 Interval PairedShareInterval(int gained, int lost, int pairs, double confidence = kConfidence);
 
 }  // namespace etude

@@ -17,7 +17,8 @@
 namespace etude {
 namespace {
 
-/// Notes missing values: a method that gives up on hard worlds is compared on the easy ones alone.
+/// Returns a note on worlds without a pair of values: a method that fails on hard worlds is compared on the easy ones
+/// alone.
 std::string NoteOnMissing(const Comparison& c) {
   const int without = c.only_baseline + c.only_method + c.neither;
   if (without == 0) return "";
@@ -36,8 +37,9 @@ std::string NotWithFailures(Verdict of_pairs) {
   return fmt::format("“{}” where both have a value, but not when failing counts as losing", VerdictName(of_pairs));
 }
 
-/// A median does not see what happens in fewer than half of the worlds.
-std::string WhatTheMedianHides(const Comparison& c) {
+/// Says in how many worlds the method is better and worse: a median does not show differences in fewer than half of the
+/// worlds.
+std::string DescribeWhatMedianHides(const Comparison& c) {
   const int tied = c.pairs - c.differing;
   const long better = std::lround(c.share_better * c.pairs - 0.5 * tied);  // ties count half
   const std::string ties = 2 * tied > c.pairs ? "in most worlds the same, " : "";
@@ -45,20 +47,23 @@ std::string WhatTheMedianHides(const Comparison& c) {
                      ties, better, c.pairs, c.differing - better);
 }
 
-/// Explains why the verdict is open: the first reason that holds, in the order in which one would ask.
+/// Says why the verdict is open: the first reason that holds, in the order in which a reader would check. "" for a
+/// clear one.
 std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int comparisons) {
   if (c.verdict != Verdict::kInconclusive) return "";
   if (c.pairs == 0) return "no world gave both a value";
+  // The interval lies within ± threshold, but what it cannot see may matter.
   const int needed = PairsNeeded(comparisons, kAlpha);
   const bool within = c.ci_low && *c.ci_low >= -metric.practical && *c.ci_high <= metric.practical;
   if (within && SeesTooFewDiffer(c, metric)) {
     return fmt::format("{} of {} pairs differ: too few to exclude rare differences that would move the mean",
                        c.differing, c.pairs);
   }
-  if (within && metric.aggregate == Aggregate::kMedian) return WhatTheMedianHides(c);
+  if (within && metric.aggregate == Aggregate::kMedian) return DescribeWhatMedianHides(c);
   if (c.differing == 0 && c.ci_low) {
     return fmt::format("no pair differs, but {} worlds are too few to exclude a difference that matters", c.pairs);
   }
+  // There are too few worlds for the test or the interval.
   if (*c.p_holm > kAlpha && c.differing < needed) {
     return fmt::format("too few worlds: {} of {} pairs differ, so p ≥ {:.2g}; {} needs at least {}", c.differing,
                        c.pairs, SmallestP(c.differing),
@@ -66,6 +71,7 @@ std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int compariso
                        needed);
   }
   if (!c.ci_low) return fmt::format("too few worlds: no interval below {}", kSmallestSample);
+  // Interval and test do not agree.
   const bool beyond_zero = *c.ci_low > 0 || *c.ci_high < 0;
   if (!beyond_zero && *c.p_holm > kAlpha) return "the interval holds zero, and differences that matter";
   if (!beyond_zero) {
@@ -77,11 +83,12 @@ std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int compariso
     if (p > kAlpha) return fmt::format("the interval excludes zero, but the test does not confirm it (p = {:.2g})", p);
     return fmt::format("p = {:.2g} alone, but not among {} comparisons (Holm)", p, comparisons);
   }
+  // Both find a difference, but its size or direction decides nothing.
   if (std::abs(*c.difference) < metric.practical) return "it differs, but whether by as much as matters is open";
   return "it differs, but neither way is better";
 }
 
-/// A median is blind to what happens in fewer than half of the worlds.
+/// Returns a note if the mean differs by more than the threshold and the median does not; "" otherwise.
 std::string NoteOnMean(const Comparison& c, const MetricInfo& metric) {
   if (metric.aggregate != Aggregate::kMedian || !c.mean_low) return "";
   const bool up = *c.mean_low > metric.practical, down = *c.mean_high < -metric.practical;
@@ -97,7 +104,9 @@ std::string NoteOnMean(const Comparison& c, const MetricInfo& metric) {
                      unit, amount(*c.mean_low), amount(*c.mean_high));
 }
 
+/// Corrects the p-values of a family (without and with failures), judges every comparison and adds its notes.
 void JudgeOnTheseWorlds(std::span<Question* const> family) {
+  // Holm's correction, with and without failures counted as losses.
   std::vector<std::optional<double>> pairs_alone, all_worlds;
   for (const Question* question : family) {
     const MetricInfo& metric = *FindMetric(question->comparison.metric);
@@ -105,6 +114,7 @@ void JudgeOnTheseWorlds(std::span<Question* const> family) {
     all_worlds.push_back(question->with_failures ? DecidingP(*question->with_failures, metric) : pairs_alone.back());
   }
   const auto corrected_alone = HolmCorrected(pairs_alone), corrected = HolmCorrected(all_worlds);
+  // Judge each comparison, and say why it is open.
   for (std::size_t i = 0; i < family.size(); ++i) {
     Comparison& comparison = family[i]->comparison;
     const MetricInfo& metric = *FindMetric(comparison.metric);
@@ -122,8 +132,8 @@ void JudgeOnTheseWorlds(std::span<Question* const> family) {
   }
 }
 
-/// Copies the findings on these worlds to `beyond`, where every world is its own unit.
-void SayTheSameBeyond(Comparison& comparison) {
+/// Copies the findings on these worlds to `beyond`, for a scenario in which every world is its own unit.
+void CopyVerdictsBeyond(Comparison& comparison) {
   Beyond& beyond = comparison.beyond;
   beyond.units = comparison.pairs;
   beyond.differing = comparison.differing;
@@ -137,7 +147,9 @@ void SayTheSameBeyond(Comparison& comparison) {
   beyond.why_open = comparison.why_open;
 }
 
+/// Judges a family beyond its worlds by the same rule as on these worlds.
 void JudgeBeyond(std::span<Question* const> family, SamplingUnit unit) {
+  // Holm's correction, with and without failures counted as losses.
   std::vector<std::optional<double>> pairs_alone, all_worlds;
   for (const Question* question : family) {
     pairs_alone.push_back(question->comparison.beyond.test.p);
@@ -148,9 +160,11 @@ void JudgeBeyond(std::span<Question* const> family, SamplingUnit unit) {
   for (std::size_t i = 0; i < family.size(); ++i) {
     Beyond& beyond = family[i]->comparison.beyond;
     const MetricInfo& metric = *FindMetric(family[i]->comparison.metric);
+    // The verdict without failures.
     beyond.p_holm = corrected_alone[i];
     beyond.verdict = VerdictBeyond(beyond, metric);
     beyond.why_open = WhyOpenBeyond(beyond, metric, unit, comparisons);
+    // The verdict must be the same with failures counted.
     if (!family[i]->with_failures || !beyond.verdict) continue;
     Beyond& with_failures = family[i]->with_failures->beyond;
     with_failures.p_holm = beyond.p_holm = corrected[i];
@@ -162,7 +176,7 @@ void JudgeBeyond(std::span<Question* const> family, SamplingUnit unit) {
   }
 }
 
-/// A condition in two parts: the values that a verdict must hold for, and the rest.
+/// The swept values of a condition: those across which a verdict must hold (Study::across), and the rest.
 struct SplitCondition {
   std::vector<SweptValue> across, rest;
 };
@@ -176,16 +190,19 @@ SplitCondition Split(const Study& study, const std::vector<SweptValue>& conditio
   return split;
 }
 
+/// Returns true if the verdict is about the same comparison under the same other swept values.
 bool IsSameQuestion(const AcrossVerdict& verdict, const std::vector<SweptValue>& rest, const Comparison& comparison) {
   return verdict.condition == rest && verdict.metric == comparison.metric && verdict.method == comparison.method &&
          verdict.baseline == comparison.baseline;
 }
 
+/// Returns true if the condition has every swept value in `where`.
 bool Matches(const std::vector<SweptValue>& condition, const std::vector<SweptValue>& where) {
   return std::ranges::all_of(
       where, [&](const SweptValue& wanted) { return std::ranges::find(condition, wanted) != condition.end(); });
 }
 
+/// Returns the expectation as a sentence.
 std::string Claim(const Expectation& expectation) {
   const MetricInfo& metric = *FindMetric(expectation.metric);
   std::string text = metric.label + " of " + expectation.of;
@@ -201,6 +218,7 @@ std::string Claim(const Expectation& expectation) {
   return text;
 }
 
+/// The result of one expectation under one condition, with the figures behind it.
 struct Finding {
   Ruling ruling;
   std::string detail;
@@ -208,6 +226,7 @@ struct Finding {
 
 Finding JudgeComparison(const Expectation& expectation, const ConditionTable& table, const std::string& other,
                         bool wants_lower, std::uint64_t seed, const std::string& purpose) {
+  // Compare the two methods, without and with failures counted as losses.
   MetricInfo metric = *FindMetric(expectation.metric);
   metric.direction = wants_lower ? Direction::kLowerIsBetter : Direction::kHigherIsBetter;
   const PairedWorlds worlds = PairsOf(table, other, expectation.of, expectation.metric);
@@ -217,6 +236,7 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
     with_failures = ComparePaired(all->pairs, metric, seed, purpose + "/failures", expectation.confidence);
   }
   const Verdict of_pairs = JudgeBothWays(found, with_failures, metric, expectation.confidence);
+  // Turn the verdict into met, unmet or undecided.
   const int without = worlds.only_baseline + worlds.only_method + worlds.neither;
   const std::string missing = without == 0 ? "" : fmt::format(", {} more have no pair of values", without);
   if (!found.ci_low)
@@ -224,6 +244,7 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
   const Ruling ruling = found.verdict == Verdict::kBetter         ? Ruling::kMet
                         : found.verdict == Verdict::kInconclusive ? Ruling::kUndecided
                                                                   : Ruling::kUnmet;
+  // The figures behind it.
   std::string detail = fmt::format("difference {:.4g} ({:.4g} % interval {:.4g} to {:.4g}, p = {:.2g}) on {} worlds{}",
                                    *found.difference, 100 * expectation.confidence, *found.ci_low, *found.ci_high,
                                    *found.p_holm, found.pairs, missing);
@@ -273,7 +294,7 @@ std::vector<std::optional<double>> HolmCorrected(std::span<const std::optional<d
 void JudgeFamily(std::span<Question* const> family, SamplingUnit unit) {
   JudgeOnTheseWorlds(family);
   if (!IsEveryWorldItsOwn(unit)) return JudgeBeyond(family, unit);
-  for (Question* question : family) SayTheSameBeyond(question->comparison);
+  for (Question* question : family) CopyVerdictsBeyond(question->comparison);
 }
 
 std::vector<AcrossVerdict> JudgeAcross(const Study& study, const std::vector<ConditionSummary>& conditions) {
@@ -313,7 +334,7 @@ ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& 
     const std::string label = ConditionLabel(condition.condition);
     if (!result.detail.empty()) result.detail += "; ";
     result.detail += label.empty() ? finding.detail : label + ": " + finding.detail;
-    // One condition that fails decides; else one that is undecided does.
+    // One unmet condition makes the whole unmet; otherwise one undecided condition makes it undecided.
     if (finding.ruling == Ruling::kUnmet) result.ruling = Ruling::kUnmet;
     if (finding.ruling == Ruling::kUndecided && result.ruling == Ruling::kMet) result.ruling = finding.ruling;
   }

@@ -10,33 +10,33 @@
 
 namespace etude {
 
-/// Holm's step-down correction (1979): each p as if it alone had been asked, so that among all of them one is wrongly
-/// at most alpha with probability alpha. A missing p counts in the number of questions, and stays missing.
+/// Returns the p-values after Holm's step-down correction (1979): comparing each with alpha keeps the probability of
+/// one or more false rejections among all of them at most alpha. A missing p counts as a comparison and stays missing.
 std::vector<std::optional<double>> HolmCorrected(std::span<const std::optional<double>> p_values);
 
-/// A comparison to be judged, and the same with failures counted as losses (WithFailures).
+/// A comparison to be judged, and the same comparison with failures counted as losses (WithFailures).
 struct Question {
   Comparison comparison;
   std::optional<Comparison> with_failures;
 };
 
-/// Corrects the deciding p-values of comparisons that were all asked together (Holm), judges each anew, and says on
-/// it why its verdict is open and what else to know before believing it. One without a p counts as a question too.
-/// Where one method alone failed, the p is the one with failures counted, and the verdict must be the same with and
-/// without them. The verdicts beyond these worlds are a family of their own, judged alike; where every world is its
-/// own `unit` they are those on these worlds.
+/// Corrects the deciding p-values of comparisons that belong together (Holm), judges each again, and writes on each why
+/// its verdict is open and which notes a reader needs. A comparison without a p counts in the correction too. Where one
+/// method alone failed, the p is the one with failures counted, and the verdict must be the same with and without them.
+/// The verdicts beyond these worlds are a family of their own, judged by the same rule; where every world is its own
+/// `unit`, they equal those on these worlds.
 void JudgeFamily(std::span<Question* const> family, SamplingUnit unit = SamplingUnit::kWorld);
 
-/// Judges the comparisons with baselines again when a verdict only counts if it is the same under every value of
-/// Study::across: one for each comparison and each condition of all that is swept otherwise, in the order of
-/// `conditions`. None where the study asks for nothing.
+/// Judges the comparisons with baselines again for a study whose verdicts must be the same under every value of
+/// Study::across. Returns one verdict per comparison and per condition of the other swept parameters, in the order of
+/// `conditions`; none if Study::across is empty.
 std::vector<AcrossVerdict> JudgeAcross(const Study& study, const std::vector<ConditionSummary>& conditions);
 
-/// Judges one expectation over every condition it names. A comparison (below, above) is met when the
-/// paired verdict at its confidence is clear in every such condition, unmet when it is clear the other way or shows
-/// no difference in one, else undecided. Because every condition must hold, none needs a correction for the others
-/// (intersection–union test, Berger 1982). A bound (at_most, at_least) compares the statistic itself; cells
-/// without a value leave it undecided, for a missing value is never a good one.
+/// Judges one expectation over every condition that it names. A comparison (below, above) is met if the paired verdict
+/// at its confidence is clear in every such condition, unmet if it is clear the other way or "no difference" in one of
+/// them, and undecided otherwise. Because every condition must hold, no correction for multiple conditions is needed
+/// (intersection–union test, Berger 1982). A bound (at_most, at_least) is compared with the statistic itself; a bound
+/// that is met only by the cells with a value is undecided if cells without a value exist.
 ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& study, const ScenarioTable& table,
                                    std::uint64_t seed);
 

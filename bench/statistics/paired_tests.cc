@@ -14,9 +14,12 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kMostExact = 50;
+/// With more non-zero differences the p-value of the ranks is the normal approximation. Counts of sign vectors up to
+/// 2⁵⁰ are exact in a double.
+constexpr std::size_t kMaxExactRanks = 50;
 
-/// Twice the rank of |difference| for each difference other than zero, so that tied ranks are whole too.
+/// Twice the rank of |difference|, for each non-zero difference; doubled, so that the mean ranks of ties are integers
+/// too.
 struct SignedRanks {
   std::vector<int> positive, negative;
 };
@@ -43,10 +46,10 @@ double SumOf(const std::vector<int>& ranks) {
   return sum;
 }
 
-/// P(W ≤ w) or P(W ≥ w), whichever is smaller, over all signs of these ranks.
+/// Returns P(W ≤ w) or P(W ≥ w), whichever is smaller, over all signs of these ranks (shift algorithm).
 double ExactTail(const std::vector<int>& ranks, double w) {
   const auto total = static_cast<std::size_t>(SumOf(ranks));
-  std::vector<double> ways(total + 1);  // counts up to 2⁵⁰: whole numbers all
+  std::vector<double> ways(total + 1);  // by sum: the number of sign vectors that reach it, an integer up to 2⁵⁰
   ways[0] = 1;
   std::size_t reached = 0;
   for (int rank : ranks) {
@@ -62,19 +65,20 @@ double ExactTail(const std::vector<int>& ranks, double w) {
 double NormalTail(const std::vector<int>& ranks, double w) {
   double squares = 0;
   for (int rank : ranks) squares += static_cast<double>(rank) * rank;
-  // Each rank is in or out with probability ½: mean Σr / 2, variance Σr² / 4, whatever is tied. Half a rank towards
-  // the mean for continuity; ranks are doubled.
+  // Each rank is in or out with probability ½: mean Σr / 2, variance Σr² / 4, ties or not. The continuity correction is
+  // half a rank towards the mean; ranks are doubled, so it is 1.
   const double distance = std::max(std::abs(w - SumOf(ranks) / 2) - 1, 0.0);
   return KeepThirtyBits(NormalCdf(-distance / std::sqrt(squares / 4)));
 }
 
-constexpr std::size_t kMostEnumerated = 16;
+/// With up to this many non-zero differences all 2ⁿ⁻¹ sign vectors are enumerated; with more, kDraws are drawn.
+constexpr std::size_t kMaxEnumerated = 16;
 constexpr int kDraws = 9999;
 
-/// Signs of the sizes, one bit each: 1 = negative.
+/// The signs of the differences, one bit each: 1 = negative.
 using Signs = std::vector<std::uint64_t>;
 
-/// The index of the n-th 1 (or 0, with `flip` all ones) of the signs.
+/// Returns the index of the n-th bit that is 1, or with `flip` all ones, that is 0.
 std::size_t IndexOfNth(const Signs& signs, std::size_t n, std::uint64_t flip) {
   for (std::size_t word = 0;; ++word) {
     std::uint64_t bits = signs[word] ^ flip;
@@ -88,7 +92,7 @@ std::size_t IndexOfNth(const Signs& signs, std::size_t n, std::uint64_t flip) {
   }
 }
 
-/// Sizes |d| in ascending order, zeros first, under whatever signs.
+/// The absolute differences |d| in ascending order, zeros first, whose aggregate is computed under any signs.
 class FlippedSample {
  public:
   FlippedSample(std::vector<double> sizes, Aggregate aggregate) : sizes_(std::move(sizes)), aggregate_(aggregate) {
@@ -102,7 +106,8 @@ class FlippedSample {
   }
 
  private:
-  /// Sums of eight sizes each under all of their signs, so that a draw adds an eighth as many numbers.
+  /// Precomputes the sum of each group of eight sizes under all 256 signs, so that a draw adds an eighth of the
+  /// numbers.
   void SumBytes() {
     byte_sums_.resize((sizes_.size() + 7) / 8);
     for (std::size_t byte = 0; byte < byte_sums_.size(); ++byte) {
@@ -124,8 +129,8 @@ class FlippedSample {
     return sum / static_cast<double>(sizes_.size());
   }
 
-  /// In order, the flipped values are the negative ones from the largest size down, then the others upwards: the
-  /// middle one lies near the small end, so a short walk finds it.
+  /// Sorted, the flipped values are the negative ones from the largest size down, then the others upwards. The middle
+  /// one lies near the sizes close to zero, so a short walk over the bits finds it.
   double MedianUnder(const Signs& signs) const {
     std::size_t negatives = 0;
     for (std::uint64_t bits : signs) negatives += static_cast<std::size_t>(std::popcount(bits));
@@ -141,8 +146,8 @@ class FlippedSample {
   std::vector<std::array<double, 256>> byte_sums_;
 };
 
-/// Tests very many differences, whose flips are distributed normally: a mean of variance Σd² / n², and, of a median,
-/// that so many differences lie on either side.
+/// Tests very many differences by the normal approximation of their flips: a mean has variance Σd² / n², and for a
+/// median the number of differences on either side of zero is tested (sign test).
 PairedTest ManyFlips(std::span<const double> sizes, const Signs& signs, Aggregate aggregate) {
   double sum = 0, squares = 0;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
@@ -162,7 +167,7 @@ PairedTest SignedRankTest(std::span<const double> differences) {
   std::vector<int> all = ranks.positive;
   all.insert(all.end(), ranks.negative.begin(), ranks.negative.end());
   if (all.empty()) return {1.0, "exact"};
-  const bool exact = all.size() <= kMostExact;
+  const bool exact = all.size() <= kMaxExactRanks;
   const double w = SumOf(ranks.positive);
   const double tail = exact ? ExactTail(all, w) : NormalTail(all, w);
   return {std::min(2 * tail, 1.0), exact ? "exact" : "normal approximation"};
@@ -178,6 +183,7 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
                         const std::string& purpose) {
   if (differences.empty()) return {};
   std::vector<double> ordered(differences.begin(), differences.end());
+  // Sort by size, and split into sizes and signs.
   std::sort(ordered.begin(), ordered.end(),
             [](double a, double b) { return std::abs(a) != std::abs(b) ? std::abs(a) < std::abs(b) : a < b; });
   std::vector<double> sizes;
@@ -189,6 +195,7 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
     negatives += ordered[i] < 0;
     if (ordered[i] < 0) observed[i / 64] |= std::uint64_t{1} << (i % 64);
   }
+  // All differences of one size: the binomial gives the exact p of the mean.
   const std::size_t differing = sizes.size() - zeros;
   if (differing == 0) return {1.0, "exact"};
   const double largest = sizes.back();
@@ -199,11 +206,12 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
 
   if (static_cast<int>(differing) > kLargestResampled) return ManyFlips(sizes, observed, aggregate);
   const FlippedSample sample(std::move(sizes), aggregate);
-  // Sums that are equal on paper differ by rounding.
+  // A small tolerance, because sums that are equal in exact arithmetic differ by rounding.
   const double reached = std::abs(sample.AggregateUnder(observed)) - 1e-12 * largest;
   Signs signs(sample.words());
-  if (differing <= kMostEnumerated) {
-    // A sample and its mirror image are equally far from zero: half of all signs will do.
+  if (differing <= kMaxEnumerated) {
+    // Few differences: enumerate. A sample and its mirror image are equally far from zero, so half of all sign vectors
+    // are enough.
     const std::uint32_t all = std::uint32_t{1} << (differing - 1);
     int extreme = 0;
     for (std::uint32_t bits = 0; bits < all; ++bits) {
@@ -216,8 +224,9 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
     }
     return {static_cast<double>(extreme) / all, "exact"};
   }
+  // Otherwise draw sign vectors.
   RandomStream dice({.suite_seed = seed, .scenario = "sign-flip", .trial = 0}, purpose);
-  // Bits behind the last difference stay 0, or they would count as negative.
+  // Bits behind the last difference must stay 0, or they would count as negative.
   const std::uint64_t last =
       ordered.size() % 64 == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << (ordered.size() % 64)) - 1;
   int extreme = 0;

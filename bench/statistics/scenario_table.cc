@@ -14,13 +14,13 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// The half of the worlds that a trial belongs to; worlds of one unit are in the same half.
+/// Returns the half of the worlds that a trial belongs to. Worlds of one unit are in the same half.
 int HalfOf(const ConditionTable& table, int trial) {
   const std::vector<int>& units = table.world_units[static_cast<std::size_t>(trial)];
   return (units.size() == 1 && table.units.size() > 1 ? units.front() : trial) % 2;
 }
 
-/// The value that stands for a failed cell: the worst that any method measured.
+/// Returns the worst value that any method measured, which stands for a failed cell; nothing if no value exists.
 std::optional<double> WorstOf(const ConditionTable& table, const MetricInfo& metric) {
   std::optional<double> worst;
   for (const MethodColumns& method : table.methods) {
@@ -34,6 +34,7 @@ std::optional<double> WorstOf(const ConditionTable& table, const MetricInfo& met
   return worst;
 }
 
+/// Returns the method's aggregate over one half of the worlds, failed cells counted as `worst`; nothing without worlds.
 std::optional<double> ScoreOf(const ConditionTable& table, const MethodColumns& method, const MetricInfo& metric,
                               double worst, int half) {
   std::vector<double> values;
@@ -46,7 +47,8 @@ std::optional<double> ScoreOf(const ConditionTable& table, const MethodColumns& 
   return AggregateOf(values, metric.aggregate);
 }
 
-/// The candidates that no other beats by as much as matters; all of them by a metric without values.
+/// Returns the candidates that are within the practical threshold of the best one, or all of them if the metric has no
+/// values or no direction.
 std::vector<const MethodColumns*> BestBy(const MetricInfo& metric, const ConditionTable& table, int half,
                                          const std::vector<const MethodColumns*>& candidates) {
   const auto worst = WorstOf(table, metric);
@@ -67,13 +69,13 @@ std::vector<const MethodColumns*> BestBy(const MetricInfo& metric, const Conditi
   return kept;
 }
 
-/// True if `other` may be the strongest rival of `method`: it competes, and is not compared with as the baseline.
+/// Returns true if `other` may be the strongest rival of `method`: it competes and is not the method's baseline.
 bool IsCandidate(const Study& study, const ComparedMethod& method, const ComparedMethod& other) {
   return other.name != method.name && other.name != method.against && Competes(study, other);
 }
 
-/// The best of the candidates in one half of the worlds: by the first headline metric, of those that it does not tell
-/// apart by the second, and so on; of equal ones the first. "" when there is none.
+/// Returns the best candidate in one half of the worlds: by the first headline metric, then among those left by the
+/// second, and so on; the first listed if several are left. "" if there is none.
 std::string BestOther(const Study& study, const ConditionTable& table, const ComparedMethod& method, int half) {
   std::vector<const MethodColumns*> candidates;
   for (const ComparedMethod& other : study.methods) {
@@ -156,6 +158,7 @@ void ScenarioTable::Add(const Row& row) {
 
 void AddWorld(const MethodColumns& baseline, const MethodColumns& method, const std::string& metric, int trial,
               PairedWorlds& paired) {
+  // A cell that was never run counts as skipped.
   const auto skipped = [&](const MethodColumns& columns) {
     return columns.StatusAt(trial).value_or(Status::kSkipped) == Status::kSkipped;
   };

@@ -13,7 +13,7 @@
 
 namespace etude {
 
-/// The statuses and values of one method under one condition, trial by trial.
+/// The statuses and metric values of one method under one condition, by trial.
 class MethodColumns {
  public:
   MethodColumns(std::string name, int trials) : name_(std::move(name)), statuses_(static_cast<std::size_t>(trials)) {}
@@ -21,13 +21,13 @@ class MethodColumns {
   void Add(const Row& row);
 
   const std::string& name() const { return name_; }
-  /// The status of the trial's cell; nothing where there is none.
+  /// Returns the status of the trial's cell; nothing if there is no such cell.
   std::optional<Status> StatusAt(int trial) const { return statuses_[static_cast<std::size_t>(trial)]; }
-  /// The trial's value of a metric; nothing where its cell has none.
+  /// Returns the trial's value of a metric; nothing if its cell has none.
   std::optional<double> ValueAt(const std::string& metric, int trial) const;
-  /// All values of a metric in the order of trials; `missing` counts the cells without one.
+  /// Returns all values of a metric in the order of trials; `missing` counts the cells without one.
   std::vector<double> ValuesOf(const std::string& metric, int& missing) const;
-  /// True if some cell reports the metric, by a value or by the reason why there is none.
+  /// Returns true if a cell reports the metric, by a value or by the reason why there is none.
   bool Reports(const std::string& metric) const { return values_.Find(metric) != nullptr; }
 
  private:
@@ -36,23 +36,23 @@ class MethodColumns {
   CyclicLookup<std::vector<double>> values_;     ///< by metric and trial; NaN = none
 };
 
-/// Everything measured under one condition.
+/// All values and statuses measured under one condition.
 struct ConditionTable {
   std::vector<SweptValue> condition;
   std::vector<MethodColumns> methods;         ///< as the study lists them
-  std::vector<std::string> units;             ///< names of all units, in the order in which they were met
+  std::vector<std::string> units;             ///< names of all units, in the order of first occurrence
   std::vector<std::vector<int>> world_units;  ///< by trial: indices of the units that the world was drawn from
 
   const MethodColumns& Of(const std::string& method) const;
   int trials() const { return static_cast<int>(world_units.size()); }
 };
 
-/// One study's rows as columns of numbers: what statistics keep of a run, 8 bytes a value, while rows pass by.
+/// One study's rows as columns of numbers, 8 bytes a value: all that statistics keep of a run while its rows pass by.
 class ScenarioTable {
  public:
   explicit ScenarioTable(const Study& study);
 
-  /// Takes a row of the study, in any order; one of another study, condition, method or trial is not taken.
+  /// Adds a row, in any order. A row of another study, condition, method or trial is ignored.
   void Add(const Row& row);
 
   std::span<const ConditionTable> conditions() const { return conditions_; }
@@ -62,60 +62,68 @@ class ScenarioTable {
 
   std::string scenario_;
   std::vector<ConditionTable> conditions_;
-  std::size_t last_ = 0;  ///< rows of one condition come together
+  std::size_t last_ = 0;  ///< the condition of the last row, searched first: rows of one condition come together
 };
 
-/// One metric of two methods in the worlds of a condition; a world that was skipped for both is in none of these.
+/// The values of one metric for two methods in the worlds of a condition. Worlds skipped for both are not counted at
+/// all.
 struct PairedWorlds {
-  std::vector<Pair> pairs;  ///< both have a value
-  std::vector<int> trials;  ///< of the pairs
+  std::vector<Pair> pairs;  ///< of the worlds in which both have a value
+  std::vector<int> trials;  ///< the trial of each pair
   int only_baseline = 0, only_method = 0, neither = 0;
-  /// The trials of only_method and only_baseline where the other's cell failed, rather than having no such metric.
+  /// The trials of only_method and only_baseline in which the other method's cell failed (and did not merely lack this
+  /// metric).
   std::vector<int> baseline_failed, method_failed;
 };
 
+/// Returns the pairs of `baseline` and `method` in all worlds of the condition.
 PairedWorlds PairsOf(const ConditionTable& table, const std::string& baseline, const std::string& method,
                      const std::string& metric);
 
-/// Adds one world to `paired`.
+/// Adds one world to `paired`: a pair, or a count of which method has no value.
 void AddWorld(const MethodColumns& baseline, const MethodColumns& method, const std::string& metric, int trial,
               PairedWorlds& paired);
 
-/// Counts failures as losses in the same worlds: each in which one method alone failed counts as the largest
-/// difference among the pairs, or one that just matters, against the method that failed (worst ranks, Lachin 1999).
-/// Nothing when there is no such world, no pair, or no better direction.
+/// Counts failures as losses: each world in which one method alone failed counts against that method with the largest
+/// difference among the pairs, but at least the practical threshold (worst ranks, Lachin 1999). Returns nothing if
+/// there is no such world, no pair, or the metric has no better direction.
 std::optional<PairedWorlds> WithFailures(const PairedWorlds& paired, const MetricInfo& metric);
 
-/// The text that keys the dice of a comparison, stable under adding methods, metrics or conditions.
+/// Returns the text that keys the random streams of a comparison. It does not change if methods, metrics or conditions
+/// are added.
 std::string PurposeOf(const std::string& scenario, const std::vector<SweptValue>& condition, const std::string& metric,
                       const std::string& baseline, const std::string& method);
 
 /// A method's strongest rival.
 struct Rival {
-  std::array<std::string, 2> of_half;  ///< whom it meets in the worlds of even units, and in those of odd ones
+  std::array<std::string, 2> of_half;  ///< the rival in the worlds of even units, and in those of odd units
 
-  std::string Name() const;  ///< "a", or "a or b" when the halves of the worlds chose differently
-  std::string Note() const;  ///< how they were chosen, in words; "" when both are the same
+  std::string Name() const;  ///< "a", or "a or b" if the two halves chose differently
+  std::string Note() const;  ///< says how they were chosen; "" if both are the same
 };
 
-/// True if a method competes: one that no method is compared with and that is compared with none is a yardstick, and
-/// one with an oracle shows what could be.
+/// Returns true if a method competes. A method that is compared with none, and that none is compared with, is only a
+/// yardstick; a method with an oracle shows an upper bound.
 bool Competes(const Study& study, const ComparedMethod& method);
 
-/// True if a method has a rival (FindRival); told by the scenario alone.
+/// Returns true if a method has a rival (FindRival); this follows from the scenario alone.
 bool HasRival(const Study& study, const ComparedMethod& method);
 
-/// The scenario's own rival, or of all others that compete the best, the method's baseline left out: with that it is
-/// compared anyway, in all worlds, and a rival that half of the worlds draw from it would be judged twice, the second
-/// time with half of the evidence. So a method beats all others if it beats its baseline and its rival. The best is so
-/// by the first headline metric, of those that differ there by less than matters by the next one, and so on. It is
-/// chosen on other worlds than those it is judged on: on the worlds of odd units (trials where worlds are units, or of
-/// several units) for those of even ones, and the other way round. A cell that failed counts as the condition's worst
-/// value there. No rival for the rival itself, for what does not compete, where none but the baseline
-/// does, and where a half has no world to choose on.
+/// Returns the rival that the scenario names, or else the best of all other competing methods. The method's baseline is
+/// not a candidate: the two are compared in all worlds anyway, and a rival that is the baseline in half of the worlds
+/// would repeat that comparison with half of the evidence. A method therefore beats all others if it beats its baseline
+/// and its rival.
+///
+/// The best is chosen by the first headline metric; methods that differ there by less than the practical threshold are
+/// compared by the next metric, and so on. A failed cell counts as the condition's worst value. The rival is chosen on
+/// other worlds than those on which it is judged: on the worlds of odd units for those of even units, and the reverse
+/// (trials take the place of units if worlds are units or have several).
+///
+/// Returns nothing for the rival itself, for a method that does not compete, if only the baseline competes, and if one
+/// half has no world to choose on.
 std::optional<Rival> FindRival(const Study& study, const ConditionTable& table, const ComparedMethod& method);
 
-/// One metric of `method` and of whom it meets, in all worlds of the condition.
+/// Returns the values of `method` and of its rival, in all worlds of the condition.
 PairedWorlds WorldsAgainst(const Rival& rival, const ConditionTable& table, const std::string& method,
                            const std::string& metric);
 

@@ -14,7 +14,7 @@
 namespace etude {
 namespace {
 
-/// The metrics that the condition's cells report, in the order of the catalogue.
+/// Returns the metrics that the condition's cells report: the catalogue's in its order, then added ones.
 std::vector<const MetricInfo*> MetricsIn(const ConditionTable& table) {
   std::vector<const MetricInfo*> present;
   for (const MetricInfo& metric : AllMetrics()) {
@@ -28,7 +28,8 @@ std::vector<const MetricInfo*> MetricsIn(const ConditionTable& table) {
   return present;
 }
 
-/// A share of worlds has its own interval: a bootstrap of none in sixty sees no chance of one.
+/// Returns the interval of the values' aggregate. A share of worlds gets Wilson's: the bootstrap of 0 in 60 has no
+/// width.
 std::optional<Interval> IntervalOf(std::span<const double> values, Aggregate aggregate, std::uint64_t seed,
                                    const std::string& purpose) {
   const bool is_share =
@@ -82,15 +83,16 @@ MethodSummary SummariseMethod(const MethodColumns& method, const ConditionTable&
 struct Family {
   const Study& study;
   std::uint64_t seed = 1;
-  int size = 0;  ///< comparisons that are judged together
+  int size = 0;  ///< number of comparisons that are judged together
 
+  /// Estimates the difference for other units; empty if every world is its own unit.
   Beyond MeasureUnits(const PairedWorlds& worlds, const ConditionTable& table, const MetricInfo& metric,
                       const std::string& purpose) const {
     if (IsEveryWorldItsOwn(study.unit)) return {};
     return MeasureBeyond(UnitsOf(worlds, table, metric), size, seed, purpose);
   }
 
-  /// One comparison, verdict left open: that depends on the others.
+  /// Measures one comparison. Its verdict is left open, because it depends on the other comparisons.
   Question Ask(const PairedWorlds& worlds, const ConditionTable& table, const MetricInfo& metric,
                const std::string& purpose) const {
     Question question{ComparePaired(worlds.pairs, metric, seed, purpose), std::nullopt};
@@ -110,7 +112,7 @@ int SizeOf(const Study& study, int methods) {
   return methods * static_cast<int>(study.metrics.size() * study.conditions.size());
 }
 
-/// Every method against its baseline.
+/// Compares every method with its baseline.
 std::vector<Question> AskAgainstBaselines(const Study& study, const ConditionTable& condition, std::uint64_t seed) {
   const Family family{study, seed, CountComparisons(study)};
   std::vector<Question> questions;
@@ -127,7 +129,7 @@ std::vector<Question> AskAgainstBaselines(const Study& study, const ConditionTab
   return questions;
 }
 
-/// Every method that competes against its strongest rival.
+/// Compares every competing method with its strongest rival.
 std::vector<Question> AskAgainstRivals(const Study& study, const ConditionTable& condition, std::uint64_t seed) {
   const auto asking =
       std::ranges::count_if(study.methods, [&](const ComparedMethod& method) { return HasRival(study, method); });
@@ -149,7 +151,8 @@ std::vector<Question> AskAgainstRivals(const Study& study, const ConditionTable&
   return questions;
 }
 
-/// Judges all of them together and gives each condition its own; returns how many they are.
+/// Judges the comparisons of all conditions as one family, and moves each to its condition's summary. Returns their
+/// number.
 int JudgeTogether(std::vector<ConditionFindings>& findings, SamplingUnit unit,
                   std::vector<Question> ConditionFindings::*asked, std::vector<Comparison> ConditionSummary::*judged) {
   std::vector<Question*> family;
@@ -220,12 +223,13 @@ namespace {
 
 using Stages = std::set<std::string>;
 
-/// A method and the stages that it has true.
+/// A method and the stages that the truth replaces in it.
 struct Member {
   std::string method;
   Stages stages;
 };
 
+/// Returns true if `all` contains every stage of `some`.
 bool Holds(const Stages& all, const Stages& some) { return std::ranges::includes(all, some); }
 
 Stages Without(const Stages& all, const Stages& some) {
@@ -234,7 +238,7 @@ Stages Without(const Stages& all, const Stages& some) {
   return rest;
 }
 
-/// The methods that differ in nothing but their oracle, by what they have in common, in the study's order.
+/// Returns the groups of methods that have equal settings apart from their oracle, each sorted by the number of stages.
 std::vector<std::vector<Member>> FamiliesOf(const Study& study) {
   std::vector<std::pair<std::string, std::vector<Member>>> families;
   for (const ComparedMethod& method : study.methods) {
@@ -255,7 +259,8 @@ std::vector<std::vector<Member>> FamiliesOf(const Study& study) {
   return members;
 }
 
-/// The chain from the member with the fewest stages on, each the smallest that holds the one before.
+/// Returns the chain from the member with the fewest stages on; each next member is the smallest that contains the one
+/// before.
 std::vector<Member> ChainOf(const std::vector<Member>& family) {
   std::vector<Member> chain;
   for (const Member& member : family) {
@@ -264,7 +269,7 @@ std::vector<Member> ChainOf(const std::vector<Member>& family) {
   return chain;
 }
 
-/// The values of the members' methods in the worlds where all of them have one, by method.
+/// Returns the values of the members' methods, by method, in the worlds where all of them have one.
 std::map<std::string, std::vector<double>> ValuesOf(const std::vector<Member>& members, const ConditionTable& table,
                                                     const std::string& metric) {
   std::map<std::string, std::vector<double>> values;
@@ -280,6 +285,7 @@ std::map<std::string, std::vector<double>> ValuesOf(const std::vector<Member>& m
   return values;
 }
 
+/// Computes the error budget of one family.
 class BudgetMaker {
  public:
   BudgetMaker(const std::vector<Member>& family, const ConditionTable& table, const std::string& metric,
@@ -287,15 +293,18 @@ class BudgetMaker {
       : family_(family), table_(table), metric_(metric), seed_(seed), purpose_(std::move(purpose)) {}
 
   std::optional<ErrorBudget> Make() {
+    // Use Shapley values if every subset of the stages is among the methods.
     const Stages stages = Without(family_.back().stages, family_.front().stages);
     const bool is_whole =
         stages.size() <= kMostShapleyStages && family_.size() == std::size_t{1} << stages.size() &&
         std::ranges::all_of(family_, [&](const Member& member) {
           return Holds(family_.back().stages, member.stages) && Holds(member.stages, family_.front().stages);
         });
+    // Otherwise use the chain.
     const std::vector<Member> members = is_whole ? family_ : ChainOf(family_);
     values_ = ValuesOf(members, table_, metric_);
     if (values_.empty() || members.size() < 2) return std::nullopt;
+    // The error with the fewest stages true, the error that is left with the most, and the shares between them.
     budget_.metric = metric_;
     budget_.method = members.front().method;
     budget_.is_shapley = is_whole;
@@ -311,6 +320,7 @@ class BudgetMaker {
   }
 
  private:
+  /// Adds what the stages of one step of the chain save.
   void AddStep(const Member& before, const Member& after) {
     std::string name;
     for (const std::string& stage : Without(after.stages, before.stages)) name += (name.empty() ? "" : ", ") + stage;
@@ -320,7 +330,7 @@ class BudgetMaker {
     AddShare(name, saved);
   }
 
-  // By world: Σ |S|! (n − |S| − 1)! / n! · (v(S) − v(S ∪ stage)) over all S without the stage.
+  // Returns, by world, Σ |S|! (n − |S| − 1)! / n! · (v(S) − v(S ∪ stage)) over all S without the stage.
   std::vector<double> ShapleyValues(const std::string& stage, std::size_t count) {
     std::vector<double> shares(values_.begin()->second.size(), 0.0);
     for (const Member& member : family_) {

@@ -10,38 +10,41 @@
 
 namespace etude {
 
-/// The number of comparisons of methods with their baselines that are judged together.
+/// Returns the number of comparisons of methods with their baselines, which are judged together.
 int CountComparisons(const Study& study);
 
-/// The summary of one condition and its comparisons, before these are judged together with those of all others.
+/// The summary of one condition with its comparisons, before they are judged together with those of all other
+/// conditions.
 struct ConditionFindings {
   ConditionSummary summary;  ///< without comparisons
   std::vector<Question> against_baselines, against_rivals;
 };
-/// Seeded by what is measured alone: conditions may be measured in any order, and anywhere.
+/// Measures one condition. Random streams are keyed by what is compared alone, so conditions may be measured in any
+/// order and by any process.
 ConditionFindings MeasureCondition(const Study& study, const ConditionTable& table, std::uint64_t seed);
 
-/// The summary of a study from the findings of all its conditions, in their order.
+/// Returns the summary of a study from the findings of all its conditions, in their order.
 ScenarioSummary JudgeFindings(const Study& study, const ScenarioTable& table, std::vector<ConditionFindings> findings,
                               std::uint64_t seed);
 
-/// Sums up one study's rows: per condition and method the aggregate of every metric with its
-/// interval and its share of cells that are ok, every method against its baseline on the headline metrics, judged
-/// as one family, every method against the strongest other one (FindRival), judged as another, and the verdict on each
-/// expectation. Seeded, so the same rows give the same bytes.
+/// Summarises one study's rows. Per condition and method: the aggregate of every metric with its interval, and the
+/// share of cells that are ok. Then every method against its baseline on the headline metrics, judged as one family;
+/// every method against the strongest other one (FindRival), judged as another family; and the verdict on each
+/// expectation. The same rows and seed give the same bytes.
 ScenarioSummary Summarise(const Study& study, const ScenarioTable& table, std::uint64_t seed);
 
-/// Splits the final error into what every stage costs, for methods under one condition that differ in `oracle` alone:
-/// one budget for each such family of two methods or more. Values are those of the worlds in which all of them have
-/// one; intervals are bootstrap intervals of the mean over these worlds.
-/// - Where every subset of the stages is among the methods, a stage's share is its Shapley value: what it saves,
-///   averaged over all orders in which stages are made true (Shapley 1953), so that stages that interact share alike.
-///   At most kMostShapleyStages stages.
-/// - Else the methods are a chain, each the one before with further stages true; a share is what that step saves, and
-///   depends on the order. Methods beside the chain are left out.
+/// Splits the final error into the cost of each stage, for methods under one condition that differ in `oracle` alone.
+/// Returns one budget for each such family of two methods or more. Values come from the worlds in which all methods of
+/// the family have one; intervals are bootstrap intervals of the mean over these worlds.
+/// - If every subset of the stages is among the methods, and there are at most kMaxShapleyStages stages, a stage's
+///   share is its Shapley value (Shapley 1953): the error that it saves, averaged over all orders in which stages are
+///   replaced by the truth. Stages that interact share the saving equally.
+/// - Otherwise the methods form a chain, each with further stages replaced by the truth; a share is what that step
+///   saves, and depends on the order. Methods outside the chain are left out.
 std::vector<ErrorBudget> ComputeErrorBudgets(const Study& study, const ConditionTable& table, const std::string& metric,
                                              std::uint64_t seed);
 
+/// Families with more stages are treated as a chain: 2ⁿ methods would be needed.
 constexpr std::size_t kMostShapleyStages = 6;
 
 }  // namespace etude

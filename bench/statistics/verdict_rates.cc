@@ -11,8 +11,9 @@
 namespace etude {
 namespace {
 
+/// The chance that a world of kTies has a difference other than zero.
 constexpr double kUntied = 0.4;
-/// Returns the limit of the logarithm of a cost: seven of ten lie below.
+/// Returns the limit of a cost's logarithm, which seven of ten stay below.
 double LogLimit() {
   static const double limit = NormalQuantile(0.7);
   return limit;
@@ -32,22 +33,23 @@ double Draw(SampleLaw law, RandomStream& dice) {
   return law == SampleLaw::kHeavyTailed ? HeavyTailed(dice) : dice.Normal();
 }
 
-/// −1, 0 or 1 by a quarter, a half and a quarter, as two fair coins differ; shifted by `effect` in the mean.
+/// Draws −1, 0 or 1 with probabilities ¼, ½ and ¼, the difference of two fair coins, with the mean shifted by `effect`.
 double CoinsDiffer(double effect, RandomStream& dice) {
-  const double throw_of_dice = dice.Uniform();
-  return throw_of_dice < 0.25 - effect / 2 ? -1 : throw_of_dice >= 0.75 - effect / 2 ? 1 : 0;
+  const double drawn = dice.Uniform();
+  return drawn < 0.25 - effect / 2 ? -1 : drawn >= 0.75 - effect / 2 ? 1 : 0;
 }
 
+/// Returns the cost, or twice the limit if it exceeds the limit.
 double PenalisedCost(double log_cost) { return log_cost > LogLimit() ? 2 * std::exp(LogLimit()) : std::exp(log_cost); }
 
-/// Expectations of a penalised cost whose logarithm is normal around `shift`, and of its square.
+/// Return the expectations of a penalised cost whose logarithm is normal around `shift`, and of its square.
 double MeanCost(double shift) {
   const double below = LogLimit() - shift;
   return std::exp(shift + 0.5) * NormalCdf(below - 1) + 2 * std::exp(LogLimit()) * NormalCdf(-below);
 }
 double MeanSquaredCost() { return std::exp(2.0) * NormalCdf(LogLimit() - 2) + 4 * std::exp(2 * LogLimit()) * 0.3; }
 
-/// The shift of the logarithm that changes the mean cost by `effect`, by bisection.
+/// Returns, by bisection, the shift of the logarithm that changes the mean cost by `effect`.
 double ShiftFor(double effect) {
   double low = -20, high = 20;
   for (int i = 0; i < 60; ++i) {
@@ -57,7 +59,7 @@ double ShiftFor(double effect) {
   return low;
 }
 
-/// The worlds of a design, told apart by what a unit brings to each of its worlds.
+/// Draws the worlds of a design: what a unit contributes to each of its worlds, plus what is drawn for each world.
 class Sampler {
  public:
   Sampler(const SampleDesign& design, double effect, RandomStream& dice)
@@ -65,6 +67,7 @@ class Sampler {
         effect_(effect * JustMatters(design.law)),
         shift_(design.law == SampleLaw::kCensored ? ShiftFor(effect_) : 0),
         dice_(dice) {
+    // Draw the contributions of each unit in its first and, correlated with it, in its second role.
     for (int unit = 0; unit < design.units; ++unit) {
       sample_.names.push_back(fmt::format("{:03}", unit));
       Brings& brings = brings_.emplace_back();
@@ -93,12 +96,13 @@ class Sampler {
   }
 
  private:
+  /// The contributions of one unit to its worlds.
   struct Brings {
-    std::array<double, 2> own{}, other{};  ///< of the method and of the baseline
+    std::array<double, 2> own{}, other{};  ///< in the first and the second role; of the method and of the baseline
     double coins = 0;
   };
 
-  /// A standardised value that worlds of one unit share in part.
+  /// Draws a standardised value that correlates with the other worlds of the same units.
   double Latent(const std::vector<int>& units, std::size_t of) {
     const Brings& first = brings_[static_cast<std::size_t>(units.front())];
     double shared = first.own[of];
@@ -106,6 +110,7 @@ class Sampler {
     return std::sqrt(design_.alike) * shared + std::sqrt(1 - design_.alike) * Draw(design_.law, dice_);
   }
 
+  /// Draws the difference method − baseline of one world.
   double Difference(const std::vector<int>& units) {
     switch (design_.law) {
       case SampleLaw::kNormal:
@@ -116,7 +121,8 @@ class Sampler {
         return dice_.Chance(kUntied) ? untied : 0;
       }
       case SampleLaw::kShares:
-        // Worlds that both took their unit's throw are equal: they correlate by the square of that chance.
+        // Each world takes its unit's draw with probability √alike, so two worlds are equal with probability alike:
+        // their correlation.
         return dice_.Chance(std::sqrt(design_.alike)) ? brings_[static_cast<std::size_t>(units.front())].coins
                                                       : CoinsDiffer(effect_, dice_);
       case SampleLaw::kCensored:
@@ -168,7 +174,7 @@ namespace {
 
 constexpr std::array kEffects = {1.0, 2.0, 4.0};
 
-/// Makes a metric of which lower is better, by as little as `practical`.
+/// Makes a lower-is-better metric with this practical threshold.
 MetricInfo MetricOf(double practical) {
   MetricInfo metric;
   metric.id = "calibration";
@@ -176,6 +182,7 @@ MetricInfo MetricOf(double practical) {
   return metric;
 }
 
+/// Judges the sample as the only comparison: no correction for others.
 std::optional<Verdict> Judge(Beyond& beyond, const MetricInfo& metric) {
   beyond.p_holm = beyond.test.p;
   return VerdictBeyond(beyond, metric);
@@ -183,7 +190,7 @@ std::optional<Verdict> Judge(Beyond& beyond, const MetricInfo& metric) {
 
 bool IsClear(std::optional<Verdict> verdict) { return verdict == Verdict::kBetter || verdict == Verdict::kWorse; }
 
-/// Returns whether a paired t test that takes worlds for units alarms at 5 %.
+/// Returns true if a paired t test at 5 % that treats worlds as units finds a difference.
 bool TestOverWorldsAlarms(const UnitSample& sample) {
   const double n = static_cast<double>(sample.differences.size());
   double mean = 0, squares = 0;
@@ -203,11 +210,13 @@ std::string PurposeOf(const SampleDesign& design, double effect) {
                      design.in_pairs, design.part_alike, effect);
 }
 
+/// Returns true if the interval contains the true mean.
 bool Holds(const Beyond& beyond, double truth) {
-  // A sample of shares without any difference has an interval without width.
+  // The tolerance is for a sample of shares that has no difference: its interval has no width.
   return *beyond.low <= truth + 1e-9 && truth - 1e-9 <= *beyond.high;
 }
 
+/// Measures the false alarms and the coverage where nothing differs.
 void MeasureFalseAlarms(int repetitions, VerdictRates& rates) {
   const MetricInfo metric = MetricOf(1e-9);
   const std::string purpose = PurposeOf(rates.design, 0);
@@ -225,6 +234,7 @@ void MeasureFalseAlarms(int repetitions, VerdictRates& rates) {
   rates.coverage_without = 100.0 * held / repetitions;
 }
 
+/// Measures the power for each effect size, and the coverage for twice the threshold.
 void MeasurePower(int repetitions, VerdictRates& rates) {
   const double matters = JustMatters(rates.design.law);
   const MetricInfo metric = MetricOf(matters);
@@ -254,6 +264,7 @@ VerdictRates MeasureVerdicts(const SampleDesign& design, const VerdictRepetition
 
 std::vector<SampleDesign> PublishedDesigns() {
   std::vector<SampleDesign> designs;
+  // One unit per world.
   for (int units : {6, 8, 12, 30}) {
     for (int trials : {1, 3, 10}) {
       for (double alike : {0.0, 0.5, 0.9}) {
@@ -263,6 +274,7 @@ std::vector<SampleDesign> PublishedDesigns() {
       }
     }
   }
+  // Two units per world.
   for (int units : {6, 8, 12, 30}) {
     for (double alike : {0.0, 0.5, 0.9}) {
       for (double part_alike : {0.0, 0.8}) {
@@ -293,6 +305,7 @@ std::string VerdictRatesMarkdown(std::span<const VerdictRates> rates) {
   std::string one_way, pairs;
   for (std::size_t i = 0; i < rates.size(); ++i) {
     const SampleDesign& design = rates[i].design;
+    // A row holds the distributions of one design side by side; the normal one comes first.
     std::string& table = design.in_pairs ? pairs : one_way;
     const bool begins = design.law == SampleLaw::kNormal;
     if (begins) {
@@ -307,6 +320,7 @@ std::string VerdictRatesMarkdown(std::span<const VerdictRates> rates) {
       table +=
           fmt::format(" {:.0f} |\n", rates[i + 1 - (design.in_pairs ? 3 : kSampleLaws)].false_alarms_of_worlds.percent);
   }
+  // The headers of both tables.
   std::string text = "| units | worlds each | correlation |";
   for (int law = 0; law < kSampleLaws; ++law) text += fmt::format(" {} |", SampleLawName(static_cast<SampleLaw>(law)));
   text += " over worlds |\n|---|---|---|---|---|---|---|---|---|\n" + one_way;

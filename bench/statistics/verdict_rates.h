@@ -10,35 +10,35 @@
 
 namespace etude {
 
-/// The distribution of the differences of worlds. Without an effect each is symmetric around zero.
+/// The distribution of the worlds' differences. Without an effect each is symmetric around zero.
 enum class SampleLaw {
   kNormal,
   kHeavyTailed,  ///< Student's t of 3 degrees of freedom
-  kTies,         ///< normal, but six worlds of ten show no difference
-  kShares,       ///< of 0/1 values: −1, 0 or 1
-  kCensored,     ///< penalised costs (PAR-2): log-normal, three of ten beyond the limit and counted twice
+  kTies,         ///< normal, but six worlds of ten have a difference of zero
+  kShares,       ///< difference of two 0/1 values: −1, 0 or 1
+  kCensored,     ///< penalised costs (PAR-2): log-normal; three of ten exceed the limit and count as twice the limit
 };
 inline constexpr int kSampleLaws = 5;
 std::string_view SampleLawName(SampleLaw law);
 
-/// The design of a sample that is to be drawn.
+/// The design of a random sample.
 struct SampleDesign {
   SampleLaw law = SampleLaw::kNormal;
   int units = 6;
-  int trials = 1;    ///< worlds per unit; with `in_pairs` worlds in all
-  double alike = 0;  ///< correlation of two worlds of one unit, 0…1 (of kTies and kCensored before ties and limit)
-  bool in_pairs = false;  ///< a world is drawn from two units, in two parts that bring half of the correlation each …
-  double part_alike = 0;  ///< … and which correlate by so much for one unit
+  int trials = 1;    ///< worlds per unit; with `in_pairs`, worlds in all
+  double alike = 0;  ///< correlation of two worlds of one unit, 0…1 (for kTies and kCensored before ties and limit)
+  bool in_pairs = false;  ///< a world is drawn from two units in two roles, each with half of the correlation
+  double part_alike = 0;  ///< correlation of one unit's contributions in the two roles
 };
 
-/// Returns the difference that just matters, in the sample's own unit: a third of the worlds' standard deviation; of
-/// shares and penalised costs a sixth, for four times as much must still be possible.
+/// Returns the practical threshold in the sample's own unit: a third of the worlds' standard deviation; a sixth for
+/// shares and penalised costs, so that an effect of four times as much is still possible.
 double JustMatters(SampleLaw law);
 
 /// Draws a sample whose true mean difference is `effect` × JustMatters.
 UnitSample DrawSample(const SampleDesign& design, double effect, RandomStream& dice);
 
-/// A share of samples, in per cent, with its 95 % Wilson interval.
+/// A share of samples in per cent, with its 95 % Wilson interval.
 struct Percentage {
   double percent = 0;
   double low = 0, high = 100;
@@ -47,35 +47,35 @@ struct Percentage {
 /// The error rates of verdicts on samples of one design.
 struct VerdictRates {
   SampleDesign design;
-  /// The share of *better* or *worse* where nothing differs and the least difference matters.
+  /// The share of verdicts *better* or *worse* where nothing differs, judged with a threshold near zero.
   Percentage false_alarms;
-  /// The share of false alarms when worlds are taken for units, as a test over worlds does.
+  /// The share of false alarms of a test that treats worlds as units.
   Percentage false_alarms_of_worlds;
-  /// The share of intervals that hold the true mean: without an effect, and with one of twice what matters.
+  /// The share of intervals that contain the true mean: without an effect, and with an effect of twice the threshold.
   double coverage_without = 0, coverage_with = 0;
-  /// The share of right verdicts where the effect is 1, 2 and 4 times what matters.
+  /// The share of right verdicts where the effect is 1, 2 and 4 times the threshold.
   std::array<double, 3> power{};
 };
 
-/// The number of samples that are drawn.
+/// The numbers of samples to draw.
 struct VerdictRepetitions {
   int without_effect = 10'000;
-  int with_effect = 2'000;  ///< of each size
+  int with_effect = 2'000;  ///< for each effect size
 };
 
-/// Draws a design's samples and judges each as the only comparison of its run.
+/// Draws the samples of a design, and judges each as the only comparison of its run.
 VerdictRates MeasureVerdicts(const SampleDesign& design, const VerdictRepetitions& repetitions);
 
-/// Returns the designs of docs/findings/verdicts.md: 6, 8, 12 and 30 units × 1, 3 and 10 worlds each × correlations of
-/// 0, 0.5 and 0.9 × every law; then 60 worlds of two units each of 6, 8, 12 and 30.
+/// Returns the designs of docs/findings/verdicts.md: 6, 8, 12 and 30 units × 1, 3 and 10 worlds per unit × correlations
+/// of 0, 0.5 and 0.9 × every distribution; then 60 worlds drawn from two units each, of 6, 8, 12 and 30.
 std::vector<SampleDesign> PublishedDesigns();
 
-/// Measures each design; `done` gets the number measured so far after each.
+/// Measures each design. Calls `done` after each with the number of designs measured so far.
 std::vector<VerdictRates> MeasureAll(std::span<const SampleDesign> designs, const VerdictRepetitions& repetitions,
                                      const std::function<void(std::size_t)>& done);
 
-/// Returns whether a design keeps what is promised: false alarms not above 5 % as far as the samples can tell, and
-/// below 6.5 % for certain (95 % interval); without an effect, intervals that hold the truth in at least 93 %.
+/// Returns true if the verdicts of a design keep the promised rates: the 95 % interval of false alarms starts at 5 % or
+/// below and ends at 6.5 % or below, and without an effect at least 93 % of the intervals contain the truth.
 bool KeepsPromise(const VerdictRates& rates);
 
 /// Returns the tables of docs/findings/verdicts.md.

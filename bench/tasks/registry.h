@@ -7,9 +7,9 @@
 
 namespace etude {
 
-/// Every kind of question: transition, detection, ik, tracking, capture, search, pose-distance, coach.
+/// Returns all kinds of tasks: transition, detection, ik, tracking, capture, search, pose-distance, coach.
 std::span<const TaskKind> AllTaskKinds();
-/// Null when there is no such task.
+/// Returns the task of that name; null if there is none.
 const TaskKind* FindTaskKind(std::string_view name);
 
 }  // namespace etude

@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// The module is found beside the program: by its run path (cli/CMakeLists.txt).
+/// The module is found by the program's run path, beside it (cli/CMakeLists.txt).
 Result<PagmoEvolve*> OpenModule() {
   void* module = ::dlopen("etude_training_pagmo.so", RTLD_NOW | RTLD_LOCAL);
   if (module == nullptr) return Fail({}, "the genetic algorithm cannot be loaded: {}", ::dlerror());
@@ -28,7 +28,7 @@ const Result<PagmoEvolve*>& Module() {
 }
 
 using enum Feature;
-/// The tuned features, each with the limb's other side, which is tuned along with it.
+/// The tuned features, each with that of the limb's other side, which is tuned along with it.
 constexpr Feature kTuned[][2] = {{kRH, kLH},       {kRHE, kLHE}, {kPosture, kPosture},
                                  {kTrunk, kTrunk}, {kRF, kLF},   {kRFK, kLFK}};
 

@@ -15,7 +15,7 @@ namespace etude {
 /// A genome: genes in [0, 1].
 using Genome = std::vector<double>;
 
-/// The length and width of the search. At the defaults, more of either no longer changed what was learnt.
+/// The size of the search. Beyond the defaults, larger values no longer changed what was learnt.
 struct GeneticOptions {
   int population = 40;
   int generations = 60;
@@ -30,50 +30,50 @@ struct GeneticResult {
   int generations = 0;
 };
 
-/// Loads the library that searches, Pagmo, which stands in a module beside the program. Fails where the module is missing.
+/// Loads the module beside the program that contains Pagmo. Fails if the module is missing.
 Result<void> LoadGeneticSearch();
 
-/// Searches by a genetic algorithm (Holland; Pagmo's `sga`: tournaments of 2, binomial crossover, Gaussian mutation,
-/// the best of parents and children survive). It looks for the genome of the highest `score`, which must be finite and
-/// depend on the genome alone. The first population is `ancestors` (at least one, all of the same length), then random
-/// ones; so the answer scores no less than any ancestor. The same seed gives the same answer.
-/// Throws std::runtime_error where LoadGeneticSearch fails.
+/// Searches with a genetic algorithm (Holland; Pagmo's `sga`: tournaments of 2, binomial crossover, Gaussian mutation,
+/// the best of parents and children survive) for the genome with the highest `score`, which must be finite and depend
+/// on the genome alone. The first population is `ancestors` (at least one, all of the same length), then random
+/// genomes, so the result scores no less than any ancestor. The same seed gives the same result. Throws
+/// std::runtime_error if LoadGeneticSearch fails.
 GeneticResult SearchGenetically(const std::function<double(std::span<const double>)>& score,
                                 std::span<const Genome> ancestors, const GeneticOptions& options = {});
 
-/// The module's one function, to which its symbol `etude_pagmo_evolve` points: the search, by seeds of its random genomes
-/// and of its algorithm.
+/// The module's only function, pointed to by its symbol `etude_pagmo_evolve`: the search, with the seeds of its random
+/// genomes and of its algorithm.
 using PagmoEvolve = void(const std::function<double(std::span<const double>)>& score,
                          std::span<const Genome> ancestors, const GeneticOptions& options, unsigned population_seed,
                          unsigned algorithm_seed, GeneticResult& result);
 
-/// The share of d² = 0.4² within which the genetic algorithms count a pair as let through in part (PairTable::SoftF1).
-/// Close pairs are so few that F1 itself moves in steps of single pairs: a search by it learns those by heart, and does
-/// worse on other clips.
+/// The half-width of the ramp, as a share of d² = 0.4², within which the genetic algorithms count a pair as matched in
+/// part (PairTable::SoftF1). Close pairs are so few that F1 itself changes in steps of single pairs: a search with F1
+/// overfits them and does worse on other clips.
 constexpr double kFitnessRamp = 0.5;
 
-/// Fits the `genetic` weights (paper A's future work; how is ours): the S ≥ 0 of sum 8 by which "d < 0.4" tells the
-/// close pairs best, by their soft F1. The first ancestor is `start`, so that what is learnt does no worse on what it
-/// saw. Status as of FitWeights, `iterations` counts generations; unless kFitted, the weights are `start`.
+/// Fits the `genetic` weights (future work in paper A; the method is ours): the S ≥ 0 with sum 8 by which "d < 0.4"
+/// best separates the close pairs, by their soft F1. The first ancestor is `start`, so the result is no worse on the
+/// training pairs. Status as in FitWeights; `iterations` counts generations; unless kFitted, the weights are `start`.
 WeightFit FitWeightsGenetically(std::span<const LabelledPair> pairs, const FeatureWeights& start,
                                 const GeneticOptions& options = {});
 
-/// Returns the weights that genes in [0, 1] stand for: their squares' proportions, with sum 8. A gene is a √S, by which
-/// equation 1 stretches a difference of grades; so weights near zero are found, too. Nothing when all genes are zero.
+/// Returns the weights for genes in [0, 1]: proportional to their squares, with sum 8. A gene is a √S, the factor by
+/// which equation 1 scales a difference of grades, so weights near zero are found, too. Nothing if all genes are zero.
 std::optional<FeatureWeights> WeightsOfGenes(std::span<const double> genes);
-/// Returns the genes of weights of which at least one is above zero.
+/// Returns the genes of weights, at least one of which is above zero.
 Genome GenesOf(const FeatureWeights& weights);
 
 /// The largest move of a breakpoint, as a share of its feature's universe.
 constexpr double kBreakpointReach = 0.2;
 
-/// Returns the number of genes of the memberships: one per breakpoint within the universe of the triangular and
-/// trapezoidal shapes. Breakpoints at its ends stay there, so that shoulders stay shoulders; left and right limbs share
-/// theirs; Gaussian and singleton shapes stay as they are.
+/// Returns the number of genes of the memberships: one per breakpoint inside the universe, of the triangular and
+/// trapezoidal shapes. Breakpoints at its ends are fixed, so that shoulders stay shoulders; left and right limbs share
+/// theirs; Gaussian and singleton shapes are fixed.
 std::size_t CountMembershipGenes(const Memberships& start);
 
-/// Returns the memberships that genes in [0, 1] stand for: every breakpoint of `start` moved by (2 gene − 1) reaches,
-/// and each shape's put back into rising order. All genes ½ is `start`.
+/// Returns the memberships for genes in [0, 1]: every breakpoint of `start` is moved by (2 gene − 1) ·
+/// kBreakpointReach, and each shape's breakpoints are sorted again. Genes of ½ give `start`.
 Memberships MembershipsOfGenes(const Memberships& start, std::span<const double> genes);
 
 }  // namespace etude

@@ -13,7 +13,7 @@ namespace etude {
 
 /// The source of S in equation 1.
 enum class WeightSource {
-  kFixed,     ///< the fuzzy system's own, paper A's unless a file says otherwise
+  kFixed,     ///< the fuzzy system's own, paper A's unless a file sets others
   kAdaptive,  ///< a logistic regression (engine/fuzzy/weights.h)
   kGenetic,   ///< a genetic algorithm (genetic_search.h)
 };
@@ -23,15 +23,15 @@ std::vector<std::string> WeightSourceNames();
 /// Returns the source of a name, which must be one of them.
 WeightSource FindWeightSource(std::string_view name);
 
-/// The weights of each pair of judged clips, learnt from all other clips: a weight never saw what it is judged by.
-/// Keeps what it has learnt, because trials meet the same pairs again; an answer depends on the question alone, so any
-/// number of workers gives the same.
+/// The weights for each pair of judged clips, learnt from all other clips, so weights are never judged on their
+/// training data. Fits are cached, because trials use the same pairs again; an answer depends on the question alone, so
+/// any number of workers gives the same.
 class LearntWeights {
  public:
   explicit LearntWeights(TrainingClips training, const FuzzySystem& system = {});
 
   /// Returns the weights of `source` for a transition between clips of these identities, in either order; the system's
-  /// own where nothing could be learnt.
+  /// own if nothing could be learnt.
   const FeatureWeights& For(WeightSource source, const std::string& judged_a, const std::string& judged_b);
 
   /// Returns the fit behind those weights; `source` is not kFixed.

@@ -119,7 +119,7 @@ PairTable::PairTable(std::span<const LabelledPair> pairs) {
 void PairTable::AddUp(const Block& block, const FeatureWeights& weights, float (&squared)[kBlock]) {
   std::array<float, kFeatureCount> factors;
   for (std::size_t k = 0; k < kFeatureCount; ++k) factors[k] = static_cast<float>(weights[k]);
-  // So many at a time that their sums stay in registers.
+  // The pairs are processed in groups whose sums fit into registers.
   constexpr int kStep = 16;
   for (int first = 0; first < kBlock; first += kStep) {
     std::array<float, kStep> sums{};
@@ -150,7 +150,7 @@ double PairTable::SoftF1(const FeatureWeights& weights, double threshold, double
   const double squared_threshold = threshold * threshold;
   const float far = static_cast<float>(squared_threshold * (1 + ramp));
   const float slope = static_cast<float>(0.5 / (squared_threshold * ramp));
-  // Lane by lane, so that the compiler may add several at once without changing their order.
+  // Sum by lane, so that the compiler may vectorise without changing the order.
   float matched[kBlock] = {}, close_matched[kBlock] = {};
   for (const Block& block : blocks_) {
     float squared[kBlock];

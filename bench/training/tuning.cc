@@ -16,7 +16,7 @@ FuzzySystem WithWeights(const FuzzySystem& start, const FeatureWeights& weights)
   return system;
 }
 
-/// Genes of the weights, then of the memberships.
+/// The genes of the weights, followed by those of the memberships.
 std::optional<FuzzySystem> SystemOfGenes(const FuzzySystem& start, std::span<const double> genes) {
   const auto weights = WeightsOfGenes(genes.first(kFeatureCount));
   if (!weights) return std::nullopt;

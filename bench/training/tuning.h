@@ -16,24 +16,24 @@ using ClipFrames = std::span<const std::vector<TrainingFrame>>;
 enum class Tuning {
   kAdaptive,            ///< the weights, by logistic regression (engine/fuzzy/weights.h)
   kGenetic,             ///< the weights, by the genetic algorithm (genetic_search.h)
-  kGeneticMemberships,  ///< weights and breakpoints of the membership functions together, by the same
+  kGeneticMemberships,  ///< weights and breakpoints of the membership functions together, by the genetic algorithm
 };
 
 struct TunedSystem {
   WeightFitStatus status = WeightFitStatus::kOneClassOnly;
-  FuzzySystem system;  ///< unless kFitted, the one it started from
+  FuzzySystem system;  ///< the start system unless the status is kFitted
   int pairs = 0, close_pairs = 0;
   int generations = 0;  ///< or Newton steps
 };
 
-/// Tunes paper A's fuzzy system so that "d < 0.4" tells the close pairs of these clips (paper A names this as future
-/// work; how is ours). `genetic` has no effect on kAdaptive.
+/// Tunes a fuzzy system so that "d < 0.4" separates the close pairs of these clips (future work in paper A; the methods
+/// are ours). `genetic` has no effect on kAdaptive.
 TunedSystem TuneSystem(ClipFrames clips, Tuning tuning, const GeneticOptions& genetic = {});
 
-/// The score of a system that tells close pairs of clips from others.
+/// The score of a system at separating close pairs of clips.
 struct SystemScore {
-  MatchScore at_threshold;    ///< of 0.4
-  std::optional<double> auc;  ///< whatever the threshold; nothing when all pairs are close, or none is
+  MatchScore at_threshold;    ///< at 0.4
+  std::optional<double> auc;  ///< over all thresholds; nothing if all pairs are close, or none is
 };
 SystemScore ScoreSystem(ClipFrames clips, const FuzzySystem& system);
 

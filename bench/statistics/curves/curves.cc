@@ -8,11 +8,13 @@
 namespace etude {
 namespace {
 
-/// The numbers of right and wrong events among those of the best scores, from none to all, equal scores in one step.
+/// The numbers of right and wrong events at or above a threshold on the score.
 struct Admitted {
   int right = 0, wrong = 0;
 };
 
+/// Returns these numbers for every threshold from the highest to the lowest, starting with none; equal scores make one
+/// step.
 std::vector<Admitted> AdmitByScore(std::span<const JudgedEvent> events) {
   std::vector<JudgedEvent> sorted(events.begin(), events.end());
   std::ranges::stable_sort(sorted, std::ranges::greater{}, &JudgedEvent::score);
@@ -57,8 +59,8 @@ std::optional<double> RocAuc(std::span<const JudgedEvent> events) {
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const JudgedEvent& a, const JudgedEvent& b) { return a.score < b.score; });
 
-  // Walks up through groups of equal score; each right event beats the wrong ones below its group
-  // and half of those inside.
+  // Walk up through groups of equal score. Each right event beats the wrong ones below its group and half of those
+  // inside.
   double right = 0, wrong_below = 0, won = 0;
   for (std::size_t begin = 0; begin < sorted.size();) {
     double group_right = 0, group_wrong = 0;
@@ -82,7 +84,7 @@ std::optional<double> ThresholdAtRecall(std::span<const JudgedEvent> events, dou
   }
   if (scores.empty()) return std::nullopt;
   std::ranges::sort(scores, std::ranges::greater());
-  constexpr double kRounding = 1e-9;  // 0.9 of ten are nine
+  constexpr double kRounding = 1e-9;  // so that 0.9 of 10 events is 9
   const double needed = std::ceil(recall * static_cast<double>(scores.size()) - kRounding);
   return scores[static_cast<std::size_t>(std::max(needed, 1.0)) - 1];
 }
@@ -121,6 +123,7 @@ std::optional<WithInterval> JackknifedAuc(std::span<const JudgedEvent> events, s
   assert(events.size() == groups.size());
   const std::optional<double> value = RocAuc(events);
   if (!value) return std::nullopt;
+  // The area without each group in turn.
   std::vector<double> areas;
   for (const int group : std::set<int>(groups.begin(), groups.end())) {
     std::vector<JudgedEvent> others;
@@ -131,6 +134,7 @@ std::optional<WithInterval> JackknifedAuc(std::span<const JudgedEvent> events, s
     if (!area) return std::nullopt;
     areas.push_back(*area);
   }
+  // Jackknife standard error.
   const auto count = static_cast<double>(areas.size());
   double mean = 0, squares = 0;
   for (const double area : areas) mean += area / count;
@@ -159,7 +163,7 @@ std::vector<std::pair<double, double>> SurvivalCurve(std::span<const Wait> waits
 }
 
 std::optional<double> KaplanMeierMedian(std::span<const Wait> waits) {
-  constexpr double kRounding = 1e-12;  // ½ reached by products of fractions
+  constexpr double kRounding = 1e-12;  // the products of fractions may miss ½ by rounding
   for (const auto& [seconds, share] : SurvivalCurve(waits)) {
     if (share <= 0.5 + kRounding) return seconds;
   }

@@ -8,18 +8,18 @@
 
 namespace etude {
 
-/// part / whole; empty when there is nothing to be a share of.
+/// Returns part / whole; empty if `whole` is zero.
 inline std::optional<double> Share(std::int64_t part, std::int64_t whole) {
   if (whole == 0) return std::nullopt;
   return static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// An event is one scripted performance of a move that was truly right or wrong (docs/reference/metrics.md); grey ones
-/// are none. Positive = "right".
+/// One scripted performance of a move that was truly right or wrong (docs/reference/metrics.md); grey performances are
+/// not events. Positive = "right".
 struct JudgedEvent {
   bool is_right = false;      ///< the truth
-  bool called_right = false;  ///< what the recogniser said by the end of the event's window
-  double score = 0;           ///< the recogniser's soft answer, higher = righter
+  bool called_right = false;  ///< the recogniser's call by the end of the event's window
+  double score = 0;           ///< the recogniser's soft score; higher = more likely right
 };
 
 struct Confusion {
@@ -31,30 +31,30 @@ struct Confusion {
 
 Confusion CountConfusion(std::span<const JudgedEvent> events);
 
-/// TP / (TP + FP); empty when nothing was called right.
+/// Returns TP / (TP + FP); empty if no event was called right.
 std::optional<double> PrecisionOf(const Confusion& confusion);
-/// TP / (TP + FN); empty when nothing was right.
+/// Returns TP / (TP + FN); empty if no event was right.
 std::optional<double> RecallOf(const Confusion& confusion);
-/// 2 TP / (2 TP + FP + FN); empty when nothing was right and nothing was called so.
+/// Returns 2 TP / (2 TP + FP + FN); empty if no event was right or called right.
 std::optional<double> F1(const Confusion& confusion);
 
-/// The chance that a right event scores higher than a wrong one, ties counting half (Mann–Whitney): the area under the
-/// ROC curve. Empty when all events are right or none is.
+/// Returns the area under the ROC curve: the probability that a right event scores higher than a wrong one, ties
+/// counting half (Mann–Whitney). Empty if there is no right or no wrong event.
 std::optional<double> RocAuc(std::span<const JudgedEvent> events);
 
-/// The strictest threshold on scores at which this share of the right events, in (0, 1], is called right. Empty when
-/// none is right.
+/// Returns the highest threshold on scores at which at least this share of the right events, in (0, 1], is called
+/// right. Empty if no event is right.
 std::optional<double> ThresholdAtRecall(std::span<const JudgedEvent> events, double recall);
 
-/// The receiver operating characteristic: (share of wrong events let through, share of right ones), from (0, 0) to
-/// (1, 1), equal scores in one step. Empty without a right or a wrong one.
+/// Returns the receiver operating characteristic: points (share of wrong events called right, share of right events
+/// called right), from (0, 0) to (1, 1); equal scores make one step. Empty without a right or a wrong event.
 std::vector<std::pair<double, double>> RocCurve(std::span<const JudgedEvent> events);
 
-/// The point of the ROC at which the events were called. Empty without a right or a wrong one.
+/// Returns the point of the ROC at which the events were called. Empty without a right or a wrong event.
 std::optional<std::pair<double, double>> OperatedAt(std::span<const JudgedEvent> events);
 
-/// The largest F1 that any threshold on the scores reaches: what the scores are worth, whatever threshold was set.
-/// Empty without a right or a wrong event.
+/// Returns the largest F1 that any threshold on the scores reaches, whichever threshold was set. Empty without a right
+/// or a wrong event.
 std::optional<double> BestF1(std::span<const JudgedEvent> events);
 
 /// A value and its 95 % interval.
@@ -62,23 +62,23 @@ struct WithInterval {
   double value = 0, low = 0, high = 0;
 };
 
-/// The area under the ROC of all events with an interval over the groups that they came from: jackknife, one group left
-/// out at a time (Efron and Tibshirani 1993, chapter 11), ± 1.96 standard errors, within [0, 1]. `groups` holds the
-/// group of each event. Empty without an area, or when a single group holds all right or all wrong events.
+/// Returns the area under the ROC of all events with an interval over the groups that they came from: jackknife, one
+/// group left out at a time (Efron and Tibshirani 1993, chapter 11), ± 1.96 standard errors, clipped to [0, 1].
+/// `groups` holds the group of each event. Empty without an area, or if one group holds all right or all wrong events.
 std::optional<WithInterval> JackknifedAuc(std::span<const JudgedEvent> events, std::span<const int> groups);
 
-/// A time until something happened, or until it was given up waiting for.
+/// A waiting time: until an event happened, or until observation stopped.
 struct Wait {
   double seconds = 0;
-  bool happened = false;  ///< false: censored, it took longer than `seconds`, which may be infinite
+  bool happened = false;  ///< false: censored, the wait is longer than `seconds`, which may be infinite
 };
 
-/// The estimated share still waiting (Kaplan and Meier 1958): (time, share) after each time at which a wait ended,
-/// after (the earliest time, 1). What was given up is at risk until then, and after what happens at the same time.
-/// Empty without waits.
+/// Returns the estimated share still waiting (Kaplan and Meier 1958): (time, share) after each time at which a wait
+/// ended, after a first point (the earliest time, 1). A censored wait counts as at risk until its time, also for events
+/// at that same time. Empty without waits.
 std::vector<std::pair<double, double>> SurvivalCurve(std::span<const Wait> waits);
 
-/// The median waiting time: the first time at which the survival curve is ½ or less. Empty when it never is.
+/// Returns the median waiting time: the first time at which the survival curve is ½ or less. Empty if it never is.
 std::optional<double> KaplanMeierMedian(std::span<const Wait> waits);
 
 }  // namespace etude

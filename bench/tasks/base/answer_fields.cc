@@ -20,7 +20,7 @@ bool IsIn(double value, const Range& range) { return range.lowest <= value && va
 
 std::string ShowRange(const Range& range) { return fmt::format("{:g}…{:g}", range.lowest, range.highest); }
 
-/// Says why this is no number within the range; nothing when it is one.
+/// Returns why the value is not a number in the range; nothing if it is one.
 std::optional<std::string> NumberComplaint(const Json& json, const Range& range) {
   if (!json.is_number() || !std::isfinite(json.get<double>())) {
     return fmt::format("{} is not a finite number", ShowJson(json));
@@ -30,7 +30,7 @@ std::optional<std::string> NumberComplaint(const Json& json, const Range& range)
 }
 
 std::optional<std::string> IntegerComplaint(const Json& json, int lowest, int highest) {
-  // 3.0 is one: some languages write no other.
+  // 3.0 counts as an integer: some languages write no other form.
   if (!json.is_number() || json.get<double>() != std::floor(json.get<double>())) {
     return fmt::format("{} is not a whole number", ShowJson(json));
   }

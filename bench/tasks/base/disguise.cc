@@ -18,14 +18,15 @@ using enum Role;
 
 constexpr double kKnotSeconds = 0.5;
 
-/// The standard deviation of a cubic spline whose knots have 1: in the mean over time.
+/// The root mean square over time of a cubic B-spline whose knots have a standard deviation of 1.
 constexpr double kSplineDeviation = 0.692;
 
-/// The turn of a limb about its upper joint, beside what its parent is turned by.
+/// The random turn of a limb about its upper joint, in addition to its parent's turn.
 struct LimbTurn {
   Role child;
   double turn_deg = 0;  ///< standard deviation about each of three axes
-  double bend = 0;      ///< of the share of the sine of the angle between the limb and its parent
+  double bend = 0;      ///< standard deviation of the relative change of the sine of the angle between the limb and its
+                        ///< parent
 };
 
 constexpr std::array kTurns = {
@@ -41,7 +42,8 @@ glm::dmat3 TurnBy(const glm::dvec3& turn) {
   return angle > 0 ? AxisRotation(turn / angle, angle) : glm::dmat3(1);
 }
 
-/// The vector about which the limb to `child` bends against its parent, as long as the sine of the angle between them.
+/// Returns the axis about which the limb to `child` bends relative to its parent, with the sine of the angle between
+/// them as its length.
 glm::dvec3 BendAxis(const BodyPose& pose, Role child) {
   const Role upper = *ParentOf(child);
   const glm::dvec3 above = pose[upper] - pose[*ParentOf(upper)], limb = pose[child] - pose[upper];
@@ -55,7 +57,7 @@ double LowestOf(const BodyPose& pose) {
   return lowest;
 }
 
-/// The dice of one limb.
+/// The random turn of one limb over time.
 class WanderingTurn {
  public:
   WanderingTurn(const WorldKey& key, const LimbTurn& limb) : limb_(limb) {
@@ -107,17 +109,18 @@ Disguise::Disguise(const WorldKey& key) : key_(key) {
   RandomStream dice(key, "disguise");
   scale_ = dice.Uniform(11.0 / 12, 13.0 / 12);
   pace_ = dice.Uniform(6.0 / 7, 1);
-  late_ = dice.Uniform();
+  offset_ = dice.Uniform();
 }
 
 double Disguise::FrameOf(double start, double step, std::size_t count, double last) const {
-  return std::min(last, start + late_ + pace_ * step * static_cast<double>(count));
+  return std::min(last, start + offset_ + pace_ * step * static_cast<double>(count));
 }
 
 void Disguise::PutOn(std::vector<BodyPose>& window, double rate_hz) const {
   std::vector<WanderingTurn> turns;
   for (const LimbTurn& limb : kTurns) turns.emplace_back(key_, limb);
   for (std::size_t k = 0; k < window.size(); ++k) {
+    // Draw the turn of each limb at this time.
     const BodyPose old = window[k];
     std::array<glm::dmat3, kRoleCount> turned;
     turned[Index(kHipCentre)] = glm::dmat3(1);
@@ -125,15 +128,17 @@ void Disguise::PutOn(std::vector<BodyPose>& window, double rate_hz) const {
     for (std::size_t i = 0; i < turns.size(); ++i) {
       own[Index(kTurns[i].child)] = turns[i].At(static_cast<double>(k) / rate_hz, old);
     }
+    // Apply the turns down the body: each limb also takes its parent's.
     BodyPose& pose = window[k];
     for (const Bone& bone : AllBones()) {
-      // The pelvis is one with both hips, the chest with both shoulders.
+      // The pelvis is rigid with both hips, the chest with both shoulders.
       const bool is_hip = bone.child == kLeftHip || bone.child == kRightHip;
       glm::dmat3& turn = turned[Index(bone.child)];
       turn = turned[Index(is_hip ? kSpine : bone.parent)];
       if (own[Index(bone.child)]) turn = turn * *own[Index(bone.child)];
       pose[bone.child] = pose[bone.parent] + turn * (old[bone.child] - old[bone.parent]);
     }
+    // Keep the height of the lowest joint, then scale.
     const glm::dvec3 onto_floor(0, LowestOf(old) - LowestOf(pose), 0);
     for (glm::dvec3& joint : pose.joints) joint = scale_ * (joint + onto_floor);
   }

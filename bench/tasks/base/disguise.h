@@ -9,12 +9,12 @@
 
 namespace etude {
 
-/// A number that wanders as time goes by: mean 0, standard deviation 1, half of its variance constant, the rest settled
-/// anew every half second. Twice continuously differentiable.
+/// A random function of time with mean 0 and standard deviation 1. Half of its variance is a constant; the rest is a
+/// cubic spline with a new random knot every half second, so the function is twice continuously differentiable.
 class WanderingDice {
  public:
   WanderingDice(const WorldKey& key, std::string_view purpose);
-  /// Returns the number at a time from 0 on.
+  /// Returns the value at a time ≥ 0, seconds.
   double At(double seconds);
 
  private:
@@ -23,24 +23,25 @@ class WanderingDice {
   std::vector<double> knots_;
 };
 
-/// Returns the pose at `frame`, on straight lines between two frames of the clip; a loop goes on from its beginning.
+/// Returns the pose at a fractional `frame`, interpolated linearly between two frames of the clip; past its end the
+/// clip continues from its beginning.
 BodyPose PoseOfClip(std::span<const BodyPose> clip, double frame);
 
-/// What a secret world makes of a clip, since whoever knows all public clips would recognise one and know its truth
-/// *(ours)*. The body is larger or smaller by up to a twelfth, plays the clip up to a seventh slower, begins between
-/// two frames, and every limb is turned by wandering angles of its own, some 3° in hips and trunk and 6° in arms, with
-/// all that hangs on it. Limbs keep their length but for the scale; elbows and knees are bent by about a fifth more or
-/// less and never overstretched; the lowest joint is as high as it was. Worlds of plain seeds have none.
+/// Changes the clip of a secret world, because a program that knows all public clips could recognise one and would know
+/// its truth *(ours)*. The body is scaled by up to ± 1/12 and plays the clip up to a seventh slower, starting between
+/// two frames. Every limb, with all limbs attached to it, is turned by random angles that vary in time: about 3° in
+/// hips and trunk, 6° in arms. Limb lengths change by the scale alone; elbows and knees bend about a fifth more or less
+/// and never hyperextend; the lowest joint keeps its height. Worlds of plain seeds are not disguised.
 class Disguise {
  public:
   /// `key.scenario` must outlive this.
   explicit Disguise(const WorldKey& key);
 
   double scale() const { return scale_; }
-  /// Returns the frame of the clip that is played as number `count`, when a window begins at `start` and takes every
-  /// `step`-th; not beyond `last`.
+  /// Returns the (fractional) frame of the clip to play as frame `count` of a window that begins at `start` and takes
+  /// every `step`-th frame; at most `last`.
   double FrameOf(double start, double step, std::size_t count, double last) const;
-  /// Turns the limbs of a window, and scales it.
+  /// Turns the limbs of a window and scales it.
   void PutOn(std::vector<BodyPose>& window, double rate_hz) const;
 
  private:

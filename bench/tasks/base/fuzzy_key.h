@@ -17,7 +17,7 @@ Field<Options> FuzzyField() {
   return {FuzzyKey(), [](Fields& condition, Options&) { condition.Raw(kFuzzyKey); }};
 }
 
-/// The fuzzy system that the condition names, paper A's when it names none.
+/// Returns the fuzzy system that the condition names; paper A's if it names none.
 Result<FuzzySystem> FuzzySystemOf(const TaskInput& input);
 
 }  // namespace etude

@@ -10,20 +10,20 @@
 
 namespace etude {
 
-/// Targets that `state` meets exactly: the places and axes of its end effectors.
+/// Returns the targets that `state` meets exactly: the positions and axes of its end effectors.
 std::vector<EffectorTarget> TargetsMetBy(const KinematicTree& tree, const TreeState& state);
 
-/// Adds the places and axes of targets to the fingerprint of a world.
+/// Adds the positions and axes of targets to the digest of a world.
 void AddTo(Digest& digest, std::span<const EffectorTarget> targets);
 
-/// The errors of targets: their distance from where the body's ends really are.
+/// The measurement noise of targets.
 struct TargetNoise {
-  double position_cm = 0;      ///< standard deviation along each of the world's axes
-  double orientation_deg = 0;  ///< standard deviation of the rotation vector, likewise
+  double position_cm = 0;      ///< standard deviation along each axis of the world
+  double orientation_deg = 0;  ///< standard deviation of each component of the rotation vector
 };
 
-/// Moves and turns every target by dice of its own: six numbers per target whatever the strengths, so that these
-/// change nothing else.
+/// Moves and turns every target by random noise. It draws six numbers per target for any noise strength, so that
+/// changing the strength changes no other draws.
 void Disturb(std::vector<EffectorTarget>& targets, const TargetNoise& noise, RandomStream& dice);
 
 }  // namespace etude

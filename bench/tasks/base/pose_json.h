@@ -10,15 +10,14 @@
 
 namespace etude {
 
-/// Writes a list of poses (EncodePose), one per frame.
+/// Encodes a list of poses (EncodePose), one per frame.
 Json EncodePoses(std::span<const BodyPose> poses);
 
-/// Names the joints of the sixty numbers, and their parents: {"joints": [twenty names], "parents": [null, "hip_centre",
-/// …]}.
+/// Describes the order of the sixty numbers: {"joints": [twenty names], "parents": [null, "hip_centre", …]}.
 Json DescribeBody();
 
-/// Reads a pose. Refuses, naming `path` ("between[3]"), another count than sixty, and coordinates that are no finite
-/// numbers or farther than a kilometre away.
+/// Reads a pose. Another count than sixty, and coordinates that are not finite or exceed a kilometre, are errors that
+/// name `path` ("between[3]").
 Result<BodyPose> ReadPose(const Json& json, const std::string& path);
 
 }  // namespace etude

@@ -7,19 +7,19 @@
 
 namespace etude {
 
-/// Gives the solver of a method that names none: gauss-newton.
+/// Returns the solver of a method that names none: gauss-newton.
 const IkSolver* DefaultIkSolver();
 
-/// Gives the solvers' defaults, but at most so many steps.
+/// Returns the default options of solvers with at most `most_steps` steps.
 IkOptions IkBudget(int most_steps);
 
-/// Names the solvers that have `weights` and `refresh`.
+/// Returns the names of the solvers that have `weights` and `refresh`.
 std::vector<std::string> WeighingSolvers();
 
-/// Refuses the former name of a solver, and says what it is called now.
+/// Complains of the former name of a solver, and says its present name.
 void RefuseFormerName(Fields& method);
 
-/// Declares a method's `solver` and what that solver can be set by: `weights`, `refresh` and its own settings.
+/// Declares a method's `solver` and the settings of that solver: `weights`, `refresh` and its own.
 template <typename Method>
 std::vector<Field<Method>> IkSolverFields(const IkSolver* Method::*solver, IkOptions Method::*options) {
   using Key = Field<Method>;
@@ -44,7 +44,7 @@ std::vector<Field<Method>> IkSolverFields(const IkSolver* Method::*solver, IkOpt
   return rows;
 }
 
-/// Declares a method's `tolerance_deg`; `meaning` says from where it counts.
+/// Declares a method's `tolerance_deg`; `meaning` says from which pose it is measured.
 template <typename Method>
 Field<Method> ToleranceField(IkOptions Method::*options, std::string meaning) {
   return Field<Method>::Angle("tolerance_deg", Path(options, &IkOptions::angle_change_tolerance), {0, 360},
@@ -59,7 +59,7 @@ Field<Options> SweepsField(IkOptions Options::*options, std::string meaning) {
                                 std::move(meaning));
 }
 
-/// Reads `stop_at`: what a solver must reach, practical by default.
+/// Reads `stop_at`: the accuracy at which solvers stop, practical by default.
 void ReadIkGoals(Fields& condition, IkOptions& options);
 template <typename Options>
 Field<Options> GoalsField(IkOptions Options::*options) {

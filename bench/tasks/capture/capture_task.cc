@@ -18,11 +18,11 @@ struct CaptureStudy {
   StudioOptions options;
   std::vector<CaptureMethod> methods;
   std::vector<PersonSource>
-      sources;  ///< of all built-in methods, each once: those that cut out alike see the same marks
+      sources;  ///< of all built-in methods, each once: methods with equal sources share the same marks
   ClipLibrary clips;
 };
 
-/// Returns why no method can be judged in this world; nothing where all can.
+/// Returns why no method can be judged in this world; nothing if all can.
 std::optional<std::string> WhyUnjudged(const CaptureWorld& world) {
   if (std::ranges::find(world.in_view, true) != world.in_view.end()) return std::nullopt;
   return "in no frame do two cameras have the whole performer in their pictures";
@@ -37,7 +37,7 @@ class CaptureTaskWorld : public TaskWorld {
         keeps_motion_(keeps_motion) {}
 
   void PrepareShared() override {
-    if (!study_.sources.empty()) (void)stages_.GetTake();  // a failure is told by every cell
+    if (!study_.sources.empty()) (void)stages_.GetTake();  // every cell reports a failure
   }
 
   CellResult Run(std::size_t method) override {

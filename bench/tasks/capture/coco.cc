@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-/// COCO's and Halpe's names of the keypoints of the layout "halpe_26_hands".
+/// The names that COCO and Halpe give to the keypoints of the layout "halpe_26_hands".
 constexpr std::array kNames = {
     "nose",           "left_eye",   "right_eye",    "left_ear",      "right_ear",      "left_shoulder",
     "right_shoulder", "left_elbow", "right_elbow",  "left_wrist",    "right_wrist",    "left_hip",
@@ -31,7 +31,7 @@ Json Category() {
   return {{"id", 1}, {"name", "person"}, {"supercategory", "person"}, {"keypoints", kNames}, {"skeleton", skeleton}};
 }
 
-/// Nothing when no keypoint is marked.
+/// Returns the annotation of one frame; nothing if no keypoint is marked.
 std::optional<Json> Annotation(std::size_t frame, const Marks& marks) {
   constexpr double kOurPixelCentre = 0.5;
   Json keypoints = Json::array();
@@ -93,7 +93,7 @@ Result<Mask> ReadCocoMask(const Json& json, const std::string& path, int width, 
   int done = 0;
   bool is_person = false;
   for (std::size_t run = 0; run < counts.size(); ++run, is_person = !is_person) {
-    // What is left of the picture is the most that a run may be.
+    // A run may be at most as long as the rest of the picture.
     ASSIGN_OR_RETURN(const int count, ReadInteger(counts[run], fields.PathOf("counts", run), 0, pixels - done));
     for (const int end = done + count; done < end; ++done) mask.At(done / height, done % height) = is_person;
   }

@@ -38,7 +38,7 @@ Json ToJson(const LimbLengths& lengths) {
           {"hand", lengths.hand}};
 }
 
-/// Writes the pairs as the YAML file that `ReadPointPairs` reads.
+/// Returns the pairs as the YAML file that `ReadPointPairs` reads.
 std::string PairsFile(const CaptureWorld& world, const std::vector<std::vector<PointPair>>& pairs) {
   constexpr double kOurPixelCentre = 0.5;
   std::string text;
@@ -68,7 +68,7 @@ Json ToJson(const Marks& marks) {
   return {{"strokes", std::move(strokes)}, {"discs", std::move(discs)}};
 }
 
-/// Writes the marks by [camera][frame].
+/// Encodes the marks by [camera][frame].
 Json ToJson(const Observation& observation, const std::vector<bool>& marked) {
   Json cameras = Json::array();
   for (const std::vector<Marks>& frames : observation.marks) {
@@ -78,13 +78,13 @@ Json ToJson(const Observation& observation, const std::vector<bool>& marked) {
   return cameras;
 }
 
-/// Names a picture's file: "camera-1-0042.png"; people count cameras from one.
+/// Returns the name of a picture's file: "camera-1-0042.png"; cameras are counted from one.
 std::string PictureName(std::size_t camera, std::optional<std::size_t> frame, const char* extension) {
   if (!frame) return fmt::format("camera-{}-background.{}", camera + 1, extension);
   return fmt::format("camera-{}-{:04}.{}", camera + 1, *frame, extension);
 }
 
-/// Measures what depth cameras would have seen in a camera's place.
+/// Simulates depth cameras in the place of one camera.
 class DepthCameras {
  public:
   DepthCameras(const WorldKey& key, std::size_t camera)
@@ -100,7 +100,7 @@ class DepthCameras {
   RandomStream v1_, v2_;
 };
 
-/// Refuses takes of too many pictures, which are held in memory.
+/// Complains of takes of too many pictures, which are kept in memory.
 Result<void> CheckSize(const CaptureWorld& world) {
   const std::size_t pictures = world.cameras.size() * world.truth.size();
   if (pictures <= kMostPictures) return {};
@@ -158,6 +158,7 @@ Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey&
   RETURN_IF_ERROR(CheckSize(world));
   ASSIGN_OR_RETURN(const auto renderer, stages.GetRenderer());
 
+  // One source per segmenter, so that its marks are in the problem.
   std::vector<PersonSource> sources;
   for (const std::string& name : SegmenterNames()) sources.push_back({.segmenter = SegmenterNamed(name)});
   Payload problem = PayloadOf({});
@@ -168,6 +169,7 @@ Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey&
     cameras.push_back({{"calibration", ToJson(pairs)}, {"background", nullptr}, {"pictures", Json::array()}});
   }
   problem.files.push_back({"calibration-points.yaml", PairsFile(world, *calibration)});
+  // Film the take once; each picture becomes a file.
   const auto keep = [&](std::size_t camera, std::optional<std::size_t> frame, const ColourImage& picture) {
     problem.files.push_back({PictureName(camera, frame, "png"), EncodePng(picture)});
     const std::string& name = problem.files.back().name;
@@ -187,6 +189,7 @@ Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey&
                    {"limb_lengths_m", ToJson(world.measured.lengths)},
                    {"cameras", std::move(cameras)},
                    {"marks", std::move(marks)}};
+  // The same marks as COCO keypoints.
   for (std::size_t i = 0; i < sources.size(); ++i) {
     for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
       ASSIGN_OR_RETURN(auto coco, WriteCocoKeypoints(world.cameras[camera].intrinsics, pictures[camera],
@@ -209,6 +212,7 @@ Result<Payload> MakeCaptureTruth(const StudioOptions& options, const WorldKey& k
   truth.files = {{"truth.bvh", WriteBvh(ToClip(motion, "truth"))},
                  {"truth.trc", WriteTrc(motion, "truth")},
                  {"truth.csv", WriteJointCsv(motion)}};
+  // Shoot every frame without faults of the camera, and simulate the depth cameras.
   std::vector<NamedCamera> rig;
   Shooting shooting(world, FaultlessPictures(options.camera), key, *renderer);
   for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {

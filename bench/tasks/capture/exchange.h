@@ -12,9 +12,9 @@
 
 namespace etude {
 
-/// Describes the studio to methods outside the program, which are told about takes of two cameras. Metres, Y up,
-/// right-handed; a pose is sixty numbers (EncodePose). Pixels: u right, v down, (0, 0) is the top left corner of the
-/// picture, the centre of its first pixel is (0.5, 0.5).
+/// Describes the studio to outside methods, which are asked about takes of two cameras. Metres, Y up, right-handed; a
+/// pose is sixty numbers (EncodePose). Pixels: u right, v down; (0, 0) is the top left corner of the picture, and the
+/// centre of its first pixel is (0.5, 0.5).
 ///
 /// Setting:
 ///
@@ -25,8 +25,8 @@ namespace etude {
 /// `strokes` are the thirteen limbs that the annotator marks with a line, `discs` the five ends marked with a point.
 Payload DescribeStudio();
 
-/// Makes the problem of a take: who is filmed, and per camera its calibration points (a place in the world and the
-/// pixel clicked on for it), the empty stage, and a picture per frame; pictures are files that lie beside.
+/// Makes the problem of a take: the limb lengths of the performer, and per camera its calibration points (a position in
+/// the world and the pixel clicked for it), the empty stage, and a picture per frame. Pictures are separate files.
 ///
 ///     {"frames": 150, "limb_lengths_m": {"foot": 0.18, "shank": 0.42, …},
 ///      "cameras": [{"calibration": [{"world_m": [x, y, z], "pixel": [u, v]}, …],
@@ -34,51 +34,50 @@ Payload DescribeStudio();
 ///                   "pictures": ["camera-1-0000.png", …]}, …],
 ///      "marks": {"hue": [[{"strokes": [[u, v, u, v], null, …], "discs": [[u, v], null, …]}, …], […]], "hue-gated": …}}
 ///
-/// `marks`, for methods that want no vision of their own: what the annotator drew on each camera's frames, as built-in
-/// methods see it. It is drawn on the person that a segmenter has cut out, so that what the segmenter lost is not
-/// marked; by the segmenter's name, then [camera][frame]; null is a frame that the annotator did not see, a mark that
-/// is missing or could not be read. A stroke goes from its limb's `from` to its `to`.
+/// `marks` are for methods without vision of their own: what the annotator drew on each camera's frames, as built-in
+/// methods see it. The annotator draws on the person that a segmenter has cut out, so parts lost by the segmenter are
+/// not marked. Marks are listed by segmenter, then [camera][frame]; null is a frame that the annotator was not shown,
+/// or a mark that is missing or unreadable. A stroke goes from its limb's `from` to its `to`.
 ///
-/// The same marks lie beside as COCO keypoints, `marks-hue-camera-1.coco.json` and so on (coco.h), and the calibration
-/// points as `etude calibrate` reads them, `calibration-points.yaml`.
+/// The same marks are also given as COCO keypoints, `marks-hue-camera-1.coco.json` and so on (coco.h), and the
+/// calibration points in the format of `etude calibrate`, `calibration-points.yaml`.
 ///
-/// Fails when there is no renderer, and for takes of more than kMostPictures pictures.
+/// Fails without a renderer, and for takes of more than kMaxPictures pictures.
 Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);
 constexpr std::size_t kMostPictures = 1200;
 
-/// Makes the truth of a take: the poses, themselves a perfect answer; beside it `truth.bvh`, `truth.trc` and
-/// `truth.csv` (the same for other programs), `camera-1.yaml`… (OpenCV's calibration file), `calibration.toml` (all of
-/// them as Pose2Sim's), and per frame `camera-1-0000.exr`: `label`, `Z` (depth along the viewing axis, metres), `N.X`,
-/// `N.Y`, `N.Z` (normals in the world), and `R`, `G`, `B`, linear light as a camera would see it that has this one's
-/// lens and clock, and no other faults. Further `Z_measured.v1` and `.v2`: what the first and the second Kinect's depth
-/// camera would measure in its place (sim/depth_camera); infinity where nothing.
+/// Makes the truth of a take: the poses, which are a perfect answer. Files: `truth.bvh`, `truth.trc` and `truth.csv`
+/// hold the same for other programs; `camera-1.yaml`… are OpenCV calibration files, `calibration.toml` all of them in
+/// Pose2Sim's format. Per frame `camera-1-0000.exr` holds `label`, `Z` (depth along the viewing axis, metres), `N.X`,
+/// `N.Y`, `N.Z` (normals in the world), and `R`, `G`, `B`, the linear light of a camera with this lens and clock but no
+/// other faults. `Z_measured.v1` and `.v2` are what the depth cameras of the first and second Kinect would measure from
+/// the same place (sim/depth_camera); infinity where they measure nothing.
 ///
 ///     {"poses": [[sixty numbers], …], "labels": {"background": 0, "shadow": 1, "trunk": 2, …}}
 Result<Payload> MakeCaptureTruth(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);
 
-/// Two cameras at the take's liveliest frame: as the scenario has them, with labels, depth and the annotator's marks;
-/// then every effect of a camera at three strengths, whatever else the scenario has left as it is. The true skeleton at
-/// that time is drawn over what clocks and shutters do. Fails when there is no renderer.
+/// Makes a sheet of two cameras at the take's frame with the fastest motion: as the scenario has them, with labels,
+/// depth and the annotator's marks; then each effect of a camera at three strengths, with all other effects as in the
+/// scenario. The true skeleton at that time is drawn over the effects of clocks and shutters. Fails without a renderer.
 Result<SensorSheet> MakeCaptureSheet(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);
 
-/// The answer of a method outside, one entry per frame, null where it has no pose:
+/// The answer of an outside method, one entry per frame, null without a pose:
 ///
 ///     {"poses": [[sixty numbers], null, …]}
 ///
-/// Scored like a built-in method: where there is no pose the last one is shown, so that it counts in every joint
-/// error; `frames_recovered` is the share of frames with a pose. What only a built-in method's stages can tell is
-/// missing.
+/// It is scored like a built-in method's: a frame without a pose shows the last one, and so counts in every joint
+/// error; `frames_recovered` is the share of frames with a pose. Metrics of a built-in method's stages are missing.
 using CaptureAnswer = std::vector<std::optional<BodyPose>>;
 Result<CaptureAnswer> ReadCaptureAnswer(const Json& answer, std::size_t frames);
 
-/// Records a built-in method's motion with its masks, as CaptureExtras. `name` is its BVH clip's. The frames numbered
-/// `moments`, counted from 1, keep their marks and the skeleton before inverse kinematics, too; frames that there are
-/// not are ignored.
+/// Records a built-in method's motion with its masks, as CaptureExtras. `name` is the name of its BVH clip. The frames
+/// numbered `moments`, counted from 1, also keep their marks and the skeleton before inverse kinematics; numbers beyond
+/// the take are ignored.
 Recording MakeRecording(const CaptureWorld& world, const Take& take, const Observation& observation,
                         const CaptureBody& body, const std::vector<RecoveredFrame>& frames, const std::string& name,
                         std::span<const double> moments);
 
-/// Records what an answer alone can show: nothing is cut out, and no joint of its BVH clip turns.
+/// Records an outside method's answer: without masks, and with a BVH clip whose joints do not turn.
 Recording MakeRecording(const CaptureWorld& world, const std::vector<BodyPose>& poses);
 
 }  // namespace etude

@@ -15,34 +15,34 @@
 
 namespace etude {
 
-/// The result of one way of cutting out the person from a take. Indices: [camera][frame], or where that is said by
-/// picture ([camera][picture]: those of `StudioOptions::picture_every` alone).
+/// The result of one way of cutting out the person in a take. Indices: [camera][frame]; "by picture" means
+/// [camera][picture], where only every `StudioOptions::picture_every`-th frame has a picture.
 struct Observation {
   PersonSource source;
-  std::vector<std::vector<Marks>> marks;  ///< nothing marked in frames that the annotator did not see
+  std::vector<std::vector<Marks>> marks;  ///< empty in frames that the annotator did not see
   std::vector<std::vector<Mask>>
-      masks;        ///< by picture, half size; only when asked for, or for silhouettes (`kMostSilhouettes`)
+      masks;        ///< by picture, half size; kept on request and for silhouettes (`kMaxSilhouettePictures`)
   MaskScore score;  ///< mean over all pictures
-  /// The agreement of two annotators over all pictures; empty when one marks alone.
+  /// The agreement of two annotators over all pictures; empty with a single annotator.
   std::optional<double> annotator_distance_px, annotator_overlap;
   std::string masks_digest;
   std::string marks_digest;
 };
 
-/// Masks for silhouettes are kept of takes of at most so many pictures, all cameras together: 77 kB each.
+/// Masks for silhouettes are kept for takes of at most this many pictures over all cameras, 77 kB each.
 constexpr std::size_t kMostSilhouettes = 4000;
 
 struct Take {
   std::string pictures_digest;
-  std::vector<ColourImage> stills;        ///< of each camera the picture of the middle frame; only with the masks
-  std::vector<Observation> observations;  ///< one per source asked for, in that order
+  std::vector<ColourImage> stills;        ///< each camera's picture of the middle frame; only if masks are kept
+  std::vector<Observation> observations;  ///< one per requested source, in that order
 };
 
-/// Takes each picture as it is shot, because there are too many to keep. `frame` is empty for the background.
+/// Receives each picture as it is shot; there are too many to keep. `frame` is empty for the background.
 using PictureSink = std::function<void(std::size_t camera, std::optional<std::size_t> frame, const ColourImage&)>;
 
-/// Films the world and shows the pictures to the annotator: every picture is rendered once, cut out by each of
-/// `sources`, and marked on each cut-out with the same dice.
+/// Films the world and has the pictures annotated: every picture is rendered once, cut out by each of `sources`, and
+/// marked on each cut-out with the same random draws.
 Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
           std::span<const PersonSource> sources, bool wants_masks, Renderer& renderer, const PictureSink& sink = {});
 

@@ -11,22 +11,22 @@
 
 namespace etude {
 
-/// A causal method and its cameras at work while somebody moves, for tasks that answer back: frame by frame what
-/// `RunCapture` gives of the whole take.
+/// Runs a causal method and its cameras while a person moves, for tasks with a feedback loop: each frame is what
+/// `RunCapture` would give for the whole take.
 class LiveCapture {
  public:
-  /// `key` must outlive this; `method.causal`. Fails, saying why, when there is no renderer, the cameras cannot be
-  /// calibrated, or no body can be made.
+  /// Sets up the cameras. `method.causal` must be set; `key` must outlive this. Fails, saying why, if there is no
+  /// renderer, the cameras cannot be calibrated, or no body can be made.
   static Result<std::unique_ptr<LiveCapture>> Begin(const StudioOptions& options, const CaptureMethod& method,
                                                     const Booking& booking, const WorldKey& key);
   LiveCapture(const LiveCapture&) = delete;
   LiveCapture& operator=(const LiveCapture&) = delete;
 
-  /// The next pose of who moves. Cameras look between frames, too: a frame wants the two poses after it, and as many as
-  /// their clocks are off.
+  /// Adds the person's next pose. Cameras also shoot between frames: a frame needs the two poses after it, and further
+  /// ones if their clocks are off.
   void Add(const BodyPose& pose) { stages_.Add(pose); }
 
-  /// The skeleton of the next frame, whose pose is known; between pictures the last one.
+  /// Returns the skeleton of the next frame, whose pose must have been added. Between pictures it is the last skeleton.
   std::optional<RecoveredFrame> Next();
 
  private:
@@ -40,14 +40,14 @@ class LiveCapture {
   const WorldKey key_;
   const std::vector<PersonSource> sources_;
   CaptureStages stages_;
-  const CalibratedCameras* cameras_ = nullptr;  ///< of `stages_`, as are the next two
+  const CalibratedCameras* cameras_ = nullptr;  ///< owned by `stages_`, as are the next two
   const CaptureBody* body_ = nullptr;
   Renderer* renderer_ = nullptr;
   std::optional<TakeCameras> take_;
   std::vector<TakeCameras::Feed> feeds_;
   std::optional<LiveRecovery> marks_;
   std::optional<LiveSilhouettes> silhouettes_;
-  std::size_t frame_ = 0;  ///< the next one
+  std::size_t frame_ = 0;  ///< the next frame
   std::optional<RecoveredFrame> latest_;
 };
 

@@ -16,7 +16,7 @@ Marks DrawAndRead(const Marks& marks, const AnnotatedPicture& picture) {
   return ReadMarks(DrawMarks(marks, picture.labels.width, picture.labels.height));
 }
 
-// Where each joint was marked: the mean of the strokes' ends there, or at a tip the disc.
+// Returns the marked position of each joint: the mean of the strokes' ends there, or the disc at a tip.
 std::array<std::optional<glm::dvec2>, kRoleCount> JointsOf(const Marks& marks) {
   std::array<glm::dvec2, kRoleCount> sum{};
   std::array<int, kRoleCount> count{};
@@ -44,7 +44,7 @@ std::optional<glm::dvec2> MiddleOf(const std::optional<PixelSegment>& stroke) {
   return 0.5 * (stroke->a + stroke->b);
 }
 
-/// The clothes of the performer, by stroke.
+/// Returns the colours of the performer's suit, by stroke.
 LimbColours SuitOf(const PartColours& colours) {
   const auto of = [&](Part part) { return colours[static_cast<std::size_t>(part)]; };
   LimbColours suit{.trunk = of(Part::kTrunk), .limbs = {}};
@@ -76,20 +76,20 @@ double HeadBelowCrown(const Figure& figure, const BodyPose& body) {
   const glm::dvec3 shoulders = body[Role::kLeftShoulder] - body[Role::kRightShoulder];
   const glm::dvec3 aside = UnitOr(shoulders - glm::dot(shoulders, up) * up, {1, 0, 0});
   double crown = 0, half_width = 0;
-  const auto meet = [&](const glm::dvec3& p, double radius) {
+  const auto extend = [&](const glm::dvec3& p, double radius) {
     const glm::dvec3 from_head = p - body[Role::kHead];
     crown = std::max(crown, glm::dot(from_head, up) + radius);
     half_width = std::max(half_width, std::abs(glm::dot(from_head, aside)) + radius);
   };
   for (const Capsule& capsule : figure.shape) {
     if (capsule.part != Part::kHead) continue;
-    meet(capsule.a, capsule.radius);
-    meet(capsule.b, capsule.radius);
+    extend(capsule.a, capsule.radius);
+    extend(capsule.b, capsule.radius);
   }
   for (const Surface& surface : figure.surfaces) {
     for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
       if (surface.parts[i] != Part::kHead) continue;
-      for (const std::uint32_t corner : surface.triangles[i]) meet(surface.positions[corner], 0);
+      for (const std::uint32_t corner : surface.triangles[i]) extend(surface.positions[corner], 0);
     }
   }
   return half_width > 0 ? crown / half_width : 0;

@@ -14,27 +14,27 @@
 
 namespace etude {
 
-/// Everyone who marks one take's pictures, cut out one way. Each draws on pictures of their own, which are read back
-/// (`ReadMarks`). Two markings of the same world throw the same dice, whatever they are shown.
+/// The annotators of one take's pictures, cut out one way. Each draws on pictures of their own, which are then read
+/// back (`ReadMarks`). Two markings of the same world use the same random draws, whatever pictures they are shown.
 class Marking {
  public:
-  /// `key` must outlive this. The world tells the number of cameras and the figure that performs: where joints lie in
-  /// its limbs, and which point of the head is marked.
+  /// `key` must outlive this. From the world come the number of cameras and the kind of figure: the positions of joints
+  /// in its limbs, and the marked point of its head.
   Marking(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key);
 
-  /// The marks of one picture as methods are told them: of a stroke or disc that both annotators drew, the mean; else
-  /// the one there is. Nothing in frames that nobody is asked to mark. A camera's frames come in order.
+  /// Marks one picture and returns the marks as methods receive them: the mean of both annotators' if both drew a
+  /// stroke or disc, else the one that exists. Empty in frames that are not marked. A camera's frames come in order.
   Marks Mark(std::size_t camera, std::size_t frame, const AnnotatedPicture& picture);
 
-  /// The marks of someone who knows where the joints of `pose` are: what the picture shows of limbs and ends, marked
-  /// exactly, and not drawn. Throws no dice.
+  /// Returns the exact marks of the limbs and ends that the picture shows, at the joints of `pose`, without drawing.
+  /// Uses no random draws.
   Marks MarkTrueJoints(std::size_t frame, const AnnotatedPicture& picture, const Camera& camera,
                        const BodyPose& pose) const;
 
-  /// The marks that the colours of the coded suit give, of a performer who wears it. Throws no dice.
+  /// Returns the marks that the colours of the coded suit give, for a performer who wears it. Uses no random draws.
   Marks ReadColours(std::size_t frame, const AnnotatedPicture& picture) const;
 
-  /// The marks of two annotators of each joint and each limb in all pictures marked so far; empty when one marks alone.
+  /// The marks of both annotators for each joint and each limb in all pictures so far; empty with a single annotator.
   const std::vector<MarkedTwice>& joints() const { return joints_; }
   const std::vector<MarkedTwice>& limbs() const { return limbs_; }
 
@@ -48,8 +48,8 @@ class Marking {
   std::vector<MarkedTwice> joints_, limbs_;
 };
 
-/// `FigureLook::head_below_crown` of a performer in the pose `body`: the same in every pose, like limb lengths,
-/// and measured beforehand.
+/// Returns `FigureLook::head_below_crown` of a performer in the pose `body`. Like limb lengths it is the same in every
+/// pose and measured beforehand.
 double HeadBelowCrown(const Figure& figure, const BodyPose& body);
 
 /// Returns the mean of both marks for each stroke and disc, or the one there is.

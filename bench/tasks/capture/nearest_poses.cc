@@ -22,7 +22,7 @@ LimbObservation Observed(const BodyPose& truth) {
   return seen;
 }
 
-/// The body on a root that turns.
+/// Returns the body with a root that turns.
 CaptureBody OnTurningRoot(CaptureBody body) {
   std::vector<TreeJoint>& joints = body.tree.joints;
   joints.insert(joints.begin() + 1,
@@ -30,12 +30,13 @@ CaptureBody OnTurningRoot(CaptureBody body) {
   for (std::size_t i = 2; i < joints.size(); ++i) ++joints[i].parent;
   for (TreePoint& point : body.roles) ++point.joint;
   for (Effector& effector : body.tree.effectors) ++effector.joint;
-  constexpr double kFreely = 10;  // radians
+  constexpr double kFreely = 10;  // radians, more than a full turn
   for (int axis = 0; axis < 3; ++axis) body.tree.limits.push_back({-kFreely, kFreely});
   return body;
 }
 
-/// The root turns with the angles, and is shifted to the best place for them, in turn.
+/// Fits poses of paper B's body. In turn, all angles and the root's rotation are fitted, and the root is moved to the
+/// best position for them.
 class PaperFitter {
  public:
   explicit PaperFitter(const CaptureBody& body) : body_(body), turning_(OnTurningRoot(body)), fitter_(turning_) {}

@@ -9,8 +9,8 @@
 namespace etude {
 
 /// Finds for each true pose the pose of a body whose joints come nearest to it: the smallest Σ |joint − true joint|²
-/// that is found, its root free to move and to turn. What is left of that distance the body cannot express. A body
-/// fitted to who moves has none left.
+/// found, with a root that moves and turns freely. The remaining distance cannot be expressed by the body. A body
+/// fitted to the performer has none.
 std::vector<TreeState> FindNearestPoses(const CaptureBody& body, std::span<const BodyPose> truth);
 
 }  // namespace etude

@@ -16,25 +16,25 @@
 namespace etude {
 
 enum class Clothes {
-  kStudio,    ///< "studio": colours that stand apart from the room's, as one would dress for it
+  kStudio,    ///< "studio": colours that differ from the room's, as one would dress for it
   kEveryday,  ///< "everyday": a grey shirt and dark blue trousers, in a room with a bluish floor
-  kCoded,     ///< "coded": a suit of which every limb has a colour of its own
+  kCoded,     ///< "coded": a suit in which every limb has a colour of its own
 };
 
 /// The figure that is drawn.
 enum class PerformerFigure {
   kStaged,  ///< "staged": the stage's own people, dressed as `clothes` and `scene` say
-  kOwn,     ///< "own": the meshes and textures that the clip's file brings
+  kOwn,     ///< "own": the meshes and textures of the clip's file
 };
 
 /// The target that the cameras are calibrated with.
 enum class CalibrationTargetKind {
   kPoints,  ///< "points": marked on planes, and clicked in the picture (paper B)
-  kMarks,   ///< "marks": discs on planes, pointed at and then found in the picture
+  kMarks,   ///< "marks": discs on planes, pointed at by hand and then found in the picture
   kBoards,  ///< "boards": a cube of calibration boards, found in the picture
 };
 
-/// One condition of a capture scenario: the studio and what goes wrong in it.
+/// One condition of a capture scenario: the studio and its errors.
 struct StudioOptions {
   double duration_s = 2;
   RigOptions rig = {};  ///< where the cameras stand
@@ -46,23 +46,23 @@ struct StudioOptions {
   CameraEffects camera = {};  ///< of every camera
   CalibrationTargetKind calibration_target = CalibrationTargetKind::kPoints;
   int calibration_pairs = 24;         ///< kPoints: measured points per camera
-  double calibration_measure_mm = 0;  ///< error of the target's measured places, standard deviation along each axis
+  double calibration_measure_mm = 0;  ///< standard deviation of the target's measured positions along each axis
   double calibration_noise_px = 0.5;
   double annotation_error_px = 2;
-  double limb_measure_mm = 0;        ///< error of every measured limb, standard deviation
-  int annotators = 1;                ///< people who mark the same pictures, each by themselves: 1 or 2
+  double limb_measure_mm = 0;        ///< standard deviation of every measured limb length
+  int annotators = 1;                ///< number of people who mark the same pictures independently: 1 or 2
   int mark_every = 1;                ///< the annotator marks every n-th frame; directions are interpolated in between
-  std::vector<double> moments = {};  ///< frames, counted from 1, of which a recording keeps every stage
-  /// The cameras take every n-th frame only; where they are the sensor of another task, whose takes are long.
+  std::vector<double> moments = {};  ///< frames, counted from 1, for which a recording keeps every stage
+  /// The cameras take every n-th frame only; used if they are the sensor of another task, whose takes are long.
   int picture_every = 1;
 
   bool IsPictured(std::size_t frame) const { return frame % static_cast<std::size_t>(picture_every) == 0; }
-  /// The number of pictures that a camera takes of so many frames.
+  /// Returns the number of pictures that a camera takes of `frames` frames.
   std::size_t PicturesOf(std::size_t frames) const {
     const auto every = static_cast<std::size_t>(picture_every);
     return (frames + every - 1) / every;
   }
-  /// True for frames that are pictured and marked.
+  /// Returns true for frames that are pictured and marked.
   bool IsMarked(std::size_t frame) const {
     return IsPictured(frame) && frame % static_cast<std::size_t>(mark_every) == 0;
   }
@@ -74,18 +74,18 @@ enum class BodyKind {
   kPaper,   ///< "paper": paper B's 29 degrees of freedom, with the performer's limb lengths
 };
 
-/// The rule for a camera that disagrees with the others.
+/// What to do with a camera that disagrees with the others.
 enum class OutlierRule { kKeep, kReject };
 
-/// The source of the times of pictures.
+/// How the times of pictures are determined.
 enum class Sync {
-  kAssumed,    ///< "assumed": frames of one number are taken at one time
-  kEstimated,  ///< "estimated": from how marks move
+  kAssumed,    ///< "assumed": frames of the same number were taken at the same time
+  kEstimated,  ///< "estimated": from the motion of the marks
 };
 
-/// A stage of the pipeline can be replaced by the truth, to see what it costs in the final error. Of `marks`: where a
-/// picture shows a limb or an end, the strokes and discs run to where the true joints are in it. Of `start`, `ik`: the
-/// pose of the method's body that is nearest to the truth (`FindNearestPoses`).
+/// The stages of the pipeline that are replaced by the truth, to measure their cost in the final error. `marks`: where
+/// a picture shows a limb or an end, the strokes and discs are at the true joints. `start`, `ik`: the pose of the
+/// method's body that is nearest to the truth (`FindNearestPoses`).
 struct Oracle {
   bool calibration = false;
   bool segmentation = false;
@@ -103,11 +103,11 @@ struct Oracle {
 enum class Recovery {
   kIk,      ///< "ik": limb directions and ends, lengths fixed, inverse kinematics (paper B)
   kEnds,    ///< "ends": every joint triangulated from the strokes that end there; no body, no inverse kinematics
-  kBundle,  ///< "bundle": all marks of all frames explained at once by one body in smooth motion
-  /// "keypoints": what `etude capture` makes of marks: joints triangulated robustly, a body of their own median lengths
+  kBundle,  ///< "bundle": bundle adjustment of one body in smooth motion to all marks of all frames
+  /// "keypoints": the method of `etude capture`: joints triangulated robustly, and a body with their median lengths
   /// fitted to all of them (engine/keypoints)
   kKeypoints,
-  /// "silhouettes": no marks; a body fitted to what was cut out, and followed from frame to frame (engine/silhouettes)
+  /// "silhouettes": no marks; a body is fitted to the masks and tracked from frame to frame (engine/silhouettes)
   kSilhouettes,
 };
 
@@ -123,21 +123,22 @@ enum class LengthSource {
   kMeasured,  ///< "measured": from the marks of a few frames
 };
 
-/// The start of a method that follows silhouettes.
+/// How a method that tracks silhouettes starts.
 enum class SilhouetteStart {
-  kCold,  ///< "cold": the pictures alone
-  kNear,  ///< "near": the first frame's true pose, every angle wrong by up to 10°: as if agreed on beforehand
-  /// "keypoints": marks, taken for an estimator's keypoints, tell in every picture where joints are, beside its outline
+  kCold,  ///< "cold": from the pictures alone
+  kNear,  ///< "near": from the first frame's true pose with errors of up to 10° in every angle
+  /// "keypoints": cold, and in every picture the marks give the positions of joints, as a pose estimator's keypoints
+  /// would
   kKeypoints,
 };
 
 /// The source of the marks in the pictures.
 enum class MarkSource {
   kAnnotator,  ///< "annotator": a person, by hand (paper B)
-  kColours,    ///< "colours": nobody; limbs are told by the colours of a coded suit (engine/vision/limb_colours)
+  kColours,    ///< "colours": none by hand; the colours of a coded suit identify limbs (engine/vision/limb_colours)
 };
 
-/// The part of a method's work that a program does.
+/// The part of a method's work that an outside program does.
 enum class CaptureSeat {
   kNone,
   kSegmenter,  ///< "segmenter": it cuts the person out of the pictures
@@ -146,14 +147,13 @@ const std::vector<std::string>& CaptureSeatNames();
 
 class SeatedSegmenter;
 
-/// A pipeline with its settings.
+/// A method: a pipeline with its settings.
 struct CaptureMethod {
   std::string name;
   CaptureSeat seat = CaptureSeat::kNone;
-  SeatedSegmenter* program = nullptr;  ///< in that seat, while it is there
+  SeatedSegmenter* program = nullptr;  ///< the program in that seat during a run
   Segmenter segmenter = Segmenter::kHue;
-  PersonPieces pieces =
-      PersonPieces::kLargest;  ///< of methods that read silhouettes all large ones, whatever stands here
+  PersonPieces pieces = PersonPieces::kLargest;  ///< methods that read silhouettes always use all large pieces
   MarkSource marks = MarkSource::kAnnotator;
   Calibration calibration = Calibration::kDlt;
   Sync sync = Sync::kAssumed;
@@ -165,7 +165,7 @@ struct CaptureMethod {
   SilhouetteStart start = SilhouetteStart::kCold;
   Smoothing smoothing = Smoothing::kNone;
   LengthSource lengths = LengthSource::kKnown;
-  /// No frame's skeleton may come of later pictures, as that of a live system. Of `kIk` and `kSilhouettes`.
+  /// If set, no frame's skeleton uses later pictures, as in a live system. For `kIk` and `kSilhouettes`.
   bool causal = false;
   Oracle oracle;
 
@@ -174,32 +174,32 @@ struct CaptureMethod {
 
 const FieldTable<StudioOptions>& CaptureConditionFields();
 const FieldTable<CaptureMethod>& CaptureMethodFields();
-/// CaptureMethodFields with `seat`, for pictures that are the task's own and no other task's sensor.
+/// CaptureMethodFields with `seat`, for the task's own pictures (not for cameras as another task's sensor).
 const FieldTable<CaptureMethod>& SeatedCaptureMethodFields();
 
-/// Refuses a method, written at `place`, that reads colours which nobody wears in this studio.
+/// Complains of a method at `place` that reads suit colours which nobody wears in this studio.
 Result<void> CheckMarks(const StudioOptions& options, const CaptureMethod& method, const Place& place);
 
-/// The way of cutting the person out of the pictures, by a segmenter or by the truth, and the source of marks.
+/// How the person is cut out of the pictures, by a segmenter or by the truth, and where marks come from.
 struct PersonSource {
   Segmenter segmenter = Segmenter::kHue;
   PersonPieces pieces = PersonPieces::kLargest;
   bool is_truth = false;
-  /// Cut out for methods that read silhouettes alone: masks are kept, and nobody marks the pictures.
+  /// For methods that use silhouettes alone: masks are kept, and the pictures are not marked, …
   bool for_silhouettes = false;
-  bool has_keypoints = false;          ///< … but somebody marks them all the same
-  SeatedSegmenter* program = nullptr;  ///< cuts out in the segmenter's place
-  bool has_true_marks = false;      ///< drawn by someone who knows where the joints are, where the picture shows them
-  bool has_coloured_marks = false;  ///< nobody marks: the colours of the suit tell limbs apart
+  bool has_keypoints = false;          ///< … unless this is set
+  SeatedSegmenter* program = nullptr;  ///< replaces the segmenter
+  bool has_true_marks = false;         ///< exact marks at the true joints, where the picture shows them
+  bool has_coloured_marks = false;     ///< marks from the suit's colours
   auto operator<=>(const PersonSource&) const = default;
 };
 
-/// The method's way of cutting out the person.
+/// Returns how the method cuts out the person.
 PersonSource PersonSourceOf(const CaptureMethod& method);
-/// Each source once: methods that cut out alike see the same marks.
+/// Adds a source if it is new: methods with equal sources share the same marks.
 void AddSource(const PersonSource& source, std::vector<PersonSource>& sources);
 
-/// The key of a condition that names a file of somebody's own cameras (`ReadRig`).
+/// The key of a condition that names a file of the user's own cameras (`ReadRig`).
 constexpr const char* kRigFileKey = "rig_file";
 
 /// Reads the calibration file that a condition with `rig: file` names into `options.rig.own`.

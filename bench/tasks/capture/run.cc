@@ -25,13 +25,13 @@ MeasureInputs PicturesOf(const CaptureRun& run) {
   return {.cameras = run.cameras.matrices, .marks = run.measured.marks};
 }
 
-/// The joints of every frame, of some or none in frames before anything was seen.
-std::vector<OptionalJoints> JointsOf(const CaptureRun& run) {
+/// Returns the joints of every frame; before the first observation they may be incomplete or absent.
+std::vector<SomeJoints> JointsOf(const CaptureRun& run) {
   if (run.method.smoothing == Smoothing::kRts) return SmoothJoints(run.measured.joints, kJudgedRateHz);
   return BridgeJoints(run.measured.joints);
 }
 
-/// Frames whose pose comes first, and the tree's state after it: as near to it as start angles come.
+/// Turns poses into recovered frames: adds the state of the body's tree that comes nearest to each pose.
 class PosedFrames {
  public:
   explicit PosedFrames(const CaptureBody& body) : body_(body), fitter_(body) {}
@@ -52,7 +52,7 @@ class PosedFrames {
   std::optional<PoseFit> last_fit_;
 };
 
-/// Recovers each frame from the marks up to it alone; frames without marks show the last skeleton.
+/// Recovers each frame from the marks up to it; frames without marks repeat the last skeleton.
 void RecoverLive(const CaptureStages& stages, const NearestPoses* nearest, CaptureRun& run) {
   LiveRecovery live(run.body, RecoverOptionsOf(run.method), LiveBridgeOptions(stages.options()));
   for (std::size_t k = 0; k < run.measured.frames.size(); ++k) {
@@ -127,7 +127,7 @@ Result<RecoveredPerson> PersonByKeypoints(const CaptureStages& stages, const Cap
   return RecoverPerson(run.cameras.matrices, people, UsualRecovery(kJudgedRateHz, longer_side));
 }
 
-/// Takes a person's body and its motion, but for frames that `is_lost` says.
+/// Uses a person's body and motion for the run, except in frames that `is_lost` marks.
 void TakePerson(const RecoveredPerson& person, const std::vector<bool>& is_lost, CaptureRun& run) {
   run.body = person.body;
   TreeState last = StandingState(run.body.tree);
@@ -139,14 +139,14 @@ void TakePerson(const RecoveredPerson& person, const std::vector<bool>& is_lost,
   }
 }
 
-/// Recovers the motion from the marks as keypoints, each frame by itself.
+/// Recovers the motion from the marks as keypoints, without the frames in which the person was not seen.
 void RecoverByKeypoints(const CaptureStages& stages, CaptureRun& run) {
   run.frames.resize(stages.world().truth.size());
   const auto person = PersonByKeypoints(stages, run);
   if (person) TakePerson(*person, person->is_held, run);
 }
 
-/// Joins what outlines told with the marks. Frames without outlines keep what the marks alone tell.
+/// Combines the motion from outlines with the marks as keypoints. Frames without outlines use the marks alone.
 void JoinKeypoints(const CaptureStages& stages, CaptureRun& run) {
   auto person = PersonByKeypoints(stages, run);
   if (!person) return;
@@ -171,6 +171,7 @@ Result<void> RecoverFromSilhouettes(CaptureStages& stages, CaptureRun& run) {
                 kMostSilhouettes,
                 static_cast<double>(kMostSilhouettes / cameras) * options.picture_every / kJudgedRateHz);
   }
+  // Track the silhouettes picture by picture: causally, or over the whole take.
   const SilhouetteInputs inputs{.first = truth.front(),
                                 .key = stages.key(),
                                 .body = run.body,
@@ -189,14 +190,14 @@ Result<void> RecoverFromSilhouettes(CaptureStages& stages, CaptureRun& run) {
   } else {
     found = FollowSilhouettes(inputs, masks);
   }
-  for (std::size_t k = 0; k < truth.size(); ++k) {  // between pictures the last skeleton stands
+  for (std::size_t k = 0; k < truth.size(); ++k) {  // between pictures the last skeleton is kept
     run.frames.push_back(found[k / static_cast<std::size_t>(options.picture_every)]);
   }
   if (run.method.start == SilhouetteStart::kKeypoints && options.picture_every == 1) JoinKeypoints(stages, run);
   return {};
 }
 
-/// Each joint of recovered frames smoothed by itself; frames without a skeleton are filled.
+/// Smooths each joint of the recovered frames by itself; frames without a skeleton are filled.
 void SmoothFrames(CaptureRun& run) {
   std::vector<std::optional<BodyPose>> poses;
   for (const auto& frame : run.frames) poses.push_back(frame ? std::optional(frame->pose) : std::nullopt);
@@ -227,7 +228,8 @@ BridgeOptions LiveBridgeOptions(const StudioOptions& options) {
 }
 
 Result<CaptureBody> BodyFor(CaptureStages& stages, const CaptureRun& run) {
-  if (run.method.recovery == Recovery::kKeypoints) return PaperBody({});  // until the points tell another
+  // The points determine the body later.
+  if (run.method.recovery == Recovery::kKeypoints) return PaperBody({});
   if (run.method.lengths == LengthSource::kKnown) {
     ASSIGN_OR_RETURN(const CaptureBody* body, stages.GetKnownBody(run.method));
     return *body;
@@ -248,7 +250,7 @@ Result<void> Recover(CaptureStages& stages, CaptureRun& run) {
       break;
     case Recovery::kEnds:
       RecoverEnds(run);
-      return {};  // smoothed already, each place with its own uncertainty
+      return {};  // already smoothed, each position with its own uncertainty
     case Recovery::kBundle:
       RecoverBundle(run);
       break;

@@ -12,34 +12,35 @@
 
 namespace etude {
 
-/// The results of every stage of a built-in method in a world. References lead into the CaptureStages that it was run
-/// on.
+/// The results of every stage of a built-in method in a world. References point into the CaptureStages on which it was
+/// run.
 struct CaptureRun {
   const CaptureMethod& method;
   const CalibratedCameras& cameras;
   const Take& take;
   const Observation& observation;
   const MeasuredTake& measured;
-  CaptureBody body;  ///< of `frames`
+  CaptureBody body;  ///< the body of `frames`
   std::vector<std::optional<RecoveredFrame>> frames;
 };
 
+/// Returns the options of RecoverFrames for this method.
 RecoverOptions RecoverOptionsOf(const CaptureMethod& method);
 
-/// The limits on gaps for a live method, whose frames are the marked ones alone: the same times as in a take that is
-/// marked throughout.
+/// Returns the limits on gaps for a live method, which sees marked frames only: the same durations as in a take in
+/// which every frame is marked.
 BridgeOptions LiveBridgeOptions(const StudioOptions& options);
 
-/// The body that a method begins with: known, or of limb lengths that are measured from what it sees. Fails, saying
-/// why, when none can be made.
+/// Returns the body that a method begins with: known, or with limb lengths measured from what it sees. Fails, saying
+/// why, if none can be made.
 Result<CaptureBody> BodyFor(CaptureStages& stages, const CaptureRun& run);
 
-/// Fills the run's frames as its method recovers and smooths them; bundle adjustment of paper B's body with measured
-/// lengths goes on measuring them.
+/// Fills the run's frames as its method recovers and smooths them. Bundle adjustment of paper B's body with measured
+/// lengths also refines these lengths.
 Result<void> Recover(CaptureStages& stages, CaptureRun& run);
 
-/// Runs one method in one world. Fails, saying why, when a camera cannot be calibrated, there is no renderer, or no
-/// body can be made or measured.
+/// Runs one method in one world. Fails, saying why, if a camera cannot be calibrated, there is no renderer, or no body
+/// can be made or measured.
 Result<CaptureRun> RunCapture(CaptureStages& stages, const CaptureMethod& method);
 
 }  // namespace etude

@@ -10,15 +10,15 @@
 
 namespace etude {
 
-/// Compares what every stage of a built-in method made with the truth of the world. `keeps_motion`: with a recording,
-/// which keeps every stage of the `moments` (`StudioOptions`).
+/// Compares the result of every stage of a built-in method with the truth. With `keeps_motion` the cell has a
+/// recording, which keeps every stage of the `moments` (`StudioOptions`).
 CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, bool keeps_motion,
                            std::span<const double> moments = {});
 
-/// Scores an answer of a method outside likewise; what only stages can tell is missing.
+/// Scores an answer of an outside method in the same way; metrics of stages are missing.
 CellResult ScoreCaptureAnswer(const CaptureWorld& world, const CaptureAnswer& answer, bool keeps_motion);
 
-/// The ids of all metrics that a cell reports, a value or a reason for each.
+/// Returns the ids of all metrics that a cell reports, each by a value or a reason.
 std::vector<std::string> CaptureMetrics();
 
 }  // namespace etude

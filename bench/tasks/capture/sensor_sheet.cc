@@ -9,12 +9,12 @@
 namespace etude {
 namespace {
 
-/// A view of one effect.
-enum class Look {
+/// The part of the picture that shows an effect best.
+enum class Detail {
   kWhole,     ///< the whole picture
-  kDetail,    ///< the head, enlarged: what happens from pixel to pixel
-  kPerson,    ///< the part about the person
-  kWithTruth  ///< likewise, and where the body truly is
+  kDetail,    ///< the head, enlarged: effects at the scale of pixels
+  kPerson,    ///< the part around the person
+  kWithTruth  ///< the same, with the true skeleton
 };
 
 struct ShownEffect {
@@ -22,7 +22,7 @@ struct ShownEffect {
   double CameraEffects::*strength;
   std::array<double, 3> strengths;
   const char* unit;
-  Look look;
+  Detail detail;
 };
 
 std::vector<ShownEffect> ShownEffects() {
@@ -32,27 +32,27 @@ std::vector<ShownEffect> ShownEffects() {
        &E::sync_offset_ms,
        {20, 60, 150},
        " ms",
-       Look::kWithTruth},
+       Detail::kWithTruth},
       {"Clock drift (all cameras but the first); true skeleton over it",
        &E::clock_drift_ppm,
        {5000, 20000, 50000},
        " ppm",
-       Look::kWithTruth},
-      {"Rolling shutter; true skeleton over it", &E::rolling_shutter_ms, {10, 30, 60}, " ms", Look::kWithTruth},
-      {"Motion blur, share of a frame", &E::motion_blur, {0.25, 0.5, 1}, "", Look::kPerson},
-      {"Radial distortion, of the corner", &E::radial_distortion, {-0.12, -0.05, 0.15}, "", Look::kWhole},
-      {"Tangential distortion, of the corner", &E::tangential_distortion, {0.01, 0.025, 0.05}, "", Look::kWhole},
-      {"Defocus", &E::defocus_px, {0.7, 1.5, 4}, " px", Look::kDetail},
-      {"Vignette, natural = 1", &E::vignette, {0.5, 1, 2.5}, "", Look::kWhole},
-      {"Dust, share of light kept away", &E::dust, {0.15, 0.4, 0.9}, "", Look::kWhole},
-      {"Exposure", &E::exposure_ev, {-1.5, -0.5, 1}, " EV", Look::kWhole},
-      {"Drift of the exposure, at this moment", &E::exposure_drift_ev, {0.2, 0.6, 1.5}, " EV", Look::kWhole},
-      {"Gain: less light, amplified", &E::gain_db, {6, 15, 30}, " dB", Look::kDetail},
-      {"White balance, red against blue", &E::white_balance_ev, {-0.8, 0.4, 1.2}, " EV", Look::kWhole},
-      {"Drift of the white balance, at this moment", &E::white_balance_drift_ev, {0.2, 0.6, 1.5}, " EV", Look::kWhole},
-      {"Bayer mosaic, bilinear demosaicing", &E::bayer, {0, 0.5, 1}, "", Look::kDetail},
-      {"Shot and read noise, usual = 1", &E::noise, {0, 1, 4}, "", Look::kDetail},
-      {"JPEG, 100 − quality", &E::jpeg_loss, {25, 70, 95}, "", Look::kDetail},
+       Detail::kWithTruth},
+      {"Rolling shutter; true skeleton over it", &E::rolling_shutter_ms, {10, 30, 60}, " ms", Detail::kWithTruth},
+      {"Motion blur, share of a frame", &E::motion_blur, {0.25, 0.5, 1}, "", Detail::kPerson},
+      {"Radial distortion, of the corner", &E::radial_distortion, {-0.12, -0.05, 0.15}, "", Detail::kWhole},
+      {"Tangential distortion, of the corner", &E::tangential_distortion, {0.01, 0.025, 0.05}, "", Detail::kWhole},
+      {"Defocus", &E::defocus_px, {0.7, 1.5, 4}, " px", Detail::kDetail},
+      {"Vignette, natural = 1", &E::vignette, {0.5, 1, 2.5}, "", Detail::kWhole},
+      {"Dust, share of light kept away", &E::dust, {0.15, 0.4, 0.9}, "", Detail::kWhole},
+      {"Exposure", &E::exposure_ev, {-1.5, -0.5, 1}, " EV", Detail::kWhole},
+      {"Drift of the exposure, at this moment", &E::exposure_drift_ev, {0.2, 0.6, 1.5}, " EV", Detail::kWhole},
+      {"Gain: less light, amplified", &E::gain_db, {6, 15, 30}, " dB", Detail::kDetail},
+      {"White balance, red against blue", &E::white_balance_ev, {-0.8, 0.4, 1.2}, " EV", Detail::kWhole},
+      {"Drift of the white balance, at this moment", &E::white_balance_drift_ev, {0.2, 0.6, 1.5}, " EV", Detail::kWhole},
+      {"Bayer mosaic, bilinear demosaicing", &E::bayer, {0, 0.5, 1}, "", Detail::kDetail},
+      {"Shot and read noise, usual = 1", &E::noise, {0, 1, 4}, "", Detail::kDetail},
+      {"JPEG, 100 − quality", &E::jpeg_loss, {25, 70, 95}, "", Detail::kDetail},
   };
 }
 
@@ -76,7 +76,7 @@ ColourImage PictureOfLabels(const LabelImage& labels) {
   return picture;
 }
 
-/// The nearest is white, the farthest black, even steps of 1 / depth between.
+/// Returns the depth as grey: the nearest is white, the farthest black, linear in 1 / depth.
 ColourImage PictureOfDepth(const DepthImage& depth) {
   float least = 0, most = 0;
   for (const float metres : depth.pixels) {
@@ -113,8 +113,8 @@ std::vector<SheetMark> Skeleton(const BodyPose& pose, const Camera& camera) {
   return lines;
 }
 
-/// A part of a picture of this size about a place, moved inwards where it would leave the picture; each pixel so many
-/// times as large.
+/// A part of a picture of this size around a position, moved inwards if it would leave the picture; each pixel is
+/// enlarged `times` times.
 struct Cutting {
   int width, height, times;
 };
@@ -137,7 +137,7 @@ SheetPicture Cut(const SheetPicture& whole, const glm::dvec2& centre, const Cutt
   return cut;
 }
 
-/// The frame before and after which the body moves farthest.
+/// Returns the frame around which the body moves farthest.
 std::size_t LiveliestFrame(const std::vector<BodyPose>& poses) {
   std::size_t liveliest = 0;
   double most = -1;
@@ -165,12 +165,12 @@ class SheetMaker {
     row.pictures = {{"picture", view.colour, {}},
                     {"labels", PictureOfLabels(view.labels), {}},
                     {"depth: white is nearest", PictureOfDepth(view.depth), {}}};
-    // The annotator may not have marked this very frame.
+    // Marks are shown only if the annotator marked this frame.
     const std::vector<Marks>& marks = take.observations.front().marks[camera];
     const auto step = static_cast<std::size_t>(options_.mark_every);
     if (frame_ % step == 0) {
       const SheetPicture marked{"the annotator's marks", view.colour, PictureOfMarks(marks[frame_])};
-      row.pictures.push_back(Cut(marked, PlaceOf(Role::kHipCentre, camera), kPersonPart));
+      row.pictures.push_back(Cut(marked, PixelOf(Role::kHipCentre, camera), kPersonPart));
     }
     return row;
   }
@@ -183,10 +183,10 @@ class SheetMaker {
         effects.*effect.strength = strength;
         ColourImage seen = Shoot(effects, camera).colour;
         SheetPicture shown{fmt::format("camera {}: {:g}{}", camera + 1, strength, effect.unit), std::move(seen), {}};
-        if (effect.look == Look::kWithTruth) shown.marks = Skeleton(world_.truth[frame_], world_.cameras[camera]);
-        if (effect.look == Look::kDetail) shown = Cut(shown, PlaceOf(Role::kHead, camera), kHeadPart);
-        if (effect.look == Look::kPerson || effect.look == Look::kWithTruth) {
-          shown = Cut(shown, PlaceOf(Role::kHipCentre, camera), kPersonPart);
+        if (effect.detail == Detail::kWithTruth) shown.marks = Skeleton(world_.truth[frame_], world_.cameras[camera]);
+        if (effect.detail == Detail::kDetail) shown = Cut(shown, PixelOf(Role::kHead, camera), kHeadPart);
+        if (effect.detail == Detail::kPerson || effect.detail == Detail::kWithTruth) {
+          shown = Cut(shown, PixelOf(Role::kHipCentre, camera), kPersonPart);
         }
         row.pictures.push_back(std::move(shown));
       }
@@ -195,7 +195,7 @@ class SheetMaker {
   }
 
  private:
-  glm::dvec2 PlaceOf(Role role, std::size_t camera) const {
+  glm::dvec2 PixelOf(Role role, std::size_t camera) const {
     const Intrinsics& in = world_.cameras[camera].intrinsics;
     return Project(world_.cameras[camera], world_.truth[frame_][role]).value_or(glm::dvec2(in.cx, in.cy));
   }

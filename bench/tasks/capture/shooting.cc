@@ -7,10 +7,10 @@
 namespace etude {
 namespace {
 
-/// A time between two of so many frames.
+/// A time between two frames.
 struct BetweenFrames {
   std::size_t before = 0;
-  double share = 0;  ///< 0…1, of the way to the next
+  double share = 0;  ///< 0…1, the fraction of the way to the next frame
 
   BetweenFrames(std::size_t frames, double frame) {
     const double inside = std::clamp(frame, 0.0, static_cast<double>(frames - 1));

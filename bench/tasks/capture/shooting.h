@@ -10,29 +10,29 @@
 
 namespace etude {
 
-/// The pose at a time between frames, told in frames: a cubic through the two frames on either side (Catmull-Rom), so
-/// that nothing jumps; exactly poses[k] at k; beyond the ends the first or the last.
+/// Returns the pose at a fractional frame: a cubic through the two frames on either side (Catmull-Rom), so that motion
+/// is smooth; exactly poses[k] at k. Before the first and after the last frame it is constant.
 BodyPose PoseAt(std::span<const BodyPose> poses, double frame);
 
-/// Gives the pose that is seen at a time.
+/// Returns the figure of the performer at a fractional frame.
 Figure PerformerAt(const CaptureWorld& world, double frame);
 
-/// Keeps of the effects where and when cameras look, and nothing that harms what they see: the effects for pictures of
-/// the truth.
+/// Returns only those effects that decide where and when cameras look (clocks, shutter, lens), without those that
+/// degrade the picture. Used for pictures of the truth.
 CameraEffects FaultlessPictures(const CameraEffects& effects);
 
-/// The cameras of a take at work.
+/// Shoots the pictures of a take.
 class Shooting {
  public:
   Shooting(const CaptureWorld& world, const CameraEffects& effects, const WorldKey& key, Renderer& renderer);
 
-  /// A camera's own frame, as its clock, lens and sensor have it; labels and depth if asked for.
+  /// Shoots a camera's frame with its clock, lens and sensor; with labels and depth on request.
   View Shoot(std::size_t camera, std::size_t frame, Targets targets);
-  /// The stage without the performer, with what moves there where it was before the take, and what `props` stand on it:
-  /// none for the background picture.
+  /// Shoots the stage without the performer and with `props`. Moving things are where they were before the take.
+  /// Without props it is the background picture.
   ColourImage ShootStage(std::size_t camera, const std::vector<Figure>& props = {});
 
-  /// The pose that is seen in a frame: that at the time of the picture's middle row.
+  /// Returns the pose at the time of the picture's middle row.
   BodyPose SeenPose(std::size_t camera, std::size_t frame) const;
 
   const CameraModel& camera(std::size_t index) const { return cameras_[index]; }

@@ -11,22 +11,22 @@
 namespace etude {
 namespace {
 
-constexpr double kMaskPixel = 2;  // masks are half size
+constexpr double kMaskPixel = 2;  // picture pixels per mask pixel: masks are half size
 
-// The pose of the first frame as somebody would tell it who knows every angle to `kNearAngle`.
+// Returns the first frame's true pose with random errors of up to `kNearAngle` in every angle.
 TreeState NearStart(const SilhouetteBody& body, const BodyPose& pose, const WorldKey& key) {
-  constexpr double kNearAngle = Radians(10), kNearPlace = 0.05;  // metres, along each axis
+  constexpr double kNearAngle = Radians(10), kNearPosition = 0.05;  // metres, along each axis
   RandomStream random(key, "capture/near-start");
   const TreeState truth = FitJoints(body, TargetsOf(pose));
   std::vector<double> by(kRootDofs + truth.angles.size());
   for (std::size_t i = 0; i < by.size(); ++i) {
-    const double most = i < 3 ? kNearPlace : kNearAngle;
+    const double most = i < 3 ? kNearPosition : kNearAngle;
     by[i] = random.Uniform(-most, most);
   }
   return Moved(body.tree, truth, by);
 }
 
-// The same person moves farther from picture to picture where these are further apart.
+// A person moves farther between pictures that are further apart.
 TrackOptions OptionsFor(const SilhouetteInputs& inputs) {
   TrackOptions options;
   options.angle_change *= inputs.picture_every;
@@ -39,9 +39,9 @@ std::optional<TreeState> StartOf(const SilhouetteInputs& inputs, const Silhouett
   return NearStart(body, inputs.first, inputs.key);
 }
 
-// What marks say of joints, by camera and picture; nothing where they are not asked.
+// Returns the joints that the marks give, by camera and picture; empty if they are not used.
 std::vector<std::vector<std::vector<SeenJoint>>> JointsMarked(const SilhouetteInputs& inputs) {
-  constexpr double kSigma_px = 4;  // of a joint in the flesh, not of a hand on paper
+  constexpr double kSigma_px = 4;  // of a joint in the body, which a mark on its surface only approximates
   std::vector<std::vector<std::vector<SeenJoint>>> joints;
   if (inputs.start != SilhouetteStart::kKeypoints) return joints;
   for (const std::vector<Marks>& of_camera : inputs.marks) {
@@ -53,7 +53,7 @@ std::vector<std::vector<std::vector<SeenJoint>>> JointsMarked(const SilhouetteIn
   return joints;
 }
 
-// As a recovered frame: with paper B's tree near that pose, which is what the recording's BVH file shows.
+// Makes a recovered frame, with the state of paper B's tree near that pose, which the recording's BVH file shows.
 RecoveredFrame FrameOf(const BodyPose& pose, const KinematicTree& tree, const TreeState& last) {
   return {.fixed = pose, .state = FindStartState(tree, pose, tree.limits).value_or(last), .pose = pose, .errors = {}};
 }
@@ -67,12 +67,14 @@ std::vector<std::optional<RecoveredFrame>> FollowSilhouettes(const SilhouetteInp
     std::vector<Silhouette>& made = silhouettes.emplace_back();
     for (const Mask& mask : of_camera) made.push_back(MakeSilhouette(mask, {.mask_pixel = kMaskPixel}));
   }
+  // Track the body over the whole take.
   const SilhouetteBody body = MakeSilhouetteBody(inputs.body.lengths);
   const auto joints = JointsMarked(inputs);
   const SilhouetteTake take{
       .cameras = inputs.cameras, .silhouettes = silhouettes, .start = StartOf(inputs, body), .joints = joints};
   const SilhouetteTrack track = TrackSilhouettes(body, take, OptionsFor(inputs));
 
+  // Turn the fits into recovered frames.
   TreeState last = StandingState(inputs.body.tree);
   std::vector<std::optional<RecoveredFrame>> recovered;
   for (const std::optional<SilhouetteFit>& fit : track.frames) {

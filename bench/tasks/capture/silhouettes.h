@@ -14,30 +14,30 @@
 
 namespace etude {
 
-/// The prior knowledge of a person who is followed by silhouettes.
+/// The inputs of tracking a person by silhouettes.
 struct SilhouetteInputs {
-  const BodyPose& first;  ///< the first true pose, used when the start is `kNear`, and for nothing else
+  const BodyPose& first;  ///< the first true pose; used only if the start is `kNear`
   const WorldKey& key;
-  const CaptureBody& body;  ///< paper B's, of which the limb lengths are used
+  const CaptureBody& body;  ///< paper B's body; its limb lengths are used
   std::span<const ProjectionMatrix> cameras;
   SilhouetteStart start = SilhouetteStart::kCold;
-  int picture_every = 1;  ///< frames from one picture to the next
-  /// `marks[camera][frame]`, lenses undone: used when the start is `kKeypoints`.
+  int picture_every = 1;  ///< number of frames from one picture to the next
+  /// `marks[camera][frame]`, without lens distortion; used if the start is `kKeypoints`.
   std::span<const std::vector<Marks>> marks = {};
 };
 
-/// The poses that silhouettes alone tell (engine/silhouettes), one per picture of each camera:
-/// `masks[camera][picture]`, half size.
+/// Returns the poses found by tracking silhouettes (engine/silhouettes), one per picture: `masks[camera][picture]`,
+/// half size.
 std::vector<std::optional<RecoveredFrame>> FollowSilhouettes(const SilhouetteInputs& inputs,
                                                              std::span<const std::vector<Mask>> masks);
 
-/// Follows silhouettes picture by picture, each pose from the pictures up to it alone.
+/// Tracks silhouettes picture by picture; each pose uses the pictures up to it alone.
 class LiveSilhouettes {
  public:
   /// `inputs.body` must outlive this.
   explicit LiveSilhouettes(const SilhouetteInputs& inputs);
 
-  /// One mask per camera.
+  /// Returns the next pose, from one mask per camera; nothing if no pose was found.
   std::optional<RecoveredFrame> Next(std::span<const Mask> masks);
 
  private:

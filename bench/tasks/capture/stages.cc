@@ -23,8 +23,8 @@ namespace {
 
 constexpr double kMetresPerMm = 0.001;
 
-/// The error of a click, in standard deviations. Upwards is thrown first.
-glm::dvec2 ThrowMiss(RandomStream& hand) {
+/// Draws the error of a click, in standard deviations. The vertical error is drawn first.
+glm::dvec2 DrawMiss(RandomStream& hand) {
   const double y = hand.Normal(), x = hand.Normal();
   return {x, y};
 }
@@ -38,11 +38,11 @@ std::vector<PointPair> ClickedBy(const StudioOptions& options, const Camera& cam
   for (int i = 0; i < options.calibration_pairs; ++i) {
     glm::dvec3 point;
     for (int axis = 0; axis < 3; ++axis) point[axis] = random.Uniform(low[axis], high[axis]);
-    // In turn the back wall, the left wall and the floor of the box.
+    // The points lie in turn on the back wall, the left wall and the floor of the box.
     constexpr int kWalls[] = {2, 0, 1};
     const int wall = kWalls[i % 3];
     point[wall] = low[wall];
-    const glm::dvec2 click = ThrowMiss(random);
+    const glm::dvec2 click = DrawMiss(random);
     const glm::dvec3 measured = point + options.calibration_measure_mm * kMetresPerMm * tape.Normal3();
     const auto pixel = Project(camera, point);
     if (pixel) pairs.push_back({measured, *pixel + options.calibration_noise_px * click});
@@ -50,15 +50,16 @@ std::vector<PointPair> ClickedBy(const StudioOptions& options, const Camera& cam
   return pairs;
 }
 
-// Where the picture has a disc that somebody points at, so far off its middle.
+// Returns the pixel of a disc that a human points at with the error `off`; nothing if it is seen too obliquely or not
+// found.
 std::optional<glm::dvec2> FindPointedAt(const PlacedDisc& disc, const Camera& camera, const GreyImage& picture,
                                         const glm::dvec2& off) {
-  constexpr double kMostAside_deg = 70;
-  constexpr double kReach = 8, kWidest = 40;  // pixels
+  constexpr double kMaxAside_deg = 70;
+  constexpr double kReach = 8, kMaxWidth = 40;  // pixels
   const glm::dvec3 to_camera = glm::normalize(camera.p_WC - disc.middle_W);
-  if (glm::dot(to_camera, disc.outwards_W) < std::cos(Radians(kMostAside_deg))) return std::nullopt;
+  if (glm::dot(to_camera, disc.outwards_W) < std::cos(Radians(kMaxAside_deg))) return std::nullopt;
   const auto pixel = Project(camera, disc.middle_W);
-  return pixel ? FindDisc(picture, *pixel + off, kReach, kWidest) : std::nullopt;
+  return pixel ? FindDisc(picture, *pixel + off, kReach, kMaxWidth) : std::nullopt;
 }
 
 }  // namespace
@@ -86,7 +87,7 @@ CalibrationPairs FoundMarks(const StudioOptions& options, const CaptureWorld& wo
     RandomStream hand(key, fmt::format("capture/camera-{}/calibration-marks", camera));
     std::vector<PointPair>& found = pairs.emplace_back();
     for (std::size_t i = 0; i < cube.discs.size(); ++i) {
-      const glm::dvec2 off = options.calibration_noise_px * ThrowMiss(hand);
+      const glm::dvec2 off = options.calibration_noise_px * DrawMiss(hand);
       const auto pixel = FindPointedAt(cube.discs[i], world.cameras[camera], grey, off);
       if (pixel) found.push_back({measured[i], *pixel});
     }
@@ -128,7 +129,7 @@ std::vector<ProjectionMatrix> MatricesOf(std::span<const Camera> cameras) {
   return matrices;
 }
 
-/// The matrices, and the lenses where the calibration finds them.
+/// Calibrates the cameras: returns the matrices, and the lenses if the calibration estimates them.
 Result<CalibratedCameras> Calibrated(const CaptureWorld& world, const CalibrationPairs& pairs, bool is_truth,
                                      Calibration calibration) {
   if (is_truth) return CalibratedCameras{.matrices = MatricesOf(world.cameras)};
@@ -143,7 +144,7 @@ Result<CalibratedCameras> Calibrated(const CaptureWorld& world, const Calibratio
   return CalibratedCameras{.matrices = std::move(matrices), .lenses = std::move(lenses)};
 }
 
-/// The pairs as a camera without that lens would show them.
+/// Returns the pairs as a camera without that lens would show them.
 std::vector<PointPair> UndistortPairs(const Camera& camera, std::vector<PointPair> pairs) {
   for (PointPair& pair : pairs) pair.pixel = UndistortPixel(camera, pair.pixel).value_or(pair.pixel);
   return pairs;
@@ -169,8 +170,9 @@ Result<CalibratedCameras> MakeCameras(const CaptureWorld& world, const Calibrati
   return cameras;
 }
 
-/// The truth that a method with these oracles is told of the frames that the annotator marks.
-std::vector<KnownMeasurement> Tell(const CaptureWorld& world, const Oracle& oracle, const std::vector<bool>& marked) {
+/// Returns the truth that a method with these oracles is given, for the frames that the annotator marks.
+std::vector<KnownMeasurement> KnownMeasurementsOf(const CaptureWorld& world, const Oracle& oracle,
+                                                  const std::vector<bool>& marked) {
   std::vector<KnownMeasurement> known(world.truth.size());
   for (std::size_t k = 0; k < known.size(); ++k) {
     if (marked[k]) known[k] = ToldOf(world.truth[k], oracle);
@@ -178,7 +180,7 @@ std::vector<KnownMeasurement> Tell(const CaptureWorld& world, const Oracle& orac
   return known;
 }
 
-/// Marks by camera and frame, without what the lenses do to them, where there are lenses.
+/// Returns the marks by camera and frame, without lens distortion if there are lenses.
 std::vector<std::vector<Marks>> UndistortAll(std::span<const Camera> lenses, std::vector<std::vector<Marks>> marks) {
   for (std::size_t camera = 0; camera < lenses.size(); ++camera) {
     for (Marks& of_frame : marks[camera]) of_frame = UndistortMarks(lenses[camera], of_frame);
@@ -188,6 +190,7 @@ std::vector<std::vector<Marks>> UndistortAll(std::span<const Camera> lenses, std
 
 MeasuredTake MeasureTake(std::span<const ProjectionMatrix> cameras, std::vector<std::vector<Marks>> marks,
                          std::span<const KnownMeasurement> known, const BridgeOptions& bridge) {
+  // Directions and ends by frame, with gaps bridged, and all joints triangulated.
   MeasuredTake take;
   take.marks = std::move(marks);
   const MeasureInputs inputs{.cameras = cameras, .marks = take.marks, .known = known};
@@ -261,7 +264,7 @@ const MeasuredTake& CaptureStages::GetMeasured(const CaptureMethod& method, cons
       method.outliers};
   auto kept = measured_.find(choice);
   if (kept == measured_.end()) {
-    const std::vector<KnownMeasurement> known = Tell(world_, method.oracle, marked_);
+    const std::vector<KnownMeasurement> known = KnownMeasurementsOf(world_, method.oracle, marked_);
     std::vector<std::vector<Marks>> marks = UndistortAll(cameras.lenses, observation.marks);
     if (method.sync == Sync::kEstimated) marks = Synchronised(marks, EstimateOffsets(cameras.matrices, marks));
     if (method.outliers == OutlierRule::kReject) marks = AgreeingMarks(cameras.matrices, marks);

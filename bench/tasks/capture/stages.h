@@ -19,36 +19,36 @@
 
 namespace etude {
 
-/// The calibration target of each camera: places of the world, as they were measured, and where its picture shows them.
+/// The calibration target of each camera: positions in the world, as measured, and their pixels in its picture.
 using CalibrationPairs = std::vector<std::vector<PointPair>>;
 
-/// Points stuck on three walls of a box about the stage (paper B, section 2.2: "on different planes"), clicked by a
+/// Returns points on three walls of a box around the stage (paper B, section 2.2: "on different planes"), clicked by a
 /// human with an error of `calibration_noise_px`, and measured with one of `calibration_measure_mm`.
 CalibrationPairs ClickedPoints(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key);
 
-/// The discs of a cube (sim/rig/calibration_target.h), found in a picture that each camera takes of it with all that
-/// its optics and sensor do: where a human has pointed, with an error of `calibration_noise_px`. Each is measured by
-/// itself. Discs seen from more than 70° aside are left alone, as are those that are not found.
+/// Returns the discs of a cube (sim/rig/calibration_target.h), found in a picture that each camera takes of it with all
+/// effects of its optics and sensor, near a position pointed at by a human with an error of `calibration_noise_px`.
+/// Each disc is measured by itself. Discs seen at more than 70° from their normal, and those not found, are left out.
 CalibrationPairs FoundMarks(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key,
                             Renderer& renderer);
 
-/// The corners of a cube of boards (sim/rig/calibration_target.h), found in a picture that each camera takes of it with
-/// all that its optics and sensor do. A board is measured as a whole: all its corners are off alike.
+/// Returns the corners of a cube of boards (sim/rig/calibration_target.h), found in a picture that each camera takes of
+/// it with all effects of its optics and sensor. A board is measured as a whole: all its corners have the same error.
 CalibrationPairs FoundCorners(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key,
                               Renderer& renderer);
 
-/// All cameras of a world, calibrated one way.
+/// The cameras of a world, calibrated by one method.
 struct CalibratedCameras {
   std::vector<ProjectionMatrix> matrices;
-  std::vector<Camera> lenses = {};  ///< with their distortion; empty when a calibration finds none
+  std::vector<Camera> lenses = {};  ///< with their distortion; empty if the calibration estimates none
   double reprojection_rms_px = 0;
   std::string digest = {};
 };
 
-/// The measurements in space that the marks of a whole take give.
+/// The measurements in space from the marks of a whole take.
 struct MeasuredTake {
-  /// `marks[camera][frame]`: what was drawn, without what lenses do, and as the method wants it in time and without
-  /// those that disagree. Whatever recovers a motion sees these.
+  /// `marks[camera][frame]`: the drawn marks without lens distortion, synchronised and without disagreeing ones if the
+  /// method says so. Every way of recovering a motion uses these.
   std::vector<std::vector<Marks>> marks;
   std::vector<FrameMeasurement> frames;
   std::vector<std::optional<LimbObservation>> seen;  ///< the same with gaps bridged
@@ -56,55 +56,54 @@ struct MeasuredTake {
   std::string directions_digest, points_digest;
 };
 
-/// The truth in a body's angles (`FindNearestPoses`), frame by frame.
+/// The pose of a body nearest to the truth (`FindNearestPoses`), frame by frame.
 using NearestPoses = std::vector<TreeState>;
 
-/// The stages that methods may share in one world: each is computed when the first method asks for it, and kept for
-/// the next ones.
+/// The stages that methods may share in one world: each is computed when a method first asks for it, and kept.
 class CaptureStages {
  public:
-  /// `sources`: every way of cutting out the person that will be asked for, because each picture is rendered once,
-  /// for all of them, and not kept. References must outlive this.
+  /// `sources` must hold every way of cutting out the person that will be asked for, because each picture is rendered
+  /// once for all of them and not kept. References must outlive this.
   CaptureStages(const StudioOptions& options, CaptureWorld world, const WorldKey& key,
                 std::span<const PersonSource> sources, bool keeps_masks);
 
   const StudioOptions& options() const { return options_; }
   const CaptureWorld& world() const { return world_; }
   const WorldKey& key() const { return key_; }
-  /// True for the frames that the annotator marks.
+  /// For each frame, whether the annotator marks it.
   const std::vector<bool>& marked() const { return marked_; }
-  /// Live: the next pose of who is filmed.
+  /// Adds the performer's next pose (live capture).
   void Add(const BodyPose& pose);
-  /// The renderer of this world; fails, saying why, when there can be none.
+  /// Returns the renderer; fails, saying why, if there can be none.
   Result<Renderer*> GetRenderer();
   Result<const Take*> GetTake();
   Result<const CalibrationPairs*> GetCalibrationPairs();
   Result<const CalibratedCameras*> GetCameras(const CaptureMethod& method);
-  /// `cameras` and `observation` are those of `method`.
+  /// Returns the measurements of `method`; `cameras` and `observation` are its own.
   const MeasuredTake& GetMeasured(const CaptureMethod& method, const CalibratedCameras& cameras,
                                   const Observation& observation);
-  /// Fails, saying why, when a body cannot be made of the performer's joints.
+  /// Returns the body of `method`; fails, saying why, if it cannot be made of the performer's joints.
   Result<const CaptureBody*> GetBody(const CaptureMethod& method);
-  /// The body of `method` where its limbs are known.
+  /// Returns the body of `method` with known limb lengths.
   Result<const CaptureBody*> GetKnownBody(const CaptureMethod& method);
-  /// The poses nearest to the truth in the body of `method`.
+  /// Returns the poses of the body of `method` that are nearest to the truth.
   Result<const NearestPoses*> GetNearestPoses(const CaptureMethod& method);
 
  private:
-  /// The options that decide about the matrices of a method's cameras.
+  /// The options that determine the matrices of a method's cameras.
   struct CameraChoice {
     bool is_truth = false;
     Calibration calibration = Calibration::kDlt;
     auto operator<=>(const CameraChoice&) const = default;
   };
-  /// The options that decide about a method's body.
+  /// The options that determine a method's body.
   struct BodyChoice {
     BodyKind kind = BodyKind::kFitted;
     bool true_lengths = false;
     auto operator<=>(const BodyChoice&) const = default;
   };
   static BodyChoice BodyChoiceOf(const CaptureMethod& method);
-  /// The options that decide about a method's measurements.
+  /// The options that determine a method's measurements.
   struct MeasureChoice {
     CameraChoice cameras;
     PersonSource person;
@@ -129,7 +128,7 @@ class CaptureStages {
   std::map<BodyChoice, NearestPoses> nearest_;
 };
 
-/// The truth of a frame that a method with these oracles is told.
+/// Returns the truth of a frame that a method with these oracles is given.
 KnownMeasurement ToldOf(const BodyPose& truth, const Oracle& oracle);
 
 }  // namespace etude

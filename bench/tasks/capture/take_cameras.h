@@ -17,20 +17,20 @@
 
 namespace etude {
 
-/// A program that finds the person in the pictures of a take (docs/outside-methods.md): a session for every camera, a
-/// step for every picture.
+/// An outside program that finds the person in the pictures of a take (docs/outside-methods.md): one session per
+/// camera, one step per picture.
 class SeatedSegmenter {
  public:
   /// `program` must outlive this.
   explicit SeatedSegmenter(LiveProgram& program) : program_(program) {}
 
-  /// The next pictures are this camera's, of that empty room.
+  /// Begins a camera: its empty room, then its pictures.
   void Begin(std::size_t camera, const ColourImage& background);
-  /// The mask of what the program says has changed in the next picture. All zero when it has failed, or complained:
-  /// then nothing more is asked.
+  /// Returns the mask that the program answers for the next picture. All zero if it has failed or its answer was
+  /// invalid: then it is not asked again.
   Mask Detect(const ColourImage& picture);
 
-  /// The complaint about an answer; success when there was none.
+  /// The complaint about an answer, or success.
   const Result<void>& complaint() const { return complaint_; }
 
  private:
@@ -40,26 +40,25 @@ class SeatedSegmenter {
   std::size_t camera_ = 0, frame_ = 0;
 };
 
-/// The cameras of a take, and all that its pictures share: backgrounds, clocks, annotators.
+/// The cameras of a take, and what its pictures share: backgrounds, clocks, annotators.
 class TakeCameras {
  public:
-  /// References must outlive this. The world has its first pose; later ones may follow, as long as they are there when
-  /// a frame is shot.
+  /// References must outlive this. The world must have its first pose now, and the poses of a frame when it is shot.
   TakeCameras(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
               std::span<const PersonSource> sources, Renderer& renderer);
 
-  /// One picture, and what each source makes of it.
+  /// One picture, and the result of each source.
   struct Picture {
     ColourImage colour;
     Mask person, shadow;  ///< the truth
     std::vector<Mask> found;
-    std::vector<Marks> marks;  ///< none of silhouettes without keypoints
+    std::vector<Marks> marks;  ///< empty for silhouettes without keypoints
   };
 
   /// The pictures of one camera. Its TakeCameras must outlive it.
   class Feed {
    public:
-    /// A camera's frames come in order.
+    /// Shoots, cuts out and marks the next picture. A camera's frames must come in order.
     Picture Next(std::size_t frame);
 
    private:
@@ -70,12 +69,12 @@ class TakeCameras {
 
     TakeCameras& cameras_;
     std::size_t camera_;
-    std::vector<PersonFinder> finders_;  // of each source
+    std::vector<PersonFinder> finders_;  // one per source
   };
   Feed FeedOf(std::size_t camera) { return Feed(*this, camera); }
 
   const std::vector<ColourImage>& backgrounds() const { return backgrounds_; }
-  /// The marking of each source.
+  /// The annotators of each source.
   const std::vector<Marking>& marking() const { return marking_; }
 
  private:

@@ -11,9 +11,9 @@
 namespace etude {
 namespace {
 
-constexpr double kReach = 1.2;  // metres from the middle that both cameras see
+constexpr double kReach = 1.2;  // metres from the middle, within which both cameras see the body
 
-// What is taken of a clip, and how it was moved to the middle of the floor.
+// The window of a clip, and its motion to the middle of the floor.
 struct Window {
   std::size_t start = 0;
   FloorMove to_origin;
@@ -57,10 +57,11 @@ Window ChooseWindow(const StudioOptions& options, const LibraryClip& clip, const
   if (!loops) frames = std::min(frames, available);
   const std::size_t starts = loops ? available : available - frames + 1;
 
-  constexpr int kThrows = 12;
+  // Take the first random window that stays within reach, or else the one that leaves it least.
+  constexpr int kTries = 12;
   Window best;
   double least = 0;
-  for (int i = 0; i < kThrows; ++i) {
+  for (int i = 0; i < kTries; ++i) {
     Window window = MakeWindow(clip, random.IndexBelow(starts), frames, disguise);
     const double farthest = FarthestFromMiddle(window.poses);
     if (best.poses.empty() || farthest < least) {
@@ -97,8 +98,8 @@ Wardrobe WardrobeOf(Clothes clothes) {
   return Wardrobe::kStudio;
 }
 
-/// Draws the seed of a picture's room, which recordings tell; of a secret world so many bits that nobody tries them
-/// all.
+/// Draws the seed of a picture's room, which recordings contain. In a secret world it has enough bits to prevent a
+/// search through all seeds.
 std::uint64_t DrawRoomSeed(RandomStream& random, const WorldKey& key) {
   return random.IndexBelow(std::uint64_t{1} << (key.suite_seed.IsPlain() ? 30 : 53));
 }
@@ -108,7 +109,7 @@ StageOptions StageOptionsOf(const StudioOptions& options, const WorldKey& key) {
   return {.seed = DrawRoomSeed(random, key), .scene = options.scene, .wardrobe = WardrobeOf(options.clothes)};
 }
 
-// The lamp waxes and wanes slowly about the brightness of the background pictures.
+// Returns the lamp's brightness per frame: it varies slowly around the brightness of the background pictures.
 std::vector<double> MakeBrightness(const StudioOptions& options, std::size_t frames, const WorldKey& key) {
   RandomStream random(key, "capture/light");
   const double period_s = random.Uniform(2, 6), phase = random.Uniform(0, 2 * kPi);
@@ -120,7 +121,7 @@ std::vector<double> MakeBrightness(const StudioOptions& options, std::size_t fra
   return brightness;
 }
 
-// A length as a tape tells it.
+// Measures lengths with a tape and its random error.
 class Tape {
  public:
   Tape(double error_mm, const WorldKey& key) : error_m_(0.001 * error_mm), random_(key, "capture/limb-tape") {}
@@ -130,7 +131,7 @@ class Tape {
     const double measured = length + error_m_ * random_.Normal();
     return length > kShortest ? std::max(kShortest, measured) : length;
   }
-  /// Measures the way from one place to another.
+  /// Measures the vector from one position to another.
   glm::dvec3 Measure(const glm::dvec3& from_to) {
     const double length = glm::length(from_to), measured = Measure(length);
     return length > 0 ? measured / length * from_to : from_to;
@@ -172,16 +173,18 @@ RestBody Scaled(RestBody body, double scale) {
 
 CaptureWorld MakeStudio(const StudioOptions& options, const Booking& booking, const WorldKey& key) {
   CaptureWorld world;
+  // The performer, and the light.
   world.person = {booking.lengths, booking.body};
   world.measured = Measured(world.person, options.limb_measure_mm, key);
   world.colours = ColoursOf(options.clothes);
   RandomStream room(key, "capture/room");
   world.room.texture_seed = DrawRoomSeed(room, key);
   world.brightness = MakeBrightness(options, booking.frames, key);
+  // The cameras with their lenses, and the furnished room.
   world.middle = MiddleOnFloor(booking.poses);
   world.cameras = SetUpCameras(options.rig, booking.poses, key);
   for (std::size_t i = 0; i < world.cameras.size(); ++i) {
-    // One's own cameras have their own, unless a scenario wants another.
+    // A user's own cameras keep their lens unless the scenario adds a distortion.
     const Distortion wanted = LensOf(options.camera, world.cameras[i], i, key);
     if (!wanted.IsNone()) world.cameras[i].distortion = wanted;
   }
@@ -191,7 +194,7 @@ CaptureWorld MakeStudio(const StudioOptions& options, const Booking& booking, co
 }
 
 CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key) {
-  // A figure that the clip brings moves as the clip does.
+  // A clip's own figure moves as the clip does, so it is not disguised.
   std::optional<Disguise> disguise;
   if (!key.suite_seed.IsPlain() && options.figure != PerformerFigure::kOwn) disguise.emplace(key);
   Window window = ChooseWindow(options, clip, key, disguise);

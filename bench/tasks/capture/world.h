@@ -27,50 +27,50 @@ struct PersonalLimbs {
   RestBody body;
 };
 
-/// The figure that a clip brings, from a frame of that clip on and moved to where the take is.
+/// The figure of a clip, from a frame of that clip on, moved to the place of the take.
 struct OwnFigure {
   std::shared_ptr<const RecordedFigure> figure;
   std::size_t first = 0;
   FloorMove move;
 };
 
-/// The truth of one take: who moves how in front of which cameras under which light.
+/// The truth of one take: the performer and the motion, the cameras and the light.
 struct CaptureWorld {
-  std::vector<BodyPose> truth;     ///< 30 Hz, about the floor's origin, facing +Z in its middle frame
-  PersonalLimbs person;            ///< who moves
-  PersonalLimbs measured;          ///< the same as it was measured beforehand, as paper B does
+  std::vector<BodyPose> truth;     ///< at 30 Hz, around the floor's origin, facing +Z in its middle frame
+  PersonalLimbs person;            ///< the performer
+  PersonalLimbs measured;          ///< the same as measured beforehand, as in paper B
   std::array<Rgb8, 16> colours{};  ///< of the performer, by Part
-  std::optional<OwnFigure> own;    ///< who is drawn in place of the stage's people
-  glm::dvec3 middle{0};            ///< on the floor: where the performer is expected
-  std::vector<Camera> cameras;     ///< two or more, each with its lens
-  std::vector<bool> in_view;       ///< of each frame: whether two cameras have the whole body in their pictures
-  Room room;                       ///< its brightness is that of the background pictures; of the studio alone
-  StageOptions stage_options;      ///< what `stage` was made of
+  std::optional<OwnFigure> own;    ///< drawn instead of the stage's people
+  glm::dvec3 middle{0};            ///< the expected position of the performer on the floor
+  std::vector<Camera> cameras;     ///< at least two, each with its lens
+  std::vector<bool> in_view;       ///< per frame: two cameras have the whole body in their pictures
+  Room room;                       ///< its brightness is that of the background pictures; used by the studio alone
+  StageOptions stage_options;      ///< the options of `stage`
   StagedRoom stage;                ///< the room and people that `scene` adds
   std::vector<double> brightness;  ///< of each frame
 };
 
-/// The person to be filmed, and for how long.
+/// The person to be filmed, and the number of frames.
 struct Booking {
-  std::span<const BodyPose> poses;  ///< about where they will be: cameras and furniture are set up around
+  std::span<const BodyPose> poses;  ///< expected poses: cameras and furniture are set up around them
   RestBody body;
   LimbLengths lengths;
   std::size_t frames = 0;
 };
 
-/// The studio of `key`, with nobody in it yet: `truth` and `in_view` are empty.
+/// Makes the studio of `key` without a performer: `truth` and `in_view` are empty.
 CaptureWorld MakeStudio(const StudioOptions& options, const Booking& booking, const WorldKey& key);
 
-/// The world of `key`. The window of the clip begins by dice; among a few throws the first is taken that
-/// keeps the performer within 1.2 m of the middle, where both cameras see the whole body, else the one
-/// that strays least. Moves that loop are repeated; other clips shorter than the window are taken whole. In a secret
-/// world the clip is disguised (bench/tasks/base/disguise.h), unless it brings its own figure.
+/// Makes the world of `key`. The window of the clip begins at a random frame. Among a few random windows the first one
+/// is taken that keeps the performer within 1.2 m of the middle, where both cameras see the whole body, or else the one
+/// that leaves it least. Moves that loop are repeated; other clips shorter than the window are used whole. In a secret
+/// world the clip is disguised (bench/tasks/base/disguise.h), unless it has its own figure.
 CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key);
 
-/// The lens that a camera of the world has under those effects.
+/// Returns the lens of a camera under these effects.
 Distortion LensOf(const CameraEffects& effects, const Camera& camera, std::size_t index, const WorldKey& key);
 
-/// The measurements that faultless marks and cameras would give of a frame.
+/// Returns the measurements that exact marks and cameras would give of a frame.
 FrameMeasurement TrueMeasurement(const BodyPose& truth);
 
 }  // namespace etude

@@ -17,7 +17,7 @@ Json NameOf(const CoachStage& stage, int move) {
   return move < 0 ? Json(nullptr) : Json(stage.dance().moves[static_cast<std::size_t>(move)].name);
 }
 
-/// Tells what is on the screen, for whoever sees no picture.
+/// Describes what is on the screen, for programs that see no picture.
 Json DescribeShown(const CoachStage& stage, const CoachOutput& shown) {
   const int move =
       shown.repetition < 0 ? -1 : stage.dance().repetitions[static_cast<std::size_t>(shown.repetition)].move;
@@ -171,7 +171,7 @@ std::string_view TruthName(PerformanceTruth truth) {
   return truth == PerformanceTruth::kRight ? "right" : "wrong";
 }
 
-/// Lists the stretches of frames in one mode.
+/// Returns the mode of each interval of frames.
 std::vector<CoachExtras::Mode> ModesOf(const SessionLog& log) {
   std::vector<CoachExtras::Mode> modes;
   for (int frame = 0; frame < log.Frames(); ++frame) {

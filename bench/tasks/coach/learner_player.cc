@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-/// Frames from what was on the screen to the pose that is asked for.
+/// Number of frames from what was on the screen to the requested pose.
 constexpr double kFramesAhead = static_cast<double>(SkeletonSensor::kAhead) + 1;
 
 PerformanceTruth TruthOf(Truth truth) {
@@ -45,7 +45,7 @@ Shown LearnerPlayer::SeenOf(const CoachOutput& shown) {
   return seen;
 }
 
-/// Finds where the dance will be when the pose that is asked for is taken, if it goes on as it does.
+/// Predicts where the dance will be at the time of the requested pose, if it continues at its present rate.
 void LearnerPlayer::SeeDance(const CoachOutput& shown, Shown& seen) {
   const double rate = last_frame_ ? std::clamp(shown.clip_frame - *last_frame_, 0.0, 2.0) : 1;
   last_frame_ = shown.clip_frame;

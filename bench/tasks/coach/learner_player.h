@@ -11,9 +11,9 @@ namespace etude {
 
 /// The simulated learner before the coach.
 ///
-/// They see the dance go on and dance to where it will be when they move, so that they are as late as their lag says;
-/// what they did not expect (the coach stops, shakes its head, shows the move) they act on later by as much as poses
-/// are asked for ahead.
+/// Learners see the dance go on and dance to where it will be when they move, so that they are late by their lag alone.
+/// They react to unexpected events (the coach stops, shakes its head, shows the move) later, by the number of frames
+/// that poses are requested ahead.
 class LearnerPlayer final : public Player {
  public:
   /// Both must outlive this.
@@ -32,9 +32,9 @@ class LearnerPlayer final : public Player {
 
   const CoachStage& stage_;
   Learner learner_;
-  std::optional<double> last_frame_;  ///< of the dance, where it was danced in the frame before
+  std::optional<double> last_frame_;  ///< the dance's frame shown before; empty if it was not danced
   int danced_ = -1;                   ///< the repetition danced in the frame before; −1: none
-  int performances_ = 0;              ///< begun so far: a repetition that is danced again is another one
+  int performances_ = 0;              ///< number begun so far; a repeated repetition is a new performance
   int about_ = -1;                    ///< the move of the latest correction
   std::vector<int> latest_;           ///< by repetition of the dance, its latest performance; −1: none
 };

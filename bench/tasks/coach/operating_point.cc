@@ -13,7 +13,7 @@ Result<ReadyCoach> MakeWatching(const CoachStage& stage) {
   CoachMethod method;
   method.name = "watching";
   method.policy.policy = FindPolicy("never");
-  constexpr double kNever = 2;  // evidence ends at 1: no performance counts as right before its window has closed
+  constexpr double kNever = 2;  // evidence is at most 1, so no performance counts as right before its window has closed
   method.sight.threshold = kNever;
   std::vector<CoachMethod> methods;
   methods.push_back(std::move(method));
@@ -50,8 +50,8 @@ bool IsSet(const CoachMethod& method) {
 
 double ThresholdOf(std::vector<double> right, double minutes, double needless_per_min) {
   std::ranges::sort(right);
-  const auto borne = static_cast<std::size_t>(std::floor(needless_per_min * minutes));
-  return borne < right.size() ? right[borne] : 1.0;
+  const auto allowed = static_cast<std::size_t>(std::floor(needless_per_min * minutes));
+  return allowed < right.size() ? right[allowed] : 1.0;
 }
 
 Result<void> SetThresholds(const CoachCondition& condition, const CoachStage& stage, const WorldKey& key,
@@ -62,6 +62,7 @@ Result<void> SetThresholds(const CoachCondition& condition, const CoachStage& st
     ASSIGN_OR_RETURN(auto recogniser, MakeRecogniser(method.sight.recogniser, stage.taught));
     recognisers.push_back(std::move(recogniser));
   }
+  // Watch other people, and collect the evidence of their right performances.
   ASSIGN_OR_RETURN(const ReadyCoach watching, MakeWatching(stage));
   const std::string others = std::string(key.scenario) + "/operating-point";
   std::vector<std::vector<double>> right(methods.size());

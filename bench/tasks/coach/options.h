@@ -12,11 +12,11 @@
 
 namespace etude {
 
-/// The point at which coaches are compared: each with the evidence from which on a performance is right that takes so
-/// many right ones a minute for mistakes, of other people under the same condition.
+/// The point at which coaches are compared: each uses the threshold on evidence at which this many right performances a
+/// minute are taken for mistakes, by other people under the same condition.
 struct CoachOperatingPoint {
   double needless_per_min = 0.2;
-  int sessions = 24;  ///< of those people, one each
+  int sessions = 24;  ///< number of sessions, each of another person
 };
 
 /// One condition of a coach scenario: who learns what, how well the sensor sees it, and how well the music keeps time.
@@ -32,10 +32,10 @@ struct CoachCondition {
   LearnerOptions learner;
   std::optional<CoachOperatingPoint> operating_point;  ///< sets the thresholds of methods that say none
   MusicClockOptions music;
-  DetectionOptions sight;  ///< who is there and how they are seen: its session's script is not read
+  DetectionOptions sight;  ///< the person and the sensor; its session's script is not used
 };
 
-/// The part of the loop that a program outside takes.
+/// The part of the loop that an outside program takes.
 enum class Seat { kNone, kRecogniser, kPolicy, kLearner };
 /// "recogniser", "policy", "learner".
 const std::vector<std::string>& SeatNames();
@@ -48,7 +48,8 @@ struct CoachMethod {
   std::string name;
   DetectionMethod sight;
   Coach::PolicyChoice policy{&AllPolicies().front(), {}};
-  const Policy* partner = &AllPolicies().front();  ///< of the session that a yoked one takes its moments from
+  const Policy* partner = &AllPolicies().front();  ///< of the session from which a yoked method takes its correction
+                                                   ///< times
   bool knows_truth = false;                        ///< `oracle: [judgement]`
   TransitionMethod transition;
   CoachOptions coach;

@@ -34,7 +34,7 @@ SessionParts PartsOf(const ReadyCoach& ready, const Coach& coach, const Recognis
   return {coach, recogniser, sight.filter, sight.sees_truth, sight.Capture()};
 }
 
-/// The session that a yoked one takes its moments from: another person's, under the same condition.
+/// Runs the session from which a yoked one takes its correction times: another person's, under the same condition.
 Result<SessionLog> RunPartner(const ReadyCoach& ready, const CoachCondition& condition, const CoachStage& stage,
                               const CoachWorld& world) {
   const std::string scenario = fmt::format("{}/partner", world.key.scenario);
@@ -49,7 +49,7 @@ bool AreAlike(const TransitionWay& a, const TransitionWay& b) {
          a.rules.within_class == b.rules.within_class;
 }
 
-/// The policy that the coach itself has: a program in that seat says when to correct, and so does a partner.
+/// Returns the coach's own policy. A program in that seat decides when to correct, as a partner does.
 Coach::PolicyChoice PolicyOf(const CoachMethod& method) {
   if (method.seat == Seat::kPolicy) return {FindPolicy("yoked"), {}};
   return method.policy;
@@ -84,6 +84,7 @@ Result<std::vector<ReadyCoach>> MakeReady(std::vector<CoachMethod> methods, cons
 
 Result<SessionLog> RunMethod(const ReadyCoach& ready, const CoachCondition& condition, const CoachStage& stage,
                              const CoachWorld& world, LiveProgram* program) {
+  // Put the program into its seat.
   const Seat seat = program != nullptr ? ready.method.seat : Seat::kNone;
   std::optional<SeatedCoachProgram> seated;
   if (program != nullptr) seated.emplace(*program, stage);
@@ -94,6 +95,7 @@ Result<SessionLog> RunMethod(const ReadyCoach& ready, const CoachCondition& cond
   if (seat == Seat::kPolicy) moments = MakeSeatedPolicy(*seated);
   if (seat == Seat::kLearner) player = MakeSeatedLearner(*seated);
   if (player == nullptr) player = std::make_unique<LearnerPlayer>(world, stage);
+  // A yoked method first runs its partner's session.
   if (ready.partner != nullptr) {
     ASSIGN_OR_RETURN(const SessionLog partner, RunPartner(ready, condition, stage, world));
     moments = std::make_unique<Moments>(partner);
@@ -116,7 +118,7 @@ CoachedSession SessionOf(const SessionLog& log) {
   return session;
 }
 
-/// Returns for each move of the dance what its performances were.
+/// Returns the truths of the performances of each move of the dance.
 std::vector<std::vector<PerformanceTruth>> TruthsByMove(const SessionLog& log, std::size_t moves) {
   std::vector<std::vector<PerformanceTruth>> truths(moves);
   for (const LoggedPerformance& performance : log.performances) {
@@ -125,14 +127,14 @@ std::vector<std::vector<PerformanceTruth>> TruthsByMove(const SessionLog& log, s
   return truths;
 }
 
-/// The jump of every transition that the session has seen to its end.
+/// Returns the jump of every transition whose whole window lies in the session.
 std::vector<double> JumpsOf(const SessionLog& log) {
   const std::vector<double> jumps = SecondDifferencesCm(log.coach);
   std::vector<double> worst;
   for (const LoggedTransition& transition : log.transitions) {
     double jump = -1;
-    for (const int seam : transition.seams) {
-      const int first = std::max(0, seam - kWindowReach), last = seam + kWindowReach;
+    for (const int point : transition.seams) {
+      const int first = std::max(0, point - kWindowReach), last = point + kWindowReach;
       if (last >= log.Frames()) continue;
       for (int frame = first; frame <= last; ++frame) jump = std::max(jump, jumps[static_cast<std::size_t>(frame)]);
     }
@@ -175,7 +177,7 @@ std::string DecisionDigest(const SessionLog& log) {
   return digest.Hex();
 }
 
-/// 1, ½ and 0: right, grey and wrong, per performance.
+/// Returns 1, ½ or 0 (right, grey or wrong) per performance.
 Series TruthSeries(const SessionLog& log) {
   Series series{.name = "right", .axis = "performance", .values = {}};
   for (const LoggedPerformance& performance : log.performances) {

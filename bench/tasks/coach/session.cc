@@ -30,19 +30,21 @@ class Loop {
   }
 
   Result<SessionLog> Run() {
-    for (int i = 0; i < kAhead; ++i) MoveLearner();  // what is about to happen when the session begins
+    for (int i = 0; i < kAhead; ++i) MoveLearner();  // the poses ahead of the session's start
     ASSIGN_OR_RETURN(sensor_, MakeSensor());
     for (const BodyPose& pose : log_.learner.poses) sensor_->Update(pose);
     while (frame_ < world_.frames) {
+      // The learner moves, the sensor sees it, and the coach reacts.
       const SensedFrame sensed = *SeeLearner();
       const SensedFrame seen = parts_.sees_truth ? AsDanced(frame_) : sensed;
       shown_ = coach_->Next(seen, Told());
       log_.sensed.frames.push_back(seen);
+      // Log the frame, and let the music go on.
       Note();
       PlayMusic();
       if (shown_.mode == CoachMode::kStandby) DanceAgain();
       ++frame_;
-      if (log_.given_up_at) break;  // who has given up is gone
+      if (log_.given_up_at) break;  // the learner has left
     }
     log_.learner.poses.resize(static_cast<std::size_t>(frame_));
     log_.test = player_.TakeTest(world_.test_after);
@@ -50,7 +52,7 @@ class Loop {
   }
 
  private:
-  /// The song is over: it begins anew; what the coach remembers of the player, and what it has seen of them, stays.
+  /// Begins the song again after its end. The coach keeps what it remembers of the player and has seen.
   void DanceAgain() {
     CoachState state = parts_.coach.BeginDancing();
     state.moves = coach_->state().moves;
@@ -65,7 +67,7 @@ class Loop {
     return sensor_->Update(log_.learner.poses.back());
   }
 
-  /// Cameras are set up for who is there when the session begins.
+  /// Makes the sensor. Cameras are set up for the learner's pose at the start of the session.
   Result<std::unique_ptr<LiveSensor>> MakeSensor() const {
     if (!world_.cameras || parts_.sees_truth) {
       return std::make_unique<SkeletonSensor>(world_.sensor, world_.occluders, world_.errors, kJudgedRateHz,
@@ -99,7 +101,7 @@ class Loop {
     if (music_.IsPlaying()) NoteBeats(before, music_.Now());
   }
 
-  /// Notes the beats that sound while the music goes from one moment of its own to another, within this frame.
+  /// Logs the beats between two music times, which both lie within this frame.
   void NoteBeats(double from_s, double to_s) {
     const std::vector<double>& beats = parts_.coach.dance().beats_s;
     for (auto beat = std::ranges::lower_bound(beats, from_s); beat != beats.end() && *beat < to_s; ++beat) {
@@ -107,7 +109,7 @@ class Loop {
     }
   }
 
-  /// Keeps what this frame came to.
+  /// Logs the results of this frame.
   void Note() {
     log_.modes.push_back(shown_.mode);
     log_.coach.poses.push_back(shown_.body);
@@ -144,7 +146,8 @@ class Loop {
     }
   }
 
-  /// The window that was open has closed. One that the coach itself has cut off asked for no whole performance.
+  /// Logs the performance whose window has closed. A window that the coach itself cut off did not ask for a whole
+  /// performance and is not logged.
   void NoteVerdict(CoachEvent event) {
     if (!open_) return;
     const bool was_cut = event == CoachEvent::kUnjudged && shown_.mode != CoachMode::kDance;
@@ -163,7 +166,7 @@ class Loop {
     open_.reset();
   }
 
-  /// The first frame of a corrective act, the way into it excluded.
+  /// Logs the first frame of a correction, without the transition to it.
   void NoteAct() {
     const bool acts = shown_.mode == CoachMode::kCorrect && !shown_.in_transition;
     if (acts && !log_.corrections.empty() && !log_.corrections.back().act_frame) {
@@ -180,7 +183,7 @@ class Loop {
     log_.words.push_back(std::move(words));
   }
 
-  /// The last frames before the transition points of a transition asked for in this frame.
+  /// Returns the last frames before the transition points of a transition requested in this frame.
   std::vector<int> TransitionPointsOf(const TransitionRecord& record) const {
     std::vector<int> seams;
     double frame = frame_;
@@ -202,7 +205,7 @@ class Loop {
   CoachOutput shown_;
   SessionLog log_;
   int frame_ = 0;
-  int first_frame_ = 0;  ///< of the song that is danced
+  int first_frame_ = 0;  ///< first frame of the present performance of the song
   std::optional<OpenWindow> open_;
   int opened_at_ = 0;
 };

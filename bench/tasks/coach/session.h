@@ -14,7 +14,7 @@
 
 namespace etude {
 
-/// A performance as its player knows it.
+/// The truth of a performance, as its player knows it.
 struct PlayedPerformance {
   PerformanceTruth truth = PerformanceTruth::kRight;
   std::string faults = "none";  ///< "amplitude+late"
@@ -25,19 +25,20 @@ class Player {
  public:
   virtual ~Player() = default;
 
-  /// The body's next pose, now that the coach shows this: SkeletonSensor::kAhead frames ahead of what is shown, for
-  /// nobody acts at once on what is seen (0.23 s; a simple reaction to something seen takes 0.2 to 0.25 s).
+  /// Returns the body's next pose, after the coach showed `shown`. The pose is SkeletonSensor::kAhead frames ahead of
+  /// what is shown, because nobody reacts at once (0.23 s; a simple visual reaction takes 0.2 to 0.25 s).
   virtual BodyPose Next(const CoachOutput& shown) = 0;
-  /// The latest performance of this repetition of the dance; none when it was not begun.
+  /// Returns the latest performance of this repetition of the dance; nothing if it was not begun.
   virtual std::optional<PlayedPerformance> PerformanceOf(int repetition) const = 0;
-  /// True when the player's patience has run out.
+  /// Returns true if the player's patience has run out.
   virtual bool HasGivenUp() const = 0;
-  /// The test without a coach, so many performances' time after the session: for every move of the dance the chance to
-  /// dance it without a fault; of a player who cannot say, 1 or 0, and no entry for what is neither.
+  /// Tests the player without a coach, after the time of `performances_later` more performances. Returns for every move
+  /// of the dance the probability of dancing it without a fault; for a player who cannot tell it, 1 or 0, and no entry
+  /// for a grey performance.
   virtual std::vector<double> TakeTest(int performances_later) = 0;
 };
 
-/// A performance that was asked for, as the player danced it and as the coach judged it.
+/// A performance that was asked for, as danced and as judged.
 struct LoggedPerformance {
   int repetition = 0;  ///< of the dance
   int move = 0;
@@ -45,10 +46,10 @@ struct LoggedPerformance {
   std::string faults;
 };
 
-/// A transition of the coach's: the frames of the session that are the last before each of its transition points.
+/// A transition of the coach.
 struct LoggedTransition {
   std::vector<int> seams;
-  bool is_bridged = false;  ///< bridge frames carry it, directly or through in-betweens made of such
+  bool is_bridged = false;  ///< it uses bridge frames, directly or through clips in between
 };
 
 /// The words on the screen from a frame on.
@@ -65,14 +66,14 @@ struct SessionLog {
   std::vector<GivenCorrection> corrections;
   std::vector<CoachRecord> records;  ///< frames count from the session's first
   std::vector<LoggedTransition> transitions;
-  std::vector<LoggedWords> words;     ///< whenever they change
+  std::vector<LoggedWords> words;     ///< one entry per change
   std::vector<double> beat_errors_s;  ///< of the frames danced to music
-  std::vector<double> beats_s;        ///< when the music's beats sounded, seconds since the session began
+  std::vector<double> beats_s;        ///< times of the music's beats, seconds from the session's start
   BodyMotion coach;                   ///< as shown
   BodyMotion learner;                 ///< as danced
   SkeletonStream sensed;              ///< as the coach sees it, before its filter
   std::optional<int> given_up_at;     ///< frame
-  std::vector<double> test;           ///< afterwards, without a coach (Player::TakeTest)
+  std::vector<double> test;           ///< results of the test without a coach (Player::TakeTest)
 
   int Frames() const { return static_cast<int>(modes.size()); }
 };
@@ -83,18 +84,18 @@ struct SessionParts {
   const Recogniser& recogniser;
   FilterOptions filter;
   bool sees_truth = false;     ///< the coach sees the learner as danced, not as sensed
-  CaptureMethod capture = {};  ///< before cameras: how they make skeletons, causally
+  CaptureMethod capture = {};  ///< with cameras: the causal method that makes skeletons
 };
 
-/// Decides from frame to frame, in place of the coach's own policy, when to correct.
+/// Decides in each frame, instead of the coach's own policy, whether to correct.
 class MomentSource {
  public:
   virtual ~MomentSource() = default;
   virtual bool Now(int frame, const CoachOutput& before) = 0;
 };
 
-/// Runs one session: the player sees the coach, the sensor sees the player, the coach sees what the sensor reports.
-/// `moments`: null = none. Fails, saying why, when cameras cannot be set up.
+/// Runs one session: the player sees the coach, the sensor sees the player, and the coach sees what the sensor reports.
+/// `moments` may be null. Fails, saying why, if cameras cannot be set up.
 Result<SessionLog> RunSession(const SessionParts& parts, const CoachWorld& world, Player& player,
                               MomentSource* moments);
 

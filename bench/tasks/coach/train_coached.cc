@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// A song and somebody who dances it without ever interrupting or judging early.
+/// A song and a coach who dances it without interrupting or judging early.
 struct Lesson {
   CoachStage stage;
   ReadyCoach coach;
@@ -26,8 +26,8 @@ Result<std::unique_ptr<Lesson>> MakeLesson(const std::string& song) {
   return lesson;
 }
 
-/// A person before a sensor, thrown.
-CoachCondition ThrowCondition(const WorldKey& key) {
+/// Draws a person, a sensor and its noise.
+CoachCondition DrawCondition(const WorldKey& key) {
   RandomStream dice(key, "condition");
   constexpr std::array<double, 4> kNoises = {0.5, 1, 1, 2};
   CoachCondition condition;
@@ -35,11 +35,11 @@ CoachCondition ThrowCondition(const WorldKey& key) {
   if (dice.Chance(0.5)) condition.sight.sensor = SensorV1();
   condition.sight.session.people = People::kMixed;
   condition.learner.skill = dice.Uniform(0.1, 0.8);
-  if (dice.Chance(0.5)) condition.learner.severity = 1;  // full mistakes: seldom else, and they must not be missed
+  if (dice.Chance(0.5)) condition.learner.severity = 1;  // full mistakes are otherwise rare, and must not be missed
   return condition;
 }
 
-/// The measures of each window, the nearest first and not more than can matter; grey ones left out.
+/// Adds a bag for each window that is not grey: its nearest measures, only as many as can matter.
 void AddSession(const Lesson& lesson, const SessionLog& log, Weighting weighting, std::vector<LabelledBag>& bags) {
   std::vector<PerformanceMeasures> measured;
   const auto recogniser =
@@ -69,7 +69,7 @@ Result<LearntModel> TrainCoached(std::span<const std::string> songs, const Coach
     const WorldKey key{.suite_seed = training.seed, .scenario = "coached-training", .trial = session};
     const auto index = static_cast<std::size_t>(session);
     const Lesson& lesson = *lessons[index % lessons.size()];
-    const CoachCondition condition = ThrowCondition(key);
+    const CoachCondition condition = DrawCondition(key);
     const CoachWorld world = MakeCoachWorld(condition, key);
     ASSIGN_OR_RETURN(const SessionLog log, RunMethod(lesson.coach, condition, lesson.stage, world, nullptr));
     const bool weighs = index / lessons.size() % 2 == 1;

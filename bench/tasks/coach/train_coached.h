@@ -11,17 +11,17 @@
 namespace etude {
 
 struct CoachedTraining {
-  int sessions = 300;  ///< every one of another person, three minutes each
+  int sessions = 300;  ///< each of another person, three minutes long
   std::uint64_t seed = 1;
   BoostingOptions boosting{.trees = 200, .rate = 0.08};
-  OnProgress progress = {};  ///< told of sessions
+  OnProgress progress = {};  ///< called with the number of sessions
 };
 
-/// Trains what `coached` knows: simulated people of all kinds and skills dance these songs along with a coach who never
-/// interrupts, before both sensors and at many noises; the program that is judged measures every performance in its
-/// window, and the model is fitted to what was truly danced. Grey performances teach nothing. The worlds are keyed
-/// apart from those of every scenario, so nobody judged is among them. `asked` alone is fitted. Refuses songs that are
-/// unknown.
+/// Trains the model of recogniser `coached`. Simulated people of all kinds and skills dance these songs with a coach
+/// who never interrupts, before both sensors and with various noises. Every performance is measured in its window as
+/// the recogniser measures it in use, and the model is fitted to the truth. Grey performances are left out. The worlds
+/// are keyed apart from those of every scenario, so no judged person is among them. Only `asked` is fitted. Unknown
+/// songs are an error.
 Result<LearntModel> TrainCoached(std::span<const std::string> songs, const CoachedTraining& training);
 
 }  // namespace etude

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// The tempo at which the song has this move danced, beats of the move per minute.
+/// Returns the tempo at which the song has this move, beats of the move per minute.
 double TempoOf(const Song& song, const std::string& move) {
   const auto part = std::ranges::find(song.parts, move, &SongPart::move);
   return part->half_time ? song.tempo_bpm / 2 : song.tempo_bpm;
@@ -38,13 +38,13 @@ Result<CoachStage> SetCoachStage(const std::string& name) {
 }
 
 CoachWorld MakeCoachWorld(const CoachCondition& condition, const WorldKey& key) {
-  // The distance at which Kinect's makers ask players to stand, roughly.
+  // About the distance at which Kinect's makers ask players to stand.
   constexpr double kNearest = 2.5, kFarthest = 3.0;
   RandomStream place_dice(key, "sensor-place");
-  const double thrown = place_dice.Uniform(kNearest, kFarthest);
+  const double drawn = place_dice.Uniform(kNearest, kFarthest);
   const DetectionOptions& sight = condition.sight;
-  const SensorPlacement place{
-      .distance = sight.distance_m.value_or(thrown), .turn = Radians(sight.turn_deg), .height = sight.sensor_height_m};
+  const SensorPlace place{
+      .distance = sight.distance_m.value_or(drawn), .turn = Radians(sight.turn_deg), .height = sight.sensor_height_m};
   CoachWorld world{.key = key,
                    .person = DrawPerson(key, sight.session.people),
                    .sensor = SkeletonSensorAt(place, sight.sensor.view),

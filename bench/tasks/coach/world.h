@@ -20,33 +20,33 @@ namespace etude {
 struct CoachStage {
   std::vector<Move> moves;                   ///< of the dance, in its order, at the song's tempo
   std::vector<TaughtMove> taught;            ///< the same, as recognisers are taught them
-  std::unique_ptr<ShowableFaults> showable;  ///< what can go wrong with each of them; never null
+  std::unique_ptr<ShowableFaults> showable;  ///< the faults that each of them can have; never null
   std::unique_ptr<DanceLibrary> library;     ///< never null
   std::vector<double> natural_jumps_cm;      ///< of the unbroken dance
 
   const Dance& dance() const { return library->dance(); }
 };
 
-/// Sets the stage for a built-in song.
+/// Prepares a built-in song.
 Result<CoachStage> SetCoachStage(const std::string& song);
 
-/// One trial: who learns, and where the sensor stands. All else that is true of a session is thrown while it runs, by
-/// dice that are keyed by what happens (the n-th performance of a move) and by the frame, so that every coach meets
-/// the same luck.
+/// One trial: the learner and the place of the sensor. Everything else that is random in a session is drawn while it
+/// runs, from streams keyed by the event (the n-th performance of a move) and by the frame, so that every coach meets
+/// the same random events.
 struct CoachWorld {
   WorldKey key;
   Person person;
   Camera sensor;
   SkeletonSensorOptions errors;
   Occluders occluders;
-  std::optional<StudioOptions> cameras = {};  ///< in place of the skeleton sensor
+  std::optional<StudioOptions> cameras = {};  ///< if set, used instead of the skeleton sensor
   MusicClockOptions music;
   int frames = 0;  ///< of the session
   LearnerOptions learner;
-  int test_after = 20;  ///< this many performances' time after the session, what was kept is tested
+  int test_after = 20;  ///< what was retained is tested after the time of this many more performances
 };
 
-/// `key`'s scenario must outlive the world.
+/// Makes the world of `key`, whose scenario must outlive it.
 CoachWorld MakeCoachWorld(const CoachCondition& condition, const WorldKey& key);
 
 }  // namespace etude

@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Returns the mean squared distance along the best way, which may stop when it exceeds `enough`.
+/// Returns the mean squared distance along the best warping path. It may stop early, with infinity, if that exceeds
+/// `enough`.
 double WarpedCost(const std::vector<PoseVector>& a, const std::vector<PoseVector>& b, double enough) {
   if (a.empty() || b.empty()) return kFar;
   const double all = static_cast<double>(a.size() + b.size());
@@ -40,7 +41,7 @@ struct Described {
   std::vector<PoseVector> steps;
 };
 
-/// Returns the move of the nearest performance by somebody else; "" when there is none.
+/// Returns the move of the nearest performance by anybody else; "" if there is none.
 std::string NearestByOthers(const Described& one, const std::vector<Described>& all) {
   double lowest = kFar;
   std::string move;
@@ -68,7 +69,7 @@ std::vector<Classified> ByNearest(const std::vector<NamedStream>& streams, const
   return verdicts;
 }
 
-/// Classifies, or spots action points of, everything that one person did.
+/// Classifies all performances of one person, and spots their action points.
 class PersonLeftOut {
  public:
   PersonLeftOut(const std::vector<NamedStream>& streams, const std::vector<LabelledPart>& parts,
@@ -89,7 +90,7 @@ class PersonLeftOut {
   }
 
  private:
-  /// Takes the parts of one stream.
+  /// Evaluates the parts of one stream.
   void TakeStream(const std::string& person, std::span<const LabelledPart> parts) {
     const auto is_theirs = [&](const LabelledPart& part) { return part.person == person; };
     if (std::ranges::none_of(parts, is_theirs)) return;
@@ -112,7 +113,7 @@ class PersonLeftOut {
         out_.detections.push_back({taught_[spotting.move].name, clock_s_ + spotting.frame / stream.rate_hz});
       }
     }
-    constexpr double kBetweenStreams = 10;  // seconds, so that no detection is of a point in the next stream
+    constexpr double kBetweenStreams = 10;  // seconds, so that no detection matches a point of the next stream
     clock_s_ += static_cast<double>(stream.frames.size()) / stream.rate_hz + kBetweenStreams;
   }
 
@@ -125,8 +126,8 @@ class PersonLeftOut {
   double clock_s_ = 0;
 };
 
-constexpr double kMargin = 0.5;  // seconds, as the detection task's windows have it
-constexpr double kApart = 10;    // seconds between recordings, so that no detection is of a point in the next one
+constexpr double kMargin = 0.5;  // seconds, as in the windows of the detection task
+constexpr double kApart = 10;    // seconds between recordings, so that no detection matches a point of the next one
 
 double Rounded(double value) { return std::round(value * 1e4) / 1e4; }
 
@@ -172,6 +173,7 @@ void LabelScores::Add(const NamedStream& stream, std::span<const LabelledPart> p
   const SkeletonStream& frames = stream.stream;
   const SeenStream seen = SeeStream(frames, watch_.filter);
   const auto count = static_cast<int>(frames.frames.size()), margin = static_cast<int>(kMargin * frames.rate_hz);
+  // Performances and action points of this recording.
   std::vector<MoveWindow> windows;
   bool has_points = false;
   for (const LabelledPart& part : parts) {
@@ -192,6 +194,7 @@ void LabelScores::Add(const NamedStream& stream, std::span<const LabelledPart> p
     const double score = JudgeAsked(seen, part.begin, end, recogniser_, index);
     performances_.push_back({part.IsRight(), score >= watch_.decision.threshold, score});
   }
+  // Detections outside all of their windows are false alarms.
   for (const Spotting& spotting : spottings) {
     const std::string& move = moves_[spotting.move].name;
     alarms_ += IsFalseAlarm(move, spotting.frame, windows);

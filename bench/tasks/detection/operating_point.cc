@@ -61,9 +61,9 @@ std::vector<MethodDecision> DecideBy(std::span<const ReadyMethod> methods, const
     auto& [spotting, judging] = decisions.emplace_back(methods[m].method.Decision());
     if (!point || methods[m].method.threshold) continue;
     spotting.threshold = ThresholdAt(trials[m].alarms, point->false_alarms_per_min, spotting.refractory_s);
-    // Without any evidence nothing is right, however little may be asked for.
-    constexpr double kLeast = 1e-4;
-    judging = std::max(kLeast, ThresholdAtRecall(trials[m].events, point->recall).value_or(spotting.threshold));
+    // A performance without any evidence is never right, even for a recall that would need a threshold of 0.
+    constexpr double kMinJudging = 1e-4;
+    judging = std::max(kMinJudging, ThresholdAtRecall(trials[m].events, point->recall).value_or(spotting.threshold));
   }
   return decisions;
 }

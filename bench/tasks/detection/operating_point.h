@@ -16,45 +16,45 @@
 
 namespace etude {
 
-/// A method whose recogniser was taught all moves.
+/// A method with a recogniser that was taught all moves.
 struct ReadyMethod {
   DetectionMethod method;
   std::unique_ptr<Recogniser> recogniser;
 };
 
-/// The evidence of a session, and what is no false alarm in it.
+/// The evidence of a session, and a test for detections that are not false alarms in it.
 struct AlarmTrial {
   std::shared_ptr<const EvidenceTrace> trace;
   double rate_hz = kJudgedRateHz;
   std::function<bool(const Detection&)> is_performance;
 };
 
-/// The least threshold of spotting, to 1 in 2¹⁶, at which the trials together give at most so many false alarms a
-/// minute; alarms become fewer as it rises, but for some that a refractory time hides. 1 where even that gives more. At
-/// least one trial, none without frames.
+/// Returns the smallest threshold of spotting, to 1 in 2¹⁶, at which all trials together give at most
+/// `false_alarms_per_min`. The rate falls as the threshold rises, apart from alarms that a refractory time hides.
+/// Returns 1 if even that gives more. At least one trial is required, each with frames.
 double ThresholdAt(std::span<const AlarmTrial> trials, double false_alarms_per_min, double refractory_s);
 
-/// The evidence that a method saw of other people: all that it may take for a move, and what was asked for, judged at
-/// no threshold.
+/// What a method saw of other people: its evidence for all moves, and the performances asked for, judged without a
+/// threshold.
 struct MethodTrials {
   std::vector<AlarmTrial> alarms;
   std::vector<JudgedEvent> events;
 };
 using TrialsOfMethods = std::vector<MethodTrials>;
 
-/// Adds what each method that says no threshold of its own sees in a world. `repertoire`: what all were taught.
+/// Adds what each method without a threshold of its own sees in a world. All methods were taught `repertoire`.
 void AddTrials(const std::shared_ptr<const DetectionWorld>& world, std::span<const ReadyMethod> methods,
                const Repertoire& repertoire, TrialsOfMethods& trials);
 
-/// The thresholds of each method: its own, else those of the operating point on its trials, when there is an
-/// operating point. Where nobody was right, the threshold of spotting serves for judging, too. `trials`: everybody's
-/// but those of the person judged.
+/// Returns the thresholds of each method: its own, or those of the operating point on its trials, if there is an
+/// operating point. If no performance was right, the threshold of spotting is also used for judging. `trials` are of
+/// all people but the judged one.
 std::vector<MethodDecision> DecideBy(std::span<const ReadyMethod> methods, const TrialsOfMethods& trials,
                                      const std::optional<OperatingPoint>& point);
 
-/// The thresholds of each method of a scenario of simulated people. With an operating point, thresholds that methods do
-/// not say themselves are set the first time they are asked for, on sessions of people that are keyed apart from those
-/// judged; of a mixture every kind has its share.
+/// The thresholds of each method of a scenario with simulated people. With an operating point, thresholds that methods
+/// do not set are computed at the first request, on sessions of people keyed apart from the judged ones; of a mixture,
+/// every kind of people has its share.
 class MethodDecisions {
  public:
   /// The arguments must outlive this.
@@ -62,7 +62,7 @@ class MethodDecisions {
                   const DetectionOptions& options)
       : methods_(methods), repertoire_(repertoire), options_(options) {}
 
-  /// One per method, for all worlds of this key's scenario and seed.
+  /// Returns one decision per method, for all worlds of this key's scenario and seed.
   const std::vector<MethodDecision>& For(const WorldKey& key);
 
  private:

@@ -25,21 +25,21 @@ constexpr const char* kMovesKey = "moves";
 /// The object between sensor and performer (`MakeOccluders`).
 enum class OccluderKind { kNone, kTable, kChair, kPerson };
 
-/// The point at which methods are compared, set on other people under the same condition, who err as people do (half of
-/// their performances, as badly as it comes), however the condition says those judged err: each method spots moves at
-/// the threshold that gives so many false alarms, and judges what was asked for at the one that praises so many of the
-/// right performances: none is better only because it says yes, or no, more often.
+/// The point at which methods are compared. Its thresholds are set on other people under the same condition, half of
+/// whose performances have faults of any severity, whatever the condition says about the judged people. Each method
+/// spots moves at the threshold that gives `false_alarms_per_min`, and judges performances at the threshold that
+/// praises the share `recall` of the right ones. So no method is better only because it says yes, or no, more often.
 struct OperatingPoint {
   double false_alarms_per_min = 1;
   double recall = 0.9;  ///< of judging
-  int sessions = 24;    ///< of those people, one each
+  int sessions = 24;    ///< number of sessions, each of another person
 };
 
-/// The thresholds of a method for its two questions: whether a move that nobody need have
-/// asked for was performed, of all moves at any time, and whether the one performance that was asked for is right.
+/// The thresholds of a method for its two decisions: whether any move was performed at any time (spotting), and whether
+/// the performance that was asked for is right (judging).
 struct MethodDecision {
   DecisionOptions spotting;
-  double judging = 0.5;  ///< the evidence from which on a performance asked for is called right
+  double judging = 0.5;  ///< the evidence at or above which a performance is called right
 };
 
 /// One condition of a detection scenario: who dances, and how well the sensor sees it.
@@ -47,7 +47,7 @@ struct MethodDecision {
 ///     events: 8        # performances in one session
 ///     people: mixed    # who dances: toddler, school-child, adult, expert, absent, or a mixture
 ///     fault_share: 0.5 # of them have a fault
-///     severity: 0.7    # of every fault; else thrown
+///     severity: 0.7    # of every fault; else random
 ///     noise: 1         # times every error of the sensor
 ///     sensor: v2       # which sensor: v1, v2, a sensor file, or cameras
 ///     turn_deg: 0      # how far the performer is turned away from the sensor
@@ -58,7 +58,7 @@ struct DetectionOptions {
   double noise = 1;
   SkeletonSensorOptions sensor = SensorV2();  ///< strength aside; the task opens what the condition names
   double turn_deg = 0;
-  std::optional<double> distance_m;  ///< else thrown in each trial, 2.5–3 m
+  std::optional<double> distance_m;  ///< else drawn in each trial, 2.5–3 m
   double sensor_height_m = 1;
   OccluderKind occluder = OccluderKind::kNone;
   bool has_cameras = false;  ///< `sensor: cameras`: nothing of the above is read but the session

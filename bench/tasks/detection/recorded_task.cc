@@ -34,14 +34,14 @@ BodyPose HalfWay(const BodyPose& from, const BodyPose& to) {
       return length > 0 ? limb / length : limb;
     };
     glm::dvec3 middle = way(from) + way(to);
-    if (glm::length(middle) < 1e-6) middle = way(to);  // opposite ways have no middle
+    if (glm::length(middle) < 1e-6) middle = way(to);  // opposite directions have no middle
     const double length = glm::length(to[child] - to[parent]);
     half[child] = half[parent] + (length > 0 ? length * glm::normalize(middle) : glm::dvec3(0));
   }
   return half;
 }
 
-/// Returns the frame with the joints where `pose` has them.
+/// Returns the frame with the joints at the positions of `pose`.
 SensedFrame Moved(const SensedFrame& frame, const BodyPose& pose) {
   SensedFrame moved = frame;
   for (const Role role : AllRoles()) moved[role].position = pose[role];
@@ -67,8 +67,8 @@ SkeletonStream Halved(const SkeletonStream& stream) {
   return halved;
 }
 
-/// Returns the root mean square of the angles of the limb that strays farthest, degrees, along the best way through
-/// both performances; 0 where one shows no body.
+/// Returns the root mean square angle, degrees, of the limb that deviates most along the best warping path through both
+/// performances; 0 if one shows no body.
 double WarpedStrayDeg(const SkeletonStream& meant, const SkeletonStream& danced) {
   struct Way {
     double cost = std::numeric_limits<double>::infinity();
@@ -79,6 +79,7 @@ double WarpedStrayDeg(const SkeletonStream& meant, const SkeletonStream& danced)
   if (from.empty() || to.empty()) return 0;
   std::vector<Way> before(to.size() + 1), now(to.size() + 1);
   before[0].cost = 0;
+  // Dynamic time warping, with the squared angles of each limb summed along the path.
   for (const PoseVector& pose : from) {
     now[0] = {};
     for (std::size_t j = 0; j < to.size(); ++j) {
@@ -131,10 +132,10 @@ namespace {
 
 constexpr double kGrace = 0.5;  // seconds, as after a simulated performance
 
-/// The world grows by one recording, of which `parts` are the labels.
-class StreamJoiner {
+/// Appends recordings with their labels to a world.
+class RecordingAppender {
  public:
-  explicit StreamJoiner(DetectionWorld& world) : world_(world) {}
+  explicit RecordingAppender(DetectionWorld& world) : world_(world) {}
 
   void Add(const BodyMotion& motion, const SkeletonStream& stream, std::span<const LabelledPart> parts) {
     const auto begin = static_cast<int>(world_.stream.frames.size());
@@ -152,6 +153,7 @@ class StreamJoiner {
         world_.events.push_back(EventOf(part, begin));
       }
     }
+    // A window ends half a second after the performance, or where the next one begins.
     for (std::size_t i = first; i < world_.events.size(); ++i) {
       const int next = i + 1 < world_.events.size() ? world_.events[i + 1].window.begin : end;
       FrameInterval& window = world_.events[i].window;
@@ -177,8 +179,8 @@ class StreamJoiner {
   DetectionWorld& world_;
 };
 
-/// Returns the move that somebody was asked for who did another, `turn` places further on among all; the same where
-/// there is no other.
+/// Returns the move that a person was asked for who did another one: `turn` positions further in the list of all moves,
+/// or the same one if there is no other.
 const std::string& OtherMove(const std::vector<std::string>& moves, const std::string& move, std::size_t turn) {
   const auto at = static_cast<std::size_t>(std::ranges::find(moves, move) - moves.begin());
   const std::size_t others = std::max<std::size_t>(moves.size() - 1, 1);
@@ -195,14 +197,15 @@ std::span<const LabelledPart> PartsOf(const LabelledStreams& set, std::size_t st
 DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person, const DetectionOptions& options,
                                  const WorldKey& key) {
   DetectionWorld world{.motion = {}, .events = {}, .stream = {}, .person = set.people[person].name};
-  StreamJoiner joiner(world);
+  RecordingAppender appender(world);
   const auto add = [&](const NamedStream& recording, std::size_t s, std::string_view fault) {
-    if (!recording.motion) return joiner.Add(MotionOf(recording.stream), recording.stream, PartsOf(set, s));
+    if (!recording.motion) return appender.Add(MotionOf(recording.stream), recording.stream, PartsOf(set, s));
     const std::string scenario = fmt::format("{}/{}{}", key.scenario, recording.name, fault);
-    joiner.Add(*recording.motion, Sense(*recording.motion, options, {key.suite_seed, scenario, key.trial}),
+    appender.Add(*recording.motion, Sense(*recording.motion, options, {key.suite_seed, scenario, key.trial}),
                PartsOf(set, s));
   };
   std::size_t turn = 0;
+  // Each recording, then the same once more with each fault.
   for (const std::size_t s : set.people[person].streams) {
     add(set.streams[s], s, "");
     if (std::ranges::none_of(PartsOf(set, s), &LabelledPart::IsRight)) continue;
@@ -310,15 +313,16 @@ class RecordedTask final : public Task {
  private:
   const std::string& NameOf(std::size_t person) const { return set_.people[person].name; }
 
-  /// The fold in which this person is judged: what all others taught.
+  /// Returns the fold in which this person is judged: what all others taught.
   const Result<Fold>& FoldOf(std::size_t person) const {
-    const std::size_t index = taught_ ? 0 : person;  // what was taught beforehand is the same for all
+    const std::size_t index = taught_ ? 0 : person;  // moves taught beforehand are the same for all
     const auto known = folds_.find(index);
     if (known != folds_.end()) return known->second;
     return folds_.emplace(index, MakeFold(set_, taught_, {NameOf(person)}, methods_)).first->second;
   }
 
-  /// Thresholds are set on other people, each seen by recognisers that neither they nor the person judged have taught.
+  /// Sets thresholds on other people, each seen by recognisers that were taught neither by them nor by the judged
+  /// person.
   const std::vector<MethodDecision>& DecisionsFor(const WorldKey& key) const {
     const auto known = decisions_.find(key.trial);
     if (known != decisions_.end()) return known->second;
@@ -348,12 +352,12 @@ class RecordedTask final : public Task {
   const std::vector<DetectionMethod> methods_;
   const LabelledStreams& set_;
   const Taught taught_;
-  // Memories of what depends on keys alone; a task meets one scenario and one seed.
+  // Caches of values that depend on keys alone; a task has one scenario and one seed.
   mutable std::map<std::size_t, Result<Fold>> folds_;
   mutable std::map<int, std::vector<MethodDecision>> decisions_;
 };
 
-/// Refuses faults that cannot be made of these recordings.
+/// Complains of faults that cannot be imposed on these recordings.
 Result<void> CheckFaults(const Node& condition, std::span<const Fault> faults, const LabelledStreams& set) {
   if (faults.empty()) return {};
   const Node& named = *condition.Find("faults");
@@ -372,7 +376,7 @@ Result<void> CheckFaults(const Node& condition, std::span<const Fault> faults, c
   return Fail(named.place, "'{}' needs two moves, found: {}", FaultName(Fault::kWrongMove), fmt::join(set.moves, ", "));
 }
 
-/// Keys that nobody reads where people were recorded.
+/// Complains of keys that have no effect on recorded people.
 Result<void> RefuseKeys(const Node& condition, std::span<const std::string_view> keys, std::string_view why) {
   for (const std::string_view key : keys) {
     const Node* named = condition.Find(key);
@@ -388,6 +392,7 @@ Result<std::unique_ptr<Task>> MakeRecordedTask(TaskInput& input, const Detection
   const LabelledStreams& set = *input.recordings;
   const Node& condition = input.condition.node();
   RETURN_IF_ERROR(RefuseKeys(condition, PeopleKeys(), "people were recorded, nobody is simulated"));
+  // Keys and oracles that do not apply.
   const bool are_sensed = std::ranges::any_of(set.streams, [](const NamedStream& s) { return s.motion.has_value(); });
   if (!are_sensed) RETURN_IF_ERROR(RefuseKeys(condition, SensingKeys(), "a recording is what its sensor saw"));
   if (options.has_cameras) {
@@ -399,18 +404,19 @@ Result<std::unique_ptr<Task>> MakeRecordedTask(TaskInput& input, const Detection
                 method.name);
   }
   RETURN_IF_ERROR(CheckFaults(condition, options.session.faults, set));
+  // The moves, the labels, and the number of people.
   Taught taught;
   if (!options.moves.empty()) {
     ASSIGN_OR_RETURN(taught, ReadMoves(input.texts.at(kMovesKey), options.moves));
   }
   RETURN_IF_ERROR(CheckRecordings(set, taught.has_value()));
-  const std::size_t needed = taught ? 2 : 3;  // one judged, one on whom thresholds are set, one who teaches both
+  const std::size_t needed = taught ? 2 : 3;  // one judged, one for the thresholds, one who teaches
   if (options.operating_point && set.people.size() < needed) {
     return Fail(condition.Find("operating_point")->place,
                 "thresholds are set on people who neither teach nor are judged; recorded: {}, needed: {}",
                 set.people.size(), needed);
   }
-  // What no person's recogniser can do without is told before anything is run.
+  // Check once before the run that every method can be taught.
   if (auto all = MakeFold(set, taught, {}, methods); !all) return tl::unexpected(all.error());
   return std::make_unique<RecordedTask>(options, std::move(methods), set, std::move(taught));
 }

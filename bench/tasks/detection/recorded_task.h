@@ -17,45 +17,46 @@
 
 namespace etude {
 
-/// The faults that can be made of the recording of somebody who is right: amplitude, wrong side, wrong move.
+/// Returns the faults that can be imposed on the recording of a right performance: amplitude, wrong side, wrong move.
 std::span<const Fault> MadeFaults();
 
-/// Returns the recording as it would be with the fault: every limb half-way between where it points in the first frame
-/// with a body and where it points now, each as long as it is; left and right exchanged; as it is, for somebody who
-/// was asked for another move. `fault` is one of MadeFaults.
+/// Returns the recording with the fault imposed. Amplitude: every limb points half-way between its direction in the
+/// first frame with a body and its present direction, with its length kept. Wrong side: left and right are exchanged.
+/// Wrong move: unchanged, for a person who was asked for another move. `fault` is one of MadeFaults.
 NamedStream WithFault(const NamedStream& right, Fault fault);
 
-/// Says what a right performance of a recording became with this fault, by the same limits as among simulated people
-/// (StrayLimits): by the angles of the limb that strays farthest; where sides are exchanged, the performances are laid
-/// on each other in time first (dynamic time warping), so that a step more of a walk is none. Another move is wrong.
+/// Returns whether a right performance is still right, grey or wrong with this fault, by the same limits as for
+/// simulated people (StrayLimits): by the angles of the limb that deviates most. For a wrong side the performances are
+/// first aligned in time (dynamic time warping), so that an additional step of a walk does not count. Another move is
+/// wrong.
 Truth TruthOfFault(const NamedStream& right, const NamedStream& faulty, const LabelledPart& part, Fault fault);
 
-/// The recordings of one person, one recording after another, with what its labels say. Clips are sensed
-/// under the condition; a sensor's recordings are what they are. A performance is judged until half a second after its
-/// end, but not beyond the next one's beginning; where labels overlap, the earlier is judged as far as that. Where the
-/// condition names faults, each recording follows once more with each of them, in which what was right
-/// is wrong; what the fault hardly changes, and what had been wrong, is grey there.
+/// Makes the world of one person: their recordings, one after another, with their labels. Clips are sensed under the
+/// condition; recordings of a sensor are used as they are. A performance is judged until half a second after its end,
+/// but at most until the next one begins; this also holds for labels that overlap. If the condition names faults, each
+/// recording follows once more with each fault; right performances are then judged by TruthOfFault, and performances
+/// that were wrong before are grey.
 DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person, const DetectionOptions& options,
                                  const WorldKey& key);
 
-/// Refuses labels by which nothing can be judged: two performances that begin at once, and, without `are_taught`, one
-/// person, or recordings of which nobody says who they show.
+/// Complains of labels that cannot be judged: two performances that begin at the same frame, and, without taught moves
+/// (`are_taught`), a single person, or recordings whose person is unknown.
 Result<void> CheckRecordings(const LabelledStreams& set, bool are_taught);
 
-/// The knowledge of recognisers when people are left out: what the others did.
+/// What recognisers were taught when some people are left out.
 struct Fold {
   Repertoire repertoire;
   std::vector<ReadyMethod> methods;
 };
 
-/// `taught`: by whom and whatever; nothing: all moves by everybody but those left out, right performances as examples
-/// and wrong ones as counter-examples. A move that nobody else did right stays untaught. Fails when there is none, and
-/// where a method needs more of a move than it has.
+/// Teaches the methods' recognisers: `taught`, if given; otherwise all moves by everybody except `left_out`, with right
+/// performances as examples and wrong ones as counter-examples. A move that nobody else did right stays untaught. Fails
+/// if no move is left, or if a method needs more of a move than it has.
 Result<Fold> MakeFold(const LabelledStreams& set, const std::optional<std::vector<TaughtMove>>& taught,
                       const std::set<std::string>& left_out, const std::vector<DetectionMethod>& methods);
 
-/// A task whose worlds are recorded people, a trial each by their names' order: judged by what the file of taught moves
-/// says that the condition names, else by what all others did. The task keeps the set's address.
+/// Makes a task whose worlds are recorded people, one per trial in the order of their names. Recognisers are taught the
+/// moves of the file that the condition names, or else what all other people did. The task keeps the set's address.
 Result<std::unique_ptr<Task>> MakeRecordedTask(TaskInput& input, const DetectionOptions& options,
                                                std::vector<DetectionMethod> methods);
 

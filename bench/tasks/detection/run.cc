@@ -53,7 +53,7 @@ std::vector<EvidenceTrace> FollowSession(const DetectionWorld& world, const Seen
 
 namespace {
 
-/// The move with the most evidence of any frame in the window; the first on a tie.
+/// Returns the move with the most evidence in any frame of the window; the first one on a tie.
 std::optional<std::size_t> MoveNamedIn(const FrameInterval& window, const EvidenceTrace& trace) {
   std::optional<std::size_t> named;
   double most = 0;
@@ -69,8 +69,8 @@ std::optional<std::size_t> MoveNamedIn(const FrameInterval& window, const Eviden
   return named;
 }
 
-/// The move that was seen most in a performance: of a recording's, cut out as its label says, as the papers of such
-/// sets have it; of a session's in its window, as it goes on.
+/// Returns the move recognised in a performance. A labelled recording is cut out and classified as a whole, as in the
+/// papers on such data sets; a session is classified in its window, as it goes on.
 std::optional<std::size_t> NameOf(const DetectionEvent& event, const DetectionWorld& world, const SeenStream& seen,
                                   const Repertoire& repertoire, const Recogniser& recogniser,
                                   const FrameInterval& window, const EvidenceTrace& trace) {

@@ -22,7 +22,7 @@ std::vector<JudgedEvent> JudgedEvents(const DetectionWorld& world, std::span<con
 
 namespace {
 
-/// For each performance of which `is_meant` holds, true when it was called right.
+/// Returns, for each performance that satisfies `is_meant`, whether it was called right.
 template <typename IsMeant>
 std::vector<bool> CalledRight(const DetectionWorld& world, const SessionVerdict& verdict, IsMeant is_meant) {
   std::vector<bool> called;
@@ -59,7 +59,7 @@ std::optional<double> ShareSpotted(const DetectionWorld& world, const SessionVer
   return RightSpotted(right, calls);
 }
 
-/// The time that each right performance had to wait for its praise; a miss waited in vain until its window closed.
+/// Returns the waiting time of each right performance until it was called right, censored when its window closes.
 std::vector<Wait> WaitsOf(const DetectionWorld& world, const SessionVerdict& verdict) {
   std::vector<Wait> waits;
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
@@ -73,7 +73,7 @@ std::vector<Wait> WaitsOf(const DetectionWorld& world, const SessionVerdict& ver
   return waits;
 }
 
-/// Measures how well the spotted moves of labelled recordings agree with their action points.
+/// Returns how well the spotted moves of labelled recordings agree with their action points.
 std::optional<double> PointFScore(const DetectionWorld& world, const SessionVerdict& verdict,
                                   const Repertoire& repertoire) {
   const double rate = world.stream.rate_hz;
@@ -120,6 +120,7 @@ std::string EventsDigest(const SessionVerdict& verdict, const Repertoire& repert
 
 void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire,
                   CellResult& result) {
+  // Right and wrong performances against the calls.
   const std::vector<JudgedEvent> events = JudgedEvents(world, verdict.events);
   const Confusion confusion = CountConfusion(events);
   const std::vector<Wait> waits = WaitsOf(world, verdict);
@@ -136,6 +137,7 @@ void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, co
   } else {
     result.MeasureOr("action_point_f", PointFScore(world, verdict, repertoire), "");
   }
+  // Scores, waiting times and false alarms.
   result.MeasureOr("roc_auc", RocAuc(events), "all performances that are not grey were right, or all wrong");
   result.MeasureOr(
       "latency_s", KaplanMeierMedian(waits),
@@ -173,8 +175,8 @@ Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict) {
 
 namespace {
 
-/// Among AllFaults; −1 none, or one of another name.
-double PlaceOf(const std::optional<Fault>& fault) {
+/// Returns the index in AllFaults; −1 for none or an unknown name.
+double IndexOfFault(const std::optional<Fault>& fault) {
   if (!fault) return -1;
   return static_cast<double>(std::ranges::find(AllFaults(), *fault) - AllFaults().begin());
 }
@@ -184,6 +186,7 @@ double PlaceOf(const std::optional<Fault>& fault) {
 std::vector<Series> PerformanceSeries(const DetectionWorld& world, const SessionVerdict& verdict,
                                       const Repertoire& repertoire) {
   std::vector<double> score, truth, called, fault, severity, asked, danced, named;
+  // One value per performance, grey ones included.
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
     const DetectionEvent& event = world.events[i];
     score.push_back(verdict.events[i].score);
@@ -191,7 +194,7 @@ std::vector<Series> PerformanceSeries(const DetectionWorld& world, const Session
     truth.push_back(event.IsRight() ? 1 : event.truth == Truth::kGrey ? 0.5 : 0);
     const auto worst = std::ranges::max_element(event.faults, {}, &GradedFault::severity);
     const bool is_graded = worst != event.faults.end();
-    fault.push_back(PlaceOf(is_graded ? std::optional(worst->fault) : FindFault(event.told_fault)));
+    fault.push_back(IndexOfFault(is_graded ? std::optional(worst->fault) : FindFault(event.told_fault)));
     severity.push_back(is_graded ? worst->severity : 0);
     asked.push_back(static_cast<double>(repertoire.IndexOf(event.move)));
     danced.push_back(event.danced.empty() ? -1 : static_cast<double>(repertoire.IndexOf(event.danced)));
@@ -199,6 +202,7 @@ std::vector<Series> PerformanceSeries(const DetectionWorld& world, const Session
     const auto& name = verdict.named[i];
     named.push_back(name ? static_cast<double>(repertoire.IndexOf(repertoire.taught[*name].name)) : -1);
   }
+  // Waiting times of right performances.
   std::vector<double> waited, answered;
   for (const Wait& wait : WaitsOf(world, verdict)) {
     waited.push_back(wait.seconds);

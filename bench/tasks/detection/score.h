@@ -12,37 +12,37 @@
 
 namespace etude {
 
-/// The performances asked for that are right or wrong, not grey, and how each was judged (one judgement per event).
+/// Returns the performances asked for that are right or wrong, not grey, with their judgements (one judgement per
+/// event).
 std::vector<JudgedEvent> JudgedEvents(const DetectionWorld& world, std::span<const Judgement> judgements);
 
-/// The metrics of a session (docs/reference/metrics.md).
+/// Measures the metrics of a session (docs/reference/metrics.md).
 void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire,
                   CellResult& result);
 
-/// The ids of all of them, in the order in which they are measured.
+/// Returns the ids of all metrics, in the order in which they are measured.
 std::vector<std::string> DetectionMetrics();
 
-/// The value of a metric for a method without an answer (Task::ValueOfFailure): a coach that says nothing praises
-/// nobody, so every right performance is missed: `recall` and `f1` are 0, if some were right. The rest is missing:
-/// nothing was called right (precision), nothing was ranked (roc_auc), no praise came (latency), and no false alarm
-/// either, which is no merit.
+/// Returns the value of a metric for a method without an answer (Task::ValueOfFailure). A coach without answers praises
+/// nobody, so every right performance is missed: `recall` and `f1` are 0 if some were right. The others are missing:
+/// nothing was called right (precision), nothing was ranked (roc_auc), no praise came (latency), and the absence of
+/// false alarms is no merit.
 std::optional<double> DetectionFailureValue(std::string_view metric, bool some_are_right);
 
 using StageDigests = std::vector<std::pair<std::string, std::string>>;
 
-/// Fingerprints of the session and of the stream: the same for every method.
+/// Returns the digests of the session and of the stream, which are the same for every method.
 StageDigests WorldDigests(const DetectionWorld& world);
-/// Fingerprints of the filtered stream and of the verdicts.
+/// Returns the digests of the filtered stream and of the verdicts.
 StageDigests VerdictDigests(const SessionVerdict& verdict, const Repertoire& repertoire);
 
-/// Returns how well the move asked for was seen to be performed so far in its window, frame by frame; 0 between
-/// windows.
+/// Returns, frame by frame, the score of the move asked for so far in its window; 0 between windows.
 Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict);
 
-/// One value per performance, for curves over many sessions (reports/plots): `performance_score`; `_truth`, 1 right, ½
-/// grey, 0 wrong; `_called`, 1 right; `_fault`, the worst one's place in AllFaults, −1 none, and its `_severity`;
-/// `_asked`, `_danced` and `_named`, places in Repertoire::names, −1 none. Of right performances alone `right_wait_s`,
-/// how long they waited to be called right, and `right_answered`, 1 when they were.
+/// Returns one value per performance, for curves over many sessions (reports/plots): `performance_score`; `_truth`: 1
+/// right, ½ grey, 0 wrong; `_called`: 1 right; `_fault`: the index of the worst fault in AllFaults, −1 none, and its
+/// `_severity`; `_asked`, `_danced` and `_named`: indices in Repertoire::names, −1 none. For right performances only:
+/// `right_wait_s`, the time until they were called right, and `right_answered`, 1 if they were.
 std::vector<Series> PerformanceSeries(const DetectionWorld& world, const SessionVerdict& verdict,
                                       const Repertoire& repertoire);
 

@@ -43,7 +43,7 @@ Result<CellResult> SessionWorld::Judge(const Json& answer) {
 }
 
 const SeenStream& SessionWorld::SeenBy(const DetectionMethod& method) {
-  const auto same = [&](const Sighted& known) {
+  const auto same = [&](const SeenByMethods& known) {
     return known.filter == method.filter && known.sees_truth == method.sees_truth && known.capture == method.capture;
   };
   auto found = std::ranges::find_if(seen_, same);

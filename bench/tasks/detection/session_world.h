@@ -12,17 +12,17 @@
 
 namespace etude {
 
-/// One session, and the methods run and judged in it.
+/// One session, in which methods are run and scored.
 class SessionWorld final : public TaskWorld {
  public:
-  /// The thresholds of the methods; may be costly the first time.
+  /// Returns the thresholds of the methods; the first call may be expensive.
   using Decide = std::function<const std::vector<MethodDecision>&()>;
 
   /// Methods and repertoire must outlive this.
   SessionWorld(const std::vector<ReadyMethod>& methods, Decide decide, const Repertoire& repertoire,
                DetectionWorld world, bool keeps_motion);
 
-  /// The thresholds, which worlds share, and the pictures.
+  /// Computes the thresholds, which worlds share, and films the pictures.
   void PrepareShared() override;
 
   CellResult Run(std::size_t method) override;
@@ -34,7 +34,7 @@ class SessionWorld final : public TaskWorld {
   const SeenStream& SeenBy(const DetectionMethod& method);
   CellResult Score(const SessionVerdict& verdict) const;
 
-  struct Sighted {
+  struct SeenByMethods {
     FilterOptions filter;
     bool sees_truth;
     std::optional<CaptureMethod> capture;
@@ -47,10 +47,10 @@ class SessionWorld final : public TaskWorld {
   const DetectionWorld world_;
   const StageDigests world_digests_ = WorldDigests(world_);
   const bool keeps_motion_;
-  std::deque<Sighted> seen_;  ///< methods with the same filter, oracle and capture share one
+  std::deque<SeenByMethods> seen_;  ///< one for all methods with the same filter, oracle and capture
 };
 
-/// A trial in which there is nothing to judge.
+/// A trial that cannot be judged.
 class SkippedWorld final : public TaskWorld {
  public:
   explicit SkippedWorld(std::string reason) : reason_(std::move(reason)) {}

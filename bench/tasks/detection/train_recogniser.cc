@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// A performance that may have ended in a frame, as it was measured.
+/// A performance that may have ended in a frame, with its measures.
 struct Measured {
   PerformanceOrigin occasion;
   std::size_t move;
@@ -18,10 +18,10 @@ struct Measured {
   PerformanceMeasures measures;
 };
 
-/// Bags of one kind: what each holds, nearest first, and not more than can matter.
+/// Collects the bags of one kind; each keeps its nearest performances.
 class BagMaker {
  public:
-  /// A bag of its own for every `key`.
+  /// Adds a performance to the bag of this key.
   void Add(const std::array<int, 3>& key, bool is_right, const PerformanceMeasures& performance) {
     LabelledBag& bag = bags_[key];
     bag.is_right = is_right;
@@ -40,8 +40,8 @@ class BagMaker {
   std::map<std::array<int, 3>, LabelledBag> bags_;
 };
 
-/// A session under a condition thrown for it.
-DetectionOptions ThrowCondition(const WorldKey& key) {
+/// Draws the condition of a session.
+DetectionOptions DrawCondition(const WorldKey& key) {
   RandomStream dice(key, "condition");
   constexpr std::array<double, 4> kNoises = {0.5, 1, 1, 2};
   constexpr std::array<double, 5> kTurns = {0, 0, 0, 30, 60};
@@ -55,7 +55,7 @@ DetectionOptions ThrowCondition(const WorldKey& key) {
   return options;
 }
 
-/// The measures taken while the session was followed.
+/// Returns the measures taken while the recogniser follows the session.
 std::vector<Measured> MeasureSession(const DetectionWorld& world, const Repertoire& repertoire,
                                      const TrackingWeights& weights) {
   std::vector<Measured> measured;
@@ -83,7 +83,7 @@ std::vector<Measured> MeasureSession(const DetectionWorld& world, const Repertoi
   return measured;
 }
 
-/// The event in whose window the frame lies; -1: in none.
+/// Returns the index of the event whose window contains the frame; −1 if there is none.
 int EventAt(int frame, const DetectionWorld& world) {
   for (std::size_t i = 0; i < world.events.size(); ++i) {
     const FrameInterval& window = world.events[i].window;
@@ -92,6 +92,8 @@ int EventAt(int frame, const DetectionWorld& world) {
   return -1;
 }
 
+/// Sorts the measured performances into bags: one per event for judging; for spotting one per event and move, and
+/// elsewhere one wrong bag per second and move.
 void AddSession(const DetectionWorld& world, const Repertoire& repertoire, const std::vector<Measured>& measured,
                 std::vector<LabelledBag>& asked, std::vector<LabelledBag>& spotted) {
   BagMaker asked_bags, spotted_bags;
@@ -119,17 +121,17 @@ void AddSession(const DetectionWorld& world, const Repertoire& repertoire, const
 }  // namespace
 
 void KeepNearest(std::vector<PerformanceMeasures>& performances) {
-  constexpr std::size_t kMost = 12;
+  constexpr std::size_t kMaxPerBag = 12;
   std::ranges::stable_sort(performances, {}, [](const auto& each) { return each[kDistanceMeasure]; });
-  performances.resize(std::min(performances.size(), kMost));
+  performances.resize(std::min(performances.size(), kMaxPerBag));
 }
 
 LearntModel TrainRecogniser(const Repertoire& repertoire, const RecogniserTraining& training) {
   std::vector<LabelledBag> asked, spotted;
   for (int session = 0; session < training.sessions; ++session) {
     const WorldKey key{.suite_seed = training.seed, .scenario = "recogniser-training", .trial = session};
-    const DetectionWorld world = MakeDetectionWorld(repertoire, ThrowCondition(key), key);
-    const TrackingWeights weights{.weighting = session % 2 == 0 ? Weighting::kFixed : Weighting::kAdaptive};
+    const DetectionWorld world = MakeDetectionWorld(repertoire, DrawCondition(key), key);
+    const SightWeights weights{.weighting = session % 2 == 0 ? Weighting::kFixed : Weighting::kAdaptive};
     std::vector<LabelledBag> unused;
     const bool teaches_spotting = 2 * session < training.sessions;
     AddSession(world, repertoire, MeasureSession(world, repertoire, weights), asked,

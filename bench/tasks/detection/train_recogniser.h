@@ -10,20 +10,20 @@
 namespace etude {
 
 struct RecogniserTraining {
-  int sessions = 800;  ///< every one of another person, 16 performances each; the first half teaches spotting, too
+  int sessions = 800;  ///< each by another person with 16 performances; the first half also teaches spotting
   std::uint64_t seed = 1;
   BoostingOptions asked{.trees = 300, .rate = 0.08, .takes_turns = true};
   BoostingOptions spotted{};
-  OnProgress progress = {};  ///< told of sessions
+  OnProgress progress = {};  ///< called with the number of sessions
 };
 
-/// Trains what `learnt` knows: simulated people perform the repertoire's moves before both sensors, at many noises,
-/// turns and distances; the program that is judged measures what it sees, and the model is fitted to what they truly
-/// did. Grey performances teach nothing. The worlds are keyed apart from those of every scenario, so nobody judged is
-/// among them.
+/// Trains the model of recogniser `learnt`: simulated people perform the repertoire's moves before both sensors, with
+/// various noises, turns and distances; performances are measured as the recogniser measures them in use, and the model
+/// is fitted to the truth. Grey performances are left out. The worlds are keyed apart from those of every scenario, so
+/// no judged person is among them.
 LearntModel TrainRecogniser(const Repertoire& repertoire, const RecogniserTraining& training);
 
-/// Keeps the nearest of a bag's performances, nearest first, and not more than can matter.
+/// Keeps the nearest performances of a bag, nearest first: only as many as can matter.
 void KeepNearest(std::vector<PerformanceMeasures>& performances);
 
 }  // namespace etude

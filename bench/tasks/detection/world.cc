@@ -15,8 +15,9 @@
 namespace etude {
 namespace {
 
-/// A box whose middle lies `ahead` metres from the performer towards the sensor and `aside` across, facing the sensor.
-Cuboid BoxBefore(const SensorPlacement& sensor, double ahead, double aside, double height, const glm::dvec3& half_size) {
+/// Returns a box whose centre is `ahead` metres from the performer towards the sensor and `aside` metres to the side,
+/// facing the sensor.
+Cuboid BoxBefore(const SensorPlace& sensor, double ahead, double aside, double height, const glm::dvec3& half_size) {
   const double sine = std::sin(sensor.turn), cosine = std::cos(sensor.turn);
   return {.centre = {ahead * sine + aside * cosine, height, ahead * cosine - aside * sine},
           .half_size = half_size,
@@ -97,13 +98,13 @@ std::vector<FrameInterval> DetectionWorld::Takes() const {
 }
 
 SkeletonStream Sense(const BodyMotion& motion, const DetectionOptions& options, const WorldKey& key) {
-  // The distance at which Kinect's makers ask players to stand, roughly.
+  // About the distance at which Kinect's makers ask players to stand.
   constexpr double kNearest = 2.5, kFarthest = 3.0;
   RandomStream place_dice(key, "sensor-place");
   SkeletonSensorOptions errors = options.sensor;
   errors.strength = options.noise;
-  const double thrown = place_dice.Uniform(kNearest, kFarthest);
-  const SensorPlacement place{.distance = options.distance_m.value_or(thrown),
+  const double drawn = place_dice.Uniform(kNearest, kFarthest);
+  const SensorPlace place{.distance = options.distance_m.value_or(drawn),
                           .turn = Radians(options.turn_deg),
                           .height = options.sensor_height_m};
   const Occluders occluders = MakeOccluders(options.occluder, place, motion.poses.size());

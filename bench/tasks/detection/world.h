@@ -15,80 +15,80 @@
 
 namespace etude {
 
-/// The occluders between the sensor and a performer at the origin who moves for so many frames: nothing; a desk with a
+/// Returns the occluders between the sensor and a performer at the origin, for `frames` frames: none; a desk with a
 /// closed front, 75 cm high, 80 cm before the performer; a chair a little to the side, 90 cm high; a second person who
 /// sways 1.2 m before the performer, beside the line to the sensor (all ours).
 Occluders MakeOccluders(OccluderKind kind, const SensorPlacement& sensor, std::size_t frames);
 
 /// The moves that may be performed, and what recognisers were taught of them.
 struct Repertoire {
-  std::vector<Move> moves;         ///< as authored; none where recordings are all there is
+  std::vector<Move> moves;         ///< as authored; empty if there are only recordings
   std::vector<TaughtMove> taught;  ///< sorted by name
   std::vector<std::string> names;  ///< of all moves that may be asked for or taught, sorted
 
-  /// The index of the move's name among `names`, which must hold it.
+  /// Returns the index of the move's name in `names`, which must contain it.
   std::size_t IndexOf(std::string_view move) const;
-  /// The taught move of that name; nothing where nobody could teach it.
+  /// Returns the index of the taught move of that name; nothing if it could not be taught.
   std::optional<std::size_t> TaughtIndexOf(std::string_view move) const;
 };
 
-/// The labelled clips of the library, each move once. Empty when there are none.
+/// Returns the moves of the library's labelled clips, each once; empty if there are none.
 Repertoire RepertoireOf(const ClipLibrary& library);
 
 class CameraTake;
 
-/// A performance that was asked for, and what is true of it. All times are seconds from the world's first frame.
+/// A performance that was asked for, with its truth. All times are seconds from the world's first frame.
 struct DetectionEvent {
   std::string move;                      ///< asked for
   std::vector<GradedFault> faults = {};  ///< of simulated people
-  std::string told_fault = {};           ///< of a recording: what its label says was wrong
-  std::string danced;                    ///< the move that was truly danced; empty: none, or nobody knows
+  std::string told_fault = {};           ///< of a recording: the fault that its label names
+  std::string danced;                    ///< the move that was truly danced; empty: none, or unknown
   double start_s = 0, end_s = 0;         ///< from the first beat to the last
   FrameInterval performed;               ///< the same in frames
-  FrameInterval window;                  ///< in which it is judged; none overlaps another
+  FrameInterval window;                  ///< in which it is judged; windows do not overlap
   Truth truth = Truth::kRight;
-  /// The time at which it had truly passed through every key pose asked for; of right ones alone.
+  /// The time at which it had truly passed every key pose asked for; only for right performances.
   std::optional<double> first_right_s = {};
 
   bool IsRight() const { return truth == Truth::kRight; }
   bool HasFault() const;
-  /// "none", or names joined by "+".
+  /// Returns "none", or the faults' names joined by "+".
   std::string FaultText() const;
 };
 
-/// A moment at which somebody who watched says that a move was done.
+/// A frame at which, by a label, a move was done.
 struct ActionPoint {
   std::string move;
   int frame = 0;
 };
 
-/// One trial: what was truly performed, and how the sensor saw it. Of a recorded person: all their recordings, one
-/// after another.
+/// One trial: what was truly performed, and what the sensor saw. For a recorded person it holds all their recordings,
+/// one after another.
 struct DetectionWorld {
-  BodyMotion motion;  ///< as performed; of a recording, whose truth nobody knows, as sensed
+  BodyMotion motion;  ///< as performed; for a recording with unknown truth, as sensed
   std::vector<DetectionEvent> events;
-  SkeletonStream stream;    ///< of a skeleton sensor; before cameras, whose skeletons are up to each method, of nobody
+  SkeletonStream stream;    ///< of a skeleton sensor; with cameras, whose skeletons depend on the method, without
+                            ///< bodies
   std::string person = {};  ///< of recordings
   std::vector<ActionPoint> points = {};      ///< of recordings
-  std::shared_ptr<CameraTake> cameras = {};  ///< null: there are none
+  std::shared_ptr<CameraTake> cameras = {};  ///< null without cameras
   std::vector<int> starts = {};              ///< the first frames of all recordings but the first
 
-  /// The stretches that are followed in one go: each recording.
+  /// Returns the intervals that are followed without interruption: one per recording.
   std::vector<FrameInterval> Takes() const;
   bool IsRecorded() const { return !person.empty(); }
 };
 
-/// `options` must outlive a world with cameras.
+/// Makes the world of `key`. `options` must outlive a world with cameras.
 DetectionWorld MakeDetectionWorld(const Repertoire& repertoire, const DetectionOptions& options, const WorldKey& key);
 
-/// The event of a session that `stream` shows.
+/// Returns a session's event in the frames of `stream`.
 DetectionEvent EventOf(const SessionEvent& event, const SkeletonStream& stream);
 
-/// The skeletons that a sensor before this performer sees under this condition.
+/// Returns the skeletons that a sensor sees of this motion under this condition.
 SkeletonStream Sense(const BodyMotion& motion, const DetectionOptions& options, const WorldKey& key);
 
-/// True when a recogniser that takes `move` for performed at this frame is not wrong: it was asked for or performed
-/// there.
+/// Returns true if a detection of `move` at this frame is not a false alarm: the move was asked for or performed there.
 bool IsPerformance(std::string_view move, int frame, const DetectionWorld& world);
 
 }  // namespace etude

@@ -12,10 +12,10 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kMostFrames = 150;
+constexpr std::size_t kMaxRecordedSteps = 150;
 constexpr int kEveryUpTo = 60;
 
-/// Lists every iteration up to kEveryUpTo, then each 1/`share` later than the one before, and the last.
+/// Lists every iteration up to kEveryUpTo, then each later by a factor of 1 + 1/`share`, and the last.
 std::vector<int> Growing(int last, int share) {
   std::vector<int> iterations;
   for (int i = 0; i < last; i += i < kEveryUpTo ? 1 : std::max(1, i / share)) iterations.push_back(i);
@@ -63,7 +63,8 @@ Result<IkAnswer> ReadIkAnswer(const Json& json, const KinematicTree& tree) {
 std::vector<int> RecordedIterations(int last) {
   for (int share = 2 * kEveryUpTo;; share /= 2) {
     std::vector<int> iterations = Growing(last, share);
-    if (iterations.size() <= kMostFrames || share == 1) return iterations;  // at 1 they double: never too many
+    // With share 1 they double, so there are never too many.
+    if (iterations.size() <= kMaxRecordedSteps || share == 1) return iterations;
   }
 }
 
@@ -92,10 +93,10 @@ Recording RecordIk(const KinematicTree& tree, const IkWorld& world, std::span<co
     extras.orientation_error_max_deg.push_back(step.orientation_error_max_deg);
     extras.axis_error_max_deg.push_back(step.axis_error_max_deg);
   }
-  // Noise may have moved them away from the true pose.
+  // Record the targets too: noise may have moved them away from the true pose.
   for (const EffectorTarget& target : world.problem.targets) {
-    auto& place = extras.targets_m.emplace_back();
-    if (target.position_weight > 0) place = target.position;
+    auto& target_m = extras.targets_m.emplace_back();
+    if (target.position_weight > 0) target_m = target.position;
   }
   return {{std::move(truth), std::move(start), std::move(solution)}, WriteIkExtras(extras)};
 }

@@ -13,31 +13,31 @@
 namespace etude {
 
 enum class NoiseKind {
-  kGaussian,  ///< standard deviation = joint_noise_deg
+  kGaussian,  ///< the standard deviation is joint_noise_deg
   kUniform,   ///< within ± joint_noise_deg
 };
 
-/// The pose at which solvers begin.
+/// The pose from which solvers start.
 enum class IkStart {
-  kDisturbed,  ///< at the truth, disturbed
-  kMiddle,     ///< cold: in the middle of every joint's range
-  kStretched,  ///< paper B, figure 3.8: with stretched limbs, which the targets lie along
+  kDisturbed,  ///< the truth plus noise
+  kMiddle,     ///< the middle of every joint's range
+  kStretched,  ///< paper B, figure 3.8: stretched limbs, with the targets along them
 };
 
 /// The difficulty of the trials of a condition.
 struct IkTrialOptions {
   LimitSet limit_set = LimitSet::kAdult;
-  double pose_range = 0.5;  ///< the true pose is uniform in this share of every joint's range, about its middle
+  double pose_range = 0.5;  ///< the true pose is uniform in this share of every joint's range, around its middle
   IkStart start = IkStart::kDisturbed;
   double joint_noise_deg = 15;  ///< how far the start is from the truth
   NoiseKind noise = NoiseKind::kGaussian;
   TargetNoise target_noise;
-  double unreachable_cm = 0;  ///< how far beyond every pose's reach one target lies; 0: none does
+  double unreachable_cm = 0;  ///< how far one target lies beyond the reach of every pose; 0: none does
   bool asks_positions = true;
   bool asks_axes = true;
 };
 
-/// The series and the recording that a cell keeps beside its metrics and the curves of its worst errors.
+/// The series and the recording that a cell keeps, beside its metrics and the curves of the largest errors.
 struct IkRecords {
   bool effector_errors = false;
   bool angle_changes = false;
@@ -49,7 +49,7 @@ struct IkRecords {
 struct IkCondition {
   IkTrialOptions trial;
   IkRecords records;
-  IkOptions common = IkBudget(200);  ///< what all methods share
+  IkOptions common = IkBudget(200);  ///< options that all methods share
 };
 
 /// A solver with its settings.
@@ -63,7 +63,7 @@ struct IkMethod {
 const FieldTable<IkCondition>& IkConditionFields();
 const FieldTable<IkMethod>& IkMethodFields();
 
-/// Reads the methods on top of what the condition says for all.
+/// Reads the methods, on top of the options that the condition sets for all.
 Result<std::vector<IkMethod>> ReadIkMethods(TaskInput& input, const IkCondition& condition);
 
 }  // namespace etude

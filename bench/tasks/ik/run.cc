@@ -20,7 +20,7 @@ std::string DigestOf(const IkSolution& solution) {
   return digest.Hex();
 }
 
-/// The reason why the solver stopped, in the same words for all cells that ended alike, so that a report can count
+/// Returns why the solver stopped. The text is the same for all cells that ended alike, so that a report can count
 /// them.
 std::string WhyItStopped(const IkMethod& method, const IkSolution& solution, const IkAsked& asked) {
   if (asked.axes && !method.solver->uses_axes) return "the solver sees positions only, and axes are asked for";
@@ -44,7 +44,8 @@ CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMe
                      const IkRecords& records) {
   IkOptions options = method.options;
   options.trace = true;
-  if (!records.motion) options.max_trace_entries = kLongestCurve;
+  if (!records.motion) options.longest_trace = kLongestCurve;
+  // Solve, with a trace for the curves.
   const IkSolution solution = method.solver->solve(tree, world.problem, options);
   std::vector<std::pair<std::string, std::string>> digests = {{"world", DigestOf(world)},
                                                               {"solution", DigestOf(solution)}};
@@ -53,6 +54,7 @@ CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMe
     cell.digests = std::move(digests);
     return cell;
   }
+  // Score the result, and add curves and recording.
   const IkAccount account{solution.iterations, solution.fk_evaluations, method.options.max_iterations,
                           WhyItStopped(method, solution, AskedOf(world.problem))};
   CellResult cell = ScoreAngles(tree, world, solution.angles, solution.errors, account, records);
@@ -67,9 +69,10 @@ CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMe
 
 namespace {
 
-/// Every solver here makes one pass of forward kinematics before its first step and one in each.
+/// Each solver makes one pass of forward kinematics before its first step, and one in each step.
 double LargestFkCount(int max_steps) { return max_steps + 1; }
 
+/// Adds a cost and its penalised form; both are missing if the method did not report it.
 void AddCost(const char* id, const char* penalised_id, const std::optional<int>& spent, double limit, bool solved,
              CellResult& cell) {
   if (spent) {
@@ -103,6 +106,7 @@ CellResult ScoreAngles(const KinematicTree& tree, const IkWorld& world, std::spa
   const IkErrorSummary errors = SummariseIkErrors(effector_errors);
   const IkAsked asked = AskedOf(world.problem);
   const std::string broken_limits = DescribeBrokenLimits(tree, angles, "angles_deg");
+  // A broken limit makes the world unsolved, but everything is measured.
   const bool keeps_limits = broken_limits.empty(), solved = keeps_limits && IsSolvedPractically(errors, asked);
   CellResult cell;
   cell.Measure("position_error_cm", errors.position_cm);
@@ -126,6 +130,7 @@ CellResult ScoreAngles(const KinematicTree& tree, const IkWorld& world, std::spa
 
 CellResult ScoreIkAnswer(const KinematicTree& tree, const IkWorld& world, const IkAnswer& answer, int max_steps,
                          const IkRecords& records) {
+  // Measure the errors of the start and of the answer.
   TreeState state = world.problem.start;
   std::vector<EffectorError> begun, ended;
   MeasureErrors(ComputeFrames(tree, state), world.problem.targets, begun);

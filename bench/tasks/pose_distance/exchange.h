@@ -5,30 +5,29 @@
 
 namespace etude {
 
-/// Describes the body to methods outside the program, which are told about pairs of poses. A pose is sixty numbers
-/// (EncodePose).
+/// Describes the body to outside methods, which are asked about pairs of poses. A pose is sixty numbers (EncodePose).
 ///
 /// Setting: the body.
 ///
 ///     {"joints": ["hip_centre", …], "parents": [null, "hip_centre", …]}
 Payload BodyPayload();
 
-/// Makes the problem: poses, two by two.
+/// Encodes the problem: pairs of poses.
 ///
 ///     {"pairs": [{"a": [x, y, z, …], "b": [x, y, z, …]}, …]}
 Payload PairsPayload(const PairWorld& world);
 
-/// Makes the truth: how far the worst joint is off once heading and hips agree.
+/// Encodes the truth: the distance of the worst joint after aligning headings and hips.
 ///
 ///     {"name": "arm forward or sideways", "pose_gap_cm": [103.2, …]}
 Payload GapsPayload(const PairWorld& world);
 
-/// Reads an answer: how unlike the two poses of each pair are, larger = more unlike, on any scale from 0 up; and
-/// whether a transition from the one to the other would go unnoticed.
+/// Reads an answer: the distance of the two poses of each pair, larger = less alike, on any scale from 0 up; and
+/// whether a transition between them would go unnoticed.
 ///
 ///     {"distances": [0.31, …], "alike": [true, …]}
 ///
-/// Refuses what is not as told here, naming where in the answer.
+/// An answer of another form is an error that names the position in it.
 Result<PairVerdict> ReadPairAnswer(const Json& answer, const PairWorld& world);
 
 }  // namespace etude

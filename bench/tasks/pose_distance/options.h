@@ -8,7 +8,7 @@ namespace etude {
 /// A condition of task pose-distance.
 struct PairOptions {
   PairSource source = PairSource::kBlindSpots;
-  int pairs_per_world = 500;  ///< of frames
+  int pairs_per_world = 500;  ///< number of pairs of frames
 };
 
 const FieldTable<PairOptions>& PoseDistanceConditionFields();

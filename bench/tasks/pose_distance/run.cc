@@ -18,7 +18,7 @@ constexpr Named<PoseDistance> kDistances[] = {{"fuzzy", PoseDistance::kFuzzy},
                                               {"point-cloud", PoseDistance::kPointCloud},
                                               {"joint-positions", PoseDistance::kJointPositions}};
 
-/// A cloud of one frame's joints each.
+/// Returns the distance of the point clouds of one frame each.
 double PointCloudCm(const BodyPose& a, const BodyPose& b) {
   const BodyMotion first{kJudgedRateHz, {a}}, second{kJudgedRateHz, {b}};
   std::array<double, 1> cost{};
@@ -61,10 +61,10 @@ namespace {
 constexpr const char* kManyPairs = "the world has several pairs";
 constexpr const char* kNotCalledAlike = "the method did not call the poses alike";
 
-/// The metrics of a single pair.
-void MeasurePair(const SeenPair& pair, double said, bool alike, const PoseDistance* distance, CellResult& result) {
+/// Measures the metrics of a single pair.
+void MeasurePair(const SeenPair& pair, double value, bool alike, const PoseDistance* distance, CellResult& result) {
   const auto own = [&](const char* id, bool is_its, const char* why_not) {
-    is_its ? result.Measure(id, said) : result.Missing(id, why_not);
+    is_its ? result.Measure(id, value) : result.Missing(id, why_not);
   };
   const bool fuzzy = distance && *distance == PoseDistance::kFuzzy;
   own("fuzzy_distance", fuzzy, "the method measures no fuzzy distance");
@@ -102,10 +102,10 @@ std::vector<std::string> PoseDistanceMetrics() {
 
 CellResult ScorePairs(const PairWorld& world, const PairVerdict& verdict, const PoseDistance* distance) {
   CellResult result = CellResult::Ended(Status::kOk, "");
-  Digest said;
-  for (double value : verdict.distances) said.Add(value);
-  for (bool alike : verdict.alike) said.Add(std::int64_t{alike});
-  result.digests.emplace_back("verdict", said.Hex());
+  Digest digest;
+  for (double value : verdict.distances) digest.Add(value);
+  for (bool alike : verdict.alike) digest.Add(std::int64_t{alike});
+  result.digests.emplace_back("verdict", digest.Hex());
 
   if (world.pairs.size() == 1) {
     MeasurePair(world.pairs.front(), verdict.distances.front(), verdict.alike.front(), distance, result);

@@ -11,11 +11,11 @@
 
 namespace etude {
 
-/// A way to tell how unlike two poses are.
+/// A distance of two poses.
 enum class PoseDistance {
   kFuzzy,           ///< paper A's d, equation 1
   kPointCloud,      ///< Kovar's: root mean square over the joints after the best alignment on the floor, cm
-  kJointPositions,  ///< mean over the joints after laying heading and hip centre onto each other, cm
+  kJointPositions,  ///< mean over the joints after aligning heading and hip centre, cm
 };
 
 /// "fuzzy", "point-cloud", "joint-positions".
@@ -28,24 +28,25 @@ struct PoseDistanceMethod {
   std::string name;
   PoseDistance distance = PoseDistance::kFuzzy;
   WeightSource weights = WeightSource::kFixed;  ///< of the fuzzy one
-  double threshold = kPaperThreshold;           ///< two poses are called alike below it; of the others, centimetres
+  double threshold = kPaperThreshold;           ///< poses are called alike below it; in centimetres for the other
+                                                ///< distances
 };
 
 /// The verdicts of a method on a world's pairs, in their order.
 struct PairVerdict {
-  std::vector<double> distances;  ///< the larger, the more unlike; on any scale
+  std::vector<double> distances;  ///< larger = less alike; on any scale
   std::vector<bool> alike;
 };
 
-/// `weights` are S of the fuzzy distance; the others have none.
+/// Computes a method's verdict. `weights` are S of the fuzzy distance; the others do not use them.
 PairVerdict TellPairs(const PairWorld& world, const PoseDistanceMethod& method, const Memberships& memberships,
                       const FeatureWeights& weights);
 
-/// The ids of all metrics, in the order in which they are measured.
+/// Returns the ids of all metrics, in the order in which they are measured.
 std::vector<std::string> PoseDistanceMetrics();
 
-/// Measures a verdict. `distance` is the built-in one that was asked, whose own number a pair has; null for a method
-/// outside, whose scale nobody knows.
+/// Measures a verdict. `distance` is the built-in distance used, whose value a single pair reports; null for an outside
+/// method, whose scale is unknown.
 CellResult ScorePairs(const PairWorld& world, const PairVerdict& verdict, const PoseDistance* distance);
 
 }  // namespace etude

@@ -18,7 +18,7 @@ struct Setting {
   double degrees;
 };
 
-/// The standing body with its right limbs as said.
+/// Returns the standing body with these controls of its right limbs.
 Controls Right(std::initializer_list<Setting> settings) {
   Controls controls;
   for (const Setting& setting : settings) controls.Of(Side::kRight, setting.control) = Radians(setting.degrees);

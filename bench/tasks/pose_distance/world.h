@@ -14,17 +14,17 @@
 
 namespace etude {
 
-/// Two poses that anyone tells apart, and paper A's distance hardly does: its features know how far a limb is raised,
-/// not in which direction, and their membership functions are flat where nothing was thought to happen.
+/// Two poses that look clearly different, but have a small fuzzy distance: paper A's features contain how far a limb is
+/// raised, not in which direction, and their membership functions are flat in ranges that were not expected to matter.
 struct BlindSpot {
   std::string_view name;  ///< "arm forward or sideways"
-  Controls a, b;          ///< performed by the body of the built-in moves
+  Controls a, b;          ///< controls of the two poses, for the body of the built-in moves
 };
 
-/// Eight of them.
+/// Returns the eight blind spots.
 std::span<const BlindSpot> BlindSpots();
 
-/// A pose and what the fuzzy side sees of it.
+/// A pose and its fuzzy features.
 struct SeenPose {
   BodyPose pose;
   PoseFeatures features;
@@ -35,40 +35,40 @@ struct SeenPair {
   double gap_m = 0;  ///< the truth: PoseGap, the distance of the worst joint after alignment on the floor
 };
 
-/// Pairs of poses to be told alike or not.
+/// Pairs of poses to classify as alike or not.
 struct PairWorld {
-  std::string name;             ///< of the blind spot; empty for frames
-  std::string clip_a, clip_b;   ///< identities of the clips that the poses were taken from; empty for a blind spot
+  std::string name;             ///< name of the blind spot; empty for frames
+  std::string clip_a, clip_b;   ///< identities of the clips of the poses; empty for a blind spot
   std::vector<SeenPair> pairs;  ///< one or more
 };
 
-/// The pairs that a world is made of.
+/// The kind of pairs in a world.
 enum class PairSource {
   kBlindSpots,  ///< trial i shows the (i mod 8)th of BlindSpots
-  kFrames,      ///< any frames of two different clips
+  kFrames,      ///< random frames of two different clips
 };
 
-/// Clips of one body, to draw frames of.
+/// Clips of one body, from which frames are drawn.
 struct DancedClips {
   BodyProportions proportions;
   std::vector<std::string> names;
-  std::vector<std::string> identities;  ///< equal for equal dances: what opens the clip
+  std::vector<std::string> identities;  ///< the source of each clip; equal for equal clips
   std::vector<BodyMotion> motions;
 };
 
-/// The clips are retargeted to the body of the built-in moves.
+/// Retargets the clips to the body of the built-in moves.
 DancedClips DanceClips(const ClipLibrary& library);
 
-/// True when there are clips of two different identities.
+/// Returns true if there are clips of two different identities.
 bool HoldsTwoDances(const DancedClips& clips);
 
 PairWorld ShowBlindSpot(int trial);
 
-/// Two clips of different identities, by index; the first goes round-robin with the trials. The clips must hold two
-/// dances.
+/// Draws two clips of different identities, by index; the first one goes round-robin with the trials. There must be two
+/// identities.
 std::pair<std::size_t, std::size_t> DrawClips(const DancedClips& clips, const WorldKey& key);
 
-/// Draws two clips, and `count` pairs of a frame of the one and a frame of the other, each pair drawn evenly.
+/// Draws two clips, and `count` pairs of a frame of one and a frame of the other, each uniformly.
 PairWorld DrawFramePairs(const DancedClips& clips, int count, const WorldKey& key);
 
 }  // namespace etude

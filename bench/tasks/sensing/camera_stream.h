@@ -20,26 +20,26 @@
 
 namespace etude {
 
-/// The studio's cameras, set up for somebody who stands as in `first` and will dance there: half a metre to every side,
-/// and as high as they jump. Their limbs are those of that pose.
+/// Describes, for the studio's cameras, a person who stands as in `first` and will dance there: half a metre to every
+/// side, and as high as a jump. The limb lengths are those of that pose.
 Booking BookFor(std::span<const BodyPose> places, const BodyPose& first, std::size_t frames);
 std::vector<BodyPose> PlacesAround(const BodyPose& first);
 
-/// A frame that cameras tell: every joint tracked where the skeleton has it; without a skeleton nobody is seen, and all
-/// joints are where they were in `last`.
+/// Returns the frame that cameras report: every joint is tracked, at its position in the skeleton. Without a skeleton
+/// no body is seen, and all joints are where they were in `last`.
 SensedFrame SensedOf(const std::optional<RecoveredFrame>& recovered, const SensedFrame& last);
 
-/// Cameras before a motion that is known beforehand: what every way of capturing it makes of the same pictures.
+/// Cameras that film a motion known beforehand: every capture method works on the same pictures.
 class CameraTake {
  public:
   /// `sensing` must outlive this. The motion has 30 Hz.
   CameraTake(const CameraSensing& sensing, const BodyMotion& motion, const WorldKey& key);
 
-  /// Takes the pictures, which all methods share; else the first one that asks does.
-  void Film() { (void)stages_.GetTake(); }  // a failure is told to every method
+  /// Takes the pictures, which all methods share; without this call the first method takes them.
+  void Film() { (void)stages_.GetTake(); }  // every method reports a failure
 
-  /// The stream of the whole motion. Fails, saying why, when there is no
-  /// renderer, the cameras cannot be calibrated, or no body can be made.
+  /// Returns the stream of the whole motion. Fails, saying why, if there is no renderer, the cameras cannot be
+  /// calibrated, or no body can be made.
   const Result<SkeletonStream>& See(const CaptureMethod& method);
 
  private:
@@ -47,11 +47,12 @@ class CameraTake {
   std::deque<std::pair<CaptureMethod, Result<SkeletonStream>>> seen_;
 };
 
-/// Cameras as the sensor of a loop: a causal way of capturing who moves, frame by frame. It computes in no time.
+/// Cameras as the sensor of a loop: a causal method captures the person frame by frame. Its computing time is not
+/// simulated.
 class CameraSensor final : public LiveSensor {
  public:
-  /// Set up for somebody who stands as in `first`, for so many frames. `key` must outlive this; `method.causal`. Fails,
-  /// saying why, as `LiveCapture` does.
+  /// Sets up the cameras for a person who stands as in `first`, for `frames` frames. `key` must outlive this;
+  /// `method.causal` must be set. Fails, saying why, as `LiveCapture` does.
   static Result<std::unique_ptr<LiveSensor>> Make(const StudioOptions& studio, const CaptureMethod& method,
                                                   const BodyPose& first, std::size_t frames, const WorldKey& key);
 

@@ -13,7 +13,7 @@ struct CameraSensing {
   std::vector<PersonSource> sources;  ///< of all methods of the scenario, each once
 };
 
-/// The keys of a condition with `sensor: cameras`: those of `task: capture` that are not about its takes, and
+/// The keys of a condition with `sensor: cameras`: those of `task: capture` that do not concern its takes, and
 /// `picture_every`.
 const FieldTable<StudioOptions>& CameraSensingFields();
 

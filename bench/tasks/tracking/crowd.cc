@@ -20,7 +20,7 @@ Result<std::vector<TrackingWorld>> MakeCrowd(const CrowdOptions& options) {
   ASSIGN_OR_RETURN(const ClipLibrary library, LoadClips(references, {}));
   const KinematicTree body = MakeBodyTree({});
   const TrackingOptions tracking{.duration_s = options.frames / options.rate_hz, .rate_hz = options.rate_hz};
-  constexpr int kTries = 4;  // for each character: acts are short
+  constexpr int kTries = 4;  // tries per character, because acts are short
   std::vector<TrackingWorld> crowd;
   for (int trial = 0; std::ssize(crowd) < options.characters && trial < kTries * options.characters; ++trial) {
     const LibraryClip& clip = library.clips[static_cast<std::size_t>(trial) % library.clips.size()];
@@ -47,6 +47,7 @@ Crowd::Crowd(std::span<const TrackingWorld> worlds)
 }
 
 Crowd::Followed Crowd::FollowNext(const IkOptions& options, Precision precision) {
+  // Copy the roots and targets of this frame into the batch (structure of arrays).
   for (std::size_t i = 0; i < worlds_.size(); ++i) {
     assert(next_ < worlds_[i].truth.size());
     const TreeState& state = worlds_[i].truth[next_];
@@ -59,6 +60,7 @@ Crowd::Followed Crowd::FollowNext(const IkOptions& options, Precision precision)
     }
   }
   ++next_;
+  // Solve, and start the next frame from these angles.
   IkBatchSolution solution = SolveGaussNewtonBatch(tree_, batch_, options, precision);
   for (int d = 0; d < tree_.dof_count(); ++d) std::ranges::copy(solution.angles_of(d), batch_.start_angles(d).begin());
   Followed followed;

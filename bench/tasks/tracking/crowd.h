@@ -17,26 +17,27 @@ struct CrowdOptions {
   std::uint64_t seed = 1;
 };
 
-/// Motions of `frames` frames for so many bodies of one build, paper B's: windows, thrown by dice, of the built-in
-/// moves and acts. Fails where these have no windows so long.
+/// Returns one motion of `frames` frames for each character, all with paper B's body: random windows of the built-in
+/// moves and acts. Fails if these are too short for enough such windows.
 Result<std::vector<TrackingWorld>> MakeCrowd(const CrowdOptions& options);
 
-/// All of them followed at once: each frame is a batch of `gauss-newton`, everybody from their last answer, within the
-/// joints' limits. What becomes of one is what task `tracking` finds for it alone: in double to the last bit.
+/// Follows the motions of many characters at once. Each frame is one batch of `gauss-newton`, in which every character
+/// starts from its last answer, within the joint limits. In double precision each character's result equals, bit for
+/// bit, what task `tracking` finds for it alone.
 class Crowd {
  public:
-  /// The worlds have one tree and as many frames each; there are some. They must outlive this.
+  /// The worlds have the same tree and number of frames; there is at least one. They must outlive this.
   explicit Crowd(std::span<const TrackingWorld> worlds);
 
   struct Followed {
-    int met = 0;    ///< who has met all targets
-    int steps = 0;  ///< of all together
+    int met = 0;    ///< number of characters that met all targets
+    int steps = 0;  ///< of all characters together
   };
-  /// The next frame, of at most as many as there are.
+  /// Solves the next frame; may be called once per frame of the worlds.
   Followed FollowNext(const IkOptions& options, Precision precision);
 
   std::size_t size() const { return worlds_.size(); }
-  /// Returns the character's state as it was followed last.
+  /// Returns the character's state in the last solved frame.
   TreeState StateOf(std::size_t character) const;
   bool HasMet(std::size_t character) const { return statuses_[character] == IkStatus::kConverged; }
 

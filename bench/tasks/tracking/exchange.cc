@@ -32,7 +32,7 @@ Payload DescribeTrueAngles(const TrackingWorld& world) {
 }
 
 Result<TrackingAnswer> ReadTrackingAnswer(const Json& json, const TrackingWorld& world) {
-  constexpr double kMostIterations = 1e9;
+  constexpr double kMaxReportedIterations = 1e9;
   const std::size_t count = world.truth.size();
   AnswerFields fields(json);
   TrackingAnswer answer;
@@ -46,7 +46,7 @@ Result<TrackingAnswer> ReadTrackingAnswer(const Json& json, const TrackingWorld&
     answer.angles.push_back(std::move(angles));
   }
   if (!tells_iterations) return answer;
-  ASSIGN_OR_RETURN(const auto counts, ReadNumbers(iterations, "iterations", count, {0, kMostIterations}));
+  ASSIGN_OR_RETURN(const auto counts, ReadNumbers(iterations, "iterations", count, {0, kMaxReportedIterations}));
   for (const double each : counts) {
     if (each != std::floor(each)) {
       return Fail({}, "iterations[{}]: {} is not a whole number", answer.iterations->size(), each);

@@ -10,23 +10,23 @@
 
 namespace etude {
 
-/// Jerk needs as many frames.
+/// The smallest number of frames of a motion: jerk needs four.
 constexpr int kFewestTrackedFrames = 4;
 
-/// One condition of a tracking scenario: what is to be followed.
+/// One condition of a tracking scenario: the motion to follow.
 struct TrackingOptions {
   double duration_s = 5;
   double rate_hz = kJudgedRateHz;
   TargetNoise target_noise = {};
   /// The standard deviation of the first frame's start from its truth; empty: the start is the standing pose.
   std::optional<double> joint_noise_deg = {};
-  IkOptions common = IkBudget(20);  ///< what all methods share
+  IkOptions common = IkBudget(20);  ///< options that all methods share
 };
 
-/// The start of a solver at every frame but the first.
+/// Where a solver starts in every frame but the first.
 enum class FrameStart {
   kWarm,  ///< "warm": at its answer to the frame before
-  kCold,  ///< "cold": where it began at the first frame
+  kCold,  ///< "cold": at the start of the first frame
 };
 
 /// A solver with its settings.

@@ -20,9 +20,10 @@ IkProblem ProblemAt(const TrackingWorld& world, std::size_t frame, const std::ve
   return problem;
 }
 
-/// Puts down a frame's solution; `problem` is asked for where it is bad.
-Result<void> Take(IkSolution solution, const IkProblem& problem, const TrackingWorld& world,
-                  const TrackingMethod& method, TrackingAnswer& answer) {
+/// Appends a frame's solution to the answer; a solution of bad input is an error that says what is wrong with
+/// `problem`.
+Result<void> StoreSolution(IkSolution solution, const IkProblem& problem, const TrackingWorld& world,
+                           const TrackingMethod& method, TrackingAnswer& answer) {
   if (solution.status == IkStatus::kBadInput) {
     return Fail({}, "frame {}: {}", answer.angles.size(), FindFault(world.tree, problem, method.options));
   }
@@ -36,22 +37,24 @@ Result<void> Take(IkSolution solution, const IkProblem& problem, const TrackingW
 Result<TrackingAnswer> Follow(const TrackingWorld& world, const TrackingMethod& method) {
   TrackingAnswer answer;
   answer.iterations.emplace();
-  if (method.start == FrameStart::kCold) {  // no frame waits for another
+  // Cold frames are independent of each other, so they are solved in one batch.
+  if (method.start == FrameStart::kCold) {
     std::vector<IkProblem> problems;
     for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
       problems.push_back(ProblemAt(world, frame, world.first_angles));
     }
     std::vector<IkSolution> solutions = SolveAll(*method.solver, world.tree, problems, method.options);
     for (std::size_t frame = 0; frame < problems.size(); ++frame) {
-      RETURN_IF_ERROR(Take(std::move(solutions[frame]), problems[frame], world, method, answer));
+      RETURN_IF_ERROR(StoreSolution(std::move(solutions[frame]), problems[frame], world, method, answer));
     }
     return answer;
   }
+  // Warm: each frame starts at the answer to the one before.
   const auto solver = Prepare(*method.solver, world.tree);
   for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
     const IkProblem problem = ProblemAt(world, frame, frame > 0 ? answer.angles.back() : world.first_angles);
     IkSolution solution = solver->Solve(problem, method.options);
-    RETURN_IF_ERROR(Take(std::move(solution), problem, world, method, answer));
+    RETURN_IF_ERROR(StoreSolution(std::move(solution), problem, world, method, answer));
   }
   return answer;
 }
@@ -60,14 +63,14 @@ namespace {
 
 using Angles = std::vector<std::vector<double>>;  // [frame][angle]
 
-/// The answer's properties, frame by frame.
+/// The answer measured frame by frame.
 struct Outcome {
   std::vector<TrackedFrame> frames;
   BodyMotion truth, found;
   std::string first_broken_limit;
 };
 
-Outcome Look(const TrackingWorld& world, double rate_hz, const Angles& angles) {
+Outcome MeasureAnswer(const TrackingWorld& world, double rate_hz, const Angles& angles) {
   Outcome outcome{{}, {rate_hz, {}}, {rate_hz, {}}, ""};
   std::vector<EffectorError> errors;
   for (std::size_t k = 0; k < angles.size(); ++k) {
@@ -89,7 +92,7 @@ Angles TrueAngles(const TrackingWorld& world) {
   return angles;
 }
 
-std::vector<double> Together(const Angles& frames) {
+std::vector<double> Concatenate(const Angles& frames) {
   std::vector<double> all;
   for (const std::vector<double>& angles : frames) all.insert(all.end(), angles.begin(), angles.end());
   return all;
@@ -140,7 +143,7 @@ void AddIterations(const std::optional<std::vector<int>>& iterations, CellResult
   }
 }
 
-/// "12 of 150 frames not solved; in the first of them, 0, worst effector 3.1 cm, 4°", or nothing.
+/// Returns "12 of 150 frames not solved; in the first of them, 0, worst effector 3.1 cm, 4°", or "".
 std::string DescribeFailure(const Outcome& outcome) {
   const auto unsolved = std::count_if(outcome.frames.begin(), outcome.frames.end(), std::not_fn(IsFrameSolved));
   if (unsolved == 0) return "";
@@ -161,22 +164,25 @@ std::vector<std::string> TrackingMetrics() {
 
 CellResult ScoreTracking(const TrackingWorld& world, double rate_hz, const TrackingAnswer& answer, bool keeps_motion) {
   assert(answer.angles.size() == world.truth.size());
-  Outcome outcome = Look(world, rate_hz, answer.angles);
+  // Errors frame by frame.
+  Outcome outcome = MeasureAnswer(world, rate_hz, answer.angles);
   const Angles truth = TrueAngles(world);
   const PoseErrors poses = ComparePoses(outcome.found.poses, outcome.truth.poses);
   const Series position = AlongFrames("position_error_cm", outcome.frames,
                                       [](const TrackedFrame& frame) { return frame.errors.position_cm; });
   const Series orientation = AlongFrames("orientation_error_deg", outcome.frames,
                                          [](const TrackedFrame& frame) { return frame.errors.orientation_deg; });
+  // Metrics over the whole motion.
   CellResult cell;
   cell.digests = {{"world", DigestOf(world)}, {"solution", DigestOf(answer)}};
   cell.Measure("frames_solved", ShareSolvedPractically(outcome.frames));
   cell.Measure("frames_solved_tight", ShareSolvedTightly(outcome.frames));
   cell.Measure("position_error_cm", MeanOf(position));
   cell.Measure("orientation_error_deg", MeanOf(orientation));
-  cell.Measure("hidden_angle_error_deg", HiddenAngleDifferenceDeg(Together(answer.angles), Together(truth)));
+  cell.Measure("hidden_angle_error_deg", HiddenAngleDifferenceDeg(Concatenate(answer.angles), Concatenate(truth)));
   cell.Measure("mpjpe_mm", poses.mpjpe_mm);
   cell.MeasureOr("angle_jerk_ratio", AngleJerkRatio(answer.angles, truth), "the true angles have no jerk");
+  // Curves, recording and status.
   cell.series = {
       AlongFrames("solved_practical", outcome.frames, [](const auto& frame) { return IsFrameSolved(frame); }), position,
       orientation, Series{"mpjpe_mm", "frame", poses.frame_mpjpe_mm}};

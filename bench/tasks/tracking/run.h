@@ -10,27 +10,27 @@
 
 namespace etude {
 
-/// A motion as a method followed it, one entry per frame.
+/// A method's answer for a motion, one entry per frame.
 struct TrackingAnswer {
   std::vector<std::vector<double>> angles;  ///< radians
   std::optional<std::vector<int>> iterations;
 };
 
-/// Lets a solver follow the motion: every frame within the method's budget, from where its `start` says. A frame that
-/// it did not solve is left as it is, and a warm one goes on from there. Fails, naming the frame, when the solver finds
-/// fault with a problem.
+/// Lets a solver follow the motion: it solves every frame within the method's budget, starting where `start` says. An
+/// unsolved frame keeps its last angles, and a warm start goes on from them. Fails, naming the frame, if a problem is
+/// invalid for the solver.
 Result<TrackingAnswer> Follow(const TrackingWorld& world, const TrackingMethod& method);
 
-/// Measures an answer against the targets that it was given and the motion that is true, whoever gave it: one entry
-/// per frame in all. `ok` when every frame is solved practically, else `unsolved` with how many are not and the first
-/// of them; a broken limit makes its frame unsolved. Series along the frames; `keeps_motion`: a recording with the
+/// Measures an answer against the given targets and the true motion; the answer has one entry per frame. The cell is
+/// `ok` if every frame is solved practically, else `unsolved`, with the number of unsolved frames and the first of
+/// them; a broken limit makes its frame unsolved. Series are along the frames. With `keeps_motion` a recording has the
 /// tracks "truth" and "solution".
 CellResult ScoreTracking(const TrackingWorld& world, double rate_hz, const TrackingAnswer& answer, bool keeps_motion);
 
-/// The ids of all metrics that a cell reports, a value or a reason for each.
+/// Returns the ids of all metrics that a cell reports, each by a value or a reason.
 std::vector<std::string> TrackingMetrics();
 
-/// The value of a metric for a cell without an answer: 0 for shares of frames.
+/// Returns the value of a metric for a cell without an answer: 0 for shares of frames, nothing for others.
 std::optional<double> TrackingValueOfFailure(std::string_view metric);
 
 }  // namespace etude

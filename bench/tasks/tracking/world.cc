@@ -17,9 +17,10 @@
 namespace etude {
 namespace {
 
-constexpr double kFastestJoint = Radians(1200);  // per second
+constexpr double kMaxJointSpeed = Radians(1200);  // radians per second
 
-/// The window of the clip that is followed, its middle frame at the floor's origin; of a disguised one anywhere.
+/// Chooses the window of the clip to follow. Its middle frame is at the floor's origin; in a secret world it is at a
+/// random place.
 std::vector<BodyPose> ChooseWindow(const TrackingOptions& options, const LibraryClip& clip, const WorldKey& key,
                                    const std::optional<Disguise>& disguise) {
   RandomStream dice(key, "tracking/window");
@@ -27,11 +28,13 @@ std::vector<BodyPose> ChooseWindow(const TrackingOptions& options, const Library
   const bool loops = clip.move && clip.move->loops;
   const double step = kJudgedRateHz / options.rate_hz;
   const double last = static_cast<double>(poses.size()) - 1;  // frame of the clip
+  // The length of the window and its random start.
   auto frames = static_cast<std::size_t>(std::lround(options.duration_s * options.rate_hz));
   if (!loops) frames = std::min(frames, static_cast<std::size_t>(last / step) + 1);
   const double latest = loops ? last : last - step * static_cast<double>(frames - 1);
   const auto start = static_cast<double>(dice.IndexBelow(static_cast<std::uint64_t>(latest) + 1));
 
+  // Sample the clip, disguised or plain.
   std::vector<BodyPose> window;
   const double end = loops ? std::numeric_limits<double>::infinity() : last;
   for (std::size_t k = 0; k < frames; ++k) {
@@ -39,6 +42,7 @@ std::vector<BodyPose> ChooseWindow(const TrackingOptions& options, const Library
     window.push_back(PoseOfClip(poses, disguise ? disguise->FrameOf(start, step, k, end) : plain));
   }
   if (disguise) disguise->PutOn(window, options.rate_hz);
+  // Move the middle frame to the origin, or anywhere in a secret world.
   const FloorMove to_origin = ToOrigin(window[frames / 2]);
   for (BodyPose& pose : window) pose = to_origin.Apply(pose);
   if (!disguise) return window;
@@ -48,7 +52,7 @@ std::vector<BodyPose> ChooseWindow(const TrackingOptions& options, const Library
   return window;
 }
 
-/// The limits of the frame after one with `angles`.
+/// Returns the limits of the frame after one with `angles`: each angle may change by at most `step`.
 std::vector<AngleRange> WithinReach(const KinematicTree& tree, const std::vector<double>& angles, double step) {
   std::vector<AngleRange> ranges = tree.limits;
   for (std::size_t i = 0; i < ranges.size(); ++i) {
@@ -57,8 +61,8 @@ std::vector<AngleRange> WithinReach(const KinematicTree& tree, const std::vector
   return ranges;
 }
 
-/// Slides the poses of a secret world among those that meet the same targets: whoever works the disguised motion out of
-/// its targets still does not know the angles that these leave open.
+/// Moves the poses of a secret world within the set of poses that meet the same targets. A program that recovers the
+/// disguised motion from its targets then still does not know the angles that the targets leave open.
 class OpenAngles {
  public:
   OpenAngles(const KinematicTree& tree, const WorldKey& key) : tree_(tree), solver_(tree) {
@@ -67,8 +71,8 @@ class OpenAngles {
     for (int i = 0; i < tree.dof_count(); ++i) dice_.emplace_back(key, fmt::format("tracking/open-angle/{}", i));
   }
 
-  /// The pose near dice of the key that has the ends of `state`, if there is one within `ranges`; else one with its
-  /// ends as near as was found.
+  /// Returns a pose with the end effectors of `state` that is near random angles and within `ranges`; if no such pose
+  /// was found, the one that came closest to the end effectors.
   TreeState Slide(const TreeState& state, const std::vector<AngleRange>& ranges, double seconds) {
     IkProblem problem{state, TargetsMetBy(tree_, state), ranges};
     for (std::size_t i = 0; i < ranges.size(); ++i) {
@@ -81,7 +85,8 @@ class OpenAngles {
   }
 
  private:
-  static constexpr double kOpenAngle = Radians(35);  // standard deviation; most of it goes when the targets are met
+  static constexpr double kOpenAngle = Radians(35);  // standard deviation before the targets are met, which removes
+                                                     // most of it
 
   const KinematicTree& tree_;
   const GaussNewtonSolver solver_;
@@ -89,6 +94,7 @@ class OpenAngles {
   std::vector<WanderingDice> dice_;
 };
 
+/// Returns the start of the first frame: the standing pose, or the truth plus noise.
 std::vector<double> ChooseFirstAngles(const TrackingOptions& options, const KinematicTree& tree,
                                       const std::vector<double>& truth, const WorldKey& key) {
   std::vector<double> angles = StandingState(tree).angles;
@@ -116,6 +122,7 @@ Result<TrackingWorld> MakeTrackingWorld(const TrackingOptions& options, const Li
 
 Result<TrackingWorld> MakeTrackingWorld(const KinematicTree& body, const TrackingOptions& options,
                                         const LibraryClip& clip, const WorldKey& key) {
+  // Choose the window of the clip.
   std::optional<Disguise> disguise;
   if (!key.suite_seed.IsPlain()) disguise.emplace(key);
   const std::vector<BodyPose> window = ChooseWindow(options, clip, key, disguise);
@@ -123,6 +130,7 @@ Result<TrackingWorld> MakeTrackingWorld(const KinematicTree& body, const Trackin
     return Fail({}, "too few frames in clip {}: {} at {:g} Hz; tracking needs {}", clip.name, window.size(),
                 options.rate_hz, kFewestTrackedFrames);
   }
+  // Fit the body to each frame, near the frame before, and take the targets from the fitted pose.
   TrackingWorld world{body, {}, {}, {}};
   RandomStream noise(key, "tracking/target-noise");
   std::optional<OpenAngles> open;
@@ -132,7 +140,7 @@ Result<TrackingWorld> MakeTrackingWorld(const KinematicTree& body, const Trackin
     auto state = FindStartState(world.tree, window[k], ranges);
     if (!state) return Fail({}, "frame {} of the window of clip {} gives no pose of the body", k, clip.name);
     if (open) state = open->Slide(*state, ranges, static_cast<double>(k) / options.rate_hz);
-    ranges = WithinReach(world.tree, state->angles, kFastestJoint / options.rate_hz);
+    ranges = WithinReach(world.tree, state->angles, kMaxJointSpeed / options.rate_hz);
     world.truth.push_back(*std::move(state));
     world.targets.push_back(TargetsMetBy(world.tree, world.truth.back()));
     Disturb(world.targets.back(), options.target_noise, noise);

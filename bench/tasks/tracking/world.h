@@ -9,26 +9,28 @@
 
 namespace etude {
 
-/// One motion to be followed: paper B's body with the limbs of a clip's performer, and where its ends shall be in every
-/// frame. The truth is a motion of that very body, whose limbs point as the clip's as far as joints and limits allow
-/// (FindStartState): every target can be reached, unless it is disturbed. It is not the clip, which has joints that
-/// this body lacks. No angle of it turns faster than 1200° a second *(ours: a boxer's elbow)*: an arm beyond its limit
-/// would else go from one end of its range to the other within a frame, a straight one spin. So such an arm stays at
-/// the end where it left its range, however long the clip's is nearer to the other one.
+/// One motion to be followed: paper B's body with the limb lengths of a clip's performer, and the targets of its end
+/// effectors in every frame. The truth is a motion of this very body, whose limbs point as the clip's as far as joints
+/// and limits allow (FindStartState), so every target can be reached unless it is disturbed. It differs from the clip,
+/// which has joints that this body lacks.
+///
+/// No angle of the truth turns faster than 1200° a second *(ours: a boxer's elbow)*. Without this bound an arm beyond
+/// its limit would jump from one end of its range to the other within a frame, and a straight arm would spin. An arm
+/// beyond its limit therefore stays at the end where it left its range, even if the other end is nearer.
 struct TrackingWorld {
   KinematicTree tree;
   std::vector<TreeState> truth;                      ///< one per frame; the root is given to solvers
   std::vector<std::vector<EffectorTarget>> targets;  ///< [frame][effector]
-  std::vector<double> first_angles;                  ///< what the first frame starts with, within the limits
+  std::vector<double> first_angles;                  ///< the start of the first frame, within the limits
 };
 
-/// The world of `key`. The window of the clip begins by dice; moves that loop are repeated, other clips shorter than
-/// the window are taken whole. At rates below the clips' 30 Hz joints lie on the straight line between two frames. In
-/// a secret world the clip is disguised (bench/tasks/base/disguise.h), stands and faces anywhere, and five angles that
-/// no target tells follow dice of their own.
-/// Fails for a clip of fewer than kFewestTrackedFrames frames, and when a frame's limbs give no pose of the body.
+/// Makes the world of `key`. The window of the clip begins at a random frame; moves that loop are repeated, other clips
+/// shorter than the window are used whole. At other rates than the clips' 30 Hz joints are interpolated linearly
+/// between two frames. In a secret world the clip is disguised (bench/tasks/base/disguise.h), its place and heading are
+/// random, and the five angles that no target determines are random functions of time. Fails for a clip of fewer than
+/// kMinTrackedFrames frames, and if a frame's limbs give no pose of the body.
 Result<TrackingWorld> MakeTrackingWorld(const TrackingOptions& options, const LibraryClip& clip, const WorldKey& key);
-/// Makes a world for a body of other limbs than the clip's performer has.
+/// Makes a world for a given body, whose limb lengths may differ from the clip's performer.
 Result<TrackingWorld> MakeTrackingWorld(const KinematicTree& body, const TrackingOptions& options,
                                         const LibraryClip& clip, const WorldKey& key);
 

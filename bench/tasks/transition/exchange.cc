@@ -19,9 +19,9 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kMostBetween = 300;  // ten seconds
-constexpr std::size_t kMostThrough = 16;
-constexpr std::size_t kLongestExcuse = 300;
+constexpr std::size_t kMaxBetween = 300;  // ten seconds
+constexpr std::size_t kMaxThrough = 16;
+constexpr std::size_t kMaxReasonBytes = 300;
 constexpr Range kJoins_s{0, 5};
 constexpr double kLimbTolerance = 0.02;  // metres
 
@@ -35,7 +35,7 @@ Result<void> CheckLimbs(const BodyPose& pose, const BodyProportions& character, 
   return {};
 }
 
-/// Reads a pose that the character can take; complaints go to `fields`.
+/// Reads a pose with the character's limb lengths; complaints go to `fields`.
 BodyPose ReadOwnPose(const Json& json, const std::string& path, const BodyProportions& character,
                      AnswerFields& fields) {
   const auto pose = ReadPose(json, path);
@@ -44,10 +44,9 @@ BodyPose ReadOwnPose(const Json& json, const std::string& path, const BodyPropor
   return pose.value_or(BodyPose{});
 }
 
-/// Reads frames of the method's own making. Frame 0 of the segment is its version of the frame left, which is not
-/// shown.
+/// Reads the method's own frames. Frame 0 of the segment is its version of the frame left, which is not shown.
 std::optional<Segment> ReadBetween(AnswerFields& fields, const BodyProportions& character) {
-  const Json& entries = fields.List("between", 0, kMostBetween);
+  const Json& entries = fields.List("between", 0, kMaxBetween);
   Segment segment{.first = 0, .last = static_cast<int>(entries.size()), .own = {BodyPose{}}, .in_place = true};
   for (std::size_t i = 0; i < entries.size(); ++i) {
     segment.own.push_back(ReadOwnPose(entries[i], fields.PathOf("between", i), character, fields));
@@ -63,9 +62,9 @@ std::optional<Segment> ReadBetween(AnswerFields& fields, const BodyProportions& 
   return segment;
 }
 
-/// Reads the clips played on the way.
+/// Reads the clips played in between.
 void ReadThrough(AnswerFields& fields, const Stage& stage, std::vector<Segment>& segments) {
-  const Json& entries = fields.List("through", 0, kMostThrough);
+  const Json& entries = fields.List("through", 0, kMaxThrough);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     AnswerFields entry(entries[i], fields.PathOf("through", i));
     const int clip = entry.Integer("clip", 0, static_cast<int>(stage.library.tagged.size()) - 1);
@@ -79,16 +78,18 @@ void ReadThrough(AnswerFields& fields, const Stage& stage, std::vector<Segment>&
 
 TransitionAnswer ReadTransition(AnswerFields& fields, const Stage& stage, const TransitionRequest& request) {
   TransitionAnswer answer;
+  // Segments: the clip left, clips or frames in between, the clip entered.
   const int last_of_from = stage.library.tagged[request.from].FrameCount() - 1;
   const int last_of_to = stage.library.tagged[request.to].FrameCount() - 1;
   const int left = fields.Integer("leave_frame", request.request_frame, last_of_from);
   answer.segments.push_back({.clip = request.from, .first = request.request_frame, .last = left, .own = {}});
   ReadThrough(fields, stage, answer.segments);
-  const int entered = fields.Integer("enter_frame", 0, last_of_to - 1);  // a frame must follow
+  const int entered = fields.Integer("enter_frame", 0, last_of_to - 1);  // at least one frame must follow
   std::optional<Segment> between = ReadBetween(fields, stage.library.proportions);
   if (between && answer.segments.size() > 1) fields.Note({{}, "through: not together with 'between'"});
   if (between) answer.segments.push_back(*std::move(between));
   answer.segments.push_back({.clip = request.to, .first = entered, .last = last_of_to, .own = {}});
+  // The join and its duration.
   answer.join = FindJoin(fields.Choice("join", JoinNames(), JoinNames().front()));
   if (fields.Has("join_s")) {
     answer.segments.back().preferred = PreferredJoin{.blend_s = fields.Number("join_s", kJoins_s)};
@@ -99,14 +100,14 @@ TransitionAnswer ReadTransition(AnswerFields& fields, const Stage& stage, const 
   return answer;
 }
 
-/// Returns the frames to record: some seconds before and after the transition points, and as long as the join is
-/// judged.
+/// Returns the frames to record: 2.5 s before and after the transition points, and at least the frames in which the
+/// join is judged.
 FrameWindow RecordedFrames(const TransitionOutcome& outcome, const Stage& stage) {
   constexpr double kSeconds = 2.5;
   const JoinView view = ViewOf(outcome, stage);
   FrameWindow window = AroundPoints(outcome.splice, kSeconds);
   const int judged = view.first + static_cast<int>(JoinSupport(view).size()) - 1;
-  const int landed = judged + static_cast<int>(view.rate_hz);  // who flies then has come down by here
+  const int landed = judged + static_cast<int>(view.rate_hz);  // a body in flight has landed by then
   window.last = std::max(window.last, std::min(landed, static_cast<int>(view.shown.size()) - 1));
   return window;
 }
@@ -146,7 +147,7 @@ Result<TransitionAnswer> ReadTransitionAnswer(const Json& answer, const Stage& s
   AnswerFields fields(answer);
   TransitionAnswer read;
   if (fields.Has("unsolved")) {
-    read.unsolved = fields.Text("unsolved", kLongestExcuse);
+    read.unsolved = fields.Text("unsolved", kMaxReasonBytes);
   } else {
     read = ReadTransition(fields, stage, request);
   }
@@ -189,9 +190,11 @@ Recording RecordTransition(const TransitionOutcome& outcome, const Stage& stage)
     const std::ptrdiff_t end = std::min<std::ptrdiff_t>(window.last - shown_first + 1 + more, count);
     return Track{name, {view.rate_hz, {poses.begin() + begin, poses.begin() + end}}};
   };
-  // Clips that have been left are asked so long after a frame where its joints may rest, and a frame for velocities.
+  // Support is looked up in a clip even after it was left: for the window of its rules, and one more frame for
+  // velocities.
   const int asked = static_cast<int>(std::lround(SupportRules().window_s * view.rate_hz)) + 1;
 
+  // The facts of the transition.
   const TransitionRecord& record = outcome.record;
   const FuzzyDistance& worst = WorstDistance(record);
   TransitionExtras extras;
@@ -212,6 +215,7 @@ Recording RecordTransition(const TransitionOutcome& outcome, const Stage& stage)
   extras.partials = worst.partials;
   extras.pairs_seen = record.pairs_seen;
   extras.pairs_matched = record.pairs_matched;
+  // The transition points and the candidates, with their distances.
   for (std::size_t i = 0; i < record.distances.size(); ++i) {
     const Segment &old = record.segments[i], &next = record.segments[i + 1];
     extras.points.push_back({.from = NameOf(old, stage),
@@ -231,6 +235,7 @@ Recording RecordTransition(const TransitionOutcome& outcome, const Stage& stage)
                                  .cost = candidate.cost,
                                  .outcome = std::string(OutcomeName(candidate.outcome))});
   }
+  // The motion shown, and the clips it was made of.
   Recording recording{
       {track("coach", view.shown, 0), track("left", view.left, 0, asked), track("wanted", view.wanted, view.last)},
       WriteTransitionExtras(extras)};

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// Paper A's choice and join.
+/// Returns paper A's choice and join.
 TransitionWay DefaultWay();
 
 /// One method, as a scenario names it.
@@ -17,18 +17,19 @@ TransitionWay DefaultWay();
 ///     - {name: fuzzy, choice: fuzzy-bridge, join: cut, weights: adaptive, threshold: 0.4, pick: first}
 struct TransitionMethod {
   std::string name;
-  /// Its weights are paper A's; learnt ones depend on the world.
+  /// Its weights are paper A's here; learnt weights depend on the world.
   TransitionWay way = DefaultWay();
   WeightSource weights = WeightSource::kFixed;
-  double wait_s = 1;  ///< the budget of its requests
+  double wait_s = 1;  ///< the budget of its requests, seconds
 };
 
 /// A condition of a transition scenario.
 struct TransitionCondition {
-  double threshold = kPaperThreshold;  ///< of methods that do not say otherwise
-  double wait_s = 1;                   ///< likewise
-  bool explain = false;  ///< whether every cell keeps what explains its switch (ExplanationOf); else only recordings do
-  StageRules stage;      ///< but for its fuzzy system
+  double threshold = kPaperThreshold;  ///< for methods that set none
+  double wait_s = 1;                   ///< for methods that set none
+  bool explain = false;  ///< whether every cell keeps the explanation of its transition (ExplanationOf), not only
+                         ///< recordings
+  StageRules stage;      ///< without its fuzzy system
 };
 
 const FieldTable<TransitionCondition>& TransitionConditionFields();

@@ -13,25 +13,25 @@ struct TransitionAnswer;
 /// The transition of one method in one world.
 struct TransitionOutcome {
   TransitionRequest request;
-  bool matched = false;  ///< it chose the frames left and entered because they are alike
-  MatchRules rules;      ///< those that its distances go by
+  bool matched = false;  ///< it chose the frames left and entered because they are similar
+  MatchRules rules;      ///< by which its distances were computed
   TransitionRecord record;
-  Splice splice;  ///< empty when the record found no way
+  Splice splice;  ///< empty if the record has no segments
 };
 
-/// Does what a method outside answered, which must have a way: the clips spliced, or its own frames put between them.
-/// The distances are by the fixed weights, whatever the method went by.
+/// Carries out an outside method's answer, which must have segments: splices the clips, or inserts the method's own
+/// frames. Distances use the fixed weights, whichever weights the method used.
 TransitionOutcome FollowAnswer(const TransitionAnswer& answer, const Stage& stage, const TransitionRequest& request);
 
-/// The join of an outcome that has a way, as it is measured: beside the clip that played and the one asked for. A view
-/// of both arguments.
+/// Returns the join of an outcome with segments, for measuring: with the clip that played and the requested one. It is
+/// a view of both arguments.
 JoinView ViewOf(const TransitionOutcome& outcome, const Stage& stage);
 
-/// The frames of a splice from so long before its first transition point to so long after its last, as far as the
-/// motion goes.
+/// Returns the frames of a splice from `seconds` before its first transition point to `seconds` after its last, clipped
+/// to the motion.
 FrameWindow AroundPoints(const Splice& splice, double seconds);
 
-/// The largest distance at a transition point of a record that has segments.
+/// Returns the largest distance at a transition point of a record with segments.
 const FuzzyDistance& WorstDistance(const TransitionRecord& record);
 
 }  // namespace etude

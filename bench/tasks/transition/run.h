@@ -17,41 +17,42 @@
 
 namespace etude {
 
-/// Counts the pairs of frames that a fuzzy choice may take, and those that its rules match.
+/// Counts the pairs of frames that a fuzzy choice may take, and those that match by its rules.
 MatchTally TallyMatches(const Stage& stage, const TransitionRequest& request, const TransitionWay& way);
 
-/// The metrics of a transition that has a way (docs/reference/metrics.md), the worst transition point counting where an
-/// in-between made two.
+/// Measures the metrics of a transition with segments (docs/reference/metrics.md). If a clip in between makes two
+/// transition points, the worse one counts.
 void ScoreTransition(const TransitionOutcome& outcome, const Stage& stage, CellResult& result);
 
-/// The metrics of the pairs that a transition could have used; nothing for a method without a threshold.
+/// Measures the metrics of the pairs that a transition could have used; they are missing for a method without a
+/// threshold.
 void ScoreMatching(const std::optional<MatchTally>& tally, CellResult& result);
 
-/// The ids of all metrics, in the order in which they are measured.
+/// Returns the ids of all metrics, in the order in which they are measured.
 std::vector<std::string> TransitionMetrics();
 
-/// The value of a metric for a method without a transition (Task::ValueOfFailure): 0 of `natural_share` and the other
-/// shares of all cells. A transition that never came was not natural; left out of the count, a method could raise its
-/// share by giving up where it is hard. Nothing for the rest: no number of centimetres stands for a jump that was not
-/// made, and 0 of `false_smooth` would be praise.
+/// Returns the value of a metric for a method without a transition (Task::ValueOfFailure): 0 for `natural_share` and
+/// the other shares over all cells. If a missing transition were left out of the count, a method could raise its share
+/// by failing in hard cases. Returns nothing for the others: no number of centimetres stands for a jump that was not
+/// made, and 0 for `false_smooth` would be a merit.
 std::optional<double> TransitionFailureValue(std::string_view metric);
 
-/// Measures the metrics of ScoreTransition in a world in which no way was found.
+/// Records the metrics of ScoreTransition for a world in which no transition was found.
 void MeasureNoWay(CellResult& result);
 
 /// The data that the runs of a task share; all of it must outlive them.
 struct TransitionBasis {
   const std::vector<TransitionMethod>& methods;
   const Stage& stage;
-  LearntWeights& learnt;  ///< remembers fits; what it answers depends on the question only
-  double max_wait_s = 0;  ///< told to methods outside; built-in ones have their own
+  LearntWeights& learnt;  ///< caches fits; its answers depend on the question alone
+  double max_wait_s = 0;  ///< sent to outside methods; built-in ones have their own
   bool explain = false;   ///< whether every cell keeps its explanation
 };
 
-/// One request on the task's stage, and what methods make of it.
+/// One request on the task's stage, in which methods are run and scored.
 class TransitionRun final : public TaskWorld {
  public:
-  /// A request that failed is to be skipped.
+  /// A world whose request is an error is skipped.
   TransitionRun(const TransitionBasis& basis, Result<TransitionRequest> request, bool keeps_motion);
 
   std::optional<std::string> WhySkipped() const override;

@@ -10,38 +10,39 @@
 
 namespace etude {
 
-/// The rules by which a library is made ready for transitions.
+/// The rules by which a library is prepared for transitions.
 struct StageRules {
   FuzzySystem fuzzy;
   HeadRule head;
   int min_clips = TagRules{}.min_clips;
   int most_per_class = TagRules{}.most_per_class;
-  TweenRules tween;            ///< of in-betweens
-  bool asks_for_acts = false;  ///< the coach's acts are asked for while other clips play, where there are both
+  TweenRules tween;            ///< of clips in between
+  bool asks_for_acts = false;  ///< true: the coach's acts are requested while other clips play, if there are both
 };
 
-/// A library of clips made ready for transitions: all performed by one body (`JudgedProportions`), tagged, and each
-/// with nature's own jumps to be compared with.
+/// A library of clips prepared for transitions: all performed by one body (`JudgedProportions`), tagged, and each with
+/// its own natural jumps for comparison.
 struct Stage {
-  MotionLibrary library;                ///< its names are as rows and videos show them
-  std::vector<std::string> identities;  ///< equal for equal clips: what opens the clip
+  MotionLibrary library;                ///< its names are those that rows and videos show
+  std::vector<std::string> identities;  ///< the source of each clip; equal for equal clips
   std::vector<std::vector<double>> natural_jumps_cm;
   std::vector<double> natural_slides_cmps;  ///< foot slide over each clip
   RealFrames real_frames;                   ///< of all clips
-  FuzzySystem fuzzy;                        ///< by which they are tagged
-  std::vector<int> playing;                 ///< the clips that play when another is asked for: all, unless acts are
-  std::vector<int> wanted;                  ///< those that are asked for
+  FuzzySystem fuzzy;                        ///< by which the clips are tagged
+  std::vector<int> playing;                 ///< clips that may play at the time of a request: all, or all but the acts
+  std::vector<int> wanted;                  ///< clips that may be requested
 };
 
-/// Shorter clips have no unbroken window of eleven frames to be judged by.
+/// Clips with fewer frames have no unbroken window of eleven frames with second differences.
 constexpr int kShortestClip = 13;
 
-/// The jumps that a transition between these two clips is compared with, in centimetres (docs/reference/metrics.md):
-/// the clips asked for set the standard, not one played in between.
+/// Returns the natural jumps with which a transition between these two clips is compared, centimetres
+/// (docs/reference/metrics.md). A clip played in between sets no standard.
 std::vector<double> NaturalJumpsOf(const Stage& stage, int from, int to);
-/// The limit of the calmer of the two: the smaller of both clips' own.
+/// Returns the smaller of both clips' natural limits.
 double CalmerLimitCm(const Stage& stage, int from, int to);
 
+/// Prepares the clips of a library.
 Stage SetStage(const ClipLibrary& library, const StageRules& rules = {});
 
 }  // namespace etude

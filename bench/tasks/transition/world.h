@@ -6,10 +6,10 @@
 
 namespace etude {
 
-/// The clip that plays in this trial; the stage must not be empty.
+/// Returns the clip that plays in this trial; the stage must not be empty.
 int FromClip(const Stage& stage, const WorldKey& key);
 
-/// One trial's truth: which clip plays, which is asked for, and when; the budget is left to the method. The error is
+/// Draws one trial: which clip plays, which one is requested, and when. The budget is left to the method. The error is
 /// the reason to skip this world.
 Result<TransitionRequest> DrawRequest(const Stage& stage, const WorldKey& key);
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kCrossover = 0.9;
 constexpr double kSpreadIndex = 1;      // of a crossover that is not used
-constexpr double kMutation = 0.2;       // the chance of a gene
+constexpr double kMutation = 0.2;       // probability per gene
 constexpr double kMutationWidth = 0.1;  // standard deviation
 constexpr unsigned kTournament = 2;
 
@@ -32,7 +32,7 @@ void Evolve(const std::function<double(std::span<const double>)>& score, std::sp
   while (population.size() < static_cast<std::size_t>(options.population))
     population.push_back(population.random_decision_vector());
 
-  // One generation a call, so that progress can be told; the algorithm keeps its dice between the calls.
+  // One generation per call, to report progress; the algorithm keeps its random state between calls.
   const pagmo::algorithm algorithm(pagmo::sga(1u, kCrossover, kSpreadIndex, kMutation, kMutationWidth, kTournament,
                                               "binomial", "gaussian", "tournament", algorithm_seed));
   for (int generation = 1; generation <= options.generations; ++generation) {
