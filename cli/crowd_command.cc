@@ -160,9 +160,9 @@ Result<Json> FollowCrowd(const CrowdCommandOptions& options) {
 Result<int> CrowdCommand(const CrowdCommandOptions& given) {
   CrowdCommandOptions options = given;
   options.crowd.frames = static_cast<int>(std::lround(options.seconds * options.crowd.rate_hz));
-  if (options.crowd.frames < kFewestTrackedFrames) {
+  if (options.crowd.frames < kMinTrackedFrames) {
     return Fail({}, "--seconds: {:g} s at {:g} Hz are {} frames; allowed: {} or more", options.seconds,
-                options.crowd.rate_hz, options.crowd.frames, kFewestTrackedFrames);
+                options.crowd.rate_hz, options.crowd.frames, kMinTrackedFrames);
   }
   if (!options.output.empty()) {
     if (std::filesystem::path(options.output).extension() != ".mp4") {

@@ -227,7 +227,7 @@ Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options, const
                watch.recogniser.kind->name, Percent(accuracy), "nearest whole performance", Percent(nearest));
     PrintMistakes(out.verdicts);
   }
-  if (out.mistaught > 0) fmt::print("  {} of moves that nobody else did\n", out.mistaught);
+  if (out.untaught_performances > 0) fmt::print("  {} of moves that nobody else did\n", out.untaught_performances);
   if (!out.points.empty()) {
     fmt::print("F-score of {} action points within {:.0f} ms, mean of the moves: {}\n", out.points.size(),
                1000 * kActionPointTolerance, Percent(f_score));

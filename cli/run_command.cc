@@ -83,7 +83,7 @@ void PrintSummary(const RunData& run) {
     fmt::print("\n{} ({}): {}\n", scenario.name, scenario.task, scenario.question);
     PrintTables(scenario, run.rows);
     for (const ExpectationResult& expectation : scenario.expectations) {
-      fmt::print("  {}: {} [{}]\n", RulingName(expectation.ruling), expectation.text, expectation.detail);
+      fmt::print("  {}: {} [{}]\n", ClaimOutcomeName(expectation.ruling), expectation.text, expectation.detail);
     }
   }
 }
@@ -205,22 +205,22 @@ void Print(const ScenarioForecast& one) {
   if (one.comparisons == 0) return;
   const int worlds = static_cast<int>(one.worlds);
   const std::string among = one.comparisons == 1 ? "1 comparison" : fmt::format("{} comparisons", one.comparisons);
-  if (worlds < kSmallestSample) {
-    fmt::print("  on these worlds: no verdict; at least {} are needed\n", kSmallestSample);
+  if (worlds < kMinSample) {
+    fmt::print("  on these worlds: no verdict; at least {} are needed\n", kMinSample);
   } else {
     fmt::print(
         "  on these worlds: {} {} a mean difference from {:.2f} standard deviations of the worlds' "
         "differences\n",
-        among, one.comparisons == 1 ? "shows" : "show", SmallestFinding(worlds, one.comparisons));
+        among, one.comparisons == 1 ? "shows" : "show", MinDetectableDifference(worlds, one.comparisons));
   }
-  if (IsEveryWorldItsOwn(one.unit)) return;
-  if (one.units < kFewestUnits) {
+  if (WorldsAreUnits(one.unit)) return;
+  if (one.units < kMinUnits) {
     fmt::print("  beyond them: no verdict: {}; at least {} are needed\n", CountUnits(one.units, one.unit),
-               kFewestUnits);
+               kMinUnits);
     return;
   }
   fmt::print("  beyond them: from {:.2f} standard deviations of the mean differences of {}\n",
-             SmallestFinding(one.units, one.comparisons), CountUnits(one.units, one.unit));
+             MinDetectableDifference(one.units, one.comparisons), CountUnits(one.units, one.unit));
 }
 
 Json FactsOf(const Forecast& forecast) {

@@ -54,7 +54,7 @@ std::string VerdictBadges(const MethodFinding& finding) {
     return fmt::format("<span class=\"badge {}\"><span aria-hidden=\"true\">{}</span> {}</span>", VerdictClass(verdict),
                        VerdictSign(verdict), words);
   };
-  if (IsEveryWorldItsOwn(finding.unit) && finding.beyond.as_on_these) {
+  if (WorldsAreUnits(finding.unit) && finding.beyond.as_on_these) {
     return badge(finding.verdict, fmt::format("{} and others", finding.Words()));
   }
   std::string here = badge(finding.verdict, finding.Words());

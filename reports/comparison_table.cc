@@ -50,7 +50,7 @@ std::string Notes(const Comparison& c) {
 std::string BothNotes(const Comparison& c, SamplingUnit unit) {
   std::string text = Notes(c);
   // Where worlds are the units, the same has been said of them.
-  if (c.beyond.why_open.empty() || IsEveryWorldItsOwn(unit)) return text;
+  if (c.beyond.why_open.empty() || WorldsAreUnits(unit)) return text;
   return text + fmt::format("{}for {}: {}", text.empty() ? "" : "; ", OtherUnits(unit), c.beyond.why_open);
 }
 

@@ -68,11 +68,11 @@ std::string MovementCounts(const std::vector<MetricMove>& moves) {
 template <typename Items, typename RulingOf>
 std::string RulingCounts(const Items& items, std::string_view what, RulingOf ruling_of) {
   std::string text;
-  for (Ruling ruling : {Ruling::kUnmet, Ruling::kUndecided, Ruling::kMet}) {
+  for (ClaimOutcome ruling : {ClaimOutcome::kUnmet, ClaimOutcome::kUndecided, ClaimOutcome::kMet}) {
     const auto count =
         std::count_if(items.begin(), items.end(), [&](const auto& item) { return ruling_of(item) == ruling; });
     if (count == 0) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", FormatCount(count), RulingName(ruling));
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", FormatCount(count), ClaimOutcomeName(ruling));
   }
   return text.empty() ? "" : Plural(static_cast<long long>(items.size()), what) + ": " + text;
 }
@@ -263,7 +263,7 @@ std::string WorldList(std::string_view title, const std::vector<TailLine>& lines
 }
 
 /// Lists the expectations and time rules that have this ruling.
-std::vector<std::string> ClaimsThatAre(const GateReport& report, Ruling ruling) {
+std::vector<std::string> ClaimsThatAre(const GateReport& report, ClaimOutcome ruling) {
   std::vector<std::string> lines;
   for (const GateExpectation& e : report.expectations) {
     if (e.result.ruling != ruling) continue;
@@ -276,9 +276,9 @@ std::vector<std::string> ClaimsThatAre(const GateReport& report, Ruling ruling) 
   return lines;
 }
 
-Ruling RulingOf(const MetricMove& move) {
-  if (IsRegression(move)) return Ruling::kUnmet;
-  return move.movement == Movement::kUnclear ? Ruling::kUndecided : Ruling::kMet;
+ClaimOutcome RulingOf(const MetricMove& move) {
+  if (IsRegression(move)) return ClaimOutcome::kUnmet;
+  return move.movement == Movement::kUnclear ? ClaimOutcome::kUndecided : ClaimOutcome::kMet;
 }
 
 constexpr std::size_t kMostWorldsOfCase = 20;
@@ -301,7 +301,7 @@ std::string WriteGateMarkdown(const GateReport& report) {
   for (const std::string& sentence : GateSentences(report)) text += "- " + EscapeMarkdown(sentence) + "\n";
   text += List("**Incomplete**, so there is no verdict on the whole:", report.incomplete);
   text += List("**Methods without an answer:**", report.silent);
-  text += List("**Not met:**", ClaimsThatAre(report, Ruling::kUnmet));
+  text += List("**Not met:**", ClaimsThatAre(report, ClaimOutcome::kUnmet));
   std::vector<GateTableRow> failing, others;
   for (GateTableRow& row : MovedRows(report.comparison)) (row.fails ? failing : others).push_back(std::move(row));
   if (!failing.empty()) text += MoveTable(failing);
@@ -312,7 +312,7 @@ std::string WriteGateMarkdown(const GateReport& report) {
                         WorldList("Single worlds that are far worse, too few to fail:",
                                   TailLines(report, false, kMostWorldsEach, kMostWorlds)));
   }
-  text += List("Could not be decided:", ClaimsThatAre(report, Ruling::kUndecided));
+  text += List("Could not be decided:", ClaimsThatAre(report, ClaimOutcome::kUndecided));
   text += List("New, not in the baseline (`--update` takes it in):", report.comparison.only_after);
   text += List("Settings of the method changed in the scenario:", report.comparison.settings_changed);
   if (!report.baseline_file.empty()) {
@@ -327,7 +327,7 @@ std::string WriteGateMarkdown(const GateReport& report) {
 
 std::string WriteGateJunit(const GateReport& report) {
   const auto empty = [](const std::string& name, const std::vector<std::string>& lines) {
-    return JunitCase{name, lines.empty() ? Ruling::kMet : Ruling::kUnmet, fmt::format("{}\n", fmt::join(lines, "\n"))};
+    return JunitCase{name, lines.empty() ? ClaimOutcome::kMet : ClaimOutcome::kUnmet, fmt::format("{}\n", fmt::join(lines, "\n"))};
   };
   std::vector<JunitSuite> suites = {
       {"gate",

@@ -15,13 +15,13 @@ std::string CaseXml(const std::string& suite, const JunitCase& c) {
       fmt::format("    <testcase classname=\"etude.{}\" name=\"{}\"", EscapeMarkup(suite), EscapeMarkup(c.name));
   const std::string detail = EscapeMarkup(c.detail);
   std::string body;
-  if (c.ruling == Ruling::kUnmet) body = fmt::format("<failure message=\"not met\">{}</failure>", detail);
-  if (c.ruling == Ruling::kUndecided) body = fmt::format("<skipped message=\"{}\"/>", detail);
+  if (c.ruling == ClaimOutcome::kUnmet) body = fmt::format("<failure message=\"not met\">{}</failure>", detail);
+  if (c.ruling == ClaimOutcome::kUndecided) body = fmt::format("<skipped message=\"{}\"/>", detail);
   if (!c.said.empty()) body += fmt::format("<system-out>{}</system-out>", EscapeMarkup(c.said));
   return body.empty() ? head + "/>\n" : head + fmt::format(">{}</testcase>\n", body);
 }
 
-Ruling MetWhen(bool holds) { return holds ? Ruling::kMet : Ruling::kUnmet; }
+ClaimOutcome MetWhen(bool holds) { return holds ? ClaimOutcome::kMet : ClaimOutcome::kUnmet; }
 
 // A full factorial: every method must have a row in every world that any method has a row in.
 JunitCase EveryCellHasARow(const RunData& run, const ScenarioSummary& scenario) {
@@ -80,8 +80,8 @@ std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>
     std::size_t failed = 0, skipped = 0;
     std::string cases;
     for (const JunitCase& c : suite.cases) {
-      failed += c.ruling == Ruling::kUnmet;
-      skipped += c.ruling == Ruling::kUndecided;
+      failed += c.ruling == ClaimOutcome::kUnmet;
+      skipped += c.ruling == ClaimOutcome::kUndecided;
       cases += CaseXml(suite.name, c);
     }
     body += fmt::format(

@@ -11,7 +11,7 @@ namespace etude {
 /// A case of a JUnit file: met passes, unmet is a failure, undecided is skipped.
 struct JunitCase {
   std::string name;
-  Ruling ruling;
+  ClaimOutcome ruling;
   std::string detail;
   std::string said = {};  ///< what else a reader should know; told however the case ended
 };

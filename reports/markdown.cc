@@ -51,8 +51,8 @@ std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
   text += WhatIsComparedText(scenario) + OverviewTableMarkdown(scenario);
   text += ComparisonTableMarkdown(scenario) + AcrossTableMarkdown(scenario) + '\n';
   for (const ExpectationResult& e : scenario.expectations) {
-    const std::string_view ruling = e.ruling == Ruling::kMet     ? "met"
-                                    : e.ruling == Ruling::kUnmet ? "**not met**"
+    const std::string_view ruling = e.ruling == ClaimOutcome::kMet     ? "met"
+                                    : e.ruling == ClaimOutcome::kUnmet ? "**not met**"
                                                                  : "undecided";
     text += fmt::format("- {}: {}{}\n", ruling, EscapeMarkdown(e.text),
                         e.detail.empty() ? "" : fmt::format(" ({})", EscapeMarkdown(e.detail)));

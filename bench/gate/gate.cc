@@ -27,7 +27,7 @@ std::map<std::pair<std::string, int>, double> SecondsOf(const FinishedRun& run, 
 }
 
 RatioResult Judge(const FinishedRun& run, const FinishedScenario& scenario, const TimeRatio& rule) {
-  RatioResult result{scenario.study.scenario, rule, 0, {}, {}, {}, Ruling::kUndecided};
+  RatioResult result{scenario.study.scenario, rule, 0, {}, {}, {}, ClaimOutcome::kUndecided};
   const auto over = SecondsOf(run, result.scenario, rule.over);
   std::vector<double> ratios;
   for (const auto& [world, seconds] : SecondsOf(run, result.scenario, rule.of)) {
@@ -42,9 +42,9 @@ RatioResult Judge(const FinishedRun& run, const FinishedScenario& scenario, cons
   result.ci_low = interval->low;
   result.ci_high = interval->high;
   if (*result.median <= rule.at_most) {
-    result.ruling = Ruling::kMet;
+    result.ruling = ClaimOutcome::kMet;
   } else if (interval->low > rule.at_most) {
-    result.ruling = Ruling::kUnmet;
+    result.ruling = ClaimOutcome::kUnmet;
   }
   return result;
 }
@@ -179,7 +179,7 @@ bool IsRegression(const MetricMove& move) {
 
 GateVerdict GateVerdictOf(const GateReport& report) {
   if (!report.incomplete.empty()) return GateVerdict::kNotWhole;
-  const auto unmet = [](const auto& judged) { return judged.ruling == Ruling::kUnmet; };
+  const auto unmet = [](const auto& judged) { return judged.ruling == ClaimOutcome::kUnmet; };
   const bool fails = !report.silent.empty() ||
                      std::any_of(report.comparison.moves.begin(), report.comparison.moves.end(), IsRegression) ||
                      std::any_of(report.ratios.begin(), report.ratios.end(), unmet) ||

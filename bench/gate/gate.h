@@ -17,7 +17,7 @@ struct RatioResult {
   std::optional<double> median, ci_low, ci_high;  ///< of the ratios of processor times
   /// Unmet if the whole interval lies above the limit, because single times vary on a busy machine; undecided if only
   /// the median does, or if too few worlds have both times.
-  Ruling ruling = Ruling::kUndecided;
+  ClaimOutcome ruling = ClaimOutcome::kUndecided;
 };
 
 /// Judges the time rules of all scenarios. Both times of a pair come from the same world of the same run.

@@ -77,7 +77,7 @@ std::optional<double> FeedbackDelaySeconds(const CoachedSession& session) {
   return KaplanMeierMedian(FeedbackWaits(session));
 }
 
-std::optional<double> LongestFeedbackDelaySeconds(const CoachedSession& session) {
+std::optional<double> MaxFeedbackDelaySeconds(const CoachedSession& session) {
   std::optional<double> longest;
   for (const Wait& wait : FeedbackWaits(session)) {
     if (wait.happened) longest = std::max(longest.value_or(0), wait.seconds);

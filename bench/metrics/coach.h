@@ -56,7 +56,7 @@ std::optional<double> DecisionDelaySeconds(const CoachedSession& session);
 /// session's end. Kaplan–Meier median; empty if it is never reached.
 std::optional<double> FeedbackDelaySeconds(const CoachedSession& session);
 /// Returns `feedback_delay_max_s`: the longest of these times among the acts that began. Empty if none began.
-std::optional<double> LongestFeedbackDelaySeconds(const CoachedSession& session);
+std::optional<double> MaxFeedbackDelaySeconds(const CoachedSession& session);
 
 /// Returns `repetitions_until_right`. `moves` holds, per move, the truth of its performances in order of time. For each
 /// move whose first performance was wrong, it counts the performances up to and including the first right one, censored

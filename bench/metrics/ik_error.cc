@@ -13,7 +13,7 @@ namespace etude {
 namespace {
 
 /// Returns true if the largest errors are below `goal`, in centimetres and in degrees.
-bool AreWithin(const IkErrorSummary& errors, const IkAsked& asked, double goal) {
+bool AreWithin(const IkErrorSummary& errors, const IkTargetParts& asked, double goal) {
   return (!asked.positions || errors.position_max_cm < goal) && (!asked.axes || errors.axis_max_deg < goal);
 }
 
@@ -57,9 +57,9 @@ IkErrorSummary SummariseIkErrors(std::span<const EffectorError> errors) {
   return summary;
 }
 
-bool IsSolvedPractically(const IkErrorSummary& errors, const IkAsked& asked) { return AreWithin(errors, asked, 0.1); }
+bool IsSolvedPractically(const IkErrorSummary& errors, const IkTargetParts& asked) { return AreWithin(errors, asked, 0.1); }
 
-bool IsSolvedTightly(const IkErrorSummary& errors, const IkAsked& asked) { return AreWithin(errors, asked, 1e-3); }
+bool IsSolvedTightly(const IkErrorSummary& errors, const IkTargetParts& asked) { return AreWithin(errors, asked, 1e-3); }
 
 int CountLimitViolations(std::span<const double> angles, std::span<const AngleRange> limits) {
   assert(angles.size() == limits.size());

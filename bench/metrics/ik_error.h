@@ -22,15 +22,15 @@ struct IkErrorSummary {
 IkErrorSummary SummariseIkErrors(std::span<const EffectorError> errors);
 
 /// Which targets the effectors of a world have: "solved" is judged by these alone.
-struct IkAsked {
+struct IkTargetParts {
   bool positions = true;
   bool axes = true;
 };
 
 /// Returns true if all effectors are within 0.1 cm, and every axis within 0.1°.
-bool IsSolvedPractically(const IkErrorSummary& errors, const IkAsked& asked = {});
+bool IsSolvedPractically(const IkErrorSummary& errors, const IkTargetParts& asked = {});
 /// Returns true if all effectors are within 10⁻³ cm, and every axis within 10⁻³°.
-bool IsSolvedTightly(const IkErrorSummary& errors, const IkAsked& asked = {});
+bool IsSolvedTightly(const IkErrorSummary& errors, const IkTargetParts& asked = {});
 
 /// Counts the angles that exceed their limits by more than 10⁻⁶ degrees, a tolerance for rounding. Both spans have the
 /// same size.

@@ -12,10 +12,10 @@ namespace {
 
 /// Averages `error_of` over the measured values that have a truth.
 template <typename ErrorOf>
-MeasuredError Compare(std::span<const Sighted> things, ErrorOf error_of) {
+MeasuredError Compare(std::span<const MeasuredAndTrue> things, ErrorOf error_of) {
   double sum = 0;
   std::int64_t measured = 0, all = 0;
-  for (const Sighted& thing : things) {
+  for (const MeasuredAndTrue& thing : things) {
     if (!thing.truth) continue;
     ++all;
     if (!thing.found) continue;
@@ -29,12 +29,12 @@ MeasuredError Compare(std::span<const Sighted> things, ErrorOf error_of) {
 
 }  // namespace
 
-MeasuredError LimbDirectionErrorDeg(std::span<const Sighted> limbs) {
+MeasuredError LimbDirectionErrorDeg(std::span<const MeasuredAndTrue> limbs) {
   return Compare(limbs,
                  [](const glm::dvec3& found, const glm::dvec3& truth) { return Degrees(AngleBetween(found, truth)); });
 }
 
-MeasuredError TriangulationErrorMm(std::span<const Sighted> ends) {
+MeasuredError TriangulationErrorMm(std::span<const MeasuredAndTrue> ends) {
   constexpr double kMmPerMetre = 1000;
   return Compare(
       ends, [](const glm::dvec3& found, const glm::dvec3& truth) { return kMmPerMetre * glm::distance(found, truth); });

@@ -8,7 +8,7 @@
 namespace etude {
 
 /// A measurement in one frame and the truth, each if it exists.
-struct Sighted {
+struct MeasuredAndTrue {
   std::optional<glm::dvec3> found;
   std::optional<glm::dvec3> truth;
 };
@@ -21,11 +21,11 @@ struct MeasuredError {
 
 /// Returns the angle between the measured and the true direction, degrees (`limb_direction_error_deg`), and its
 /// coverage (`limb_direction_coverage`). One entry per limb and frame; directions need not be unit vectors.
-MeasuredError LimbDirectionErrorDeg(std::span<const Sighted> limbs);
+MeasuredError LimbDirectionErrorDeg(std::span<const MeasuredAndTrue> limbs);
 
 /// Returns the distance between the triangulated and the true point, millimetres (`triangulation_error_mm`), and its
 /// coverage (`triangulation_coverage`). One entry per end effector and frame, metres.
-MeasuredError TriangulationErrorMm(std::span<const Sighted> ends);
+MeasuredError TriangulationErrorMm(std::span<const MeasuredAndTrue> ends);
 
 /// A calibrated camera and the point pairs it was calibrated from.
 struct CameraFit {

@@ -52,7 +52,7 @@ bool Read(std::string_view argument, std::string_view key, int& number) {
   if (!argument.starts_with(key)) return false;
   argument.remove_prefix(key.size());
   const auto [end, error] = std::from_chars(argument.data(), argument.data() + argument.size(), number);
-  return error == std::errc() && end == argument.data() + argument.size() && number >= kFewestTrackedFrames;
+  return error == std::errc() && end == argument.data() + argument.size() && number >= kMinTrackedFrames;
 }
 
 int Run(std::span<char* const> arguments) {

@@ -21,7 +21,7 @@ class RowSource {
   virtual ~RowSource() = default;
   virtual std::size_t size() const = 0;
   /// Returns the indices of all rows of evenly spaced whole worlds: about `rows` rows, or all if there are fewer.
-  virtual std::vector<std::size_t> PlacesAtEqualSteps(std::size_t rows) const = 0;
+  virtual std::vector<std::size_t> SampleRowIndices(std::size_t rows) const = 0;
   /// Replaces `row` by the row at this index, reusing its memory. Series and recording are not read.
   virtual void Read(std::size_t place, Row& row) const = 0;
   virtual std::vector<Series> SeriesOf(std::size_t place) const = 0;

@@ -4,6 +4,6 @@ namespace etude {
 
 std::string_view IntervalKindName(IntervalKind kind) { return NameOfValue(kIntervalKinds, kind); }
 std::string_view VerdictName(Verdict verdict) { return NameOfValue(kVerdicts, verdict); }
-std::string_view RulingName(Ruling ruling) { return NameOfValue(kRulings, ruling); }
+std::string_view ClaimOutcomeName(ClaimOutcome ruling) { return NameOfValue(kClaimOutcomes, ruling); }
 
 }  // namespace etude

@@ -153,15 +153,15 @@ struct AcrossVerdict {
 };
 
 /// The result of judging a claim: an expectation or a time rule.
-enum class Ruling { kMet, kUnmet, kUndecided };
-inline constexpr std::array<Named<Ruling>, 3> kRulings = {
-    {{"met", Ruling::kMet}, {"unmet", Ruling::kUnmet}, {"undecided", Ruling::kUndecided}}};
-std::string_view RulingName(Ruling ruling);
+enum class ClaimOutcome { kMet, kUnmet, kUndecided };
+inline constexpr std::array<Named<ClaimOutcome>, 3> kClaimOutcomes = {
+    {{"met", ClaimOutcome::kMet}, {"unmet", ClaimOutcome::kUnmet}, {"undecided", ClaimOutcome::kUndecided}}};
+std::string_view ClaimOutcomeName(ClaimOutcome ruling);
 
 /// An expectation of a scenario and its result.
 struct ExpectationResult {
   std::string text;  ///< "orientation_error_deg of adaptive below fixed"
-  Ruling ruling = Ruling::kUndecided;
+  ClaimOutcome ruling = ClaimOutcome::kUndecided;
   std::string detail;  ///< the figures that decided it
 };
 

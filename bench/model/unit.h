@@ -28,7 +28,7 @@ std::string_view SamplingUnitName(SamplingUnit unit);
 std::string CountUnits(int count, SamplingUnit unit);
 
 /// Returns true if no two worlds share a unit, so that worlds are the units.
-constexpr bool IsEveryWorldItsOwn(SamplingUnit unit) {
+constexpr bool WorldsAreUnits(SamplingUnit unit) {
   return unit == SamplingUnit::kWorld || unit == SamplingUnit::kPerson;
 }
 

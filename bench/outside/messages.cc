@@ -14,8 +14,8 @@ constexpr std::size_t kLongestName = 200;
 
 /// Reads an object with a text `type`.
 Result<Json> ReadMessage(const std::string& line) {
-  if (NestingOf(line) > kDeepestReply) {
-    return Fail({}, "said something nested more than {} deep: {}", kDeepestReply, Printable(line));
+  if (NestingOf(line) > kMaxReplyDepth) {
+    return Fail({}, "said something nested more than {} deep: {}", kMaxReplyDepth, Printable(line));
   }
   if (line.find('\0') != std::string::npos) return Fail({}, "said something that is not JSON: a zero byte");
   JsonText parsed = ParseJsonText(line);

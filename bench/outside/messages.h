@@ -9,8 +9,8 @@
 namespace etude {
 
 /// Longer lines are refused while they are read, deeper JSON before it is parsed.
-constexpr std::size_t kLongestReply = std::size_t{16} << 20;
-constexpr int kDeepestReply = 32;
+constexpr std::size_t kMaxReplyBytes = std::size_t{16} << 20;
+constexpr int kMaxReplyDepth = 32;
 
 /// Write the lines that Etude says. `options` and `content` are objects; `files` is the folder of the attachments, ""
 /// when there are none. Fail when `content` holds a number that is not finite.

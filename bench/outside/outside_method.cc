@@ -268,7 +268,7 @@ std::string OutsideMethod::State::Stop(int patience_ms) {
   return program.Stop(patience_ms);
 }
 
-double LongestAskSeconds(double time_s) {
+double MaxAskSeconds(double time_s) {
   return 2 * std::max(OutsideOptions{}.start_s, time_s) + time_s + 2 * 1e-3 * WatchedProgram::kDyingMs;
 }
 

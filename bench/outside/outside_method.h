@@ -33,7 +33,7 @@ struct OutsideOptions {
 
 /// Returns the longest time that Ask may take with the start_s above, seconds: handshake, setting, problem, and
 /// cleaning up.
-double LongestAskSeconds(double time_s);
+double MaxAskSeconds(double time_s);
 
 /// The outcome of one problem.
 struct OutsideReply {

@@ -168,7 +168,7 @@ std::string WatchedProgram::Stop(int patience_ms) {
   return end;
 }
 
-void WatchedProgram::Receive() { child_->Receive(kLongestReply); }
+void WatchedProgram::Receive() { child_->Receive(kMaxReplyBytes); }
 
 OutsideOutcome<std::string> WatchedProgram::WaitForLine(Clock::time_point deadline, double seconds) {
   Clock::time_point next_look = Clock::now() + kLookEvery;
@@ -187,7 +187,7 @@ OutsideOutcome<std::string> WatchedProgram::WaitForLine(Clock::time_point deadli
       over = child_->HasEnded();  // its child processes may keep its output open
     }
     if (over || watched[0].revents != 0 || watched[1].revents != 0) {
-      over = !child_->Receive(kLongestReply) || over;
+      over = !child_->Receive(kMaxReplyBytes) || over;
     }
     if (over && child_->PartOfLine().find('\n') == std::string_view::npos) return tl::unexpected(HowItEnded());
   }
@@ -227,9 +227,9 @@ tl::unexpected<OutsideFailure> WatchedProgram::TooMuchMemory() const {
 /// Returns how a program ended that will send no further whole line.
 OutsideFailure WatchedProgram::HowItEnded() {
   const std::string part = WithoutFolder(std::string(child_->PartOfLine().substr(0, 1000))).substr(0, 100);
-  if (child_->PartOfLine().size() > kLongestReply) {
+  if (child_->PartOfLine().size() > kMaxReplyBytes) {
     return {Status::kBadOutput,
-            fmt::format("said a line of more than {} MiB: {}", kLongestReply >> 20, Printable(part))};
+            fmt::format("said a line of more than {} MiB: {}", kMaxReplyBytes >> 20, Printable(part))};
   }
   if (child_->broken_by() != 0) {
     return {Status::kFailed, fmt::format("cannot be talked to: {}", std::strerror(child_->broken_by())), false};

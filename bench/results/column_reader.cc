@@ -221,7 +221,7 @@ class ColumnRows : public RowSource {
   }
 
   std::size_t size() const override { return firsts_.back(); }
-  std::vector<std::size_t> PlacesAtEqualSteps(std::size_t rows) const override {
+  std::vector<std::size_t> SampleRowIndices(std::size_t rows) const override {
     std::vector<std::size_t> places;
     const std::size_t step = (size() + rows - 1) / rows;
     for (std::size_t scenario = 0; scenario < scenarios_.size(); ++scenario) {

@@ -144,7 +144,7 @@ constexpr std::tuple kKeys<ScenarioSummary> = {Key("name", &ScenarioSummary::nam
                                                Key("descriptions", &ScenarioSummary::descriptions, When::kIfAny)};
 
 std::span<const Named<IntervalKind>> NamesOf(IntervalKind) { return kIntervalKinds; }
-std::span<const Named<Ruling>> NamesOf(Ruling) { return kRulings; }
+std::span<const Named<ClaimOutcome>> NamesOf(ClaimOutcome) { return kClaimOutcomes; }
 std::span<const Named<SamplingUnit>> NamesOf(SamplingUnit) { return kSamplingUnits; }
 std::span<const Named<Status>> NamesOf(Status) { return kStatuses; }
 std::span<const Named<Verdict>> NamesOf(Verdict) { return kVerdicts; }

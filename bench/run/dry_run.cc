@@ -18,7 +18,7 @@ namespace {
 /// The units that the worlds of the first condition are drawn from.
 int CountUnitsOf(const PreparedScenario& prepared) {
   const Scenario& scenario = prepared.scenario();
-  if (IsEveryWorldItsOwn(scenario.unit)) return scenario.trials;
+  if (WorldsAreUnits(scenario.unit)) return scenario.trials;
   std::set<std::string> units;
   for (int trial = 0; trial < scenario.trials; ++trial) {
     const Row row = prepared.IdentityOf(0, trial, 0);

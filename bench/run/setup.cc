@@ -56,7 +56,7 @@ Result<std::vector<std::unique_ptr<Task>>> MakeTasks(
 
 /// The units that a world of these clips was drawn from, each once and in order; nothing where every world is its own.
 std::vector<std::string> UnitsOf(const std::vector<std::string>& clips, SamplingUnit unit, const ClipLibrary& library) {
-  if (IsEveryWorldItsOwn(unit)) return {};
+  if (WorldsAreUnits(unit)) return {};
   if (unit == SamplingUnit::kLibrary) {
     std::set<std::string> collections;
     for (const LibraryClip& clip : library.clips) {

@@ -194,7 +194,7 @@ class Supervisor {
     const MethodEntry& method = methods[order.methods.front()];
     const double limit_s = LimitsOf(order).time_s;
     const auto longest_ask_s = [&](const MethodEntry& program) {
-      return LongestAskSeconds(program.time_s.value_or(limit_s)) + kGraceS;
+      return MaxAskSeconds(program.time_s.value_or(limit_s)) + kGraceS;
     };
     double seconds = method.RunsInTask() ? kClockPerLimit * limit_s : 0;
     if (!method.exec.empty()) seconds += longest_ask_s(method);

@@ -45,7 +45,7 @@ std::vector<KeyGroup> AllKeyGroups() {
       Group("", "A file of several scenarios", FileKeys()),
       Group("scenarios[]", "A scenario of any task", CommonScenarioKeys()),
       Group("sweep", "A sweep, beside the task's parameters", SweepKeys()),
-      Group("sweep.PARAMETER", "A range of values", RangeFields(kMostConditions).Describe()),
+      Group("sweep.PARAMETER", "A range of values", RangeFields(kMaxConditions).Describe()),
       Group("methods[]", "A method", OutsideMethodFields().Describe()),
       Group("metrics[]", "A metric of one's own, of another program", OutsideMetricFields().Describe()),
       Group("metrics[].vectors[]", "A test vector", MetricExampleFields().Describe()),
@@ -217,7 +217,7 @@ std::string KeysAsSchema() {
   Json definitions{{"scenario", AnyScenarioSchema()},
                    {"outside-method", MappingSchema(OutsideMethodFields().Describe())},
                    {"outside-metric", MappingSchema(OutsideMetricFields().Describe())},
-                   {"range", MappingSchema(RangeFields(kMostConditions).Describe())}};
+                   {"range", MappingSchema(RangeFields(kMaxConditions).Describe())}};
   for (const TaskKind& kind : AllTaskKinds()) {
     definitions[kind.name] = TaskSchema(kind);
     definitions[kind.name + "-method"] = MethodSchema(kind);

@@ -317,8 +317,8 @@ Result<std::vector<Scenario>> ParseAll(const std::string& file, const TextOf& te
   for (const Node& node : nodes) {
     ASSIGN_OR_RETURN(auto scenario, ParseScenario(node, file));
     values += scenario.conditions.size() * CountValues(node);
-    if (values > kMostValues) {
-      return Fail(node.place, "with this scenario, the conditions of the file hold more than {} values", kMostValues);
+    if (values > kMaxFileValues) {
+      return Fail(node.place, "with this scenario, the conditions of the file hold more than {} values", kMaxFileValues);
     }
     for (const Scenario& other : scenarios) {
       if (other.name != scenario.name) continue;

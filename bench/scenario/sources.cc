@@ -67,9 +67,9 @@ class Collector {
     if (list->items.size() > kMaxScenarios) {
       return Fail(list->place, "{} scenarios; at most {} in a file", list->items.size(), kMaxScenarios);
     }
-    if (list->items.size() * CountAll(defaults) > kMostValues) {
+    if (list->items.size() * CountAll(defaults) > kMaxFileValues) {
       return Fail(list->place, "{} scenarios with defaults of {} values; at most {} values in all", list->items.size(),
-                  CountAll(defaults), kMostValues);
+                  CountAll(defaults), kMaxFileValues);
     }
     // Insert the defaults into each.
     std::vector<Node> scenarios;

@@ -149,7 +149,7 @@ Condition At(Condition condition, const Point& point) {
 Result<Axis> ReadAxis(const std::vector<Node::Entry>& parameters) {
   Axis axis;
   for (const Node::Entry& parameter : parameters) {
-    ASSIGN_OR_RETURN(const auto values, SweptValues(parameter, kMostConditions));
+    ASSIGN_OR_RETURN(const auto values, SweptValues(parameter, kMaxConditions));
     if (axis.empty()) axis.resize(values.size());
     if (axis.size() != values.size()) {
       return Fail(parameter.value.place,
@@ -247,12 +247,12 @@ std::vector<Condition> ReadSweep(Fields& fields, const TaskKind& kind) {
   const std::size_t values = CountValues(fields.node());
   for (const Axis& axis : *axes) {
     const std::size_t count = conditions.size() * axis.size();
-    if (count > kMostConditions || count * values > kMostValues) {
+    if (count > kMaxConditions || count * values > kMaxFileValues) {
       fields.Complain(sweep->place,
-                      count > kMostConditions
-                          ? fmt::format("the sweep has more than {} conditions", kMostConditions)
+                      count > kMaxConditions
+                          ? fmt::format("the sweep has more than {} conditions", kMaxConditions)
                           : fmt::format("{} conditions of a scenario of {} values; at most {} values in all", count,
-                                        values, kMostValues));
+                                        values, kMaxFileValues));
       return conditions;
     }
     std::vector<Condition> product;

@@ -28,8 +28,8 @@ FieldTable<RangeWords> RangeFields(std::size_t most);
 
 /// The largest number of values in the mappings of a file's scenarios and of their conditions together: each condition
 /// is a copy.
-constexpr std::size_t kMostValues = 300'000;
-constexpr std::size_t kMostConditions = 1000;
+constexpr std::size_t kMaxFileValues = 300'000;
+constexpr std::size_t kMaxConditions = 1000;
 
 /// Reads `sweep`: the product of its axes, the last one varying fastest. An axis is one swept parameter, or several
 /// that are stepped in parallel (`together`). Complaints stay in `fields`.

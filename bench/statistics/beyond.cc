@@ -120,7 +120,7 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons, std::uint64_t se
     beyond.left_out.push_back({sample.names[order[i]], sum / rest});
   }
   beyond.difference = estimate;
-  if (beyond.units < kFewestUnits || beyond.left_out.size() < means.size()) return beyond;
+  if (beyond.units < kMinUnits || beyond.left_out.size() < means.size()) return beyond;
   // Interval by Student's t from the jackknife's standard error.
   const double error = JackknifeError(beyond.left_out);
   const double half = StudentQuantile(1 - kAlpha / 2, beyond.units - 1) * error;
@@ -144,7 +144,7 @@ std::optional<Verdict> VerdictBeyond(const Beyond& beyond, const MetricInfo& met
   // An interval within ± threshold is "no difference" if the median's agrees and enough units differ.
   const auto is_within = [&](double low, double high) { return low >= -metric.practical && high <= metric.practical; };
   if (is_within(*beyond.low, *beyond.high)) {
-    const bool holds = is_within(*beyond.median_low, *beyond.median_high) && beyond.differing >= kFewestUnits;
+    const bool holds = is_within(*beyond.median_low, *beyond.median_high) && beyond.differing >= kMinUnits;
     return holds ? Verdict::kNoDifference : Verdict::kInconclusive;
   }
   // Otherwise a clear verdict needs the interval, the test and the threshold.
@@ -158,14 +158,14 @@ std::optional<Verdict> VerdictBeyond(const Beyond& beyond, const MetricInfo& met
 }
 
 std::string WhyOpenBeyond(const Beyond& beyond, const MetricInfo& metric, SamplingUnit unit, int comparisons) {
-  if (beyond.units < kFewestUnits) {
+  if (beyond.units < kMinUnits) {
     return fmt::format("{}: no verdict beyond them; at least {} are needed", CountUnits(beyond.units, unit),
-                       kFewestUnits);
+                       kMinUnits);
   }
   if (!beyond.low) return "every world shows the same clip: no verdict beyond it";
   if (beyond.verdict != Verdict::kInconclusive) return "";
   const bool within = *beyond.low >= -metric.practical && *beyond.high <= metric.practical;
-  if (within && beyond.differing < kFewestUnits) {
+  if (within && beyond.differing < kMinUnits) {
     return fmt::format("{} of {} differ: too few to exclude rare ones that do", beyond.differing,
                        CountUnits(beyond.units, unit));
   }

@@ -22,7 +22,7 @@ struct UnitSample {
 UnitSample UnitsOf(const PairedWorlds& paired, const ConditionTable& table, const MetricInfo& metric);
 
 /// The smallest number of units that can have a verdict: a sign test of five values cannot reach 5 %.
-constexpr int kFewestUnits = 6;
+constexpr int kMinUnits = 6;
 
 /// Estimates the difference for other units like those of the sample. The verdict is left open.
 ///

@@ -130,7 +130,7 @@ std::vector<double> Sorted(std::span<const double> values) {
 /// others.
 std::optional<Interval> IntervalWithoutDice(std::span<const double> sorted, Aggregate aggregate, double confidence) {
   if (sorted.front() == sorted.back()) return Interval{sorted.front(), sorted.front(), IntervalKind::kPercentile};
-  if (static_cast<int>(sorted.size()) <= kLargestResampled) return std::nullopt;
+  if (static_cast<int>(sorted.size()) <= kMaxResampled) return std::nullopt;
   return aggregate == Aggregate::kMedian ? OrderStatisticsInterval(sorted, confidence)
                                          : StudentInterval(sorted, confidence);
 }
@@ -172,7 +172,7 @@ Interval BcaInterval(std::vector<double>& replicates, double estimate, std::span
 
 std::optional<Interval> BootstrapInterval(std::span<const double> values, Aggregate aggregate, std::uint64_t seed,
                                           const std::string& purpose, double confidence) {
-  if (static_cast<int>(values.size()) < kSmallestSample) return std::nullopt;
+  if (static_cast<int>(values.size()) < kMinSample) return std::nullopt;
   const std::vector<double> sorted = Sorted(values);
   if (const auto known = IntervalWithoutDice(sorted, aggregate, confidence)) return known;
   RandomStream dice = DiceOf(seed, purpose);
@@ -186,7 +186,7 @@ std::optional<Interval> BootstrapInterval(std::span<const double> values, Aggreg
 
 std::optional<MedianAndMean> BootstrapMedianAndMean(std::span<const double> values, std::uint64_t seed,
                                                     const std::string& purpose, double confidence) {
-  if (static_cast<int>(values.size()) < kSmallestSample) return std::nullopt;
+  if (static_cast<int>(values.size()) < kMinSample) return std::nullopt;
   const std::vector<double> sorted = Sorted(values);
   if (const auto median = IntervalWithoutDice(sorted, Aggregate::kMedian, confidence)) {
     return MedianAndMean{*median, *IntervalWithoutDice(sorted, Aggregate::kMean, confidence)};

@@ -16,7 +16,7 @@ double Mean(std::span<const double> values);
 double AggregateOf(std::span<const double> values, Aggregate aggregate);
 
 /// Smaller samples have no interval: the sign test of five values cannot reach 95 %.
-constexpr int kSmallestSample = 6;
+constexpr int kMinSample = 6;
 
 /// Returns the bias-corrected and accelerated (BCa) bootstrap interval of any statistic (Efron 1987, section 3).
 /// `replicates` are its bootstrap replicates, which are sorted here; `jackknife` holds its values with one observation
@@ -27,7 +27,7 @@ Interval BcaInterval(std::vector<double>& replicates, double estimate, std::span
                      double confidence = kConfidence);
 
 /// Larger samples are not resampled: closed forms give the same interval there at no cost.
-constexpr int kLargestResampled = 20'000;
+constexpr int kMaxResampled = 20'000;
 
 /// Returns the BCa interval of the values' aggregate, from 1,999 resamples drawn from a stream keyed by `seed` and
 /// `purpose`. It depends on the values, not on their order. Samples above kMaxResampled get the interval of order

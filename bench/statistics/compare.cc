@@ -66,7 +66,7 @@ Comparison ComparePaired(std::span<const Pair> pairs, const MetricInfo& metric, 
   // Estimates with their intervals.
   result.difference = AggregateOf(differences, metric.aggregate);
   result.mean = Mean(differences);
-  if (result.pairs >= kSmallestSample) {
+  if (result.pairs >= kMinSample) {
     const MedianAndMean intervals = IntervalsOf(pairs, differences, metric, seed, purpose, confidence);
     const Interval& own = metric.aggregate == Aggregate::kMedian ? intervals.median : intervals.mean;
     result.mean_low = intervals.mean.low;
@@ -93,7 +93,7 @@ std::optional<double> DecidingP(const Comparison& comparison, const MetricInfo& 
 
 bool SeesTooFewDiffer(const Comparison& comparison, const MetricInfo& metric) {
   return metric.aggregate == Aggregate::kMean && comparison.interval != IntervalKind::kAdjustedWald &&
-         comparison.differing < kSmallestSample;
+         comparison.differing < kMinSample;
 }
 
 Verdict VerdictOf(const Comparison& comparison, const MetricInfo& metric, double confidence) {

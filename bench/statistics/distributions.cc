@@ -35,7 +35,7 @@ double KeepThirtyBits(double value) {
   return std::ldexp(std::round(std::ldexp(mantissa, 30)), exponent - 30);
 }
 
-double SmallestFinding(int count, int comparisons) {
+double MinDetectableDifference(int count, int comparisons) {
   constexpr double kPower = 0.8;
   const double tail = kAlpha / (2 * comparisons);
   return (StudentQuantile(1 - tail, count - 1) + StudentQuantile(kPower, count - 1)) / std::sqrt(count);

@@ -21,6 +21,6 @@ double KeepThirtyBits(double value);
 /// Returns the smallest mean difference, in standard deviations of the `count` > 1 independent differences, that a
 /// two-sided paired t test at 5 % finds with a power of 80 % among `comparisons` (Bonferroni, the first step of Holm):
 /// (t(1 − 0.05 / 2m) + t(0.8)) / √n, both with n − 1 degrees of freedom.
-double SmallestFinding(int count, int comparisons);
+double MinDetectableDifference(int count, int comparisons);
 
 }  // namespace etude

@@ -70,7 +70,7 @@ std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int compariso
                        comparisons == 1 ? "one comparison" : fmt::format("one of {} comparisons (Holm)", comparisons),
                        needed);
   }
-  if (!c.ci_low) return fmt::format("too few worlds: no interval below {}", kSmallestSample);
+  if (!c.ci_low) return fmt::format("too few worlds: no interval below {}", kMinSample);
   // Interval and test do not agree.
   const bool beyond_zero = *c.ci_low > 0 || *c.ci_high < 0;
   if (!beyond_zero && *c.p_holm > kAlpha) return "the interval holds zero, and differences that matter";
@@ -143,7 +143,7 @@ void CopyVerdictsBeyond(Comparison& comparison) {
   const MetricInfo& metric = *FindMetric(comparison.metric);
   beyond.test = metric.aggregate == Aggregate::kMedian ? comparison.signed_rank : comparison.sign_flip;
   beyond.p_holm = comparison.p_holm;
-  if (comparison.pairs >= kSmallestSample) beyond.verdict = comparison.verdict;
+  if (comparison.pairs >= kMinSample) beyond.verdict = comparison.verdict;
   beyond.why_open = comparison.why_open;
 }
 
@@ -220,7 +220,7 @@ std::string Claim(const Expectation& expectation) {
 
 /// The result of one expectation under one condition, with the figures behind it.
 struct Finding {
-  Ruling ruling;
+  ClaimOutcome ruling;
   std::string detail;
 };
 
@@ -240,17 +240,17 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
   const int without = worlds.only_baseline + worlds.only_method + worlds.neither;
   const std::string missing = without == 0 ? "" : fmt::format(", {} more have no pair of values", without);
   if (!found.ci_low)
-    return {Ruling::kUndecided, fmt::format("only {} worlds have both values{}", found.pairs, missing)};
-  const Ruling ruling = found.verdict == Verdict::kBetter         ? Ruling::kMet
-                        : found.verdict == Verdict::kInconclusive ? Ruling::kUndecided
-                                                                  : Ruling::kUnmet;
+    return {ClaimOutcome::kUndecided, fmt::format("only {} worlds have both values{}", found.pairs, missing)};
+  const ClaimOutcome ruling = found.verdict == Verdict::kBetter         ? ClaimOutcome::kMet
+                        : found.verdict == Verdict::kInconclusive ? ClaimOutcome::kUndecided
+                                                                  : ClaimOutcome::kUnmet;
   // The figures behind it.
   std::string detail = fmt::format("difference {:.4g} ({:.4g} % interval {:.4g} to {:.4g}, p = {:.2g}) on {} worlds{}",
                                    *found.difference, 100 * expectation.confidence, *found.ci_low, *found.ci_high,
                                    *found.p_holm, found.pairs, missing);
   if (found.verdict != of_pairs) return {ruling, detail + "; it does not hold when failing counts as losing"};
   const double alpha = 1 - expectation.confidence;
-  if (ruling == Ruling::kUndecided && SmallestP(found.differing) > alpha) {
+  if (ruling == ClaimOutcome::kUndecided && SmallestP(found.differing) > alpha) {
     detail += fmt::format("; {} of them differ, and {:.4g} % needs at least {}", found.differing,
                           100 * expectation.confidence, PairsNeeded(1, alpha));
   }
@@ -260,15 +260,15 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
 Finding JudgeBound(const Expectation& expectation, const ConditionTable& table) {
   int missing = 0;
   const std::vector<double> values = table.Of(expectation.of).ValuesOf(expectation.metric, missing);
-  if (values.empty()) return {Ruling::kUndecided, "no cell has a value"};
+  if (values.empty()) return {ClaimOutcome::kUndecided, "no cell has a value"};
   const double value = expectation.statistic == "mean"  ? Mean(values)
                        : expectation.statistic == "p95" ? Quantile(values, 0.95)
                                                         : Quantile(values, 0.5);
   const bool met = expectation.at_most ? value <= *expectation.at_most : value >= *expectation.at_least;
   std::string detail = fmt::format("{:.4g} over {} worlds", value, values.size());
   if (missing > 0) detail += fmt::format(", {} more have no value", missing);
-  if (met && missing > 0) return {Ruling::kUndecided, detail};
-  return {met ? Ruling::kMet : Ruling::kUnmet, detail};
+  if (met && missing > 0) return {ClaimOutcome::kUndecided, detail};
+  return {met ? ClaimOutcome::kMet : ClaimOutcome::kUnmet, detail};
 }
 
 }  // namespace
@@ -293,7 +293,7 @@ std::vector<std::optional<double>> HolmCorrected(std::span<const std::optional<d
 
 void JudgeFamily(std::span<Question* const> family, SamplingUnit unit) {
   JudgeOnTheseWorlds(family);
-  if (!IsEveryWorldItsOwn(unit)) return JudgeBeyond(family, unit);
+  if (!WorldsAreUnits(unit)) return JudgeBeyond(family, unit);
   for (Question* question : family) CopyVerdictsBeyond(question->comparison);
 }
 
@@ -322,7 +322,7 @@ std::vector<AcrossVerdict> JudgeAcross(const Study& study, const std::vector<Con
 
 ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& study, const ScenarioTable& table,
                                    std::uint64_t seed) {
-  ExpectationResult result{Claim(expectation), Ruling::kMet, ""};
+  ExpectationResult result{Claim(expectation), ClaimOutcome::kMet, ""};
   const bool wants_lower = !expectation.below.empty();
   const std::string& other = wants_lower ? expectation.below : expectation.above;
   for (const ConditionTable& condition : table.conditions()) {
@@ -335,8 +335,8 @@ ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& 
     if (!result.detail.empty()) result.detail += "; ";
     result.detail += label.empty() ? finding.detail : label + ": " + finding.detail;
     // One unmet condition makes the whole unmet; otherwise one undecided condition makes it undecided.
-    if (finding.ruling == Ruling::kUnmet) result.ruling = Ruling::kUnmet;
-    if (finding.ruling == Ruling::kUndecided && result.ruling == Ruling::kMet) result.ruling = finding.ruling;
+    if (finding.ruling == ClaimOutcome::kUnmet) result.ruling = ClaimOutcome::kUnmet;
+    if (finding.ruling == ClaimOutcome::kUndecided && result.ruling == ClaimOutcome::kMet) result.ruling = finding.ruling;
   }
   return result;
 }

@@ -204,7 +204,7 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
     return {std::min(1.0, KeepThirtyBits(2 * FairCoinUpperTail(more, static_cast<int>(differing)))), "exact"};
   }
 
-  if (static_cast<int>(differing) > kLargestResampled) return ManyFlips(sizes, observed, aggregate);
+  if (static_cast<int>(differing) > kMaxResampled) return ManyFlips(sizes, observed, aggregate);
   const FlippedSample sample(std::move(sizes), aggregate);
   // A small tolerance, because sums that are equal in exact arithmetic differ by rounding.
   const double reached = std::abs(sample.AggregateUnder(observed)) - 1e-12 * largest;

@@ -88,7 +88,7 @@ struct Family {
   /// Estimates the difference for other units; empty if every world is its own unit.
   Beyond MeasureUnits(const PairedWorlds& worlds, const ConditionTable& table, const MetricInfo& metric,
                       const std::string& purpose) const {
-    if (IsEveryWorldItsOwn(study.unit)) return {};
+    if (WorldsAreUnits(study.unit)) return {};
     return MeasureBeyond(UnitsOf(worlds, table, metric), size, seed, purpose);
   }
 
@@ -296,7 +296,7 @@ class BudgetMaker {
     // Use Shapley values if every subset of the stages is among the methods.
     const Stages stages = Without(family_.back().stages, family_.front().stages);
     const bool is_whole =
-        stages.size() <= kMostShapleyStages && family_.size() == std::size_t{1} << stages.size() &&
+        stages.size() <= kMaxShapleyStages && family_.size() == std::size_t{1} << stages.size() &&
         std::ranges::all_of(family_, [&](const Member& member) {
           return Holds(family_.back().stages, member.stages) && Holds(member.stages, family_.front().stages);
         });

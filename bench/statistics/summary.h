@@ -45,6 +45,6 @@ std::vector<ErrorBudget> ComputeErrorBudgets(const Study& study, const Condition
                                              std::uint64_t seed);
 
 /// Families with more stages are treated as a chain: 2ⁿ methods would be needed.
-constexpr std::size_t kMostShapleyStages = 6;
+constexpr std::size_t kMaxShapleyStages = 6;
 
 }  // namespace etude

@@ -54,7 +54,7 @@ Result<TrainingClips> GatherTrainingClips(std::span<const BodyMotion> clips, con
     seen.push_back(identities[i]);
     others.push_back(i);
   }
-  const std::size_t wanted = std::min(others.size(), kMostTrainingClips - known.size());
+  const std::size_t wanted = std::min(others.size(), kMaxTrainingClips - known.size());
   for (std::size_t i = 0; i < wanted; ++i) {
     const std::size_t other = others[i * others.size() / wanted];
     known.push_back(identities[other]);
@@ -88,7 +88,7 @@ std::vector<LabelledPair> LabelPairsAcross(std::span<const std::vector<TrainingF
   return all;
 }
 
-void GradeAnew(std::span<const std::vector<TrainingFrame>> clips, const Memberships& memberships,
+void UpdateGrades(std::span<const std::vector<TrainingFrame>> clips, const Memberships& memberships,
                std::span<LabelledPair> pairs) {
   std::vector<std::vector<Grades>> grades;
   for (const std::vector<TrainingFrame>& frames : clips) grades.push_back(GradesOf(frames, memberships));

@@ -35,7 +35,7 @@ TrainingClips SampleClips(std::vector<std::string> identities, std::span<const B
 
 /// The largest number of training clips. The number of pairs grows with its square: more clips would make learning slow
 /// and improve little.
-constexpr std::size_t kMostTrainingClips = 40;
+constexpr std::size_t kMaxTrainingClips = 40;
 
 /// Returns every built-in move and, by their identities, the other clips of `clips`, all retargeted to `proportions`;
 /// evenly chosen ones if there are more than kMaxTrainingClips.
@@ -52,7 +52,7 @@ std::vector<LabelledPair> LabelPairsAcross(std::span<const std::vector<TrainingF
 
 /// Updates the grade differences of the pairs that LabelPairsAcross made of the same clips to other memberships. Much
 /// faster, because poses are not compared again.
-void GradeAnew(std::span<const std::vector<TrainingFrame>> clips, const Memberships& memberships,
+void UpdateGrades(std::span<const std::vector<TrainingFrame>> clips, const Memberships& memberships,
                std::span<LabelledPair> pairs);
 
 /// The score of separating close pairs from others by "d < threshold".

@@ -33,7 +33,7 @@ void TuneMemberships(ClipFrames clips, std::vector<LabelledPair> pairs, const Ge
   const auto score = [&](std::span<const double> genes) {
     const auto system = SystemOfGenes(start, genes);
     if (!system) return 0.0;
-    GradeAnew(clips, system->memberships, pairs);
+    UpdateGrades(clips, system->memberships, pairs);
     return PairTable(pairs).SoftF1(system->weights, kPaperThreshold, kFitnessRamp);
   };
   const GeneticResult result = SearchGenetically(score, {&unchanged, 1}, genetic);

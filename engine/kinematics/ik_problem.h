@@ -83,13 +83,13 @@ struct IkProblem {
 
 /// The settings of single solvers. A solver reads its own only; its header has their meanings and defaults.
 struct SolverSettings {
-  std::optional<int> first_sweeps;      ///< gauss-newton
-  std::optional<int> memory;            ///< ccd-anderson
-  std::optional<double> damping_share;  ///< levenberg-marquardt
-  std::optional<double> first_radius;   ///< ceres-lm
-  std::optional<double> damping;        ///< damped-least-squares, damped-least-squares-active-set
-  std::optional<double> pinv_damping;   ///< jacobian-pinv
-  std::optional<double> gain;           ///< jacobian-transpose
+  std::optional<int> first_sweeps = {};      ///< gauss-newton
+  std::optional<int> memory = {};            ///< ccd-anderson
+  std::optional<double> damping_share = {};  ///< levenberg-marquardt
+  std::optional<double> first_radius = {};   ///< ceres-lm
+  std::optional<double> damping = {};        ///< damped-least-squares, damped-least-squares-active-set
+  std::optional<double> pinv_damping = {};   ///< jacobian-pinv
+  std::optional<double> gain = {};           ///< jacobian-transpose
 
   bool operator==(const SolverSettings&) const = default;
 };

@@ -276,7 +276,7 @@ std::string EstimationLegend(const ScenarioSummary& scenario, const std::string&
   const MetricInfo* info = FindMetric(metric);
   std::string text =
       fmt::format("Left both methods, a dot a world, coloured by {}; right their differences with 95 % intervals",
-                  IsEveryWorldItsOwn(scenario.unit)          ? "method"
+                  WorldsAreUnits(scenario.unit)          ? "method"
                   : scenario.unit == SamplingUnit::kClipPair ? "the clip left"
                                                              : "what it was drawn from");
   if (info != nullptr) {

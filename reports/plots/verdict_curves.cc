@@ -17,7 +17,7 @@ namespace etude {
 namespace {
 
 constexpr double kRocHeight = 240, kRocTop = 8, kRocBottom = 208;
-constexpr std::size_t kMostConditions = 4;
+constexpr std::size_t kMaxConditions = 4;
 constexpr std::size_t kMostRocs = 16;
 
 using SharePoints = std::vector<std::pair<double, double>>;
@@ -232,7 +232,7 @@ std::string VerdictCurvesHtml(const RunData& run, const ScenarioSummary& scenari
   std::string html;
   std::size_t count = 0;
   for (const ConditionSummary& condition : scenario.conditions) {
-    if (count == kMostConditions) break;
+    if (count == kMaxConditions) break;
     const std::string panels = VerdictPanels(run, scenario, condition);
     html += panels;
     count += !panels.empty();

@@ -247,7 +247,7 @@ std::string AgainstRival(const ScenarioSummary& scenario, const std::string& met
 
 /// Writes the means of units, where a claim beyond these worlds counts them: " Mean of 8 clips 2.39 cm (−6.3 to 11.0)."
 std::string MeanOfUnits(const Comparison& c, const MetricWords& words, SamplingUnit unit) {
-  if (IsEveryWorldItsOwn(unit) || !c.beyond.low || !c.beyond.difference) return "";
+  if (WorldsAreUnits(unit) || !c.beyond.low || !c.beyond.difference) return "";
   return fmt::format(" Mean of {} {} ({}).", CountUnits(c.beyond.units, unit), Amount(*c.beyond.difference, words),
                      FormatInterval(c.beyond.low, c.beyond.high, words));
 }
@@ -259,7 +259,7 @@ std::string SentenceOf(const std::vector<Judged>& judged, SamplingUnit unit) {
   const MetricWords words = WordsFor(first.metric);
   const bool swept = judged.size() > 1;
   std::string sentence = swept ? SentenceOverConditions(judged, words) : SentenceFor(first, OthersOf(judged), words);
-  if (!IsEveryWorldItsOwn(unit) && first.beyond.units > 0) {
+  if (!WorldsAreUnits(unit) && first.beyond.units > 0) {
     sentence += fmt::format(" of {}", CountUnits(first.beyond.units, unit));
   }
   return fmt::format("{}.{}{}", sentence, swept ? "" : MeanOfUnits(first, words, unit), UnpairedWords(judged));

@@ -267,9 +267,9 @@ RunFindings FindingsOf(const RunData& run) {
   });
   for (const ScenarioSummary& scenario : run.scenarios) {
     for (const ExpectationResult& expectation : scenario.expectations) {
-      if (expectation.ruling == Ruling::kMet) ++f.met;
-      if (expectation.ruling == Ruling::kUnmet) ++f.unmet;
-      if (expectation.ruling == Ruling::kUndecided) ++f.undecided;
+      if (expectation.ruling == ClaimOutcome::kMet) ++f.met;
+      if (expectation.ruling == ClaimOutcome::kUnmet) ++f.unmet;
+      if (expectation.ruling == ClaimOutcome::kUndecided) ++f.undecided;
     }
   }
   f.sentence = ExpectationsSentence(f) + MeasuredSentence(f);

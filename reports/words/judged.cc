@@ -165,7 +165,7 @@ BeyondFinding BeyondInWords(const std::vector<Judged>& judged, SamplingUnit unit
   finding.on_these_only = false;
   if (std::ranges::all_of(verdicts, [&](Verdict v) { return v == verdicts.front(); })) finding.verdict = verdicts[0];
   finding.as_on_these = verdicts == VerdictsOf(judged);
-  finding.words = IsEveryWorldItsOwn(unit) && finding.as_on_these
+  finding.words = WorldsAreUnits(unit) && finding.as_on_these
                       ? fmt::format("for {} drawn alike: the same", OtherUnits(unit))
                       : fmt::format("for {}: {}", OtherUnits(unit), VerdictsInWords(judged, verdicts, unit));
   return finding;

@@ -36,9 +36,9 @@ GateReport Example() {
                              MoveOf("fixed", "iterations", Movement::kBetter, 90, 60),
                              MoveOf("adaptive", "orientation_error_deg", Movement::kWorse, 2, 5),
                              MoveOf("adaptive", kOkShare, Movement::kUnclear, 0.5, 0.4)};
-  report.expectations = {{"ik-weights", {"a below b", Ruling::kMet, "fine"}},
-                         {"ik-weights", {"b below c", Ruling::kUnmet, "0.3 too much"}}};
-  report.ratios = {{"ik-weights", {"adaptive", "fixed", 1.5, {}}, 60, 1.2, 1.1, 1.3, Ruling::kMet}};
+  report.expectations = {{"ik-weights", {"a below b", ClaimOutcome::kMet, "fine"}},
+                         {"ik-weights", {"b below c", ClaimOutcome::kUnmet, "0.3 too much"}}};
+  report.ratios = {{"ik-weights", {"adaptive", "fixed", 1.5, {}}, 60, 1.2, 1.1, 1.3, ClaimOutcome::kMet}};
   return report;
 }
 

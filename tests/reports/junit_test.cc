@@ -55,7 +55,7 @@ TEST(Junit, FailsAScenarioThatLacksARow) {
 TEST(Junit, IsWellFormedWhateverTheNames) {
   RunData run = ExampleRun();
   run.suite = "a\"<b>&'\x01";
-  run.scenarios[0].expectations[0] = {"</testcase>", Ruling::kUnmet, "]]> & <x>"};
+  run.scenarios[0].expectations[0] = {"</testcase>", ClaimOutcome::kUnmet, "]]> & <x>"};
   const std::string xml = WriteJunit(run);
   EXPECT_TRUE(IsWellFormed(xml)) << xml;
   EXPECT_FALSE(IsWellFormed("<?xml?><a><b></a></b>"));

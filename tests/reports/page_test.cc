@@ -164,7 +164,7 @@ TEST(Page, SurvivesHostileNames) {
   scenario.name = scenario.question = scenario.methods[1] = hostile;
   scenario.conditions[0].methods[1].method = hostile;
   scenario.conditions[0].comparisons[0].method = hostile;
-  scenario.expectations = {{hostile, Ruling::kUnmet, hostile}};
+  scenario.expectations = {{hostile, ClaimOutcome::kUnmet, hostile}};
   scenario.description = hostile;
   scenario.descriptions.assign(scenario.methods.size(), hostile);
   run.recordings.push_back({hostile + "/-/000/" + hostile, {}});

@@ -116,7 +116,7 @@ double Disguise::FrameOf(double start, double step, std::size_t count, double la
   return std::min(last, start + offset_ + pace_ * step * static_cast<double>(count));
 }
 
-void Disguise::PutOn(std::vector<BodyPose>& window, double rate_hz) const {
+void Disguise::ApplyTo(std::vector<BodyPose>& window, double rate_hz) const {
   std::vector<WanderingTurn> turns;
   for (const LimbTurn& limb : kTurns) turns.emplace_back(key_, limb);
   for (std::size_t k = 0; k < window.size(); ++k) {

@@ -42,7 +42,7 @@ class Disguise {
   /// every `step`-th frame; at most `last`.
   double FrameOf(double start, double step, std::size_t count, double last) const;
   /// Turns the limbs of a window and scales it.
-  void PutOn(std::vector<BodyPose>& window, double rate_hz) const;
+  void ApplyTo(std::vector<BodyPose>& window, double rate_hz) const;
 
  private:
   const WorldKey key_;

@@ -103,9 +103,9 @@ class DepthCameras {
 /// Complains of takes of too many pictures, which are kept in memory.
 Result<void> CheckSize(const CaptureWorld& world) {
   const std::size_t pictures = world.cameras.size() * world.truth.size();
-  if (pictures <= kMostPictures) return {};
+  if (pictures <= kMaxPictures) return {};
   return Fail({}, "a take of {} pictures cannot be told to others; at most {} can, that is a duration_s of {:g}",
-              pictures, kMostPictures, static_cast<double>(kMostPictures / world.cameras.size()) / kJudgedRateHz);
+              pictures, kMaxPictures, static_cast<double>(kMaxPictures / world.cameras.size()) / kJudgedRateHz);
 }
 
 Json PartNumbers() {

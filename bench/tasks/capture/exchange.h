@@ -44,7 +44,7 @@ Payload DescribeStudio();
 ///
 /// Fails without a renderer, and for takes of more than kMaxPictures pictures.
 Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);
-constexpr std::size_t kMostPictures = 1200;
+constexpr std::size_t kMaxPictures = 1200;
 
 /// Makes the truth of a take: the poses, which are a perfect answer. Files: `truth.bvh`, `truth.trc` and `truth.csv`
 /// hold the same for other programs; `camera-1.yaml`… are OpenCV calibration files, `calibration.toml` all of them in

@@ -40,7 +40,7 @@ Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKe
   Take take;
   std::vector<Digest> masks(sources.size()), marks(sources.size());
   std::vector<std::vector<MaskScore>> scores(sources.size());
-  const bool are_few = world.cameras.size() * options.PicturesOf(world.truth.size()) <= kMostSilhouettes;
+  const bool are_few = world.cameras.size() * options.PicturesOf(world.truth.size()) <= kMaxSilhouettePictures;
   const auto keeps_masks = [&](const PersonSource& source) {
     return wants_masks || (source.for_silhouettes && are_few);
   };

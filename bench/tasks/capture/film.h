@@ -30,7 +30,7 @@ struct Observation {
 };
 
 /// Masks for silhouettes are kept for takes of at most this many pictures over all cameras, 77 kB each.
-constexpr std::size_t kMostSilhouettes = 4000;
+constexpr std::size_t kMaxSilhouettePictures = 4000;
 
 struct Take {
   std::string pictures_digest;

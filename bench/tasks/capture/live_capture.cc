@@ -10,7 +10,7 @@
 
 namespace etude {
 
-LiveCapture::LiveCapture(const StudioOptions& options, const CaptureMethod& method, const Booking& booking,
+LiveCapture::LiveCapture(const StudioOptions& options, const CaptureMethod& method, const FilmedPerson& booking,
                          const WorldKey& key)
     : options_(options),
       method_(method),
@@ -21,7 +21,7 @@ LiveCapture::LiveCapture(const StudioOptions& options, const CaptureMethod& meth
 }
 
 Result<std::unique_ptr<LiveCapture>> LiveCapture::Begin(const StudioOptions& options, const CaptureMethod& method,
-                                                        const Booking& booking, const WorldKey& key) {
+                                                        const FilmedPerson& booking, const WorldKey& key) {
   std::unique_ptr<LiveCapture> capture(new LiveCapture(options, method, booking, key));
   RETURN_IF_ERROR(capture->Prepare());
   return capture;
@@ -72,7 +72,7 @@ std::optional<RecoveredFrame> LiveCapture::RecoverByMarks(std::size_t frame,
     marks.push_back({cameras_->lenses.empty() ? drawn : UndistortMarks(cameras_->lenses[camera], drawn)});
   }
   if (method_.outliers == OutlierRule::kReject) marks = AgreeingMarks(cameras_->matrices, marks);
-  const std::vector<KnownMeasurement> told = {ToldOf(truth, method_.oracle)};
+  const std::vector<KnownMeasurement> told = {KnownMeasurementOf(truth, method_.oracle)};
   KnownAngles known;
   if (method_.oracle.start || method_.oracle.ik) {
     const TreeState nearest = FindNearestPoses(*body_, {&truth, 1}).front();

@@ -18,7 +18,7 @@ class LiveCapture {
   /// Sets up the cameras. `method.causal` must be set; `key` must outlive this. Fails, saying why, if there is no
   /// renderer, the cameras cannot be calibrated, or no body can be made.
   static Result<std::unique_ptr<LiveCapture>> Begin(const StudioOptions& options, const CaptureMethod& method,
-                                                    const Booking& booking, const WorldKey& key);
+                                                    const FilmedPerson& booking, const WorldKey& key);
   LiveCapture(const LiveCapture&) = delete;
   LiveCapture& operator=(const LiveCapture&) = delete;
 
@@ -30,7 +30,7 @@ class LiveCapture {
   std::optional<RecoveredFrame> Next();
 
  private:
-  LiveCapture(const StudioOptions& options, const CaptureMethod& method, const Booking& booking, const WorldKey& key);
+  LiveCapture(const StudioOptions& options, const CaptureMethod& method, const FilmedPerson& booking, const WorldKey& key);
   Result<void> Prepare();
   std::optional<RecoveredFrame> Recover(std::size_t frame);
   std::optional<RecoveredFrame> RecoverByMarks(std::size_t frame, const std::vector<TakeCameras::Picture>& pictures);

@@ -26,7 +26,7 @@ MeasureInputs PicturesOf(const CaptureRun& run) {
 }
 
 /// Returns the joints of every frame; before the first observation they may be incomplete or absent.
-std::vector<SomeJoints> JointsOf(const CaptureRun& run) {
+std::vector<OptionalJoints> JointsOf(const CaptureRun& run) {
   if (run.method.smoothing == Smoothing::kRts) return SmoothJoints(run.measured.joints, kJudgedRateHz);
   return BridgeJoints(run.measured.joints);
 }
@@ -166,10 +166,10 @@ Result<void> RecoverFromSilhouettes(CaptureStages& stages, CaptureRun& run) {
   const std::vector<BodyPose>& truth = stages.world().truth;
   const std::vector<std::vector<Mask>>& masks = run.observation.masks;
   const std::size_t cameras = run.cameras.matrices.size(), pictures = options.PicturesOf(truth.size());
-  if (cameras * pictures > kMostSilhouettes) {
+  if (cameras * pictures > kMaxSilhouettePictures) {
     return Fail({}, "silhouettes of {} pictures; at most {} are held in memory, that is {:g} s", cameras * pictures,
-                kMostSilhouettes,
-                static_cast<double>(kMostSilhouettes / cameras) * options.picture_every / kJudgedRateHz);
+                kMaxSilhouettePictures,
+                static_cast<double>(kMaxSilhouettePictures / cameras) * options.picture_every / kJudgedRateHz);
   }
   // Track the silhouettes picture by picture: causally, or over the whole take.
   const SilhouetteInputs inputs{.first = truth.front(),

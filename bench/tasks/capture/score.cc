@@ -23,7 +23,7 @@ void ReportMasks(const MaskScore& score, CellResult& cell) {
 }
 
 void ReportMeasurements(const CaptureWorld& world, const MeasuredTake& measured, CellResult& cell) {
-  std::vector<Sighted> limbs, ends;
+  std::vector<MeasuredAndTrue> limbs, ends;
   for (std::size_t k = 0; k < world.truth.size(); ++k) {
     const FrameMeasurement& found = measured.frames[k];
     const FrameMeasurement truth = TrueMeasurement(world.truth[k]);

@@ -175,7 +175,7 @@ std::vector<KnownMeasurement> KnownMeasurementsOf(const CaptureWorld& world, con
                                                   const std::vector<bool>& marked) {
   std::vector<KnownMeasurement> known(world.truth.size());
   for (std::size_t k = 0; k < known.size(); ++k) {
-    if (marked[k]) known[k] = ToldOf(world.truth[k], oracle);
+    if (marked[k]) known[k] = KnownMeasurementOf(world.truth[k], oracle);
   }
   return known;
 }
@@ -305,7 +305,7 @@ Result<const NearestPoses*> CaptureStages::GetNearestPoses(const CaptureMethod& 
   return &kept->second;
 }
 
-KnownMeasurement ToldOf(const BodyPose& pose, const Oracle& oracle) {
+KnownMeasurement KnownMeasurementOf(const BodyPose& pose, const Oracle& oracle) {
   KnownMeasurement known;
   const FrameMeasurement truth = TrueMeasurement(pose);
   if (oracle.directions) known.directions = truth.directions;

@@ -129,6 +129,6 @@ class CaptureStages {
 };
 
 /// Returns the truth of a frame that a method with these oracles is given.
-KnownMeasurement ToldOf(const BodyPose& truth, const Oracle& oracle);
+KnownMeasurement KnownMeasurementOf(const BodyPose& truth, const Oracle& oracle);
 
 }  // namespace etude

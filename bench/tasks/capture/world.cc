@@ -31,7 +31,7 @@ Window MakeWindow(const LibraryClip& clip, std::size_t start, std::size_t frames
     for (std::size_t i = 0; i < frames; ++i) {
       window.poses.push_back(PoseOfClip(all, disguise->FrameOf(static_cast<double>(start), 1, i, last)));
     }
-    disguise->PutOn(window.poses, kJudgedRateHz);
+    disguise->ApplyTo(window.poses, kJudgedRateHz);
   } else {
     for (std::size_t i = 0; i < frames; ++i) window.poses.push_back(all[(start + i) % all.size()]);
   }
@@ -171,7 +171,7 @@ RestBody Scaled(RestBody body, double scale) {
 
 }  // namespace
 
-CaptureWorld MakeStudio(const StudioOptions& options, const Booking& booking, const WorldKey& key) {
+CaptureWorld MakeStudio(const StudioOptions& options, const FilmedPerson& booking, const WorldKey& key) {
   CaptureWorld world;
   // The performer, and the light.
   world.person = {booking.lengths, booking.body};

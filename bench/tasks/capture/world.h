@@ -51,7 +51,7 @@ struct CaptureWorld {
 };
 
 /// The person to be filmed, and the number of frames.
-struct Booking {
+struct FilmedPerson {
   std::span<const BodyPose> poses;  ///< expected poses: cameras and furniture are set up around them
   RestBody body;
   LimbLengths lengths;
@@ -59,7 +59,7 @@ struct Booking {
 };
 
 /// Makes the studio of `key` without a performer: `truth` and `in_view` are empty.
-CaptureWorld MakeStudio(const StudioOptions& options, const Booking& booking, const WorldKey& key);
+CaptureWorld MakeStudio(const StudioOptions& options, const FilmedPerson& booking, const WorldKey& key);
 
 /// Makes the world of `key`. The window of the clip begins at a random frame. Among a few random windows the first one
 /// is taken that keeps the performer within 1.2 m of the middle, where both cameras see the whole body, or else the one

@@ -125,7 +125,7 @@ Result<std::unique_ptr<Task>> MakeCoachTask(TaskInput& input) {
   start.sight.threshold = shared.condition.sight.threshold;
   ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "coach", CoachMethodFields(), start));
   const auto sight = [](const CoachMethod& method) -> const DetectionMethod& { return method.sight; };
-  RETURN_IF_ERROR(BookCameras(input, methods, sight, shared.condition.sight));
+  RETURN_IF_ERROR(PrepareCameras(input, methods, sight, shared.condition.sight));
   for (std::size_t i = 0; i < methods.size() && shared.condition.sight.has_cameras; ++i) {
     if (methods[i].sight.sees_truth || methods[i].sight.Capture().causal) continue;
     return Fail(input.methods[i].place,

@@ -156,7 +156,7 @@ void MeasureCorrections(const CoachedSession& session, CellResult& result) {
                    tally.due == 0 ? no_mistake : "fewer than half of the mistakes were called so");
   result.MeasureOr("feedback_delay_s", FeedbackDelaySeconds(session),
                    tally.given == 0 ? "nothing was corrected" : "fewer than half of the acts began");
-  result.MeasureOr("feedback_delay_max_s", LongestFeedbackDelaySeconds(session),
+  result.MeasureOr("feedback_delay_max_s", MaxFeedbackDelaySeconds(session),
                    tally.given == 0 ? "nothing was corrected" : "no act began");
 }
 

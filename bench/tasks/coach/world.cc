@@ -43,7 +43,7 @@ CoachWorld MakeCoachWorld(const CoachCondition& condition, const WorldKey& key) 
   RandomStream place_dice(key, "sensor-place");
   const double drawn = place_dice.Uniform(kNearest, kFarthest);
   const DetectionOptions& sight = condition.sight;
-  const SensorPlace place{
+  const SensorPlacement place{
       .distance = sight.distance_m.value_or(drawn), .turn = Radians(sight.turn_deg), .height = sight.sensor_height_m};
   CoachWorld world{.key = key,
                    .person = DrawPerson(key, sight.session.people),

@@ -82,7 +82,7 @@ Result<std::unique_ptr<Task>> MakeDetectionTask(TaskInput& input) {
     return Fail(input.condition.node().Find(kMovesKey)->place,
                 "'{}' is for recordings; allowed with 'streams' or 'labels'", kMovesKey);
   }
-  RETURN_IF_ERROR(BookCameras(input, methods, std::identity(), options));
+  RETURN_IF_ERROR(PrepareCameras(input, methods, std::identity(), options));
   if (input.clips.clips.empty()) {
     return Fail(input.condition.node().place, "task detection needs 'clips', such as ['builtin:*'], or 'streams'");
   }

@@ -104,7 +104,7 @@ class PersonLeftOut {
         out_.points.push_back({part.move, clock_s_ + part.begin / stream.rate_hz});
       } else if (part.IsRight()) {
         const auto move = Classify(seen, part.begin, part.end, *recogniser_, taught_.size());
-        out_.mistaught += FindByName(taught_, part.move) == nullptr;
+        out_.untaught_performances += FindByName(taught_, part.move) == nullptr;
         out_.verdicts.push_back({part.move, move ? taught_[*move].name : "", part.person});
       }
     }

@@ -25,7 +25,7 @@ struct LeaveOneOut {
   std::vector<Classified> verdicts;        ///< of right performances with a beginning and an end
   std::vector<Classified> nearest;         ///< the same by the nearest whole performance of anybody else: the yardstick
   std::vector<Moment> points, detections;  ///< of recordings with action points, on one time axis
-  int mistaught = 0;  ///< performances of moves that nobody else did right; in `verdicts` as classified as none
+  int untaught_performances = 0;  ///< performances of moves that nobody else did right; in `verdicts` as classified as none
 };
 
 /// Leaves one person out at a time: teaches all moves by the others' right performances (their wrong ones are

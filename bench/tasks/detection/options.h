@@ -94,7 +94,7 @@ void CheckSensorKeys(Fields& condition, DetectionOptions& options);
 /// Refuses methods, those of the input in their order, that want cameras where there are none; prepares the cameras for
 /// the others. `sight` gives the DetectionMethod of a method.
 template <typename Methods, typename Sight>
-Result<void> BookCameras(const TaskInput& input, const Methods& methods, Sight sight, DetectionOptions& options) {
+Result<void> PrepareCameras(const TaskInput& input, const Methods& methods, Sight sight, DetectionOptions& options) {
   RETURN_IF_ERROR(OpenOwnCameras(input, options.cameras.studio));
   for (std::size_t i = 0; i < methods.size(); ++i) {
     const DetectionMethod& method = std::invoke(sight, methods[i]);

@@ -166,7 +166,7 @@ class RecordingAppender {
     const double rate = world_.stream.rate_hz;
     DetectionEvent event;
     event.move = part.move;
-    event.told_fault = part.fault;
+    event.labelled_fault = part.fault;
     if (part.IsRight()) event.danced = part.move;
     event.performed = event.window = {begin + part.begin, begin + part.end};
     event.start_s = event.performed.begin / rate;
@@ -217,7 +217,7 @@ DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person,
         DetectionEvent& changed = world.events[static_cast<std::size_t>(event++)];
         changed.first_right_s.reset();
         changed.truth = part.IsRight() ? TruthOfFault(set.streams[s], faulty, part, fault) : Truth::kGrey;
-        changed.told_fault = changed.truth == Truth::kWrong ? FaultName(fault) : "";
+        changed.labelled_fault = changed.truth == Truth::kWrong ? FaultName(fault) : "";
         if (fault == Fault::kWrongMove) {
           changed.move = OtherMove(set.moves, part.move, turn++);
         } else {

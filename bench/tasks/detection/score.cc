@@ -194,7 +194,7 @@ std::vector<Series> PerformanceSeries(const DetectionWorld& world, const Session
     truth.push_back(event.IsRight() ? 1 : event.truth == Truth::kGrey ? 0.5 : 0);
     const auto worst = std::ranges::max_element(event.faults, {}, &GradedFault::severity);
     const bool is_graded = worst != event.faults.end();
-    fault.push_back(IndexOfFault(is_graded ? std::optional(worst->fault) : FindFault(event.told_fault)));
+    fault.push_back(IndexOfFault(is_graded ? std::optional(worst->fault) : FindFault(event.labelled_fault)));
     severity.push_back(is_graded ? worst->severity : 0);
     asked.push_back(static_cast<double>(repertoire.IndexOf(event.move)));
     danced.push_back(event.danced.empty() ? -1 : static_cast<double>(repertoire.IndexOf(event.danced)));

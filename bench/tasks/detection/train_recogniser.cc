@@ -131,7 +131,7 @@ LearntModel TrainRecogniser(const Repertoire& repertoire, const RecogniserTraini
   for (int session = 0; session < training.sessions; ++session) {
     const WorldKey key{.suite_seed = training.seed, .scenario = "recogniser-training", .trial = session};
     const DetectionWorld world = MakeDetectionWorld(repertoire, DrawCondition(key), key);
-    const SightWeights weights{.weighting = session % 2 == 0 ? Weighting::kFixed : Weighting::kAdaptive};
+    const TrackingWeights weights{.weighting = session % 2 == 0 ? Weighting::kFixed : Weighting::kAdaptive};
     std::vector<LabelledBag> unused;
     const bool teaches_spotting = 2 * session < training.sessions;
     AddSession(world, repertoire, MeasureSession(world, repertoire, weights), asked,

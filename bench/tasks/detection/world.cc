@@ -17,7 +17,7 @@ namespace {
 
 /// Returns a box whose centre is `ahead` metres from the performer towards the sensor and `aside` metres to the side,
 /// facing the sensor.
-Cuboid BoxBefore(const SensorPlace& sensor, double ahead, double aside, double height, const glm::dvec3& half_size) {
+Cuboid BoxBefore(const SensorPlacement& sensor, double ahead, double aside, double height, const glm::dvec3& half_size) {
   const double sine = std::sin(sensor.turn), cosine = std::cos(sensor.turn);
   return {.centre = {ahead * sine + aside * cosine, height, ahead * cosine - aside * sine},
           .half_size = half_size,
@@ -82,11 +82,11 @@ std::optional<std::size_t> Repertoire::TaughtIndexOf(std::string_view move) cons
 }
 
 bool DetectionEvent::HasFault() const {
-  return !told_fault.empty() ||
+  return !labelled_fault.empty() ||
          std::ranges::any_of(faults, [](const GradedFault& fault) { return fault.severity > 0; });
 }
 
-std::string DetectionEvent::FaultText() const { return told_fault.empty() ? FaultNames(faults) : told_fault; }
+std::string DetectionEvent::FaultText() const { return labelled_fault.empty() ? FaultNames(faults) : labelled_fault; }
 
 std::vector<FrameInterval> DetectionWorld::Takes() const {
   std::vector<FrameInterval> takes{{0, static_cast<int>(stream.frames.size())}};
@@ -104,7 +104,7 @@ SkeletonStream Sense(const BodyMotion& motion, const DetectionOptions& options, 
   SkeletonSensorOptions errors = options.sensor;
   errors.strength = options.noise;
   const double drawn = place_dice.Uniform(kNearest, kFarthest);
-  const SensorPlace place{.distance = options.distance_m.value_or(drawn),
+  const SensorPlacement place{.distance = options.distance_m.value_or(drawn),
                           .turn = Radians(options.turn_deg),
                           .height = options.sensor_height_m};
   const Occluders occluders = MakeOccluders(options.occluder, place, motion.poses.size());

@@ -41,7 +41,7 @@ class CameraTake;
 struct DetectionEvent {
   std::string move;                      ///< asked for
   std::vector<GradedFault> faults = {};  ///< of simulated people
-  std::string told_fault = {};           ///< of a recording: the fault that its label names
+  std::string labelled_fault = {};           ///< of a recording: the fault that its label names
   std::string danced;                    ///< the move that was truly danced; empty: none, or unknown
   double start_s = 0, end_s = 0;         ///< from the first beat to the last
   FrameInterval performed;               ///< the same in frames

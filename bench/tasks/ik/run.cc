@@ -22,7 +22,7 @@ std::string DigestOf(const IkSolution& solution) {
 
 /// Returns why the solver stopped. The text is the same for all cells that ended alike, so that a report can count
 /// them.
-std::string WhyItStopped(const IkMethod& method, const IkSolution& solution, const IkAsked& asked) {
+std::string WhyItStopped(const IkMethod& method, const IkSolution& solution, const IkTargetParts& asked) {
   if (asked.axes && !method.solver->uses_axes) return "the solver sees positions only, and axes are asked for";
   switch (solution.status) {
     case IkStatus::kStalled:
@@ -44,7 +44,7 @@ CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMe
                      const IkRecords& records) {
   IkOptions options = method.options;
   options.trace = true;
-  if (!records.motion) options.longest_trace = kLongestCurve;
+  if (!records.motion) options.max_trace_entries = kMaxCurveEntries;
   // Solve, with a trace for the curves.
   const IkSolution solution = method.solver->solve(tree, world.problem, options);
   std::vector<std::pair<std::string, std::string>> digests = {{"world", DigestOf(world)},
@@ -95,7 +95,7 @@ std::vector<std::string> IkMetrics() {
           "fk_evaluations_par2"};
 }
 
-IkAsked AskedOf(const IkProblem& problem) {
+IkTargetParts AskedOf(const IkProblem& problem) {
   const EffectorTarget& target = problem.targets.front();
   return {.positions = target.position_weight > 0, .axes = target.axis_weights != glm::dvec3(0)};
 }
@@ -104,7 +104,7 @@ CellResult ScoreAngles(const KinematicTree& tree, const IkWorld& world, std::spa
                        std::span<const EffectorError> effector_errors, const IkAccount& account,
                        const IkRecords& records) {
   const IkErrorSummary errors = SummariseIkErrors(effector_errors);
-  const IkAsked asked = AskedOf(world.problem);
+  const IkTargetParts asked = AskedOf(world.problem);
   const std::string broken_limits = DescribeBrokenLimits(tree, angles, "angles_deg");
   // A broken limit makes the world unsolved, but everything is measured.
   const bool keeps_limits = broken_limits.empty(), solved = keeps_limits && IsSolvedPractically(errors, asked);
@@ -165,7 +165,7 @@ constexpr std::array kAxisNames = {"x", "y", "z"};
 template <class ValueOf>
 Series Curve(std::string name, std::span<const IkTraceEntry> trace, const ValueOf& value_of) {
   Series curve{std::move(name), "iteration", {}};
-  for (const IkTraceEntry& entry : trace.first(std::min<std::size_t>(trace.size(), kLongestCurve))) {
+  for (const IkTraceEntry& entry : trace.first(std::min<std::size_t>(trace.size(), kMaxCurveEntries))) {
     curve.values.push_back(value_of(entry));
   }
   return curve;

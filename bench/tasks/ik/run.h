@@ -19,7 +19,7 @@ namespace etude {
 CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMethod& method, const IkRecords& records);
 
 /// Returns which parts of their targets the effectors of a world must meet: positions, axes or both.
-IkAsked AskedOf(const IkProblem& problem);
+IkTargetParts AskedOf(const IkProblem& problem);
 
 /// The cost that a method reports, and the reason if it failed.
 struct IkAccount {
@@ -48,7 +48,7 @@ std::vector<std::string> IkMetrics();
 std::optional<double> IkValueOfFailure(std::string_view metric, int max_steps);
 
 /// The largest number of trace entries that curves show.
-constexpr int kLongestCurve = 200;
+constexpr int kMaxCurveEntries = 200;
 
 /// Returns the curves, of at most 200 entries, of `position_error_max_cm` and `orientation_error_max_deg`, the largest
 /// over the effectors.

@@ -28,7 +28,7 @@ class PoseDistanceWorld final : public TaskWorld {
   CellResult Run(std::size_t index) override {
     const PoseDistanceMethod& method = study_.methods[index];
     const FeatureWeights& weights = study_.learnt.For(method.weights, world_.clip_a, world_.clip_b);
-    return ScorePairs(world_, TellPairs(world_, method, study_.fuzzy.memberships, weights), &method.distance);
+    return ScorePairs(world_, ComputePairVerdict(world_, method, study_.fuzzy.memberships, weights), &method.distance);
   }
 
   Result<Payload> MakeProblem() override { return PairsPayload(world_); }

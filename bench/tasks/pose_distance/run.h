@@ -39,7 +39,7 @@ struct PairVerdict {
 };
 
 /// Computes a method's verdict. `weights` are S of the fuzzy distance; the others do not use them.
-PairVerdict TellPairs(const PairWorld& world, const PoseDistanceMethod& method, const Memberships& memberships,
+PairVerdict ComputePairVerdict(const PairWorld& world, const PoseDistanceMethod& method, const Memberships& memberships,
                       const FeatureWeights& weights);
 
 /// Returns the ids of all metrics, in the order in which they are measured.

@@ -12,7 +12,7 @@ namespace {
 CaptureWorld WorldOf(const CameraSensing& sensing, const BodyMotion& motion, const WorldKey& key) {
   assert(motion.rate_hz == kJudgedRateHz);
   const std::vector<BodyPose> places = PlacesAround(motion.poses.front());
-  CaptureWorld world = MakeStudio(sensing.studio, BookFor(places, motion.poses.front(), motion.poses.size()), key);
+  CaptureWorld world = MakeStudio(sensing.studio, MakeFilmedPerson(places, motion.poses.front(), motion.poses.size()), key);
   world.truth = motion.poses;
   world.in_view = FramesInView(world.cameras, world.truth);
   return world;
@@ -31,7 +31,7 @@ std::vector<BodyPose> PlacesAround(const BodyPose& first) {
   return places;
 }
 
-Booking BookFor(std::span<const BodyPose> places, const BodyPose& first, std::size_t frames) {
+FilmedPerson MakeFilmedPerson(std::span<const BodyPose> places, const BodyPose& first, std::size_t frames) {
   return {
       .poses = places, .body = RestBodyOf({&first, 1}), .lengths = MeasureLimbLengths({&first, 1}), .frames = frames};
 }
@@ -64,7 +64,7 @@ const Result<SkeletonStream>& CameraTake::See(const CaptureMethod& method) {
 Result<std::unique_ptr<LiveSensor>> CameraSensor::Make(const StudioOptions& studio, const CaptureMethod& method,
                                                        const BodyPose& first, std::size_t frames, const WorldKey& key) {
   const std::vector<BodyPose> places = PlacesAround(first);
-  ASSIGN_OR_RETURN(auto capture, LiveCapture::Begin(studio, method, BookFor(places, first, frames), key));
+  ASSIGN_OR_RETURN(auto capture, LiveCapture::Begin(studio, method, MakeFilmedPerson(places, first, frames), key));
   return std::unique_ptr<LiveSensor>(new CameraSensor(std::move(capture)));
 }
 

@@ -22,7 +22,7 @@ namespace etude {
 
 /// Describes, for the studio's cameras, a person who stands as in `first` and will dance there: half a metre to every
 /// side, and as high as a jump. The limb lengths are those of that pose.
-Booking BookFor(std::span<const BodyPose> places, const BodyPose& first, std::size_t frames);
+FilmedPerson MakeFilmedPerson(std::span<const BodyPose> places, const BodyPose& first, std::size_t frames);
 std::vector<BodyPose> PlacesAround(const BodyPose& first);
 
 /// Returns the frame that cameras report: every joint is tracked, at its position in the skeleton. Without a skeleton

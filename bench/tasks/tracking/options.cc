@@ -7,11 +7,11 @@ namespace {
 
 void CheckFrames(Fields& condition, TrackingOptions& options) {
   const auto frames = std::lround(options.duration_s * options.rate_hz);
-  if (frames >= kFewestTrackedFrames) return;
+  if (frames >= kMinTrackedFrames) return;
   const Node* written = condition.Raw("duration_s") != nullptr ? condition.Raw("duration_s") : condition.Raw("rate_hz");
   condition.Complain(written->place,
                      fmt::format("{:g} s at {:g} Hz are {} frame{}; at least {} are needed", options.duration_s,
-                                 options.rate_hz, frames, frames == 1 ? "" : "s", kFewestTrackedFrames));
+                                 options.rate_hz, frames, frames == 1 ? "" : "s", kMinTrackedFrames));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace etude {
 
 /// The smallest number of frames of a motion: jerk needs four.
-constexpr int kFewestTrackedFrames = 4;
+constexpr int kMinTrackedFrames = 4;
 
 /// One condition of a tracking scenario: the motion to follow.
 struct TrackingOptions {

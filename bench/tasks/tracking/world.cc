@@ -41,7 +41,7 @@ std::vector<BodyPose> ChooseWindow(const TrackingOptions& options, const Library
     const double plain = start + step * static_cast<double>(k);
     window.push_back(PoseOfClip(poses, disguise ? disguise->FrameOf(start, step, k, end) : plain));
   }
-  if (disguise) disguise->PutOn(window, options.rate_hz);
+  if (disguise) disguise->ApplyTo(window, options.rate_hz);
   // Move the middle frame to the origin, or anywhere in a secret world.
   const FloorMove to_origin = ToOrigin(window[frames / 2]);
   for (BodyPose& pose : window) pose = to_origin.Apply(pose);
@@ -126,9 +126,9 @@ Result<TrackingWorld> MakeTrackingWorld(const KinematicTree& body, const Trackin
   std::optional<Disguise> disguise;
   if (!key.suite_seed.IsPlain()) disguise.emplace(key);
   const std::vector<BodyPose> window = ChooseWindow(options, clip, key, disguise);
-  if (window.size() < kFewestTrackedFrames) {
+  if (window.size() < kMinTrackedFrames) {
     return Fail({}, "too few frames in clip {}: {} at {:g} Hz; tracking needs {}", clip.name, window.size(),
-                options.rate_hz, kFewestTrackedFrames);
+                options.rate_hz, kMinTrackedFrames);
   }
   // Fit the body to each frame, near the frame before, and take the targets from the fitted pose.
   TrackingWorld world{body, {}, {}, {}};

@@ -34,7 +34,7 @@ struct Stage {
 };
 
 /// Clips with fewer frames have no unbroken window of eleven frames with second differences.
-constexpr int kShortestClip = 13;
+constexpr int kMinClipFrames = 13;
 
 /// Returns the natural jumps with which a transition between these two clips is compared, centimetres
 /// (docs/reference/metrics.md). A clip played in between sets no standard.

@@ -3,7 +3,7 @@
 namespace etude {
 namespace {
 
-bool IsLongEnough(const Stage& stage, int clip) { return stage.library.tagged[clip].FrameCount() >= kShortestClip; }
+bool IsLongEnough(const Stage& stage, int clip) { return stage.library.tagged[clip].FrameCount() >= kMinClipFrames; }
 
 }  // namespace
 
@@ -19,13 +19,13 @@ Result<TransitionRequest> DrawRequest(const Stage& stage, const WorldKey& key) {
   const int frames = stage.library.tagged[request.from].FrameCount();
   if (!IsLongEnough(stage, request.from)) {
     return Fail({}, "clip {} has {} frames; a transition is judged over at least {}", stage.library.names[request.from],
-                frames, kShortestClip);
+                frames, kMinClipFrames);
   }
   std::vector<int> others;
   for (int clip : stage.wanted) {
     if (clip != request.from && IsLongEnough(stage, clip)) others.push_back(clip);
   }
-  if (others.empty()) return Fail({}, "no other clip of this library has {} frames", kShortestClip);
+  if (others.empty()) return Fail({}, "no other clip of this library has {} frames", kMinClipFrames);
   // Draw the requested clip and the time.
   request.to = others[RandomStream(key, "to-clip").IndexBelow(others.size())];
   // The request is late enough for a whole window before it, and before the clip's end.

@@ -29,8 +29,8 @@ std::optional<double> MpjpeWhereSeen(const Json& in, bool seen) {
   return MeanOfFlagged(PoseErrorsOf(in, "found").frame_mpjpe_mm, FlagsOf(in.at("seen"), seen));
 }
 
-std::vector<Sighted> SightedThings(const Json& list) {
-  std::vector<Sighted> things;
+std::vector<MeasuredAndTrue> SightedThings(const Json& list) {
+  std::vector<MeasuredAndTrue> things;
   for (const Json& thing : list) {
     things.push_back({ReadOptionalPoint(thing.at("found")), ReadOptionalPoint(thing.at("truth"))});
   }

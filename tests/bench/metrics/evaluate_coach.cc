@@ -64,7 +64,7 @@ std::span<const Evaluator> CoachEvaluators() {
       {"answered_share", [](const Json& in) -> Value { return AnsweredShare(TallyCorrections(SessionOf(in))); }},
       {"decision_delay_s", [](const Json& in) -> Value { return DecisionDelaySeconds(SessionOf(in)); }},
       {"feedback_delay_s", [](const Json& in) -> Value { return FeedbackDelaySeconds(SessionOf(in)); }},
-      {"feedback_delay_max_s", [](const Json& in) -> Value { return LongestFeedbackDelaySeconds(SessionOf(in)); }},
+      {"feedback_delay_max_s", [](const Json& in) -> Value { return MaxFeedbackDelaySeconds(SessionOf(in)); }},
       {"repetitions_until_right", UntilRight},
       {"retention", [](const Json& in) -> Value { return Retention(NumbersOf(in, "chances")); }},
       {"danced_share",

@@ -22,7 +22,7 @@ IkErrorSummary IkErrors(const Json& in) {
 }
 
 /// What the world asks for; both, where nothing is said.
-IkAsked AskedOf(const Json& in) {
+IkTargetParts AskedOf(const Json& in) {
   const auto asked = in.value("asked", std::string("both"));
   return {.positions = asked != "orientation", .axes = asked != "position"};
 }

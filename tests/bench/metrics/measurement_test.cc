@@ -10,21 +10,21 @@ namespace {
 const glm::dvec3 kX(1, 0, 0), kY(0, 1, 0);
 
 TEST(MeasuredError, LeavesTheMeanAloneForWhatWasNotMeasuredButNotTheCoverage) {
-  const std::vector<Sighted> limbs = {{kX, kY}, {kX, kX}, {{}, kX}, {{}, kY}};
+  const std::vector<MeasuredAndTrue> limbs = {{kX, kY}, {kX, kX}, {{}, kX}, {{}, kY}};
   const MeasuredError error = LimbDirectionErrorDeg(limbs);
   EXPECT_NEAR(*error.mean, 45, 1e-12);
   EXPECT_EQ(*error.coverage, 0.5);
 }
 
 TEST(MeasuredError, CountsNothingThatHasNoTruth) {
-  const std::vector<Sighted> limbs = {{kX, {}}, {{}, {}}};
+  const std::vector<MeasuredAndTrue> limbs = {{kX, {}}, {{}, {}}};
   EXPECT_FALSE(LimbDirectionErrorDeg(limbs).mean);
   EXPECT_FALSE(LimbDirectionErrorDeg(limbs).coverage);
   EXPECT_FALSE(TriangulationErrorMm({}).mean);
 }
 
 TEST(MeasuredError, IsNullWithACoverageOfNothingWhenNothingWasMeasured) {
-  const std::vector<Sighted> ends = {{{}, kX}};
+  const std::vector<MeasuredAndTrue> ends = {{{}, kX}};
   EXPECT_FALSE(TriangulationErrorMm(ends).mean);
   EXPECT_EQ(*TriangulationErrorMm(ends).coverage, 0);
 }

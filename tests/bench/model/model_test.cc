@@ -57,9 +57,9 @@ TEST(Names, OfAllStatusesDiffer) {
   std::set<std::string_view> names;
   for (std::size_t i = 0; i < kStatuses.size(); ++i) names.insert(StatusName(static_cast<Status>(i)));
   EXPECT_EQ(names.size(), kStatuses.size());
-  EXPECT_EQ(RulingName(Ruling::kMet), "met");
-  EXPECT_EQ(RulingName(Ruling::kUnmet), "unmet");
-  EXPECT_EQ(RulingName(Ruling::kUndecided), "undecided");
+  EXPECT_EQ(ClaimOutcomeName(ClaimOutcome::kMet), "met");
+  EXPECT_EQ(ClaimOutcomeName(ClaimOutcome::kUnmet), "unmet");
+  EXPECT_EQ(ClaimOutcomeName(ClaimOutcome::kUndecided), "undecided");
 }
 
 TEST(FindStatus, FindsEachByItsNameAndNothingElse) {

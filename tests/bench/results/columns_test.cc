@@ -152,7 +152,7 @@ TEST_F(ColumnsTest, GiveWholeWorldsAtEqualSteps) {
   const auto run = LoadRun(folder());
   ASSERT_TRUE(run);
   EXPECT_EQ(run->rows.size(), rows_.size()) << "few rows are all held";
-  const auto places = run->source->PlacesAtEqualSteps(7);  // every third world
+  const auto places = run->source->SampleRowIndices(7);  // every third world
   EXPECT_EQ(places, (std::vector<std::size_t>{0, 1, 6, 7, 12, 13, 16}));
 }
 

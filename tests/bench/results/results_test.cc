@@ -145,7 +145,7 @@ TEST(Summary, SurvivesTheWayToAFileAndBack) {
   Comparison empty;
   empty.metric = "position_error_cm";
   scenario.conditions.push_back({{{"x", "1"}}, {SampleMethod()}, {SampleComparison(), empty}, {empty}});
-  scenario.expectations.push_back({"b below a", Ruling::kUndecided, "few"});
+  scenario.expectations.push_back({"b below a", ClaimOutcome::kUndecided, "few"});
   const auto text = WriteJson(EncodeSummaries({scenario}));
   const auto back = DecodeSummaries(*ReadJson(*text, "x"), kPlace);
   ASSERT_TRUE(back) << ToString(back.error());

@@ -179,7 +179,7 @@ TEST(BootstrapInterval, ThrowsDiceOfItsPurposeOnlyWhateverTheOrder) {
 
 TEST(BootstrapInterval, OfVeryManyValuesIsAClosedFormThatSaysTheSame) {
   RandomStream dice({.suite_seed = 5, .scenario = "many", .trial = 0}, "x");
-  std::vector<double> values(kLargestResampled);
+  std::vector<double> values(kMaxResampled);
   for (double& value : values) value = std::exp(dice.Normal());
   for (Aggregate aggregate : {Aggregate::kMedian, Aggregate::kMean}) {
     const Interval resampled = *BootstrapInterval(values, aggregate, 1, "x");
@@ -201,7 +201,7 @@ void ExpectSame(const Interval& a, const Interval& b) {
 
 TEST(BootstrapMedianAndMean, AreThoseThatEachAloneWouldBe) {
   RandomStream dice({.suite_seed = 6, .scenario = "both", .trial = 0}, "x");
-  for (int n : {6, 7, 40, 129, kLargestResampled + 1}) {
+  for (int n : {6, 7, 40, 129, kMaxResampled + 1}) {
     std::vector<double> values(static_cast<std::size_t>(n));
     for (double& value : values) value = std::exp(dice.Normal());
     const auto both = BootstrapMedianAndMean(values, 4, "x", 0.9);

@@ -137,11 +137,11 @@ TEST_F(SummaryTest, PairsByWorldAgainstTheFirstMethod) {
 
 TEST_F(SummaryTest, JudgesExpectations) {
   ASSERT_EQ(summary.expectations.size(), 5u);
-  EXPECT_EQ(summary.expectations[0].ruling, Ruling::kMet) << summary.expectations[0].detail;
-  EXPECT_EQ(summary.expectations[1].ruling, Ruling::kUnmet) << summary.expectations[1].detail;
-  EXPECT_EQ(summary.expectations[2].ruling, Ruling::kMet) << summary.expectations[2].detail;
-  EXPECT_EQ(summary.expectations[3].ruling, Ruling::kUnmet) << summary.expectations[3].detail;
-  EXPECT_EQ(summary.expectations[4].ruling, Ruling::kUndecided) << summary.expectations[4].detail;
+  EXPECT_EQ(summary.expectations[0].ruling, ClaimOutcome::kMet) << summary.expectations[0].detail;
+  EXPECT_EQ(summary.expectations[1].ruling, ClaimOutcome::kUnmet) << summary.expectations[1].detail;
+  EXPECT_EQ(summary.expectations[2].ruling, ClaimOutcome::kMet) << summary.expectations[2].detail;
+  EXPECT_EQ(summary.expectations[3].ruling, ClaimOutcome::kUnmet) << summary.expectations[3].detail;
+  EXPECT_EQ(summary.expectations[4].ruling, ClaimOutcome::kUndecided) << summary.expectations[4].detail;
 }
 
 TEST_F(SummaryTest, TakesAFailureForALossAndAMetricThatDoesNotApplyForNone) {
@@ -158,15 +158,15 @@ TEST_F(SummaryTest, TakesAFailureForALossAndAMetricThatDoesNotApplyForNone) {
     const ScenarioSummary judged = Summarise(alone, Tabulate(alone, std::span(fewer).first(20)), 1);
     return std::pair(judged.conditions[0].comparisons[0].verdict, judged.expectations[0].ruling);
   };
-  EXPECT_EQ(verdict_when_b_ends(Status::kFailed), std::pair(Verdict::kInconclusive, Ruling::kUndecided));
-  EXPECT_EQ(verdict_when_b_ends(Status::kOk), std::pair(Verdict::kBetter, Ruling::kMet));
+  EXPECT_EQ(verdict_when_b_ends(Status::kFailed), std::pair(Verdict::kInconclusive, ClaimOutcome::kUndecided));
+  EXPECT_EQ(verdict_when_b_ends(Status::kOk), std::pair(Verdict::kBetter, ClaimOutcome::kMet));
 }
 
 TEST_F(SummaryTest, AnExpectationIsHeldToItsConfidence) {
   Expectation below = study.expectations[0];
   below.confidence = 0.999;  // nine pairs reach p = 0.0039 at best
   const ExpectationResult result = JudgeExpectation(below, study, Tabulate(study, rows), 1);
-  EXPECT_EQ(result.ruling, Ruling::kUndecided);
+  EXPECT_EQ(result.ruling, ClaimOutcome::kUndecided);
   EXPECT_THAT(result.detail, testing::HasSubstr("9 of them differ, and 99.9 % needs at least 11"));
   EXPECT_THAT(result.detail, testing::HasSubstr("on 9 worlds, 1 more have no pair of values"));
 }
@@ -176,7 +176,7 @@ TEST_F(SummaryTest, AMissingValueNeverMeetsABound) {
   bound.metric = "position_error_cm";
   bound.of = "b";
   bound.at_most = 100;
-  EXPECT_EQ(JudgeExpectation(bound, study, Tabulate(study, rows), 1).ruling, Ruling::kUndecided);
+  EXPECT_EQ(JudgeExpectation(bound, study, Tabulate(study, rows), 1).ruling, ClaimOutcome::kUndecided);
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ TEST(Tuning, GradingAnewIsLabellingAnew) {
   Genome genes(CountMembershipGenes(PaperMemberships()), 0.7);
   const Memberships moved = MembershipsOfGenes(PaperMemberships(), genes);
   auto pairs = LabelPairsAcross(clips.frames);
-  GradeAnew(clips.frames, moved, pairs);
+  UpdateGrades(clips.frames, moved, pairs);
   const auto expected = LabelPairsAcross(clips.frames, moved);
   ASSERT_EQ(pairs.size(), expected.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {

@@ -127,8 +127,8 @@ void AddIk(RunData& run) {
                  {Verdict::kBetter, Verdict::kBetter, Verdict::kBetter}, "");
   }
   scenario.expectations = {
-      {"orientation_error_deg of adaptive below fixed", Ruling::kMet, "median −11.8°, 99 % CI −13.0 to −10.4"},
-      {"position_error_cm of adaptive at most 1.0 (p95)", Ruling::kUnmet, "p95 is 1.31"}};
+      {"orientation_error_deg of adaptive below fixed", ClaimOutcome::kMet, "median −11.8°, 99 % CI −13.0 to −10.4"},
+      {"position_error_cm of adaptive at most 1.0 (p95)", ClaimOutcome::kUnmet, "p95 is 1.31"}};
   const double rates[] = {0.02, 0.06, 0.05, 0.09};
   for (const Row& row : run.rows) {
     if (row.scenario != scenario.name) continue;
@@ -161,7 +161,7 @@ void AddTransition(RunData& run) {
                 {"gate-inertialised", 6.4, 0.7}},
                {Verdict::kInconclusive, Verdict::kBetter, Verdict::kBetter, Verdict::kBetter},
                "no bridge frame of “sway” has a partner, not even through the in-between clip");
-  scenario.expectations = {{"jump_cm of fuzzy-bridge below now", Ruling::kMet, "median −19.1 cm, CI −24.0 to −13.2"}};
+  scenario.expectations = {{"jump_cm of fuzzy-bridge below now", ClaimOutcome::kMet, "median −19.1 cm, CI −24.0 to −13.2"}};
   run.scenarios.push_back(std::move(scenario));
 }
 
@@ -176,8 +176,8 @@ void AddDetection(RunData& run) {
                            {},
                            2};
   AddCondition(run, scenario, {}, {{"fixed", 0.81, 0.03}, {"adaptive", 0.815, 0.03}}, {Verdict::kNoDifference}, "");
-  scenario.expectations = {{"f1 of adaptive at least 0.7", Ruling::kMet, "median 0.815"},
-                           {"latency_s of adaptive below fixed", Ruling::kUndecided, "half of the values are missing"}};
+  scenario.expectations = {{"f1 of adaptive at least 0.7", ClaimOutcome::kMet, "median 0.815"},
+                           {"latency_s of adaptive below fixed", ClaimOutcome::kUndecided, "half of the values are missing"}};
   run.scenarios.push_back(std::move(scenario));
 }
 

@@ -34,7 +34,7 @@ void AddBeyond(Comparison& c, SamplingUnit unit, int clips) {
   beyond.difference = c.mean;
   beyond.low = *c.mean_low - 1;
   beyond.high = *c.mean_high + 1;
-  if (IsEveryWorldItsOwn(unit)) {
+  if (WorldsAreUnits(unit)) {
     beyond.units = c.pairs;
     beyond.verdict = c.verdict;
     return;
@@ -79,7 +79,7 @@ void AddUnits(RunData& run, ScenarioSummary& scenario, int clips) {
     if (condition.methods.size() > 1) AddRivals(scenario, condition, clips);
   }
   for (Row& row : run.rows) {
-    if (row.scenario != scenario.name || IsEveryWorldItsOwn(scenario.unit)) continue;
+    if (row.scenario != scenario.name || WorldsAreUnits(scenario.unit)) continue;
     row.units = {fmt::format("clip-{}", row.trial % clips)};
     if (scenario.unit == SamplingUnit::kClipPair) row.units.push_back(fmt::format("clip-{}", (row.trial + 1) % clips));
   }

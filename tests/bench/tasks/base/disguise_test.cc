@@ -40,7 +40,7 @@ TEST(Disguise, KeepsLimbsAndTheFloorAndOverstretchesNothing) {
     const std::vector<BodyPose>& old = clip.motion.poses;
     const Disguise disguise(SecretWorld(7));
     std::vector<BodyPose> worn = old;
-    disguise.PutOn(worn, 30);
+    disguise.ApplyTo(worn, 30);
     for (std::size_t k = 0; k < old.size(); ++k) {
       double lowest_old = 9, lowest_new = 9;
       for (const Role role : AllRoles()) {

@@ -76,7 +76,7 @@ TEST(CaptureExchange, TellsTheMarksPicturesAndCalibrationPointsThatBuiltInMethod
   const CaptureWorld truth =
       MakeCaptureWorld({.duration_s = 0.1, .mark_every = 2}, LoadClips({"builtin:boxing"}, {})->clips[0], kExchangeKey);
   const std::vector<ProjectionMatrix> cameras = {MatrixOf(truth.cameras[0]), MatrixOf(truth.cameras[1])};
-  std::vector<Sighted> limbs;
+  std::vector<MeasuredAndTrue> limbs;
   for (std::size_t k : {0u, 2u}) {
     const std::vector<std::vector<Marks>> told = {{MarksOf(marks[0][k])}, {MarksOf(marks[1][k])}};
     const FrameMeasurement seen = MeasureFrames({.cameras = cameras, .marks = told}).at(0);

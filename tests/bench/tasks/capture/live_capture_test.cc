@@ -19,7 +19,7 @@ std::vector<BodyPose> Boxing(std::size_t frames) {
   return poses;
 }
 
-Booking BookingOf(const std::vector<BodyPose>& motion) {
+FilmedPerson BookingOf(const std::vector<BodyPose>& motion) {
   const std::span<const BodyPose> first(motion.data(), 1);
   return {.poses = first, .body = RestBodyOf(first), .lengths = MeasureLimbLengths(first), .frames = motion.size()};
 }

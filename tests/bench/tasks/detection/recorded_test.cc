@@ -238,7 +238,7 @@ TEST(MadeFaults, EachRecordingFollowsOnceMoreWithEachFault) {
   ASSERT_EQ(world.events.size(), 6u);
   const auto told = [&](std::size_t i) {
     const DetectionEvent& event = world.events[i];
-    return event.move + " " + std::string(TruthName(event.truth)) + " " + event.told_fault + " " + event.danced;
+    return event.move + " " + std::string(TruthName(event.truth)) + " " + event.labelled_fault + " " + event.danced;
   };
   EXPECT_EQ(told(0), "side_kick right  side_kick");
   EXPECT_EQ(told(1), "side_kick wrong half ");

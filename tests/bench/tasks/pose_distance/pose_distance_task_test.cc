@@ -110,7 +110,7 @@ TEST_F(PoseDistanceTask, ThePoseGapItselfWouldBePerfect) {
 
 TEST_F(PoseDistanceTask, ABuiltInVerdictGivenFromOutsideScoresTheSame) {
   const PairWorld world = DrawFramePairs(DanceClips(Clips({"clap", "sway"})), 400, {.scenario = "s"});
-  const PairVerdict own = TellPairs(world, {.name = "fuzzy"}, PaperMemberships(), PaperWeights());
+  const PairVerdict own = ComputePairVerdict(world, {.name = "fuzzy"}, PaperMemberships(), PaperWeights());
   const Json answer = {{"distances", own.distances}, {"alike", own.alike}};
   const auto read = ReadPairAnswer(answer, world);
   ASSERT_TRUE(read) << ToString(read.error());

@@ -14,10 +14,10 @@ namespace {
 
 using testing::HasSubstr;
 
-const WorldKey kKey{.suite_seed = 1, .scenario = "tracking-world", .trial = 0};
+const WorldKey kTrackingKey{.suite_seed = 1, .scenario = "tracking-world", .trial = 0};
 
 TrackingWorld MakeWorld(const TrackingOptions& options, const LibraryClip& clip) {
-  auto world = MakeTrackingWorld(options, clip, kKey);
+  auto world = MakeTrackingWorld(options, clip, kTrackingKey);
   EXPECT_TRUE(world) << ToString(world.error());
   return *std::move(world);
 }
@@ -163,7 +163,7 @@ TEST(TrackingWorld, NoiseMovesTargetsAndNotTheTruth) {
 TEST(TrackingWorld, RefusesAClipThatIsTooShortOrHasNoPose) {
   const KinematicTree tree = MakeBodyTree({});
   const auto complaint = [&](const LibraryClip& clip) {
-    const auto world = MakeTrackingWorld({}, clip, kKey);
+    const auto world = MakeTrackingWorld({}, clip, kTrackingKey);
     return world ? "" : world.error().message;
   };
   EXPECT_THAT(complaint(ClipOf(tree, SwingingStates(tree, 3))), HasSubstr(": 3 at 30 Hz; tracking needs 4"));

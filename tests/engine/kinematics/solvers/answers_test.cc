@@ -85,8 +85,8 @@ Runs OnAnyTree(const IkSolver& solver, bool by_default) {
       options.axis_goal = 0.1;
       options.stall_change = 1e-3;
       options.max_trace_entries = 3;
-      for (const NumberSetting& setting : solver.settings) {
-        options.solver_settings.push_back(setting.is_whole ? 3 : setting.fallback * 0.4 + 0.01);
+      for (const IkSolverSetting& setting : solver.settings) {
+        setting.set(options.solver_settings, setting.number.is_whole ? 3 : setting.number.fallback * 0.4 + 0.01);
       }
     }
     runs.Add(solver.solve(made->tree, made->problem, options));
