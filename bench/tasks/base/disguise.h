@@ -46,7 +46,7 @@ class Disguise {
 
  private:
   const WorldKey key_;
-  double scale_, pace_, late_;
+  double scale_, pace_, offset_;
 };
 
 }  // namespace etude
