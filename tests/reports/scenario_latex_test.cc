@@ -121,7 +121,7 @@ TEST(ScenarioLatex, GivesBothVerdictsAndARowOfTheStrongestOtherMethod) {
   EXPECT_THAT(capture, HasSubstr("better & -- \\\\\n"));
   const std::string transition = ScenarioLatex(run, run.scenarios[0]);
   EXPECT_THAT(transition, HasSubstr("better & better \\\\\n"));
-  EXPECT_THAT(transition, HasSubstr(" & &  & gate-inertialised & "));
+  EXPECT_THAT(transition, HasSubstr(" & & & gate-inertialised & "));
 }
 
 }  // namespace

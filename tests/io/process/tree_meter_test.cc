@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kAlways = 0, kNever = 1e9;  // from where on a look is precise
 
-std::string ReadLine(ChildProcess& child) {
+std::string NextAnswer(ChildProcess& child) {
   for (bool is_open = true; is_open;) {
     if (const auto line = child.NextLine()) return *line;
     pollfd watched{child.output(), POLLIN, 0};
@@ -37,7 +37,7 @@ MB = 1 << 20
 ChildProcess Python(const std::string& script) {
   auto child = ChildProcess::Start({.program = "/usr/bin/python3", .arguments = {"-c", kPrelude + script}});
   EXPECT_TRUE(child);
-  EXPECT_EQ(ReadLine(*child), "held");
+  EXPECT_EQ(NextAnswer(*child), "held");
   return std::move(*child);
 }
 
@@ -93,7 +93,7 @@ TEST(TreeMeter, SeesPagesThatAChildWritesToAfterAPreciseLook) {
   const double before = Look(meter);
   EXPECT_NEAR(before, 55, 12);
   child.Send("");
-  EXPECT_EQ(ReadLine(child), "held");
+  EXPECT_EQ(NextAnswer(child), "held");
   EXPECT_GT(Look(meter, kNever), before + 35) << "a bound, from the pages touched";
   EXPECT_NEAR(Look(meter), before + 40, 8);
 }
@@ -122,10 +122,10 @@ TEST(TreeMeter, CountsSharedMemoryByAllPartsThatWereEverMapped) {
   };
   const double whole = held();
   child.Send("");
-  EXPECT_EQ(ReadLine(child), "held");
+  EXPECT_EQ(NextAnswer(child), "held");
   EXPECT_NEAR(held(), whole, 2) << "its pages stay";
   child.Send("");
-  EXPECT_EQ(ReadLine(child), "held");
+  EXPECT_EQ(NextAnswer(child), "held");
   EXPECT_NEAR(held(), whole - 60, 2) << "nobody maps any of it";
 }
 
@@ -141,7 +141,7 @@ TEST(TreeMeter, CountsSharedMemoryBehindAPageThatStaysMapped) {
   const double before = Look(meter);
   const auto go_on = [&] {
     child.Send("");
-    EXPECT_EQ(ReadLine(child), "held");
+    EXPECT_EQ(NextAnswer(child), "held");
   };
   go_on();
   meter.Count();  // and no look at mappings
@@ -202,7 +202,7 @@ TEST(TreeMeter, CountsSocketsThatNoProcessHasOpen) {
                                     .contained = true,
                                     .told = command.told});
   ASSERT_TRUE(child);
-  EXPECT_EQ(ReadLine(*child), "held");
+  EXPECT_EQ(NextAnswer(*child), "held");
   TreeMeter meter(child->number());
   const TreeLoad load = meter.Count();
   EXPECT_GE(load.sockets, 102u) << "each with a half that has been closed, whose bytes are still on their way";
