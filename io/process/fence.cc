@@ -146,7 +146,7 @@ std::vector<fs::path> KeptFromUsers() {
 
 /// The first process in a fence: a shell that waits for the program. Bubblewrap's own would tell all that it was told
 /// to whoever reads its memory.
-constexpr const char* kFirstProcess = R"(exec 3>&2 2>/dev/null; "$@" 2>&3 3>&-; exit $?)";
+constexpr const char* kFirstProcess = R"(exec 3>&2 2>/dev/null; (exec "$@" 2>&3 3>&-); exit $?)";
 
 /// The first line that a fenced command says, a refusal of the fence among them; "" when it says none in time.
 std::string FirstLineOf(const Fence& fence, const std::vector<std::string>& command) {

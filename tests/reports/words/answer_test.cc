@@ -34,7 +34,7 @@ MethodSummary Method(const std::string& name, double error_deg, double iteration
 }
 
 /// Better than its baseline; as exact as gauss-newton, which takes 4 steps where it takes 560.
-ScenarioSummary Solvers() {
+ScenarioSummary SolverSummary() {
   ScenarioSummary scenario;
   scenario.methods = {"fixed", "adaptive", "gauss-newton"};
   scenario.headline_metrics = {"orientation_error_deg", "iterations"};
@@ -53,13 +53,13 @@ std::string HeadlineOfSolvers(const ScenarioSummary& scenario) {
 }
 
 TEST(Headline, AnswersAgainstTheBaselineAndAgainstTheBestOther) {
-  EXPECT_EQ(HeadlineOfSolvers(Solvers()),
+  EXPECT_EQ(HeadlineOfSolvers(SolverSummary()),
             "“adaptive”: better than “fixed” (effector orientation error −1.00°); no different from “gauss-newton” "
             "(+1.00°), but needs 140 × the solver steps");
 }
 
 TEST(Headline, NamesTheRatioWhereTheRivalIsBetterByTheQuestionsMetric) {
-  ScenarioSummary scenario = Solvers();
+  ScenarioSummary scenario = SolverSummary();
   scenario.conditions[0].rivals = {Compared("iterations", "gauss-newton", Verdict::kWorse)};
   scenario.headline_metrics = {"iterations"};
   EXPECT_EQ(
@@ -68,14 +68,14 @@ TEST(Headline, NamesTheRatioWhereTheRivalIsBetterByTheQuestionsMetric) {
 }
 
 TEST(Headline, GivesTheRangeOfRatiosOverConditions) {
-  ScenarioSummary scenario = Solvers();
+  ScenarioSummary scenario = SolverSummary();
   scenario.conditions.push_back(scenario.conditions.front());
   scenario.conditions[1].methods[2] = Method("gauss-newton", 0.05, 8);
   EXPECT_THAT(HeadlineOfSolvers(scenario), HasSubstr("needs 70.0–140 × the solver steps"));
 }
 
 TEST(Headline, GivesTheLeastAndTheLargestDifferenceOverConditions) {
-  ScenarioSummary scenario = Solvers();
+  ScenarioSummary scenario = SolverSummary();
   scenario.conditions.push_back(scenario.conditions.front());
   scenario.conditions[1].comparisons[0].difference = -7.85;
   EXPECT_THAT(HeadlineOfSolvers(scenario), HasSubstr("than “fixed” (effector orientation error −7.85 to −1.00°);"));
@@ -84,7 +84,7 @@ TEST(Headline, GivesTheLeastAndTheLargestDifferenceOverConditions) {
 }
 
 TEST(Headline, SaysThatNothingIsDecided) {
-  ScenarioSummary scenario = Solvers();
+  ScenarioSummary scenario = SolverSummary();
   scenario.conditions[0].rivals = {Compared("orientation_error_deg", "gauss-newton", Verdict::kInconclusive)};
   const std::string headline = HeadlineOfSolvers(scenario);
   EXPECT_THAT(headline, HasSubstr("; undecided against “gauss-newton”"));
@@ -92,7 +92,7 @@ TEST(Headline, SaysThatNothingIsDecided) {
 }
 
 TEST(Headline, SaysWhereItIsAboutTheseClipsOnly) {
-  ScenarioSummary scenario = Solvers();
+  ScenarioSummary scenario = SolverSummary();
   scenario.unit = SamplingUnit::kClip;
   EXPECT_THAT(HeadlineOfSolvers(scenario), Not(HasSubstr("on these clips")));
   scenario.conditions[0].comparisons[0].beyond.verdict = std::nullopt;
@@ -100,7 +100,7 @@ TEST(Headline, SaysWhereItIsAboutTheseClipsOnly) {
 }
 
 TEST(Headline, NamesBothRivalsWhereHalvesOfTheWorldsChoseDifferently) {
-  ScenarioSummary scenario = Solvers();
+  ScenarioSummary scenario = SolverSummary();
   scenario.headline_metrics = {"iterations"};
   scenario.conditions[0].methods[0] = Method("fixed", 8.8, 8);
   scenario.conditions[0].rivals = {Compared("iterations", "fixed or gauss-newton", Verdict::kWorse)};
@@ -112,7 +112,7 @@ TEST(Headline, NamesBothRivalsWhereHalvesOfTheWorldsChoseDifferently) {
 }
 
 TEST(Headline, SaysBetterTwiceInOneBreath) {
-  ScenarioSummary scenario = Solvers();
+  ScenarioSummary scenario = SolverSummary();
   scenario.conditions[0].rivals = {Compared("orientation_error_deg", "gauss-newton", Verdict::kBetter)};
   EXPECT_EQ(
       HeadlineOfSolvers(scenario),
@@ -121,14 +121,14 @@ TEST(Headline, SaysBetterTwiceInOneBreath) {
 }
 
 TEST(Headline, NamesABaselineThatIsTheBestOtherOnce) {
-  ScenarioSummary scenario = Solvers();
+  ScenarioSummary scenario = SolverSummary();
   scenario.conditions[0].rivals = {Compared("orientation_error_deg", "fixed", Verdict::kBetter)};
   EXPECT_EQ(HeadlineOfSolvers(scenario),
             "“adaptive”: better than “fixed” (effector orientation error −1.00°), the strongest other method");
 }
 
 TEST(Headline, OfARunWithoutRivalsAnswersOnce) {
-  ScenarioSummary scenario = Solvers();
+  ScenarioSummary scenario = SolverSummary();
   scenario.conditions[0].rivals.clear();
   EXPECT_EQ(HeadlineOfSolvers(scenario), "“adaptive”: better than “fixed” (effector orientation error −1.00°)");
   scenario.conditions[0].comparisons.clear();
@@ -136,7 +136,7 @@ TEST(Headline, OfARunWithoutRivalsAnswersOnce) {
 }
 
 TEST(CostRatio, IsOfCostsThatAreAtLeastTwiceAsLargeAndNotOfNothing) {
-  ScenarioSummary scenario = Solvers();
+  ScenarioSummary scenario = SolverSummary();
   const auto ratio = [&] {
     const auto found = CostRatioOf(JudgedOf(scenario, "adaptive", "iterations", Against::kRival));
     return found ? found->least : 0;
@@ -152,7 +152,7 @@ TEST(CostRatio, IsOfCostsThatAreAtLeastTwiceAsLargeAndNotOfNothing) {
 }
 
 TEST(CostRatio, IsNeverOfAShare) {
-  ScenarioSummary scenario = Solvers();
+  ScenarioSummary scenario = SolverSummary();
   for (auto& method : scenario.conditions[0].methods) method.metrics[1].id = "false_smooth";
   scenario.conditions[0].rivals[1].metric = "false_smooth";
   EXPECT_FALSE(CostRatioOf(JudgedOf(scenario, "adaptive", "false_smooth", Against::kRival)).has_value());
