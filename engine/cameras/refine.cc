@@ -207,12 +207,14 @@ class Bundle {
     }
   }
 
+  // Eliminate the targets first. Intrinsics and poses are groups of their own: Ceres sorts the blocks of a group by their
+  // addresses, and only those of one array have an order that the heap does not decide.
   std::shared_ptr<ceres::ParameterBlockOrdering> TargetsFirst() {
     auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
     for (PoseBlock& target : targets_) ordering->AddElementToGroup(target.data(), 0);
     for (std::size_t i = 0; i < intrinsics_.size(); ++i) {
       ordering->AddElementToGroup(intrinsics_[i].data(), 1);
-      ordering->AddElementToGroup(cameras_[i].data(), 1);
+      ordering->AddElementToGroup(cameras_[i].data(), 2);
     }
     return ordering;
   }
