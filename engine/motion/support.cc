@@ -179,7 +179,7 @@ class SupportFinder::ClipSupport {
     for (std::size_t i = 0; i < heights.size(); ++i) {
       // A joint that has sunk into the floor is supported, too.
       if (i == 0 && height >= heights[i] - rules_.level && height <= heights[i] + rules_.height) return true;
-      // If the clip's joint also rests a little lower (toes below a bearing heel), this height is not a surface.
+      // A height is no surface if a joint of this clip also rests a little below it, as toes do below a bearing heel.
       const bool surface = i > 0 && heights[i] - heights[i - 1] > rules_.level;
       if (surface && std::abs(height - heights[i]) <= rules_.height) return true;
     }

@@ -115,7 +115,6 @@ constexpr std::array<JointIndex, kRoleCount> kCarriers = {
 // Lengths and offsets of a person of 1.70 m; kStatureLengths is the sum of thigh, shank and trunk.
 constexpr double kStatureLengths = 1.32;  // metres
 constexpr double kShoulderFall = 0.025;   // the shoulders lie this far below the base of the neck
-constexpr double kSkullHeight = 0.165;    // the middle of the skull lies this far above the base of the neck
 
 // Returns the standing pose at rest with the hip centre at the origin.
 BodyPose RestPose(const LimbLengths& lengths, double scale) {

@@ -131,7 +131,7 @@ struct SkeletonSensorOptions {
   double outlier_chance = 0.001;  ///< per joint and frame (ours; Gaussian + uniform: arXiv 1512.04134)
   double outlier_size_m = 0.15;   ///< uniform in a cube with this half side (ours)
 
-  /// Returns `lag_frames` times the strength, which is limited to 1 here.
+  /// Returns the lag in frames: `lag_frames` times the smaller of `strength` and 1, rounded.
   int Lag() const;
 
   GroupErrors& operator[](JointGroup group) { return groups[Index(group)]; }

@@ -20,8 +20,8 @@ namespace etude {
 /// Counts the pairs of frames that a fuzzy choice may take, and those that match by its rules.
 MatchTally TallyMatches(const Stage& stage, const TransitionRequest& request, const TransitionWay& way);
 
-/// Measures the metrics of a transition with segments (docs/reference/metrics.md). If a clip in between makes two
-/// transition points, the worse one counts.
+/// Measures the metrics of a transition (docs/reference/metrics.md) from the segments that it plays. A transition through
+/// a clip in between has two transition points; each metric takes the worse of them.
 void ScoreTransition(const TransitionOutcome& outcome, const Stage& stage, CellResult& result);
 
 /// Measures the metrics of the pairs that a transition could have used; they are missing for a method without a

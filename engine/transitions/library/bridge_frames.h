@@ -48,8 +48,6 @@ struct TagRules {
 std::vector<TaggedClip> TagClips(std::span<const BodyMotion> clips, double standing_hip_height,
                                  const TagRules& rules = {});
 
-struct TaggedClip;
-
 /// The frequency of a frame's pose in a library, and how well the frame represents it (paper A, section 3.4: bridge
 /// frames are frequent poses, "those of smallest difference").
 struct FrameRating {
