@@ -42,8 +42,8 @@ Payload NaturePayload(const Stage& stage, const TransitionRequest& request);
 ///
 /// Clip `from` is shown up to and including `leave_frame`. After it, clip `to` is shown from the frame that follows
 /// `enter_frame` to its end: both frames stand for the same moment. Clip `to` is turned and moved on the floor (yaw, x,
-/// z), so that its `enter_frame` has
-/// the heading and the floor position of the hip centre of the last frame shown. Optional keys:
+/// z), so that its `enter_frame` has the heading and the floor position of the hip centre of the last frame shown.
+/// Optional keys:
 ///
 /// - `"through": [{"clip": 2, "enter_frame": 3, "leave_frame": 40}]`: clips played in between, entered and left by the
 ///   same rule.
