@@ -220,30 +220,30 @@ std::vector<TailLine> TailLines(const GateReport& report, bool failing, std::siz
 namespace {
 
 // A comment on a pull request takes 65,536 characters; a table of more rows is read by nobody.
-constexpr std::size_t kMostRows = 100;
-constexpr std::size_t kMostWorldsEach = 5, kMostWorlds = 40;
+constexpr std::size_t kMaxRows = 100;
+constexpr std::size_t kMaxWorldsEach = 5, kMaxWorlds = 40;
 
 std::string MoveTable(const std::vector<GateTableRow>& rows) {
   Table table{.columns = {{}, {"scenario"}, {"condition"}, {"method"}, {"metric"}}};
   for (const char* head : {"baseline", "now", "difference (95 %)", "p", "worlds"}) {
     table.columns.push_back({.head = head, .is_number = true});
   }
-  for (std::size_t i = 0; i < std::min(kMostRows, rows.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(kMaxRows, rows.size()); ++i) {
     const GateTableRow& row = rows[i];
     table.rows.push_back({{row.verdict, row.scenario, row.condition, row.method, row.metric, row.before, row.after,
                            row.difference, row.p, row.worlds}});
     table.rows.back().cells.front().is_strong = row.fails;
   }
   std::string text = TableMarkdown(table);
-  if (rows.size() > kMostRows) text += fmt::format("\n… and {} more rows, in gate.xml.\n", rows.size() - kMostRows);
+  if (rows.size() > kMaxRows) text += fmt::format("\n… and {} more rows, in gate.xml.\n", rows.size() - kMaxRows);
   return text;
 }
 
 std::string List(std::string_view title, const std::vector<std::string>& lines) {
   if (lines.empty()) return "";
   std::string text = fmt::format("\n{}\n\n", title);
-  for (std::size_t i = 0; i < std::min(kMostRows, lines.size()); ++i) text += "- " + EscapeMarkdown(lines[i]) + "\n";
-  if (lines.size() > kMostRows) text += fmt::format("- … and {} more\n", lines.size() - kMostRows);
+  for (std::size_t i = 0; i < std::min(kMaxRows, lines.size()); ++i) text += "- " + EscapeMarkdown(lines[i]) + "\n";
+  if (lines.size() > kMaxRows) text += fmt::format("- … and {} more\n", lines.size() - kMaxRows);
   return text;
 }
 
@@ -281,13 +281,13 @@ ClaimOutcome RulingOf(const MetricMove& move) {
   return move.movement == Movement::kUnclear ? ClaimOutcome::kUndecided : ClaimOutcome::kMet;
 }
 
-constexpr std::size_t kMostWorldsOfCase = 20;
+constexpr std::size_t kMaxWorldsOfCase = 20;
 
 JunitCase CaseOf(const MetricMove& move, const GateReport& report) {
   const GateTableRow row = GateRowOf(move);
   std::string detail = fmt::format("{}: {} -> {}, difference {}, p {}, in {} worlds", row.verdict, row.before,
                                    row.after, row.difference, row.p, row.worlds);
-  for (const TailLine& line : TailLines({&move}, report, kMostWorldsOfCase)) {
+  for (const TailLine& line : TailLines({&move}, report, kMaxWorldsOfCase)) {
     detail += "\n" + line.world + (line.replay.empty() ? "" : ": " + line.replay);
   }
   return {fmt::format("{}, {}: {}", row.condition, row.method, row.metric), RulingOf(move), std::move(detail)};
@@ -305,12 +305,12 @@ std::string WriteGateMarkdown(const GateReport& report) {
   std::vector<GateTableRow> failing, others;
   for (GateTableRow& row : MovedRows(report.comparison)) (row.fails ? failing : others).push_back(std::move(row));
   if (!failing.empty()) text += MoveTable(failing);
-  text += WorldList("**Worlds that are far worse:**", TailLines(report, true, kMostWorldsEach, kMostWorlds));
+  text += WorldList("**Worlds that are far worse:**", TailLines(report, true, kMaxWorldsEach, kMaxWorlds));
   if (!others.empty()) {
     text += fmt::format("\n<details><summary>What else moved ({})</summary>\n{}{}\n</details>\n", others.size(),
                         MoveTable(others),
                         WorldList("Single worlds that are far worse, too few to fail:",
-                                  TailLines(report, false, kMostWorldsEach, kMostWorlds)));
+                                  TailLines(report, false, kMaxWorldsEach, kMaxWorlds)));
   }
   text += List("Could not be decided:", ClaimsThatAre(report, ClaimOutcome::kUndecided));
   text += List("New, not in the baseline (`--update` takes it in):", report.comparison.only_after);

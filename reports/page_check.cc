@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kDigits = "0123456789";
 constexpr std::string_view kBase64 = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/=";
-constexpr std::size_t kMostDigits = 4;  // of a width or height: pictures stay within the page
+constexpr std::size_t kMaxDigits = 4;  // of a width or height: pictures stay within the page
 
 /// An element that may stand between marks: its attributes, each with a space before it, and whether it is closed.
 struct Element {
@@ -55,7 +55,7 @@ bool IsData(std::string_view value, std::string_view type) {
 bool IsAllowedValue(std::string_view name, std::string_view value) {
   constexpr std::string_view kFilms = "../video/";
   if (name == "alt" || name == "aria-label") return true;
-  if (name == "width" || name == "height") return value.size() <= kMostDigits && IsOf(kDigits, value);
+  if (name == "width" || name == "height") return value.size() <= kMaxDigits && IsOf(kDigits, value);
   if (name == "href") return value.starts_with(kFilms) && value.find('/', kFilms.size()) == std::string_view::npos;
   return std::ranges::any_of(std::array{"data:image/png;base64,", "data:image/jpeg;base64,", "data:video/mp4;base64,"},
                              [&](const char* type) { return IsData(value, type); });

@@ -31,7 +31,7 @@ namespace etude {
 namespace {
 
 // More steps than a screen has room for only make the page heavy.
-constexpr std::size_t kMostSteps = 120;
+constexpr std::size_t kMaxSteps = 120;
 // Beyond this ratio a linear axis squeezes all but the largest values into one line.
 constexpr double kLogarithmicFrom = 100;
 
@@ -113,7 +113,7 @@ std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scena
     medians[method] = MedianCurve(of_method);
     longest = std::max(longest, medians[method].size());
   }
-  const std::size_t stride = std::max<std::size_t>(1, (longest + kMostSteps - 1) / kMostSteps);
+  const std::size_t stride = std::max<std::size_t>(1, (longest + kMaxSteps - 1) / kMaxSteps);
 
   const MetricWords words = WordsFor(*name);
   Chart chart;

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongestName = 120;  // bytes; file systems allow 255
+constexpr std::size_t kMaxNameLength = 120;  // bytes; file systems allow 255
 
 bool IsPlain(char c) {
   const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -66,7 +66,7 @@ Result<std::vector<fs::path>> AnswersBelow(const fs::path& folder, PredictionFau
 std::vector<std::string> ConditionFolders(const Scenario& scenario) {
   std::vector<std::string> folders;
   for (const Condition& condition : scenario.conditions) {
-    std::string name = condition.swept.empty() ? "all" : CompactLabel(condition.swept).substr(0, kLongestName);
+    std::string name = condition.swept.empty() ? "all" : CompactLabel(condition.swept).substr(0, kMaxNameLength);
     std::replace_if(
         name.begin(), name.end(), [](char c) { return !IsPlain(c); }, '_');
     std::string unique = name;

@@ -62,11 +62,11 @@ std::string NameOf(const Plan& plan, std::size_t w) {
                      WorldName(plan.scenario_of(w), world.condition, world.trial));
 }
 
-constexpr std::uintmax_t kLargestAnswer = std::uintmax_t{16} << 20;  // the same limit as for a program's reply; 60 s of
+constexpr std::uintmax_t kMaxAnswerBytes = std::uintmax_t{16} << 20;  // the same limit as for a program's reply; 60 s of
                                                                      // poses take 3 MB
 
 Result<CellResult> JudgeFile(TaskWorld& world, const FilePath& file) {
-  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file, kLargestAnswer));
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file, kMaxAnswerBytes));
   ASSIGN_OR_RETURN(const auto answer, ReadJson(text, file.string()));
   auto judged = JudgeAnswer(world, answer);
   if (!judged) return Fail({file.string(), 0, 0}, "{}", ToString(judged.error()));

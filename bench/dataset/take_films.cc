@@ -29,8 +29,8 @@ Result<void> SaveTakeFilms(std::span<const Attachment> files, int rate_hz, const
   for (const Attachment& file : files) {
     const std::string_view take = TakeOf(file.name);
     if (take.empty()) continue;
-    constexpr std::size_t kMostPixels = std::size_t{kMaxPictureSide} * kMaxPictureSide;
-    ASSIGN_OR_RETURN(const auto picture, DecodeColourPng(file.bytes, kMostPixels));
+    constexpr std::size_t kMaxPixels = std::size_t{kMaxPictureSide} * kMaxPictureSide;
+    ASSIGN_OR_RETURN(const auto picture, DecodeColourPng(file.bytes, kMaxPixels));
     if (!film || take != filmed) {
       if (film) RETURN_IF_ERROR(film->Finish());
       const FilePath path = folder / (std::string(take) + ".mp4");

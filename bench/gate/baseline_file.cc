@@ -60,8 +60,8 @@ class Lines {
 
 constexpr std::string_view kLetters = "oufbs";   // a baseline is never made if the machine ended a cell
 constexpr std::string_view kAnswers = "ou";      // statuses with an answer, right or not
-constexpr std::int64_t kMostTrials = 1'000'000;  // the limit of a scenario
-constexpr std::int64_t kMostVersions = 1'000'000;
+constexpr std::int64_t kMaxTrials = 1'000'000;  // the limit of a scenario
+constexpr std::int64_t kMaxVersions = 1'000'000;
 
 /// Returns the seal of a baseline: the digest of its JSON without the seal, so that the text's layout may change.
 Result<std::string> SealOf(Json baseline) {
@@ -86,7 +86,7 @@ class BaselineReader {
     ASSIGN_OR_RETURN(const auto head,
                      JsonObject::Of(json, PlaceOf("", 0), "a baseline",
                                     {"schema", "etude", "suite", "scenarios", "statuses", "values"}, {"seal"}));
-    ASSIGN_OR_RETURN(const auto schema, head.Whole("schema", 0, kMostVersions));
+    ASSIGN_OR_RETURN(const auto schema, head.Whole("schema", 0, kMaxVersions));
     if (schema != kBaselineSchema && schema != kUnsealedSchema) {
       return Fail(head.place(), "schema {}; allowed: {} and {}", schema, kUnsealedSchema, kBaselineSchema);
     }
@@ -154,7 +154,7 @@ class BaselineReader {
       if (other.name == scenario.name) return Fail(place, "two scenarios {}; allowed: one", Quote(scenario.name));
     }
     ASSIGN_OR_RETURN(scenario.seed, line.Unsigned("seed"));
-    ASSIGN_OR_RETURN(const auto trials, line.Whole("trials", 1, kMostTrials));
+    ASSIGN_OR_RETURN(const auto trials, line.Whole("trials", 1, kMaxTrials));
     scenario.trials = static_cast<int>(trials);
     const auto read_digests = [&](std::string_view key, NamedDigests& digests) {
       return line.Each(key, [&](const std::string& name, const JsonObject& inner) -> Result<void> {
@@ -169,7 +169,7 @@ class BaselineReader {
       if (FindMetric(id) == nullptr) {
         return Fail(place, "scenario {} has an unknown metric {}", Quote(scenario.name), Quote(id));
       }
-      ASSIGN_OR_RETURN(const auto version, inner.Whole(id, 1, kMostVersions));
+      ASSIGN_OR_RETURN(const auto version, inner.Whole(id, 1, kMaxVersions));
       scenario.metrics.emplace_back(id, static_cast<int>(version));
       return {};
     }));

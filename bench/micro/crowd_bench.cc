@@ -15,7 +15,7 @@
 namespace etude {
 namespace {
 
-constexpr int kMostSteps = 100;  // a frame, as etude crowd
+constexpr int kMaxSteps = 100;  // a frame, as etude crowd
 
 double ThreadTimeMs() {
   timespec now{};
@@ -27,7 +27,7 @@ void Measure(std::span<const TrackingWorld> worlds, int frames, const std::strin
   SetBatchTarget(target);
   Crowd crowd(worlds);
   IkOptions options;
-  options.max_iterations = kMostSteps;
+  options.max_iterations = kMaxSteps;
   std::vector<double> times;
   std::int64_t met = 0, steps = 0;
   for (int frame = 0; frame < frames; ++frame) {

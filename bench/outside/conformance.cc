@@ -80,7 +80,7 @@ Result<Specimen> MakeSpecimen(const TaskKind& kind, const Recipe& recipe, const 
   return specimen;
 }
 
-constexpr int kLongestEndingMs = 2000;
+constexpr int kMaxEndingMs = 2000;
 
 /// A method's result in comparable form: its answer, or why it gave none.
 struct Attempt {
@@ -133,9 +133,9 @@ class ConformanceTest {
     CheckLongLines();
     Report("answers every question once", repeated_ == 0,
            repeated_ == 0 ? "no answer came twice" : fmt::format("{} answers came again", repeated_));
-    const std::string end = method_.End(kLongestEndingMs);
+    const std::string end = method_.End(kMaxEndingMs);
     Report("ends when its input ends", end == "exit code 0",
-           end == "signal 9 (Killed)" ? fmt::format("still ran {} s later", kLongestEndingMs / 1000) : end);
+           end == "signal 9 (Killed)" ? fmt::format("still ran {} s later", kMaxEndingMs / 1000) : end);
     if (solves_nothing_ && specimens_[0].has_plain_method) CheckAgainstPlain();
     return all_passed_;
   }
@@ -258,7 +258,7 @@ class ConformanceTest {
 
   /// Sends the problems to a new program in reverse order.
   void CheckOrder() {
-    method_.End(kLongestEndingMs);
+    method_.End(kMaxEndingMs);
     std::string difference;
     for (std::size_t i = first_.size(); i-- > 0 && difference.empty();) {
       difference = Compare(Ask(specimens_[0], specimens_[0].problems[i]), i);

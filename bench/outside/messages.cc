@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kLongestName = 200;
+constexpr std::size_t kMaxNameLength = 200;
 
 /// Reads an object with a text `type`.
 Result<Json> ReadMessage(const std::string& line) {
@@ -87,7 +87,7 @@ Result<HelloReply> ReadHello(const std::string& line) {
   }
   ASSIGN_OR_RETURN(const auto name, TextOf(message, "name", line));
   ASSIGN_OR_RETURN(const auto version, TextOf(message, "version", line));
-  return HelloReply{name.substr(0, kLongestName), version.substr(0, kLongestName)};
+  return HelloReply{name.substr(0, kMaxNameLength), version.substr(0, kMaxNameLength)};
 }
 
 Result<void> ReadReady(const std::string& line) {

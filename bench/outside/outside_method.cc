@@ -21,9 +21,9 @@ namespace {
 template <typename T>
 using Outcome = OutsideOutcome<T>;
 
-constexpr int kMostFailures = 3;
+constexpr int kMaxFailures = 3;
 constexpr int kEndingMs = 500;     // from the end of its input to its own end
-constexpr double kLongestS = 1e9;  // longer than any run, and within the range of the clock
+constexpr double kMaxLimit_s = 1e9;  // longer than any run, and within the range of the clock
 
 /// The error of a reply that came before its question was read.
 Error TooEarly() { return {{}, "answered before it was asked"}; }
@@ -101,7 +101,7 @@ struct OutsideMethod::State {
 template <typename Act>
 Outcome<void> OutsideMethod::State::Attempt(const std::string& what, Act act) {
   Failures& failed = failures[what];
-  if (failed.times == kMostFailures) return tl::unexpected(failed.last);
+  if (failed.times == kMaxFailures) return tl::unexpected(failed.last);
   Outcome<void> done = act();
   if (done) {
     failed.times = 0;
@@ -218,7 +218,7 @@ Outcome<void> OutsideMethod::State::HearBefore(Read read) {
 template <typename Read>
 auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Read read, Looks looks)
     -> Outcome<typename decltype(read(line))::value_type> {
-  const auto limit = std::chrono::duration<double>(std::min(seconds, kLongestS));
+  const auto limit = std::chrono::duration<double>(std::min(seconds, kMaxLimit_s));
   const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(limit);
   RETURN_IF_ERROR(HearBefore(read));
   program.Send(line);

@@ -13,12 +13,12 @@
 namespace etude {
 namespace {
 
-constexpr int kMostDofs = 32, kMostEffectors = 4, kRows = 6 * kMostEffectors;
+constexpr int kMaxDofs = 32, kMaxEffectors = 4, kRows = 6 * kMaxEffectors;
 
 // Of jacobian_solvers.cc.
-constexpr double kLeastFactor = 1e-2, kMostFactor = 1e9, kLeastMu = 1e-9;
+constexpr double kMinFactor = 1e-2, kMaxFactor = 1e9, kMinMu = 1e-9;
 constexpr double kDescends = 0.7, kHasSettled = 1 - 1e-5;
-constexpr int kPatience = 6, kMostPasses = 4;
+constexpr int kPatience = 6, kMaxPasses = 4;
 
 struct Vector {
   double x = 0, y = 0, z = 0;
@@ -60,9 +60,9 @@ struct Goal {
 };
 
 struct Pose {
-  double angles[kMostDofs];
-  Vector dof_axes[kMostDofs], dof_points[kMostDofs];
-  Frame ends[kMostEffectors];
+  double angles[kMaxDofs];
+  Vector dof_axes[kMaxDofs], dof_points[kMaxDofs];
+  Frame ends[kMaxEffectors];
   double cost;
 };
 
@@ -78,7 +78,7 @@ class DensePeer final : public IkPeer {
                          {From(joint.R_PJ[0]), From(joint.R_PJ[1]), From(joint.R_PJ[2])}});
     }
     frames_.resize(joints_.size());
-    std::fill_n(first_end_, kMostDofs, ends_);
+    std::fill_n(first_end_, kMaxDofs, ends_);
     for (int e = 0; e < ends_; ++e) {
       end_joints_[e] = tree.effectors[e].joint;
       p_LE_[e] = From(tree.effectors[e].p_LE);
@@ -264,7 +264,7 @@ class DensePeer final : public IkPeer {
   double FindStep(double mu) {
     std::memset(sides_, 0, sizeof(sides_));
     bool is_exact = false;
-    for (int pass = 0; pass < kMostPasses && !is_exact; ++pass) {
+    for (int pass = 0; pass < kMaxPasses && !is_exact; ++pass) {
       std::memcpy(duals_, residuals_, sizeof(duals_));
       for (int d = 0; d < dofs_; ++d) {
         if (sides_[d] == 0) continue;
@@ -305,15 +305,15 @@ class DensePeer final : public IkPeer {
   void Descend(double progress) {
     double fallen_to = pose_.cost, factor = 1, growth = 2;
     bool has_moved = true;
-    for (int left = kPatience; left > 0 && factor <= kMostFactor && MustGoOn();) {
+    for (int left = kPatience; left > 0 && factor <= kMaxFactor && MustGoOn();) {
       if (has_moved) Linearise();
-      if (FindStep(std::max(kLeastMu, factor * pose_.cost)) < kStall) break;
+      if (FindStep(std::max(kMinMu, factor * pose_.cost)) < kStall) break;
       Place(trial_);
       ++steps_;
       has_moved = trial_.cost < pose_.cost;
       if (has_moved) {
         const double surplus = 2 * (pose_.cost - trial_.cost) / Gain() - 1;
-        factor = std::max(kLeastFactor, factor * std::max(1.0 / 3, 1 - surplus * surplus * surplus));
+        factor = std::max(kMinFactor, factor * std::max(1.0 / 3, 1 - surplus * surplus * surplus));
         growth = 2;
         std::swap(pose_, trial_);
       } else {
@@ -336,22 +336,22 @@ class DensePeer final : public IkPeer {
   const int dofs_, ends_, rows_;
   std::vector<Joint> joints_;
   std::vector<Frame> frames_;
-  int end_joints_[kMostEffectors];
-  Vector p_LE_[kMostEffectors];
-  bool moves_[kMostDofs][kMostEffectors] = {};
-  int first_end_[kMostDofs], last_end_[kMostDofs] = {};
-  Goal goals_[kMostEffectors];
-  double lower_[kMostDofs], upper_[kMostDofs];
+  int end_joints_[kMaxEffectors];
+  Vector p_LE_[kMaxEffectors];
+  bool moves_[kMaxDofs][kMaxEffectors] = {};
+  int first_end_[kMaxDofs], last_end_[kMaxDofs] = {};
+  Goal goals_[kMaxEffectors];
+  double lower_[kMaxDofs], upper_[kMaxDofs];
   std::vector<double> start_, scattered_;
   double squared_goal_ = 0, squared_chord_ = 0;
   int most_steps_ = 0, steps_ = 0;
   bool is_met_ = false;
   Pose pose_, trial_, best_;
-  alignas(64) double jacobian_[kMostDofs][kRows], residuals_[kRows] = {};
+  alignas(64) double jacobian_[kMaxDofs][kRows], residuals_[kRows] = {};
   alignas(64) double gram_[kRows][kRows], factor_[kRows][kRows];
   alignas(64) double duals_[kRows];
-  double inverses_[kRows], step_[kMostDofs];
-  int sides_[kMostDofs];
+  double inverses_[kRows], step_[kMaxDofs];
+  int sides_[kMaxDofs];
 };
 
 }  // namespace

@@ -267,7 +267,7 @@ namespace {
 Result<RunData> ReadRun(const fs::path& folder, Sealing sealing) {
   ASSIGN_OR_RETURN(auto run, LoadRunOutline(folder, sealing));
   if (run.source) {
-    for (const std::size_t place : run.source->SampleRowIndices(kMostRowsHeld)) {
+    for (const std::size_t place : run.source->SampleRowIndices(kMaxRowsHeld)) {
       const Row& row = run.rows.emplace_back(RowAt(run, place));
       if (auto series = run.source->SeriesOf(place); !series.empty())
         run.series.push_back({row.Id(), std::move(series)});

@@ -30,9 +30,9 @@ constexpr const char* kJournalFile = "journal.jsonl";
 constexpr const char* kOtherLibrariesFile = "other_libraries.json";
 
 /// Runs of more cells than this keep them as columns (column_writer.h) instead of lines of text.
-constexpr std::size_t kMostRowsAsText = 100'000;
+constexpr std::size_t kMaxRowsAsText = 100'000;
 /// The number of rows, about, that LoadRun holds of such runs.
-constexpr std::size_t kMostRowsHeld = 20'000;
+constexpr std::size_t kMaxRowsHeld = 20'000;
 
 /// Writes cells, series, recordings, times and summary of a whole run, row by row; all but the times are the same bytes
 /// for any number of workers.
@@ -40,7 +40,7 @@ class ResultWriter {
  public:
   /// Begins a folder for rows of these studies. Without studies it is one for few rows.
   static Result<ResultWriter> Begin(const std::filesystem::path& folder, std::span<const Study> studies = {},
-                                    std::size_t most_as_text = kMostRowsAsText);
+                                    std::size_t most_as_text = kMaxRowsAsText);
 
   /// The next row, in canonical order.
   Result<void> Add(const Row& row, const CellUsage& usage);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint32_t kInMemory = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t kMemory = std::size_t{64} << 20;  // for the parts of all files together
-constexpr std::size_t kLargestPart = 1 << 20, kSmallestPart = 1 << 14;
+constexpr std::size_t kMaxPartBytes = 1 << 20, kMinPartBytes = 1 << 14;
 
 namespace fs = std::filesystem;
 
@@ -109,7 +109,7 @@ Result<std::string_view> CellTable::ReadLine(std::size_t cell) {
 }
 
 Result<void> CellTable::ReadPart(Source& source, const LinePlace& place) const {
-  const std::size_t size = std::clamp(kMemory / sources_.size(), kSmallestPart, kLargestPart);
+  const std::size_t size = std::clamp(kMemory / sources_.size(), kMinPartBytes, kMaxPartBytes);
   // Lines stand in order of completion: the next cell's may stand a little before this one's.
   source.begin = place.offset - std::min<std::uint64_t>(place.offset, size / 2);
   source.part.resize(std::max<std::size_t>(size, place.offset - source.begin + place.length));

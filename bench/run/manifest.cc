@@ -203,12 +203,12 @@ std::vector<JsonDifference> CompareManifests(const Json& then, const Json& now) 
 }
 
 std::string InWords(std::span<const JsonDifference> differences) {
-  constexpr std::size_t kMostTold = 4;
+  constexpr std::size_t kMaxTold = 4;
   std::vector<std::string> told;
-  for (const JsonDifference& one : differences.first(std::min(differences.size(), kMostTold))) {
+  for (const JsonDifference& one : differences.first(std::min(differences.size(), kMaxTold))) {
     told.push_back(fmt::format("{} was {} and is {}", one.path, one.then, one.now));
   }
-  if (differences.size() > kMostTold) told.push_back(fmt::format("{} more differ", differences.size() - kMostTold));
+  if (differences.size() > kMaxTold) told.push_back(fmt::format("{} more differ", differences.size() - kMaxTold));
   return Join(told, "; ");
 }
 

@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kLongestReason = 200;
+constexpr std::size_t kMaxReasonLength = 200;
 
 Payload SettingOf(const MetricInfo& info, const std::string& task) {
   Json setting{{"metric", info.id}, {"version", info.version}, {"task", task}, {"unit", "m"}};
@@ -36,7 +36,7 @@ Measured ReadValue(const std::string& id, const OutsideReply& reply) {
   if (reply.status != Status::kOk) return missing(reply.status, fmt::format("its program: {}", reply.reason));
   AnswerFields fields(*reply.answer);
   const Json* value = fields.Raw("value");
-  std::string why = fields.Has("reason") ? fields.Text("reason", kLongestReason) : "";
+  std::string why = fields.Has("reason") ? fields.Text("reason", kMaxReasonLength) : "";
   if (value == nullptr || !(value->is_number() || value->is_null())) {
     fields.Note({{}, "value: " + (value == nullptr ? "missing" : ShowJson(*value) + " is no number and not null")});
   } else if (value->is_null() && why.empty()) {

@@ -10,15 +10,15 @@
 namespace etude {
 
 Result<Shard> ParseShard(const std::string& text) {
-  constexpr int kMostShards = 100'000;
+  constexpr int kMaxShards = 100'000;
   Shard shard;
   const char* const end = text.data() + text.size();
   const auto index = std::from_chars(text.data(), end, shard.index);
   const bool has_slash = index.ec == std::errc() && index.ptr != end && *index.ptr == '/';
   const auto count = has_slash ? std::from_chars(index.ptr + 1, end, shard.count) : index;
   if (!has_slash || count.ec != std::errc() || count.ptr != end || shard.index < 1 || shard.count < shard.index ||
-      shard.count > kMostShards) {
-    return Fail({}, "'{}' is no shard; allowed: i/n with 1 ≤ i ≤ n ≤ {}, such as 2/8", text, kMostShards);
+      shard.count > kMaxShards) {
+    return Fail({}, "'{}' is no shard; allowed: i/n with 1 ≤ i ≤ n ≤ {}, such as 2/8", text, kMaxShards);
   }
   return shard;
 }

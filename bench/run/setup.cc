@@ -129,8 +129,8 @@ namespace {
 
 Result<int> TrialsOf(const Json& scenario, const Place& place) {
   const Json& trials = scenario.at("trials");
-  if (trials.is_number_integer() && trials >= 1 && trials <= kMostCells) return trials.get<int>();
-  return Fail(place, "'trials' must be a whole number from 1 to {}, found {}", kMostCells, trials.dump());
+  if (trials.is_number_integer() && trials >= 1 && trials <= kMaxCells) return trials.get<int>();
+  return Fail(place, "'trials' must be a whole number from 1 to {}, found {}", kMaxCells, trials.dump());
 }
 
 }  // namespace
@@ -285,7 +285,7 @@ Result<std::vector<PreparedScenario>> PrepareAll(const SuiteSetup& suite) {
     ASSIGN_OR_RETURN(auto prepared, Prepare(suite, setup, std::move(found)));
     const Scenario& scenario = prepared.scenario();
     cells += scenario.conditions.size() * scenario.methods.size() * static_cast<std::size_t>(setup.trials);
-    if (cells > kMostCells) return Fail({setup.file, 0, 0}, "makes more than {} cells in one run", kMostCells);
+    if (cells > kMaxCells) return Fail({setup.file, 0, 0}, "makes more than {} cells in one run", kMaxCells);
     scenarios.push_back(std::move(prepared));
   }
   return scenarios;

@@ -16,7 +16,7 @@
 namespace etude {
 
 /// The most cells of one run: the places of their rows are held in memory.
-inline constexpr std::size_t kMostCells = 10'000'000;
+inline constexpr std::size_t kMaxCells = 10'000'000;
 
 /// A clip or a recording that a run leaves out because it cannot be read or understood.
 struct RefusedClip {
@@ -134,7 +134,7 @@ class ParsedSuite {
 /// Loads the clips of a scenario (ParsedSuite::Find) and makes its tasks; every complaint about its methods' keys or
 /// its clips comes from here.
 Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& setup, Scenario scenario);
-/// Prepares all scenarios of a suite. Refuses more than kMostCells cells.
+/// Prepares all scenarios of a suite. Refuses more than kMaxCells cells.
 Result<std::vector<PreparedScenario>> PrepareAll(const SuiteSetup& suite);
 
 /// Puts the method behind those of the file, compared with the first, or in their place, with nothing expected. Fails

@@ -276,9 +276,9 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
       }
       const int trials = options.trials.value_or(scenario.trials);
       cells += scenario.conditions.size() * scenario.methods.size() * static_cast<std::size_t>(trials);
-      if (cells > kMostCells) {
+      if (cells > kMaxCells) {
         return Fail({file, 0, 0}, "{} conditions × {} methods × {} trials make more than {} cells in one run",
-                    scenario.conditions.size(), scenario.methods.size(), trials, kMostCells);
+                    scenario.conditions.size(), scenario.methods.size(), trials, kMaxCells);
       }
       ASSIGN_OR_RETURN(auto setup, SetUp(scenario, file, digest.Hex(), trials, options, suite.sources, users));
       suite.scenarios.push_back(std::move(setup));

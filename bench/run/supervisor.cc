@@ -29,8 +29,8 @@ constexpr int kPollMilliseconds = 20;      // how stale a look at memory or at t
 constexpr double kAheadS = 0.05;           // of work that is handed out at once, by what worlds took until now
 constexpr double kLongWorldS = 1;          // to wait for such a world at the end is worse than to prepare it twice
 constexpr int kGatherMicroseconds = 2000;  // where workers have work ahead, their answers are taken together
-constexpr int kMostDeathsInSetup = 3;      // one may be chance (out of memory, a stray kill); a row of them is not
-constexpr double kLongestSetupS = 600;     // clips are read in it
+constexpr int kMaxDeathsInSetup = 3;      // one may be chance (out of memory, a stray kill); a row of them is not
+constexpr double kMaxSetupS = 600;     // clips are read in it
 constexpr double kClockPerLimit = 20;   // what a worker needs a second of processor time for may take so many seconds
 constexpr double kGraceS = 10;          // a method outside is ended by the worker, which then still has to tell
 constexpr int kShutdownGraceMs = 3000;  // in which a worker lets its methods outside come to their end
@@ -111,7 +111,7 @@ class Supervisor {
     ASSIGN_OR_RETURN(auto process,
                      ChildProcess::Start({.program = options_.program, .arguments = {"worker"}, .error_file = ""}));
     process.Send(setup_line_);  // a worker that is already dead is noticed when it is polled
-    return Worker(std::move(process), After(kLongestSetupS));
+    return Worker(std::move(process), After(kMaxSetupS));
   }
 
   const Limits& LimitsOf(const Order& order) const { return plan_.scenario_of(order.world).scenario().limits; }
@@ -316,8 +316,8 @@ class Supervisor {
   /// machine that ended it, and what it was at has no row.
   Result<void> Replace(Worker& worker, std::optional<Status> status, const std::string& reason) {
     worker.process.Finish();
-    if (!worker.ready && ++deaths_in_setup_ == kMostDeathsInSetup) {
-      return FailOfMachine("{} workers in a row failed in their set-up: {}", kMostDeathsInSetup, reason);
+    if (!worker.ready && ++deaths_in_setup_ == kMaxDeathsInSetup) {
+      return FailOfMachine("{} workers in a row failed in their set-up: {}", kMaxDeathsInSetup, reason);
     }
     if (!worker.orders.empty()) {
       Order order = std::move(worker.orders.front());

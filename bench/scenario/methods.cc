@@ -13,7 +13,7 @@ namespace etude {
 namespace {
 
 constexpr std::size_t kMaxMethods = 100;
-constexpr double kLongestTime_s = 86'400;
+constexpr double kMaxTime_s = 86'400;
 /// The keys about a program, which no task reads.
 constexpr std::string_view kProgramKeys[] = {"exec", "options", "files", "time_s"};
 
@@ -128,7 +128,7 @@ const FieldTable<MethodEntry>& OutsideMethodFields() {
         [](Fields& method, MethodEntry& entry) { entry.options_json = ReadOptions(method); }},
        Key::Texts("files", &MethodEntry::files, "a list of folders and files; with `exec`",
                   "What a fence shows that program, read-only; the default is its own folder."),
-       Key::Number("time_s", &MethodEntry::time_s, {0.001, kLongestTime_s},
+       Key::Number("time_s", &MethodEntry::time_s, {0.001, kMaxTime_s},
                    "How long it may take over one problem, or one step.")
            .WhenAbsent("(`limits.time_s`)")
            .And("with `exec`")}};

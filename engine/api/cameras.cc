@@ -55,9 +55,9 @@ std::optional<glm::dvec2> Project(const Camera& camera, const glm::dvec3& p_WQ) 
 CalibratedCamera Calibrate(std::span<const PointPair> pairs, int width, int height) {
   std::vector<etude::PointPair> measured;
   for (const PointPair& pair : pairs) measured.push_back({pair.p_WQ, pair.pixel});
-  constexpr int kLargestSide = 100'000;
-  if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide) {
-    throw BadInput(fmt::format("a picture of {} x {} pixels; allowed: 1 to {} each", width, height, kLargestSide));
+  constexpr int kMaxSide = 100'000;
+  if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide) {
+    throw BadInput(fmt::format("a picture of {} x {} pixels; allowed: 1 to {} each", width, height, kMaxSide));
   }
   const RefinedRig rig = OrThrow(RefineCamera(measured, width, height));
   return {FromEngineCamera("", rig.cameras.front()), rig.rms_px};

@@ -20,11 +20,11 @@
 namespace etude::engine {
 namespace {
 
-constexpr double kLeastRateHz = 1, kMostRateHz = 1000;
+constexpr double kMinRateHz = 1, kMaxRateHz = 1000;
 
 void CheckRate(double rate_hz) {
-  if (rate_hz >= kLeastRateHz && rate_hz <= kMostRateHz) return;
-  throw BadInput(fmt::format("a rate of {} Hz; allowed: {} to {}", rate_hz, kLeastRateHz, kMostRateHz));
+  if (rate_hz >= kMinRateHz && rate_hz <= kMaxRateHz) return;
+  throw BadInput(fmt::format("a rate of {} Hz; allowed: {} to {}", rate_hz, kMinRateHz, kMaxRateHz));
 }
 
 /// Resamples a body's motion by turning its joints, so that limbs keep their lengths.
@@ -109,9 +109,9 @@ double StandingHipsOf(const BodyPose& first) {
 }
 
 void CheckBudget(double budget_s) {
-  constexpr double kLongestWait = 3600;
-  if (budget_s >= 0 && budget_s <= kLongestWait) return;
-  throw BadInput(fmt::format("a budget of {} s; allowed: 0 to {}", budget_s, kLongestWait));
+  constexpr double kMaxWait_s = 3600;
+  if (budget_s >= 0 && budget_s <= kMaxWait_s) return;
+  throw BadInput(fmt::format("a budget of {} s; allowed: 0 to {}", budget_s, kMaxWait_s));
 }
 
 Motion ReadMotion(std::string_view bytes, const std::string& file, double rate_hz) {

@@ -11,13 +11,13 @@
 namespace etude::engine {
 namespace {
 
-constexpr int kLargestMaskSide = 8192;
+constexpr int kMaxMaskSide = 8192;
 constexpr double kFittedSide = 640;  ///< the longer side of the pictures that the fit's options are made for
 
 Mask ToMask(const PersonMask& mask) {
-  if (std::min(mask.width, mask.height) < 1 || std::max(mask.width, mask.height) > kLargestMaskSide) {
+  if (std::min(mask.width, mask.height) < 1 || std::max(mask.width, mask.height) > kMaxMaskSide) {
     throw BadInput(
-        fmt::format("a mask of {} x {} pixels; allowed: 1 to {} each", mask.width, mask.height, kLargestMaskSide));
+        fmt::format("a mask of {} x {} pixels; allowed: 1 to {} each", mask.width, mask.height, kMaxMaskSide));
   }
   Mask made(mask.width, mask.height);
   if (mask.pixels.size() != made.pixels.size()) {

@@ -9,7 +9,7 @@
 namespace etude::engine {
 namespace {
 
-constexpr int kLargestSide = 8192;
+constexpr int kMaxSide = 8192;
 
 ColourImage ToPicture(std::span<const std::uint8_t> bytes, int width, int height) {
   const std::size_t wanted = std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -33,8 +33,8 @@ PersonOptions ToEngineOptions(const PersonFinderOptions& options) {
 }
 
 int Side(int length) {
-  if (length >= 1 && length <= kLargestSide) return length;
-  throw BadInput(fmt::format("a side of {} pixels; allowed: 1 to {}", length, kLargestSide));
+  if (length >= 1 && length <= kMaxSide) return length;
+  throw BadInput(fmt::format("a side of {} pixels; allowed: 1 to {}", length, kMaxSide));
 }
 
 }  // namespace

@@ -12,17 +12,17 @@ ClockComparison::ClockComparison(std::span<const PoseVector> pattern) : pattern_
 
 void ClockComparison::Update(const PoseVector& seen) {
   const int now = count_++, size = static_cast<int>(pattern_.size());
-  for (int shift = -kMostSteps; shift <= kMostSteps; ++shift) {
+  for (int shift = -kMaxSteps; shift <= kMaxSteps; ++shift) {
     const int taught = now - shift;
     if (taught < 0 || taught >= size) continue;
-    ShiftSum& sum = halves_[2 * taught < size ? 0 : 1][static_cast<std::size_t>(shift + kMostSteps)];
+    ShiftSum& sum = halves_[2 * taught < size ? 0 : 1][static_cast<std::size_t>(shift + kMaxSteps)];
     sum.distance += SquaredDistance(seen, pattern_[static_cast<std::size_t>(taught)]);
     ++sum.count;
   }
 }
 
 ClockComparison::ShiftSum ClockComparison::SumOf(Part part, int shift) const {
-  const auto index = static_cast<std::size_t>(shift + kMostSteps);
+  const auto index = static_cast<std::size_t>(shift + kMaxSteps);
   if (part == Part::kFirst) return halves_[0][index];
   if (part == Part::kSecond) return halves_[1][index];
   return halves_[0][index] + halves_[1][index];
@@ -31,12 +31,12 @@ ClockComparison::ShiftSum ClockComparison::SumOf(Part part, int shift) const {
 ClockComparison::Fit ClockComparison::FitOf(Part part, double usual_s) const {
   constexpr double kMinShare = 0.6;     // of the part; with fewer steps in common there is no fit
   constexpr double kPerSecond2 = 0.02;  // if two shifts fit equally well, take the one nearer to the usual shift
-  const double usual = std::clamp(usual_s * kStepsPerSecond, -1.0 * kMostSteps, 1.0 * kMostSteps);
+  const double usual = std::clamp(usual_s * kStepsPerSecond, -1.0 * kMaxSteps, 1.0 * kMaxSteps);
   const double length = static_cast<double>(pattern_.size()) * (part == Part::kWhole ? 1 : 0.5);
   Fit fit{.shift_s = usual / kStepsPerSecond};
   // Find the best shift, and the mean squared distance at the usual shift.
   double best = -1, best_cost = 0, at_usual = -1;
-  for (int shift = -kMostSteps; shift <= kMostSteps; ++shift) {
+  for (int shift = -kMaxSteps; shift <= kMaxSteps; ++shift) {
     const ShiftSum sum = SumOf(part, shift);
     if (sum.count < kMinShare * length) continue;
     const double mean = sum.distance / sum.count, away_s = (shift - usual) / kStepsPerSecond;

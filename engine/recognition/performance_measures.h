@@ -38,7 +38,7 @@ class ClockComparison {
   ClockMeasures Measure(double usual_s) const;
 
  private:
-  static constexpr int kMostSteps = 24;  ///< 1.6 s: a beat of a slow move
+  static constexpr int kMaxSteps = 24;  ///< 1.6 s: a beat of a slow move
   struct ShiftSum {
     double distance = 0;
     int count = 0;
@@ -53,7 +53,7 @@ class ClockComparison {
 
   std::span<const PoseVector> pattern_;
   int count_ = 0;                                                     ///< steps seen
-  std::array<std::array<ShiftSum, 2 * kMostSteps + 1>, 2> halves_{};  ///< of the example, by shift
+  std::array<std::array<ShiftSum, 2 * kMaxSteps + 1>, 2> halves_{};  ///< of the example, by shift
 };
 
 /// The limbs' measures as of a warped path (36), then lag in seconds, logarithm of the pace (below 0: faster than

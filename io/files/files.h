@@ -76,10 +76,10 @@ class AtomicFile {
 };
 
 /// Larger files are refused before memory is taken.
-constexpr std::uintmax_t kLargestFile = std::uintmax_t{2} << 30;
+constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{2} << 30;
 
 /// Reads all bytes of a file of at most `limit` bytes. Fails as OpenFile does.
-Result<std::string> ReadWholeFile(const FilePath& path, std::uintmax_t limit = kLargestFile);
+Result<std::string> ReadWholeFile(const FilePath& path, std::uintmax_t limit = kMaxFileBytes);
 
 /// Hands a file of any size to `use`, at most 256 KiB at a time. Fails as OpenFile does.
 Result<void> ReadInChunks(const FilePath& path, const std::function<void(std::string_view)>& use);

@@ -183,9 +183,9 @@ void EndOrphans() {
   int adopts = 0;
   ::prctl(PR_GET_CHILD_SUBREAPER, &adopts);
   if (adopts == 0) return;
-  constexpr int kMostLooks = 100;  // at orphans of orphans
+  constexpr int kMaxLooks = 100;  // at orphans of orphans
   bool found = true;
-  for (int i = 0; found && i < kMostLooks; ++i) {
+  for (int i = 0; found && i < kMaxLooks; ++i) {
     found = false;
     for (const pid_t child : ChildrenOf(::getpid())) {
       if (ManagedChildren().contains(child)) continue;

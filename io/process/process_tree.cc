@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kMostProcesses = 4096;
+constexpr std::size_t kMaxProcesses = 4096;
 
 /// Adds the children that any thread of `parent` has started.
 void AddChildren(pid_t parent, std::vector<pid_t>& processes) {
@@ -28,7 +28,7 @@ void AddChildren(pid_t parent, std::vector<pid_t>& processes) {
     if (thread->d_name[0] == '.') continue;
     const std::string children = ReadProcFile(fmt::format("{}/{}/children", folder, thread->d_name));
     const char* at = children.c_str();
-    for (char* end = nullptr; processes.size() < kMostProcesses; at = end) {
+    for (char* end = nullptr; processes.size() < kMaxProcesses; at = end) {
       const long child = std::strtol(at, &end, 10);
       if (end == at) break;
       processes.push_back(static_cast<pid_t>(child));
@@ -45,7 +45,7 @@ double OwnCpuSeconds(pid_t process) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-constexpr int kMostLooks = 100;  // at a tree that grows while it is held
+constexpr int kMaxLooks = 100;  // at a tree that grows while it is held
 
 bool Signal(const Descriptor& process, int signal) {
   return ::syscall(SYS_pidfd_send_signal, process.number(), signal, nullptr, 0) == 0;
@@ -99,13 +99,13 @@ std::vector<pid_t> ProcessTree(pid_t root) {
 
 HeldTree::HeldTree(pid_t root) {
   AddTree(root);
-  for (int i = 0; i < kMostLooks && Grow(); ++i) {
+  for (int i = 0; i < kMaxLooks && Grow(); ++i) {
   }
 }
 
 void HeldTree::Kill() {
   // A stopped process starts no other, but may have just forked: stop and list until two passes find nothing new.
-  for (int i = 0, quiet = 0; i < kMostLooks && quiet < 2; ++i) {
+  for (int i = 0, quiet = 0; i < kMaxLooks && quiet < 2; ++i) {
     SignalAll(SIGSTOP);
     quiet = Grow() ? 0 : quiet + 1;
   }

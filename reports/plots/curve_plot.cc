@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kMostPoints = 80;
+constexpr std::size_t kMaxPoints = 80;
 
 // The panel in its own units; the page scales it.
 constexpr double kSmallWidth = 240, kSmallHeight = 150;
@@ -37,7 +37,7 @@ CurveAxes AxesFor(const std::vector<const PlotCurve*>& curves) {
 std::string CurveLine(const PlotCurve& curve, const Axis& across, const Axis& up) {
   // More points than the panel has room for only make the page heavy; where the curve ends is always told.
   const std::size_t count = curve.values.size();
-  const std::size_t stride = std::max<std::size_t>(1, (count + kMostPoints - 1) / kMostPoints);
+  const std::size_t stride = std::max<std::size_t>(1, (count + kMaxPoints - 1) / kMaxPoints);
   std::string points;
   for (std::size_t i = 0; i < count; i += stride) {
     if (i + stride >= count) i = count - 1;

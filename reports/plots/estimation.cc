@@ -32,7 +32,7 @@ std::vector<std::string> UnitNames(const std::map<int, Found>& found) {
 
 constexpr double kHeight = 250, kTop = 8, kBottom = 212;
 constexpr double kSwarm = 26;  // how far dots spread to either side
-constexpr std::size_t kMostNamed = 16;
+constexpr std::size_t kMaxNamed = 16;
 
 /// The indices of both methods in the scenario, by which they are drawn.
 struct Cast {
@@ -243,7 +243,7 @@ PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, c
   PairedDots pairs;
   pairs.total = found.size();
   pairs.units = UnitNames(found);
-  const std::size_t stride = StrideFor(found.size(), kMostWorlds);
+  const std::size_t stride = StrideFor(found.size(), kMaxPlottedWorlds);
   std::size_t index = 0;
   for (const auto& [trial, world] : found) {
     if (index++ % stride != 0) continue;
@@ -289,10 +289,10 @@ std::string EstimationLegend(const ScenarioSummary& scenario, const std::string&
 std::string UnitLegendHtml(const PairedDots& pairs) {
   if (pairs.units.empty()) return "";
   std::string html = "<p class=\"quiet legend units\">";
-  for (std::size_t i = 0; i < std::min(kMostNamed, pairs.units.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(kMaxNamed, pairs.units.size()); ++i) {
     html += fmt::format("<span>{}{}</span> ", MarkKeySvg(0, i), EscapeMarkup(pairs.units[i]));
   }
-  if (pairs.units.size() > kMostNamed) html += fmt::format("and {} more", pairs.units.size() - kMostNamed);
+  if (pairs.units.size() > kMaxNamed) html += fmt::format("and {} more", pairs.units.size() - kMaxNamed);
   return html + "</p>";
 }
 

@@ -15,8 +15,8 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kMostPlots = 8;
-constexpr std::size_t kMostStrips = 12;
+constexpr std::size_t kMaxPlots = 8;
+constexpr std::size_t kMaxStrips = 12;
 
 /// Gives the place of the condition whose worlds are shown first: that of the largest difference which is asked about.
 std::size_t LeadCondition(const ScenarioSummary& scenario, const std::string& metric) {
@@ -44,11 +44,11 @@ class Section {
         return other.condition == judged.condition && other.comparison->baseline == judged.comparison->baseline;
       });
       if (against == Against::kRival && is_drawn) continue;
-      if (++count_ <= kMostPlots) Add(judged);
+      if (++count_ <= kMaxPlots) Add(judged);
     }
   }
 
-  std::string Html() const { return html_ + LeftOutHtml(count_, kMostPlots, "plots", "cells.jsonl"); }
+  std::string Html() const { return html_ + LeftOutHtml(count_, kMaxPlots, "plots", "cells.jsonl"); }
 
  private:
   void Add(const Judged& judged) {
@@ -91,7 +91,7 @@ std::string Comparisons(const RunData& run, const ScenarioSummary& scenario, con
 std::string OtherStrips(const RunData& run, const ScenarioSummary& scenario, const std::string& metric) {
   const std::size_t lead = LeadCondition(scenario, metric);
   std::string html;
-  for (std::size_t i = 0; i < std::min(scenario.conditions.size(), kMostStrips); ++i) {
+  for (std::size_t i = 0; i < std::min(scenario.conditions.size(), kMaxStrips); ++i) {
     if (i != lead) html += StripsHtml(run, scenario, scenario.conditions[i], metric);
   }
   return html.empty() ? "" : "<div class=\"panels\">" + html + "</div>";
@@ -107,11 +107,11 @@ std::string Budgets(const ScenarioSummary& scenario) {
       label += (label.empty() ? "" : ", ") + swept.key + " = " + swept.value;
     }
     for (const ErrorBudget& budget : condition.budgets) {
-      if (++count <= kMostStrips) html += ErrorBudgetHtml(budget, label);
+      if (++count <= kMaxStrips) html += ErrorBudgetHtml(budget, label);
     }
   }
   if (html.empty()) return "";
-  return "<div class=\"panels\">" + html + "</div>" + LeftOutHtml(count, kMostStrips, "error budgets", "summary.json");
+  return "<div class=\"panels\">" + html + "</div>" + LeftOutHtml(count, kMaxStrips, "error budgets", "summary.json");
 }
 
 }  // namespace

@@ -43,13 +43,13 @@ struct PairedWorld {
   double Difference() const { return method - baseline; }
 };
 
-/// The worlds behind one comparison, at most kMostWorlds of them.
+/// The worlds behind one comparison, at most kMaxPlottedWorlds of them.
 struct PairedDots {
   std::vector<PairedWorld> worlds;  ///< in the order of trials
   std::vector<std::string> units;   ///< in the order of their names; empty where worlds are units
   std::size_t total = 0;            ///< of which `worlds` are every so manyeth
 };
-inline constexpr std::size_t kMostWorlds = 400;
+inline constexpr std::size_t kMaxPlottedWorlds = 400;
 
 /// Pairs the worlds of a comparison. Empty when no world has both values, or the other is no single method (a rival
 /// that half of the worlds chose).

@@ -17,7 +17,7 @@ namespace etude {
 namespace {
 
 constexpr double kRow = 40, kLabel = 13, kSpread = 9, kFoot = 20;
-constexpr std::size_t kMostDots = 100;  // of one row
+constexpr std::size_t kMaxDots = 100;  // of one row
 
 struct Dot {
   int trial = 0;
@@ -40,7 +40,7 @@ StripRow RowOf(std::size_t method, const std::vector<Dot>& dots, const MetricWor
   StripRow row{.method = method, .total = dots.size(), .low = Quantile(sorted, 0.25), .high = Quantile(sorted, 0.75)};
   row.typical = words.by_mean ? std::accumulate(sorted.begin(), sorted.end(), 0.0) / static_cast<double>(sorted.size())
                               : Quantile(sorted, 0.5);
-  const std::size_t stride = StrideFor(dots.size(), kMostDots);
+  const std::size_t stride = StrideFor(dots.size(), kMaxDots);
   for (std::size_t i = 0; i < dots.size(); i += stride) row.dots.push_back(dots[i]);
   return row;
 }
@@ -91,7 +91,7 @@ std::string Caption(const ConditionSummary& condition, const MetricWords& words,
   const std::string_view direction = DirectionWords(words.direction);
   if (!direction.empty()) text += fmt::format("; {}", direction);
   const bool is_thinned = std::ranges::any_of(rows, [](const StripRow& row) { return row.dots.size() < row.total; });
-  return text + (is_thinned ? fmt::format(" ({} dots a row, at equal steps)", kMostDots) : "");
+  return text + (is_thinned ? fmt::format(" ({} dots a row, at equal steps)", kMaxDots) : "");
 }
 
 }  // namespace

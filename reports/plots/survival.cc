@@ -19,8 +19,8 @@ namespace etude {
 namespace {
 
 constexpr double kCurveHeight = 200, kCurveTop = 8, kCurveBottom = 172;
-constexpr std::size_t kMostPanels = 4;
-constexpr std::size_t kMostLines = 16;
+constexpr std::size_t kMaxPanels = 4;
+constexpr std::size_t kMaxLines = 16;
 
 /// A metric whose values end before what they measure does.
 struct Censored {
@@ -86,7 +86,7 @@ std::string PanelOf(const RunData& run, const ScenarioSummary& scenario, const C
   time.from = kPanelLeft, time.to = kPanelRight;
   std::string lines, described;
   for (const auto& [method, of_method] : waits) {
-    if (method >= kMostLines) continue;
+    if (method >= kMaxLines) continue;
     lines += Line(method, of_method, time, share);
     described +=
         fmt::format("{}: {:.0f} % never. ", scenario.methods[method], 100 * SurvivalCurve(of_method).back().second);
@@ -104,12 +104,12 @@ std::string SectionOf(const RunData& run, const ScenarioSummary& scenario, const
   std::string panels, keys;
   std::size_t count = 0;
   for (const ConditionSummary& condition : scenario.conditions) {
-    const std::string panel = count < kMostPanels ? PanelOf(run, scenario, condition, rule) : "";
+    const std::string panel = count < kMaxPanels ? PanelOf(run, scenario, condition, rule) : "";
     panels += panel;
     count += !panel.empty();
   }
   if (panels.empty()) return "";
-  for (std::size_t i = 0; i < std::min(scenario.methods.size(), kMostLines); ++i) {
+  for (std::size_t i = 0; i < std::min(scenario.methods.size(), kMaxLines); ++i) {
     keys += fmt::format("<span>{}{}</span> ", LineKeySvg(i), EscapeMarkup(MethodLabel(scenario, scenario.methods[i])));
   }
   return fmt::format("<div class=\"panels\">{}</div><p class=\"quiet legend units\">{}</p>", panels, keys);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kRocHeight = 240, kRocTop = 8, kRocBottom = 208;
 constexpr std::size_t kMaxConditions = 4;
-constexpr std::size_t kMostRocs = 16;
+constexpr std::size_t kMaxRocs = 16;
 
 using SharePoints = std::vector<std::pair<double, double>>;
 
@@ -171,7 +171,7 @@ void AddMethod(const ScenarioSummary& scenario, std::size_t method, const Method
 std::string VerdictPanels(const RunData& run, const ScenarioSummary& scenario, const ConditionSummary& condition) {
   Curves curves;
   for (const auto& [method, verdicts] : VerdictsUnder(run, scenario, condition)) {
-    if (method < kMostRocs) AddMethod(scenario, method, verdicts, curves);
+    if (method < kMaxRocs) AddMethod(scenario, method, verdicts, curves);
   }
   const std::string prefix = ConditionPrefix(condition);
   std::string html;

@@ -12,10 +12,10 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kMostTabled = 1;
+constexpr std::size_t kMaxTabled = 1;
 constexpr std::size_t kMaxMethods = 16;
-constexpr std::size_t kMostSessions = 5;
-constexpr std::size_t kMostMoves = 60;  // of a confusion: its cells grow with the square
+constexpr std::size_t kMaxSessions = 5;
+constexpr std::size_t kMaxMoves = 60;  // of a confusion: its cells grow with the square
 
 using Verdicts = std::map<std::size_t, MethodVerdicts>;
 
@@ -80,7 +80,7 @@ std::string SessionTable(const RunData& run, const ScenarioSummary& scenario, co
   const std::vector<SessionMistakes> worst = WorstSessions(method->second.performances);
   if (worst.empty()) return "";
   std::string body;
-  for (const SessionMistakes& session : std::span(worst).first(std::min(worst.size(), kMostSessions))) {
+  for (const SessionMistakes& session : std::span(worst).first(std::min(worst.size(), kMaxSessions))) {
     body += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"n\">{} of {}</td><td class=\"n\">{} of {}</td></tr>",
                         EscapeMarkup(SessionName(run, scenario, session.person)), session.missed, session.right,
                         session.praised, session.wrong);
@@ -117,7 +117,7 @@ std::string Confusions(const ScenarioSummary& scenario, const std::string& prefi
   const std::string asked = MethodInQuestion(scenario);
   for (const auto& [method, of_method] : verdicts) {
     const MoveConfusion confusion = ConfusionOf(of_method.performances);
-    if (confusion.counts.empty() || confusion.moves.size() > kMostMoves || method >= kMaxMethods) continue;
+    if (confusion.counts.empty() || confusion.moves.size() > kMaxMoves || method >= kMaxMethods) continue;
     const std::string& name = scenario.methods[method];
     std::string& html = name == asked || asked.empty() ? open : folded;
     html += ConfusionTable(fmt::format("{}what {} takes moves for, per cent of those danced", prefix, name), confusion);
@@ -183,14 +183,14 @@ std::string VerdictTablesHtml(const RunData& run, const ScenarioSummary& scenari
   std::size_t count = 0;
   for (const ConditionSummary& condition : scenario.conditions) {
     const Verdicts verdicts = VerdictsUnder(run, scenario, condition);
-    if (verdicts.empty() || ++count > kMostTabled) continue;
+    if (verdicts.empty() || ++count > kMaxTabled) continue;
     const std::string label = ConditionLabel(condition.condition), prefix = label.empty() ? "" : label + ": ";
     html += FaultTable(scenario, prefix, verdicts) + SessionTable(run, scenario, prefix, verdicts) +
             Confusions(scenario, prefix, verdicts);
   }
   if (html.empty()) return "";
   return "<details><summary>Which faults are found, the worst sessions, what moves are taken for</summary>" + html +
-         LeftOutHtml(count, kMostTabled, "conditions", "series/") + "</details>";
+         LeftOutHtml(count, kMaxTabled, "conditions", "series/") + "</details>";
 }
 
 }  // namespace etude

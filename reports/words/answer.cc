@@ -143,7 +143,7 @@ std::string UnpairedWords(const std::vector<Judged>& judged) {
 // From here on a ratio says more than a difference.
 constexpr double kTelling = 2;
 // A value that is nearer to zero than this part of what matters is as good as none: a ratio to it says nothing.
-constexpr double kLeastOfThreshold = 0.1;
+constexpr double kMinShareOfThreshold = 0.1;
 
 std::optional<double> TypicalOf(const ConditionSummary& condition, const std::string& method, const std::string& metric,
                                 const MetricWords& words) {
@@ -277,7 +277,7 @@ std::optional<CostRatio> CostRatioOf(const std::vector<Judged>& judged) {
     const auto mine = TypicalOf(*j.condition, c.method, c.metric, words);
     for (const std::string& baseline : BaselinesOf(j)) {
       const auto theirs = TypicalOf(*j.condition, baseline, c.metric, words);
-      if (!mine || !theirs || *theirs <= kLeastOfThreshold * info->practical) return std::nullopt;
+      if (!mine || !theirs || *theirs <= kMinShareOfThreshold * info->practical) return std::nullopt;
       const double ratio = *mine / *theirs;
       if (ratio < kTelling) return std::nullopt;
       range = range ? CostRatio{std::min(range->least, ratio), std::max(range->most, ratio)} : CostRatio{ratio, ratio};

@@ -16,7 +16,7 @@ namespace etude {
 namespace {
 
 // More methods than this are told by the least and the most successful one.
-constexpr std::size_t kMostSuccesses = 12;
+constexpr std::size_t kMaxSuccesses = 12;
 
 std::string ExpectationsSentence(const RunFindings& f) {
   const int all = f.met + f.unmet + f.undecided;
@@ -280,7 +280,7 @@ std::string SuccessSentence(const SuccessFinding& finding) {
   const MetricWords words = WordsFor(finding.metric);
   std::string text = fmt::format("Reached ({}):", words.label);
   const auto share = [&](const auto& of) { return fmt::format(" {} {}", of.first, FormatValue(of.second, words)); };
-  if (finding.shares.size() > kMostSuccesses) {
+  if (finding.shares.size() > kMaxSuccesses) {
     const auto [least, most] = std::ranges::minmax_element(finding.shares, {}, &std::pair<std::string, double>::second);
     return fmt::format("{} from{} to{}, of {}.", text, share(*least), share(*most),
                        Plural(static_cast<long long>(finding.shares.size()), "method"));

@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-constexpr double kLargestDistance = 1e9;
+constexpr double kMaxDistance = 1e9;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ Result<PairVerdict> ReadPairAnswer(const Json& answer, const PairWorld& world) {
   AnswerFields fields(answer);
   PairVerdict verdict;
   const std::size_t count = world.pairs.size();
-  const auto distances = ReadNumbers(fields.List("distances", count, count), "distances", count, {0, kLargestDistance});
+  const auto distances = ReadNumbers(fields.List("distances", count, count), "distances", count, {0, kMaxDistance});
   if (distances) {
     verdict.distances = *distances;
   } else {

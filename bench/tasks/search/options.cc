@@ -34,7 +34,7 @@ const FieldTable<SearchOptions>& SearchConditionFields() {
   using Options = SearchOptions;
   using Key = Field<Options>;
   static const FieldTable<Options> table{
-      {Key::Number("frames", &Options::frames, {10, kMostLibraryFrames},
+      {Key::Number("frames", &Options::frames, {10, kMaxLibraryFrames},
                    "How many frames are searched: the clips, performed again and again with other tempo and "
                    "amplitude."),
        Key::Number("queries", &Options::queries, {1, 10'000},

@@ -22,7 +22,7 @@ struct SearchOptions {
   double threshold = 0.4;
   SearchQuestion question = SearchQuestion::kNearest;  ///< of methods that do not say otherwise, and of those outside
 };
-constexpr int kMostLibraryFrames = 1'000'000;
+constexpr int kMaxLibraryFrames = 1'000'000;
 
 /// The way in which frames are found.
 enum class SearchWay { kIndex, kBruteForce };

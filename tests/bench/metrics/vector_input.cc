@@ -6,7 +6,7 @@
 namespace etude {
 namespace {
 
-constexpr int kMostFrames = 100'000;
+constexpr int kMaxFrames = 100'000;
 
 /// A joint's index by its name, as JSON: a name that it does not have is a Json::exception like any other.
 const Json& RoleIndices() {
@@ -41,7 +41,7 @@ BodyPose ReadPose(const Json& json) {
 
 BodyMotion ReadMotion(const Json& json) {
   BodyMotion motion{json.value("rate_hz", kJudgedRateHz), {}};
-  motion.poses.resize(std::min(json.at("frames").get<std::size_t>(), std::size_t{kMostFrames}));
+  motion.poses.resize(std::min(json.at("frames").get<std::size_t>(), std::size_t{kMaxFrames}));
   for (const auto& [name, positions] : json.at("joints_m").items()) {
     const std::size_t joint = RoleIndices().at(name).get<std::size_t>();
     for (std::size_t f = 0; f < motion.poses.size(); ++f) {

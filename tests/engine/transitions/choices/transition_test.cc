@@ -65,7 +65,7 @@ void ExpectCandidates(const TransitionRecord& record) {
   EXPECT_EQ(static_cast<std::size_t>(taken), record.candidates.empty() ? 0 : record.distances.size());
 }
 
-constexpr double kMostThrough_s = 60;  // the largest setting of `played`
+constexpr double kMaxLength_s = 60;  // the largest setting of `played`
 
 /// As late as the choice may come, seconds.
 double LatestWait(const TransitionRecord& record, const MotionLibrary& library, const TransitionRequest& request) {
@@ -81,7 +81,7 @@ double LatestWait(const TransitionRecord& record, const MotionLibrary& library, 
     case Branch::kStandingPose:
       return tweens;
     case Branch::kInBetween:
-      if (record.segments[1].clip != Segment::kOwnFrames) return std::min(request.budget_s, rest) + kMostThrough_s;
+      if (record.segments[1].clip != Segment::kOwnFrames) return std::min(request.budget_s, rest) + kMaxLength_s;
       [[fallthrough]];
     case Branch::kForced:
       return std::min(request.budget_s, rest) + tweens;
