@@ -110,6 +110,7 @@ int RunWorker(std::istream& in, std::ostream& out) {
   // A job scheduler signals every process of a job; only the parent decides whether workers stop.
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGTERM, SIG_IGN);
+  std::signal(SIGBUS, SIG_DFL);  // a method's fault is a crash
   in.exceptions(std::ios::badbit);  // memory for a line, else taken for the end
   try {
     const auto done = Work(in, out);
