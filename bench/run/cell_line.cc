@@ -23,7 +23,7 @@ constexpr std::string_view kCellBegin = R"({"cell":)";
 constexpr std::string_view kSumBegin = R"(,"sum":")", kSumEnd = R"("})";
 constexpr std::size_t kSumSize = kSumBegin.size() + 16 + kSumEnd.size();
 
-std::optional<std::size_t> PlaceInCatalogue(const std::string& id) {
+std::optional<std::size_t> IndexInCatalogue(const std::string& id) {
   if (AddedMetrics().contains(id)) return std::nullopt;  // a scenario's own
   return static_cast<std::size_t>(FindMetric(id) - AllMetrics().data());
 }
@@ -199,8 +199,8 @@ std::string EncodeCellLine(std::size_t cell, FinishedCell finished) {
   // The values of the metrics, then the reasons of the missing ones, in the same order.
   std::vector<const std::string*> why;
   line.AddList("values", result.metrics, [&](const MetricValue& metric) {
-    const auto place = PlaceInCatalogue(metric.id);
-    place ? line.Add("{},", *place) : line.Add("\"{}\",", metric.id);
+    const auto index = IndexInCatalogue(metric.id);
+    index ? line.Add("{},", *index) : line.Add("\"{}\",", metric.id);
     if (metric.value) return line.Add("{}", *metric.value);
     line.AddText("null");
     why.push_back(&metric.null_reason);
@@ -257,9 +257,9 @@ Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const P
         id = reader.ReadString();
         if (!AddedMetrics().contains(id)) reader.Refuse();
       } else {
-        const auto place_in_catalogue = reader.ReadNumber<std::size_t>();
-        if (place_in_catalogue >= AllMetrics().size()) reader.Refuse();
-        if (reader.is_good()) id = AllMetrics()[place_in_catalogue].id;
+        const auto index_in_catalogue = reader.ReadNumber<std::size_t>();
+        if (index_in_catalogue >= AllMetrics().size()) reader.Refuse();
+        if (reader.is_good()) id = AllMetrics()[index_in_catalogue].id;
       }
       reader.Expect(",");
       if (!reader.is_good()) return;
