@@ -58,8 +58,8 @@ std::string MethodDigest(const MethodEntry& method) {
 
 constexpr const char* kBuiltInName = "built in";
 
-// It is fast and has metrics of every kind: medians, a share, a count. The changes are real ones, from very small to
-// large: joints may not turn further from a start that is 15° (standard deviation) off.
+// It is fast and has metrics of every kind: medians, a share, a count. The methods differ from the reference by little
+// to much: they limit how far a joint may turn from the start pose, whose error is 15° (standard deviation).
 constexpr const char* kBuiltInScenario = R"(
 scenario: gate-self-test
 question: Does the gate see what it should, and nothing else?

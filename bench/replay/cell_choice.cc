@@ -133,7 +133,7 @@ std::vector<MissedForgery> WhatIsMissed(const CellChoice& choice) {
 
 double ChanceOfMissing(std::size_t cells, std::size_t drawn, std::size_t forged) {
   if (drawn + forged > cells) return 0;
-  // Choosing `drawn` or `forged` cells gives the same probability; use the smaller product.
+  // Exchanging `drawn` and `forged` gives the same probability, so the loop runs over the smaller one.
   const auto [fewer, more] = std::minmax(drawn, forged);
   double chance = 1;
   for (std::size_t i = 0; i < fewer; ++i) {

@@ -48,8 +48,8 @@ struct MissedForgery {
   double chance = 0;
 };
 
-/// Returns what a sample may miss: one cell in twenty, half of the cells of the smallest method, a single cell. Empty
-/// if all are run.
+/// Returns what a sample may miss: one cell in twenty, half of the cells of the method with fewest, a single cell.
+/// Empty if all are run.
 std::vector<MissedForgery> WhatIsMissed(const CellChoice& choice);
 
 bool IsRecorded(const PreparedRun& run, const Row& row);

@@ -108,7 +108,7 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
       if (told.at(s).contains(key)) scenario[key] = told.at(s).at(key);
     }
   }
-  // All else must be the same bytes, and no text may be superfluous.
+  // Everything else must have the same bytes, and every text must be used.
   ASSIGN_OR_RETURN(const auto text, WriteJson(now));
   ASSIGN_OR_RETURN(const auto found, ReadWholeFile(folder / "manifest.json"));
   if (found != text + "\n") {

@@ -142,7 +142,7 @@ class ScenarioColumns {
     const std::size_t found = file.template Numbers<Number>().size();
     if (found != index_.row_count())
       return Fail(place, "holds {} numbers; its run has {} rows", found, index_.row_count());
-    // NumPy uses the shape, which this reader does not need, so it is checked.
+    // This reader ignores the shape, but NumPy uses it.
     if (!file.HasShape(kNpyType<Number>, index_.shape()))
       return Fail(place, "is not an array of condition, trial, method");
     return file;

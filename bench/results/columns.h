@@ -32,8 +32,7 @@ struct ColumnIndex {
   /// What some rows have in common: their metrics, stages and curves, in order, and the reasons of missing values.
   struct Kind {
     std::vector<std::string> metrics;
-    std::vector<std::optional<int>>
-        why;  ///< one per metric; the reason why it has no value: index in `texts`, or kOwnReason
+    std::vector<std::optional<int>> why;  ///< one per metric: why it has no value; an index in `texts`, or kOwnReason
     std::vector<std::string> stages;
     std::vector<Series> series;  ///< without values
   };

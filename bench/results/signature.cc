@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 
 using Bytes = std::vector<unsigned char>;
 
-// Sizes in minisign's files, bytes (https://jedisct1.github.io/minisign/#signature-format). A public key is the
-// algorithm (2), the key's number and the key. A secret key is the algorithms of signature, password and checksum (2,
+// Sizes in minisign's files, bytes (https://jedisct1.github.io/minisign/#signature-format). A public key has the
+// algorithm (2), the key's number and the key. A secret key has the algorithms of signature, password and checksum (2,
 // 2, 2), salt and costs (32, 8, 8; zero without a password), the number, the key and a checksum.
 constexpr std::size_t kNumber = 8, kBeforeSecret = 54, kSum = 32;
 constexpr std::size_t kSecretSize = kBeforeSecret + kNumber + crypto_sign_SECRETKEYBYTES + kSum;
@@ -123,7 +123,7 @@ Result<void> SignRun(const fs::path& folder, const std::string& secret_key) {
                 "is a secret key with a password, which nobody here can be asked for; "
                 "minisign -G -W makes one without");
   }
-  // Sign the digest of all digests, then the signature with its trusted comment.
+  // Sign the digest of signed.b2, then that signature together with the trusted comment.
   ASSIGN_OR_RETURN(const auto digests, ListDigests(folder));
   const unsigned char* const number = key.data() + kBeforeSecret;
   const unsigned char* const secret = number + kNumber;

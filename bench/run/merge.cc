@@ -25,7 +25,7 @@ struct Shards {
   std::vector<JsonDifference> other_libraries = {};
 };
 
-/// Fails if a shard's manifest is another. With `other_libraries`, libraries may differ; the differences are collected.
+/// Fails unless a shard's manifest equals the earlier ones. `other_libraries` allows and collects other libraries.
 Result<void> CheckManifest(const fs::path& folder, const JournalHead& head, bool other_libraries, Shards& shards) {
   if (head.manifest == Digest().Add(std::string_view(shards.manifest)).Hex()) return {};
   ASSIGN_OR_RETURN(const auto then, ReadJson(shards.manifest, shards.folders.begin()->second.string()));

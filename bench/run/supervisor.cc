@@ -32,8 +32,8 @@ constexpr int kGatherMicroseconds = 2000;  // if all workers have further orders
 constexpr int kMaxDeathsInSetup = 3;       // one may be chance (a shortage of memory, a stray kill); a series is not
 constexpr double kMaxSetupS = 600;         // clips are loaded during it
 constexpr double kClockPerLimit = 20;      // the maximum seconds of wall time per second of the processor-time limit
-constexpr double kGraceS = 10;             // for the worker to end an outside method and to report that
-constexpr int kShutdownGraceMs = 3000;     // for a worker to end its outside methods
+constexpr double kGraceS = 10;             // time for a worker to end an outside method and to report that
+constexpr int kShutdownGraceMs = 3000;     // time for a worker to end all its outside methods
 
 Clock::time_point After(double seconds) {
   constexpr double kMaxSeconds = 1e9;  // longer than any run; Clock::time_point can represent it
