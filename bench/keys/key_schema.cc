@@ -21,7 +21,6 @@ Json ScalarToJson(const Node& node) {
   return *number;
 }
 
-/// Returns the keys of this name, in their order.
 std::vector<KeyInfo> Variants(const std::string& name, std::span<const KeyInfo> keys) {
   std::vector<KeyInfo> variants;
   std::ranges::copy_if(keys, std::back_inserter(variants), [&](const KeyInfo& key) { return key.key == name; });

@@ -43,7 +43,6 @@ struct CaptureExtras {
     std::string still_jpeg_base64 = {};  ///< the middle frame's picture; may be empty
   };
 
-  /// A stroke drawn in a picture.
   struct Mark {
     glm::dvec2 a{0}, b{0};  ///< pixels
     Rgb8 colour{};          ///< the limb's

@@ -28,7 +28,6 @@ Result<void> DecodeValue(const Json& json, Value& value);
 /// record, reads one, and makes its reference page. Unknown keys are ignored on reading.
 class RecordFields {
  public:
-  /// Returns the record as JSON on one line.
   template <typename Record>
   static std::string Write(Record record) {
     const JsonPtr json = NewObject();

@@ -25,7 +25,6 @@ struct MethodRows {
   std::map<std::string, std::size_t> by_machine;
 };
 
-/// The cells of a run that are to be run again.
 struct CellChoice {
   std::set<std::size_t> places;  ///< indices of their rows
   std::uint64_t dice = 0;        ///< the seed of the sample
