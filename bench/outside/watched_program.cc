@@ -151,7 +151,7 @@ OutsideOutcome<void> WatchedProgram::Start() {
                                       .contained = options_.fence.IsUp(),
                                       .programs = options_.fence.programs(),
                                       .control_group = group_.folder(),
-                                      .told = fenced.told,
+                                      .inherited_texts = fenced.inherited_texts,
                                       .environment = std::move(environment)});
   if (!started) return NotStarted(started.error());
   child_ = std::move(*started);
