@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// An object or a list that is open.
+/// An open object or list.
 struct Level {
   bool is_object = false;
   bool key_comes = false;           ///< the next string is a key
@@ -57,8 +57,7 @@ class Walk {
     }
     Level& level = levels_.back();
     level.key_comes = false;
-    level.key = Json::parse(text_.substr(from, at_ + 1 - from)).get<std::string>();  // "a" and "\u0061" are the same
-                                                                                     // key
+    level.key = Json::parse(text_.substr(from, at_ + 1 - from)).get<std::string>();  // "\u0061" is "a"
     const auto [first, is_new] = level.keys.emplace(level.key, line_);
     if (is_new) return {};
     return Fail({file_, line_, 0}, "the key {} stands twice in one object, first in line {}; allowed: once",
