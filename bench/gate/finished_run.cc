@@ -35,7 +35,6 @@ Result<void> CheckRowsInOrder(const FinishedRun& run, const Place& place) {
   return Fail(place, "holds {} rows; the manifest makes more", CountRows(run.data));
 }
 
-/// Collects the rows of one scenario into a snapshot.
 class ScenarioTaker {
  public:
   explicit ScenarioTaker(const FinishedScenario& one) {

@@ -15,7 +15,6 @@ namespace etude {
 /// A name with the digest of what its values depend on: if the digest differs, so do the values.
 using NamedDigests = std::vector<std::pair<std::string, std::string>>;
 
-/// A scenario as it was run.
 struct FinishedScenario {
   Study study;
   std::uint64_t seed = 1;

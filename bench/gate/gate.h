@@ -9,7 +9,6 @@
 
 namespace etude {
 
-/// A rule about times, and its result.
 struct RatioResult {
   std::string scenario;
   TimeRatio rule;
@@ -30,7 +29,6 @@ struct GateExpectation {
   ExpectationResult result;
 };
 
-/// The findings of a gate, with the numbers of things checked.
 struct GateReport {
   std::string suite;
   std::string run_folder;        ///< as the caller names it, for `etude replay`; "" = unknown
@@ -49,9 +47,7 @@ struct GateReport {
 /// Fails if the baseline's worlds are not the run's (WhyNotComparable).
 Result<GateReport> JudgeRun(const FinishedRun& run, const Snapshot* baseline, const std::string& baseline_file);
 
-/// Returns the names of the scenarios that are compared exactly.
 std::set<std::string> ExactScenarios(const FinishedRun& run);
-/// Returns the tail rule of each scenario.
 TailRules TailRulesOf(const FinishedRun& run);
 
 /// Returns why there is no verdict: the run is incomplete, every cell was skipped, or the machine ended cells (timeout,

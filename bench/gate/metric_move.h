@@ -20,7 +20,6 @@ constexpr const char* kOkShare = "ok_share";
 /// Returns the catalogue's entry of a metric, or our own of kOkShare; null if there is no such metric.
 const MetricInfo* FindGateMetric(std::string_view id);
 
-/// The change of a metric from one snapshot to another.
 enum class Movement {
   kSame,      ///< no digit differs
   kBetter,    ///< clearly, and by at least the practical threshold
@@ -32,7 +31,6 @@ enum class Movement {
 /// "same", "better", "worse", "too small to matter", "unclear", "changed"
 std::string_view MovementWords(Movement movement);
 
-/// Identifies the values that moved.
 struct MoveIdentity {
   std::string scenario, condition, method, metric;
 };
@@ -90,7 +88,6 @@ std::vector<TailWorld> FindTail(const MoveColumns& columns, const MetricInfo& me
 
 /// Returns how many far worse worlds among `compared` are a regression; 0 = no number is.
 int WorldsThatFail(int compared, const TailRule& rule);
-/// Returns true if these worlds are a regression among `compared`.
 bool IsTailRegression(const std::vector<TailWorld>& tail, int compared, const TailRule& rule);
 
 /// Sets a move to kWorse if its tail is a regression, unless it is kWorse already, or kChanged by the rule `exact`.

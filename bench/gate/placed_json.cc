@@ -10,7 +10,6 @@
 namespace etude {
 namespace {
 
-/// An open object or list.
 struct Level {
   bool is_object = false;
   bool key_comes = false;           ///< the next string is a key

@@ -23,7 +23,6 @@ struct PowerResult {
   Rate found;
 };
 
-/// The results of a gate's test of itself.
 struct SelfTestReport {
   int comparisons = 0;                ///< number of comparisons of one gate
   Rate rerun_alarms;                  ///< alarms of the rule `exact` between two runs of one seed: must be zero
@@ -43,7 +42,6 @@ struct SelfTestReport {
 /// The share of gates that may report a regression although nothing changed: alpha of Holm's correction.
 constexpr double kFalseAlarmLimit = 0.05;
 
-/// Makes a complete run of one scenario under a seed.
 using RunUnderSeed = std::function<Result<FinishedRun>(std::uint64_t seed)>;
 
 /// Measures the gate on `repetitions` pairs of seeds (2i − 1, 2i):
@@ -70,7 +68,6 @@ class InjectedTails {
   void Try(const Snapshot& first, const std::string& target, std::uint64_t seed, const TailRule& rule);
 
   std::vector<PowerResult> Results() const;
-  /// Returns true if all gates behaved as the rule says.
   bool AsTheRuleSays() const { return as_the_rule_says_; }
 
  private:

@@ -16,7 +16,6 @@ class BareDraw {
   static Result<std::unique_ptr<BareDraw>> Create(const Room& room, const Camera& camera);
   ~BareDraw();
 
-  /// Draws a picture and reads back its colour (RGBA) and labels.
   void Draw(const std::vector<Figure>& figures);
 
  private:

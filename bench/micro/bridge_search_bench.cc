@@ -25,7 +25,6 @@ namespace {
 
 using Queries = std::vector<Grades>;
 
-/// The three kinds of queries to one index.
 struct Searcher {
   std::function<std::optional<Neighbour>(const Grades&)> first;
   std::function<std::vector<Neighbour>(const Grades&)> within;
@@ -107,7 +106,6 @@ HardQueries FindHardQueries(const Searcher& ours, const SearchData& data) {
   return hard;
 }
 
-/// A library with every searcher's index of it.
 struct Measured {
   SearchData data;
   std::vector<Searcher> searchers;

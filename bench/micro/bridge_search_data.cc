@@ -40,7 +40,6 @@ std::vector<Grades> Joined(std::span<const std::vector<Grades>> clips) {
   return all;
 }
 
-/// Returns kQueries frames, evenly spaced.
 std::vector<Grades> Spread(std::span<const Grades> frames) {
   std::vector<Grades> some;
   for (std::size_t i = 0; i < kQueries; ++i) some.push_back(frames[i * frames.size() / kQueries]);

@@ -24,7 +24,6 @@ namespace {
 constexpr int kTrials = 200;
 constexpr double kNoiseDeg = 15;
 
-/// A problem of inverse kinematics with its true answer.
 struct IkTrial {
   TreeState truth;
   IkProblem problem;
@@ -54,7 +53,6 @@ std::vector<IkTrial> MakeIkTrials(const KinematicTree& tree, int count, double p
   return trials;
 }
 
-/// Returns Σ (angle − truth)² over all angles, radians².
 double SquaredHiddenError(const IkTrial& trial, std::span<const double> angles) {
   double sum = 0;
   for (std::size_t i = 0; i < angles.size(); ++i) {

@@ -77,7 +77,6 @@ void Staged(benchmark::State& state) {
 }
 BENCHMARK(Staged)->Apply(InMilliseconds)->Arg(0)->Arg(25)->Arg(50)->Arg(75)->Arg(100);
 
-// Poses a character without drawing it.
 void Pose(benchmark::State& state) {
   const Character bear = BearCharacter();
   const BodyPose pose = StandingPose();

@@ -12,7 +12,6 @@ namespace etude {
 /// A frame as a point with coordinates √S·μ: Euclidean distances of points are the distances of equation 1.
 using GradePoint = std::array<double, kTermCount>;
 GradePoint PointOf(const Grades& grades, const GradePoint& roots);
-/// Returns √S of every term.
 GradePoint RootsOf(const FeatureWeights& weights);
 
 /// The simple search: a loop over all frames in time order, which stops summing as soon as a frame is too far.

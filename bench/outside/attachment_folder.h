@@ -14,7 +14,6 @@ class AttachmentFolder {
  public:
   static constexpr std::size_t kNameLength = 6;  ///< of the folder's name in `attachment_root`
 
-  /// Holds no folder yet.
   AttachmentFolder() = default;
   /// Makes a folder in `attachment_root` and writes the files into it; makes none if there are no files.
   static Result<AttachmentFolder> Write(const std::filesystem::path& attachment_root,

@@ -257,7 +257,6 @@ class ConformanceTest {
                      Compare(Ask(specimens_[0], specimens_[0].problems[last]), last));
   }
 
-  /// Restarts the program and sends the problems in reverse order.
   void CheckOrder() {
     method_.End(kMaxEndingMs);
     std::string difference;

@@ -17,7 +17,6 @@ struct SpecimenProblem {
   Payload problem;  ///< empty for tasks with seats
 };
 
-/// Problems that share a setting.
 struct Specimen {
   std::string setting_id;
   std::unique_ptr<ClipLibrary> clips;  ///< outlive the task

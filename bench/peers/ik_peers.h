@@ -34,7 +34,6 @@ class IkPeer {
 /// most 32 angles and 4 effectors with equal axis weights.
 std::unique_ptr<IkPeer> MakeDensePeer(const KinematicTree& tree);
 
-/// Returns the flags that the dense peer was compiled with.
 const char* DensePeerFlags();
 
 /// The settings of the tree solvers of Orocos KDL. The defaults were the best of those tried (README.md).

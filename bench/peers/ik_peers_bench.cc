@@ -63,7 +63,6 @@ double ClockTimeUs() {
   return least;
 }
 
-/// The result of one method on one problem.
 struct Outcome {
   IkPeerAnswer answer;
   double us = std::numeric_limits<double>::infinity();

@@ -6,7 +6,6 @@
 
 namespace etude {
 
-/// The settings of Simbody's Assembler.
 struct SimbodySettings {
   double accuracy = 1e-5;      ///< of its optimiser; smaller values change nothing
   double position_weight = 3;  ///< weight of a square metre against a square radian

@@ -14,8 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Permissions of a new folder, before the umask.
-constexpr mode_t kFolderMode = 0777;
+constexpr mode_t kFolderMode = 0777;  // before the umask
 
 bool IsLink(int folder, const std::string& name) {
   struct stat status {};

@@ -67,7 +67,6 @@ Result<void> SaveJson(const FilePath& path, const Json& json, OnDisk when) {
 
 namespace {
 
-/// LockUnlessTaken, for a name in an open folder.
 bool LockNamed(int file, int folder, const std::string& name) {
   if (::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
   struct stat ours {

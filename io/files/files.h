@@ -63,7 +63,7 @@ class PartialFile {
 /// A PartialFile that is written in pieces, through a buffer.
 class AtomicFile {
  public:
-  /// Fails like PartialFile.
+  /// Fails like PartialFile::Claim.
   static Result<AtomicFile> Begin(const FilePath& path);
 
   Result<void> Write(std::string_view bytes);

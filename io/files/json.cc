@@ -17,7 +17,6 @@ namespace {
 
 constexpr int kMaxNesting = 100;  // functions that walk over values recurse
 
-/// Finds the path to the first NaN or infinity.
 std::optional<std::string> FindNonFinite(const Json& json) {
   if (json.is_number_float()) return std::isfinite(json.get<double>()) ? std::nullopt : std::optional<std::string>("");
   if (!json.is_structured()) return std::nullopt;

@@ -9,7 +9,6 @@ namespace {
 
 constexpr int kNumberOverflow = 406;  // nlohmann's error id
 
-/// Builds a value from the events of nlohmann's SAX parser.
 class Builder : public nlohmann::json_sax<Json> {
  public:
   explicit Builder(JsonText& built) : built_(built) {}

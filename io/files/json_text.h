@@ -9,7 +9,6 @@
 
 namespace etude {
 
-/// The reason why a text is not JSON.
 struct JsonFault {
   std::size_t byte = 0;          ///< where the parser stopped, counted from 1
   bool is_large_number = false;  ///< the text is JSON, but contains a number beyond the range of a double

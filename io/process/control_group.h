@@ -6,7 +6,6 @@
 
 namespace etude {
 
-/// The control group (cgroup v2) of a process.
 struct OwnGroup {
   std::string folder, top;  ///< its folder, and the mount point of the hierarchy; "" without cgroup v2
 
@@ -27,7 +26,6 @@ class ControlGroup {
   /// its group, it moves into a new one below: only a group without processes may limit groups below it. Also removes
   /// groups that killed runs have left.
   static std::string FindPlace();
-  /// The same for a process in that group.
   static std::string FindPlace(const OwnGroup& of_process);
 
   ControlGroup() = default;
@@ -41,7 +39,6 @@ class ControlGroup {
   /// Returns the descriptor of its folder, for starting a process in it; −1 = no group.
   int folder() const { return folder_.number(); }
   bool IsEmpty() const { return Read("cgroup.procs").empty(); }
-  /// Returns the memory that it holds now, MB (HeldMbIn).
   double HeldMb() const;
   /// Returns true if the kernel has killed a process in it for lack of memory.
   bool WasFull() const;

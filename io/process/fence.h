@@ -67,7 +67,6 @@ class Fence {
   /// root, what only root can read.
   const std::vector<std::filesystem::path>& kept() const { return kept_; }
 
-  /// Measures the scratch folders of a process inside.
   ScratchUse MeasureScratch(pid_t inside) const;
 
   /// Tries again to run bubblewrap; fails with an error of this machine. Does nothing without a fence.

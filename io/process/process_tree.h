@@ -11,7 +11,6 @@
 
 namespace etude {
 
-/// The memory and processor time of a process.
 struct ProcessUsage {
   double resident_mb = 0;     ///< shared pages count in full
   double cpu_s = 0;           ///< includes child processes that it has waited for

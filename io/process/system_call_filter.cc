@@ -28,7 +28,6 @@ constexpr std::uint32_t kArchitecture = AUDIT_ARCH_AARCH64;
 constexpr std::uint32_t kArchitecture = 0;
 #endif
 
-/// A refused system call, and the error that it returns.
 struct Refusal {
   long number;
   int error;
