@@ -100,7 +100,7 @@ FinishedCell JudgeWorld(const Plan& plan, std::size_t w, const std::optional<Fil
     faults.broken.push_back(ToString(judged.error()));
     return ended(Status::kBadOutput, judged.error().message);
   }
-  // The row; built-in metrics are computed now unless outside metrics must come first.
+  // Make the row. Its metrics are completed now, unless outside metrics must measure it first.
   FinishedCell cell{scenario.IdentityOf(world.condition, world.trial, method), {}};
   cell.row.result = *std::move(judged);
   cell.is_measured = !has_programs || !cell.row.result.recording;

@@ -269,7 +269,7 @@ class BaselineReader {
     return CheckNulls(line, *kept, name);
   }
 
-  /// Checks the number of nulls: an additional null would exclude a world from the gate, because it cannot get worse.
+  /// Checks the number of nulls. A world with a null cannot get worse, so an additional null would weaken the gate.
   Result<void> CheckNulls(const JsonObject& line, const SnapshotValues& kept, const std::string& name) const {
     std::int64_t allowed = 0;
     if (line.Has("nulls")) {

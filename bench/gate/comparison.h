@@ -20,7 +20,7 @@ struct SnapshotComparison {
 /// clips, or version of a metric. Empty = they can be compared.
 std::vector<std::string> WhyNotComparable(const Snapshot& before, const Snapshot& after);
 
-/// Removes the scenarios that WhyNotComparable complains of from both snapshots, and returns its reasons.
+/// Removes the scenarios that cannot be compared from both snapshots; returns the reasons (WhyNotComparable).
 std::vector<std::string> DropIncomparable(Snapshot& before, Snapshot& after);
 
 /// Compares two snapshots world by world and judges each difference, by JudgeMoves and then JudgeTail. `exact` names

@@ -122,7 +122,7 @@ Result<std::string> JsonObject::Text(std::string_view key) const {
 Result<std::int64_t> JsonObject::Whole(std::string_view key, std::int64_t lowest, std::int64_t highest) const {
   const Json& value = At(key);
   const std::string allowed = fmt::format("a whole number, {}…{}", lowest, highest);
-  // A number that does not fit into 64 bits with a sign would become negative.
+  // A number above INT64_MAX would become negative.
   const bool fits =
       value.is_number_integer() && !(value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX);
   if (!fits || value.get<std::int64_t>() < lowest || value.get<std::int64_t>() > highest) return Wrong(key, allowed);

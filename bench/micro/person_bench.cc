@@ -112,7 +112,7 @@ BENCHMARK_CAPTURE(Ours, hue_gated, Segmenter::kHueGated)->Unit(benchmark::kMicro
 BENCHMARK_CAPTURE(Ours, ratio, Segmenter::kRatio)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(Ours, running, Segmenter::kRunning)->Unit(benchmark::kMicrosecond);
 
-/// Times the pixels alone, without choosing the piece and filling holes.
+/// Times the classification of pixels alone, without the choice of the largest piece and the filling of holes.
 void OursDetect(benchmark::State& state) {
   PersonFinder finder(Background(), {.segmenter = Segmenter::kHue, .change = {}});
   std::size_t i = 0;

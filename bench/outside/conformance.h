@@ -23,7 +23,7 @@ struct Specimen {
   std::unique_ptr<Task> task;
   Payload setting;
   std::vector<SpecimenProblem> problems;
-  bool has_plain_method = false;  ///< method 0 of the worlds is a plain built-in one that solves them
+  bool has_plain_method = false;  ///< method 0 of its worlds is a built-in method that solves them
 };
 
 /// Makes two settings of a task with three problems each, the same in every call. Fails if there is no such task, if

@@ -37,7 +37,7 @@ double MaxAskSeconds(double time_s);
 
 /// The outcome of one problem, or of one step of a session.
 struct OutsideReply {
-  Status status = Status::kFailed;  ///< kOk: `answer` is valid; else there is no answer, for `reason`
+  Status status = Status::kFailed;  ///< kOk: `answer` is valid; else `reason` says why there is none
   std::string reason;
   bool was_asked = true;  ///< false: this machine is the cause, as `reason` says; the program was not asked
   JsonPtr answer;         ///< an object with finite numbers
@@ -56,7 +56,7 @@ class OutsideMethod {
   ~OutsideMethod();
 
   /// Sends one problem and waits for the reply. `setting_id` names its setting: `setting` is sent first unless it was
-  /// the last setting sent. The attachments are in a folder until the reply.
+  /// the last setting sent. Its attachments are in a folder until the reply.
   OutsideReply Ask(const std::string& setting_id, const Payload& setting, const std::string& problem_id,
                    const Payload& problem);
 

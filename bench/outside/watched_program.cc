@@ -47,7 +47,7 @@ ErrorLog::~ErrorLog() {
   if (memory_ >= 0) ::close(memory_);
 }
 
-// Without a memory file, the program writes to the real one directly.
+// Without a memory file, the log file itself becomes the program's standard error.
 std::string ErrorLog::path() const {
   const int file = memory_ < 0 ? unbuffered_.number() : memory_;
   if (memory_ >= 0) ::fchmod(memory_, S_IRUSR | S_IWUSR);  // the last program may have changed the mode
@@ -250,7 +250,7 @@ std::string WatchedProgram::WithoutFolder(std::string text) const {
   if (!attachment_root_) return text;
   const std::string folder = attachment_root_->path().string();
   for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos;) {
-    const std::size_t own = at + folder.size();  // each message has a folder of its own below it
+    const std::size_t own = at + folder.size();  // each message has its own folder below
     const bool is_named = own < text.size() && text[own] == '/';
     text.replace(at, folder.size() + (is_named ? 1 + AttachmentFolder::kNameLength : 0), "FILES");
   }

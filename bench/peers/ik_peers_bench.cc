@@ -68,7 +68,7 @@ struct Outcome {
   double us = std::numeric_limits<double>::infinity();
 };
 
-/// A method that solves all problems and records times that are less than those in `outcomes`.
+/// `solve` solves all problems; `outcomes` keeps the shortest time of each.
 struct Method {
   std::string name;
   std::function<void(std::span<const IkWorld> worlds, std::vector<Outcome>& outcomes)> solve;

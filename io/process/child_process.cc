@@ -75,7 +75,7 @@ void LimitProgram() {
   Limit(RLIMIT_CORE, 1);  // at 0 the kernel would still start a core dump helper
 }
 
-/// All that a forked child needs to execute a program. Prepared before the fork: until exec only system calls are safe.
+/// All that a forked child needs for exec, prepared before the fork: between fork and exec only system calls are safe.
 struct ExecPlan {
   const char* path;
   char* const* argv;

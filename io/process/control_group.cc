@@ -43,8 +43,8 @@ bool IsPlace(const fs::path& folder) {
          ::access(folder.c_str(), W_OK) == 0 && ::access((folder / "cgroup.procs").c_str(), W_OK) == 0;
 }
 
-/// Makes the own group usable (IsPlace), if no other process is in it: moves this process into a group below, because a
-/// group that passes controllers on may not contain processes.
+/// Makes the own group usable (IsPlace), if no other process is in it: moves this process into a child group, because
+/// a group that passes controllers on may not contain processes.
 bool MakePlaceOf(const fs::path& own) {
   const fs::path below = own / fmt::format("{}{}", kPrefix, ::getpid());
   std::error_code error;

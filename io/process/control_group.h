@@ -23,8 +23,8 @@ class ControlGroup {
  public:
   /// Finds the folder in which groups can be made; "" if there is none. That requires cgroup v2 with its memory
   /// controller, and that the group of this process, or one above, belongs to this user. If this process is alone in
-  /// its group, it moves into a new one below: only a group without processes may limit groups below it. Also removes
-  /// groups that killed runs have left.
+  /// its group, it moves into a new child group, because only a group without processes can limit its child groups.
+  /// Also removes groups that killed runs have left.
   static std::string FindPlace();
   static std::string FindPlace(const OwnGroup& of_process);
 
