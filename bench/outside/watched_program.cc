@@ -223,7 +223,7 @@ tl::unexpected<OutsideFailure> WatchedProgram::TooMuchMemory() const {
   return TooMuch(fmt::format("held more than {:g} MB of memory", options_.memory_mb));
 }
 
-/// Returns why the program will send no further whole line.
+/// Returns why the program will send no more lines.
 OutsideFailure WatchedProgram::HowItEnded() {
   const std::string part = WithoutFolder(std::string(child_->PartOfLine().substr(0, 1000))).substr(0, 100);
   if (child_->PartOfLine().size() > kMaxReplyBytes) {

@@ -303,7 +303,7 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
     const bool is_seen = IsOfSystem(path) || IsWithin(path, "/proc");
     if (is_seen && !is_within_shown(path) && fs::exists(path, error)) is_shown.emplace(path, false);
   }
-  // Masks become read-only after all mounts below them.
+  // Masks are empty folders over hidden ones. They become read-only after everything below them is mounted.
   std::vector<std::string> masks;
   for (const auto& [path, is_seen] : is_shown) {
     if (is_seen) {
