@@ -62,13 +62,13 @@ class MembershipPanel {
     marks.insert(marks.end(), {universe_.low, universe_.high});
     std::ranges::sort(marks);
     marks.erase(std::unique(marks.begin(), marks.end()), marks.end());
-    constexpr double kNear = 22;
+    constexpr double kMinGap = 22;
     std::string svg;
-    std::array<double, 2> last = {-kNear, -kNear};  // where each row's last number stands
+    std::array<double, 2> last = {-kMinGap, -kMinGap};  // where each row's last number stands
     for (double mark : marks) {
       const double x = inputs_.At(mark);
-      const std::size_t row = x - last[0] < kNear ? 1 : 0;
-      if (x - last[row] < kNear) continue;  // no room in either row
+      const std::size_t row = x - last[0] < kMinGap ? 1 : 0;
+      if (x - last[row] < kMinGap) continue;  // no room in either row
       last[row] = x;
       svg += fmt::format("<path d=\"M{:.1f} {}v4\"/>", x, kBase) +
              PanelText(x, kBase + 14 + 13 * static_cast<double>(row), TickText(mark), "middle");
