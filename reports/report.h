@@ -34,7 +34,7 @@ constexpr const char *kGateMarkdown = "gate.md", *kGateJunit = "gate.xml";
 /// The result of comparing a report with its run.
 struct ReportCheck {
   int files = 0;                          ///< that exist and were compared
-  std::vector<std::string> differences;   ///< files that say something else than the run, or that belong to no report
+  std::vector<std::string> differences;   ///< files that disagree with the run, or belong to no report
   std::vector<std::string> not_compared;  ///< what exists but was not compared, in words
 };
 

@@ -24,7 +24,7 @@ const std::vector<PaperAFigure>& PaperAFigures();
 /// over inputs spread evenly over the universe.
 double MeanRoundTripError(Feature feature, const Memberships& memberships, Defuzzification method);
 
-/// Returns the membership functions of one feature over its universe as an SVG element. Each term is named at its peak;
+/// Draws the membership functions of one feature over its universe as an SVG element. Each term is named at its peak;
 /// the axis has a mark where a piecewise linear function bends.
 std::string MembershipPlotSvg(Feature feature, const Memberships& memberships, const std::string& title);
 

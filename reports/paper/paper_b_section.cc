@@ -174,7 +174,7 @@ bool HasEffectorCurves(const RunData& run, const ScenarioSummary& scenario) {
   return scenario.task == "ik" && KeepsSeries(run, scenario, "head_position_error_cm");
 }
 
-/// Returns paper B's figure 5.2: each end effector's position error, and the error along each axis, over iterations.
+/// Draws paper B's figure 5.2: each end effector's position error, and the error along each axis, over iterations.
 /// Each is a small panel of all methods on a logarithmic axis, thin for the first trial, thick for the median of all.
 /// One folded figure per condition; "" if no cell keeps such curves.
 std::string EffectorCurvesHtml(const RunData& run, const ScenarioSummary& scenario) {

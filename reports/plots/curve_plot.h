@@ -23,13 +23,13 @@ struct CurveAxes {
 /// Returns axes that hold all these curves of steps, at most eight decades of them.
 CurveAxes AxesFor(const std::vector<const PlotCurve*>& curves);
 
-/// Returns one panel of curves over steps as an SVG element. Values below the axis lie on its lower end.
+/// Draws one panel of curves over steps as an SVG element. Values below the axis lie on its lower end.
 std::string CurvePlotSvg(const std::vector<PlotCurve>& curves, CurveAxes axes, const std::string& title);
 
-/// Returns a curve between two axes: at most 80 of its points, the last among them.
+/// Draws a curve between two axes: at most 80 of its points, the last among them.
 std::string CurveLine(const PlotCurve& curve, const Axis& across, const Axis& up);
 
-/// Returns the short line that stands for a method in a legend.
+/// Draws the short line that stands for a method in a legend.
 std::string CurveKeySvg(std::size_t style);
 
 /// Returns a legend's paragraph: each method's line and name, then `more`.

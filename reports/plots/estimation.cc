@@ -131,7 +131,7 @@ class Plot {
                    title);
   }
 
-  /// Returns a bar from `low` to `high` with a dot for the estimate, all in the metric's unit.
+  /// Draws a bar from `low` to `high` with a dot for the estimate, all in the metric's unit.
   std::string Interval(const Axis& axis, double x, const std::optional<double>& estimate,
                        const std::optional<double>& low, const std::optional<double>& high) const {
     if (!estimate) return "";
@@ -141,7 +141,7 @@ class Plot {
     return svg + fmt::format("<circle class=\"estimate\" cx=\"{}\" cy=\"{:.1f}\" r=\"4.5\"/>", x, at(*estimate));
   }
 
-  /// Returns each unit's mean difference beside the interval over units.
+  /// Draws each unit's mean difference, and beside them the interval over units.
   std::string Units(const Axis& axis) const {
     if (!ShowsUnits()) return "";
     // A world of two clips belongs to both, so no clip has a mean of its own.

@@ -28,7 +28,7 @@ struct Growth {
 /// Returns how a search's cost grows with its library; empty unless the scenario is a search that sweeps `frames`.
 std::vector<Growth> ComputeGrowth(const RunData& run, const ScenarioSummary& scenario);
 
-/// Returns the curves as an SVG element, both axes logarithmic in whole decades; "" if no curve has a point.
+/// Draws the curves as an SVG element, both axes logarithmic in whole decades; "" if no curve has a point.
 std::string GrowthPlotSvg(const std::vector<GrowthCurve>& curves, const std::string& title);
 
 /// Returns true if the scenario is a search that sweeps the size of its library.

@@ -97,7 +97,7 @@ std::string OtherStrips(const RunData& run, const ScenarioSummary& scenario, con
   return html.empty() ? "" : "<div class=\"panels\">" + html + "</div>";
 }
 
-// Returns the error budgets, each with its condition if there are several.
+// Draws the error budgets, each with its condition if there are several.
 std::string Budgets(const ScenarioSummary& scenario) {
   std::string html;
   std::size_t count = 0;

@@ -9,26 +9,26 @@
 
 namespace etude {
 
-/// Returns the picture beside the answer: every method's values of the first headline metric, under the condition where
+/// Draws the picture beside the answer: every method's values of the first headline metric, under the condition where
 /// the method in question differs most from its baseline. Returns "" if no cell has a value.
 std::string LeadPictureHtml(const RunData& run, const ScenarioSummary& scenario);
 
-/// Returns all other pictures of worlds, the method in question first: strips of the other conditions, comparisons as
+/// Draws all other pictures of worlds, the method in question first: strips of the other conditions, comparisons as
 /// estimation plots, the effect of leaving a unit out, error budgets, survival curves. "" if there are none.
 std::string PlotSectionHtml(const RunData& run, const ScenarioSummary& scenario);
 
 // The parts of that section, besides those of verdicts (verdicts.h).
 
-/// Returns every method's values of a metric under one condition on one axis: a row of dots each, with median (or mean)
+/// Draws every method's values of a metric under one condition on one axis: a row of dots each, with median (or mean)
 /// and quartiles. Returns "" if no cell has a value.
 std::string StripsHtml(const RunData& run, const ScenarioSummary& scenario, const ConditionSummary& condition,
                        const std::string& metric);
 
-/// Returns the cost of each stage as a waterfall with intervals, from the method's error to what is left when all
+/// Draws the cost of each stage as a waterfall with intervals, from the method's error to what is left when all
 /// stages are true. The caption says whether the shares depend on an order. `condition` is in words and may be empty.
 std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condition);
 
-/// Returns survival curves of what is censored in this scenario (steps of unsolved cells, waits without an end): one
+/// Draws survival curves of what is censored in this scenario (steps of unsolved cells, waits without an end): one
 /// curve per method, one panel per condition; "" if nothing is censored. What never ends stays in the denominator, so a
 /// method gains nothing by giving up early.
 std::string SurvivalHtml(const RunData& run, const ScenarioSummary& scenario);
@@ -55,7 +55,7 @@ inline constexpr std::size_t kMaxPlottedWorlds = 400;
 /// each chosen on half of the worlds.
 PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, const Judged& judged);
 
-/// Returns one comparison as an estimation plot (Gardner & Altman 1986; paired as in Ho et al. 2019). The first panel
+/// Draws one comparison as an estimation plot (Gardner & Altman 1986; paired as in Ho et al. 2019). The first panel
 /// joins each world's dots under both methods. The second shows the paired differences: dots, the aggregate and the
 /// units' means, each with a 95 % interval, and a band for what does not matter. Dots are coloured by unit, or by
 /// method if worlds are units. Returns "" without worlds.
@@ -71,7 +71,7 @@ std::string UnitLegendHtml(const PairedDots& pairs);
 /// whether it alone makes or hides the difference. Returns "" if worlds are units.
 std::string WithoutEachUnit(const Comparison& comparison, SamplingUnit unit);
 
-/// Returns the same as a strip: the mean difference without each unit beside the practical threshold, words beneath.
+/// Draws the same as a strip: the mean difference without each unit beside the practical threshold, words beneath.
 std::string LeftOutStripHtml(const Comparison& comparison, SamplingUnit unit);
 
 }  // namespace etude

@@ -31,7 +31,7 @@ struct Censored {
 constexpr std::array<Censored, 2> kCensored = {
     {{"iterations", "solved_practical", "worlds not yet solved"}, {"wait_s", "", "requests still waiting"}}};
 
-/// Returns how long the cell took until it was done, endless if it never was; nothing for a skipped cell.
+/// Returns how long the cell took until it was done, infinite if it never was; nothing for a skipped cell.
 std::optional<Wait> WaitOf(const Row& row, const Censored& rule) {
   if (row.result.status == Status::kSkipped) return std::nullopt;
   const auto took = ValueOf(row, rule.metric);

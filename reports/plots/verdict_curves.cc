@@ -36,7 +36,7 @@ std::string Figure(const std::string& caption, const std::string& words, const s
                      BeginPanel(kRocHeight, words), drawn);
 }
 
-/// Returns curves of shares over shares, each with a mark if it has one.
+/// Draws curves of shares over shares, each with a mark if it has one.
 std::string SharePanel(const std::string& caption, const std::string& words,
                        const std::map<std::size_t, SharePoints>& curves,
                        const std::map<std::size_t, std::pair<double, double>>& marked = {}) {
@@ -87,7 +87,7 @@ std::string DetPanel(const std::string& caption, const std::string& words,
   return Figure(caption, words, drawn);
 }
 
-/// Returns step curves of shares over seconds.
+/// Draws step curves of shares over seconds.
 std::string WaitPanel(const std::string& caption, const std::string& words,
                       const std::map<std::size_t, SharePoints>& curves) {
   Axis time{.low = 0, .high = 0, .from = kPanelLeft, .to = kPanelRight};

@@ -14,7 +14,7 @@ namespace etude {
 
 struct JudgedPerformance {
   int person = 0;    ///< the trial, that is, who performed it
-  double score = 0;  ///< a higher score is nearer to right
+  double score = 0;  ///< a higher score means nearer to right
   double truth = 0;  ///< 1 right, ½ grey, 0 wrong
   bool is_called = false;
   double severity = 0;                    ///< of its worst fault; 0 if none
@@ -26,7 +26,7 @@ struct JudgedPerformance {
 /// The verdicts of one method on all performances under one condition.
 struct MethodVerdicts {
   std::vector<JudgedPerformance> performances;
-  std::vector<Wait> waits;  ///< of right performances, until they were called right
+  std::vector<Wait> waits;  ///< times from right performances until they were called right
 };
 
 /// Returns the verdicts under one condition by method, in the scenario's order, without methods that judged nothing.
@@ -34,7 +34,7 @@ struct MethodVerdicts {
 std::map<std::size_t, MethodVerdicts> VerdictsUnder(const RunData& run, const ScenarioSummary& scenario,
                                                     const ConditionSummary& condition);
 
-/// Counts how often each danced move was taken for each move; "" is none.
+/// Counts performances by the move danced and the move named; "" stands for no move.
 struct MoveConfusion {
   std::vector<std::string> moves;                             ///< danced or named; sorted
   std::map<std::pair<std::string, std::string>, int> counts;  ///< (danced, named)
@@ -59,8 +59,8 @@ struct SessionMistakes {
 /// Returns the sessions with a mistake, the largest share of mistakes first.
 std::vector<SessionMistakes> WorstSessions(std::span<const JudgedPerformance> performances);
 
-/// Returns, per condition, tables of the faults found, the worst sessions of the method in question, and the moves that
-/// each move is taken for. Returns "" if methods judge no performances.
+/// Returns, per condition, tables of the faults found, of the worst sessions of the method in question, and of confused
+/// moves. Returns "" if methods judge no performances.
 std::string VerdictTablesHtml(const RunData& run, const ScenarioSummary& scenario);
 
 /// Returns the share of faulty performances not called right by fifths of severity: (middle of the fifth, share).

@@ -32,7 +32,7 @@ std::string ExpectationsSentence(const RunFindings& f) {
   return text + ".";
 }
 
-/// Returns how many cells were measured. Success has sentences of its own.
+/// Returns how many cells were measured. SuccessSentence says how many of them reached their goal.
 std::string MeasuredSentence(const RunFindings& f) {
   if (f.cells == 0) return " No cell ran.";
   const int measured = f.ok + f.unsolved;

@@ -58,7 +58,7 @@ struct ReasonCount {
   int cells = 0;
 };
 
-/// How many cells of each method reached what the task is about, by one metric. Status ok says only that a cell was
+/// How many cells of each method reached the task's goal, by one metric. Status ok says only that a cell was
 /// measured.
 struct SuccessFinding {
   std::string metric;

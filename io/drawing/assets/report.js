@@ -221,7 +221,7 @@
                  '−': '$-$', '–': '--', '°': '$^\\circ$', '±': '$\\pm$', '×': '$\\times$', '≤': '$\\le$', '≥': '$\\ge$', '“': '``', '”': "''", '’': "'", '…': '\\dots{}',
                  '↓': '$\\downarrow$', '↑': '$\\uparrow$', '▲': '$\\bigtriangleup$', '▼': '$\\bigtriangledown$'};
   const ESCAPES = {
-    TSV: (text) => /^[=+@-]/.test(text) && isNaN(text) ? "'" + text : text,  // no formula in a spreadsheet
+    TSV: (text) => /^[=+@-]/.test(text) && isNaN(text) ? "'" + text : text,  // a spreadsheet runs formulas
     Markdown: (text) => text.replace(/[\\`*_[\]<>#|&$~]/g, '\\$&'),
     LaTeX: (text) => text.replace(/[\\{}&%$#_]|[^\x20-\x7e]|[~^<>|]/gu, (c) => LATEX[c] ?? (c < '\x7f' ? '\\' + c : c)),
   };

@@ -408,7 +408,7 @@ const show = (world, cells) => {
   const labelOf = (body) => world.cells.length > 1 && body.cell >= 0 && body.label !== world.cells[body.cell].method ?
       `${body.label} (${world.cells[body.cell].method})` : body.label;
 
-  // Methods stand beside each other when they are shown apart; a partner always does.
+  // Methods stand side by side if they are shown apart; a partner always stands beside its dancer.
   const box = () => {
     const low = [1e9, 1e9, 1e9], high = [-1e9, -1e9, -1e9];
     for (const i of chosen) {
@@ -572,7 +572,7 @@ const show = (world, cells) => {
     stage.prepend(canvas);
     renderer = (!flat && glRenderer(canvas, () => setUp(true))) || null;
     if (!renderer) {
-      if (!flat) return setUp(true);  // a canvas that was asked for WebGL gives nothing else
+      if (!flat) return setUp(true);  // a canvas that has given WebGL gives no other context
       renderer = flatRenderer(canvas);
     }
     stage.dataset.renderer = renderer.kind;
