@@ -71,7 +71,6 @@ Line LineOf(const ConditionSummary& condition, const Comparison& c, SamplingUnit
   return line;
 }
 
-/// Returns one comparison as a table row of the page.
 TableRow RowOf(const ScenarioSummary& scenario, const Shown& shown, bool swept) {
   const Comparison& c = *shown.comparison;
   const Line line = LineOf(*shown.condition, c, scenario.unit);

@@ -16,7 +16,6 @@
 namespace etude {
 namespace {
 
-/// Returns the words for a metric or for kOkShare.
 MetricWords GateWordsFor(const std::string& metric) {
   if (metric != kOkShare) return WordsFor(metric);
   return {.label = "cells that ended ok",

@@ -109,7 +109,6 @@ from it, and with fewer than six clips there is no such verdict.</p>
 failed is counted and named; a missing value is shown as —, never as zero.</p>
 )";
 
-/// Returns the explanation of verdicts, signs and columns, once for all questions.
 std::string HowToRead() {
   return fmt::format("<details class=\"how\"><summary>How to read this</summary>{}<p>{}</p><p>{}</p></details>\n",
                      kHowToRead, kSigns, kComparisonLegend);

@@ -299,7 +299,6 @@ std::string FiguresHtml(const KeyFigures& figures) {
   return TableHtml(table);
 }
 
-/// Returns links to all files that tell more of a scenario.
 std::string Files(const RunData& run, const ScenarioSummary& scenario, std::size_t index) {
   const std::string tables = "tables/" + FileNameOf(scenario.name, index);
   std::string html = "<ul class=\"files\">";
