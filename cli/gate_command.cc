@@ -46,7 +46,7 @@ int ExitCode(GateVerdict verdict) {
       return kSuccess;
     case GateVerdict::kRegressed:
       return kRegression;
-    case GateVerdict::kNotWhole:
+    case GateVerdict::kIncomplete:
       break;
   }
   return kIncomplete;

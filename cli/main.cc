@@ -85,6 +85,14 @@ int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
   return Complain(Error{{}, fmt::format("{} (etude {}--help explains)", message, words)});
 }
 
+/// Handles SIGBUS. Result columns are mapped into memory (bench/results/npy.h); when another program cuts such a file short,
+/// reading the missing part raises this signal.
+void EndAfterCutFile(int) {
+  constexpr std::string_view kComplaint = "etude: a file of a run was cut short while it was read\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kComplaint.data(), kComplaint.size());
+  ::_exit(kIncomplete);
+}
+
 /// Returns true for commands whose results need not be identical on all machines: they print existing data, or draw
 /// pages, sheets and films as fast as this machine can.
 bool RunsUnpinned(const CLI::App& app) {
@@ -203,6 +211,7 @@ int main(int argc, char** argv) {
   etude::OpenStandardStreams();
   std::signal(SIGCHLD, SIG_DFL);  // a parent may leave it ignored, and then the exit status of our children would be
                                   // lost
+  std::signal(SIGBUS, etude::EndAfterCutFile);
   std::signal(SIGXFSZ, SIG_IGN);  // above a file-size limit, a write then fails with an error that is reported
   if (auto stack = etude::TakeStack(); !stack) return etude::Complain(stack.error());
   etude::MakeOutputSafe();

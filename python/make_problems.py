@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""Writes etude/problems.py, the dataclasses of docs/schemas/protocol.schema.json. tests/python holds the two together.
-"""
+"""Writes etude/problems.py: the dataclasses of docs/schemas/protocol.schema.json. tests/python compares the two."""
 import json
 import pathlib
 import textwrap
@@ -32,7 +31,7 @@ def is_class(name, definitions):
 
 
 def hint(schema):
-    """The Python type of a value."""
+    """Returns the Python type of a value."""
     if "$ref" in schema:
         return class_name(schema["$ref"].rsplit("/", 1)[1])
     if "anyOf" in schema:
@@ -45,7 +44,7 @@ def hint(schema):
 
 
 def held(schema, definitions):
-    """The class of a value, or of a list's values; None: it is plain."""
+    """Returns the class of a value, or [class] of a list's values; None if it is plain."""
     of = schema.get("items", schema)
     name = of.get("$ref", "").rsplit("/", 1)[-1]
     if name not in definitions or not is_class(name, definitions):

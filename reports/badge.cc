@@ -14,7 +14,7 @@ std::string_view VerdictClass(const std::optional<Verdict>& verdict) {
   return verdict ? kClasses[static_cast<std::size_t>(*verdict)] : "mixed";
 }
 
-/// Is true of a verdict that is clear on these worlds, and not the same beyond them.
+/// Returns true if the verdict is clear on these worlds and another one beyond them.
 bool HoldsHereOnly(const Comparison& c) { return c.verdict != Verdict::kInconclusive && c.beyond.verdict != c.verdict; }
 
 }  // namespace

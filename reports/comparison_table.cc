@@ -18,15 +18,14 @@
 namespace etude {
 namespace {
 
-// Where all comparisons are that a page has no room for.
+// Names the file with the comparisons that the page leaves out.
 constexpr std::string_view kAllComparisons = "the CSV file of comparisons in report/tables";
 
-/// One comparison as the texts of its cells, not yet escaped.
+/// The texts of one comparison's table cells, not yet escaped.
 struct Line {
   std::string condition, metric, methods, pairs, difference, interval, p, effect, beyond, notes;
 };
 
-/// A comparison that is shown, and the condition that it was made under.
 struct Shown {
   const ConditionSummary* condition;
   const Comparison* comparison;
@@ -49,7 +48,7 @@ std::string Notes(const Comparison& c) {
 
 std::string BothNotes(const Comparison& c, SamplingUnit unit) {
   std::string text = Notes(c);
-  // Where worlds are the units, the same has been said of them.
+  // If worlds are the units, `Notes` has already given this reason.
   if (c.beyond.why_open.empty() || WorldsAreUnits(unit)) return text;
   return text + fmt::format("{}for {}: {}", text.empty() ? "" : "; ", OtherUnits(unit), c.beyond.why_open);
 }
@@ -72,12 +71,11 @@ Line LineOf(const ConditionSummary& condition, const Comparison& c, SamplingUnit
   return line;
 }
 
-/// Gives one comparison as a row of the page.
 TableRow RowOf(const ScenarioSummary& scenario, const Shown& shown, bool swept) {
   const Comparison& c = *shown.comparison;
   const Line line = LineOf(*shown.condition, c, scenario.unit);
   const std::string place = fmt::format("{}/{}/000/", scenario.name, CompactLabel(shown.condition->condition));
-  std::string cells = place + c.method;  // those of the first trial, to begin with
+  std::string cells = place + c.method;  // identities of the first trial's cells, one per line
   for (const std::string& baseline : BaselinesOf({&c, shown.condition})) cells += "\n" + place + baseline;
   const auto& beyond = c.beyond.verdict;
   TableRow row{.cells = {line.methods}, .attributes = fmt::format(" data-ids=\"{}\"", EscapeMarkup(cells))};
@@ -97,7 +95,7 @@ std::string Legend(const ScenarioSummary& scenario) {
   return fmt::format("p is corrected over this scenario’s {} (Holm).", Plural(scenario.family, "comparison"));
 }
 
-/// Visits every condition's comparisons with baselines, then those with the strongest other method.
+/// For every condition, visits its comparisons with baselines, then those with the strongest other method.
 template <typename Visit>
 void ForEachComparison(const ScenarioSummary& scenario, Visit visit) {
   for (const ConditionSummary& condition : scenario.conditions) {
@@ -106,8 +104,8 @@ void ForEachComparison(const ScenarioSummary& scenario, Visit visit) {
   }
 }
 
-/// Gives every comparison once: those with the strongest other method leave out pairs that were compared already,
-/// whichever way round. In the order of metrics, methods, conditions.
+/// Returns every comparison once, ordered by metric, baseline before rival, method, condition. Leaves out a comparison
+/// with the rival if the baseline comparison has the same pair of methods, in either order.
 std::vector<Shown> DistinctOf(const ScenarioSummary& scenario) {
   std::vector<Shown> all;
   ForEachComparison(scenario, [&](const ConditionSummary& condition, const Comparison& c, Against against) {
@@ -129,9 +127,10 @@ std::vector<Shown> DistinctOf(const ScenarioSummary& scenario) {
   return all;
 }
 
-/// Writes comparisons as a table, a body per metric. `left` rows may be written at most, and are counted down.
+/// Returns comparisons as an HTML table, grouped by metric. Writes at most `left` rows and subtracts them from `left`.
 std::string ShownHtml(const ScenarioSummary& scenario, std::span<const Shown> shown, std::size_t& left) {
   const bool swept = scenario.conditions.size() > 1;
+  // Columns; the condition has one only if something is swept.
   Table table{.label = "Comparisons", .style = "data", .columns = {{"Methods"}}};
   if (swept) table.columns.push_back({"Condition"});
   const auto number = [](const char* head, bool is_detail) {
@@ -145,6 +144,7 @@ std::string ShownHtml(const ScenarioSummary& scenario, std::span<const Shown> sh
                                              number("p (Holm)", true),
                                              number("Effect", true),
                                              {.head = "Mind", .is_detail = true}});
+  // One row per comparison, below one heading row per metric.
   const std::string* metric = nullptr;
   for (const Shown& one : shown) {
     if (left == 0) break;
@@ -159,7 +159,7 @@ std::string ShownHtml(const ScenarioSummary& scenario, std::span<const Shown> sh
   return TableHtml(table);
 }
 
-/// Says "holds", or why no common verdict counts.
+/// Returns "holds", or why no common verdict counts.
 std::string WhatHolds(const AcrossVerdict& across) {
   if (across.Holds()) return "holds";
   std::vector<Verdict> said;
@@ -173,7 +173,7 @@ std::string WhatHolds(const AcrossVerdict& across) {
 
 std::string MethodsOf(const AcrossVerdict& across) { return across.method + " − " + across.baseline; }
 
-/// Writes one condition's difference: "3.10 pp better".
+/// Returns one condition's difference: "3.10 pp better".
 std::string EachText(const AcrossVerdict& across, const AcrossVerdict::Each& each) {
   if (!each.difference) return std::string(VerdictName(each.verdict));
   const MetricWords words = WordsFor(across.metric);
@@ -268,6 +268,7 @@ std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
                            "beyond_verdict",  "beyond_why_open"}) {
     table.columns.push_back({head});
   }
+  // Values in the order of the heads.
   ForEachComparison(scenario, [&](const ConditionSummary& condition, const Comparison& c, Against against) {
     const Beyond& beyond = c.beyond;
     table.rows.push_back({{scenario.name,

@@ -9,13 +9,13 @@
 
 namespace etude {
 
-/// Writes the heading of a group of rows: "orientation error (lower is better, 0.1° matters)".
+/// Returns the heading of a group of rows: "orientation error (lower is better, 0.1° matters)".
 std::string MetricHeading(const std::string& metric);
 
-/// Writes a difference with its unit, short: tables have no room for "percentage points".
+/// Returns a difference with a short unit: tables have no room for "percentage points".
 std::string ShortDifference(double difference, const MetricWords& words);
 
-/// Explains the columns of such tables.
+/// Explains the columns of the tables below.
 inline constexpr std::string_view kComparisonLegend =
     "A difference is method − baseline in the same world: the median over worlds, of shares and penalised costs the "
     "mean; "
@@ -29,25 +29,25 @@ inline constexpr std::string_view kComparisonLegend =
     "over clips, people or libraries of their own mean differences decides; with fewer than 6 there is no such "
     "verdict.";
 
-/// Counts the comparisons that the tables below show: every pair of methods by each headline metric and condition once.
+/// Counts the comparisons in the tables below: each pair of methods under one metric and condition counts once.
 std::size_t CountComparisons(const ScenarioSummary& scenario);
 
-/// Writes every comparison of one scenario once, a row each: difference with its interval, both verdicts, worlds,
-/// corrected p, effect size, and what to know before believing it; those by other metrics than the first are folded
-/// away. "" when nothing is compared.
+/// Returns every comparison of one scenario once as an HTML table, one row each: the difference with its interval, both
+/// verdicts, the number of worlds, corrected p, effect size and caveats. Comparisons by other metrics than the first
+/// are folded away. Returns "" if nothing is compared.
 std::string ComparisonTableHtml(const ScenarioSummary& scenario);
 
-/// Writes the same as a Markdown table that is folded away.
+/// Returns the same as a folded Markdown table.
 std::string ComparisonTableMarkdown(const ScenarioSummary& scenario);
 
-/// Writes the same as CSV: full precision, both tests, empty fields for values that do not exist.
+/// Returns all comparisons as CSV: full precision, both tests, empty fields for missing values.
 std::string ComparisonTableCsv(const ScenarioSummary& scenario);
 
-/// Writes the verdicts that must hold under every value of some parameters (`across`) as a table, a row per comparison:
-/// the common verdict, or what differs. "" where nothing was asked to.
+/// Returns a table of the verdicts that must hold under every value of some parameters (scenario key `across`), one row
+/// per comparison: the common verdict, or what differs. Returns "" if no verdict must hold so.
 std::string AcrossTableHtml(const ScenarioSummary& scenario);
 
-/// Writes the same as a Markdown table.
+/// Returns the same as a Markdown table.
 std::string AcrossTableMarkdown(const ScenarioSummary& scenario);
 
 }  // namespace etude

@@ -10,14 +10,12 @@
 #include <utility>
 
 #include "io/drawing/escape.h"
-#include "io/drawing/escape.h"
 #include "io/drawing/table.h"
 #include "reports/junit.h"
 
 namespace etude {
 namespace {
 
-/// Gives the words for a metric, also for kOkShare.
 MetricWords GateWordsFor(const std::string& metric) {
   if (metric != kOkShare) return WordsFor(metric);
   return {.label = "cells that ended ok",
@@ -51,7 +49,7 @@ std::string WorldsText(const MetricMove& move) {
   return text;
 }
 
-/// Counts the movements: "2 worse, 3 better, 165 same", zeros left out.
+/// Returns the counts of the movements without zeros: "2 worse, 3 better, 165 same".
 std::string MovementCounts(const std::vector<MetricMove>& moves) {
   std::string text;
   for (Movement movement : {Movement::kWorse, Movement::kChanged, Movement::kBetter, Movement::kUnclear,
@@ -64,7 +62,7 @@ std::string MovementCounts(const std::vector<MetricMove>& moves) {
   return text;
 }
 
-/// Counts the rulings: "12 expectations: 11 met, 1 unmet", zeros left out; "" when there is none.
+/// Returns the counts of the rulings without zeros: "12 expectations: 11 met, 1 unmet"; "" if there are no items.
 template <typename Items, typename RulingOf>
 std::string RulingCounts(const Items& items, std::string_view what, RulingOf ruling_of) {
   std::string text;
@@ -92,7 +90,7 @@ std::string ValuesText(const TailWorld& world, const std::string& metric) {
   const std::string before = FormatValue(world.before, words), after = FormatValue(world.after, words);
   if (!world.after) return fmt::format("{}{}no value ({})", before, kTo, ended_after);
   if (before != after) return before + kTo + after;
-  return fmt::format("{}{}{}", *world.before, kTo, *world.after);  // far apart only beside what matters
+  return fmt::format("{}{}{}", *world.before, kTo, *world.after);  // FormatValue drops the digits that differ
 }
 
 }  // namespace
@@ -167,7 +165,7 @@ std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, con
   const std::string folder = report.run_folder.empty() ? "RUN" : ShellWord(report.run_folder);
   const MoveIdentity& one = moves.front()->identity;
   const std::string about = one.scenario + (one.condition == "-" ? "" : ", " + one.condition);
-  std::vector<std::pair<int, std::string>> worlds;  // trial, and what is far worse there
+  std::vector<std::pair<int, std::string>> worlds;  // trial, and what is far worse in it
   std::map<int, std::size_t> places;
   for (const MetricMove* move : moves) {
     const std::string& metric = move->identity.metric;
@@ -195,7 +193,7 @@ std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, con
 }
 
 std::vector<TailLine> TailLines(const GateReport& report, bool failing, std::size_t most_each, std::size_t most) {
-  std::vector<std::vector<const MetricMove*>> methods;  // in the order of the run
+  std::vector<std::vector<const MetricMove*>> methods;  // one entry per method and condition, in the order of the run
   std::map<std::tuple<std::string, std::string, std::string>, std::size_t> places;
   for (const MetricMove& move : report.comparison.moves) {
     if (move.tail.empty() || IsRegression(move) != failing) continue;
@@ -219,7 +217,7 @@ std::vector<TailLine> TailLines(const GateReport& report, bool failing, std::siz
 
 namespace {
 
-// A comment on a pull request takes 65,536 characters; a table of more rows is read by nobody.
+// GitHub allows 65,536 characters in a comment, and nobody reads a longer table.
 constexpr std::size_t kMaxRows = 100;
 constexpr std::size_t kMaxWorldsEach = 5, kMaxWorlds = 40;
 
@@ -247,7 +245,7 @@ std::string List(std::string_view title, const std::vector<std::string>& lines) 
   return text;
 }
 
-/// Writes a command as code, to be copied; as plain text where a name would break out of the code span.
+/// Returns a command as a code span, or as plain text if a name would break out of the span.
 std::string CommandText(const std::string& command) {
   const bool plain = command.find_first_of("`\n\r") == std::string::npos;
   return plain ? "`" + command + "`" : EscapeMarkdown(command);
@@ -262,7 +260,6 @@ std::string WorldList(std::string_view title, const std::vector<TailLine>& lines
   return text;
 }
 
-/// Lists the expectations and time rules that have this ruling.
 std::vector<std::string> ClaimsThatAre(const GateReport& report, ClaimOutcome ruling) {
   std::vector<std::string> lines;
   for (const GateExpectation& e : report.expectations) {
@@ -298,10 +295,12 @@ JunitCase CaseOf(const MetricMove& move, const GateReport& report) {
 std::string WriteGateMarkdown(const GateReport& report) {
   std::string text =
       fmt::format("## Etude gate of {}: {}\n\n", EscapeMarkdown(report.suite), GateVerdictWords(GateVerdictOf(report)));
+  // What was judged, and what failed.
   for (const std::string& sentence : GateSentences(report)) text += "- " + EscapeMarkdown(sentence) + "\n";
   text += List("**Incomplete**, so there is no verdict on the whole:", report.incomplete);
   text += List("**Methods without an answer:**", report.silent);
   text += List("**Not met:**", ClaimsThatAre(report, ClaimOutcome::kUnmet));
+  // Changes: those that fail stay open, all others are folded away.
   std::vector<GateTableRow> failing, others;
   for (GateTableRow& row : MovedRows(report.comparison)) (row.fails ? failing : others).push_back(std::move(row));
   if (!failing.empty()) text += MoveTable(failing);
@@ -312,6 +311,7 @@ std::string WriteGateMarkdown(const GateReport& report) {
                         WorldList("Single worlds that are far worse, too few to fail:",
                                   TailLines(report, false, kMaxWorldsEach, kMaxWorlds)));
   }
+  // What could not be decided or compared, and what changed in the scenario.
   text += List("Could not be decided:", ClaimsThatAre(report, ClaimOutcome::kUndecided));
   text += List("New, not in the baseline (`--update` takes it in):", report.comparison.only_after);
   text += List("Settings of the method changed in the scenario:", report.comparison.settings_changed);
@@ -327,7 +327,8 @@ std::string WriteGateMarkdown(const GateReport& report) {
 
 std::string WriteGateJunit(const GateReport& report) {
   const auto empty = [](const std::string& name, const std::vector<std::string>& lines) {
-    return JunitCase{name, lines.empty() ? ClaimOutcome::kMet : ClaimOutcome::kUnmet, fmt::format("{}\n", fmt::join(lines, "\n"))};
+    return JunitCase{name, lines.empty() ? ClaimOutcome::kMet : ClaimOutcome::kUnmet,
+                     fmt::format("{}\n", fmt::join(lines, "\n"))};
   };
   std::vector<JunitSuite> suites = {
       {"gate",

@@ -8,12 +8,12 @@
 
 namespace etude {
 
-/// A case of a JUnit file: met passes, unmet is a failure, undecided is skipped.
+/// A case of a JUnit file: kMet passes, kUnmet is a failure, kUndecided is skipped.
 struct JunitCase {
   std::string name;
   ClaimOutcome ruling;
   std::string detail;
-  std::string said = {};  ///< what else a reader should know; told however the case ended
+  std::string said = {};  ///< more that a reader should know, written whatever the ruling
 };
 
 struct JunitSuite {
@@ -21,13 +21,13 @@ struct JunitSuite {
   std::vector<JunitCase> cases;
 };
 
-/// Writes JUnit XML as CI systems read it, its counts made from the cases. `version` is Etude's, a property of each
-/// suite.
+/// Returns JUnit XML as CI systems read it; the counts are computed from the cases. `version` is Etude's version, a
+/// property of each suite.
 std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>& suites, const std::string& version);
 
-/// Writes the run as JUnit XML: a suite per scenario; in it a case per expectation (failed when unmet, skipped when it
-/// could not be decided), one that holds when every cell has its row, and one that holds when no cell crashed, failed,
-/// ran out of time or answered badly.
+/// Returns the run as JUnit XML, one suite per scenario. Its cases are: one per expectation (failed if unmet, skipped
+/// if undecided), one that holds if every cell has a row, and one that holds if no cell crashed, failed, timed out or
+/// answered badly.
 std::string WriteJunit(const RunData& run);
 
 }  // namespace etude

@@ -24,13 +24,13 @@ std::string FindingText(const MethodFinding& finding) {
                      finding.why_open.empty() ? "" : EscapeMarkdown(fmt::format(" Open: {}.", finding.why_open)));
 }
 
-/// Writes the answer against the baseline, and against the strongest other method where that is another one.
+/// Returns the answer against the baseline and, if it is another method, against the strongest other one.
 std::string AnswerText(const ScenarioFindings& findings) {
   std::string text = FindingText(findings.answer) + "\n";
   return HasOtherRival(findings) ? text + "\nThe strongest other: " + FindingText(findings.rival) + "\n" : text;
 }
 
-/// Tells what the worlds are, and what each method is in a sentence; "" where nobody said.
+/// Returns what the worlds are and one sentence on each method; "" if the scenario describes neither.
 std::string WhatIsComparedText(const ScenarioSummary& scenario) {
   std::string text = scenario.description.empty() ? "" : "\n" + EscapeMarkdown(scenario.description) + "\n";
   if (scenario.descriptions.empty()) return text;
@@ -53,7 +53,7 @@ std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
   for (const ExpectationResult& e : scenario.expectations) {
     const std::string_view ruling = e.ruling == ClaimOutcome::kMet     ? "met"
                                     : e.ruling == ClaimOutcome::kUnmet ? "**not met**"
-                                                                 : "undecided";
+                                                                       : "undecided";
     text += fmt::format("- {}: {}{}\n", ruling, EscapeMarkdown(e.text),
                         e.detail.empty() ? "" : fmt::format(" ({})", EscapeMarkdown(e.detail)));
   }

@@ -22,20 +22,20 @@ constexpr std::string_view kAllNumbers = "the CSV file in report/tables";
 
 struct OverviewCell {
   std::string value;
-  std::string interval = {};             ///< of the value, "" without
-  std::string counted = {};              ///< "10 of 12" where cells have no value, else ""
+  std::string interval = {};             ///< of the value; "" if it has none
+  std::string counted = {};              ///< "10 of 12" if some cells have no value, else ""
   std::optional<double> sorted_by = {};  ///< the value as a number
-  const Comparison* baseline = nullptr;  ///< against the baseline, where there is one
-  const Comparison* rival = nullptr;     ///< against the strongest other method, where there is one
+  const Comparison* baseline = nullptr;  ///< against the baseline; may be null
+  const Comparison* rival = nullptr;     ///< against the strongest other method; may be null
 
   bool IsCompared() const { return baseline != nullptr || rival != nullptr; }
 };
 
 struct OverviewRow {
   std::string method, condition;
-  std::string cell = {};                 ///< one of the row's cells, a recorded one where there is one
-  std::string kept = {};                 ///< its attribute, where it was recorded
-  std::vector<OverviewCell> cells = {};  ///< one per metric asked for
+  std::string cell = {};                 ///< one of the row's cells, a recorded one if possible
+  std::string kept = {};                 ///< its HTML attribute if it was recorded
+  std::vector<OverviewCell> cells = {};  ///< one per metric
   bool is_yardstick = false;
 };
 
@@ -61,7 +61,7 @@ OverviewCell CellOf(const ConditionSummary& condition, const MethodSummary& meth
   return cell;
 }
 
-/// Gives the headline metrics, then all others that any method has.
+/// Returns the headline metrics, then all others that any method has.
 std::vector<std::string> AllMetricsOf(const ScenarioSummary& scenario) {
   std::vector<std::string> metrics = scenario.headline_metrics;
   for (const ConditionSummary& condition : scenario.conditions) {
@@ -74,7 +74,7 @@ std::vector<std::string> AllMetricsOf(const ScenarioSummary& scenario) {
   return metrics;
 }
 
-/// Finds a cell of every method under every condition, a recorded one where there is one.
+/// Finds an example cell of every method under every condition, a recorded one if possible.
 class ExampleCells {
  public:
   ExampleCells(const RunData& run, const ScenarioSummary& scenario) : kept_(run) {
@@ -137,7 +137,7 @@ TableCell TableCellOf(const OverviewCell& cell, bool has_rivals, SamplingUnit un
   return {text, cell.sorted_by, html};
 }
 
-/// Gives every method by the given metrics, the first of which are the scenario's own; no rows when there are none.
+/// Returns every method by `metrics`, which begin with the headline metrics; metrics after these are details.
 Table OverviewTable(const ScenarioSummary& scenario, std::span<const std::string> metrics,
                     std::span<const OverviewRow> rows, std::string_view method_head, std::string_view condition_head) {
   const bool swept = scenario.conditions.size() > 1;
@@ -167,7 +167,7 @@ Table OverviewTable(const ScenarioSummary& scenario, std::span<const std::string
   return table;
 }
 
-/// Lists which values are missing and why, those of one reason together.
+/// Returns which values are missing and why, grouped by reason.
 std::string MissingHtml(const RunData& run, const ScenarioSummary& scenario) {
   std::map<std::string, std::vector<std::string>> metrics_of;
   for (const ConditionSummary& condition : scenario.conditions) {
@@ -203,7 +203,7 @@ std::string VerdictOf(const Row& row) {
   const auto alike = ValueOf(row, "called_alike");
   if (!alike) return std::string(kNoValue);
   std::string text = *alike > 0 ? "alike" : "apart";
-  // A joint distance where the method has one: the fuzzy distance is told of every pair.
+  // Every pair has a fuzzy distance, so a joint distance comes from the method itself.
   if (const auto joints = ValueOf(row, "joint_distance_cm")) {
     text += fmt::format(" {} cm", FormatNumber(*joints));
   } else if (const auto d = ValueOf(row, "fuzzy_distance")) {
@@ -213,15 +213,16 @@ std::string VerdictOf(const Row& row) {
   return is_false && *is_false > 0 ? "✗ " + text : text;
 }
 
-/// Gives each pair of poses and what every method calls it, all of them; no rows where there is nothing to show.
+/// Returns every pair of poses with each method's verdict; no rows if there are no such pairs.
 Table PosePairs(const RunData& run, const ScenarioSummary& scenario, std::string_view poses, std::string_view apart) {
   Table table{
       .label = "Pair by pair",
       .style = "data glance",
       .columns = {{.head = std::string(poses), .is_row_head = true}, {.head = std::string(apart), .is_number = true}}};
   for (const std::string& method : scenario.methods) table.columns.push_back({.head = method, .is_number = true});
-  // Under a sweep, or with many pairs a world, a pair has no single verdict.
+  // Under a sweep, or with several pairs per world, a pair has no single verdict.
   if (scenario.task != "pose-distance" || scenario.conditions.size() != 1) return table;
+  // The first method's rows add the pairs; every method's rows fill in its verdicts.
   for (const Row& row : run.rows) {
     if (row.scenario != scenario.name) continue;
     const auto alike = ValueOf(row, "called_alike");

@@ -28,7 +28,7 @@ constexpr const char* kMetric = "mpjpe_mm";
 
 std::string Millimetres(std::optional<double> mm) { return mm ? FormatNumber(*mm) : std::string(kNoValue); }
 
-/// Names what a take measures: error, or agreement when its reference may have been made of the same keypoints.
+/// Returns what a take measures: error, or agreement if its reference may come from the same keypoints.
 std::string MeasureOf(const RealTake& take) { return take.recovery == "keypoints" ? "agreement" : "error"; }
 
 void AddRealRows(const RealTake& take, Table& table) {
@@ -40,7 +40,7 @@ void AddRealRows(const RealTake& take, Table& table) {
   }
 }
 
-/// Writes the rows of simulated takes; `rows` counts on from scenario to scenario.
+/// Adds the rows of simulated takes; `rows` counts them over all scenarios.
 void AddSimulatedRows(const ScenarioSummary& scenario, std::size_t& rows, Table& table) {
   for (const ConditionSummary& condition : scenario.conditions) {
     for (const MethodSummary& method : condition.methods) {
@@ -56,12 +56,12 @@ void AddSimulatedRows(const ScenarioSummary& scenario, std::size_t& rows, Table&
   }
 }
 
-// A second line of defence behind the escaping: the page may load nothing from anywhere but the motions beside it.
+// Second line of defence behind the escaping: the page may load nothing but the motions beside it.
 constexpr std::string_view kPolicy =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'self' file:; img-src data:; media-src "
     "data:";
 
-// A page carries only the styles that it uses.
+// Returns only the styles that the page uses.
 std::string Styles(const RunData& run) {
   const bool shows_curves = std::ranges::any_of(run.scenarios, [&](const ScenarioSummary& scenario) {
     return ShowsPaperA(scenario) || ShowsPaperB(run, scenario) || ShowsGrowth(scenario);
@@ -82,7 +82,7 @@ std::string Head(const RunData& run) {
       kPolicy, EscapeMarkup(run.suite), Styles(run));
 }
 
-/// Lists the answers, a line each, with whom the method in question is held against.
+/// Returns the list of answers, one line per scenario with its verdicts against baseline and rival.
 std::string Answers(const RunData& run, const std::vector<ScenarioFindings>& findings) {
   std::string html = "<nav aria-label=\"Answers\"><ol class=\"answers\">";
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) {
@@ -109,13 +109,12 @@ from it, and with fewer than six clips there is no such verdict.</p>
 failed is counted and named; a missing value is shown as —, never as zero.</p>
 )";
 
-/// Explains verdicts, signs and columns, once for all questions.
 std::string HowToRead() {
   return fmt::format("<details class=\"how\"><summary>How to read this</summary>{}<p>{}</p><p>{}</p></details>\n",
                      kHowToRead, kSigns, kComparisonLegend);
 }
 
-/// Says how much of a large run the pictures show.
+/// Returns how much of a large run the pictures show; "" if they show all of it.
 std::string LeftOutSentence(const RunData& run) {
   if (!run.source) return "";
   return fmt::format(
@@ -141,7 +140,7 @@ std::string Footer(const RunData& run) {
          "href=\"../summary.json\">JSON</a></p></footer>";
 }
 
-/// Writes captures of real films beside the simulated takes of a run, as a section of its page; "" when there are none.
+/// Returns the section with captures of real films beside the simulated takes; "" if there are none.
 std::string RealTakesSection(const RunData& run, std::span<const RealTake> takes) {
   if (takes.empty()) return "";
   const std::string html =

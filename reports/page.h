@@ -9,23 +9,23 @@
 
 namespace etude {
 
-/// Writes the page that shows a run to people: verdict first, plain words, pictures; numbers folded away. It holds
-/// everything it needs, and forbids itself the network. `real`: captures of real films, shown beside the simulated
-/// ones.
+/// Returns the page that shows a run to people: verdict first, plain words, pictures; numbers are folded away. The page
+/// contains everything it needs, and its policy forbids network access. `real` holds captures of real films, shown
+/// beside the simulated ones.
 std::string WritePage(const RunData& run, const Media& media, std::span<const RealTake> real = {});
 
-/// Writes the page's verdicts as a short Markdown text, for a pull request or a closing note.
+/// Returns the page's verdicts as a short Markdown text, for a pull request or a closing note.
 std::string WriteMarkdown(const RunData& run);
 
-/// Writes one scenario as LaTeX floats, for plain pdflatex with the package booktabs: per condition every headline
-/// metric of every method with its interval, how many cells have it, the paired comparison with the baseline and its
-/// verdict; then, where the cells keep them, paper B's tables. Figures are rounded as on the page; the CSV files hold
-/// all digits.
+/// Returns one scenario as LaTeX floats for plain pdflatex with the package booktabs. Per condition they show every
+/// headline metric of every method with its interval, the number of cells that have it, the paired comparison with the
+/// baseline and its verdict; then paper B's tables, if the cells keep them. Figures are rounded as on the page; the CSV
+/// files hold all digits.
 std::string ScenarioLatex(const RunData& run, const ScenarioSummary& scenario);
 
-/// Writes every summary of one scenario as CSV: median, interval, mean, how many values there are, how many are missing
-/// and why; first the share of cells that ended ok, failures in the denominator. Full precision, empty fields for
-/// values that do not exist.
+/// Returns every summary of one scenario as CSV in full precision: median, interval, mean, the number of values, the
+/// number of missing values and why. The share of cells that ended ok comes first, with failures in its denominator.
+/// Fields of missing values are empty.
 std::string NumberTableCsv(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

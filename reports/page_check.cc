@@ -11,13 +11,13 @@ namespace {
 
 constexpr std::string_view kDigits = "0123456789";
 constexpr std::string_view kBase64 = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/=";
-constexpr std::size_t kMaxDigits = 4;  // of a width or height: pictures stay within the page
+constexpr std::size_t kMaxDigits = 4;  // of a width or height, so that pictures stay within the page
 
-/// An element that may stand between marks: its attributes, each with a space before it, and whether it is closed.
+/// An element that may stand between marks, and its allowed attributes.
 struct Element {
   std::string_view name;
-  std::vector<std::string_view> attributes = {};  ///< "class=film" as it is; "alt=" by `IsAllowed`
-  bool is_void = false;                           ///< never closed
+  std::vector<std::string_view> attributes = {};  ///< "class=film" is fixed; "alt=" takes what IsAllowedValue allows
+  bool is_void = false;                           ///< has no closing tag
 };
 
 using Elements = std::span<const Element>;
@@ -51,7 +51,7 @@ bool IsData(std::string_view value, std::string_view type) {
   return value.starts_with(type) && IsOf(kBase64, value.substr(type.size()));
 }
 
-/// True if an attribute of this name may have any such value.
+/// Returns true if an attribute of this name may have this value.
 bool IsAllowedValue(std::string_view name, std::string_view value) {
   constexpr std::string_view kFilms = "../video/";
   if (name == "alt" || name == "aria-label") return true;
@@ -61,7 +61,7 @@ bool IsAllowedValue(std::string_view name, std::string_view value) {
                              [&](const char* type) { return IsData(value, type); });
 }
 
-/// Takes the next attribute, ' name="value"' or ' name', off the text of a tag; nothing when it is written otherwise.
+/// Removes ' name="value"' or ' name' from the front of `tag`. Returns whether it is allowed; nothing if malformed.
 std::optional<bool> TakeAttribute(std::string_view& tag, const Element& element) {
   tag.remove_prefix(1);
   const std::size_t end = std::min(tag.find_first_of("= "), tag.size());
@@ -85,7 +85,7 @@ std::optional<bool> TakeAttribute(std::string_view& tag, const Element& element)
   });
 }
 
-/// The element that a tag without its brackets opens; none when it is not one of these with their attributes.
+/// Returns the element that a tag without its brackets opens; null if the element or an attribute is not allowed.
 const Element* FindOpened(std::string_view tag, Elements elements) {
   const std::string_view name = tag.substr(0, tag.find(' '));
   const auto found = std::ranges::find(elements, name, &Element::name);
@@ -97,7 +97,7 @@ const Element* FindOpened(std::string_view tag, Elements elements) {
   return &*found;
 }
 
-/// True if a text is made of these elements alone, and closes each that it opens.
+/// Returns true if a text consists of these elements alone and closes each that it opens.
 bool HoldsOnly(std::string_view html, Elements elements) {
   std::vector<std::string_view> open;
   for (std::size_t at = html.find('<'); at != std::string_view::npos; at = html.find('<', at)) {
@@ -123,7 +123,7 @@ PageCheck CheckPage(std::string_view page, std::string_view bare) {
   PageCheck check;
   while (true) {
     const std::size_t media = bare.find(kMediaBegin), takes = bare.find(kTakesBegin);
-    if (media == takes) break;  // neither is there any more
+    if (media == takes) break;  // no more marks
     const bool is_media = media < takes;
     const std::string_view end = is_media ? kMediaEnd : kTakesEnd;
     const std::size_t before = is_media ? media + kMediaBegin.size() : takes + kTakesBegin.size();

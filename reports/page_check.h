@@ -4,20 +4,20 @@
 
 namespace etude {
 
-/// Opens and closes, in a page, what cannot be made from its run at once: pictures and films with their captions.
+/// Marks around the parts of a page that its run alone cannot reproduce: pictures and films with their captions.
 constexpr std::string_view kMediaBegin = "<!--media-->", kMediaEnd = "<!--/media-->";
-/// Opens and closes, in a page, the rows of captures of real films, which are of no run.
+/// Marks around the rows of captures of real films, which belong to no run.
 constexpr std::string_view kTakesBegin = "<!--takes-->", kTakesEnd = "<!--/takes-->";
 
-/// A page held against what its run makes.
+/// The result of comparing a page with the one that its run makes.
 struct PageCheck {
-  bool same = false;                          ///< outside of the marks, by the byte
-  bool has_media = false, has_takes = false;  ///< something stands between such marks, which nobody has compared
+  bool same = false;                          ///< equal bytes outside the marks
+  bool has_media = false, has_takes = false;  ///< something stands between such marks; it was not compared
 };
 
-/// Compares a page with the same run's page that has nothing between its marks. Between them a page may hold nothing
-/// but the elements of pictures and films, or rows of takes, with any text, each closed where it was opened: no style,
-/// no script, nothing that reaches beyond them.
+/// Compares a page with `bare`, the same run's page with nothing between its marks. Between them the page may hold only
+/// the elements of pictures and films, or rows of takes, with any text, each closed where it was opened. A style, a
+/// script or anything that reaches beyond the marks makes the pages differ.
 PageCheck CheckPage(std::string_view page, std::string_view bare);
 
 }  // namespace etude

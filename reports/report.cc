@@ -26,7 +26,7 @@ constexpr const char *kReportFolder = "report", *kFilmsFolder = "video", *kPictu
 constexpr const char* kPage = "index.html";
 constexpr const char *kStranger = " belongs to no report of this run", *kOtherwise = " is not what the run says";
 
-/// A file of a report that is text, by its path below `report`.
+/// A text file of a report; `path` is relative to `report`.
 struct ReportText {
   fs::path path;
   std::string text;
@@ -44,7 +44,7 @@ void AddTables(const RunData& run, std::vector<ReportText>& texts) {
   }
 }
 
-// The motions that captures recovered, for any program that reads BVH, and those that the page shows.
+// Adds the motions that captures recovered, as BVH for other programs, and those that the page shows.
 Result<void> AddMotions(const RunData& run, std::vector<ReportText>& texts) {
   for (const auto& [row, recorded] : RecordedRows(run)) {
     if (row->task != "capture") continue;
@@ -55,7 +55,7 @@ Result<void> AddMotions(const RunData& run, std::vector<ReportText>& texts) {
   return {};
 }
 
-/// All that needs no pictures.
+/// Returns all text files of a report but the page.
 Result<std::vector<ReportText>> TextsOf(const RunData& run) {
   std::vector<ReportText> texts = {{"summary.md", WriteMarkdown(run)}, {"junit.xml", WriteJunit(run)}};
   AddTables(run, texts);
@@ -68,7 +68,7 @@ Result<std::vector<ReportText>> TextsOf(const RunData& run) {
 Result<bool> WriteReport(const RunData& run, const std::filesystem::path& run_folder, const ReportOptions& options) {
   const FilePath folder = Inside(run_folder) / kReportFolder, films = Inside(run_folder) / kFilmsFolder;
   for (const FilePath& made : {folder, films}) RETURN_IF_ERROR(PlainFilesBelow(made));
-  // The cheap texts first, so that they are there even when rendering the film fails.
+  // Writes the cheap texts first, so that they exist even if rendering the film fails.
   ASSIGN_OR_RETURN(const auto texts, TextsOf(run));
   for (const auto& [path, text] : texts) RETURN_IF_ERROR(WriteFileAtomically(folder / path, text));
 
@@ -88,6 +88,7 @@ Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path&
   ReportCheck check;
   ASSIGN_OR_RETURN(const auto texts, TextsOf(run));
   const FilePath folder = Inside(run_folder) / kReportFolder, films = Inside(run_folder) / kFilmsFolder;
+  // The text files, byte for byte.
   std::set<fs::path> names = {kPage, kGateMarkdown, kGateJunit};
   for (const auto& [path, text] : texts) {
     names.insert(path);
@@ -96,17 +97,18 @@ Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path&
     ASSIGN_OR_RETURN(const auto found, ReadWholeFile(folder / path));
     if (found != text) check.differences.push_back((folder / path).string() + kOtherwise);
   }
+  // The page. A take belongs to no run, so one empty take stands for all when the rest of their section is compared.
   bool has_media = false;
   if (const FilePath page = folder / kPage; Exists(page)) {
     ++check.files;
     ASSIGN_OR_RETURN(const auto found, ReadWholeFile(page));
-    // Takes are of no run: where a page shows some, the rest of their section is compared.
     std::vector<RealTake> takes(found.find(kTakesBegin) == std::string::npos ? 0 : 1);
     const PageCheck compared = CheckPage(found, WritePage(run, {}, takes));
     if (!compared.same) check.differences.push_back(page.string() + kOtherwise);
     if (compared.has_takes) check.not_compared.push_back(page.string() + ": rows of captures of real films");
     has_media = compared.has_media;
   }
+  // Files that the run does not make.
   ASSIGN_OR_RETURN(const auto beside, PlainFilesBelow(folder));
   for (const fs::path& name : beside) {
     const bool is_picture = name.parent_path() == kPicturesFolder && name.extension() == ".exr";

@@ -12,37 +12,37 @@
 namespace etude {
 
 struct ReportOptions {
-  /// Draws the film and the picture strip. They take most of a report's time; without them the page says that none was
-  /// asked for.
+  /// If true, makes the films and the picture strip, which take most of a report's time; if false, the page says that
+  /// none was asked for.
   bool pictures = true;
-  /// Films show coached sessions from their first frame to their last, not around a correction.
+  /// If true, films show coached sessions from first to last frame, not only around a correction.
   bool whole_sessions = false;
   FilmWatch watch = {};
   std::vector<RealTake> real = {};  ///< captures of real films, shown beside the run's own
 };
 
 /// Writes the report of a run: `report/index.html` (self-contained), `report/summary.md`, `report/junit.xml`,
-/// `report/tables/*.{csv,tex}`, and, as far as the run kept recordings, `report/motions/*.{bvh,js}`,
-/// `report/pictures/*.exr` and `video/*.mp4`. Each file appears whole or not at all. Fails, naming the path, when a
-/// file cannot be written; a film that cannot be made is no failure: the page says why. False when the films were
-/// stopped: there is no new page then.
+/// `report/tables/*.{csv,tex}`, and, if the run kept recordings, `report/motions/*.{bvh,js}`, `report/pictures/*.exr`
+/// and `video/*.mp4`. Each file appears whole or not at all. Fails, naming the path, if a file cannot be written. A
+/// film that cannot be made is no failure: the page says why. Returns false, and writes no new page, if the films were
+/// stopped.
 Result<bool> WriteReport(const RunData& run, const std::filesystem::path& run_folder, const ReportOptions& options);
 
-/// The files that `etude gate` leaves beside a report.
+/// The files that `etude gate` writes beside a report.
 constexpr const char *kGateMarkdown = "gate.md", *kGateJunit = "gate.xml";
 
-/// A report held against its run.
+/// The result of comparing a report with its run.
 struct ReportCheck {
-  int files = 0;                          ///< that are there and were compared
-  std::vector<std::string> differences;   ///< what one says that the run does not, and files that are none of a report
-  std::vector<std::string> not_compared;  ///< what is there and was not, in words
+  int files = 0;                          ///< that exist and were compared
+  std::vector<std::string> differences;   ///< files that disagree with the run, or belong to no report
+  std::vector<std::string> not_compared;  ///< what exists but was not compared, in words
 };
 
-/// Compares the tables, motions and page of a folder with those that its run makes, but for pictures, films and
-/// captures of real films.
+/// Compares the tables, motions and page of a folder with those that its run makes. Does not compare pictures, films
+/// and captures of real films.
 Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path& run_folder);
 
-/// Compares what a gate left beside the report with what one without a baseline says of the run.
+/// Compares what a gate wrote beside the report with what a gate without a baseline says of the run.
 Result<ReportCheck> CheckGate(const FinishedRun& run, const std::filesystem::path& run_folder);
 
 }  // namespace etude

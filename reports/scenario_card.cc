@@ -30,7 +30,7 @@
 namespace etude {
 namespace {
 
-// More steps than a screen has room for only make the page heavy.
+// A screen has no room for more steps; they would only make the page heavy.
 constexpr std::size_t kMaxSteps = 120;
 // Beyond this ratio a linear axis squeezes all but the largest values into one line.
 constexpr double kLogarithmicFrom = 100;
@@ -50,15 +50,15 @@ bool NeedsLogarithm(const std::vector<double>& values) {
   return high / low > kLogarithmicFrom;
 }
 
-// "orientation_error_deg" over all effectors is "orientation_error_max_deg" of the worst.
+// Returns the same metric of the worst effector: "orientation_error_max_deg" for "orientation_error_deg".
 std::string WorstOf(const std::string& metric) {
   const std::size_t unit = metric.rfind('_');
   return unit == std::string::npos ? metric : metric.substr(0, unit) + "_max" + metric.substr(unit);
 }
 
-// The scenario's first metric that cells have along the axis, or have of the worst effector; else the first of any.
-// Curves that are no metric, such as one effector's, have pictures of their own; zeros are errors of what was not asked
-// for; a median of yes and no says nothing.
+// Returns the first headline metric, or its variant for the worst effector, that cells keep along the axis; else the
+// first metric that they keep. Skips series that are no metric (they have pictures of their own), that are all zero
+// (errors of what was not asked for), and shares (a median of yes and no says nothing).
 std::optional<std::string> FindCurve(const RunData& run, const ScenarioSummary& scenario, const std::string& axis,
                                      const std::map<std::string, std::string>& method_of) {
   std::vector<std::string> found;
@@ -90,6 +90,7 @@ std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scena
   if (scenario.conditions.empty()) return std::nullopt;
   const bool follows_motion = scenario.task == "tracking";
   const std::vector<SweptValue>& first = scenario.conditions.front().condition;
+  // The cells to draw, with their methods, and the metric.
   std::map<std::string, std::string> method_of;
   for (const Row& row : run.rows) {
     if (row.scenario == scenario.name && (!follows_motion || row.condition == first)) method_of[row.Id()] = row.method;
@@ -98,6 +99,7 @@ std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scena
   const auto name = FindCurve(run, scenario, axis, method_of);
   if (!name) return std::nullopt;
 
+  // The curves of each method's cells, and their medians.
   std::map<std::string, std::vector<const std::vector<double>*>> curves;
   for (const CellSeries& cell : run.series) {
     const auto method = method_of.find(cell.cell);
@@ -115,6 +117,7 @@ std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scena
   }
   const std::size_t stride = std::max<std::size_t>(1, (longest + kMaxSteps - 1) / kMaxSteps);
 
+  // Caption and description in words.
   const MetricWords words = WordsFor(*name);
   Chart chart;
   chart.is_wide = follows_motion;
@@ -136,6 +139,7 @@ std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scena
     for (const double value : Thinned(curve, stride)) values.push_back(value);
     methods.push_back({{"name", MethodLabel(scenario, method)}, {"values", std::move(values)}});
   }
+  // The data for the page's script.
   Json json{{"kind", "curves"},
             {"label", words.label},
             {"suffix", words.suffix},
@@ -153,20 +157,18 @@ std::string DataUri(std::string_view type, const std::string& bytes) {
   return fmt::format("data:{};base64,{}", type, Base64(bytes));
 }
 
-/// Writes an <img> with the picture inside the page.
 std::string ImageElement(const Picture& picture) {
   return fmt::format("<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\">", picture.width, picture.height,
                      EscapeMarkup(picture.caption), DataUri("image/png", picture.png));
 }
 
-/// Writes a <figure> with the still and its caption.
 std::string StillElement(const Still& still) {
   return fmt::format(
       "<figure><img alt=\"{0}\" src=\"data:image/jpeg;base64,{1}\"><figcaption>{0}</figcaption></figure>",
       EscapeMarkup(still.caption), still.jpeg_base64);
 }
 
-// The data is embedded as a JSON element beside the canvas, which the browser never runs.
+// The data stands beside the canvas as JSON in a script element, which the browser does not run.
 std::string ChartFigure(const Chart& chart, const std::string& id) {
   return fmt::format(
       "<figure class=\"chart{}\"><figcaption>{}</figcaption><div class=\"canvas\">"
@@ -176,7 +178,7 @@ std::string ChartFigure(const Chart& chart, const std::string& id) {
       EscapeScriptJson(chart.json));
 }
 
-/// Writes a part of the card that opens; "" without anything in it.
+/// Returns a folded part of the card; "" if it would be empty.
 std::string Folded(const std::string& title, const std::string& html, std::string_view style = "") {
   if (html.empty()) return "";
   return fmt::format("<details{}><summary>{}</summary>{}</details>", style, EscapeMarkup(title), html);
@@ -190,7 +192,7 @@ std::string OtherPictures(const RunData& run, const ScenarioSummary& scenario, s
   return html.empty() ? "" : "<div class=\"plots\">" + html + "</div>";
 }
 
-/// Tells what the worlds are, and what each method is in a sentence.
+/// Returns what the worlds are, and one sentence on each method.
 std::string WhatIsCompared(const ScenarioSummary& scenario) {
   std::string html;
   if (!scenario.description.empty()) html += fmt::format("<p>{}</p>", EscapeMarkup(scenario.description));
@@ -226,7 +228,7 @@ std::string Expectations(const ScenarioSummary& scenario) {
   return Folded(title, html + "</ul>", unmet > 0 ? " class=\"unmet\"" : "");
 }
 
-/// Finds the first cell of a scenario that ended so, to be run again.
+/// Returns the first cell of a scenario that ended for this reason, to be run again.
 std::string FirstCellOf(const RunData& run, const ScenarioSummary& scenario, const ReasonCount& reason) {
   for (const Row& row : run.rows) {
     if (row.scenario == scenario.name && row.method == reason.method && row.result.status == reason.status &&
@@ -237,7 +239,7 @@ std::string FirstCellOf(const RunData& run, const ScenarioSummary& scenario, con
   return "";
 }
 
-/// Tells how the cells ended, what was reached, and why some failed; open is how many are not ok.
+/// Returns how the cells ended, what they reached, and why some failed. The line that stays open counts those not ok.
 std::string Failures(const RunData& run, const ScenarioSummary& scenario, const ScenarioFindings& findings) {
   int others = 0;
   for (const ReasonCount& reason : findings.reasons) others += reason.cells;
@@ -251,8 +253,7 @@ std::string Failures(const RunData& run, const ScenarioSummary& scenario, const 
   }
   if (!findings.reasons.empty()) {
     html += "<ul class=\"reasons\">";
-    for (const ReasonCount& reason :
-         std::span(findings.reasons).first(std::min(findings.reasons.size(), kMaxListed))) {
+    for (const ReasonCount& reason : std::span(findings.reasons).first(std::min(findings.reasons.size(), kMaxListed))) {
       html += fmt::format("<li data-ids=\"{}\"><b>{} × {}</b> in {}: {}</li>",
                           EscapeMarkup(FirstCellOf(run, scenario, reason)), FormatCount(reason.cells),
                           StatusName(reason.status), EscapeMarkup(reason.method), EscapeMarkup(reason.reason));
@@ -265,7 +266,7 @@ std::string Failures(const RunData& run, const ScenarioSummary& scenario, const 
   return Folded(title, "<div class=\"status\">" + html + "</div>");
 }
 
-/// Lists the cells of a scenario that kept a recording, as JSON for the page's script.
+/// Returns the cells of a scenario that kept a recording, as JSON for the page's script.
 std::string RecordedCells(const RunData& run, const ScenarioSummary& scenario) {
   Json cells = Json::array();
   for (const CellRecording& recorded : run.recordings) {
@@ -274,15 +275,15 @@ std::string RecordedCells(const RunData& run, const ScenarioSummary& scenario) {
   return cells.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Writes the sentence of a finding behind what it begins with; why nothing is decided stands in its tip.
+/// Returns the sentence of a finding after `begin`; its tooltip says why nothing is decided.
 std::string AnswerHtml(const MethodFinding& finding, std::string_view begin) {
   return fmt::format("<p class=\"answer\"{}>{}{}</p>",
                      finding.why_open.empty() ? "" : fmt::format(" title=\"{}\"", EscapeMarkup(finding.why_open)),
                      begin, EscapeMarkup(finding.sentence));
 }
 
-/// Writes verdicts and sentence against the baseline; where the strongest other method is another one, the verdicts
-/// against it, whose sentence opens.
+/// Returns verdicts and sentence against the baseline and, if it is another method, against the strongest other one,
+/// whose sentence is folded away.
 std::string Answer(const ScenarioFindings& findings) {
   const std::string html = AnswerHtml(findings.answer, VerdictBadges(findings.answer) + " ");
   if (!HasOtherRival(findings)) return html;
@@ -291,7 +292,6 @@ std::string Answer(const ScenarioFindings& findings) {
                             AnswerHtml(findings.rival, ""));
 }
 
-/// Writes a few figures of the method in question, its baseline and the strongest other one.
 std::string FiguresHtml(const KeyFigures& figures) {
   if (figures.methods.empty()) return "";
   Table table = FiguresTable(figures, false);
@@ -299,7 +299,6 @@ std::string FiguresHtml(const KeyFigures& figures) {
   return TableHtml(table);
 }
 
-/// Links every file that tells more of a scenario.
 std::string Files(const RunData& run, const ScenarioSummary& scenario, std::size_t index) {
   const std::string tables = "tables/" + FileNameOf(scenario.name, index);
   std::string html = "<ul class=\"files\">";

@@ -9,28 +9,28 @@
 
 namespace etude {
 
-/// A picture of numbers: the data for assets/report.js, and the same in words for those who cannot see it.
+/// A chart of numbers: the data for assets/report.js, and the same in words for readers who cannot see it.
 struct Chart {
   std::string caption;      ///< what is drawn, with the unit
   std::string description;  ///< the figures in words
   std::string json;         ///< not yet escaped for HTML
-  bool is_wide = false;     ///< needs all the page's width
+  bool is_wide = false;     ///< takes the full width of the page
 };
 
-/// Makes the chart of a method's errors over time: the median over its cells of their curves along iterations, or along
-/// the frames of the first condition where methods follow a motion (others may have other frames). Nothing when the run
-/// kept no such curves.
+/// Returns the chart of the methods' errors over iterations, or over frames if they follow a motion: per method the
+/// median over its cells. Frames are those of the first condition, since others may have other frames. Returns nothing
+/// if the run kept no such curves.
 std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scenario);
 
-/// Writes a film inside the page with its caption: a <figure> with <video>, else its poster and why there is no film,
-/// else that reason alone, if there is any.
+/// Returns a film with its caption as HTML: a <figure> with <video>. Without a film it has the poster and the reason,
+/// or the reason alone; "" if there is none of them.
 std::string FilmElement(const Film& film, bool plays_at_once);
 
-/// Gives the anchor of a scenario's card, unique by its place in the run.
+/// Returns the anchor of a scenario's card. `index` is the scenario's place in the run.
 std::string CardAnchor(std::size_t index);
 
-/// Writes one scenario as HTML: its question, the answer, a chart, the expectations, the failures, all numbers. `media`
-/// gives its picture strip and films when they belong to this scenario.
+/// Returns one scenario as HTML: its question, the answer, a chart, the expectations, the failures, all numbers. Shows
+/// those pictures and films of `media` that belong to this scenario.
 std::string WriteScenarioCard(const RunData& run, std::size_t index, const ScenarioFindings& findings,
                               const Media& media);
 

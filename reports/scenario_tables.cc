@@ -17,15 +17,13 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kRowsPerFloat = 50;  // so many fit a page of A4
+constexpr std::size_t kRowsPerFloat = 50;  // that fit a page of A4
 
 constexpr std::string_view kHead =
     "% Needs \\usepackage{booktabs}. The same figures with all their digits: the CSV files beside this one.\n";
 
-/// The rows of one metric, below its head.
 using Group = std::vector<TableRow>;
 
-/// Marks a p value with stars.
 std::string_view Stars(const Comparison& c) {
   if (!c.p_holm || *c.p_holm > 0.05) return "";
   return *c.p_holm <= 0.001 ? "$^{***}$" : *c.p_holm <= 0.01 ? "$^{**}$" : "$^{*}$";
@@ -62,7 +60,7 @@ std::vector<TableCell> ComparisonCells(const Comparison& c, const MetricWords& w
   return cells;
 }
 
-/// Gives the comparisons with baselines, then with the strongest other method where that is none of them.
+/// Returns the comparisons with baselines, then with the strongest other method unless it is one of them.
 std::vector<const Comparison*> ComparisonsOf(const ConditionSummary& condition, const std::string& method,
                                              const std::string& metric) {
   std::vector<const Comparison*> found;
@@ -127,7 +125,7 @@ std::string Float(const std::string& caption, const Table& table) {
       caption, TableLatex(table));
 }
 
-/// Writes as many floats as the rows of this condition need.
+/// Returns as many floats as the rows of this condition need.
 std::string ConditionFloats(const ScenarioSummary& scenario, const ConditionSummary& condition) {
   std::vector<Group> groups{EndedOk(scenario, condition)};
   for (const std::string& metric : scenario.headline_metrics) groups.push_back(OfMetric(scenario, condition, metric));

@@ -1,9 +1,9 @@
-# Turns results of before a word was renamed into what they are now: sed -E -f scripts/renames.sed cells.jsonl
-# Digests of scenarios and methods differ all the same, and so do the intervals of a renamed method in summary.json:
-# their dice are keyed by its name.
+# Renames words of old results to their present names: sed -E -f scripts/renames.sed cells.jsonl
+# Digests of scenarios and methods still differ, and so do the intervals of a renamed method in summary.json,
+# because its dice are keyed by its name.
 s/ccd-nullspace/gauss-newton/g
 s/\bnullspace\b/gauss-newton/g
-# Transitions: recordings' facts, series, digests and reasons.
+# Transitions: facts, series, digests and reasons of recordings.
 s/(\\?")seam_frame(s?\\?":)/\1transition_frame\2/g
 s/(\\?")switches(\\?": ?\[)/\1transition_points\2/g
 s/"digest_switches":/"digest_transition":/g

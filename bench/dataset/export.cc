@@ -81,7 +81,7 @@ class NewFolder {
     RETURN_IF_ERROR(MakeFolder(Inside(partial.parent_path()) / partial.filename()));
     NewFolder folder(path, Lock(partial));
     if (folder.lock_ < 0) return Fail(place, "another export is writing it; choose another folder with -o");
-    // An existing folder is from a killed export, or not ours.
+    // Empty the folder of a killed export; refuse one with other contents.
     for (fs::directory_iterator entry(folder.partial_, error), end; !error && entry != end; entry.increment(error)) {
       if (IsOfExport(entry->path().filename())) continue;
       ::close(std::exchange(folder.lock_, -1));
@@ -104,7 +104,7 @@ class NewFolder {
     ::close(lock_);
   }
 
-  /// What is written below it follows no link, even if one takes its place.
+  /// Returns the temporary folder; writing below it follows no links, even if a link replaces it.
   FilePath partial() const { return Inside(partial_.parent_path()) / partial_.filename(); }
 
   /// Syncs the folder's contents to disk and gives it its final name.
@@ -121,7 +121,7 @@ class NewFolder {
  private:
   NewFolder(const fs::path& path, int lock) : path_(Named(path)), partial_(PartialOf(path)), lock_(lock) {}
 
-  /// True if this is the name of the folder that was locked.
+  /// Returns true if this name still belongs to the locked folder.
   bool IsOurs(const fs::path& name) const {
     struct stat locked {
     }, named{};
@@ -143,7 +143,7 @@ Result<void> SavePayload(const Payload& payload, const FilePath& folder, const c
 
 class Exporter {
  public:
-  static constexpr std::size_t kParts = 3;  ///< of a world: problem made, problem written, truth written
+  static constexpr std::size_t kParts = 3;  ///< steps per world: problem made, problem written, truth written
 
   Exporter(const PreparedScenario& scenario, FilePath folder, bool films)
       : scenario_(scenario), folder_(std::move(folder)), films_(films) {}
@@ -154,9 +154,10 @@ class Exporter {
     return SavePayload(*setting, folder_ / "inputs" / place, "setting.json");
   }
 
-  /// Writes a world and its line of `index`; calls `on_part` after each of kParts.
+  /// Writes a world and its line of `index`; calls `on_part` after steps 1 and 2.
   Result<void> SaveWorld(int condition, int trial, const std::string& place, ExportOutcome& outcome,
                          std::vector<std::string>& index, const std::function<void(std::size_t)>& on_part) {
+    // Make the world and its line of the index.
     const auto world = scenario_.task(condition).MakeWorld(scenario_.KeyOf(condition, trial), /*keeps_motion=*/false);
     const std::string path = place + "/" + WorldName(scenario_, condition, trial);
     const Row row = scenario_.IdentityOf(condition, trial, 0);
@@ -171,7 +172,7 @@ class Exporter {
       return {};
     }
     ++outcome.problems;
-    // One after the other, because a world's pictures need much memory.
+    // Problem and truth, one after the other, because a world's pictures need much memory.
     {
       const auto problem = world->MakeProblem();
       if (!problem) return About(path, problem.error());
@@ -216,6 +217,7 @@ void RemoveUnfinishedExport(const fs::path& output) {
 }
 
 Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress& on_progress) {
+  // Read and prepare the scenarios as for a run.
   RunOptions run;
   run.scenarios = options.scenarios;
   run.seed = options.seed;
@@ -227,10 +229,12 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress
   ASSIGN_OR_RETURN(const auto suite, ReadSuite(run));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(suite));
   ASSIGN_OR_RETURN(const auto manifest, MakeManifest(suite, scenarios, options.program_version));
+  // Check the key, and begin the folder.
   const KeyUse use{"export", suite.suite, DigestOfRun(manifest), {}, options.output};
   if (options.key && !options.reuse_key) RETURN_IF_ERROR(CheckUnused(*options.key, use));
   ASSIGN_OR_RETURN(auto folder, NewFolder::Begin(options.output));
 
+  // Write all worlds, and a setting before the first world of each condition.
   const Plan plan(scenarios);
   ExportOutcome outcome;
   std::vector<std::string> index;
@@ -248,6 +252,7 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress
                                        [&](std::size_t part) { on_progress(w * Exporter::kParts + part, parts); }));
     on_progress((w + 1) * Exporter::kParts, parts);
   }
+  // Write the index, the README and the manifest. Sorting hides the order of secret worlds.
   const auto save = [&](const char* name, const std::string& text) {
     return WriteFileAtomically(folder.partial() / name, text);
   };

@@ -15,38 +15,37 @@ struct ExportOptions {
   std::vector<std::string> scenarios;  ///< files, or folders of *.yaml
   std::optional<std::uint64_t> seed;   ///< default: each scenario's own, else 1
   std::optional<SecretKey> key = {};   ///< of secret worlds, instead of a seed
-  bool reuse_key = false;              ///< allow a key that was used before (used_keys.h)
+  bool reuse_key = false;              ///< allows a key that was used before (used_keys.h)
   std::optional<int> trials;           ///< default: each scenario's own
   std::vector<std::string> clips;      ///< if not empty, replaces the scenarios' clips
   std::string joint_map;               ///< if not empty, replaces the scenarios' joint maps
   std::string clip_facts = {};         ///< RunOptions::clip_facts
-  bool films = false;                  ///< also write a film of each camera of a capture
+  bool films = false;                  ///< also write a film per camera of a capture
   std::string output;
   std::string program_version;
 };
 
 struct ExportOutcome {
   std::size_t problems = 0;
-  std::size_t skipped = 0;  ///< worlds in which no method can run; listed with the reason
+  std::size_t skipped = 0;  ///< worlds in which no method can run; the index gives the reason
 };
 
 /// Writes the problems of all worlds and, separately, their truths (docs/datasets.md):
 ///
-///     manifest.json                                what makes the same worlds again: as of a run
+///     manifest.json                                as of a run; makes the same worlds again
 ///     README.md
-///     inputs/index.csv                             a line per world
-///     inputs/SCENARIO/CONDITION/setting.json       what the problems of a condition share
-///     inputs/SCENARIO/CONDITION/TRIAL/problem.json, with its files beside
-///     truth/SCENARIO/CONDITION/TRIAL/truth.json, with its files beside
+///     inputs/index.csv                             one line per world
+///     inputs/SCENARIO/CONDITION/setting.json       shared by the problems of a condition
+///     inputs/SCENARIO/CONDITION/TRIAL/problem.json and its files
+///     truth/SCENARIO/CONDITION/TRIAL/truth.json and its files
 ///
-/// Secret worlds have names, and an order, that reveal nothing of their trials; the index then leaves out trial and
-/// clip. The data set is written completely, and synced to disk, or not at all. A non-empty folder, and one that
-/// another export is writing, are errors before anything is written. The process must be in the pinned environment, so
-/// that pictures are the same on every machine. `on_progress` counts thirds of worlds: problem made, problem written
-/// with its films, truth written.
+/// The names and the order of secret worlds do not reveal their trials, and the index leaves out trial and clip. The
+/// data set is written completely and synced to disk, or not at all. Fails before writing if the folder is not empty or
+/// another export is writing it. The process must be in the pinned environment, so that pictures are the same on every
+/// machine. `on_progress` counts three steps per world: problem made, problem and films written, truth written.
 Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress& on_progress);
 
-/// Removes what a killed export to this folder has left.
+/// Deletes the temporary folder of a killed export to this folder.
 void RemoveUnfinishedExport(const std::filesystem::path& output);
 
 }  // namespace etude

@@ -23,7 +23,8 @@ bool IsPlain(char c) {
 
 std::string TrialName(int trial) { return fmt::format("{:03}", trial); }
 
-/// Returns the name of the world that a file name means: "7.json", "007.json" and "007.JSON" are trial "007".
+/// Returns the world's name for a file name: "007" for "7.json", "007.json" and "007.JSON"; nullopt for other
+/// extensions.
 std::optional<std::string> WorldOf(const fs::path& name) {
   std::string extension = name.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -85,7 +86,7 @@ std::string WorldName(const PreparedScenario& scenario, int condition, int trial
 
 Result<PredictionFiles> FindPredictions(const fs::path& folder, const Plan& plan, PredictionFaults& faults) {
   ASSIGN_OR_RETURN(const auto files, AnswersBelow(folder, faults));
-  // By "SCENARIO/CONDITION" and the world's name.
+  // Map "SCENARIO/CONDITION" and the world's name to the world's index.
   std::map<std::pair<std::string, std::string>, std::size_t> worlds;
   for (std::size_t w = 0; w < plan.world_count(); ++w) {
     const Scenario& scenario = plan.scenario_of(w).scenario();

@@ -11,15 +11,15 @@
 
 namespace etude {
 
-/// Returns the names of the folders of a scenario's conditions, valid on every file system. Exported data sets and
-/// folders of predictions have worlds as SCENARIO/CONDITION/TRIAL.
+/// Returns the folder name of each condition of a scenario, valid on every file system. Data sets and folders of
+/// predictions contain worlds as SCENARIO/CONDITION/TRIAL.
 ///
-/// A condition is "all" if nothing is swept, else "joint_noise_deg=5,noise=uniform". Characters other than letters,
-/// digits and "._=,+-" become "_"; conditions whose names would then be equal get "~2", "~3", … in order.
+/// The name is "all" if nothing is swept, else for instance "joint_noise_deg=5,noise=uniform". Characters other than
+/// letters, digits and "._=,+-" become "_"; equal names then get "~2", "~3", … in order.
 std::vector<std::string> ConditionFolders(const Scenario& scenario);
 
-/// Returns a world's name in its condition's folder: its trial, "007"; for a secret world sixteen digits, which only
-/// its key maps to the trial.
+/// Returns a world's name in its condition's folder: its trial ("007"). A secret world has 16 hexadecimal digits
+/// instead, from which the trial cannot be found without the key.
 std::string WorldName(const PreparedScenario& scenario, int condition, int trial);
 
 /// The faults of a folder of predictions; each entry names a file or a world.
@@ -27,17 +27,17 @@ struct PredictionFaults {
   std::vector<std::string> missing;    ///< worlds without an answer
   std::vector<std::string> extra;      ///< files that answer no world
   std::vector<std::string> duplicate;  ///< files that answer a world that another file answers already
-  std::vector<std::string> broken;     ///< answers that cannot be read, or have a wrong size or shape, and why
+  std::vector<std::string> broken;     ///< answers that cannot be read or have the wrong form, with the reason
 
   bool empty() const { return missing.empty() && extra.empty() && duplicate.empty() && broken.empty(); }
 };
 
-/// The file that answers each world of a plan; nothing if there is none.
+/// The file with the answer to each world of a plan; nullopt if there is none.
 using PredictionFiles = std::vector<std::optional<FilePath>>;
 
-/// Finds SCENARIO/CONDITION/TRIAL.json in `folder`. A trial is its number, with or without leading zeros; for secret
-/// worlds, the exported name. All other files, except those that begin with a dot, are recorded as extra; links (which
-/// could lead to the truth) and pipes as broken. Fails if the folder cannot be read.
+/// Finds SCENARIO/CONDITION/TRIAL.json in `folder`. TRIAL is a number, with or without leading zeros, or the name of a
+/// secret world. In `faults`, all other files are extra, except names that begin with a dot; links (which could lead to
+/// the truth) and pipes are broken. Fails if the folder cannot be read.
 Result<PredictionFiles> FindPredictions(const std::filesystem::path& folder, const Plan& plan,
                                         PredictionFaults& faults);
 

@@ -62,8 +62,7 @@ std::string NameOf(const Plan& plan, std::size_t w) {
                      WorldName(plan.scenario_of(w), world.condition, world.trial));
 }
 
-constexpr std::uintmax_t kMaxAnswerBytes = std::uintmax_t{16} << 20;  // the same limit as for a program's reply; 60 s of
-                                                                     // poses take 3 MB
+constexpr std::uintmax_t kMaxAnswerBytes = std::uintmax_t{16} << 20;  // kMaxReplyBytes; 60 s of poses take 3 MB
 
 Result<CellResult> JudgeFile(TaskWorld& world, const FilePath& file) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file, kMaxAnswerBytes));
@@ -73,7 +72,7 @@ Result<CellResult> JudgeFile(TaskWorld& world, const FilePath& file) {
   return judged;
 }
 
-/// Judges the answer in `file` to world `w`; its faults go into `faults`. Metrics that are programs measure it later.
+/// Judges the answer in `file` to world `w`, and records its faults. Outside metrics measure it later.
 FinishedCell JudgeWorld(const Plan& plan, std::size_t w, const std::optional<FilePath>& file,
                         PredictionFaults& faults) {
   const PreparedScenario& scenario = plan.scenario_of(w);
@@ -82,10 +81,12 @@ FinishedCell JudgeWorld(const Plan& plan, std::size_t w, const std::optional<Fil
   const auto ended = [&](Status status, const std::string& reason) {
     return FinishedCell{scenario.EndedRow(world.condition, world.trial, method, status, reason), {}};
   };
-  const bool has_programs = !scenario.scenario().outside_metrics.empty();  // metrics that are programs
+  // Make the world. Outside metrics and films need its recording.
+  const bool has_programs = !scenario.scenario().outside_metrics.empty();
   const bool is_filmed = scenario.scenario().recordings.KeepsTrial(world.trial);
   const auto built =
       scenario.task(world.condition).MakeWorld(scenario.KeyOf(world.condition, world.trial), is_filmed || has_programs);
+  // A skipped world, and a missing or broken answer.
   if (const auto why = built->WhySkipped()) {
     if (file) faults.extra.push_back(fmt::format("{}.json ({})", NameOf(plan, w), *why));
     return ended(Status::kSkipped, *why);
@@ -99,6 +100,7 @@ FinishedCell JudgeWorld(const Plan& plan, std::size_t w, const std::optional<Fil
     faults.broken.push_back(ToString(judged.error()));
     return ended(Status::kBadOutput, judged.error().message);
   }
+  // Make the row. Its metrics are completed now, unless outside metrics must measure it first.
   FinishedCell cell{scenario.IdentityOf(world.condition, world.trial, method), {}};
   cell.row.result = *std::move(judged);
   cell.is_measured = !has_programs || !cell.row.result.recording;
@@ -109,7 +111,6 @@ FinishedCell JudgeWorld(const Plan& plan, std::size_t w, const std::optional<Fil
   return cell;
 }
 
-/// Reports the progress of scoring.
 class Meter {
  public:
   Meter(std::size_t cells, const std::function<void(const Progress&)>& on_progress) : on_progress_(on_progress) {
@@ -130,7 +131,8 @@ class Meter {
   Progress progress_;
 };
 
-/// Adds a row per answer to `cells`, or to `answered` if programs have yet to measure it. Returns false if stopped.
+/// Adds the row of each answer to `cells`, or to `answered` if outside metrics must still measure it. Returns false if
+/// the user stopped it.
 Result<bool> JudgeAll(const Plan& plan, const ScoreOptions& options, CellTable& cells, TemporaryLines& answered,
                       PredictionFaults& faults, Meter& meter) {
   ASSIGN_OR_RETURN(const auto files, FindPredictions(options.predictions, plan, faults));
@@ -149,7 +151,7 @@ Result<bool> JudgeAll(const Plan& plan, const ScoreOptions& options, CellTable& 
   return true;
 }
 
-/// Returns what is needed to repeat this run beside the manifest: the digest of the answers.
+/// Returns the number of answers and their digest: with the manifest they identify this run.
 Result<Json> DescribeAnswers(const Plan& plan, CellTable& cells, CellTable& answered) {
   Digest digest;
   std::size_t answers = 0;
@@ -169,6 +171,7 @@ Result<Json> DescribeAnswers(const Plan& plan, CellTable& cells, CellTable& answ
 
 Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
                                       const std::function<void(const Progress&)>& on_progress) {
+  // Read the scenarios, and check that the result folder is free.
   ASSIGN_OR_RETURN(auto suite, ReadTarget(options));
   suite.scored = ScoredMethod{options.name, options.alone};
   ASSIGN_OR_RETURN(const auto state, LookAtFolder(options.output));
@@ -177,6 +180,7 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
   }
   ASSIGN_OR_RETURN(const auto scenarios, PrepareTarget(suite, options));
 
+  // Judge all answers; write nothing if any has a fault.
   ASSIGN_OR_RETURN(Fence fence, FenceFor(scenarios, options.outside, options.output, options.key));
   HideTruthIn(options.target, fence);
   RETURN_IF_ERROR(CheckMetricVectors(scenarios, fence));
@@ -190,6 +194,7 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
   outcome.run.stopped = !judged;
   if (outcome.run.stopped || !outcome.faults.empty()) return outcome;
 
+  // Claim the result folder, write the manifest, and record the use of a key.
   ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(options.output, /*keep_contents=*/false));
   ASSIGN_OR_RETURN(auto manifest, MakeManifest(suite, scenarios, options.program_version));
   ASSIGN_OR_RETURN(const auto answers, DescribeAnswers(plan, cells, answered.cells()));
@@ -200,6 +205,7 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
     const KeyUse use{"score", suite.suite, DigestOfRun(manifest), {}, folder};
     RETURN_IF_ERROR(NoteUse(*options.key, use, /*may_be_used=*/true));
   }
+  // Run the scenarios' own methods and the outside metrics.
   const auto whole = RunOrders(suite, plan, plan.OrdersFor({}, cells.Done()),
                                {.program = ThisProgram(),
                                 .error_folder = "",
@@ -214,6 +220,7 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
                                  return {};
                                });
   if (!whole) return tl::unexpected(whole.error());
+  // Write the results.
   outcome.run.stopped = !*whole;
   outcome.run.cells = meter.progress().cells_done;
   outcome.run.cells_ok = meter.progress().cells_ok;

@@ -12,12 +12,12 @@
 namespace etude {
 
 struct ScoreOptions {
-  /// An exported data set (or any folder with the manifest of a run), a scenario file, or a folder of *.yaml.
+  /// A data set (or any folder with a run's manifest), a scenario file, or a folder of *.yaml.
   std::string target;
   std::string predictions;            ///< the folder of answers
   std::string output;                 ///< the result folder
   std::string name = "predictions";   ///< the name of the method that gave the answers
-  bool alone = false;                 ///< do not run the scenarios' own methods
+  bool alone = false;                 ///< does not run the scenarios' own methods
   bool allow_missing = false;         ///< a world without an answer becomes a failed cell instead of an error
   int jobs = 0;                       ///< worker processes for the scenarios' own methods; 0 = one per processor
   std::optional<std::uint64_t> seed;  ///< for scenario files; a manifest has its own
@@ -37,10 +37,10 @@ struct ScoreOutcome {
   PredictionFaults faults;  ///< if there are any, nothing was written
 };
 
-/// Scores answers from files and writes an ordinary result folder, in which they are one more method of each scenario,
-/// compared with its first method. Workers run the scenarios' own methods as in a run; with `alone` they are not run,
-/// and nothing is compared or expected. The process must be in the pinned environment, because it judges the answers
-/// itself.
+/// Scores answers from files and writes an ordinary result folder. In it they are the last method of each scenario,
+/// compared with the first one. Workers run the scenarios' own methods as in a run; with `alone` these are not run,
+/// nothing is compared, and no expectation is judged. The process must be in the pinned environment, because it judges
+/// the answers itself.
 Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
                                       const std::function<void(const Progress&)>& on_progress);
 

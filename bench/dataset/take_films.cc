@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// Returns the take in a picture's name, "camera-1" of "camera-1-0042.png"; empty for other names.
+/// Returns the name of a picture's take: "camera-1" for "camera-1-0042.png"; "" for other names.
 std::string_view TakeOf(std::string_view name) {
   constexpr std::string_view kForm = "-0000.png";
   if (name.size() <= kForm.size()) return {};

@@ -8,8 +8,9 @@
 
 namespace etude {
 
-/// Writes the takes among `files` into `folder`, each as a film: `camera-1-0000.png`, `camera-1-0001.png`, … (in this
-/// order, PNG) become `camera-1.mp4`. Fails if ffmpeg does, for instance at odd widths.
+/// Writes each take among `files` as a film into `folder`: the consecutive pictures `camera-1-0000.png`,
+/// `camera-1-0001.png`, … become `camera-1.mp4`. Fails on invalid PNG, and if ffmpeg fails (at odd widths, for
+/// instance).
 Result<void> SaveTakeFilms(std::span<const Attachment> files, int rate_hz, const FilePath& folder);
 
 }  // namespace etude

@@ -58,8 +58,8 @@ std::string MethodDigest(const MethodEntry& method) {
 
 constexpr const char* kBuiltInName = "built in";
 
-// It is fast and has metrics of every kind: medians, a share, a count. The changes are real ones, from very small to
-// large: joints may not turn further from a start that is 15° (standard deviation) off.
+// It is fast and has metrics of every kind: medians, a share, a count. The methods differ from the reference by little
+// to much: they limit how far a joint may turn from the start pose, whose error is 15° (standard deviation).
 constexpr const char* kBuiltInScenario = R"(
 scenario: gate-self-test
 question: Does the gate see what it should, and nothing else?
@@ -96,6 +96,7 @@ Result<std::vector<FinishedScenario>> LoadScenarios(const FilePath& path) {
   const Place place{path.string(), 0, 0};
   ASSIGN_OR_RETURN(const auto suite, DecodeSetup(manifest, place));
   RETURN_IF_ERROR(CheckMetricVersions(manifest, place));
+  // Parse each scenario, and take the digests of its clips from the manifest.
   std::vector<FinishedScenario> finished;
   ParsedSuite parsed(suite);
   for (std::size_t s = 0; s < suite.scenarios.size(); ++s) {
@@ -113,6 +114,7 @@ Result<std::vector<FinishedScenario>> LoadScenarios(const FilePath& path) {
       return Fail(place, "not a manifest: {}", error.what());
     }
     finished.push_back(FinishScenario(scenario, setup, clip_digests));
+    // The worlds of a secret seed also depend on the version of secret worlds.
     if (setup.seed.IsPlain()) continue;
     for (auto& [condition, digest] : finished.back().worlds) {
       digest = Digest().Add(digest).Add(std::int64_t{suite.secret_worlds}).Hex();

@@ -42,7 +42,7 @@ Json EncodeValues(const SnapshotValues& kept) {
   return values;
 }
 
-/// Collects the lines of an array, one value each.
+/// Collects the entries of a JSON array, one per line.
 class Lines {
  public:
   void Add(const Json& json) {
@@ -58,23 +58,24 @@ class Lines {
   std::optional<Error> error_;
 };
 
-constexpr std::string_view kLetters = "oufbs";   // a baseline is never made if the machine ended a cell
-constexpr std::string_view kAnswers = "ou";      // statuses with an answer, right or not
-constexpr std::int64_t kMaxTrials = 1'000'000;  // the limit of a scenario
+constexpr std::string_view kLetters = "oufbs";  // a run in which the machine ended a cell gives no baseline
+constexpr std::string_view kAnswers = "ou";     // statuses with an answer
+constexpr std::int64_t kMaxTrials = 1'000'000;  // a scenario's own limit
 constexpr std::int64_t kMaxVersions = 1'000'000;
 
-/// Returns the seal of a baseline: the digest of its JSON without the seal, so that the text's layout may change.
+/// Returns the seal of a baseline: the digest of its JSON values without the seal; white space does not matter.
 Result<std::string> SealOf(Json baseline) {
   baseline.erase("seal");
   ASSIGN_OR_RETURN(const auto text, WriteJson(baseline));
   return Digest().Add(std::string_view(text)).Hex();
 }
 
-/// The cells that a line describes, by "scenario, condition, method".
+/// The cells that a line of statuses or values fills.
 struct Slot {
   std::size_t trials = 0;
   SnapshotCells* cells = nullptr;
 };
+/// By "scenario, condition, method".
 using Slots = std::map<std::string, Slot>;
 
 class BaselineReader {
@@ -83,6 +84,7 @@ class BaselineReader {
       : file_(std::move(file)), places_(std::move(places)), seal_(seal) {}
 
   Result<Snapshot> Read(const Json& json) {
+    // Schema and seal.
     ASSIGN_OR_RETURN(const auto head,
                      JsonObject::Of(json, PlaceOf("", 0), "a baseline",
                                     {"schema", "etude", "suite", "scenarios", "statuses", "values"}, {"seal"}));
@@ -94,6 +96,7 @@ class BaselineReader {
     if (is_sealed != head.Has("seal")) {
       return Fail(head.place(), "a baseline of schema {} {}", schema, is_sealed ? "lacks its 'seal'" : "has a 'seal'");
     }
+    // Scenarios, which declare the cells; then the lines that fill them.
     ASSIGN_OR_RETURN(snapshot_.suite, head.Text("suite"));
     ASSIGN_OR_RETURN(snapshot_.program_version, head.Text("etude"));
     RETURN_IF_ERROR(ForEach(head, "scenarios",
@@ -105,6 +108,7 @@ class BaselineReader {
                             [this](const Json& entry, const Place& place) { return ReadStatuses(entry, place); }));
     RETURN_IF_ERROR(
         ForEach(head, "values", [this](const Json& entry, const Place& place) { return ReadValues(entry, place); }));
+    // At least one cell must have an answer, and the seal must match.
     const auto has_answer = [](const auto& slot) {
       return slot.second.cells->statuses.find_first_of(kAnswers) != std::string::npos;
     };
@@ -148,6 +152,7 @@ class BaselineReader {
   Result<void> ReadScenario(const Json& entry, const Place& place) {
     ASSIGN_OR_RETURN(const auto line, JsonObject::Of(entry, place, "a scenario",
                                                      {"scenario", "seed", "trials", "metrics", "worlds", "methods"}));
+    // Name, seed and trials.
     SnapshotScenario scenario;
     ASSIGN_OR_RETURN(scenario.name, line.Text("scenario"));
     for (const SnapshotScenario& other : snapshot_.scenarios) {
@@ -156,6 +161,7 @@ class BaselineReader {
     ASSIGN_OR_RETURN(scenario.seed, line.Unsigned("seed"));
     ASSIGN_OR_RETURN(const auto trials, line.Whole("trials", 1, kMaxTrials));
     scenario.trials = static_cast<int>(trials);
+    // Digests of worlds and methods, and versions of metrics.
     const auto read_digests = [&](std::string_view key, NamedDigests& digests) {
       return line.Each(key, [&](const std::string& name, const JsonObject& inner) -> Result<void> {
         ASSIGN_OR_RETURN(auto digest, inner.Text(name));
@@ -177,8 +183,8 @@ class BaselineReader {
     return {};
   }
 
-  /// Checks the size of the table before it is allocated: two long lists of names in a small file would make a huge
-  /// table. No line may be duplicate, so a file with as many lines as cells fills every cell.
+  /// Checks the number of lines before the table is allocated: two long lists of names in a small file could declare a
+  /// huge table. Lines may not be duplicate, so as many lines as cells fill every cell.
   Result<void> CountLines(const JsonObject& head) const {
     std::size_t cells = 0, lists = 0;
     for (const SnapshotScenario& scenario : snapshot_.scenarios) {
@@ -192,7 +198,6 @@ class BaselineReader {
                 values->size(), cells, lists);
   }
 
-  /// Makes an empty slot for each line that must follow.
   void MakeSlots() {
     for (SnapshotScenario& scenario : snapshot_.scenarios) {
       for (const auto& [condition, world] : scenario.worlds) {
@@ -208,7 +213,6 @@ class BaselineReader {
     }
   }
 
-  /// Finds the slot of a line, by its "scenario, condition, method".
   Result<Slots::const_iterator> FindSlot(const JsonObject& line, std::string_view what) const {
     ASSIGN_OR_RETURN(const auto scenario, line.Text("scenario"));
     ASSIGN_OR_RETURN(const auto condition, line.Text("condition"));
@@ -230,8 +234,7 @@ class BaselineReader {
     if (statuses.find_first_not_of(kLetters) != std::string::npos || statuses.size() != cells.trials) {
       return Fail(place, "the statuses of {} are not {} letters of '{}'", name, cells.trials, kLetters);
     }
-    const bool skipped = statuses.find_first_not_of('s') == std::string::npos;  // skipped cells have a reason, and are
-                                                                                // not judged
+    const bool skipped = statuses.find_first_not_of('s') == std::string::npos;  // skipped cells are not judged
     if (skipped || statuses.find_first_of(kAnswers) != std::string::npos) return {};
     return Fail(place,
                 "all {} cells of {} failed: nothing could be worse; allowed: a baseline in which each method has "
@@ -266,8 +269,7 @@ class BaselineReader {
     return CheckNulls(line, *kept, name);
   }
 
-  /// Counts the nulls. A world without a value cannot get worse, so an additional null would exclude the world from the
-  /// gate.
+  /// Checks the number of nulls. A world with a null cannot get worse, so an additional null would weaken the gate.
   Result<void> CheckNulls(const JsonObject& line, const SnapshotValues& kept, const std::string& name) const {
     std::int64_t allowed = 0;
     if (line.Has("nulls")) {
@@ -291,6 +293,7 @@ class BaselineReader {
 }  // namespace
 
 Result<std::string> WriteBaseline(const Snapshot& snapshot) {
+  // Encode the lines.
   Lines scenarios, statuses, values;
   for (const SnapshotScenario& scenario : snapshot.scenarios) {
     scenarios.Add(EncodeScenario(scenario));
@@ -312,9 +315,10 @@ Result<std::string> WriteBaseline(const Snapshot& snapshot) {
   for (const Lines* lines : {&scenarios, &statuses, &values}) {
     if (lines->error()) return tl::unexpected(*lines->error());
   }
+  // Join them, and append the seal.
   auto head = WriteJson({{"schema", kBaselineSchema}, {"etude", snapshot.program_version}, {"suite", snapshot.suite}});
   if (!head) return head;
-  head->pop_back();  // removes the closing brace, to append more keys
+  head->pop_back();  // the closing brace
   const std::string text = fmt::format("{},\n\"scenarios\":[{}\n],\n\"statuses\":[{}\n],\n\"values\":[{}\n]", *head,
                                        scenarios.text(), statuses.text(), values.text());
   ASSIGN_OR_RETURN(const auto json, ReadJson(text + "}", "a baseline"));

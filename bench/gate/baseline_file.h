@@ -7,26 +7,26 @@
 
 namespace etude {
 
-/// The version of the layout of a baseline file; raised if old readers would fail.
+/// The version of the format of a baseline file; raised if old readers would fail.
 constexpr int kBaselineSchema = 2;
 /// The last version without a seal. It can be read; Snapshot::unsealed then says so.
 constexpr int kUnsealedSchema = 1;
 
-/// What a reader does with a baseline that does not match its seal.
+/// What to do if a baseline does not match its seal.
 enum class BaselineSeal {
-  kMustHold,  ///< complains of it
-  kMayBreak,  ///< reads it, and says so in Snapshot::unsealed
+  kMustHold,  ///< fail
+  kMayBreak,  ///< read it, and set Snapshot::unsealed
 };
 
-/// Returns a snapshot as JSON, one line per scenario and per method × metric, in the order of the run, so that a
-/// version control system shows what moved. Numbers have the digits that read back the same. At the end is its seal, a
-/// digest of all values: it detects edits, but is not a signature.
+/// Returns a snapshot as JSON, in the order of the run: one line per scenario and per method × metric, so that version
+/// control shows what moved. Numbers read back the same. The last key is the seal, a digest of all values; it detects
+/// edits but is not a signature.
 Result<std::string> WriteBaseline(const Snapshot& snapshot);
 
-/// Reads a baseline. Because a gate would otherwise check less than it says, it fails, with the line if possible, on
-/// anything that is missing, unknown or duplicate (keys too); on a wrong kind, schema or length; on an unknown status
-/// letter or metric; on more nulls than the line declares; and if all cells of a method failed. Last, it fails on a
-/// broken seal.
+/// Reads a baseline strictly, because a gate with an incomplete baseline would check less than it reports. Fails, with
+/// the line if possible, on anything missing, unknown or duplicate (keys too); on a wrong type, schema or length; on an
+/// unknown status letter or metric; if the number of nulls is not the declared one; if all cells of a method failed;
+/// and last on a broken seal.
 Result<Snapshot> ReadBaseline(const std::string& text, const std::string& file,
                               BaselineSeal seal = BaselineSeal::kMustHold);
 Result<Snapshot> LoadBaseline(const std::filesystem::path& path, BaselineSeal seal = BaselineSeal::kMustHold);

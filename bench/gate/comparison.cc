@@ -138,7 +138,7 @@ SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& afte
   for (const SnapshotScenario& scenario : before.scenarios) {
     const SnapshotScenario* partner = FindScenario(after, scenario.name);
     if (partner == nullptr) continue;
-    // Methods whose settings changed.
+    // List methods whose settings changed.
     for (const auto& [method, digest] : scenario.methods) {
       const std::string* other = FindDigest(partner->methods, method);
       if (other != nullptr && *other != digest) comparison.settings_changed.push_back(scenario.name + ", " + method);
@@ -155,7 +155,7 @@ SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& afte
         move.tail = FindTail(columns, *FindGateMetric(metric), RuleOf(scenario.name, tails));
       };
       add(kOkShare, OkIn(cells.statuses), OkIn(others->statuses));
-      // An exact comparison also counts `unsolved` against `failed`, which the share of ok cells does not show.
+      // An exact comparison also counts a change between `unsolved` and `failed`, which kOkShare does not show.
       if (exact.contains(scenario.name)) comparison.moves.back().differing = CountDiffering(cells, *others, compared);
       for (const SnapshotValues& values : cells.metrics) {
         const SnapshotValues* other = FindValues(*others, values.metric);

@@ -11,20 +11,21 @@ namespace etude {
 
 /// The comparison of two snapshots; everything in either is listed.
 struct SnapshotComparison {
-  std::vector<MetricMove> moves;                     ///< everything in both, also without a change
+  std::vector<MetricMove> moves;                     ///< everything in both, changed or not
   std::vector<std::string> only_before, only_after;  ///< "ik-weights, joint_noise_deg=5, fixed, iterations"
-  std::vector<std::string> settings_changed;         ///< methods with the same name and other settings
+  std::vector<std::string> settings_changed;         ///< methods with the same name but different settings
 };
 
-/// Returns why the worlds of two snapshots differ, so that they cannot be paired: another seed, number of trials,
-/// parameters of the task, clips, or version of a metric. Empty = they can be compared.
+/// Returns why worlds of two snapshots cannot be paired: they differ in seed, number of trials, parameters of the task,
+/// clips, or version of a metric. Empty = they can be compared.
 std::vector<std::string> WhyNotComparable(const Snapshot& before, const Snapshot& after);
 
-/// Removes the scenarios that WhyNotComparable complains of from both snapshots, and returns its reasons.
+/// Removes the scenarios that cannot be compared from both snapshots; returns the reasons (WhyNotComparable).
 std::vector<std::string> DropIncomparable(Snapshot& before, Snapshot& after);
 
-/// Compares world by world and judges (JudgeMoves; `exact` names the scenarios in which nothing may differ; then
-/// JudgeTail). Worlds in which either cell ended because of the machine are left out. WhyNotComparable must be empty.
+/// Compares two snapshots world by world and judges each difference, by JudgeMoves and then JudgeTail. `exact` names
+/// the scenarios in which nothing may differ. Worlds in which the machine ended either cell are left out.
+/// WhyNotComparable must be empty.
 SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& after, const std::set<std::string>& exact,
                                     const TailRules& tails = {});
 

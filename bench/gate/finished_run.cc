@@ -14,8 +14,7 @@ namespace {
 
 constexpr std::string_view kStatusLetters = "ouftcmbs";  // in the order of Status
 
-/// Checks the rows of a run that does not fit in memory: they must be in the order of their identities, so none is
-/// duplicate.
+/// Checks the rows of a run that does not fit in memory: they must be complete and in canonical order (CellsOf).
 Result<void> CheckRowsInOrder(const FinishedRun& run, const Place& place) {
   std::vector<std::string> wanted;
   std::size_t scenario = 0, next = 0;
@@ -36,7 +35,6 @@ Result<void> CheckRowsInOrder(const FinishedRun& run, const Place& place) {
   return Fail(place, "holds {} rows; the manifest makes more", CountRows(run.data));
 }
 
-/// Collects the rows of one scenario into a snapshot.
 class ScenarioTaker {
  public:
   explicit ScenarioTaker(const FinishedScenario& one) {
@@ -57,7 +55,7 @@ class ScenarioTaker {
   }
 
   void Take(const Row& row) {
-    if (row.condition != condition_ || label_.empty()) {  // rows of one condition come together
+    if (row.condition != condition_ || label_.empty()) {  // once per condition: its rows are consecutive
       condition_ = row.condition;
       label_ = CompactLabel(row.condition);
     }

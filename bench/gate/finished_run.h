@@ -15,7 +15,6 @@ namespace etude {
 /// A name with the digest of what its values depend on: if the digest differs, so do the values.
 using NamedDigests = std::vector<std::pair<std::string, std::string>>;
 
-/// A scenario as it was run.
 struct FinishedScenario {
   Study study;
   std::uint64_t seed = 1;
@@ -23,22 +22,22 @@ struct FinishedScenario {
   NamedDigests methods;  ///< by method: its settings
 };
 
-/// A result folder, with everything that a gate needs beside the rows (made by bench/finished_runs).
+/// A result folder, with all that a gate needs besides the rows; bench/finished_runs reads it.
 struct FinishedRun {
   RunData data;
   std::vector<FinishedScenario> scenarios;
-  /// Why the run cannot be judged as a whole: it did not end, or rows are missing. Empty = it is complete.
+  /// The reasons why there is no verdict: the run did not end, or rows are missing. Empty = it is complete.
   std::vector<std::string> incomplete;
 };
 
 /// Returns the identities of all cells that a scenario requires, in canonical order.
 std::vector<std::string> CellsOf(const Study& study);
 
-/// Checks `data.rows` against the cells that the scenarios require, and records missing ones. Fails on a duplicate row
-/// and on a row that no scenario requires.
+/// Checks the rows against the cells that the scenarios require. Missing rows go into `incomplete`; a duplicate row,
+/// and one that no scenario requires, are failures.
 Result<void> CheckRows(FinishedRun& run, const Place& place);
 
-/// The values of one metric, by trial; nothing if a cell has none.
+/// The values of one metric, by trial; nullopt if a cell has none.
 struct SnapshotValues {
   std::string metric;
   std::vector<std::optional<double>> values;

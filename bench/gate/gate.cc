@@ -12,8 +12,8 @@
 namespace etude {
 namespace {
 
-/// Returns the times of one method, by world (condition, trial). Cells that were ended by the machine, or took less
-/// than the clock's resolution, have none.
+/// Returns the processor times of one method, by world (condition, trial), without cells that the machine ended or that
+/// took less than the clock's resolution.
 std::map<std::pair<std::string, int>, double> SecondsOf(const FinishedRun& run, const std::string& scenario,
                                                         const std::string& method) {
   std::map<std::pair<std::string, int>, double> seconds;
@@ -52,10 +52,11 @@ RatioResult Judge(const FinishedRun& run, const FinishedScenario& scenario, cons
 Result<void> RequireComparable(const Snapshot& baseline, const Snapshot& now, const std::string& file) {
   const std::vector<std::string> reasons = WhyNotComparable(baseline, now);
   if (reasons.empty()) return {};
-  constexpr std::size_t kTold = 3;
+  constexpr std::size_t kMaxShownReasons = 3;
   std::string text;
-  for (std::size_t i = 0; i < std::min(kTold, reasons.size()); ++i) text += (i == 0 ? "" : "; ") + reasons[i];
-  if (reasons.size() > kTold) text += fmt::format("; and {} more", reasons.size() - kTold);
+  for (std::size_t i = 0; i < std::min(kMaxShownReasons, reasons.size()); ++i)
+    text += (i == 0 ? "" : "; ") + reasons[i];
+  if (reasons.size() > kMaxShownReasons) text += fmt::format("; and {} more", reasons.size() - kMaxShownReasons);
   return Fail({file, 0, 0}, "its worlds are not those of the run: {}; --update makes a new one", text);
 }
 
@@ -115,15 +116,16 @@ std::vector<std::string> DescribeSilentMethods(const FinishedRun& run) {
     std::string first;
     std::map<std::string, int> causes;
   };
-  constexpr std::size_t kMaxCauses = 1000, kToldCauses = 3;
-  std::map<std::pair<std::string, std::string>, Cells> methods;  // by scenario and method
+  constexpr std::size_t kMaxKeptCauses = 1000, kMaxShownCauses = 3;
+  // Collect the causes, by scenario and method.
+  std::map<std::pair<std::string, std::string>, Cells> methods;
   ForEachRow(run.data, [&](const Row& row, std::size_t) {
     const CellResult& result = row.result;
     if (result.status == Status::kSkipped) return;
     Cells& cells = methods[{row.scenario, row.method}];
     cells.has_answer |= result.status == Status::kOk || result.status == Status::kUnsolved;
     if (cells.attempted++ == 0) cells.first = row.Id();
-    if (cells.has_answer || cells.causes.size() == kMaxCauses) return;
+    if (cells.has_answer || cells.causes.size() == kMaxKeptCauses) return;
     ++cells.causes[fmt::format("{}: {}", StatusName(result.status), result.reason)];
   });
   // Describe each method without an answer by its most frequent causes.
@@ -134,10 +136,10 @@ std::vector<std::string> DescribeSilentMethods(const FinishedRun& run) {
     std::ranges::stable_sort(causes, std::greater(), &std::pair<std::string, int>::second);
     std::string text = fmt::format("{}: none of the {} cells of {} is ok or unsolved; the first is {}", name.first,
                                    cells.attempted, name.second, cells.first);
-    for (std::size_t i = 0; i < std::min(causes.size(), kToldCauses); ++i) {
+    for (std::size_t i = 0; i < std::min(causes.size(), kMaxShownCauses); ++i) {
       text += fmt::format("; {} × {}", causes[i].second, causes[i].first);
     }
-    if (causes.size() > kToldCauses) text += "; and others";
+    if (causes.size() > kMaxShownCauses) text += "; and others";
     sentences.push_back(std::move(text));
   }
   return sentences;
@@ -178,7 +180,7 @@ bool IsRegression(const MetricMove& move) {
 }
 
 GateVerdict GateVerdictOf(const GateReport& report) {
-  if (!report.incomplete.empty()) return GateVerdict::kNotWhole;
+  if (!report.incomplete.empty()) return GateVerdict::kIncomplete;
   const auto unmet = [](const auto& judged) { return judged.ruling == ClaimOutcome::kUnmet; };
   const bool fails = !report.silent.empty() ||
                      std::any_of(report.comparison.moves.begin(), report.comparison.moves.end(), IsRegression) ||

@@ -9,28 +9,26 @@
 
 namespace etude {
 
-/// A rule about times, and its result.
 struct RatioResult {
   std::string scenario;
   TimeRatio rule;
   int pairs = 0;  ///< worlds of all conditions in which neither method was ended by the machine
   std::optional<double> median, ci_low, ci_high;  ///< of the ratios of processor times
-  /// Unmet if the whole interval lies above the limit, because single times vary on a busy machine; undecided if only
-  /// the median does, or if too few worlds have both times.
+  /// Unmet if the whole interval lies above the limit; undecided if only the median does (times vary on a busy
+  /// machine), or if too few worlds have both times.
   ClaimOutcome ruling = ClaimOutcome::kUndecided;
 };
 
 /// Judges the time rules of all scenarios. Both times of a pair come from the same world of the same run.
 std::vector<RatioResult> JudgeTimeRatios(const FinishedRun& run);
 
-enum class GateVerdict { kPassed, kRegressed, kNotWhole };
+enum class GateVerdict { kPassed, kRegressed, kIncomplete };
 
 struct GateExpectation {
   std::string scenario;
   ExpectationResult result;
 };
 
-/// The findings of a gate, with the numbers of things checked.
 struct GateReport {
   std::string suite;
   std::string run_folder;        ///< as the caller names it, for `etude replay`; "" = unknown
@@ -40,33 +38,31 @@ struct GateReport {
   std::vector<GateExpectation> expectations;
   std::vector<RatioResult> ratios;
   SnapshotComparison comparison;
-  std::vector<std::string> silent;      ///< methods without an answer in any cell, in words: they fail the gate
-  std::vector<std::string> incomplete;  ///< why there is no verdict on the whole
-  bool runs_programs = false;           ///< some methods are programs, for which `etude replay` needs permission
+  std::vector<std::string> silent;      ///< a sentence per method without any answer: each fails the gate
+  std::vector<std::string> incomplete;  ///< why there is no verdict
+  bool runs_programs = false;           ///< some methods are programs, so `etude replay` needs permission
 };
 
 /// Judges a finished run by its scenarios' expectations, by their time rules, and against a baseline if there is one.
 /// Fails if the baseline's worlds are not the run's (WhyNotComparable).
 Result<GateReport> JudgeRun(const FinishedRun& run, const Snapshot* baseline, const std::string& baseline_file);
 
-/// Return the rules of a run's scenarios: which are compared exactly, and when single worlds are a regression.
 std::set<std::string> ExactScenarios(const FinishedRun& run);
 TailRules TailRulesOf(const FinishedRun& run);
 
-/// Returns why there is no verdict on the whole: the run is incomplete, cells ended in a status that depends on the
-/// machine (timeout, crashed, out of memory; one sentence per scenario and status), or every cell was skipped.
+/// Returns why there is no verdict: the run is incomplete, every cell was skipped, or the machine ended cells (timeout,
+/// crashed, out of memory; one sentence per scenario and status).
 std::vector<std::string> WhyIncomplete(const FinishedRun& run);
 
-/// Returns one sentence per method without an answer (ok or unsolved) in any of its cells, with the most frequent
-/// causes, unless all of its cells were skipped.
+/// Returns one sentence, with the most frequent causes, per method that has no answer (ok or unsolved) in any cell. A
+/// method whose cells were all skipped is left out.
 std::vector<std::string> DescribeSilentMethods(const FinishedRun& run);
 
 /// Returns true if a move makes the gate fail.
 bool IsRegression(const MetricMove& move);
 
-/// Returns the verdict. "Incomplete" comes before "regressed": a run without all its cells is not judged, however bad
-/// the rest is; the report still lists what moved. Whatever cannot be decided (an expectation, a time rule, an unclear
-/// difference) is reported and passes.
+/// Returns the verdict. A run with missing cells is incomplete, not regressed, however bad its other cells are; the
+/// report still lists what moved. Whatever is undecided (an expectation, a time rule, an unclear difference) passes.
 GateVerdict GateVerdictOf(const GateReport& report);
 
 }  // namespace etude

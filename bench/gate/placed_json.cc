@@ -10,7 +10,6 @@
 namespace etude {
 namespace {
 
-/// An object or a list that is open.
 struct Level {
   bool is_object = false;
   bool key_comes = false;           ///< the next string is a key
@@ -57,8 +56,7 @@ class Walk {
     }
     Level& level = levels_.back();
     level.key_comes = false;
-    level.key = Json::parse(text_.substr(from, at_ + 1 - from)).get<std::string>();  // "a" and "\u0061" are the same
-                                                                                     // key
+    level.key = Json::parse(text_.substr(from, at_ + 1 - from)).get<std::string>();  // "\u0061" is "a"
     const auto [first, is_new] = level.keys.emplace(level.key, line_);
     if (is_new) return {};
     return Fail({file_, line_, 0}, "the key {} stands twice in one object, first in line {}; allowed: once",
@@ -124,7 +122,7 @@ Result<std::string> JsonObject::Text(std::string_view key) const {
 Result<std::int64_t> JsonObject::Whole(std::string_view key, std::int64_t lowest, std::int64_t highest) const {
   const Json& value = At(key);
   const std::string allowed = fmt::format("a whole number, {}…{}", lowest, highest);
-  // A number that does not fit into 64 bits with a sign would become negative.
+  // A number above INT64_MAX would become negative.
   const bool fits =
       value.is_number_integer() && !(value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX);
   if (!fits || value.get<std::int64_t>() < lowest || value.get<std::int64_t>() > highest) return Wrong(key, allowed);

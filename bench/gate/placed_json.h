@@ -14,19 +14,19 @@
 
 namespace etude {
 
-/// The line numbers of a JSON document's entries, which a JSON library does not keep.
+/// The line numbers of a JSON document, which nlohmann's parser does not keep.
 struct JsonPlaces {
-  /// The line, from 1, of each entry of every list in the outermost object.
+  /// By key of the outermost object: the line, from 1, of each entry of its list.
   std::map<std::string, std::vector<int>> lines;
 };
 
-/// Finds the lines of a valid JSON document (ReadJson). Fails, with the line, on a duplicate key in an object: a JSON
-/// library would silently keep one of the two.
+/// Finds the lines in valid JSON (checked by ReadJson). Fails, with the line, on a duplicate key in an object, of which
+/// the parser would silently keep one.
 Result<JsonPlaces> FindJsonPlaces(const std::string& text, const std::string& file);
 
-/// Reads a JSON object strictly: every required key exists, no unknown one does, and each value is of its kind. A JSON
-/// library would turn 1.9 into 1, −1 into 18446744073709551615, or throw its own messages. Complaints name the place,
-/// the key, the value found and what is allowed. Null is neither a text nor a number.
+/// Reads a JSON object strictly: every required key exists, no unknown one does, and each value has its type; null is
+/// neither text nor number. (nlohmann would convert 1.9 to 1 and −1 to 18446744073709551615.) Complaints name the
+/// place, the key, the value found and what is allowed.
 class JsonObject {
  public:
   /// Checks the keys of `json`, which must outlive the result. `what` is its name in complaints: "a line of statuses".
@@ -57,7 +57,7 @@ class JsonObject {
   std::string what_;
 };
 
-/// Returns a value as complaints show it: null, "text", 1.5, a list, an object.
+/// Describes a value for complaints: null, "text", 1.5, "a list", "an object".
 std::string DescribeJson(const Json& json);
 
 }  // namespace etude

@@ -12,10 +12,9 @@
 namespace etude {
 namespace {
 
-constexpr std::array kSizes = {1.0, 2.0, 4.0};  // practical thresholds
-constexpr double kSpread = 3;                   // practical thresholds, standard deviation over the worlds
+constexpr std::array kSizes = {1.0, 2.0, 4.0};  // means of injected differences, in practical thresholds
+constexpr double kDeviation = 3;                // their standard deviation, in practical thresholds
 
-/// Counts events.
 struct Tally {
   int count = 0, of = 0;
   void Add(bool happened) {
@@ -58,11 +57,11 @@ void Inject(SnapshotValues& values, double size, std::uint64_t seed) {
   const double worse = metric.direction == Direction::kLowerIsBetter ? metric.practical : -metric.practical;
   RandomStream dice({.suite_seed = seed, .scenario = "gate-self-test", .trial = 0}, "injected");
   for (auto& value : values.values) {
-    if (value) *value += worse * dice.Normal(size, kSpread);
+    if (value) *value += worse * dice.Normal(size, kDeviation);
   }
 }
 
-constexpr double kFarBeyond = 2, kShort = 0.9;  // multiples of what the rule allows
+constexpr double kBeyondRule = 2, kWithinRule = 0.9;  // multiples of the tail rule's `times`
 
 template <typename AnySnapshot>
 auto& TargetOf(AnySnapshot& snapshot, const std::string& metric) {
@@ -104,18 +103,18 @@ Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions) {
     const Snapshot first = TakeSnapshot(*first_run);
     const std::string& name = first.scenarios.front().name;
     const TailRules rules = TailRulesOf(*first_run), no_tails = {{name, TailRule{.worlds = 0, .lost = 0}}};
-    // Reruns must not alarm, by either rule.
+    // Compare two runs of one seed: neither rule may alarm.
     reruns.Add(Alarms(CompareSnapshots(first, TakeSnapshot(*same_run), {name})));
 
     tail_reruns.Add(Alarms(CompareSnapshots(first, TakeSnapshot(*same_run), {}, rules)));
 
-    // False alarms between two seeds.
+    // Count false alarms between two seeds.
     const SnapshotComparison nothing_changed = CompareSnapshots(first, TakeSnapshot(*other_run), {}, no_tails);
     gates.Add(Alarms(nothing_changed));
     for (const MetricMove& move : nothing_changed.moves) comparisons.Add(IsRegression(move));
     report.comparisons = static_cast<int>(nothing_changed.moves.size());
 
-    // Injected differences of known size, and a few far worse worlds.
+    // Inject differences of known size, then a few far worse worlds.
     for (std::size_t k = 0; k < kSizes.size(); ++k) {
       Snapshot worse = first;
       SnapshotValues* values = FindTarget(worse);
@@ -126,7 +125,7 @@ Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions) {
     }
     tails.Try(first, target, first_seed, rules.at(name));
 
-    // Each other method in place of the first.
+    // Replace the first method by each other one.
     methods = first.scenarios.front().methods;
     real.resize(methods.size());
     const Snapshot before = WithMethodAsFirst(first, methods.front().first);
@@ -134,7 +133,7 @@ Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions) {
       real[m].Add(Alarms(CompareSnapshots(before, WithMethodAsFirst(first, methods[m].first), {}, no_tails)));
     }
   }
-  // The rates.
+  // Report the rates.
   report.rerun_alarms = reruns.Result();
   report.tail_rerun_alarms = tail_reruns.Result();
   report.tails = tails.Results();
@@ -163,19 +162,20 @@ void InjectedTails::Try(const Snapshot& first, const std::string& target, std::u
   const auto worse_by = [&](double times) { return [=](std::optional<double>& value) { *value += times * worse; }; };
   const auto present = static_cast<int>(DrawTrials(TargetOf(first, target), SIZE_MAX, seed).size());
   const int needed = WorldsThatFail(present, rule);
-  // Worlds worse by twice what the rule allows: found if they are enough.
+  // Worlds worse by twice the rule's `times`: the gate must find them if there are enough.
   std::set<int> counts = {1, 2, 3, 5, 10};
   if (needed > 0) counts.insert(needed);
   for (const int count : counts) {
     if (count > present) break;
     Count(fmt::format("{} in {} of {} worlds worse by {} × what matters", target, count, present,
-                      kFarBeyond * rule.times),
-          needed > 0 && count >= needed, compare(static_cast<std::size_t>(count), worse_by(kFarBeyond)));
+                      kBeyondRule * rule.times),
+          needed > 0 && count >= needed, compare(static_cast<std::size_t>(count), worse_by(kBeyondRule)));
   }
-  // Worlds just within the rule are not found; a lost value is.
+  // It must not find worlds just within the rule, but must find a lost value.
   if (needed > 0 && needed <= present) {
-    Count(fmt::format("{} in {} of {} worlds worse by {} × what matters", target, needed, present, kShort * rule.times),
-          false, compare(static_cast<std::size_t>(needed), worse_by(kShort)));
+    Count(fmt::format("{} in {} of {} worlds worse by {} × what matters", target, needed, present,
+                      kWithinRule * rule.times),
+          false, compare(static_cast<std::size_t>(needed), worse_by(kWithinRule)));
   }
   if (present > 0) {
     Count(fmt::format("{} lost in 1 of {} worlds", target, present), rule.lost == 1,

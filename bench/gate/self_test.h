@@ -17,52 +17,49 @@ struct Rate {
   double low = 0, high = 1;
 };
 
-/// The share of injected changes that a gate found.
+/// How often gates found one injected change.
 struct PowerResult {
   std::string change;
   Rate found;
 };
 
-/// The results of a gate's test of itself.
 struct SelfTestReport {
   int comparisons = 0;                ///< number of comparisons of one gate
-  Rate rerun_alarms;                  ///< gates by the rule `exact` between two runs of one seed: must be zero
-  Rate tail_rerun_alarms;             ///< gates by the tail rule between two runs of one seed: must be zero
-  Rate false_alarms;                  ///< gates between runs of two seeds that report a regression
-  Rate false_alarm_comparisons;       ///< among all comparisons of these gates
+  Rate rerun_alarms;                  ///< alarms of the rule `exact` between two runs of one seed: must be zero
+  Rate tail_rerun_alarms;             ///< alarms of the tail rule between two runs of one seed: must be zero
+  Rate false_alarms;                  ///< gates between runs of two seeds that alarm
+  Rate false_alarm_comparisons;       ///< comparisons that alarm in these gates
   std::vector<PowerResult> injected;  ///< changes of known size, injected into one metric of one method
   std::vector<PowerResult> tails;     ///< a few worlds made far worse, or without their value, in the same metric
   std::vector<PowerResult> real;      ///< the first method replaced by each other method
 
-  /// Returns true if the gate keeps its promise: reruns never alarm, the interval of false alarms does not lie above
-  /// kFalseAlarmLimit, and the tail rule finds the number of far worse worlds that it is set to.
+  /// Returns true if the gate works as specified: reruns never alarm, the interval of false alarms does not lie above
+  /// kFalseAlarmLimit, and the tail rule finds exactly what it must find.
   bool Holds() const;
-  bool tails_found = true;  ///< the tail rule failed exactly the gates that it had to fail
+  bool tails_found = true;  ///< the tail rule alarmed exactly when it had to
 };
 
 /// The share of gates that may report a regression although nothing changed: alpha of Holm's correction.
 constexpr double kFalseAlarmLimit = 0.05;
 
-/// Makes a complete run of one scenario under a seed.
 using RunUnderSeed = std::function<Result<FinishedRun>(std::uint64_t seed)>;
 
 /// Measures the gate on `repetitions` pairs of seeds (2i − 1, 2i):
 /// - false alarms: trial t of one seed against trial t of the other. Both have the same distribution, so the sign of
-///   every difference is random and every alarm is false. The differences are far larger than those of a real gate,
-///   because the worlds differ, but the test is otherwise the same. The tail rule, which is for the same worlds, is
-///   off.
+///   every difference is random and every alarm is false. The differences are far larger than in a real gate, because
+///   the worlds differ; the test is the same. The tail rule, which requires equal worlds, is off.
 /// - reruns: the first seed against a second run of it.
-/// - injected: the first seed against itself, with a random difference added to every value of the first method, first
-///   condition, in the first gated metric that is a median and has a direction: normal with a mean of k practical
-///   thresholds for the worse and a standard deviation of three thresholds.
+/// - injected: the first seed against itself, with a random difference added to every value of one metric, for the
+///   first method and condition: the first gated metric that is a median and has a direction. The differences are
+///   normal: mean k practical thresholds (worse), standard deviation three thresholds.
 /// - tails: the first seed against itself, with n worlds of that metric made worse by twice what the scenario's tail
 ///   rule allows, n from 1 to the number that is a regression; and with one value lost.
-/// - real: the first seed's worlds, in which another method replaces the first one.
+/// - real: the first seed's first method against each other method in its place.
 /// Fails if a run does, or if the scenario has no metric for injection.
 Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions);
 
-/// Makes a few worlds of a snapshot far worse, and counts the gates that find it: all those in which the tail rule
-/// applies must, and no other may by this rule.
+/// Makes a few worlds of a snapshot far worse, and counts the gates that find the change: those to which the tail rule
+/// applies must find it, and others must not find it by that rule.
 class InjectedTails {
  public:
   /// Changes `target` (scenario 0, cells 0, this metric) in copies of `first`: n worlds worse by twice the rule's
@@ -71,7 +68,6 @@ class InjectedTails {
   void Try(const Snapshot& first, const std::string& target, std::uint64_t seed, const TailRule& rule);
 
   std::vector<PowerResult> Results() const;
-  /// Returns true if all gates behaved as the rule says.
   bool AsTheRuleSays() const { return as_the_rule_says_; }
 
  private:

@@ -20,11 +20,11 @@ struct Difference {
   double most;
 };
 
-/// A system on which the quick suite was run, with its differences from Debian 12. tests/cli/systems_test.py measures
-/// it again; docs/guide/install.md shows it.
+/// A system on which the quick suite was run, and how its results differ from those on Debian 12. The test
+/// tests/cli/systems_test.py measures it; docs/guide/install.md shows it.
 struct MeasuredSystem {
   const char* name;
-  const char *compiler, *glibc, *ceres, *mesa;  ///< prefixes of their versions
+  const char *compiler, *glibc, *ceres, *mesa;  ///< prefixes of versions
   int cells_that_differ;
   std::span<const Difference> differences;
 };
@@ -53,7 +53,7 @@ std::string Describe(const RunSystem& system, const MeasuredSystem* measured) {
 
 using LargestDifferences = std::map<std::string, double, std::less<>>;
 
-/// Returns the largest differences of values in both snapshots, by metric; metrics without a difference are left out.
+/// Returns the largest difference between two snapshots by metric; metrics without a difference are left out.
 LargestDifferences DifferencesOf(const Snapshot& before, const Snapshot& after) {
   LargestDifferences largest;
   const auto add = [&](const SnapshotCells& a, const SnapshotCells& b) {
@@ -80,7 +80,7 @@ LargestDifferences DifferencesOf(const Snapshot& before, const Snapshot& after) 
   return largest;
 }
 
-/// Returns the measured bounds on the differences between two systems: the sum of their differences from Debian 12.
+/// Returns bounds on the differences between two systems: the sums of their differences from Debian 12.
 LargestDifferences MeasuredBetween(const MeasuredSystem& a, const MeasuredSystem& b) {
   LargestDifferences measured;
   for (const MeasuredSystem* system : {&a, &b}) {

@@ -8,9 +8,9 @@
 
 namespace etude {
 
-/// Returns lines of text that say on which systems two runs were computed, if these differ; by how much results were
-/// measured to differ between them (on the quick suite, docs/guide/install.md); and which gated values of the runs'
-/// snapshots differ by more. Empty if the systems are the same.
+/// Describes, line by line, the systems of two runs if they differ; the measured differences of results between these
+/// systems (quick suite, docs/guide/install.md); and the gated values of the snapshots that differ by more. Empty if
+/// the systems are the same.
 std::vector<std::string> CompareSystems(const RunSystem& a, const RunSystem& b, const Snapshot& before,
                                         const Snapshot& after);
 

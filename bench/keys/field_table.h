@@ -44,7 +44,6 @@ std::string DefaultText(const std::optional<Number>&) {
 inline std::string DegreesText(double radians) { return NumberText(Degrees(radians)); }
 inline std::string DegreesText(const std::optional<double>&) { return "(none)"; }
 
-/// Reads `count` numbers into `values`.
 void ReadNumbers(Fields& fields, const std::string& key, Count count, Range range, std::vector<double>& values);
 /// Reads a list of names; complains of unknown ones.
 std::vector<std::string> ReadNames(Fields& fields, const std::string& key, const std::vector<std::string>& known);
@@ -111,7 +110,6 @@ struct Field {
             }};
   }
 
-  /// A list of texts.
   template <typename Member>
   static Field Texts(const std::string& key, Member member, std::string allowed, std::string meaning) {
     return {{key, ListKind(std::move(allowed), TextKind("")), "[]", std::move(meaning)},

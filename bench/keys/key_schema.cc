@@ -21,7 +21,6 @@ Json ScalarToJson(const Node& node) {
   return *number;
 }
 
-/// Returns the keys of this name, in their order.
 std::vector<KeyInfo> Variants(const std::string& name, std::span<const KeyInfo> keys) {
   std::vector<KeyInfo> variants;
   std::ranges::copy_if(keys, std::back_inserter(variants), [&](const KeyInfo& key) { return key.key == name; });
@@ -70,10 +69,10 @@ std::string Text(const Json& value, const std::string& indent, bool in_one_line)
 }  // namespace
 
 std::string SchemaText(const Json& schema, const std::string& indent) {
-  constexpr std::size_t kLongest = 600;
+  constexpr std::size_t kMaxLineLength = 600;
   if (schema.is_structured() && HoldsKeys(schema)) return Text(schema, indent, false);
   std::string line = Text(schema, indent, true);
-  return schema.is_structured() && line.size() > kLongest ? Text(schema, indent, false) : line;
+  return schema.is_structured() && line.size() > kMaxLineLength ? Text(schema, indent, false) : line;
 }
 
 Json ToJson(const Node& node) {

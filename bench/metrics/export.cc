@@ -166,13 +166,14 @@ Json AddedMetricsJson() {
 }
 
 Result<void> ReadAddedMetrics(const Json& list, const Place& place) {
-  const auto place_of = [](const auto& words, const Json& word) {
+  const auto index_of = [](const auto& words, const Json& word) {
     const auto found = std::ranges::find(words, word.get<std::string>());
     if (found == words.end()) throw Json::other_error::create(501, "unknown word " + word.dump(), nullptr);
     return found - words.begin();
   };
   constexpr std::array kDirections = {"lower", "higher", "neither"};
   constexpr std::array kAggregates = {"median", "mean"};
+  // Read each definition, then add it; AddMetric refuses another definition of a known id.
   for (const Json& each : list) {
     MetricInfo metric;
     try {
@@ -180,9 +181,9 @@ Result<void> ReadAddedMetrics(const Json& list, const Place& place) {
       metric.version = each.at("version").get<int>();
       metric.label = each.at("label").get<std::string>();
       metric.unit = each.at("unit").get<std::string>();
-      metric.direction = static_cast<Direction>(place_of(kDirections, each.at("direction")));
-      metric.aggregate = static_cast<Aggregate>(place_of(kAggregates, each.at("aggregate")));
-      metric.reading = static_cast<Reading>(place_of(kReadings, each.at("reads")));
+      metric.direction = static_cast<Direction>(index_of(kDirections, each.at("direction")));
+      metric.aggregate = static_cast<Aggregate>(index_of(kAggregates, each.at("aggregate")));
+      metric.reading = static_cast<Reading>(index_of(kReadings, each.at("reads")));
       metric.practical = each.at("practical_threshold").get<double>();
       metric.definition = each.at("definition").get<std::string>();
       metric.domain = each.at("domain").get<std::string>();

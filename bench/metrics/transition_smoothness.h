@@ -42,9 +42,8 @@ bool IsNatural(std::optional<double> jump_cm, std::vector<double> natural_jumps_
 
 /// Returns the mean over both feet and the second after frame `point` of v_xz · clamp(2 − 2^(h / 2.5 cm), 0, 1): the
 /// horizontal speed of feet that should stand still. A frame after the transition point is required. Heights are above
-/// y = 0, the floor on which every clip of a stage was placed. `FootSlide` (engine/motion/statistics), for clips with
-/// unknown floor, uses each foot's lowest point instead, which a join that pushes a foot through the floor would
-/// change.
+/// y = 0, the floor on which every clip of a stage was placed. (`FootSlide` of engine/motion/statistics measures them
+/// from each foot's lowest point, because the floor is unknown there; a join can push a foot below the floor.)
 double FootSlideCmps(const BodyMotion& motion, int point);
 /// Returns the foot slide over the steps from frame `first` to frame `last` (at most to the motion's end).
 double FootSlideCmps(std::span<const BodyPose> poses, int first, int last, double rate_hz);

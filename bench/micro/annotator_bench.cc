@@ -1,4 +1,4 @@
-// What a simulated person's marks on one picture cost: seeing, drawing and reading back, beside the renderer's picture.
+// Times the simulated annotator on one picture: seeing it, marking it, and drawing and reading the marks.
 #include <benchmark/benchmark.h>
 
 #include "engine/vision/strokes.h"

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-// Copies the kept room into the picture.
+// Copies the stored picture of the empty room.
 constexpr const char* kBackdrop = R"glsl(
 uniform sampler2D kept_room;
 uniform sampler2D kept_extra;
@@ -27,7 +27,7 @@ void main() {
 }
 )glsl";
 
-// A capsule's box thrown from the lamp onto the floor or the wall, and the shadow there.
+// Projects a capsule's bounding box from the lamp onto the floor or the wall, where kShadow then draws its shadow.
 constexpr const char* kShadowPlace = R"glsl(
 uniform vec3 eye;
 uniform vec3 lamp;
@@ -136,6 +136,7 @@ BareDraw::BareDraw(std::unique_ptr<State> state) : state_(std::move(state)) {}
 BareDraw::~BareDraw() { state_->context->MakeCurrent(); }
 
 Result<std::unique_ptr<BareDraw>> BareDraw::Create(const Room& room, const Camera& camera) {
+  // Compile the shaders.
   ASSIGN_OR_RETURN(auto context, GlContext::Create());
   const std::vector<std::string> inputs{"start_and_radius", "end_and_label", "paint_in", "front_in"};
   ASSIGN_OR_RETURN(const auto studio, context->LinkProgram(FullScreenVertexShader(), RoomFragmentShader()));
@@ -151,6 +152,7 @@ Result<std::unique_ptr<BareDraw>> BareDraw::Create(const Room& room, const Camer
   state->backdrop = backdrop;
   state->shadow = shadow;
   state->body = body;
+  // Draw the empty room once, and bind it as textures.
   state->rooms = std::make_unique<KeptRooms>(gl, studio, 0, state->vertices);
   const KeptRoom& kept = state->rooms->FindOrDraw(room, camera);
   gl.UseProgram(backdrop);
@@ -159,6 +161,7 @@ Result<std::unique_ptr<BareDraw>> BareDraw::Create(const Room& room, const Camer
   gl.BindTexture(GL_TEXTURE_2D, kept.extra);
   gl.ActiveTexture(GL_TEXTURE0);
   gl.BindTexture(GL_TEXTURE_2D, kept.room);
+  // Make the framebuffer and the buffers to read back.
   state->Framebuffer();
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
   gl.CullFace(GL_FRONT);
@@ -173,6 +176,7 @@ Result<std::unique_ptr<BareDraw>> BareDraw::Create(const Room& room, const Camer
 void BareDraw::Draw(const std::vector<Figure>& figures) {
   State& s = *state_;
   const GlFunctions& gl = s.gl;
+  // The empty room.
   s.capsules.Upload(MakeInstances(figures, s.camera.p_WC));
   constexpr GLfloat kFarthest[] = {1};
   gl.ClearBufferfv(GL_DEPTH, 0, kFarthest);
@@ -181,6 +185,7 @@ void BareDraw::Draw(const std::vector<Figure>& figures) {
   gl.BindVertexArray(s.vertices);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
 
+  // Shadows: the darkest one counts (GL_MIN).
   gl.Enable(GL_CULL_FACE);
   gl.Enablei(GL_BLEND, 0);
   s.Use(s.shadow);
@@ -190,12 +195,14 @@ void BareDraw::Draw(const std::vector<Figure>& figures) {
   }
   gl.Disablei(GL_BLEND, 0);
 
+  // Capsules.
   gl.Enable(GL_DEPTH_TEST);
   s.Use(s.body);
   SetLights(gl, s.body, LightsOf(s.room));
   s.capsules.Draw();
   gl.Disable(GL_CULL_FACE);
 
+  // Read back colour and labels.
   const int width = s.camera.intrinsics.width, height = s.camera.intrinsics.height;
   gl.ReadBuffer(GL_COLOR_ATTACHMENT0);
   gl.ReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, s.colour.data());

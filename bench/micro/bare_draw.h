@@ -9,14 +9,13 @@
 
 namespace etude {
 
-/// The yardstick of sim/render: the same shaders, capsules and shadows drawn into the whole of one framebuffer of
-/// colour and labels, and read back, with nothing kept, cut or copied around it but the picture of the empty room.
+/// The baseline for times of sim/render: draws the same capsules and shadows with the same shaders into one framebuffer
+/// (colour and labels) and reads it back. It stores only the picture of the empty room and does no tiling or culling.
 class BareDraw {
  public:
   static Result<std::unique_ptr<BareDraw>> Create(const Room& room, const Camera& camera);
   ~BareDraw();
 
-  /// Draws and reads back colour (RGBA) and labels, whole pictures.
   void Draw(const std::vector<Figure>& figures);
 
  private:

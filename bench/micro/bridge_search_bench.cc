@@ -1,6 +1,6 @@
-// Searching a library for frames by fuzzy distance: our index beside a loop, the same loop over vectors, and
-// nanoflann's k-d tree, on the same frames and queries, one after the other in one process. Arguments that are no
-// options are clips to make the library of (bridge_search_data.h). All answers are compared first.
+// Times searches of a library for frames by fuzzy distance: our index, a loop, the same loop with SIMD vectors, and
+// nanoflann's k-d tree, on the same frames and queries in one process. Arguments other than options are the clips of
+// the library (bridge_search_data.h). All answers are compared before measuring.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -25,7 +25,6 @@ namespace {
 
 using Queries = std::vector<Grades>;
 
-/// One way of searching, as it answers.
 struct Searcher {
   std::function<std::optional<Neighbour>(const Grades&)> first;
   std::function<std::vector<Neighbour>(const Grades&)> within;
@@ -39,7 +38,7 @@ Searcher Ask(std::shared_ptr<const Index> index) {
           .nearest = [index](const Grades& query, int k) { return index->Nearest(query, k); }};
 }
 
-/// Ours comes first.
+// The first searcher is ours.
 #ifdef ETUDE_HAS_NANOFLANN
 constexpr int kNanoflannLeaves[] = {20, 40, 80, 160};
 constexpr const char* kSearcherNames[] = {"index",        "loop",         "vector-loop",  "nanoflann-20",
@@ -66,7 +65,8 @@ std::vector<Searcher> MakeSearchers(std::span<const Grades> frames) {
   std::exit(1);
 }
 
-/// Peers round distances in their own way, and take any of equals.
+/// Compares the peers' answers with ours. Distances may differ by rounding, and any of several equally near frames
+/// counts.
 void CompareAnswers(const std::vector<Searcher>& searchers, const Queries& queries) {
   constexpr double kRounding = 1e-12;
   const Searcher& ours = searchers.front();
@@ -86,7 +86,7 @@ void CompareAnswers(const std::vector<Searcher>& searchers, const Queries& queri
   }
 }
 
-/// The hardest queries: the one with the most frames within the threshold, and those that have none.
+/// The hardest queries: the one with the most frames within the threshold, and those without any.
 struct HardQueries {
   Queries most, none;
 };
@@ -106,7 +106,6 @@ HardQueries FindHardQueries(const Searcher& ours, const SearchData& data) {
   return hard;
 }
 
-/// A library with everyone's index of it.
 struct Measured {
   SearchData data;
   std::vector<Searcher> searchers;
@@ -126,14 +125,14 @@ struct Measured {
 };
 constexpr const char* kQueryKinds[] = {"own", "varied", "foreign", "most", "none"};
 
-/// A library of so many varied frames, or of the captured ones as they are.
+/// A library of `count` varied frames, or of the captured frames unchanged.
 struct LibraryKind {
   int count = 0;
   bool captured = false;
   std::string Name() const { return captured ? "captured" : std::to_string(count); }
 };
 
-/// Makes libraries when they are asked for, and holds one at a time: a million frames in every form take gigabytes.
+/// Makes a library on request and keeps only the last one: all indexes of a million frames take gigabytes.
 class Libraries {
  public:
   explicit Libraries(std::vector<SeedClip> seeds) : seeds_(std::move(seeds)) {}
@@ -153,10 +152,10 @@ class Libraries {
   std::unique_ptr<Measured> held_;
 };
 
-/// Asks a searcher, and returns the number of frames in its answer.
+/// Sends a query to a searcher; returns the number of frames found.
 using Question = std::size_t (*)(const Searcher&, const Grades&);
 
-/// Asks all queries in turn, everyone the same ones; the time shown is the mean over them.
+/// Times all queries in turn; the reported time is the mean.
 void AskAll(benchmark::State& state, const Searcher& searcher, const Queries& queries, Question ask) {
   if (queries.empty()) return state.SkipWithError("there is no such query");
   std::size_t answers = 0;
@@ -202,7 +201,7 @@ void RegisterBuild(Libraries& libraries, const LibraryKind& library, const std::
   benchmark::RegisterBenchmark(full_name.c_str(), run)->Unit(benchmark::kMillisecond)->MinTime(0.2);
 }
 
-/// Every frame's matches in every other clip, and the matrix.
+/// Times FindMatches: the matches of every frame in every other clip, and the matrix of shares.
 void FindAllMatches(benchmark::State& state, const std::vector<std::vector<Grades>>& clips) {
   std::vector<MatchClip> match_clips;
   double frames = 0;
@@ -228,9 +227,9 @@ void FindAllMatches(benchmark::State& state, const std::vector<std::vector<Grade
   state.counters["share"] = shares / (count * (count - 1));
 }
 
-/// Finds the transition points by an index of each clip, which is asked for every frame of the others.
+/// Times the same matches by one index per clip, which is queried for every frame of the other clips.
 template <class Index>
-void AskForPartners(benchmark::State& state, const std::vector<std::vector<Grades>>& clips, auto... options) {
+void FindPointsByIndex(benchmark::State& state, const std::vector<std::vector<Grades>>& clips, auto... options) {
   double found = 0;
   for (auto _ : state) {
     found = 0;
@@ -263,11 +262,11 @@ void RegisterMatches(Libraries& libraries, const LibraryKind& library) {
   });
   add("as-they-are/index", [](benchmark::State& state, const SearchData& data) { FindAllMatches(state, data.clips); });
   add("1000-each/loop", [](benchmark::State& state, const SearchData& data) {
-    AskForPartners<LoopPeer>(state, ClipsOfLength(data.frames, kClipLength));
+    FindPointsByIndex<LoopPeer>(state, ClipsOfLength(data.frames, kClipLength));
   });
 #ifdef ETUDE_HAS_NANOFLANN
   add("1000-each/nanoflann-10", [](benchmark::State& state, const SearchData& data) {
-    AskForPartners<NanoflannPeer>(state, ClipsOfLength(data.frames, kClipLength), 10);
+    FindPointsByIndex<NanoflannPeer>(state, ClipsOfLength(data.frames, kClipLength), 10);
   });
 #endif
 }
@@ -292,7 +291,7 @@ void RegisterAll(Libraries& libraries) {
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   std::vector<etude::SeedClip> seeds = etude::LoadSeeds({argv + 1, argv + argc});
-  benchmark::AddCustomContext("frames of the seeds", etude::MakeUp(seeds));
+  benchmark::AddCustomContext("frames of the seeds", etude::DescribeSeeds(seeds));
   etude::Libraries libraries(std::move(seeds));
   etude::RegisterAll(libraries);
   benchmark::RunSpecifiedBenchmarks();

@@ -22,12 +22,12 @@ std::vector<Grades> GradesOf(const BodyMotion& motion) {
   return grades;
 }
 
-/// Poses are large: they are made and turned into grades a part at a time.
+/// Makes the poses in parts and keeps only their grades, because poses are large.
 std::vector<std::vector<Grades>> VaryGrades(std::span<const BodyMotion> seeds, int count, RandomStream& stream) {
-  constexpr int kPart = 50'000;
+  constexpr int kPartFrames = 50'000;
   std::vector<std::vector<Grades>> clips;
-  for (int done = 0; done < count; done += kPart) {
-    for (const BodyMotion& clip : VariedLibrary(seeds, std::min(kPart, count - done), stream)) {
+  for (int done = 0; done < count; done += kPartFrames) {
+    for (const BodyMotion& clip : VariedLibrary(seeds, std::min(kPartFrames, count - done), stream)) {
       clips.push_back(GradesOf(clip));
     }
   }
@@ -40,14 +40,13 @@ std::vector<Grades> Joined(std::span<const std::vector<Grades>> clips) {
   return all;
 }
 
-/// Returns frames spread evenly over all.
-std::vector<Grades> Some(std::span<const Grades> frames) {
+std::vector<Grades> Spread(std::span<const Grades> frames) {
   std::vector<Grades> some;
   for (std::size_t i = 0; i < kQueries; ++i) some.push_back(frames[i * frames.size() / kQueries]);
   return some;
 }
 
-bool StaysOut(std::size_t seed) { return seed % 5 == 1; }
+bool IsForeign(std::size_t seed) { return seed % 5 == 1; }
 
 }  // namespace
 
@@ -73,26 +72,26 @@ std::vector<SeedClip> LoadSeeds(const std::vector<std::string>& files) {
   return seeds;
 }
 
-std::string MakeUp(std::span<const SeedClip> seeds) {
+std::string DescribeSeeds(std::span<const SeedClip> seeds) {
   std::string text;
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     const std::string seed = seeds[i].name + " " + std::to_string(seeds[i].motion.poses.size());
-    text += (i == 0 ? "" : ", ") + (StaysOut(i) ? "[" + seed + "]" : seed);
+    text += (i == 0 ? "" : ", ") + (IsForeign(i) ? "[" + seed + "]" : seed);
   }
   return text;
 }
 
 SearchData MakeSearchData(std::span<const SeedClip> seeds, int count) {
   std::vector<BodyMotion> known, foreign;
-  for (std::size_t i = 0; i < seeds.size(); ++i) (StaysOut(i) ? foreign : known).push_back(seeds[i].motion);
+  for (std::size_t i = 0; i < seeds.size(); ++i) (IsForeign(i) ? foreign : known).push_back(seeds[i].motion);
   const WorldKey world{.suite_seed = 1, .scenario = "bridge_search_bench", .trial = 0};
   RandomStream library_dice(world, "library"), varied_dice(world, "varied"), foreign_dice(world, "foreign");
   SearchData data;
   data.clips = VaryGrades(known, count, library_dice);
   data.frames = Joined(data.clips);
-  data.own = Some(data.frames);
-  data.varied = Some(Joined(VaryGrades(known, 20'000, varied_dice)));
-  data.foreign = Some(Joined(VaryGrades(foreign, 20'000, foreign_dice)));
+  data.own = Spread(data.frames);
+  data.varied = Spread(Joined(VaryGrades(known, 20'000, varied_dice)));
+  data.foreign = Spread(Joined(VaryGrades(foreign, 20'000, foreign_dice)));
   return data;
 }
 
@@ -102,15 +101,15 @@ SearchData MakeCapturedData(std::span<const SeedClip> seeds) {
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     if (!seeds[i].captured) continue;
     std::vector<Grades> grades = GradesOf(seeds[i].motion);
-    if (StaysOut(i)) {
+    if (IsForeign(i)) {
       foreign.insert(foreign.end(), grades.begin(), grades.end());
     } else {
       data.clips.push_back(std::move(grades));
     }
   }
   data.frames = Joined(data.clips);
-  if (!data.frames.empty()) data.own = Some(data.frames);
-  if (!foreign.empty()) data.foreign = Some(foreign);
+  if (!data.frames.empty()) data.own = Spread(data.frames);
+  if (!foreign.empty()) data.foreign = Spread(foreign);
   return data;
 }
 

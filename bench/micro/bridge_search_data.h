@@ -9,14 +9,14 @@
 
 namespace etude {
 
-/// The data that searches are measured on: the grades of clips that were danced with varied tempo and amplitude
-/// (sim/choreography/varied_library.h), out of the built-in moves and acts and real clips.
+/// The data of a search benchmark: the grades of performances with varied tempo and amplitude
+/// (sim/choreography/varied_library.h) of built-in moves and acts and of captured clips.
 struct SearchData {
   std::vector<std::vector<Grades>> clips;
   std::vector<Grades> frames;   ///< of all clips
   std::vector<Grades> own;      ///< queries: some of `frames`
-  std::vector<Grades> varied;   ///< queries: of other performances of the same seeds
-  std::vector<Grades> foreign;  ///< queries: of seeds that the library does not know
+  std::vector<Grades> varied;   ///< queries: other performances of the same seeds
+  std::vector<Grades> foreign;  ///< queries: performances of seeds that are not in the library
 };
 
 struct SeedClip {
@@ -25,21 +25,21 @@ struct SeedClip {
   BodyMotion motion;
 };
 
-/// Motions to search in. `files`: clips instead of the real ones of Debian's assimp-testmodels. Ends the program if one
-/// cannot be read; goes without the real ones where they are not installed.
+/// Loads the seeds: the built-in moves and acts, and `files` or else three captured clips of Debian's
+/// assimp-testmodels, if installed. Ends the program if a file cannot be read.
 std::vector<SeedClip> LoadSeeds(const std::vector<std::string>& files);
 
-/// Describes in a line what a library is made of: names and numbers of frames, those that stay out of it (every fifth)
-/// in brackets.
-std::string MakeUp(std::span<const SeedClip> seeds);
+/// Lists the seeds in one line: names and numbers of frames; foreign seeds (every fifth) in brackets.
+std::string DescribeSeeds(std::span<const SeedClip> seeds);
 
-/// A library of `count` frames: the seeds varied. Every fifth seed stays out of it and gives the foreign queries.
+/// Makes a library of `count` frames from varied performances of the seeds. Every fifth seed is left out; its
+/// performances are the foreign queries.
 SearchData MakeSearchData(std::span<const SeedClip> seeds, int count);
 
-/// The captured seeds as they are, every frame once. There are no other performances of them: no varied queries.
+/// Makes a library of the captured seeds, unchanged. It has no varied queries, because there are no other performances.
 SearchData MakeCapturedData(std::span<const SeedClip> seeds);
 
-/// The clips cut off and put together to clips of `length` frames each.
+/// Splits frames into clips of `length` frames; the rest is left out.
 std::vector<std::vector<Grades>> ClipsOfLength(std::span<const Grades> frames, std::size_t length);
 
 }  // namespace etude

@@ -1,5 +1,5 @@
-// One camera from fifteen views of a board, with its lens: ours and, where OpenCV is there, cv::calibrateCamera. Both
-// minimise the same sum of squares, so their answers must be the same.
+// Times the calibration of one camera and its lens from 15 views of a board: ours and, if OpenCV is installed,
+// cv::calibrateCamera. Both minimise the same sum of squares, so the answers are compared.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -66,8 +66,8 @@ void OpenCv(benchmark::State& state) {
   const Intrinsics &a = ours->cameras[0].intrinsics, &b = theirs->intrinsics;
   const double apart =
       std::max({std::abs(a.fx - b.fx), std::abs(a.fy - b.fy), std::abs(a.cx - b.cx), std::abs(a.cy - b.cy)});
-  constexpr double kEqual = 0.01;  // pixels: OpenCV takes points as floats
-  if (apart > kEqual || std::abs(ours->rms_px - theirs->rms_px) > 1e-4) {
+  constexpr double kMaxApartPx = 0.01;  // pixels: OpenCV takes points as floats
+  if (apart > kMaxApartPx || std::abs(ours->rms_px - theirs->rms_px) > 1e-4) {
     std::fprintf(stderr, "the answers differ by %g px, RMS %.6f and %.6f\n", apart, ours->rms_px, theirs->rms_px);
     std::exit(1);
   }

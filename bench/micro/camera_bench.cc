@@ -1,4 +1,4 @@
-// What each effect of a camera costs on a picture of 640 × 480, the drawing of the scene apart; and a picture with all.
+// Times each camera effect on a picture of 640 × 480 (without drawing the scene), and whole pictures (with drawing).
 #include <benchmark/benchmark.h>
 
 #include "sim/camera/camera_model.h"
@@ -31,7 +31,7 @@ View RowsOf(const View& all, const RowRange& rows) {
   return view;
 }
 
-/// Everything on but motion blur, as strong as a cheap camera has it.
+/// All effects but motion blur, as strong as in a cheap camera.
 constexpr CameraEffects kAll{.sync_offset_ms = 10,
                              .clock_drift_ppm = 100,
                              .rolling_shutter_ms = 20,
@@ -47,7 +47,7 @@ constexpr CameraEffects kAll{.sync_offset_ms = 10,
                              .noise = 1,
                              .jpeg_loss = 20};
 
-// The scene is a copy of a picture drawn beforehand.
+// Without drawing: the scene is copied from a picture drawn before.
 void Effect(benchmark::State& state, const CameraEffects& effects) {
   const auto renderer = Renderer::Create();
   if (!renderer) return state.SkipWithError(renderer.error().message.c_str());
@@ -76,7 +76,7 @@ ETUDE_EFFECT(jpeg, {.noise = 0, .jpeg_loss = 20});
 ETUDE_EFFECT(motion_blur, {.motion_blur = 0.5, .noise = 0});
 BENCHMARK_CAPTURE(Effect, all_but_motion_blur, kAll)->Unit(benchmark::kMillisecond);
 
-// Drawn as well: what a take costs a picture.
+// With drawing: a picture of a take.
 void Shot(benchmark::State& state, const CameraEffects& effects) {
   const auto renderer = Renderer::Create();
   if (!renderer) return state.SkipWithError(renderer.error().message.c_str());
@@ -86,7 +86,7 @@ void Shot(benchmark::State& state, const CameraEffects& effects) {
     return (*renderer)->RenderRows({}, figures, model.pinhole(), targets, rows);
   };
   std::size_t frame = 0;
-  model.Shoot(frame++, scene, Targets::kAll);  // the first picture waits for shaders to be compiled
+  model.Shoot(frame++, scene, Targets::kAll);  // the first picture compiles the shaders
   for (auto _ : state) benchmark::DoNotOptimize(model.Shoot(frame++, scene, Targets::kAll));
 }
 BENCHMARK_CAPTURE(Shot, noise, CameraEffects{.noise = 1})->Unit(benchmark::kMillisecond);

@@ -1,5 +1,5 @@
-// What motion files cost: reading and writing BVH, resampling. The clips are those of Debian's assimp-testmodels, and
-// assimp's own importer reads the same bytes in the same run.
+// Times reading and writing BVH, and resampling, on clips of Debian's assimp-testmodels. assimp's importer reads the
+// same bytes in the same run.
 #include <assimp/scene.h>
 #include <benchmark/benchmark.h>
 
@@ -21,7 +21,6 @@ std::string Load(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Counts the bytes of text that went by; without a clip there is nothing to measure.
 void Finish(benchmark::State& state, std::size_t bytes) {
   state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(bytes));
 }

@@ -1,5 +1,5 @@
-// A crowd of one body on one core (`etude crowd`) with every kind of vectors, in double and float: how long a frame
-// takes, and how many characters 1/60 s is enough for.
+// Times a crowd of characters with one body (`etude crowd`) on one core, for every SIMD target, in double and float:
+// the time of a frame, and the number of characters that fit into 1/60 s.
 //
 //     crowd_bench [--characters=1000] [--frames=120]
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 namespace etude {
 namespace {
 
-constexpr int kMaxSteps = 100;  // a frame, as etude crowd
+constexpr int kMaxSteps = 100;  // per frame, as in etude crowd
 
 double ThreadTimeMs() {
   timespec now{};

@@ -1,10 +1,9 @@
-// What a whole solution costs, by solver: the same 200 trials for all, poses of half the joints' ranges and of all of
-// them, stopped at practical and at tight goals. The counters say what came of it:
-//   solved      share of the trials that met the goals
-//   hidden      root mean square of the angles' distance from the truth, in units of the start's
-//   median_us   the median trial's time, each trial's being the least of all passes
-//   iterations  the median trial's
-// The time column is that of one pass over all trials.
+// Times every solver on the same 200 trials: poses over half and over all of each joint's range, with practical and
+// with tight goals. The time column is one pass over all trials. Counters:
+//   solved      share of trials that met the goals
+//   hidden      root mean square error of the angles, divided by the standard deviation of the start's noise
+//   median_us   median over the trials of each trial's fastest time
+//   iterations  median over the trials
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -25,14 +24,13 @@ namespace {
 constexpr int kTrials = 200;
 constexpr double kNoiseDeg = 15;
 
-/// One problem of inverse kinematics whose answer is known.
 struct IkTrial {
   TreeState truth;
   IkProblem problem;
 };
 
-/// The trials of scenarios, `count` of them: truth uniform in `pose_range` of every joint's range about its middle,
-/// start = truth + Gaussian noise, clipped, targets = where the truth has its effectors. The same at every call.
+/// Makes `count` trials, the same in every call. Truth: uniform within `pose_range` of every joint's range, about its
+/// middle; start: truth + Gaussian noise, clipped to the range; targets: the effectors of the truth.
 std::vector<IkTrial> MakeIkTrials(const KinematicTree& tree, int count, double pose_range, double joint_noise_deg) {
   std::vector<IkTrial> trials(count);
   for (int trial = 0; trial < count; ++trial) {
@@ -55,7 +53,6 @@ std::vector<IkTrial> MakeIkTrials(const KinematicTree& tree, int count, double p
   return trials;
 }
 
-/// Σ (angle − truth)² over all angles, radians².
 double SquaredHiddenError(const IkTrial& trial, std::span<const double> angles) {
   double sum = 0;
   for (std::size_t i = 0; i < angles.size(); ++i) {
@@ -86,6 +83,7 @@ void Solve(benchmark::State& state, const IkSolver& solver, double pose_range, b
   const KinematicTree tree = MakeBodyTree({});
   const std::vector<IkTrial> trials = MakeIkTrials(tree, kTrials, pose_range, kNoiseDeg);
   const IkOptions options = Options(is_tight);
+  // Solve all trials, and keep each one's fastest time.
   std::vector<double> least_us(trials.size(), std::numeric_limits<double>::infinity());
   std::vector<IkSolution> solutions(trials.size());
   for (auto _ : state) {
@@ -96,6 +94,7 @@ void Solve(benchmark::State& state, const IkSolver& solver, double pose_range, b
       least_us[i] = std::min(least_us[i], took.count());
     }
   }
+  // Summarise the solutions.
   int solved = 0;
   double squares = 0;
   std::vector<double> iterations;

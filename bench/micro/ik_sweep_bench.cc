@@ -1,6 +1,6 @@
-// What a sweep of coordinate descent costs, all side by side: forward kinematics alone; paper B's joints and hinges
-// from effector to effector; hinges in moment form. The counter `per_sweep` is the time for one problem and one sweep,
-// with its forward kinematics and its measuring.
+// Times one sweep of coordinate descent: paper B's joints and hinges, effector by effector, and hinges in moment form;
+// forward kinematics alone for comparison. The counter `per_sweep` is the time per problem and sweep, including forward
+// kinematics and error measurement.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -13,7 +13,8 @@
 namespace etude {
 namespace {
 
-// A pose inside the limits, half way out in a pattern that leaves no joint at rest, and a start 15° away from it.
+// Makes a problem whose truth lies within the middle half of every range and has no joint at rest. The start differs
+// from it by up to 15° per angle.
 IkProblem MakeProblem(const KinematicTree& tree, double phase = 1) {
   TreeState truth = StandingState(tree);
   IkProblem problem{truth, {}, tree.limits};

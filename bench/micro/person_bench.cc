@@ -1,5 +1,4 @@
-// Finding the person in a picture of 640 x 480: our segmenters and, where OpenCV is there, a chain of its own
-// functions.
+// Times finding the person in a picture of 640 × 480: our segmenters and, if OpenCV is installed, its functions.
 //   build/release/bench/micro/person_bench --benchmark_repetitions=9 --benchmark_report_aggregates_only=true
 #include <benchmark/benchmark.h>
 
@@ -17,24 +16,24 @@ namespace etude {
 namespace {
 
 constexpr int kWidth = 640, kHeight = 480;
-constexpr int kPictures = 4, kStep = 9;  // pixels that the person moves from one to the next
+constexpr int kPictures = 4, kStepPx = 9;  // the person's movement from picture to picture
 
 std::uint8_t Level(double value) { return static_cast<std::uint8_t>(value < 0 ? 0 : value > 255 ? 255 : value + 0.5); }
 
-/// Tells whether an ellipse of the person who stands `shift` pixels aside covers a pixel.
+/// Returns true if a pixel is in an ellipse that is moved to the right by `shift` pixels.
 bool IsIn(int x, int y, int shift, double cx, double cy, double rx, double ry) {
   const double u = (x - cx - shift) / rx, v = (y - cy) / ry;
   return u * u + v * v < 1;
 }
 
-/// Head, trunk, arms and legs; what shows through a small hole is the person's, too.
+/// Returns true if a pixel is the person's: head, trunk, arms, legs. The small hole in the trunk counts as the person.
 bool IsPerson(int x, int y, int shift) {
   const auto in = [&](double cx, double cy, double rx, double ry) { return IsIn(x, y, shift, cx, cy, rx, ry); };
   return in(320, 120, 22, 28) || in(320, 220, 45, 80) || in(270, 210, 12, 70) || in(370, 210, 12, 70) ||
          in(300, 350, 20, 90) || in(340, 350, 20, 90);
 }
 
-/// A room of coloured wall and floor, with a person in it when `shift` tells where: noise of two levels everywhere.
+/// Draws a coloured wall and floor, and the person moved by `shift` pixels, with noise (standard deviation 2 of 255).
 ColourImage Room(const char* noise, int shift, bool has_person) {
   RandomStream dice(WorldKey{.suite_seed = 1, .scenario = "person-bench", .trial = shift}, noise);
   ColourImage picture(kWidth, kHeight);
@@ -65,25 +64,25 @@ const ColourImage& Background() {
 const std::vector<ColourImage>& Pictures() {
   static const std::vector<ColourImage> pictures = [] {
     std::vector<ColourImage> made;
-    for (int i = 0; i < kPictures; ++i) made.push_back(Room("pictures", kStep * i, true));
+    for (int i = 0; i < kPictures; ++i) made.push_back(Room("pictures", kStepPx * i, true));
     return made;
   }();
   return pictures;
 }
 
-/// Intersection over union with who is there, mean over the pictures. Before, the finder sees the room empty for a
-/// second, as models that learn it want; others it does nothing to.
+/// Returns the mean intersection over union of found and true person. First the finder sees one second of the empty
+/// room, from which some models learn the background.
 template <typename Finder>
 double IouOf(Finder& finder) {
-  constexpr int kEmpty = 30;
-  for (int i = 0; i < kEmpty; ++i) (void)finder.Find(Room("empty", i, false));
+  constexpr int kEmptyPictures = 30;
+  for (int i = 0; i < kEmptyPictures; ++i) (void)finder.Find(Room("empty", i, false));
   double sum = 0;
   for (int i = 0; i < kPictures; ++i) {
     const Mask mask = finder.Find(Pictures()[static_cast<std::size_t>(i)]);
     int both = 0, either = 0;
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
-        const bool found = mask.At(x, y) != 0, is_there = IsPerson(x, y, kStep * i);
+        const bool found = mask.At(x, y) != 0, is_there = IsPerson(x, y, kStepPx * i);
         both += found && is_there;
         either += found || is_there;
       }
@@ -113,7 +112,7 @@ BENCHMARK_CAPTURE(Ours, hue_gated, Segmenter::kHueGated)->Unit(benchmark::kMicro
 BENCHMARK_CAPTURE(Ours, ratio, Segmenter::kRatio)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(Ours, running, Segmenter::kRunning)->Unit(benchmark::kMicrosecond);
 
-/// The pixels alone, before pieces and holes.
+/// Times the classification of pixels alone, without the choice of the largest piece and the filling of holes.
 void OursDetect(benchmark::State& state) {
   PersonFinder finder(Background(), {.segmenter = Segmenter::kHue, .change = {}});
   std::size_t i = 0;
@@ -125,7 +124,7 @@ void OursDetect(benchmark::State& state) {
 BENCHMARK(OursDetect)->Unit(benchmark::kMicrosecond);
 
 #ifdef ETUDE_HAS_OPENCV
-/// Counts the pixels of all pictures that two finders call differently.
+/// Returns the number of pixels, over all pictures, in which a peer's mask differs from ours.
 template <typename Finder>
 std::size_t DifferentFromOurs(Finder& peer) {
   PersonFinder ours(Background(), {.segmenter = Segmenter::kHue, .change = {}});

@@ -1,5 +1,5 @@
-// Planning one transition, by every choice: clips of 1,000 frames (33 s), a second to wait; beside the point-cloud
-// distance computed pair by pair, as its paper writes it down. Both find the same frames, which is checked first.
+// Times planning one transition by every choice, with clips of 1,000 frames (33 s) and one second to wait; and by the
+// point-cloud distance of every pair, as in its paper. That both find the same frames is checked before measuring.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -42,7 +42,7 @@ std::vector<TransitionRequest> Requests(const MotionLibrary& library) {
   return requests;
 }
 
-/// Kovar's closed form for one pair, over all points of both clouds.
+/// Returns the distance of one pair of frames by Kovar's closed form, over all points of both clouds, cm.
 double CloudDistance(const BodyMotion& a, int frame_a, const BodyMotion& b, int frame_b, int half) {
   const Reach reach =
       ReachAround(frame_a, static_cast<int>(a.poses.size()), frame_b, static_cast<int>(b.poses.size()), half);
@@ -101,7 +101,7 @@ void CompareAnswers(const MotionLibrary& library) {
   }
 }
 
-/// Plans all transitions in turn; the time shown is the mean over them.
+/// Registers a benchmark that plans all transitions in turn; the reported time is the mean.
 void RegisterPlanning(const MotionLibrary& library, const std::string& name, auto plan) {
   benchmark::RegisterBenchmark(("plan/" + name).c_str(), [=, &library](benchmark::State& state) {
     const std::vector<TransitionRequest> requests = Requests(library);

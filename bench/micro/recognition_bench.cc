@@ -1,4 +1,4 @@
-// What a frame costs each recogniser that follows all eleven built-in moves, one of them asked for; and to see it.
+// Times one frame of each recogniser, which follows all eleven built-in moves with one of them requested; and of sight.
 //   build/release/bench/micro/recognition_bench --benchmark_repetitions=5 --benchmark_report_aggregates_only=true
 #include <benchmark/benchmark.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 struct Dances {
   std::vector<TaughtMove> taught;
-  SkeletonStream stream;  ///< all of them, one after the other, with an error of a centimetre
+  SkeletonStream stream;  ///< all moves one after the other, with noise of 1 cm
 };
 
 const Dances& AllDances() {

@@ -1,4 +1,4 @@
-// What a picture costs: of the empty room, of a person of capsules, of a character of some thousand triangles.
+// Times a picture of the empty room, of a person of capsules, and of a character of some thousand triangles.
 #include <benchmark/benchmark.h>
 
 #include "bench/micro/bare_draw.h"
@@ -17,7 +17,7 @@ std::vector<Figure> Nobody() { return {}; }
 std::vector<Figure> OfCapsules() { return {{BodyCapsules(StandingPose()), PerformerColours()}}; }
 std::vector<Figure> OfSurfaces() { return {PosedFigure(BearCharacter(), StandingPose())}; }
 
-// Of the clock on the wall, because unpinned, GL draws with threads of its own.
+// Reports wall-clock time, because GL may use threads outside the pinned environment.
 void InMilliseconds(benchmark::internal::Benchmark* benchmark) {
   benchmark->Unit(benchmark::kMillisecond)->UseRealTime();
 }
@@ -35,7 +35,7 @@ void Picture(benchmark::State& state, std::vector<Figure> (*make)(), const Intri
                                                     : Targets::kColour;
     benchmark::DoNotOptimize((*renderer)->Render({}, figures, camera, targets));
   };
-  draw();  // the first picture waits for shaders to be compiled
+  draw();  // the first picture compiles the shaders
   for (auto _ : state) draw();
 }
 BENCHMARK_CAPTURE(Picture, room_vga, Nobody, kVga, Kind::kColour)->Apply(InMilliseconds);
@@ -45,7 +45,7 @@ BENCHMARK_CAPTURE(Picture, capsules_vga_labels, OfCapsules, kVga, Kind::kLabels)
 BENCHMARK_CAPTURE(Picture, surfaces_vga, OfSurfaces, kVga, Kind::kColour)->Apply(InMilliseconds);
 BENCHMARK_CAPTURE(Picture, surfaces_vga_all, OfSurfaces, kVga, Kind::kAll)->Apply(InMilliseconds);
 
-// What the picture `capsules_vga_labels` is measured by.
+// The baseline of `capsules_vga_labels`.
 void Bare(benchmark::State& state) {
   const Camera camera = LookAt(kVga, {-1.2, 1.4, 3.9}, {0, 0.95, 0});
   const auto bare = BareDraw::Create({}, camera);
@@ -56,8 +56,8 @@ void Bare(benchmark::State& state) {
 }
 BENCHMARK(Bare)->Apply(InMilliseconds);
 
-// What a camera of the capture task shoots, people and movers posed anew for each picture; the argument is the scene in
-// percent.
+// A picture of the capture task, with people and moving objects posed for each picture. The argument is the condition
+// `scene` in percent.
 void Staged(benchmark::State& state) {
   const auto renderer = Renderer::Create();
   if (!renderer) return state.SkipWithError(renderer.error().message.c_str());
@@ -77,7 +77,6 @@ void Staged(benchmark::State& state) {
 }
 BENCHMARK(Staged)->Apply(InMilliseconds)->Arg(0)->Arg(25)->Arg(50)->Arg(75)->Arg(100);
 
-// A character brought into a pose, before it is drawn.
 void Pose(benchmark::State& state) {
   const Character bear = BearCharacter();
   const BodyPose pose = StandingPose();

@@ -8,14 +8,14 @@
 namespace etude {
 namespace {
 
-/// d², or something at least `limit` as soon as that is known. A fixed number of terms at a time, so that the compiler
-/// can use vectors.
+/// Returns d², or a partial sum as soon as it reaches `limit`. The number of terms per step is fixed, so that the
+/// compiler can use SIMD.
 double SquaredDistance(const GradePoint& a, const GradePoint& b, double limit) {
-  constexpr std::size_t kStep = 8;
+  constexpr std::size_t kTermsPerStep = 8;
   double sum = 0;
-  for (std::size_t from = 0; from < kTermCount; from += kStep) {
+  for (std::size_t from = 0; from < kTermCount; from += kTermsPerStep) {
     std::array<double, 2> sums{};
-    for (std::size_t t = from; t < from + kStep; t += 2) {
+    for (std::size_t t = from; t < from + kTermsPerStep; t += 2) {
       for (std::size_t i = 0; i < 2; ++i) {
         const double gap = a[t + i] - b[t + i];
         sums[i] += gap * gap;
@@ -27,7 +27,7 @@ double SquaredDistance(const GradePoint& a, const GradePoint& b, double limit) {
   return sum;
 }
 
-/// The k best so far, of frames that come in time order.
+/// The k nearest of the frames offered so far, in time order.
 class BestFrames {
  public:
   explicit BestFrames(int k) : k_(static_cast<std::size_t>(k)) {}
@@ -103,7 +103,7 @@ VectorLoopPeer::VectorLoopPeer(std::span<const Grades> frames, const FeatureWeig
   blocks_.resize((frames.size() + kBlockLanes - 1) / kBlockLanes);
   for (std::size_t f = 0; f < blocks_.size() * kBlockLanes; ++f) {
     for (std::size_t t = 0; t < kTermCount; ++t) {
-      // What is beyond the end is too far for everybody.
+      // Lanes beyond the last frame get grades that are too far from every query.
       blocks_[f / kBlockLanes].grades[t][f % kBlockLanes] = f < frames.size() ? frames[f][t] : 1e9;
     }
   }

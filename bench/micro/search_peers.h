@@ -9,13 +9,12 @@
 
 namespace etude {
 
-/// A frame as a point whose Euclidean distances are equation 1's: √S·μ.
+/// A frame as a point with coordinates √S·μ: Euclidean distances of points are the distances of equation 1.
 using GradePoint = std::array<double, kTermCount>;
 GradePoint PointOf(const Grades& grades, const GradePoint& roots);
-/// √S of every term.
 GradePoint RootsOf(const FeatureWeights& weights);
 
-/// The search that one would write: a loop over all frames in time order that stops adding up when a frame is too far.
+/// The simple search: a loop over all frames in time order, which stops summing as soon as a frame is too far.
 class LoopPeer {
  public:
   LoopPeer(std::span<const Grades> frames, const FeatureWeights& weights);
@@ -28,7 +27,7 @@ class LoopPeer {
   std::vector<GradePoint> points_;
 };
 
-/// A search of all frames with our vectors, sixteen at once: it shows how much the tree gives beyond them.
+/// A search of all frames by our SIMD kernel, sixteen at once. Compared with the index, it shows what the tree saves.
 class VectorLoopPeer {
  public:
   VectorLoopPeer(std::span<const Grades> frames, const FeatureWeights& weights);

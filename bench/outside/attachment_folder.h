@@ -9,14 +9,13 @@
 
 namespace etude {
 
-/// A folder with attachments, which is deleted with its contents at the end of its life.
+/// A folder with attachments. The destructor deletes it with its contents.
 class AttachmentFolder {
  public:
   static constexpr std::size_t kNameLength = 6;  ///< of the folder's name in `attachment_root`
 
-  /// Holds no folder yet.
   AttachmentFolder() = default;
-  /// Makes a folder in `attachment_root` with the files; no folder if there are no files.
+  /// Makes a folder in `attachment_root` and writes the files into it; makes none if there are no files.
   static Result<AttachmentFolder> Write(const std::filesystem::path& attachment_root,
                                         std::span<const Attachment> files);
   AttachmentFolder(AttachmentFolder&& other) noexcept;

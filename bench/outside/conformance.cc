@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kProblems = 3;
 
-/// The worlds of a task's specimens: easy ones, and harder ones.
+/// The worlds of a task's specimens: two conditions, easy and harder.
 struct Recipe {
   const char* task;
   std::vector<std::string> clips;
@@ -53,6 +53,7 @@ Result<Specimen> MakeSpecimen(const TaskKind& kind, const Recipe& recipe, const 
                               const std::string& seat) {
   Specimen specimen;
   specimen.setting_id = kind.name + " " + condition;
+  // Make the task from its clips, its condition and one method.
   ASSIGN_OR_RETURN(auto clips, LoadClips(recipe.clips, {}));
   specimen.clips = std::make_unique<ClipLibrary>(std::move(clips));
   ASSIGN_OR_RETURN(const auto node, ParseYaml(condition, specimen.setting_id));
@@ -68,6 +69,7 @@ Result<Specimen> MakeSpecimen(const TaskKind& kind, const Recipe& recipe, const 
   specimen.task = std::move(task);
   ASSIGN_OR_RETURN(auto setting, specimen.task->Setting());
   specimen.setting = std::move(setting);
+  // Make the problems.
   for (int trial = 0; trial < kProblems; ++trial) {
     auto world = specimen.task->MakeWorld({1, "check-method", trial}, false);
     Payload problem;
@@ -82,7 +84,7 @@ Result<Specimen> MakeSpecimen(const TaskKind& kind, const Recipe& recipe, const 
 
 constexpr int kMaxEndingMs = 2000;
 
-/// A method's result in comparable form: its answer, or why it gave none.
+/// A method's result, in a form that can be compared: its answer, or why it gave none.
 struct Attempt {
   Status status = Status::kFailed;
   std::string said;
@@ -101,7 +103,7 @@ Json WithAngles(const Json& answer, double factor, bool is_angle = false) {
   return changed;
 }
 
-/// A program in a seat that is sent additional keys which it does not know.
+/// A seated program that is sent additional keys, unknown to it.
 class ProgramWithUnknownKeys final : public SeatedProgram {
  public:
   using SeatedProgram::SeatedProgram;
@@ -123,7 +125,6 @@ class ConformanceTest {
                   const std::function<void(const ConformanceCheck&)>& report)
       : method_(options), takes_seat_(takes_seat), time_s_(options.time_s), specimens_(specimens), report_(report) {}
 
-  /// Makes all checks. Returns true if all passed.
   Result<bool> Run() {
     RETURN_IF_ERROR(CheckAnswers());
     if (!all_passed_) return false;
@@ -169,7 +170,7 @@ class ConformanceTest {
     return attempt;
   }
 
-  /// Runs a whole session with the program in its seat; the digest of all steps stands for its answers.
+  /// Runs a whole session with the program in its seat; the result holds the digest of its answers.
   template <typename Program>
   Attempt Play(const Specimen& specimen, const SpecimenProblem& problem, const std::string& id) {
     const auto start = Clock::now();
@@ -214,8 +215,8 @@ class ConformanceTest {
     return {};
   }
 
-  /// For a method that solved nothing, reports whether a plain one solves the worlds, and how the answers would be
-  /// right.
+  /// For a method that solved nothing: fails if a plain method solves some worlds, and tests whether the method's
+  /// angles are in radians.
   void CheckAgainstPlain() {
     int plain = 0, in_radians = 0;
     for (std::size_t i = 0; i < first_.size(); ++i) {
@@ -234,7 +235,7 @@ class ConformanceTest {
            fmt::format("none of {}, of which damped-least-squares solves {}{}", first_.size(), plain, unit));
   }
 
-  /// Returns what is wrong with a second attempt at problem `i` of the first setting; "" if nothing.
+  /// Compares a second attempt at problem `i` of the first setting with the first one; returns the difference, or "".
   std::string Compare(const Attempt& again, std::size_t i) const {
     if (!again.fault.empty()) return again.fault;
     if (again.said == first_[i].said) return "";
@@ -256,7 +257,6 @@ class ConformanceTest {
                      Compare(Ask(specimens_[0], specimens_[0].problems[last]), last));
   }
 
-  /// Sends the problems to a new program in reverse order.
   void CheckOrder() {
     method_.End(kMaxEndingMs);
     std::string difference;
@@ -283,7 +283,7 @@ class ConformanceTest {
     ReportDifference("takes long lines, keys it does not know, and ids of any text", Compare(AskAtLength(id), 0));
   }
 
-  /// Sends the first problem with additional keys which the program does not know.
+  /// Sends the first problem with additional keys, unknown to the program.
   Attempt AskAtLength(const std::string& id) {
     const SpecimenProblem& problem = specimens_[0].problems[0];
     if (takes_seat_) return Play<ProgramWithUnknownKeys>(specimens_[0], problem, id);

@@ -17,18 +17,17 @@ struct SpecimenProblem {
   Payload problem;  ///< empty for tasks with seats
 };
 
-/// Problems that share a setting.
 struct Specimen {
   std::string setting_id;
   std::unique_ptr<ClipLibrary> clips;  ///< outlive the task
   std::unique_ptr<Task> task;
   Payload setting;
   std::vector<SpecimenProblem> problems;
-  bool has_plain_method = false;  ///< method 0 of the worlds is a plain built-in one that solves them
+  bool has_plain_method = false;  ///< method 0 of its worlds is a built-in method that solves them
 };
 
-/// Makes two settings of a task with three problems each, always the same. Fails if there is no such task, its worlds
-/// cannot be made here (no renderer), or `seat` is not one of its seats ("" for a task without seats).
+/// Makes two settings of a task with three problems each, the same in every call. Fails if there is no such task, if
+/// its worlds cannot be made on this machine (no renderer), or if `seat` is not one of its seats ("" if it has none).
 Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::string& seat);
 
 /// One requirement for an outside method, and its result.
@@ -38,12 +37,11 @@ struct ConformanceCheck {
   std::string found;  ///< what was observed, passed or not
 };
 
-/// Sends small worlds of the method's task to it and reports every check as it is done: that it answers the handshake,
-/// that its answers can be scored, that they depend on the problem alone (not on earlier problems or settings), that it
-/// accepts long lines, and that it ends when its input ends. Stops early if no problem is answered, or none is solved
-/// although a plain built-in method solves some; it then reports if the angles seem to be in radians. Returns true if
-/// all checks passed. Fails if the task does not exist, its worlds cannot be made, `seat` is not one of its seats (""
-/// for a task without seats), or the program cannot be found.
+/// Sends the specimens of its task to a method and calls `report` after every check: it answers the handshake; its
+/// answers can be scored; they depend on the problem alone, not on earlier problems or settings; it accepts long lines;
+/// it ends when its input ends; it solves some problems if a plain built-in method does (otherwise reports whether its
+/// angles seem to be radians). Stops after a failed handshake or an answer that cannot be scored. Returns true if all
+/// checks passed. Fails as MakeSpecimens does, and if the program cannot be found.
 Result<bool> CheckConformance(const OutsideOptions& options, const std::string& seat,
                               const std::function<void(const ConformanceCheck&)>& report);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMaxNameLength = 200;
 
-/// Reads an object with a text `type`.
+/// Parses a line: an object with a text `type`.
 Result<Json> ReadMessage(const std::string& line) {
   if (NestingOf(line) > kMaxReplyDepth) {
     return Fail({}, "said something nested more than {} deep: {}", kMaxReplyDepth, Printable(line));
@@ -27,7 +27,7 @@ Result<Json> ReadMessage(const std::string& line) {
     return Fail({}, "said something that is not JSON{}: {}", where,
                 Printable(std::string_view(line).substr(std::min(start, line.size()))));
   }
-  // Readers disagree about which of the two counts.
+  // JSON parsers disagree about which of two equal keys counts.
   if (parsed.repeated_key) {
     return Fail({}, "named the key {} twice in one object: {}", Printable(*parsed.repeated_key), Printable(line));
   }
@@ -38,7 +38,6 @@ Result<Json> ReadMessage(const std::string& line) {
   return message;
 }
 
-/// Reads a text that must be there.
 Result<std::string> TextOf(const Json& message, const char* key, const std::string& line) {
   if (message.contains(key) && message[key].is_string()) return message[key].get<std::string>();
   return Fail({}, "its '{}' has no text \"{}\": {}", message["type"].get<std::string>(), key, Printable(line));
@@ -130,16 +129,16 @@ Answered QuestionAnsweredBy(const std::string& line) {
   return answered;
 }
 
-std::string Printable(std::string_view text, std::size_t longest) {
+std::string Printable(std::string_view text, std::size_t max_bytes) {
   std::string result = "'";
-  for (const char c : text.substr(0, longest)) {
+  for (const char c : text.substr(0, max_bytes)) {
     if (c >= ' ' && c <= '~') {
       result += c;
     } else {
       result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
     }
   }
-  return result + (text.size() > longest ? "…'" : "'");
+  return result + (text.size() > max_bytes ? "…'" : "'");
 }
 
 }  // namespace etude

@@ -8,41 +8,41 @@
 
 namespace etude {
 
-/// Longer lines are refused while they are read, deeper JSON before it is parsed.
+/// Longer lines are refused during reading, deeper JSON before parsing.
 constexpr std::size_t kMaxReplyBytes = std::size_t{16} << 20;
 constexpr int kMaxReplyDepth = 32;
 
-/// Write the lines that Etude says. `options` and `content` are objects; `files` is the folder of the attachments, ""
-/// when there are none. Fail when `content` holds a number that is not finite.
+/// Return the lines that Etude sends. `options` and `content` are objects; `files` is the folder of the attachments, ""
+/// if there are none. Fail on NaN and infinity.
 Result<std::string> HelloLine(const std::string& task, const Json& options);
 Result<std::string> SettingLine(const std::string& id, const Json& content, const std::string& files);
 Result<std::string> ProblemLine(const std::string& id, const Json& content, const std::string& files);
-/// Write the beginning of a session that goes on step by step, and step `number` of it.
+/// Return the line that begins a session, and the line of its step `number`.
 Result<std::string> BeginLine(const std::string& id, const Json& content, const std::string& files);
 Result<std::string> StepLine(const std::string& id, int number, const Json& content, const std::string& files);
 
-/// A program's reply to the handshake. The functions below read the lines that it may say. Each fails on anything else,
-/// with what was found: a line that is not JSON, of another type, about another problem, without a field or with one of
-/// the wrong type. Fields that are not known are ignored.
+/// A program's reply to the handshake. Each function below reads one type of line and fails on anything else, with what
+/// was found: invalid JSON, another type or problem, a missing field, or one of the wrong type. Unknown fields are
+/// ignored.
 struct HelloReply {
   std::string name;
   std::string version;
 };
 Result<HelloReply> ReadHello(const std::string& line);
 Result<void> ReadReady(const std::string& line);
-/// Reads the whole line: of type "answer", with an object `answer`, or of type "no_answer", with a text `reason`.
+/// Returns the message: type "answer" with an object `answer`, or type "no_answer" with a text `reason`.
 Result<Json> ReadAnswer(const std::string& line, const std::string& id);
-/// Reads such a line about step `number`, which an "answer" must repeat.
+/// The same for step `number` of a session; an "answer" must repeat the number.
 Result<Json> ReadStepAnswer(const std::string& line, const std::string& id, int number);
 
-/// The problem, and the step of a session, that a line answers; `id` is empty when it answers none.
+/// The problem, and the step of a session, that a line answers; `id` is "" if the line is no answer.
 struct Answered {
   std::string id;
   std::optional<int> step = {};
 };
 Answered QuestionAnsweredBy(const std::string& line);
 
-/// Quotes the first `longest` bytes in single quotes, what is no printable ASCII as \xNN.
-std::string Printable(std::string_view text, std::size_t longest = 80);
+/// Returns the first `max_bytes` bytes in single quotes; bytes other than printable ASCII become \xNN.
+std::string Printable(std::string_view text, std::size_t max_bytes = 80);
 
 }  // namespace etude

@@ -22,8 +22,8 @@ template <typename T>
 using Outcome = OutsideOutcome<T>;
 
 constexpr int kMaxFailures = 3;
-constexpr int kEndingMs = 500;     // from the end of its input to its own end
-constexpr double kMaxLimit_s = 1e9;  // longer than any run, and within the range of the clock
+constexpr int kEndingMs = 500;       // time to end after its input is closed
+constexpr double kMaxLimit_s = 1e9;  // longer than any run; within the clock's range
 
 /// The error of a reply that came before its question was read.
 Error TooEarly() { return {{}, "answered before it was asked"}; }
@@ -60,13 +60,13 @@ struct OutsideMethod::State {
   template <typename Act>
   Outcome<void> Attempt(const std::string& what, Act act);
 
-  enum class Looks { kAlways, kNowAndThen };
+  enum class Measuring { kAlways, kIfDue };
   template <typename Read>
-  auto Exchange(const std::string& line, double seconds, Read read, Looks looks = Looks::kAlways)
+  auto Exchange(const std::string& line, double seconds, Read read, Measuring measuring = Measuring::kAlways)
       -> Outcome<typename decltype(read(line))::value_type>;
   template <typename Read>
-  Outcome<void> HearBefore(Read read);
-  bool IsRepeated(const std::string& line) const;
+  Outcome<void> ReadPendingLines(Read read);
+  bool RepeatsAnswer(const std::string& line) const;
   void EndSession();
   std::string Stop(int patience_ms);
 
@@ -97,7 +97,7 @@ struct OutsideMethod::State {
   std::map<std::string, Failures> failures;  ///< by the name of the step
 };
 
-/// Tries a step that many problems share, unless it has failed too often in a row.
+/// Tries a step that many problems share (the start, a setting), unless it has failed kMaxFailures times in a row.
 template <typename Act>
 Outcome<void> OutsideMethod::State::Attempt(const std::string& what, Act act) {
   Failures& failed = failures[what];
@@ -150,7 +150,7 @@ Outcome<Json> OutsideMethod::State::Step(const Payload& step) {
     if (!answer) return Fail({}, "at step {}: {}", number, answer.error().message);
     return answer;
   };
-  return Exchange(*line, options.time_s, read, Looks::kNowAndThen);
+  return Exchange(*line, options.time_s, read, Measuring::kIfDue);
 }
 
 Outcome<Json> OutsideMethod::State::Solve(const std::string& setting_id, const Payload& setting,
@@ -162,7 +162,8 @@ Outcome<Json> OutsideMethod::State::Solve(const std::string& setting_id, const P
   const auto line = ProblemLine(problem_id, *problem.json, files->path());
   if (!line) return OurFailure(line.error());
   const auto read = [&](const std::string& said) { return ReadAnswer(said, problem_id); };
-  RETURN_IF_ERROR(HearBefore(read));  // lines up to now answer an earlier time this problem was sent
+  RETURN_IF_ERROR(
+      ReadPendingLines(read));  // before `answered` changes: such lines answer an earlier copy of this problem
   answered.erase(problem_id);
   auto answer = Exchange(*line, options.time_s, read);
   answered.insert(problem_id);
@@ -199,13 +200,13 @@ Outcome<void> OutsideMethod::State::TellSetting(const std::string& id, const Pay
   return {};
 }
 
-/// Reads the lines since the last reply: repeated answers are ignored, and an answer to the question that follows is an
-/// error.
+/// Reads the lines that came since the last reply. Repeated answers are ignored; any other line is an error, because
+/// its question has not been sent yet.
 template <typename Read>
-Outcome<void> OutsideMethod::State::HearBefore(Read read) {
+Outcome<void> OutsideMethod::State::ReadPendingLines(Read read) {
   program.Receive();
   while (const auto said = program.NextLine()) {
-    if (!IsRepeated(*said)) {
+    if (!RepeatsAnswer(*said)) {
       const auto reply = read(program.WithoutFolder(*said));
       return BadOutput(reply ? TooEarly() : reply.error());
     }
@@ -216,18 +217,19 @@ Outcome<void> OutsideMethod::State::HearBefore(Read read) {
 
 /// Sends a line and returns the reply as parsed by `read`.
 template <typename Read>
-auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Read read, Looks looks)
+auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Read read, Measuring measuring)
     -> Outcome<typename decltype(read(line))::value_type> {
+  // Send the line.
   const auto limit = std::chrono::duration<double>(std::min(seconds, kMaxLimit_s));
   const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(limit);
-  RETURN_IF_ERROR(HearBefore(read));
+  RETURN_IF_ERROR(ReadPendingLines(read));
   program.Send(line);
   while (true) {
     const auto said = program.WaitForLine(deadline, seconds);
     if (!said) return tl::unexpected(said.error());
     auto reply = read(*said);
-    // Ignore repeated answers while there is time.
-    if (!reply && IsRepeated(*said)) {
+    // Ignore repeated answers until the deadline.
+    if (!reply && RepeatsAnswer(*said)) {
       if (Clock::now() >= deadline) return tl::unexpected(TookTooLong(seconds));
       ++repeated;
       continue;
@@ -238,7 +240,7 @@ auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Rea
     }
     // A valid reply must come after the program has read the question.
     if (program.UnreadBytes() > line.size()) return BadOutput(TooEarly());
-    RETURN_IF_ERROR(looks == Looks::kAlways ? program.Look() : program.LookAgain());
+    RETURN_IF_ERROR(measuring == Measuring::kAlways ? program.Measure() : program.MeasureIfDue());
     if constexpr (std::is_void_v<typename decltype(reply)::value_type>) {
       return {};
     } else {
@@ -247,15 +249,15 @@ auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Rea
   }
 }
 
-/// Returns true if a line repeats an answer. The result must not depend on when the line comes: with the first answer,
-/// or after the next question.
-bool OutsideMethod::State::IsRepeated(const std::string& line) const {
+/// Returns true if a line repeats an answer. The result must not depend on when the line arrives: right after the first
+/// answer, or after the next question.
+bool OutsideMethod::State::RepeatsAnswer(const std::string& line) const {
   const Answered about = QuestionAnsweredBy(line);
   if (session && about.id == session->id) return about.step && *about.step < session->steps - 1;
   return answered.contains(about.id);
 }
 
-/// Ends the session: later lines about it count as repeated.
+/// Ends the session; later lines about it count as repeated.
 void OutsideMethod::State::EndSession() {
   if (session) answered.insert(session->id);
   session.reset();
@@ -269,7 +271,7 @@ std::string OutsideMethod::State::Stop(int patience_ms) {
 }
 
 double MaxAskSeconds(double time_s) {
-  return 2 * std::max(OutsideOptions{}.start_s, time_s) + time_s + 2 * 1e-3 * WatchedProgram::kDyingMs;
+  return 2 * std::max(OutsideOptions{}.start_s, time_s) + time_s + 2 * 1e-3 * WatchedProgram::kMaxDyingMs;
 }
 
 OutsideMethod::OutsideMethod(OutsideOptions options) : state_(std::make_unique<State>(std::move(options))) {}
@@ -306,7 +308,7 @@ OutsideReply OutsideMethod::Step(const Payload& step) {
   return reply;
 }
 
-/// Returns the reply, with the resources used. Stops a program whose answer cannot be read.
+/// Makes the reply, with the resources used. Stops the program after a failure.
 OutsideReply OutsideMethod::State::ReplyOf(Outcome<Json> said) {
   if (!said) Stop(0);
   OutsideReply reply;

@@ -35,38 +35,37 @@ struct OutsideOptions {
 /// cleaning up.
 double MaxAskSeconds(double time_s);
 
-/// The outcome of one problem.
+/// The outcome of one problem, or of one step of a session.
 struct OutsideReply {
-  Status status = Status::kFailed;  ///< kOk: `answer` is valid; else there is no answer, for `reason`
+  Status status = Status::kFailed;  ///< kOk: `answer` is valid; else `reason` says why there is none
   std::string reason;
   bool was_asked = true;  ///< false: this machine is the cause, as `reason` says; the program was not asked
   JsonPtr answer;         ///< an object with finite numbers
-  double cpu_s = 0;       ///< of the program since its last reply; zero if it ended before it was measured
-  double peak_mb = 0;     ///< the largest resident size while it worked on this, sampled 50 times a second
-  int repeated = 0;       ///< lines ignored before this reply, because they answered questions that had an answer
+  double cpu_s = 0;       ///< used by the program since its last reply; 0 if it ended before the first sample
+  double peak_mb = 0;     ///< its largest memory during this problem, sampled 50 times a second
+  int repeated = 0;       ///< lines ignored before this reply, because they repeat answers to earlier questions
 };
 
-/// A program that answers problems over its standard input and output. It is started at its first problem, kept for the
-/// next ones, and restarted after it has failed. Repeated answers to an answered question are ignored at any time.
-/// After three failures in a row of its start or of a setting there is no further attempt: the reply is the same as the
-/// third time.
+/// A program that answers problems over its standard input and output. It is started for the first problem, kept for
+/// the next ones, and restarted after a failure. Repeated answers are ignored at any time. If its start or a setting
+/// fails three times in a row, it is not tried again: every further reply equals the third.
 class OutsideMethod {
  public:
   explicit OutsideMethod(OutsideOptions options);
   OutsideMethod(OutsideMethod&&) noexcept;
   ~OutsideMethod();
 
-  /// Sends one problem. `setting_id` names its setting; the program is sent `setting` first if another one is in force.
-  /// Attachments are in a folder while it works.
+  /// Sends one problem and waits for the reply. `setting_id` names its setting: `setting` is sent first unless it was
+  /// the last setting sent. Its attachments are in a folder until the reply.
   OutsideReply Ask(const std::string& setting_id, const Payload& setting, const std::string& problem_id,
                    const Payload& problem);
 
-  /// Begins a session, and ends one in progress. It is sent like a problem, but the program replies `ready`, and then
-  /// answers step by step. kOk: the session is in progress.
+  /// Begins a session; ends one in progress. Sent like a problem, but the program replies `ready` and then answers each
+  /// step. kOk: the session is in progress.
   OutsideReply Begin(const std::string& setting_id, const Payload& setting, const std::string& session_id,
                      const Payload& session);
-  /// Sends the next step of the session, which must be in progress. Any reply but kOk ends it; the program is then
-  /// restarted for the next one, unless it merely gave no answer (kUnsolved).
+  /// Sends the next step of the session in progress. Any reply but kOk ends the session, and the program is restarted
+  /// for the next one, except after kUnsolved (the program gave no answer).
   OutsideReply Step(const Payload& step);
 
   /// Returns the program's own name: "name version"; "" before its first handshake.

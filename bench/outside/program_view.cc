@@ -23,7 +23,7 @@ ProgramView ViewOf(const std::vector<std::string>& command, const std::vector<st
   std::error_code error;
   for (const std::string& file : files) view.shown.push_back(Whole(file));
   for (const std::string& word : command) {
-    // A plain word may also be the name of a folder, so only paths count.
+    // A word without '/' is a path only if it is a file: a folder may have the same name by chance.
     const bool is_file = fs::is_regular_file(word, error);
     if (!is_file && (word.find('/') == std::string::npos || !fs::exists(word, error))) {
       view.command.push_back(word);
@@ -33,7 +33,7 @@ ProgramView ViewOf(const std::vector<std::string>& command, const std::vector<st
     view.command.push_back(path.string());
     if (!is_file || Fence::IsOfSystem(path)) continue;
     const fs::path folder = path.parent_path();
-    // A virtual environment's Python is a link, which nothing can be laid over; with its folder it is shown already.
+    // The Python of a virtual environment is a link: it cannot be a mount point, and its folder shows it already.
     const bool is_shown = fs::is_symlink(path, error) && std::ranges::any_of(view.shown, [&](const fs::path& one) {
                             return std::ranges::mismatch(one, path).in1 == one.end();
                           });

@@ -13,9 +13,9 @@ struct ProgramView {
   std::filesystem::path start;               ///< its working folder; "" = a scratch folder
 };
 
-/// Makes the view of `command`, a program as FindProgram returns it and its arguments. It is shown the files that it
-/// names, and `files`; without `files`, the folder of its own executable or, if that belongs to the system, of its
-/// script (the first file it names). Its working folder is the first folder that it is shown.
+/// Makes the view of `command`: a program as returned by FindProgram, and its arguments. The program is shown `files`
+/// and the files that its command names. Without `files` it is shown the folder of its executable or, if that belongs
+/// to the system, of its script (the first file among the arguments). Its working folder is the first shown folder.
 ProgramView ViewOf(const std::vector<std::string>& command, const std::vector<std::string>& files);
 
 /// Returns the folder of Etude's Python package, which every program is shown and which is in its PYTHONPATH:

@@ -9,18 +9,18 @@
 
 namespace etude {
 
-/// An outside method in a seat of a world's loop. Once it has failed it is not asked again.
+/// An outside method that takes a seat in a world's loop. After its first failure it is not asked again.
 class SeatedProgram : public LiveProgram {
  public:
-  /// Its sessions are named by `id`. `method` and `setting` must outlive it.
+  /// `id` names its sessions. `method` and `setting` must outlive it.
   SeatedProgram(OutsideMethod& method, std::string setting_id, const Payload& setting, std::string id);
 
   bool Begin(const Payload& session) override;
   JsonPtr Step(const Payload& step) override;
 
-  /// How it failed, if it has.
+  /// Returns its failure, if any.
   const std::optional<CellResult>& failure() const { return failure_; }
-  /// False if it failed because this machine could not ask it.
+  /// Returns false if this machine could not ask it.
   bool was_asked() const { return was_asked_; }
   double cpu_s() const { return cpu_s_; }
   double peak_mb() const { return peak_mb_; }

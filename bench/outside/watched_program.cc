@@ -23,10 +23,10 @@
 namespace etude {
 namespace {
 
-constexpr long kTail = 4096;  ///< bytes in which the last line is searched
+constexpr long kTailBytes = 4096;  // the last line is searched in so many bytes at the end
 
-/// Opens a log file for appending, and creates its folder. The run that contains it may come from somebody else and be
-/// resumed here, so links are not followed.
+/// Opens a log file for appending; creates its folder. Links are not followed, because a resumed run may come from
+/// somebody else.
 Result<Descriptor> OpenLog(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.parent_path();
   const FilePath path = Inside(folder.parent_path()) / folder.filename() / file.filename();
@@ -47,7 +47,7 @@ ErrorLog::~ErrorLog() {
   if (memory_ >= 0) ::close(memory_);
 }
 
-// Without a memory file, the program writes to the real one directly.
+// Without a memory file, the log file itself becomes the program's standard error.
 std::string ErrorLog::path() const {
   const int file = memory_ < 0 ? unbuffered_.number() : memory_;
   if (memory_ >= 0) ::fchmod(memory_, S_IRUSR | S_IWUSR);  // the last program may have changed the mode
@@ -59,15 +59,15 @@ long ErrorLog::Size() const {
   return memory_ >= 0 && ::fstat(memory_, &status) == 0 ? static_cast<long>(status.st_size) : 0;
 }
 
-// Punches a hole, which takes no memory and loses nothing that the program appends meanwhile. Truncating would lose it,
-// so that is done only when the file comes near the program's size limit.
+// Punching a hole frees memory and loses nothing that the program appends meanwhile. Truncating could lose output, so
+// it is done only when the file comes near the program's size limit.
 void ErrorLog::Trim() {
-  const long end = Size() - kTail;
-  if (end <= kLargest) return;
+  const long end = Size() - kTailBytes;
+  if (end <= kMaxBytes) return;
   if (end < static_cast<long>(ProgramLimits::kFileBytes / 2)) {
-    std::ignore = ::fallocate(memory_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, kLargest, end - kLargest);
+    std::ignore = ::fallocate(memory_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, kMaxBytes, end - kMaxBytes);
   } else {
-    std::ignore = ::ftruncate(memory_, kLargest);
+    std::ignore = ::ftruncate(memory_, kMaxBytes);
   }
 }
 
@@ -80,22 +80,22 @@ std::string ErrorLog::Read(long start, long size) const {
 
 std::string ErrorLog::LastLine() const {
   const long size = Size();
-  std::string tail = Read(std::max(size - kTail, 0L), std::min(size, kTail));
+  std::string tail = Read(std::max(size - kTailBytes, 0L), std::min(size, kTailBytes));
   const std::size_t last = tail.find_last_not_of(" \t\r\n");
   if (last == std::string::npos) return "";
   tail.resize(last + 1);
   return tail.substr(tail.find_last_of('\n') + 1);  // npos + 1 = 0
 }
 
-// The file is created only if there is output: most runs have none. If it cannot be written, the output is lost: that
-// is no reason to fail a cell.
+// The file is created only if there is output. If it cannot be written, the output is lost; that is no reason to fail a
+// cell.
 void ErrorLog::Save() {
   const long size = Size();
   if (size == 0) return;
   if (const auto file = OpenLog(file_)) {
     struct stat status {};
-    const long saved = ::fstat(file->number(), &status) == 0 ? static_cast<long>(status.st_size) : kLargest;
-    const std::string text = Read(0, std::min(size, kLargest - std::min(saved, kLargest)));
+    const long saved = ::fstat(file->number(), &status) == 0 ? static_cast<long>(status.st_size) : kMaxBytes;
+    const std::string text = Read(0, std::min(size, kMaxBytes - std::min(saved, kMaxBytes)));
     std::ignore = ::write(file->number(), text.data(), text.size());
   }
   if (::ftruncate(memory_, 0) != 0) return;
@@ -103,11 +103,10 @@ void ErrorLog::Save() {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLookEvery{20};  // interval of measuring memory, and of checking whether it still
-                                                     // runs
+constexpr std::chrono::milliseconds kSampleInterval{20};  // of resources, and of whether it still runs
 
 tl::unexpected<OutsideFailure> NotStarted(const Error& error) {
-  // The caller, who did not ask the program, says that this machine is the cause.
+  // The caller's message already names this machine as the cause, so only the message is passed on.
   return tl::unexpected<OutsideFailure>(
       {Status::kFailed, IsOfThisMachine(error) ? error.message : ToString(error), false});
 }
@@ -128,7 +127,7 @@ OutsideOutcome<void> WatchedProgram::Start() {
     if (!made) return NotStarted(made.error());
     attachment_root_.emplace(std::move(*made));
   }
-  // The files that it may see.
+  // Find the program and the files that it may see.
   std::vector<std::string> command = options_.command;
   auto program = FindProgram(command.front());
   if (!program) return NotStarted(program.error());
@@ -140,7 +139,7 @@ OutsideOutcome<void> WatchedProgram::Start() {
     view.shown.push_back(python / "etude");
     environment.push_back("PYTHONPATH=" + python.string());
   }
-  // Start it in its control group, behind its sandbox.
+  // Start it in its sandbox and its control group.
   group_ = ControlGroup::Make(options_.fence.groups(), options_.memory_mb);
   const FencedCommand fenced = options_.fence.Around(view.command, view.shown, view.start);
   environment.insert(environment.end(), fenced.environment.begin(), fenced.environment.end());
@@ -151,7 +150,7 @@ OutsideOutcome<void> WatchedProgram::Start() {
                                       .contained = options_.fence.IsUp(),
                                       .programs = options_.fence.programs(),
                                       .control_group = group_.folder(),
-                                      .told = fenced.told,
+                                      .inherited_texts = fenced.inherited_texts,
                                       .environment = std::move(environment)});
   if (!started) return NotStarted(started.error());
   child_ = std::move(*started);
@@ -171,19 +170,19 @@ std::string WatchedProgram::Stop(int patience_ms) {
 void WatchedProgram::Receive() { child_->Receive(kMaxReplyBytes); }
 
 OutsideOutcome<std::string> WatchedProgram::WaitForLine(Clock::time_point deadline, double seconds) {
-  Clock::time_point next_look = Clock::now() + kLookEvery;
+  Clock::time_point next_sample = Clock::now() + kSampleInterval;
   while (true) {
     if (auto line = child_->NextLine()) return std::move(*line);
     if (Clock::now() >= deadline) return tl::unexpected(TookTooLong(seconds));
-    const auto patience = std::chrono::ceil<std::chrono::milliseconds>(std::min(next_look, deadline) - Clock::now());
+    const auto patience = std::chrono::ceil<std::chrono::milliseconds>(std::min(next_sample, deadline) - Clock::now());
     std::array<pollfd, 2> watched{
         {{child_->output(), POLLIN, 0}, {child_->HasUnsent() ? child_->input() : -1, POLLOUT, 0}}};
     ::poll(watched.data(), watched.size(), std::max(0, static_cast<int>(patience.count())));
     bool over = false;
-    const bool looks = Clock::now() >= next_look;
-    if (looks) {
-      RETURN_IF_ERROR(Look());
-      next_look = Clock::now() + kLookEvery;
+    const bool is_due = Clock::now() >= next_sample;
+    if (is_due) {
+      RETURN_IF_ERROR(Measure());
+      next_sample = Clock::now() + kSampleInterval;
       over = child_->HasEnded();  // its child processes may keep its output open
     }
     if (over || watched[0].revents != 0 || watched[1].revents != 0) {
@@ -193,12 +192,12 @@ OutsideOutcome<std::string> WatchedProgram::WaitForLine(Clock::time_point deadli
   }
 }
 
-OutsideOutcome<void> WatchedProgram::Look() {
-  last_look_ = Clock::now();
+OutsideOutcome<void> WatchedProgram::Measure() {
+  last_measured_ = Clock::now();
   errors_.Trim();
   const TreeLoad load = meter_->Count();
   const ScratchUse scratch = options_.fence.MeasureScratch(child_->FirstStarted());
-  // A peak is known to a tenth or 4 MB, so smaller increases need no exact count.
+  // The peak has a tolerance of 10 % + 4 MB, so memory below that needs no precise measurement.
   const double held_mb = group_.IsUp() ? group_.HeldMb() + scratch.names_mb
                                        : meter_->HeldMb(scratch.Mb(), std::min(options_.memory_mb, 1.1 * peak_mb_ + 4));
   cpu_s_ = std::max(cpu_s_, load.cpu_s);  // the process may have ended meanwhile
@@ -215,16 +214,16 @@ OutsideOutcome<void> WatchedProgram::Look() {
   return {};
 }
 
-OutsideOutcome<void> WatchedProgram::LookAgain() {
-  if (Clock::now() < last_look_ + kLookEvery) return {};
-  return Look();
+OutsideOutcome<void> WatchedProgram::MeasureIfDue() {
+  if (Clock::now() < last_measured_ + kSampleInterval) return {};
+  return Measure();
 }
 
 tl::unexpected<OutsideFailure> WatchedProgram::TooMuchMemory() const {
   return TooMuch(fmt::format("held more than {:g} MB of memory", options_.memory_mb));
 }
 
-/// Returns how a program ended that will send no further whole line.
+/// Returns why the program will send no more lines.
 OutsideFailure WatchedProgram::HowItEnded() {
   const std::string part = WithoutFolder(std::string(child_->PartOfLine().substr(0, 1000))).substr(0, 100);
   if (child_->PartOfLine().size() > kMaxReplyBytes) {
@@ -234,7 +233,7 @@ OutsideFailure WatchedProgram::HowItEnded() {
   if (child_->broken_by() != 0) {
     return {Status::kFailed, fmt::format("cannot be talked to: {}", std::strerror(child_->broken_by())), false};
   }
-  for (int i = 0; i < kDyingMs && !child_->HasEnded(); ++i) ::usleep(1000);
+  for (int i = 0; i < kMaxDyingMs && !child_->HasEnded(); ++i) ::usleep(1000);
   if (!child_->HasEnded()) return {Status::kBadOutput, "closed its output, but went on running"};
   const std::string end = child_->Finish(0);
   if (group_.IsUp() && group_.WasFull()) return TooMuchMemory().value();
@@ -251,7 +250,7 @@ std::string WatchedProgram::WithoutFolder(std::string text) const {
   if (!attachment_root_) return text;
   const std::string folder = attachment_root_->path().string();
   for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos;) {
-    const std::size_t own = at + folder.size();  // each message has a folder of its own below it
+    const std::size_t own = at + folder.size();  // each message has its own folder below
     const bool is_named = own < text.size() && text[own] == '/';
     text.replace(at, folder.size() + (is_named ? 1 + AttachmentFolder::kNameLength : 0), "FILES");
   }

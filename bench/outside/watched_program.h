@@ -13,12 +13,12 @@
 
 namespace etude {
 
-/// The standard error of one program: collected in memory, so that its last line is not mixed with those of the same
-/// program in other workers, and saved to a file that they share.
+/// Collects the standard error of one program in memory, and saves it to a file that all workers share. In memory, its
+/// last line is not mixed with lines of the same program in other workers.
 class ErrorLog {
  public:
-  /// The largest number of bytes of the file, and of what is collected between two calls of Save.
-  static constexpr long kLargest = 1 << 20;
+  /// The maximum size of the file, and of the output kept between two calls of Save.
+  static constexpr long kMaxBytes = 1 << 20;
 
   /// Collects output for Save, which appends it to `file`; "" collects nothing.
   explicit ErrorLog(std::string file);
@@ -26,13 +26,13 @@ class ErrorLog {
   ErrorLog& operator=(const ErrorLog&) = delete;
   ~ErrorLog();
 
-  /// Returns the file to open as the program's standard error; "" if it shares ours.
+  /// Returns the path to open as the program's standard error; "" if it shares ours.
   std::string path() const;
-  /// Drops the collected output beyond the limit, except its end.
+  /// Discards collected output beyond the limit, except its end.
   void Trim();
   /// Returns the last non-empty line since the last Save; "" if there is none.
   std::string LastLine() const;
-  /// Appends the collected output to the file, up to its limit, and clears it. Creates the file's folder.
+  /// Appends the collected output to the file, up to kMaxBytes, and clears it. Creates the file's folder.
   void Save();
 
  private:
@@ -54,8 +54,8 @@ template <typename T>
 using OutsideOutcome = tl::expected<T, OutsideFailure>;
 OutsideFailure TookTooLong(double seconds);
 
-/// A program in its sandbox, read line by line, and monitored while we wait: its time, its memory, and whether it still
-/// runs. One process at a time; the next one starts after the last one was stopped.
+/// An outside program in its sandbox. While we wait for a line, its time, its memory and its end are monitored. It may
+/// be started again after Stop.
 class WatchedProgram {
  public:
   /// The options must outlive this.
@@ -67,28 +67,27 @@ class WatchedProgram {
   /// Closes its input, waits `patience_ms`, then kills it. Returns how it ended, or "not running".
   std::string Stop(int patience_ms);
 
-  /// Sends a line. A program that does not read any more is noticed by the missing reply. This and the next five
-  /// functions require a running program.
+  /// Sends a line. If the program has closed its input, WaitForLine fails. This and the next five functions require a
+  /// running program.
   void Send(const std::string& line) { child_->Send(line); }
-  /// Reads the output available now; NextLine returns it line by line.
+  /// Reads the output available now; NextLine returns its lines.
   void Receive();
   std::optional<std::string> NextLine() { return child_->NextLine(); }
-  /// Waits for a whole line until `deadline`, which is `seconds` after the question. Fails with how the program ended,
-  /// with the resource that it used too much of, or with its time.
+  /// Waits for a line until `deadline`, which is `seconds` after the question. Fails with the end of the program, with
+  /// the resource whose limit it exceeded, or with a timeout.
   OutsideOutcome<std::string> WaitForLine(Clock::time_point deadline, double seconds);
-  /// Measures its resources; fails if they exceed the limits. `LookAgain` does so unless the last measurement is
-  /// recent.
-  OutsideOutcome<void> Look();
-  OutsideOutcome<void> LookAgain();
+  /// Measures its resources; fails if they exceed the limits. MeasureIfDue does so only 20 ms after the last sample.
+  OutsideOutcome<void> Measure();
+  OutsideOutcome<void> MeasureIfDue();
   /// Returns the number of bytes sent that it has not read yet.
   std::size_t UnreadBytes() const { return child_->UnreadBytes(); }
 
   /// The folder of attachments, which exists from the first start on.
   const std::filesystem::path& attachment_root() const { return attachment_root_->path(); }
-  /// Replaces the path of the attachments' folder in a text, because it differs in every run.
+  /// Replaces the path of the attachments' folder by "FILES" in a text, because the path differs in every run.
   std::string WithoutFolder(std::string text) const;
 
-  /// Returns the processor time used since the last call, as last measured, seconds.
+  /// Returns the processor time between the last samples before this call and before the previous one, seconds.
   double TakeCpuSeconds();
   /// The largest memory measured since ForgetPeak, MB.
   double peak_mb() const { return peak_mb_; }
@@ -96,8 +95,8 @@ class WatchedProgram {
   /// Saves its standard error.
   void SaveErrors() { errors_.Save(); }
 
-  /// The time that a program may take from closing its output to its end, milliseconds.
-  static constexpr int kDyingMs = 1000;
+  /// The time in which a program must end after closing its output, milliseconds.
+  static constexpr int kMaxDyingMs = 1000;
 
  private:
   OutsideFailure HowItEnded();
@@ -106,10 +105,10 @@ class WatchedProgram {
   const OutsideOptions& options_;
   ErrorLog errors_;
   std::optional<TemporaryFolder> attachment_root_;
-  ControlGroup group_;  ///< of the child; empty if this machine provides none: then the meter measures its memory
+  ControlGroup group_;  ///< of the child; none if this machine provides none: then the meter measures its memory
   std::optional<ChildProcess> child_;
   std::optional<TreeMeter> meter_;  ///< of the child
-  Clock::time_point last_look_{};
+  Clock::time_point last_measured_{};
   double cpu_s_ = 0;          ///< of the running program, as last measured
   double cpu_charged_s_ = 0;  ///< the part returned by TakeCpuSeconds before
   double peak_mb_ = 0;

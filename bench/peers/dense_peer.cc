@@ -15,10 +15,10 @@ namespace {
 
 constexpr int kMaxDofs = 32, kMaxEffectors = 4, kRows = 6 * kMaxEffectors;
 
-// Of jacobian_solvers.cc.
+// The same values as in jacobian_solvers.cc.
 constexpr double kMinFactor = 1e-2, kMaxFactor = 1e9, kMinMu = 1e-9;
-constexpr double kDescends = 0.7, kHasSettled = 1 - 1e-5;
-constexpr int kPatience = 6, kMaxPasses = 4;
+constexpr double kMinProgress = 0.7, kSettledProgress = 1 - 1e-5;
+constexpr int kMaxPatience = 6, kMaxPasses = 4;
 
 struct Vector {
   double x = 0, y = 0, z = 0;
@@ -32,7 +32,7 @@ inline Vector Cross(Vector a, Vector b) {
 }
 Vector From(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-// Over the rows from a whole vector's begin on: so many sums at once that none waits for another.
+// Dot product of rows, from the start of the SIMD vector that contains row `from`. Eight partial sums hide the latency.
 constexpr int kSums = 8;
 inline double DotRows(const double* a, const double* b, int from = 0) {
   double sums[kSums] = {};
@@ -56,7 +56,7 @@ struct Joint {
 
 struct Goal {
   Vector axes[3], position;
-  double scale, axis_scale;  // of rows: roots of weights, per `kPositionScale` and per radian
+  double scale, axis_scale;  // of rows: square roots of weights, per kPositionScale and per radian
 };
 
 struct Pose {
@@ -110,24 +110,24 @@ class DensePeer final : public IkPeer {
   IkPeerAnswer Solve(const IkProblem& problem, const IkOptions& options) override {
     Take(problem, options);
     Place(pose_);
-    Descend(kDescends);
+    Descend(kMinProgress);
     for (int restart = 1; restart <= kRestarts && MustGoOn(); ++restart) {
       ScatterAround(start_, problem.limits, restart, scattered_);
       std::ranges::copy(scattered_, pose_.angles);
       Place(pose_);
-      Descend(kDescends);
+      Descend(kMinProgress);
     }
     if (MustGoOn()) {
       pose_ = best_;
       Place(pose_);
-      Descend(kHasSettled);
+      Descend(kSettledProgress);
     }
     const Pose& found = is_met_ ? pose_ : best_;
     return {{found.angles, found.angles + dofs_}, steps_};
   }
 
  private:
-  bool MustGoOn() const { return !is_met_ && steps_ < most_steps_; }
+  bool MustGoOn() const { return !is_met_ && steps_ < max_steps_; }
 
   void Take(const IkProblem& problem, const IkOptions& options) {
     start_.resize(dofs_);
@@ -145,13 +145,15 @@ class DensePeer final : public IkPeer {
     }
     squared_goal_ = options.position_goal * options.position_goal;
     squared_chord_ = RulesFor(options, {}, Precision::kDouble).squared_chord_met;
-    most_steps_ = options.max_iterations;
+    max_steps_ = options.max_iterations;
     steps_ = 0;
     is_met_ = false;
     best_.cost = std::numeric_limits<double>::infinity();
   }
 
+  // Computes forward kinematics, and the cost.
   void Place(Pose& pose) {
+    // Joints: translate and rotate from the parent, then turn about each axis.
     for (std::size_t n = 1; n < joints_.size(); ++n) {
       const Joint& joint = joints_[n];
       const Frame& parent = frames_[joint.parent];
@@ -168,6 +170,7 @@ class DensePeer final : public IkPeer {
         pose.dof_points[d] = frame.position;
       }
     }
+    // Effectors: squared distances, and squared chords between axes.
     pose.cost = 0;
     double farthest = 0, longest = 0;
     for (int e = 0; e < ends_; ++e) {
@@ -190,7 +193,7 @@ class DensePeer final : public IkPeer {
     is_met_ = farthest < squared_goal_ && longest < squared_chord_;
   }
 
-  // J and e, and JJᵀ: a column has rows only of those ends that its angle moves.
+  // Computes J, e and JJᵀ. A column of J is zero except in the rows of effectors that its angle moves.
   void Linearise() {
     for (int e = 0; e < ends_; ++e) {
       const Goal& goal = goals_[e];
@@ -234,7 +237,8 @@ class DensePeer final : public IkPeer {
     }
   }
 
-  // Solves (JJᵀ without the fixed angles + μI) y = right. Rows of the upper triangle are worked on in whole.
+  // Solves (JJᵀ without the fixed angles + μI) y = duals_ in place: elimination on the upper triangle, in whole
+  // vectors.
   bool SolveDuals(double mu) {
     std::memcpy(factor_, gram_, sizeof(gram_));
     for (int d = 0; d < dofs_; ++d) {
@@ -248,19 +252,18 @@ class DensePeer final : public IkPeer {
       inverses_[r] = inverse;
       for (int below = r + 1; below < rows_; ++below) {
         const double share = factor_[r][below] * inverse;
-        const int from = below & ~7;  // whole vectors; what is left of the diagonal is not read
+        const int from = below & ~7;  // start of a vector; entries left of the diagonal are not read
         for (int c = from; c < kRows; ++c) factor_[below][c] -= share * factor_[r][c];
         duals_[below] -= share * duals_[r];
       }
     }
-    alignas(
-        64) double found[kRows] = {};  // zero where it is not known yet: what is left of the diagonal does not count
+    alignas(64) double found[kRows] = {};  // zero until known, so entries left of the diagonal add nothing
     for (int r = rows_ - 1; r >= 0; --r) found[r] = (duals_[r] - DotRows(factor_[r], found, r)) * inverses_[r];
     std::memcpy(duals_, found, sizeof(found));
     return true;
   }
 
-  // Sets the step; the largest change of an angle, 0 without a step.
+  // Computes the step; returns its largest change of an angle, 0 on failure.
   double FindStep(double mu) {
     std::memset(sides_, 0, sizeof(sides_));
     bool is_exact = false;
@@ -292,7 +295,7 @@ class DensePeer final : public IkPeer {
     return largest;
   }
 
-  // |e|² − |e − J step|²
+  // Returns the predicted gain |e|² − |e − J step|².
   double Gain() const {
     double moved[kRows] = {}, gain = 0;
     for (int d = 0; d < dofs_; ++d) {
@@ -302,14 +305,16 @@ class DensePeer final : public IkPeer {
     return gain;
   }
 
+  // Descends from the current pose until it is solved, or has not fallen to `progress` times its cost for some steps.
   void Descend(double progress) {
     double fallen_to = pose_.cost, factor = 1, growth = 2;
     bool has_moved = true;
-    for (int left = kPatience; left > 0 && factor <= kMaxFactor && MustGoOn();) {
+    for (int left = kMaxPatience; left > 0 && factor <= kMaxFactor && MustGoOn();) {
       if (has_moved) Linearise();
-      if (FindStep(std::max(kMinMu, factor * pose_.cost)) < kStall) break;
+      if (FindStep(std::max(kMinMu, factor * pose_.cost)) < kMinTurn) break;
       Place(trial_);
       ++steps_;
+      // Accept or reject the step, and adapt the damping (Nielsen's rule).
       has_moved = trial_.cost < pose_.cost;
       if (has_moved) {
         const double surplus = 2 * (pose_.cost - trial_.cost) / Gain() - 1;
@@ -321,9 +326,10 @@ class DensePeer final : public IkPeer {
         factor *= growth;
         growth *= 2;
       }
+      // Count the steps without progress.
       if (pose_.cost < progress * fallen_to) {
         fallen_to = pose_.cost;
-        left = kPatience;
+        left = kMaxPatience;
       } else {
         --left;
       }
@@ -331,7 +337,7 @@ class DensePeer final : public IkPeer {
     if (pose_.cost < best_.cost) best_ = pose_;
   }
 
-  static constexpr double kStall = 1e-10;  // radians
+  static constexpr double kMinTurn = 1e-10;  // radians
 
   const int dofs_, ends_, rows_;
   std::vector<Joint> joints_;
@@ -344,7 +350,7 @@ class DensePeer final : public IkPeer {
   double lower_[kMaxDofs], upper_[kMaxDofs];
   std::vector<double> start_, scattered_;
   double squared_goal_ = 0, squared_chord_ = 0;
-  int most_steps_ = 0, steps_ = 0;
+  int max_steps_ = 0, steps_ = 0;
   bool is_met_ = false;
   Pose pose_, trial_, best_;
   alignas(64) double jacobian_[kMaxDofs][kRows], residuals_[kRows] = {};

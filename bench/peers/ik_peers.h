@@ -11,49 +11,46 @@
 
 namespace etude {
 
-/// The answer of a peer.
 struct IkPeerAnswer {
   std::vector<double> angles;
-  int steps = -1;  ///< −1: it does not tell
+  int steps = -1;  ///< −1 = unknown
 };
 
-/// An outside library's inverse kinematics, its model built once for a tree whose root stays where `StandingState` has
-/// it. Everything that can be made ahead of a problem is.
+/// Inverse kinematics by another library. Its model is built once, with all that does not depend on a problem, for a
+/// tree whose root is fixed where StandingState has it.
 class IkPeer {
  public:
   virtual ~IkPeer() = default;
 
-  /// Returns where the library's own forward kinematics has the effectors: its model must be the tree.
+  /// Returns the effectors by the library's own forward kinematics, which shows whether its model equals the tree.
   virtual std::vector<LimbFrame> Effectors(std::span<const double> angles) = 0;
 
-  /// Returns what it finds from `problem.start`, to the goals of `options` as far as its own stop criteria can say so.
+  /// Solves from `problem.start`, to the goals of `options` as far as the library's stop criteria can express them.
   virtual IkPeerAnswer Solve(const IkProblem& problem, const IkOptions& options) = 0;
 };
 
-/// Makes a peer that does Levenberg–Marquardt as `levenberg-marquardt` does it, with an active set and the same
-/// restarts, but written for speed alone: lists of fixed sizes, no check of its input, no record of its way, and
-/// compiled with flags of its own
-/// (`DensePeerFlags`). For trees of at most 32 angles and 4 effectors whose axes weigh alike.
+/// Makes the dense rival: the algorithm of our `levenberg-marquardt` (active set, same restarts), written for speed
+/// alone. It has arrays of fixed size, no input checks and no trace, and its own compiler flags. Only for trees of at
+/// most 32 angles and 4 effectors with equal axis weights.
 std::unique_ptr<IkPeer> MakeDensePeer(const KinematicTree& tree);
 
-/// Returns the flags that the dense peer was compiled with.
 const char* DensePeerFlags();
 
 /// The settings of the tree solvers of Orocos KDL. The defaults were the best of those tried (README.md).
 struct KdlSettings {
   double damping = 0.03;       ///< λ of the damped least-squares step (TreeIkSolverVel_wdls)
   double position_weight = 5;  ///< weight of a metre against a radian
-  int restarts = 0;            ///< of Newton's solver, from poses around the start
-  double max_turn = 0.6;   ///< of an angle in one step, radians; the online solver's
+  int restarts = 0;            ///< of the Newton solver, from poses around the start
+  double max_turn = 0.6;       ///< largest change of an angle per step of the online solver, radians
 };
 
-/// Makes KDL's TreeIkSolverPos_NR_JL: Newton–Raphson steps, angles cut at their limits.
+/// Makes KDL's TreeIkSolverPos_NR_JL: Newton–Raphson steps with angles clamped to their limits.
 std::unique_ptr<IkPeer> MakeKdlNewton(const KinematicTree& tree, const KdlSettings& settings);
-/// Makes KDL's TreeIkSolverPos_Online: the same steps, scaled down to the largest allowed speeds; run here until our
-/// goals are met.
+/// Makes KDL's TreeIkSolverPos_Online: the same steps, scaled down to maximum speeds. It is run until our goals are
+/// met.
 std::unique_ptr<IkPeer> MakeKdlOnline(const KinematicTree& tree, const KdlSettings& settings);
 
-/// Makes Simbody's Assembler with a marker and an orientation sensor at every effector, limits by `restrictQ`.
+/// Makes Simbody's Assembler with a marker and an orientation sensor at every effector; `restrictQ` sets the limits.
 std::unique_ptr<IkPeer> MakeSimbodyAssembler(const KinematicTree& tree, const SimbodySettings& settings);
 
 }  // namespace etude

@@ -1,6 +1,7 @@
-// Our inverse kinematics, its batches and that of other libraries, side by side in one process: the same problems, the
-// same accuracy. Every round lets every method solve every problem; of each problem the fastest round counts.
-// Whether a problem is solved is judged by our forward kinematics, by every axis of every effector, and the limits.
+// Times our inverse kinematics, one by one and in batches, and that of other libraries: the same problems and accuracy
+// in one process. In every round every method solves every problem; a problem's fastest round counts. A problem is
+// solved if our forward kinematics puts every effector's position and axes within the goals, and all angles within the
+// limits.
 //
 //     ik_peers_bench [--trials=50] [--rounds=3] [--only=parts of methods' names, commas between]
 #include <fmt/format.h>
@@ -28,14 +29,14 @@ namespace etude {
 namespace {
 
 constexpr int kSeeds = 4;
-constexpr char kCompared[] = "gauss-newton, plain";  // what times are given in units of
+constexpr char kCompared[] = "gauss-newton, plain";  // the unit of relative times
 
 const KinematicTree& Body() {
   static const KinematicTree tree = MakeBodyTree({});
   return tree;
 }
 
-// Solved tightly (algorithms, B6): 10⁻³ cm and 10⁻³°.
+// The tight goals: 10⁻³ cm and 10⁻³°.
 IkOptions Tightly(int max_iterations) {
   IkOptions options;
   options.weights = WeightRule::kAdaptivePower;
@@ -45,14 +46,14 @@ IkOptions Tightly(int max_iterations) {
   return options;
 }
 
-// Processor time, so that a solution of many milliseconds does not pay for what else the machine does.
+// Returns processor time, so that other processes do not count.
 double ThreadTimeUs() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
 }
 
-// What asking for the time takes of it: too much where a solution takes microseconds.
+// Returns the duration of reading the clock, which matters if a solution takes microseconds.
 double ClockTimeUs() {
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 10000; ++i) {
@@ -62,13 +63,12 @@ double ClockTimeUs() {
   return least;
 }
 
-/// The result of one method on one problem.
 struct Outcome {
   IkPeerAnswer answer;
   double us = std::numeric_limits<double>::infinity();
 };
 
-/// Solves all problems and takes down every time that is less than what stands there.
+/// `solve` solves all problems; `outcomes` keeps the shortest time of each.
 struct Method {
   std::string name;
   std::function<void(std::span<const IkWorld> worlds, std::vector<Outcome>& outcomes)> solve;
@@ -96,7 +96,7 @@ Method Ours(const std::string& solver, int max_iterations, const SolverSettings&
   });
 }
 
-// As it was before limbs went into lanes, one number at a time.
+// The plain version, without SIMD.
 Method Plain() {
   return OneByOne(kCompared, [options = Tightly(200)](const IkProblem& problem) {
     IkSolution solution = SolveGaussNewtonPlainly(Body(), problem, options);
@@ -104,7 +104,7 @@ Method Plain() {
   });
 }
 
-// One problem after the other, the tree prepared once, as the rivals' models are.
+// One problem after the other, with a tree prepared once, like the rivals' models.
 Method Single(const std::string& target) {
   SetBatchTarget(target);
   const auto solver = std::make_shared<GaussNewtonSolver>(Body());
@@ -115,7 +115,7 @@ Method Single(const std::string& target) {
   });
 }
 
-// Its time is the same for all problems: that of the batch over their number.
+// A batch gives every problem the same time: the batch's time divided by the number of problems.
 Method Batch(const std::string& target, Precision precision) {
   const std::string name =
       fmt::format("gauss-newton, batch in {}, {}", precision == Precision::kFloat ? "float" : "double", target);
@@ -136,7 +136,7 @@ Method Batch(const std::string& target, Precision precision) {
           }};
 }
 
-// A model that is not our tree would be compared on other problems than ours: no numbers then.
+// Ends the program if the peer's model is not our tree, because it would then solve other problems.
 Method Peer(const std::string& name, std::shared_ptr<IkPeer> peer, int max_iterations) {
   constexpr double kRounding = 1e-9;
   for (int trial = 0; trial < 20; ++trial) {
@@ -199,7 +199,7 @@ std::vector<Condition> AllConditions() {
 }
 
 bool IsSolved(const IkProblem& problem, const std::vector<double>& angles) {
-  constexpr double kRounding = 1e-9;  // of limits, radians
+  constexpr double kRounding = 1e-9;  // tolerance of limits, radians
   for (std::size_t i = 0; i < angles.size(); ++i) {
     const AngleRange& range = problem.limits[i];
     if (!(angles[i] >= range.lower - kRounding && angles[i] <= range.upper + kRounding)) return false;
@@ -270,7 +270,7 @@ void Compare(const Condition& condition, const std::vector<Method>& methods, int
   for (std::size_t m = 0; m < methods.size(); ++m) PrintRow(methods[m], worlds, outcomes[m], compared);
 }
 
-// The number after `key` in `argument`, if that is what it is.
+// Reads the number after `key` in `argument`; returns false if it is another argument or invalid.
 bool Read(std::string_view argument, std::string_view key, int& number) {
   if (!argument.starts_with(key)) return false;
   argument.remove_prefix(key.size());

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-constexpr double kAnySpeed = 1e3;  // of effectors: slowing down angles alone did better
+constexpr double kUnlimitedSpeed = 1e3;  // of effectors; limits on angles alone gave better results
 
 KDL::Vector ToVector(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 KDL::Rotation ToRotation(const glm::dmat3& m) { return {ToVector(m[0]), ToVector(m[1]), ToVector(m[2])}; }
@@ -23,13 +23,13 @@ LimbFrame FromFrame(const KDL::Frame& f) {
 
 std::string SegmentName(int joint, int axis) { return std::to_string(joint) + "xyz"[axis]; }
 
-// One segment a degree of freedom, as few as KDL's recursion by names can do with: a joint's place and rest rotation
-// belong to its first segment, an effector's place to the last of its limb.
+// Makes one KDL segment per degree of freedom, the smallest number, because KDL's recursion over names is slow. A
+// joint's offset and rest rotation are in its first segment, an effector's offset in the last segment of its limb.
 KDL::Tree ToKdl(const KinematicTree& tree) {
   KDL::Tree made("root");
   const TreeState rest = StandingState(tree);
   std::vector<std::string> limb_names(tree.joints.size(), "root");  // the last segment of each joint
-  std::vector<KDL::Frame> offsets(tree.joints.size());              // from there to the limb
+  std::vector<KDL::Frame> offsets(tree.joints.size());              // from that segment to the limb
   for (std::size_t n = 0; n < tree.joints.size(); ++n) {
     const TreeJoint& joint = tree.joints[n];
     KDL::Frame base(ToRotation(joint.R_PJ), ToVector(joint.p_PJ));
@@ -40,7 +40,7 @@ KDL::Tree ToKdl(const KinematicTree& tree) {
     base = offsets[joint.parent] * base;
     limb_names[n] = limb_names[joint.parent];
     for (int axis = 0; axis < joint.dof_count; ++axis) {
-      KDL::Frame beyond = base;  // where the next segment begins while this angle is zero
+      KDL::Frame beyond = base;  // start of the next segment at angle zero
       if (axis == joint.dof_count - 1) {
         for (const Effector& effector : tree.effectors) {
           if (effector.joint == static_cast<int>(n)) beyond = beyond * KDL::Frame(ToVector(effector.p_LE));
@@ -126,15 +126,15 @@ class KdlNewton final : public KdlPeer {
 
   IkPeerAnswer Solve(const IkProblem& problem, const IkOptions& options) override {
     Take(problem);
-    // KDL compares every number of a twist with one limit, metres and radians alike.
+    // KDL compares each component of a twist, in metres or radians, with the same limit.
     const double goal = std::min(options.position_goal, options.axis_goal) / std::sqrt(3.0);
     if (goal != goal_) {
-      const int steps = settings_.restarts > 0 ? kStepsATry : options.max_iterations;
+      const int steps = settings_.restarts > 0 ? kStepsPerTry : options.max_iterations;
       solver_ = std::make_unique<KDL::TreeIkSolverPos_NR_JL>(kdl_, EndNames(tree_), lower_, upper_, fk_, velocity_,
                                                              steps, goal);
       goal_ = goal;
     }
-    // As TRAC-IK does for chains: begin anew elsewhere where it is stuck.
+    // Restart from another pose if it is stuck, as TRAC-IK does for chains.
     for (int restart = 1; solver_->CartToJnt(q_, targets_, found_) < 0 && restart <= settings_.restarts; ++restart) {
       ScatterAround(problem.start.angles, problem.limits, restart, scattered_);
       std::ranges::copy(scattered_, q_.data.data());
@@ -143,7 +143,7 @@ class KdlNewton final : public KdlPeer {
   }
 
  private:
-  static constexpr int kStepsATry = 50;
+  static constexpr int kStepsPerTry = 50;
 
   std::vector<double> scattered_;
   double goal_ = 0;
@@ -156,7 +156,7 @@ class KdlOnline final : public KdlPeer {
     KDL::JntArray fastest(tree.dof_count());
     fastest.data.setConstant(settings.max_turn);
     solver_ = std::make_unique<KDL::TreeIkSolverPos_Online>(tree.dof_count(), EndNames(tree), lower_, upper_, fastest,
-                                                            kAnySpeed, kAnySpeed, fk_, velocity_);
+                                                            kUnlimitedSpeed, kUnlimitedSpeed, fk_, velocity_);
   }
 
   IkPeerAnswer Solve(const IkProblem& problem, const IkOptions& options) override {

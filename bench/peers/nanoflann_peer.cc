@@ -23,7 +23,7 @@ struct Cloud {
 using KdTree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud,
                                                    static_cast<int>(kTermCount), std::uint32_t>;
 
-/// nanoflann's interface for results of one's own: the least frame below a distance.
+/// A result set for nanoflann: the first frame in time order within a distance.
 class FirstFrame {
  public:
   FirstFrame(double squared_limit, std::span<const std::uint32_t> frame_of)
@@ -55,13 +55,13 @@ class FirstFrame {
 
 struct NanoflannPeer::Tree {
   Cloud cloud;
-  std::vector<std::uint32_t> frame_of;  ///< of each point
+  std::vector<std::uint32_t> frame_of;  ///< the frame of each point
   std::unique_ptr<KdTree> kd_tree;
 
   void PutPointsInLeafOrder();
 };
 
-/// nanoflann reads its points through a table; in the order of its leaves they are read one after the other.
+/// nanoflann reads points through a table of indices. In the order of its leaves they are contiguous in memory.
 void NanoflannPeer::Tree::PutPointsInLeafOrder() {
   frame_of = kd_tree->vAcc;
   std::vector<GradePoint> ordered;

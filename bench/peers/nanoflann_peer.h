@@ -9,12 +9,12 @@
 
 namespace etude {
 
-/// nanoflann's k-d tree over the points, in double.
+/// nanoflann's k-d tree over GradePoints, in double.
 class NanoflannPeer {
  public:
   NanoflannPeer(std::span<const Grades> frames, const FeatureWeights& weights, int leaf_size);
   ~NanoflannPeer();
-  /// The least frame of all within, kept while searching.
+  /// Keeps the first frame in time order during the search.
   std::optional<Neighbour> First(const Grades& query, double threshold) const;
   std::vector<Neighbour> Within(const Grades& query, double threshold) const;
   std::vector<Neighbour> Nearest(const Grades& query, int k) const;

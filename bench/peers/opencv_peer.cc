@@ -16,8 +16,8 @@ struct Buffers {
   cv::Mat labels, stats, centroids, changed;
 };
 
-/// Fills the holes of at most `max_hole_px` pixels among `contours` (of two levels, outlines and holes) of a mask. A
-/// hole's contour runs on the person's pixels around it.
+/// Fills the holes of at most `max_hole_px` pixels in a mask, given its two-level contours (outlines and holes). The
+/// contour of a hole lies on the person's pixels around it.
 void FillSmallHoles(const std::vector<std::vector<cv::Point>>& contours, const std::vector<cv::Vec4i>& hierarchy,
                     int outline, int max_hole_px, cv::Mat& person) {
   for (int i = hierarchy[static_cast<std::size_t>(outline)][2]; i >= 0; i = hierarchy[static_cast<std::size_t>(i)][0]) {
@@ -29,8 +29,8 @@ void FillSmallHoles(const std::vector<std::vector<cv::Point>>& contours, const s
   }
 }
 
-/// The largest 8-connected piece of `changed` with its holes of at most `max_hole_px` pixels filled, by the labels of
-/// cv::connectedComponentsWithStats and the contours of that piece's box.
+/// Finds the largest 8-connected piece of `changed` by cv::connectedComponentsWithStats, and fills holes of at most
+/// `max_hole_px` pixels by contours within the piece's bounding box.
 void KeepPersonByLabels(const cv::Mat& changed, int max_hole_px, Buffers& b, Mask& out) {
   const int pieces = cv::connectedComponentsWithStats(changed, b.labels, b.stats, b.centroids, 8, CV_32S, cv::CCL_SAUF);
   int best = 0, area = 0;
@@ -53,7 +53,7 @@ void KeepPersonByLabels(const cv::Mat& changed, int max_hole_px, Buffers& b, Mas
   }
 }
 
-/// Keeps the person by contours alone: the one of the largest area is drawn, its holes with it, unless they are large.
+/// The same by contours alone: draws the contour of the largest area, then fills its small holes.
 void KeepPersonByContours(const cv::Mat& changed, int max_hole_px, Mask& out) {
   std::vector<std::vector<cv::Point>> contours;
   std::vector<cv::Vec4i> hierarchy;
@@ -68,7 +68,7 @@ void KeepPersonByContours(const cv::Mat& changed, int max_hole_px, Mask& out) {
   }
   if (best < 0) return;
   cv::Mat person(out.height, out.width, CV_8U, out.pixels.data());
-  // With its holes: they are its children, one level below.
+  // maxLevel 1 also draws the holes, which are its children.
   cv::drawContours(person, contours, best, 1, cv::FILLED, cv::LINE_8, hierarchy, 1);
   FillSmallHoles(contours, hierarchy, best, max_hole_px, person);
 }
@@ -79,14 +79,14 @@ struct OpenCvPerson::State {
   Kind kind;
   int max_hole_px;
   double cosine2;
-  int steps;               ///< of cvtColor's hue
+  int steps;               ///< the threshold in steps of cvtColor's hue (2°)
   cv::Mat bx, by3, reach;  ///< kSameHue
   cv::Mat hue;             ///< kHsv
   cv::Mat chroma, planes[2], dot, own, tmp, mask, hsv, apart;
   Buffers buffers;
 
   void Chroma(const cv::Mat& rgb) {
-    // (2R − G − B, G − B) as whole numbers in floats; grey has the hue of red.
+    // (2R − G − B, G − B): whole numbers in floats. Grey gets the hue of red.
     static const cv::Matx23f kToChroma(2, -1, -1, 0, 1, -1);
     rgb.convertTo(tmp, CV_32F);
     cv::transform(tmp, chroma, kToChroma);
@@ -123,6 +123,7 @@ OpenCvPerson::OpenCvPerson(OpenCvPerson&&) noexcept = default;
 Mask OpenCvPerson::Find(const ColourImage& picture) {
   State& s = *state_;
   if (s.kind == Kind::kSameHue) {
+    // Changed if the cosine between the chroma vectors of picture and background is below the threshold's.
     s.Chroma(ViewOf(picture));
     cv::multiply(s.planes[0], s.bx, s.dot);
     cv::accumulateProduct(s.planes[1], s.by3, s.dot);
@@ -137,10 +138,11 @@ Mask OpenCvPerson::Find(const ColourImage& picture) {
   } else {
     cv::cvtColor(ViewOf(picture), s.hsv, cv::COLOR_RGB2HSV);
     cv::extractChannel(s.hsv, s.planes[0], 0);
-    // Round the circle of 180: further than `steps` either way.
+    // Changed if the hues differ by more than `steps` in both directions of the circle of 180.
     cv::absdiff(s.planes[0], s.hue, s.apart);
     cv::inRange(s.apart, s.steps + 1, 179 - s.steps, s.buffers.changed);
   }
+  // Keep the largest piece.
   Mask out(picture.width, picture.height);
   if (s.kind == Kind::kHsvContours) {
     KeepPersonByContours(s.buffers.changed, s.max_hole_px, out);

@@ -6,16 +6,16 @@
 
 namespace etude {
 
-// What is compared with OpenCV, as OpenCV's users would write it: its own functions, buffers kept, one thread.
+// The peers in OpenCV as its users would write them: OpenCV's functions, reused buffers, one thread.
 
-/// Finds a person by hue in pictures of one camera: the background's part computed once, the largest contour, its small
-/// holes filled.
+/// Finds a person by hue in pictures of one camera: the largest changed piece, with its small holes filled. The
+/// background's part is computed once.
 class OpenCvPerson {
  public:
   enum class Kind {
-    kSameHue,      ///< the paper's hue, by OpenCV's arithmetic on whole pictures: the same masks as ours
-    kHsv,          ///< cvtColor's hue of 180 steps: what one takes who wants it fast
-    kHsvContours,  ///< the same, the largest piece by contours alone instead of labels
+    kSameHue,      ///< the paper's hue by OpenCV's arithmetic on whole pictures; gives the same masks as ours
+    kHsv,          ///< the hue of cvtColor, in 180 steps: faster
+    kHsvContours,  ///< the same, but finds the largest piece by contours instead of labels
   };
   OpenCvPerson(const ColourImage& background, double hue_threshold, int max_hole_px, Kind kind);
   ~OpenCvPerson();
@@ -29,7 +29,7 @@ class OpenCvPerson {
   std::unique_ptr<State> state_;
 };
 
-/// MOG2 or KNN, shadows told apart, with the same largest piece and holes.
+/// OpenCV's background models MOG2 and KNN with shadow detection; then the largest piece with small holes filled.
 class OpenCvModel {
  public:
   enum class Kind { kMog2, kKnn };

@@ -12,7 +12,7 @@ glm::dvec3 FromVec(const SimTK::Vec3& v) { return {v[0], v[1], v[2]}; }
 
 SimTK::Rotation ToRotation(const glm::dmat3& m) {
   const SimTK::Mat33 rows(m[0][0], m[1][0], m[2][0], m[0][1], m[1][1], m[2][1], m[0][2], m[1][2], m[2][2]);
-  return SimTK::Rotation(rows, true);  // it is one: no need to make it orthogonal
+  return SimTK::Rotation(rows, true);  // trusts that it is orthogonal
 }
 SimTK::Transform ToTransform(const SimbodyModel::Frame& frame) {
   return SimTK::Transform(ToRotation(frame.axes), ToVec(frame.position));
@@ -25,7 +25,7 @@ SimbodyModel::Frame FromTransform(const SimTK::Transform& t) {
 }  // namespace
 
 struct SimbodyModel::Parts {
-  // One angle, in the order of joints.
+  // An angle; all are in the order of the joints.
   struct Angle {
     SimTK::MobilizedBody body;
     int axis;
@@ -33,16 +33,16 @@ struct SimbodyModel::Parts {
 
   SimTK::MultibodySystem system;
   SimTK::SimbodyMatterSubsystem matter{system};
-  std::vector<SimTK::MobilizedBody> limbs;  // of each joint: the body it is part of
-  std::vector<SimTK::Transform> in_body;    // and its frame there
+  std::vector<SimTK::MobilizedBody> limbs;  // the body of each joint
+  std::vector<SimTK::Transform> in_body;    // its frame in that body
   std::vector<Angle> angles;
   std::vector<Effector> effectors;
   SimTK::State state;
   std::unique_ptr<SimTK::Assembler> assembler;
-  SimTK::Markers* markers = nullptr;  // the assembler's
+  SimTK::Markers* markers = nullptr;  // owned by the assembler
   SimTK::OrientationSensors* sensors = nullptr;
 
-  // Gimbal turns as Rx Ry Rz and Universal as Rx Ry; Pin turns about Z, so its frames have our X there.
+  // Gimbal rotates by Rx Ry Rz and Universal by Rx Ry, like our joints. Pin rotates about Z, so our X becomes its Z.
   void AddJoint(const Joint& joint) {
     using SimTK::MobilizedBody;
     if (joint.parent < 0 || joint.dof_count == 0) {
@@ -73,12 +73,14 @@ struct SimbodyModel::Parts {
 SimbodyModel::SimbodyModel(const std::vector<Joint>& joints, const std::vector<Effector>& effectors,
                            const SimbodySettings& settings)
     : parts_(std::make_unique<Parts>()) {
+  // The multibody system, with angles as coordinates.
   for (const Joint& joint : joints) parts_->AddJoint(joint);
   parts_->effectors = effectors;
   parts_->state = parts_->system.realizeTopology();
   parts_->matter.setUseEulerAngles(parts_->state, true);
   parts_->system.realizeModel(parts_->state);
 
+  // A marker and a sensor per effector.
   parts_->assembler = std::make_unique<SimTK::Assembler>(parts_->system);
   SimTK::Assembler& assembler = *parts_->assembler;
   parts_->markers = new SimTK::Markers();
@@ -88,10 +90,11 @@ SimbodyModel::SimbodyModel(const std::vector<Joint>& joints, const std::vector<E
     parts_->markers->addMarker(limb, ToVec(effector.offset));
     parts_->sensors->addOSensor(limb, SimTK::Rotation());
   }
-  // Weights of single markers are shares of their whole: what counts is the weight of all markers against all sensors.
+  // Weights of single markers are relative to each other; this is the weight of all markers relative to all sensors.
   assembler.adoptAssemblyGoal(parts_->markers, settings.position_weight);
   assembler.adoptAssemblyGoal(parts_->sensors);
   assembler.setAccuracy(settings.accuracy);
+  // Limits.
   std::size_t next = 0;
   for (const Joint& joint : joints) {
     for (int axis = 0; axis < joint.dof_count; ++axis, ++next) {
@@ -126,7 +129,7 @@ std::vector<double> SimbodyModel::Assemble(const double* start, const std::vecto
   try {
     parts_->assembler->track();
   } catch (const std::exception&) {
-    // It gave up. Its last state is judged like any other answer.
+    // The Assembler failed; its last state is judged like any other answer.
   }
   const SimTK::State& found = parts_->assembler->getInternalState();
   std::vector<double> angles;

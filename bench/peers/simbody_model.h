@@ -6,14 +6,13 @@
 
 namespace etude {
 
-/// The settings of Simbody's Assembler.
 struct SimbodySettings {
-  double accuracy = 1e-5;      ///< its optimiser's; less does not make it stop later
+  double accuracy = 1e-5;      ///< of its optimiser; smaller values change nothing
   double position_weight = 3;  ///< weight of a square metre against a square radian
 };
 
-/// Simbody's model of a kinematic tree with its Assembler. Simbody's headers are no C++20, so this one and its .cc are
-/// C++17 and speak plain types only.
+/// Simbody's model of a kinematic tree, with its Assembler. Simbody's headers do not compile as C++20, so this class is
+/// C++17 and has only plain types in its interface.
 class SimbodyModel {
  public:
   struct Frame {
@@ -22,7 +21,7 @@ class SimbodyModel {
   };
   struct Joint {
     int parent = -1;
-    Frame base;  ///< in the parent's limb, when all angles are zero; of the root: in the world
+    Frame base;  ///< in the parent limb's frame at angle zero; for the root: in the world
     int dof_count = 0;
     double lower[3] = {}, upper[3] = {};
   };
@@ -35,9 +34,9 @@ class SimbodyModel {
                const SimbodySettings& settings);
   ~SimbodyModel();
 
-  /// Returns the effectors by Simbody's forward kinematics. Angles in the order of joints.
+  /// Returns the effectors by Simbody's forward kinematics; `angles` are in the order of the joints.
   std::vector<Frame> Effectors(const double* angles);
-  /// Returns what the Assembler finds from `start`, or what it has when it gives up.
+  /// Returns the angles that the Assembler finds from `start`, or its last ones if it fails.
   std::vector<double> Assemble(const double* start, const std::vector<Frame>& targets);
 
  private:

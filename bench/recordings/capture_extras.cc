@@ -22,17 +22,17 @@ SortedJson ToJson(const CaptureExtras::View& view) {
   for (const Mask& mask : view.masks) masks.push_back(EncodeMask(mask));
   const glm::dvec3& p = view.truth.p_WC;
   SortedJson json = {{"width", in.width},
-               {"height", in.height},
-               {"fx", in.fx},
-               {"fy", in.fy},
-               {"cx", in.cx},
-               {"cy", in.cy},
-               {"skew", in.skew},
-               {"R_CW", std::move(rotation)},
-               {"p_WC", {p.x, p.y, p.z}},
-               {"mask_width", view.masks.empty() ? 0 : view.masks[0].width},
-               {"mask_height", view.masks.empty() ? 0 : view.masks[0].height},
-               {"masks", std::move(masks)}};
+                     {"height", in.height},
+                     {"fx", in.fx},
+                     {"fy", in.fy},
+                     {"cx", in.cx},
+                     {"cy", in.cy},
+                     {"skew", in.skew},
+                     {"R_CW", std::move(rotation)},
+                     {"p_WC", {p.x, p.y, p.z}},
+                     {"mask_width", view.masks.empty() ? 0 : view.masks[0].width},
+                     {"mask_height", view.masks.empty() ? 0 : view.masks[0].height},
+                     {"masks", std::move(masks)}};
   const Distortion& d = view.truth.distortion;
   if (!view.still_jpeg_base64.empty()) json["still"] = view.still_jpeg_base64;
   if (!d.IsNone()) json["distortion"] = {d.k1, d.k2, d.p1, d.p2, d.k3};
@@ -101,6 +101,7 @@ Result<CaptureExtras> ToExtras(const SortedJson& json) {
                 json.at("format").dump(), json.at("version").dump(), kFormat, kVersion);
   }
   CaptureExtras extras;
+  // The room, the stage, and the colours of the performer.
   extras.texture_seed = json.at("room").at("texture_seed");
   extras.casts_shadows = json.at("room").at("casts_shadows");
   if (json.contains("stage")) {
@@ -114,6 +115,7 @@ Result<CaptureExtras> ToExtras(const SortedJson& json) {
     const SortedJson& colour = json.at("colours").at(i);
     extras.colours[i] = {colour.at(0), colour.at(1), colour.at(2)};
   }
+  // Cameras and frames: each camera has one mask per frame of light.
   extras.brightness = json.at("brightness").get<std::vector<double>>();
   for (const SortedJson& camera : json.at("cameras")) {
     ASSIGN_OR_RETURN(auto view, ToView(camera));
@@ -123,6 +125,7 @@ Result<CaptureExtras> ToExtras(const SortedJson& json) {
     }
     extras.views.push_back(std::move(view));
   }
+  // Each moment is of one of these frames and has marks for every camera.
   for (const SortedJson& json_moment : json.value("moments", SortedJson::array())) {
     extras.moments.push_back(ToMoment(json_moment));
     const CaptureExtras::Moment& moment = extras.moments.back();
@@ -142,12 +145,12 @@ std::string WriteCaptureExtras(const CaptureExtras& extras) {
   SortedJson cameras = SortedJson::array();
   for (const CaptureExtras::View& view : extras.views) cameras.push_back(ToJson(view));
   SortedJson json = {{"format", kFormat},
-               {"version", kVersion},
-               {"room", {{"texture_seed", extras.texture_seed}, {"casts_shadows", extras.casts_shadows}}},
-               {"colours", std::move(colours)},
-               {"brightness", extras.brightness},
-               {"cameras", std::move(cameras)},
-               {"bvh", extras.bvh}};
+                     {"version", kVersion},
+                     {"room", {{"texture_seed", extras.texture_seed}, {"casts_shadows", extras.casts_shadows}}},
+                     {"colours", std::move(colours)},
+                     {"brightness", extras.brightness},
+                     {"cameras", std::move(cameras)},
+                     {"bvh", extras.bvh}};
   if (extras.scene > 0 || extras.wears_coded) {
     json["stage"] = {{"seed", extras.stage_seed}, {"scene", extras.scene}, {"everyday", extras.wears_everyday}};
     if (extras.wears_coded) json["stage"]["coded"] = true;

@@ -43,7 +43,6 @@ struct CaptureExtras {
     std::string still_jpeg_base64 = {};  ///< the middle frame's picture; may be empty
   };
 
-  /// A stroke drawn in a picture.
   struct Mark {
     glm::dvec2 a{0}, b{0};  ///< pixels
     Rgb8 colour{};          ///< the limb's
@@ -57,11 +56,10 @@ struct CaptureExtras {
 
   std::uint64_t texture_seed = 1;
   bool casts_shadows = true;
-  std::uint64_t stage_seed = 0;    ///< seed of the furniture and moving things in the room (sim/stage), with `scene` >
-                                   ///< 0
+  std::uint64_t stage_seed = 0;    ///< seed of furniture and moving objects (sim/stage), if `scene` > 0
   double scene = 0;                ///< 0 = the studio
-  bool wears_everyday = false;     ///< the performer's wardrobe on that stage
-  bool wears_coded = false;        ///< the same
+  bool wears_everyday = false;     ///< on that stage, the performer wears everyday clothes
+  bool wears_coded = false;        ///< the performer wears the coded suit
   std::array<Rgb8, 16> colours{};  ///< of the performer, by Part
   std::vector<double> brightness;  ///< one per frame
   std::vector<View> views;

@@ -41,10 +41,10 @@ template <>
 struct Codec<int> {
   static void Encode(int value, Json& json) { json = value; }
   static Result<void> Decode(const Json& json, int& value) {
-    constexpr std::int64_t kMost = 1'000'000'000;  // larger ones would overflow when added
-    const auto whole = json.is_number_integer() ? json.get<std::int64_t>() : kMost + 1;
-    if (whole < -kMost || whole > kMost) {
-      return Fail({}, ": {} is no whole number; allowed: {}…{}", ShowJson(json), -kMost, kMost);
+    constexpr std::int64_t kMaxMagnitude = 1'000'000'000;  // sums of a few of these do not overflow an int
+    const auto whole = json.is_number_integer() ? json.get<std::int64_t>() : kMaxMagnitude + 1;
+    if (whole < -kMaxMagnitude || whole > kMaxMagnitude) {
+      return Fail({}, ": {} is no whole number; allowed: {}…{}", ShowJson(json), -kMaxMagnitude, kMaxMagnitude);
     }
     value = static_cast<int>(whole);
     return {};
@@ -165,7 +165,7 @@ ETUDE_RECORDED(std::optional<PerFeature>);
 
 void RecordFields::Format(std::string_view name, int version) {
   const auto constant = [&](const char* key, const Json& value) {
-    Tell(key, ("always " + value.dump()).c_str());
+    Document(key, ("always " + value.dump()).c_str());
     if (written_ != nullptr) Added(key) = value;
     const Json* found = Find(key, /*must=*/true, "of the recording");
     if (found != nullptr && *found != value) {
@@ -205,7 +205,7 @@ Result<void> RecordFields::ReadEach(const Json& list, const std::function<Result
 
 Json& RecordFields::Added(const char* key) { return (*written_)[key]; }
 
-void RecordFields::Tell(const char* key, const char* meaning) {
+void RecordFields::Document(const char* key, const char* meaning) {
   if (page_ != nullptr) *page_ += fmt::format("{:{}}- `{}`: {}\n", "", 2 * depth_, key, meaning);
 }
 

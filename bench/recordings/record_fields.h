@@ -28,7 +28,6 @@ Result<void> DecodeValue(const Json& json, Value& value);
 /// record, reads one, and makes its reference page. Unknown keys are ignored on reading.
 class RecordFields {
  public:
-  /// Returns the record as JSON on one line.
   template <typename Record>
   static std::string Write(Record record) {
     const JsonPtr json = NewObject();
@@ -62,7 +61,7 @@ class RecordFields {
   /// A required value.
   template <typename Value>
   void Required(const char* key, Value& value, const char* meaning) {
-    Tell(key, meaning);
+    Document(key, meaning);
     if (written_ != nullptr) EncodeValue(value, Added(key));
     if (const Json* found = Find(key, /*must=*/true, meaning)) Note(key, DecodeValue(*found, value), meaning);
   }
@@ -70,7 +69,7 @@ class RecordFields {
   /// An optional value; its key is absent if it is empty.
   template <typename Value>
   void Optional(const char* key, std::optional<Value>& value, const char* meaning) {
-    Tell(key, meaning);
+    Document(key, meaning);
     if (written_ != nullptr && value) EncodeValue(*value, Added(key));
     if (const Json* found = Find(key)) Note(key, DecodeValue(*found, value.emplace()), meaning);
   }
@@ -78,7 +77,7 @@ class RecordFields {
   /// A value that keeps its default if the key is absent or has another type.
   template <typename Value>
   void Tolerated(const char* key, Value& value, const char* meaning) {
-    Tell(key, meaning);
+    Document(key, meaning);
     if (written_ != nullptr) EncodeValue(value, Added(key));
     Value read{};
     if (const Json* found = Find(key); found != nullptr && DecodeValue(*found, read)) value = std::move(read);
@@ -87,19 +86,19 @@ class RecordFields {
   /// A required list of objects, of lists of them, or of values.
   template <typename Entry>
   void List(const char* key, std::vector<Entry>& entries, const char* meaning) {
-    Tell(key, meaning);
+    Document(key, meaning);
     if (written_ != nullptr) {
       Json& list = Added(key);
       WriteEntry(entries, list);
     }
     if (const Json* found = Find(key, /*must=*/true, meaning)) Note(key, ReadEntry(*found, entries), "");
-    TellEntry<Entry>();
+    DocumentEntry<Entry>();
   }
 
   /// An optional list; entries of a wrong type are left out.
   template <typename Entry>
   void ToleratedList(const char* key, std::vector<Entry>& entries, const char* meaning) {
-    Tell(key, meaning);
+    Document(key, meaning);
     if (written_ != nullptr) {
       Json& list = Added(key);
       WriteEntry(entries, list);
@@ -111,7 +110,7 @@ class RecordFields {
       };
       [[maybe_unused]] const auto no_list = ReadEach(*found, append);
     }
-    TellEntry<Entry>();
+    DocumentEntry<Entry>();
   }
 
  private:
@@ -156,10 +155,10 @@ class RecordFields {
   }
 
   template <typename Entry>
-  void TellEntry() {
+  void DocumentEntry() {
     if (page_ == nullptr) return;
     if constexpr (IsList<Entry>::value) {
-      TellEntry<typename Entry::value_type>();
+      DocumentEntry<typename Entry::value_type>();
     } else if constexpr (kIsRecord<Entry>) {
       RecordFields fields(nullptr, nullptr, page_);
       fields.depth_ = depth_ + 1;
@@ -176,7 +175,7 @@ class RecordFields {
   static Result<void> ReadEach(const Json& list, const std::function<Result<void>(const Json&)>& read);
 
   Json& Added(const char* key);
-  void Tell(const char* key, const char* meaning);
+  void Document(const char* key, const char* meaning);
   /// Returns the value of the key when a record is read. Complains if a required key is missing.
   const Json* Find(const char* key, bool must = false, const char* meaning = "");
   void Note(const char* key, const Result<void>& read, const char* meaning);

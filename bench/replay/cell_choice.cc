@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-/// The methods of a run, by scenario and name, and why their cells cannot be run again.
+/// Returns the methods of a run, and why their cells cannot be run again.
 std::vector<MethodRows> MethodsOf(const ReplayOptions& options, const PreparedRun& prepared) {
   const std::optional<ScoredMethod>& scored = prepared.suite.scored;
   std::vector<MethodRows> methods;
@@ -31,13 +31,12 @@ std::vector<MethodRows> MethodsOf(const ReplayOptions& options, const PreparedRu
   return methods;
 }
 
-/// Methods of a run, by scenario and name.
 class MethodTable {
  public:
   explicit MethodTable(std::vector<MethodRows>& methods) {
     for (MethodRows& method : methods) by_name_[{method.scenario, method.method}] = &method;
   }
-  /// Null where the row is of no method of the run.
+  /// Returns null if the run has no such method.
   MethodRows* Find(const Row& row) const {
     const auto found = by_name_.find({row.scenario, row.method});
     return found == by_name_.end() ? nullptr : found->second;
@@ -47,7 +46,7 @@ class MethodTable {
   std::map<std::pair<std::string, std::string>, MethodRows*> by_name_;
 };
 
-/// Finds the cells that were asked for by name.
+/// Returns the indices of the rows that the options name.
 Result<std::set<std::size_t>> FindCells(const ReplayOptions& options, const RunData& run, const MethodTable& methods) {
   std::set<std::size_t> places;
   for (const std::string& wanted : options.cells) {
@@ -85,11 +84,12 @@ Result<CellChoice> ChooseCells(const ReplayOptions& options, const RunData& run,
     ASSIGN_OR_RETURN(choice.places, FindCells(options, run, methods));
     return choice;
   }
-  std::optional<std::string> stranger;
+  // Count the rows of each method, and choose those with recordings if the options ask for it.
+  std::optional<std::string> unexpected;
   const auto is_chosen_anyway = [&](const Row& row) { return options.recorded_too && IsRecorded(prepared, row); };
   ForEachRow(run, [&](const Row& row, std::size_t place) {
     MethodRows* const method = methods.Find(row);
-    if (method == nullptr) stranger = row.Id();
+    if (method == nullptr) unexpected = row.Id();
     if (method == nullptr) return;
     ++method->rows;
     if (DependsOnMachine(row.result.status)) ++method->by_machine[std::string(StatusName(row.result.status))];
@@ -102,8 +102,8 @@ Result<CellChoice> ChooseCells(const ReplayOptions& options, const RunData& run,
       ++choice.drawable;
     }
   });
-  if (stranger) return Fail({options.folder}, "holds the cell {}, which its manifest does not ask for", *stranger);
-  // Selection sampling (Knuth, volume 2, algorithm S): every set of as many cells is equally likely.
+  if (unexpected) return Fail({options.folder}, "holds the cell {}, which its manifest does not ask for", *unexpected);
+  // Selection sampling (Knuth, volume 2, algorithm S): take each row with probability (still wanted) / (rows left).
   choice.dice = options.dice.value_or(run.seed);
   const std::size_t wanted = std::min(options.sample.value_or(choice.drawable), choice.drawable);
   std::size_t left = choice.drawable;
@@ -133,7 +133,7 @@ std::vector<MissedForgery> WhatIsMissed(const CellChoice& choice) {
 
 double ChanceOfMissing(std::size_t cells, std::size_t drawn, std::size_t forged) {
   if (drawn + forged > cells) return 0;
-  // It is the same whether `drawn` cells miss the forged ones or `forged` cells miss the drawn ones.
+  // Exchanging `drawn` and `forged` gives the same probability, so the loop runs over the smaller one.
   const auto [fewer, more] = std::minmax(drawn, forged);
   double chance = 1;
   for (std::size_t i = 0; i < fewer; ++i) {

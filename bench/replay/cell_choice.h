@@ -19,40 +19,38 @@ struct ReplayOptions;
 struct MethodRows {
   std::string scenario, method;
   std::size_t rows = 0;
-  std::string why_not;       ///< the reason why none of their cells can be run again; "" = they can
-  std::size_t drawable = 0;  ///< rows that a sample is drawn from
-  /// The rows that ended by the limits of the machine they were run on, by their status.
+  std::string why_not;       ///< why none of their cells can be run again; "" = they can
+  std::size_t drawable = 0;  ///< rows from which a sample is drawn
+  /// The rows whose status depends on the machine that ran them (DependsOnMachine), by status.
   std::map<std::string, std::size_t> by_machine;
 };
 
-/// The cells of a run that are run again.
 struct CellChoice {
-  std::set<std::size_t> places;  ///< of their rows
-  std::uint64_t dice = 0;        ///< the seed that the sample was drawn by
+  std::set<std::size_t> places;  ///< indices of their rows
+  std::uint64_t dice = 0;        ///< the seed of the sample
   std::size_t drawn = 0, drawable = 0;
-  std::size_t recorded = 0;  ///< chosen besides, because they left a recording
+  std::size_t recorded = 0;  ///< number of cells chosen in addition to the sample because they left a recording
   std::vector<MethodRows> methods;
 };
 
-/// Chooses the cells that the options name, or draws a sample: every set of as many cells is equally likely. Fails when
-/// the run holds no such cell, or one that cannot be run.
+/// Chooses the cells that the options name, or draws a sample in which every set of that size is equally likely. Fails
+/// if a named cell does not exist or cannot be run again.
 Result<CellChoice> ChooseCells(const ReplayOptions& options, const RunData& run, const PreparedRun& prepared);
 
-/// The chance that `drawn` of `cells` hold none of the `forged` ones: the hypergeometric probability of zero.
+/// Returns the probability that `drawn` random cells of `cells` include none of the `forged` ones (hypergeometric).
 double ChanceOfMissing(std::size_t cells, std::size_t drawn, std::size_t forged);
 
-/// A way to forge cells of those that a sample was drawn from, and the chance that the sample misses all of them.
+/// A way to forge some of the cells from which the sample was drawn, and the probability that the sample misses them.
 struct MissedForgery {
-  std::string method;  ///< "SCENARIO/METHOD" whose cells are forged, "" = any cells
+  std::string method;  ///< "SCENARIO/METHOD" of the forged cells; "" = any cells
   std::size_t forged = 0, cells = 0;
   double chance = 0;
 };
 
-/// Tells what a sample misses: one cell in twenty, half of the cells of that method which has the fewest, a single
-/// cell. Nothing where every cell is run again.
+/// Returns what a sample may miss: one cell in twenty, half of the cells of the method with fewest, a single cell.
+/// Empty if all are run.
 std::vector<MissedForgery> WhatIsMissed(const CellChoice& choice);
 
-/// True if the run keeps a recording of the cell of this row.
 bool IsRecorded(const PreparedRun& run, const Row& row);
 
 }  // namespace etude

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr int kPackVersion = 3;
 
-/// Clips, in order: built-in ones by name, others as files with their bytes, each file once.
+/// Packs clips in order: built-in ones by name, others as files with their content, each file once.
 Result<Json> PackClips(const ClipLibrary& library) {
   Json clips = Json::array(), files = Json::array();
   std::map<std::string, std::size_t> number_of;
@@ -48,7 +48,7 @@ Result<Json> PackClips(const ClipLibrary& library) {
   return Json{{"clips", std::move(clips)}, {"files", std::move(files)}};
 }
 
-/// Puts the packed files into a folder each, so that they keep their names; gives the references to load clips by.
+/// Writes each packed file into a folder of its own, so that it keeps its name; returns the references of the clips.
 Result<std::vector<std::string>> UnpackClips(const Json& packed, const fs::path& folder) {
   std::vector<std::string> paths;
   for (const Json& file : packed.at("files")) {
@@ -73,7 +73,7 @@ Result<std::vector<std::string>> UnpackClips(const Json& packed, const fs::path&
   return references;
 }
 
-/// Recordings, in order, as clips are packed.
+/// Packs recordings in order, in the format of PackClips.
 Result<Json> PackStreams(const LabelledStreams& recordings) {
   Json clips = Json::array(), files = Json::array();
   for (const NamedStream& recording : recordings.streams) {
@@ -85,8 +85,7 @@ Result<Json> PackStreams(const LabelledStreams& recordings) {
   return Json{{"clips", std::move(clips)}, {"files", std::move(files)}};
 }
 
-/// Encodes what a scenario's worlds are made of: {"clips": what PackClips gives, "libraries": {name: likewise, …},
-/// "streams": likewise, where there are any}.
+/// Packs a scenario's motions: {"clips": …, "libraries": {name: …}, "streams": … if any}, in the format of PackClips.
 Result<Json> PackMotions(const PreparedScenario& scenario) {
   Json motions{{"clips", nullptr}, {"libraries", Json::object()}};
   for (const auto& [name, library] : scenario.libraries()) {
@@ -143,7 +142,7 @@ Result<void> UnpackMotions(Pack& pack, const std::string& file, const fs::path& 
     const auto unpacked = UnpackMotions(*pack.motions, folder, pack.suite.scenarios.front());
     if (!unpacked) return Fail({file, 0, 0}, "{}", ToString(unpacked.error()));
     return {};
-  } catch (const std::exception& error) {  // Json's, or a file that the pack does not have
+  } catch (const std::exception& error) {  // from Json, or at() for a file that the pack lacks
     return Fail({file, 0, 0}, "a clip that cannot be read: {}", error.what());
   }
 }
@@ -153,12 +152,13 @@ Result<void> PackCell(const std::string& folder, const std::string& cell, const 
   const auto place = FindRow(run, cell);
   if (!place) return Fail({folder, 0, 0}, "holds no cell '{}'", cell);
   const Row row = RowAt(run, *place);
-  // No dice are thrown: of secret worlds, the key is needed when the cell is replayed.
+  // No worlds are made, so the key of secret worlds is needed only when the cell is replayed.
   const FilePath manifest = Inside(folder) / "manifest.json";
   ASSIGN_OR_RETURN(SuiteSetup suite, ReadManifest(manifest));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(suite));
   RETURN_IF_ERROR(CheckClips(manifest, scenarios));
   RETURN_IF_ERROR(CheckStillThere(folder, run));
+  // Pack its scenario only.
   const auto prepared = std::find_if(scenarios.begin(), scenarios.end(), [&](const PreparedScenario& scenario) {
     return scenario.scenario().name == row.scenario;
   });
@@ -195,7 +195,7 @@ Result<std::optional<CellCheck>> ReplayPack(const std::string& file, const Outsi
   if (cell == plan.cell_count()) return Fail({file, 0, 0}, "its scenario makes no cell '{}'", pack.row.Id());
   const std::size_t world = plan.WorldOf(cell);
   std::optional<CellCheck> check;
-  const std::string errors = (folder.path() / "stderr").string();  // what a failure's reason quotes
+  const std::string errors = (folder.path() / "stderr").string();  // quoted in the reason of a failure
   RETURN_IF_ERROR(RunOrders(pack.suite, plan, {{world, {cell - plan.CellAt(world, 0)}}},
                             {.program = ThisProgram(), .error_folder = errors, .fence = fence, .jobs = 1, .stop = stop},
                             [&](const DeliveredCell& again) -> Result<void> {

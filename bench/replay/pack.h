@@ -10,17 +10,17 @@
 
 namespace etude {
 
-/// A cell that was packed: all that is needed to run it again, and what came of it.
+/// A packed cell: all that is needed to run it again, and its result.
 struct Pack {
   SuiteSetup suite;  ///< of one scenario
   Row row;
-  JsonPtr motions;  ///< the clips and recordings, with their bytes
+  JsonPtr motions;  ///< the clips and recordings with their content
 };
 
-/// Reads what PackCell wrote; `file` names it in complaints.
+/// Reads a file of PackCell; `file` is its name in error messages.
 Result<Pack> ReadPack(std::string_view bytes, const std::string& file);
 
-/// Writes the clips and recordings of a pack below `folder`, and has its scenario take them from there.
+/// Writes the clips and recordings of a pack below `folder`, and points its scenario to them.
 Result<void> UnpackMotions(Pack& pack, const std::string& file, const std::filesystem::path& folder);
 
 }  // namespace etude

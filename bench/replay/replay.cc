@@ -44,7 +44,7 @@ std::vector<Order> OrdersOf(const Plan& plan, const std::set<std::size_t>& cells
   return plan.OrdersFor(Shard{}, done);
 }
 
-/// The curves of a run's rows, which the rows' lines do not hold.
+/// The curves of a run, which are stored apart from the rows.
 class CurvesOfRun {
  public:
   explicit CurvesOfRun(const RunData& run) : run_(run) {
@@ -61,10 +61,9 @@ class CurvesOfRun {
   std::map<std::string_view, const CellSeries*> held_;
 };
 
-/// The digest of what a file holds, or of what would stand there.
 std::string Fingerprint(std::string_view text) { return Digest().Add(text).Hex(); }
 
-/// Compares what a row keeps in files of their own.
+/// Compares a row's curves and recording, which are stored in files of their own.
 Result<void> CompareKept(const fs::path& folder, const std::vector<Series>& then, const Row& now, CellCheck& check) {
   ASSIGN_OR_RETURN(const auto curves_then, WriteJson(EncodeSeries(then)));
   ASSIGN_OR_RETURN(const auto curves_now, WriteJson(EncodeSeries(now.result.series)));
@@ -86,7 +85,7 @@ Result<void> CompareKept(const fs::path& folder, const std::vector<Series>& then
   return {};
 }
 
-/// Returns what the line of a row holds.
+/// Returns the row without what is stored in other files.
 Row WithoutFiles(Row row) {
   row.result.series.clear();
   row.result.recording.reset();
@@ -109,14 +108,14 @@ CellCheck CompareIdentity(const Row& then, const Row& now) {
 }
 
 CellCheck CompareRows(const Row& then, const Row& now) {
-  CellCheck check = CompareIdentity(then, now);  // a row under another's name is another's, whatever it holds
+  CellCheck check = CompareIdentity(then, now);  // the values of another cell's row prove nothing
   const auto differ = [&](const std::string& stage, const std::string& was, const std::string& is) {
     if (check.same && was != is) check = {check.cell, false, stage, was, is};
   };
-  // A cell that was ended by its machine reached no stage: that it ended is the difference.
+  // A cell that a limit of the machine ended has no stages; the difference is its status.
   const Status was = then.result.status, is = now.result.status;
   if (DependsOnMachine(was) || DependsOnMachine(is)) differ("status", StatusText(was), StatusText(is));
-  // In the order of the pipeline: the first difference is the culprit, later ones only follow from it.
+  // In the order of the pipeline, because the first difference causes the later ones.
   for (const Row* row : {&then, &now}) {
     for (const auto& [stage, digest] : row->result.digests) differ(stage, DigestOf(then, stage), DigestOf(now, stage));
   }
@@ -148,6 +147,7 @@ Result<ReplayOutcome> ReplayPrepared(const ReplayOptions& options, const RunData
   if (CountRows(run) != plan.cell_count()) {
     return Fail({options.folder, 0, 0}, "has {} rows; its manifest makes {}", CountRows(run), plan.cell_count());
   }
+  // Choose the cells, and check that their programs may be run.
   ReplayOutcome outcome;
   ASSIGN_OR_RETURN(outcome.choice, ChooseCells(options, run, prepared));
   const std::set<std::size_t>& chosen = outcome.choice.places;
@@ -156,12 +156,13 @@ Result<ReplayOutcome> ReplayPrepared(const ReplayOptions& options, const RunData
     RETURN_IF_ERROR(NoteKey(options.folder, prepared.suite, prepared.scenarios, options.key));
   }
   ASSIGN_OR_RETURN(const Fence fence, FenceFor(prepared.scenarios, options.outside, options.folder, options.key));
-  // A failure's reason quotes a program's last words, which are kept only where there is a place for them.
+  // The reason of a failure quotes the standard error of programs, which needs a folder.
   std::optional<TemporaryFolder> errors;
   if (!ProgramsOf(prepared.scenarios).empty()) {
     ASSIGN_OR_RETURN(errors, TemporaryFolder::Make("replay"));
   }
   const std::string said = errors ? errors->path().string() : "";
+  // Run the cells; compare each when it arrives.
   const CurvesOfRun curves(run);
   std::map<std::size_t, CellCheck> checks;
   if (options.on_progress) options.on_progress(0, chosen.size());

@@ -17,57 +17,56 @@
 
 namespace etude {
 
-/// A cell that was run again.
+/// The comparison of a cell with its second run.
 struct CellCheck {
   std::string cell;
   bool same = false;
-  /// The place where it went another way: the first stage whose digest differs, else "status", a metric, "curves" or
-  /// "recording"; "cell", "task", "clip" or "units" of a row that is another's; "" when the same.
+  /// The first difference: a stage whose digest differs, else "status", "reason", a metric, "curves" or "recording". If
+  /// the row belongs to another cell: "scenario", "task", "cell", "clip" or "units". "" if all is the same.
   std::string stage;
-  std::string then, now;  ///< what stood there, what came now
-  /// The row that came now, of a cell that was asked for by its name; without curves and recording.
+  std::string then, now;  ///< the old and the new value
+  /// The new row without curves and recording, if the cell was asked for by name.
   std::optional<Row> row = std::nullopt;
 };
 
-/// Compares what rows say of their world and method.
+/// Compares the identities of two rows: their worlds and methods.
 CellCheck CompareIdentity(const Row& then, const Row& now);
-/// Compares a row with the one that came when the cell was run again: whose it is, stage by stage, status, metrics.
+/// Compares a row with that of the second run: identity, stages, status, reason, metrics.
 CellCheck CompareRows(const Row& then, const Row& now);
 
 struct ReplayOptions {
   std::string folder;
   std::vector<std::string> cells;          ///< identities as in cells.jsonl; empty = a sample
-  std::optional<std::size_t> sample = {};  ///< so many cells are drawn; nothing = all
-  std::optional<std::uint64_t> dice = {};  ///< by this seed; nothing = the suite's, which whoever made the run knows
-  bool recorded_too = false;               ///< and, beside a sample, every cell that left a recording
-  bool without_programs = false;           ///< leaves out cells of methods outside
+  std::optional<std::size_t> sample = {};  ///< the size of the sample; nothing = all cells
+  std::optional<std::uint64_t> dice = {};  ///< seed of the sample; nothing = the suite's, which its maker knows
+  bool recorded_too = false;               ///< in addition to the sample, all cells with a recording
+  bool without_programs = false;           ///< leave out cells that need outside programs
   int jobs = 0;                            ///< 0 = one per processor
   OutsideRules outside;
   std::optional<SecretKey> key = {};  ///< of secret worlds
   Sealing sealing = Sealing::kRequired;
   const std::atomic<bool>* stop = nullptr;
-  OnProgress on_progress = {};  ///< is told of cells
+  OnProgress on_progress = {};  ///< counts cells
 };
 
 struct ReplayOutcome {
-  std::vector<CellCheck> checks;  ///< in canonical order; of a replay that was stopped early, those that were done
+  std::vector<CellCheck> checks;  ///< in canonical order; only the finished ones if the replay was stopped
   CellChoice choice;
 };
 
 /// Runs cells of a finished run again, as its manifest describes them, and compares every stage, curve and recording.
 Result<ReplayOutcome> ReplayRun(const ReplayOptions& options);
-/// The same, of a run that was read and made ready.
 Result<ReplayOutcome> ReplayPrepared(const ReplayOptions& options, const RunData& run, const PreparedRun& prepared);
 
-/// Notes a secret key beside its file as used, where cells of `target` are run again by programs that it names.
+/// Adds a secret key to its list of used keys (NoteRepeat), if programs that `target` names are asked again.
 Result<void> NoteKey(const std::string& target, const SuiteSetup& suite, std::span<const PreparedScenario> scenarios,
                      const std::optional<SecretKey>& key);
 
-/// Writes all that is needed to repeat one cell elsewhere into one file: the scenario, the clips, and what came of it.
+/// Writes one file with all that is needed to repeat a cell elsewhere: the scenario, the clips, and the result.
 Result<void> PackCell(const std::string& folder, const std::string& cell, const std::string& file,
                       Sealing sealing = Sealing::kRequired);
 
-/// Runs the cell of such a file again. Nothing when it is stopped.
+/// Runs the cell of such a file again. Returns nothing if it is stopped.
 Result<std::optional<CellCheck>> ReplayPack(const std::string& file, const OutsideRules& outside = {},
                                             const std::optional<SecretKey>& key = {},
                                             const std::atomic<bool>* stop = nullptr);

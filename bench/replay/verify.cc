@@ -25,7 +25,6 @@
 #include "engine/base/machine.h"
 #include "engine/base/names.h"
 #include "io/files/files.h"
-#include "io/files/files.h"
 #include "io/files/json_text.h"
 #include "io/files/temporary_folder.h"
 
@@ -34,7 +33,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The summary as the rows make it.
+/// Computes the summary from the rows.
 Result<Json> SummaryOf(const FinishedRun& run, int jobs) {
   std::vector<ScenarioSummary> summaries;
   for (const FinishedScenario& scenario : run.scenarios) {
@@ -53,15 +52,14 @@ Result<Verified> VerifySummary(const FilePath& folder, const FinishedRun& run, i
   ASSIGN_OR_RETURN(const auto text, WriteJson(now));
   ASSIGN_OR_RETURN(const auto found, ReadWholeFile(folder / "summary.json"));
   if (found == text + "\n") return verified;
-  // What was written rounds nothing, so that it is compared as it reads.
+  // Numbers are written without rounding, so the parsed values can be compared.
   ASSIGN_OR_RETURN(const auto again, ReadJson(text, "the summary computed again"));
   const auto differences = CompareManifests(then, again);
   verified.differences = {differences.empty() ? "is written otherwise" : InWords(differences)};
   return verified;
 }
 
-/// The part of a value that a program on another machine, or another version of it, may say otherwise: of the same
-/// kind, for other readers.
+/// The keys of a manifest that may differ on another machine or in another version; only their types are checked.
 constexpr std::array kSaidByMachine = {"etude", "compiler", "packages", "glibc", "libraries", "environment"};
 
 bool IsTextOrTexts(const Json& value) {
@@ -69,7 +67,7 @@ bool IsTextOrTexts(const Json& value) {
          (value.is_object() && std::ranges::all_of(value, [](const Json& one) { return one.is_string(); }));
 }
 
-/// True if a scenario, or another text of the suite, names a text.
+/// Returns true if a scenario, or another text of the suite, mentions this text.
 bool IsNamed(const std::string& name, const SuiteSetup& suite) {
   const std::string last = fs::path(name).filename().string();
   return std::ranges::any_of(suite.scenarios,
@@ -82,13 +80,14 @@ bool IsNamed(const std::string& name, const SuiteSetup& suite) {
          });
 }
 
-/// Compares the manifest with the one that a run of these scenarios writes, but for what it says of its machine.
-/// Without `scenarios`, which are prepared, it may say of clips what it likes.
+/// Compares the manifest with the one that a run of these scenarios would write, except for what describes the machine.
+/// Without `scenarios`, the descriptions of clips are not checked either.
 Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, const SuiteSetup& suite,
                                 std::span<const PreparedScenario> scenarios) {
   Verified verified{"manifest.json: what such a run writes", {}};
   ASSIGN_OR_RETURN(const auto then, ReadJsonFile(folder / "manifest.json"));
   ASSIGN_OR_RETURN(auto now, MakeManifest(suite, scenarios, run.data.program_version));
+  // Take over what may differ.
   const auto keep = [](const Json& from, Json& to, const char* key) {
     if (to.contains(key) && from.contains(key) && IsTextOrTexts(from.at(key)) &&
         from.at(key).is_object() == to.at(key).is_object())
@@ -96,7 +95,7 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
   };
   for (const char* key : kSaidByMachine) keep(then, now, key);
   if (then.contains("scored") && now.contains("scored")) {
-    for (const char* key : {"answers", "digest"}) {  // of predictions, which are not here
+    for (const char* key : {"answers", "digest"}) {  // of the scored answers, which are not in the folder
       if (const Json& scored = then.at("scored"); scored.contains(key)) now["scored"][key] = scored.at(key);
     }
   }
@@ -109,6 +108,7 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
       if (told.at(s).contains(key)) scenario[key] = told.at(s).at(key);
     }
   }
+  // Everything else must have the same bytes, and every text must be used.
   ASSIGN_OR_RETURN(const auto text, WriteJson(now));
   ASSIGN_OR_RETURN(const auto found, ReadWholeFile(folder / "manifest.json"));
   if (found != text + "\n") {
@@ -121,7 +121,7 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
   return verified;
 }
 
-/// The scenarios that a manifest describes, without their clips.
+/// Returns the scenarios that a manifest describes, without their clips.
 Result<std::vector<Scenario>> ScenariosOf(const FilePath& folder) {
   ASSIGN_OR_RETURN(const auto suite, ReadManifest(folder / "manifest.json"));
   ParsedSuite parsed(suite);
@@ -134,7 +134,7 @@ Result<std::vector<Scenario>> ScenariosOf(const FilePath& folder) {
   return scenarios;
 }
 
-/// The files that a run of these scenarios may leave, from its folder, but for what is made from results.
+/// Returns the files that a run of these scenarios may leave, relative to its folder, except those made from results.
 Result<std::set<fs::path>> FilesOfRun(const FilePath& folder, const FinishedRun& run) {
   std::set<fs::path> files = {"manifest.json", "host.json", "summary.json", kOtherLibrariesFile,
                               kSealFile,       kSignedFile, kSignatureFile, kLockFile};
@@ -194,7 +194,7 @@ Verified VerifyRows(const FinishedRun& run) {
   return verified;
 }
 
-/// Compares the lines of a file with those that a run would write. `line_of` gives the next one.
+/// Compares the lines of a file with those that a run would write; `line_of` returns the next one.
 Result<void> CompareLines(const FilePath& file, const std::function<Result<std::string>()>& line_of,
                           Verified& verified) {
   bool differs = false;
@@ -206,21 +206,23 @@ Result<void> CompareLines(const FilePath& file, const std::function<Result<std::
   });
 }
 
-/// Compares the text files that other programs read, too, with what this program has read from them. Differences are
-/// keys that stand twice, and rows or curves that this program did not read.
+/// Checks the text files for content that this program ignored, but others may use: duplicate keys, further rows or
+/// curves.
 Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
   Verified verified{"texts: nothing in them that this program has not read", {}};
+  // Keys must not occur twice.
   std::vector<FilePath> files = {folder / "manifest.json", folder / "host.json"};
   for (const FinishedScenario& scenario : run.scenarios) {
     if (run.data.source) files.push_back(folder / kColumnsFolder / scenario.study.scenario / kIndexFile);
   }
   for (const FilePath& file : files) {
     ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
-    // Readers differ in which of the two they take.
+    // Readers differ in which of two equal keys they use.
     if (const auto key = ParseJsonText(text).repeated_key)
       verified.differences.push_back(fmt::format("{}: '{}' stands there twice", file.string(), *key));
   }
   if (run.data.source) return verified;
+  // Every line of the rows, then of the curves, must be as a run writes it.
   std::size_t row = 0, curves = 0;
   RETURN_IF_ERROR(CompareLines(
       folder / kCellsFile,
@@ -238,7 +240,7 @@ Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
           if (curves == run.data.series.size()) return std::string();
           const CellSeries& of_cell = run.data.series[curves++];
           while (of_row < run.data.rows.size() && run.data.rows[of_row].Id() != of_cell.cell) ++of_row;
-          if (of_row == run.data.rows.size()) return std::string();  // no row, or one that had its curves already
+          if (of_row == run.data.rows.size()) return std::string();  // no such row, or its curves are a duplicate
           ++of_row;
           return WriteJson(EncodeSeriesLine(of_cell.cell, of_cell.series));
         },
@@ -247,7 +249,6 @@ Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
   return verified;
 }
 
-/// True if two files hold the same.
 Result<bool> AreSame(const FilePath& a, const FilePath& b) {
   constexpr std::size_t kChunk = 1 << 20;
   ASSIGN_OR_RETURN(const auto first, OpenFile(a, O_RDONLY));
@@ -272,8 +273,7 @@ Result<bool> AreSame(const FilePath& a, const FilePath& b) {
   }
 }
 
-/// Writes the columns of every scenario again from the rows, and compares them: other readers take from a column also
-/// what belongs to no row.
+/// Writes the columns again from the rows, and compares the bytes: others may use numbers that belong to no row.
 Result<Verified> VerifyColumns(const FilePath& folder, const FinishedRun& run) {
   Verified verified{"columns: those that the rows make, by the byte", {}};
   std::size_t place = 0;
@@ -298,7 +298,6 @@ Result<Verified> VerifyColumns(const FilePath& folder, const FinishedRun& run) {
   return verified;
 }
 
-/// Compares what the dice choose for every row, run again or not.
 Verified VerifyWorlds(const FinishedRun& run, const Plan& plan) {
   Verified verified{"worlds: every row is of the clips and units that the dice chose", {}};
   ForEachRow(run.data, [&](const Row& row, std::size_t place) {
@@ -334,6 +333,7 @@ Verified VerifyCells(const ReplayOutcome& replayed) {
 Result<VerifyOutcome> VerifyFolder(const ReplayOptions& options, bool replays) {
   const FilePath folder = Inside(options.folder);
   ASSIGN_OR_RETURN(const auto run, LoadFinishedRun(options.folder, Sealing::kIgnored));
+  // The rows come first: without them, no other check makes sense.
   VerifyOutcome outcome;
   std::vector<Verified>& all = outcome.checks;
   all.push_back({"seal.json: every file is as it was sealed", {}});
@@ -346,6 +346,7 @@ Result<VerifyOutcome> VerifyFolder(const ReplayOptions& options, bool replays) {
     ASSIGN_OR_RETURN(all.emplace_back(), VerifyColumns(folder, run));
   }
   ASSIGN_OR_RETURN(all.emplace_back(), VerifySummary(folder, run, WorkerCount(options.jobs)));
+  // The manifest; with `replays`, also the worlds and the chosen cells.
   if (!replays) {
     ASSIGN_OR_RETURN(const auto suite, ReadManifest(folder / "manifest.json"));
     ASSIGN_OR_RETURN(all.emplace_back(), VerifyManifest(folder, run, suite, {}));

@@ -17,7 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The columns of one scenario.
 class ScenarioColumns {
  public:
   static Result<ScenarioColumns> Open(const FilePath& folder, const std::string& scenario) {
@@ -25,12 +24,14 @@ class ScenarioColumns {
     ScenarioColumns columns;
     ASSIGN_OR_RETURN(columns.index_, ReadColumnIndex(own));
     const ColumnIndex& index = columns.index_;
+    // The columns that every row has.
     ASSIGN_OR_RETURN(columns.status_, columns.OpenColumn<std::uint8_t>(own, "status"));
     ASSIGN_OR_RETURN(columns.kind_, columns.OpenColumn<std::uint32_t>(own, "kind"));
     for (std::size_t i = 0; i < columns.texts_.size(); ++i) {
       if (!Exists(ColumnFile(own, kTextColumns[i]))) continue;
       ASSIGN_OR_RETURN(columns.texts_[i], columns.OpenColumn<std::uint32_t>(own, kTextColumns[i]));
     }
+    // For each kind, the columns of its metrics, stages and curves, each opened once.
     for (const ColumnIndex::Kind& kind : index.kinds) {
       KindColumns& of_kind = columns.kinds_.emplace_back();
       for (std::size_t i = 0; i < kind.metrics.size(); ++i) {
@@ -52,6 +53,7 @@ class ScenarioColumns {
         of_kind.curves.push_back(&columns.curves_->at(name));
       }
     }
+    // Times are optional.
     const FilePath times = folder / kTimesFolder / scenario;
     if (Exists(ColumnFile(times, "cpu_s"))) {
       ASSIGN_OR_RETURN(columns.cpu_s_, columns.OpenColumn<float>(times, "cpu_s"));
@@ -65,6 +67,7 @@ class ScenarioColumns {
 
   void Read(std::size_t at, Row& row) const {
     const std::size_t methods = index_.methods.size(), trials = static_cast<std::size_t>(index_.trials);
+    // The identity, from the position in the array.
     row.scenario = index_.scenario;
     row.task = index_.task;
     row.condition = index_.conditions[at / (methods * trials)];
@@ -78,6 +81,7 @@ class ScenarioColumns {
     const std::uint32_t number = kind_->Numbers<std::uint32_t>()[at];
     const ColumnIndex::Kind& kind = index_.kinds[number];
     const KindColumns& columns = kinds_[number];
+    // Metrics and digests. `row` is reused for many rows, so its old content is replaced.
     result.metrics.resize(kind.metrics.size());
     for (std::size_t i = 0; i < kind.metrics.size(); ++i) {
       MetricValue& metric = result.metrics[i];
@@ -123,10 +127,9 @@ class ScenarioColumns {
   }
 
  private:
-  /// Columns that name texts by their places.
   enum TextColumn { kReason, kClip, kUnits };
   static constexpr std::array<const char*, 3> kTextColumns = {"reason", "clip", "units"};
-  /// The columns of a kind's metrics, stages and series, in its order; null where a kind has no value.
+  /// The columns of a kind's metrics, stages and series, in its order; null for a metric without values.
   struct KindColumns {
     std::vector<const NpyFile*> values, digests, curves, ends;
   };
@@ -139,7 +142,7 @@ class ScenarioColumns {
     const std::size_t found = file.template Numbers<Number>().size();
     if (found != index_.row_count())
       return Fail(place, "holds {} numbers; its run has {} rows", found, index_.row_count());
-    // We read the numbers in a row, NumPy reads them by the shape.
+    // This reader ignores the shape, but NumPy uses it.
     if (!file.HasShape(kNpyType<Number>, index_.shape()))
       return Fail(place, "is not an array of condition, trial, method");
     return file;
@@ -153,9 +156,10 @@ class ScenarioColumns {
     return {};
   }
 
-  /// No number of any column leads out of what is there.
+  /// Fails if a column holds a number that is out of range.
   Result<void> CheckNumbers(const FilePath& folder) const {
     const Place place{folder.string()};
+    // Kinds, statuses and texts must exist.
     for (const std::uint32_t kind : kind_->Numbers<std::uint32_t>()) {
       if (kind >= kinds_.size()) return Fail(place, "kind.npy holds {}; there are {} kinds", kind, kinds_.size());
     }
@@ -168,6 +172,7 @@ class ScenarioColumns {
         if (text >= index_.texts.size()) return Fail(place, "names text {} of {}", text, index_.texts.size());
       }
     }
+    // The ends of curves must ascend to the number of values.
     for (const auto& [name, ends] : *ends_) {
       std::uint64_t last = 0;
       const NpyFile& curve = curves_->at(name.substr(0, name.size() - std::string_view(kCurveEnds).size()));
@@ -183,7 +188,7 @@ class ScenarioColumns {
     return {};
   }
 
-  /// The lists of units among the texts.
+  /// Parses the texts that are lists of units.
   Result<void> ReadUnits(const FilePath& folder) {
     units_.resize(index_.texts.size());
     if (!texts_[kUnits]) return {};
@@ -207,8 +212,8 @@ class ScenarioColumns {
   ColumnIndex index_;
   std::optional<NpyFile> status_, kind_, cpu_s_;
   std::array<std::optional<NpyFile>, kTextColumns.size()> texts_;
-  std::vector<std::vector<std::string>> units_;  ///< of the texts that name units
-  // Pointers into these stay when the object is moved.
+  std::vector<std::vector<std::string>> units_;  ///< one list per text; empty unless the text is a list of units
+  // Behind pointers, so that KindColumns stay valid when this object is moved.
   std::unique_ptr<Files> values_ = std::make_unique<Files>(), digests_ = std::make_unique<Files>(),
                          curves_ = std::make_unique<Files>(), ends_ = std::make_unique<Files>();
   std::vector<KindColumns> kinds_;
@@ -222,16 +227,16 @@ class ColumnRows : public RowSource {
 
   std::size_t size() const override { return firsts_.back(); }
   std::vector<std::size_t> SampleRowIndices(std::size_t rows) const override {
-    std::vector<std::size_t> places;
+    std::vector<std::size_t> indices;
     const std::size_t step = (size() + rows - 1) / rows;
     for (std::size_t scenario = 0; scenario < scenarios_.size(); ++scenario) {
       const std::size_t methods = scenarios_[scenario].index().methods.size();
       const std::size_t worlds = scenarios_[scenario].index().row_count() / methods;
       for (std::size_t world = 0; world < worlds; world += step) {
-        for (std::size_t m = 0; m < methods; ++m) places.push_back(firsts_[scenario] + methods * world + m);
+        for (std::size_t m = 0; m < methods; ++m) indices.push_back(firsts_[scenario] + methods * world + m);
       }
     }
-    return places;
+    return indices;
   }
   void Read(std::size_t place, Row& row) const override { Of(place).Read(Within(place), row); }
   std::vector<Series> SeriesOf(std::size_t place) const override { return Of(place).SeriesOf(Within(place)); }
@@ -245,7 +250,7 @@ class ColumnRows : public RowSource {
   std::size_t Within(std::size_t place) const { return place - firsts_[ScenarioAt(place)]; }
 
   std::vector<ScenarioColumns> scenarios_;
-  std::vector<std::size_t> firsts_ = {0};  ///< of each scenario, and the count of all rows at the end
+  std::vector<std::size_t> firsts_ = {0};  ///< index of each scenario's first row; at the end the number of all rows
 };
 
 }  // namespace

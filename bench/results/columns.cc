@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 constexpr int kColumnsVersion = 2;
 
 Json Encode(const ColumnIndex& index) {
+  // The swept values of each condition, then each kind.
   Json conditions = Json::array(), kinds = Json::array(), statuses = Json::array();
   for (const std::vector<SweptValue>& condition : index.conditions) {
     Json values = Json::object();
@@ -65,6 +66,7 @@ Result<ColumnIndex> Decode(const Json& json, const Place& place) {
     index.trials = json.at("trials").get<int>();
     index.methods = json.at("methods").get<std::vector<std::string>>();
     index.texts = json.at("texts").get<std::vector<std::string>>();
+    // Each kind; reasons are indices of texts.
     for (const Json& entry : json.at("kinds")) {
       ColumnIndex::Kind& kind = index.kinds.emplace_back();
       kind.metrics = entry.at("metrics").get<std::vector<std::string>>();
@@ -87,7 +89,7 @@ Result<ColumnIndex> Decode(const Json& json, const Place& place) {
   }
   if (index.conditions.empty() || index.trials < 1 || index.methods.empty()) return Fail(place, "tells of no cells");
   if (index.texts.empty()) return Fail(place, "holds no texts, the first of which is empty");
-  // Other readers take from it what this one does not look at.
+  // Other readers may use keys that this one ignores, so these must be right, too.
   if (nlohmann::json(Encode(index)) != nlohmann::json(json)) return Fail(place, "is not written as a run writes it");
   return index;
 }
@@ -96,7 +98,6 @@ namespace fs = std::filesystem;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// The times of a cell, by the names of their columns.
 constexpr std::array<std::pair<const char*, double CellUsage::*>, 5> kTimes = {
     {{"wall_s", &CellUsage::wall_s},
      {"cpu_s", &CellUsage::cpu_s},
@@ -104,7 +105,6 @@ constexpr std::array<std::pair<const char*, double CellUsage::*>, 5> kTimes = {
      {"world_wall_s", &CellUsage::world_wall_s},
      {"world_cpu_s", &CellUsage::world_cpu_s}}};
 
-/// Reads a digest as a number, like "00c0ffee00c0ffee".
 Result<std::uint64_t> DigestNumber(const std::string& stage, const std::string& hex) {
   std::uint64_t number = 0;
   const auto [stop, status] = std::from_chars(hex.data(), hex.data() + hex.size(), number, 16);
@@ -112,10 +112,10 @@ Result<std::uint64_t> DigestNumber(const std::string& stage, const std::string& 
   return Fail({}, "the digest of {} is '{}', not 16 hexadecimal digits", stage, hex);
 }
 
-/// All of a curve but its values.
+/// Returns everything of a curve but its values.
 auto IdentityOf(const Series& series) { return std::tie(series.name, series.axis, series.names); }
 
-/// True if `why` names the reason of a missing value among the texts, or is the row's own reason.
+/// Returns true if `why` is right for a row's metric: nothing for a value, else its reason or kOwnReason.
 bool IsWhy(std::optional<int> why, const MetricValue& metric, const Row& row, const std::vector<std::string>& texts) {
   if (!why || metric.value) return !why && metric.value;
   return metric.null_reason ==
@@ -186,7 +186,7 @@ ColumnWriter::ColumnWriter(const fs::path& folder, const Study& study)
     : folder_(Inside(folder) / kColumnsFolder / study.scenario),
       values_(folder_, kNone),
       digests_(folder_, 0),
-      places_(folder_, 0),
+      indices_(folder_, 0),
       statuses_(folder_, 0),
       times_(Inside(folder) / kTimesFolder / study.scenario, 0) {
   index_.scenario = study.scenario;
@@ -194,12 +194,12 @@ ColumnWriter::ColumnWriter(const fs::path& folder, const Study& study)
   index_.conditions = study.conditions;
   index_.trials = study.trials;
   for (const ComparedMethod& method : study.methods) index_.methods.push_back(method.name);
-  text_places_[""] = 0;
+  text_indices_[""] = 0;
 }
 
 std::uint32_t ColumnWriter::TextOf(const std::string& text) {
   if (text.empty()) return 0;
-  const auto [place, is_new] = text_places_.emplace(text, static_cast<std::uint32_t>(index_.texts.size()));
+  const auto [place, is_new] = text_indices_.emplace(text, static_cast<std::uint32_t>(index_.texts.size()));
   if (is_new) index_.texts.push_back(text);
   return place->second;
 }
@@ -214,7 +214,7 @@ std::uint32_t ColumnWriter::KindOf(const Row& row) {
            std::ranges::equal(kind.stages, result.digests, {}, {}, [](const auto& digest) { return digest.first; }) &&
            std::ranges::equal(kind.series, result.series, {}, IdentityOf, IdentityOf);
   };
-  // Most rows are of the kind of the one before them.
+  // Most rows have the kind of the previous row.
   if (!index_.kinds.empty() && is_like(index_.kinds[last_kind_])) return last_kind_;
   const auto found = std::ranges::find_if(index_.kinds, is_like);
   last_kind_ = static_cast<std::uint32_t>(found - index_.kinds.begin());
@@ -235,10 +235,10 @@ std::uint32_t ColumnWriter::KindOf(const Row& row) {
 Result<void> ColumnWriter::Add(const Row& row, const CellUsage& usage) {
   const CellResult& result = row.result;
   RETURN_IF_ERROR(statuses_.Put(rows_, "status", static_cast<std::uint8_t>(result.status)));
-  RETURN_IF_ERROR(places_.Put(rows_, "kind", KindOf(row)));
-  if (!result.reason.empty()) RETURN_IF_ERROR(places_.Put(rows_, "reason", TextOf(result.reason)));
-  if (!row.clip.empty()) RETURN_IF_ERROR(places_.Put(rows_, "clip", TextOf(row.clip)));
-  if (!row.units.empty()) RETURN_IF_ERROR(places_.Put(rows_, "units", TextOf(Json(row.units).dump())));
+  RETURN_IF_ERROR(indices_.Put(rows_, "kind", KindOf(row)));
+  if (!result.reason.empty()) RETURN_IF_ERROR(indices_.Put(rows_, "reason", TextOf(result.reason)));
+  if (!row.clip.empty()) RETURN_IF_ERROR(indices_.Put(rows_, "clip", TextOf(row.clip)));
+  if (!row.units.empty()) RETURN_IF_ERROR(indices_.Put(rows_, "units", TextOf(Json(row.units).dump())));
   for (const MetricValue& metric : result.metrics) {
     if (metric.value) RETURN_IF_ERROR(values_.Put(rows_, metric.id, *metric.value));
   }
@@ -274,7 +274,7 @@ Result<void> ColumnWriter::Finish() {
   const std::vector<std::size_t> shape = index_.shape();
   RETURN_IF_ERROR(values_.Finish(shape));
   RETURN_IF_ERROR(digests_.Finish(shape));
-  RETURN_IF_ERROR(places_.Finish(shape));
+  RETURN_IF_ERROR(indices_.Finish(shape));
   RETURN_IF_ERROR(statuses_.Finish(shape));
   RETURN_IF_ERROR(times_.Finish(shape));
   for (auto& [name, curve] : curves_) {

@@ -18,23 +18,21 @@
 
 namespace etude {
 
-/// The folder in which a run of many cells keeps its rows, one folder per scenario.
+/// The folder in which a run of many cells stores its rows as columns, one folder per scenario.
 constexpr const char* kColumnsFolder = "columns";
-/// The folder of the times of its cells, laid out alike.
+/// The folder of the cells' times, with the same layout.
 constexpr const char* kTimesFolder = "timings";
-/// The columns of curves within a scenario's folder: their values one behind the other, and the end of each row's
-/// curve.
+/// The folder of curves. Each curve is two files: the values of all rows, and the index where each row's values end.
 constexpr const char* kSeriesFolder = "series";
 constexpr const char* kCurveEnds = ".ends";
 
-/// The texts that the rows of one scenario share, beside their numbers: columns/SCENARIO/index.json.
+/// Everything about the rows of one scenario that is not a number: columns/SCENARIO/index.json.
 struct ColumnIndex {
-  static constexpr int kOwnReason = -1;  ///< a value is missing for the reason that the cell has
-  /// The shape that some rows have in common: which metrics, stages and curves, in which order, and why values are
-  /// missing.
+  static constexpr int kOwnReason = -1;  ///< the value is missing for the cell's own reason
+  /// What some rows have in common: their metrics, stages and curves, in order, and the reasons of missing values.
   struct Kind {
     std::vector<std::string> metrics;
-    std::vector<std::optional<int>> why;  ///< of each metric without a value: its text, or kOwnReason
+    std::vector<std::optional<int>> why;  ///< one per metric: why it has no value; an index in `texts`, or kOwnReason
     std::vector<std::string> stages;
     std::vector<Series> series;  ///< without values
   };
@@ -43,30 +41,28 @@ struct ColumnIndex {
   std::vector<std::vector<SweptValue>> conditions;
   int trials = 0;
   std::vector<std::string> methods;
-  std::vector<std::string> texts = {""};  ///< reasons, clips and units, which columns name by their place
+  std::vector<std::string> texts = {""};  ///< reasons, clips and units; columns hold indices of these
   std::vector<Kind> kinds;
 
-  /// The shape of arrays with a number for each row.
   std::vector<std::size_t> shape() const {
     return {conditions.size(), static_cast<std::size_t>(trials), methods.size()};
   }
   std::size_t row_count() const { return conditions.size() * static_cast<std::size_t>(trials) * methods.size(); }
 };
 
-/// Fails, naming the path, when the file cannot be written.
+/// Fails, naming the path, if the file cannot be written.
 Result<void> WriteColumnIndex(const FilePath& folder, const ColumnIndex& index);
-/// Fails, naming the path, when there is none, or one that contradicts itself.
+/// Fails, naming the path, if the file is missing or contradicts itself.
 Result<ColumnIndex> ReadColumnIndex(const FilePath& folder);
 
 FilePath ColumnFile(const FilePath& folder, const std::string& name);
 std::string DigestColumn(const std::string& stage);
 
-/// The file of a scenario's index, in its folder.
 constexpr const char* kIndexFile = "index.json";
-/// The files that hold the columns and times of a scenario, from the run's folder.
+/// Returns the files of a scenario's columns and times, relative to the run's folder.
 std::set<std::filesystem::path> FilesOfColumns(const ColumnIndex& index);
 
-/// Columns of one kind of number. Rows of which nothing is put into one hold `fill` there.
+/// Writes columns of one type of number. A row without a value in a column gets `fill` there.
 template <typename Number>
 class NpyColumns {
  public:
@@ -82,19 +78,18 @@ class NpyColumns {
   CyclicLookup<NpyWriter> columns_;
 };
 
-/// Writes the rows of one scenario as columns of numbers, one file each, that NumPy reads (docs/results.md). The arrays
-/// are indexed by condition, trial and method.
+/// Writes the rows of one scenario as NumPy arrays over condition, trial and method, one file each (docs/results.md).
 class ColumnWriter {
  public:
   ColumnWriter(const std::filesystem::path& folder, const Study& study);
 
-  /// The next row, in canonical order.
+  /// Adds the next row, in canonical order.
   Result<void> Add(const Row& row, const CellUsage& usage);
-  /// Writes what is left; to be called once there are all rows.
+  /// Writes the rest. Call it after the last row.
   Result<void> Finish();
 
  private:
-  /// The values of one curve of all rows one behind the other, and where each row's end.
+  /// The values of one curve for all rows, one after the other, and the end of each row's values.
   struct Curve {
     NpyWriter values, ends;
     Result<void> FillUp(std::size_t rows);
@@ -107,18 +102,18 @@ class ColumnWriter {
   FilePath folder_;
   ColumnIndex index_;
   std::size_t rows_ = 0;
-  std::map<std::string, std::uint32_t> text_places_;
+  std::map<std::string, std::uint32_t> text_indices_;
   std::uint32_t last_kind_ = 0;
   NpyColumns<double> values_;
   NpyColumns<std::uint64_t> digests_;
-  NpyColumns<std::uint32_t> places_;  ///< of texts and kinds
+  NpyColumns<std::uint32_t> indices_;  ///< indices of texts and kinds
   NpyColumns<std::uint8_t> statuses_;
   NpyColumns<float> times_;
   CyclicLookup<Curve> curves_;
 };
 
-/// Opens the columns of a run; rows, in canonical order, are made of them one at a time. Fails, naming the file, when
-/// one is missing, or leads out of what is there.
+/// Opens the columns of a run, from which rows are made one at a time, in canonical order. Fails, naming the file, if a
+/// column is missing or holds an index that is out of range.
 Result<std::shared_ptr<const RowSource>> OpenColumns(const std::filesystem::path& folder,
                                                      const std::vector<std::string>& scenarios);
 

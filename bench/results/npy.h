@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// The kinds of number that columns hold, as NumPy names them.
+/// The types of number in columns, by their NumPy names.
 template <typename Number>
 constexpr std::string_view kNpyType = {};
 template <>
@@ -26,7 +26,7 @@ inline constexpr std::string_view kNpyType<std::uint32_t> = "<u4";
 template <>
 inline constexpr std::string_view kNpyType<std::uint8_t> = "|u1";
 
-/// A .npy file (NumPy's own format, version 1.0), written number by number: `numpy.load` and most else read it.
+/// Writes a .npy file (NumPy format, version 1.0) number by number.
 class NpyWriter {
  public:
   static Result<NpyWriter> Begin(const FilePath& path, std::string_view type);
@@ -37,7 +37,7 @@ class NpyWriter {
     return file_.Write({reinterpret_cast<const char*>(&number), sizeof number});
   }
   std::size_t count() const { return count_; }
-  /// Ends the file, as an array of one dimension or of this shape, whose product is the count.
+  /// Ends the file as an array of this shape, whose product is count(); empty = one dimension.
   Result<void> Finish(std::vector<std::size_t> shape = {});
 
  private:
@@ -48,17 +48,17 @@ class NpyWriter {
   std::size_t count_ = 0;
 };
 
-/// An .npy file mapped into memory: the system reads of it what is looked at. A file that somebody cuts short meanwhile
-/// ends the process, with a complaint and the status of what the machine has stopped.
+/// A .npy file mapped into memory, of which the system reads the parts that are used. If the file is truncated
+/// meanwhile, the process ends with a message and the exit code for faults of the machine.
 class NpyFile {
  public:
-  /// Fails, naming the path, when it is none that NpyWriter wrote, or holds another number of numbers.
+  /// Fails, naming the path, unless NpyWriter wrote the file with numbers of this type.
   static Result<NpyFile> Open(const FilePath& path, std::string_view type);
   NpyFile(NpyFile&& other) noexcept;
   NpyFile& operator=(NpyFile&& other) noexcept;
   ~NpyFile();
 
-  /// True if the file says that it holds numbers of this type in an array of this shape.
+  /// Returns true if the head of the file declares this type and shape.
   bool HasShape(std::string_view type, std::span<const std::size_t> shape) const;
 
   template <typename Number>

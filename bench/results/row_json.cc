@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kDigestPrefix = "digest_";
 
-/// A swept value as the number it looks like, so that tables can plot against it; else as text.
+/// Returns a swept value as a number, if it is one, so that tables can plot it; else as text.
 Json ValueAsJson(const std::string& text) {
   double number = 0;
   const char* end = text.data() + text.size();
@@ -43,7 +43,7 @@ Json EncodeRow(const Row& row) {
   json["task"] = row.task;
   json["condition"] = CompactLabel(row.condition);
   for (const SweptValue& swept : row.condition) {
-    // A parameter named like a metric (a transition's wait_s) gets no column: the measured value has it.
+    // A swept parameter with the name of a metric (wait_s) is left out, because the measured value has that key.
     if (FindMetric(swept.key) == nullptr) json[swept.key] = ValueAsJson(swept.value);
   }
   json["trial"] = row.trial;
@@ -65,6 +65,7 @@ Json EncodeRow(const Row& row) {
 Result<Row> DecodeRow(const Json& json, const Place& place) {
   Row row;
   try {
+    // The identity, status and reason.
     row.scenario = json.at("scenario").get<std::string>();
     row.task = json.at("task").get<std::string>();
     row.condition = SplitCondition(json.at("condition").get<std::string>());
@@ -76,6 +77,7 @@ Result<Row> DecodeRow(const Json& json, const Place& place) {
     if (!status) return Fail(place, "unknown status {}", json.at("status").dump());
     row.result.status = *status;
     row.result.reason = json.at("reason").is_null() ? "" : json.at("reason").get<std::string>();
+    // All other keys are digests, metrics or swept parameters.
     const Json null_reasons = json.value("null_reasons", Json::object());
     for (const auto& [key, value] : json.items()) {
       if (key.starts_with(kDigestPrefix)) {

@@ -17,8 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr int kSealVersion = 1;
 
-/// The digests of files, by path from the folder with '/' between its parts.
-using Digests = std::map<std::string, std::string>;
+using Digests = std::map<std::string, std::string>;  // by path in the folder
 
 bool IsSealed(const fs::path& from_folder) {
   const std::string first = from_folder.begin()->string();

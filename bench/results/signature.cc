@@ -19,24 +19,24 @@ namespace fs = std::filesystem;
 
 using Bytes = std::vector<unsigned char>;
 
-// Of minisign's files: https://jedisct1.github.io/minisign/#signature-format. A key begins with its algorithm (2
-// bytes); a secret one goes on with those of its password and its sum (2, 2) and their salt and costs (32, 8, 8), which
-// are zero without a password. Then stand the key's number, the key and, of a secret one, the sum.
+// Sizes in minisign's files, bytes (https://jedisct1.github.io/minisign/#signature-format). A public key has the
+// algorithm (2), the key's number and the key. A secret key has the algorithms of signature, password and checksum (2,
+// 2, 2), salt and costs (32, 8, 8; zero without a password), the number, the key and a checksum.
 constexpr std::size_t kNumber = 8, kBeforeSecret = 54, kSum = 32;
 constexpr std::size_t kSecretSize = kBeforeSecret + kNumber + crypto_sign_SECRETKEYBYTES + kSum;
 constexpr std::size_t kPublicSize = 2 + kNumber + crypto_sign_PUBLICKEYBYTES;
 constexpr std::size_t kSignatureSize = 2 + kNumber + crypto_sign_BYTES;
 constexpr std::string_view kComment = "untrusted comment: ", kTrusted = "trusted comment: ";
-constexpr std::string_view kHashed = "ED";  // what is signed is the file's digest
+constexpr std::string_view kHashed = "ED";  // the algorithm that signs the file's digest
 
 std::string Encode(std::span<const unsigned char> bytes) {
   std::string text(sodium_base64_ENCODED_LEN(bytes.size(), sodium_base64_VARIANT_ORIGINAL), '\0');
   sodium_bin2base64(text.data(), text.size(), bytes.data(), bytes.size(), sodium_base64_VARIANT_ORIGINAL);
-  text.pop_back();  // the end that C wants
+  text.pop_back();  // the terminating zero
   return text;
 }
 
-/// Empty when the text is not that of so many bytes.
+/// Returns nothing if the text does not encode exactly `size` bytes.
 Bytes Decode(std::string_view text, std::size_t size) {
   Bytes bytes(size + 3);
   std::size_t length = 0;
@@ -89,7 +89,6 @@ Result<std::string> DigestOfFile(const FilePath& path) {
   return hex;
 }
 
-/// The text of signed.b2.
 Result<std::string> ListDigests(const fs::path& folder) {
   if (sodium_init() < 0) return Fail({}, "libsodium cannot be used here");
   ASSIGN_OR_RETURN(auto names, SealedNames(folder));
@@ -102,7 +101,7 @@ Result<std::string> ListDigests(const fs::path& folder) {
   return text;
 }
 
-/// The number as minisign shows it: the last byte first.
+/// Returns a key's number as minisign shows it: the last byte first.
 std::string NumberOf(std::span<const unsigned char> bytes) {
   std::string text;
   for (std::size_t i = kNumber; i-- > 0;) text += fmt::format("{:02X}", bytes[i]);
@@ -114,6 +113,7 @@ std::string NumberOf(std::span<const unsigned char> bytes) {
 Result<void> SignRun(const fs::path& folder, const std::string& secret_key) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(secret_key));
   const std::vector<std::string> lines = LinesOf(text);
+  // The secret key.
   Bytes key = Decode(lines.size() < 2 ? "" : lines[1], kSecretSize);
   if (key.empty() || key[0] != 'E' || key[1] != 'd') {
     return Fail({secret_key}, "is no secret key of minisign; minisign -G -W makes one");
@@ -123,6 +123,7 @@ Result<void> SignRun(const fs::path& folder, const std::string& secret_key) {
                 "is a secret key with a password, which nobody here can be asked for; "
                 "minisign -G -W makes one without");
   }
+  // Sign the digest of signed.b2, then that signature together with the trusted comment.
   ASSIGN_OR_RETURN(const auto digests, ListDigests(folder));
   const unsigned char* const number = key.data() + kBeforeSecret;
   const unsigned char* const secret = number + kNumber;
@@ -131,11 +132,13 @@ Result<void> SignRun(const fs::path& folder, const std::string& secret_key) {
   std::copy(kHashed.begin(), kHashed.end(), signature.begin());
   std::copy_n(number, kNumber, signature.begin() + 2);
   crypto_sign_detached(signature.data() + 2 + kNumber, nullptr, digest.data(), digest.size(), secret);
-  const std::string trusted = std::string("file:") + kSignedFile + "\thashed";  // no time: the same run, the same bytes
+  const std::string trusted =
+      std::string("file:") + kSignedFile + "\thashed";  // without a time, so that equal runs give equal bytes
   const Bytes all = Concat(std::span(signature).subspan(2 + kNumber), trusted);
   std::array<unsigned char, crypto_sign_BYTES> over_all;
   crypto_sign_detached(over_all.data(), nullptr, all.data(), all.size(), secret);
   sodium_memzero(key.data(), key.size());
+  // Write both files.
   RETURN_IF_ERROR(WriteFileAtomically(Inside(folder) / kSignedFile, digests));
   return WriteFileAtomically(Inside(folder) / kSignatureFile,
                              fmt::format("{}signature of a run of Etude\n{}\n{}{}\n{}\n", kComment, Encode(signature),
@@ -143,6 +146,7 @@ Result<void> SignRun(const fs::path& folder, const std::string& secret_key) {
 }
 
 Result<std::string> CheckSignature(const fs::path& folder, const std::string& public_key) {
+  // The public key, from a file or as text.
   std::string key_text = public_key;
   if (std::error_code none; fs::exists(public_key, none)) {
     ASSIGN_OR_RETURN(const auto text, ReadWholeFile(public_key));
@@ -153,6 +157,7 @@ Result<std::string> CheckSignature(const fs::path& folder, const std::string& pu
   if (key.empty() || key[0] != 'E' || key[1] != 'd') {
     return Fail({public_key}, "is no public key of minisign, and no file of one");
   }
+  // The signature; it must be of this key.
   const FilePath path = Inside(folder) / kSignatureFile;
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
   const std::vector<std::string> lines = LinesOf(text);
@@ -167,6 +172,7 @@ Result<std::string> CheckSignature(const fs::path& folder, const std::string& pu
     return Fail({path.string()}, "is of key {}; the key given is {}",
                 NumberOf(std::span(signature).subspan(2, kNumber)), NumberOf(number));
   }
+  // Both signatures must hold.
   ASSIGN_OR_RETURN(const auto signed_text, ReadWholeFile(Inside(folder) / kSignedFile));
   const Blake digest = DigestOf(signed_text);
   const Bytes all = Concat(std::span(signature).subspan(2 + kNumber), lines[2].substr(kTrusted.size()));
@@ -175,6 +181,7 @@ Result<std::string> CheckSignature(const fs::path& folder, const std::string& pu
       crypto_sign_verify_detached(over_all.data(), all.data(), all.size(), holder) != 0) {
     return Fail({path.string()}, "does not hold: {} or it was changed", kSignedFile);
   }
+  // The files must be the signed ones; else name the first that differs.
   ASSIGN_OR_RETURN(const auto found, ListDigests(folder));
   if (found == signed_text) return NumberOf(number);
   const std::vector<std::string> then = LinesOf(signed_text), now = LinesOf(found);

@@ -7,17 +7,16 @@
 
 namespace etude {
 
-/// The signature of a run by its owner. A seal finds mistakes; whoever forges a run can seal it, but not sign it.
+/// The signature of a run by its owner. A seal detects errors; a forger can renew the seal, but not the signature.
 ///
-///     signed.b2          the BLAKE2b digest of seal.json and of every sealed file, as `b2sum` writes and checks it
-///     signed.b2.minisig  the signature of that file, as `minisign -S` writes and `minisign -V` checks it (Ed25519)
+///     signed.b2          the BLAKE2b digests of seal.json and of every sealed file, in the format of `b2sum`
+///     signed.b2.minisig  the Ed25519 signature of that file, in the format of `minisign -S` and `minisign -V`
 
-/// Writes both into the folder of a sealed run. `secret_key` is a file that `minisign -G -W` made; one with a password
-/// is refused.
+/// Signs a sealed run with a secret key, a file made by `minisign -G -W`. Fails if the key has a password.
 Result<void> SignRun(const std::filesystem::path& folder, const std::string& secret_key);
 
-/// Checks both. `public_key` is minisign's file, or its text (RW…). Fails naming the first file that is not as it was
-/// signed. Gives the number of the key, by which minisign names it.
+/// Checks the signature and all files. `public_key` is minisign's file, or its text (RW…). Returns the key's number as
+/// minisign shows it. Fails, naming the file, at the first file that is not as it was signed.
 Result<std::string> CheckSignature(const std::filesystem::path& folder, const std::string& public_key);
 
 }  // namespace etude

@@ -12,8 +12,7 @@ namespace {
 
 enum class When { kAlways, kIfAny };
 
-/// A key of a record, and the member whose value it holds. A list that most records have none of is left out when
-/// empty.
+/// A key of a record, and the member that holds its value. With kIfAny, an empty value is left out.
 template <typename Record, typename Value>
 struct Key {
   constexpr Key(const char* key, Value Record::*held, When stands = When::kAlways)
@@ -24,7 +23,7 @@ struct Key {
   When when;
 };
 
-/// Every record's keys in the order of writing, once for whoever writes or reads it.
+/// The keys of each record in order, for writing and reading.
 template <typename Record>
 constexpr std::tuple<> kKeys = {};
 
@@ -185,7 +184,6 @@ void Decode(const Json& json, std::vector<Value>& values) {
 
 void Decode(const Json& json, std::vector<std::string>& texts) { json.get_to(texts); }
 
-/// Counts by status are an object.
 Json Encode(const std::vector<std::pair<Status, int>>& counts) {
   Json json = Json::object();
   for (const auto& [status, count] : counts) json[std::string(StatusName(status))] = count;

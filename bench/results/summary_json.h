@@ -5,7 +5,7 @@
 
 namespace etude {
 
-/// summary.json: every scenario's aggregates, comparisons and expectations.
+/// Encodes summary.json: the aggregates, comparisons and expectations of every scenario.
 Json EncodeSummaries(const std::vector<ScenarioSummary>& scenarios);
 Result<std::vector<ScenarioSummary>> DecodeSummaries(const Json& json, const Place& place);
 

@@ -23,13 +23,12 @@ constexpr std::string_view kCellBegin = R"({"cell":)";
 constexpr std::string_view kSumBegin = R"(,"sum":")", kSumEnd = R"("})";
 constexpr std::size_t kSumSize = kSumBegin.size() + 16 + kSumEnd.size();
 
-/// The metric's place in the catalogue; nothing when it is a scenario's own.
-std::optional<std::size_t> PlaceInCatalogue(const std::string& id) {
-  if (AddedMetrics().contains(id)) return std::nullopt;
+std::optional<std::size_t> IndexInCatalogue(const std::string& id) {
+  if (AddedMetrics().contains(id)) return std::nullopt;  // a scenario's own
   return static_cast<std::size_t>(FindMetric(id) - AllMetrics().data());
 }
 
-/// The reason why this cell cannot be written as it is, or "".
+/// Returns the reason why this cell cannot be written as it is; "" if it can.
 std::string FindBadValue(const CellResult& result) {
   for (const MetricValue& metric : result.metrics) {
     if (FindMetric(metric.id) == nullptr) return "the metric '" + metric.id + "' is not in the catalogue";
@@ -43,7 +42,6 @@ std::string FindBadValue(const CellResult& result) {
   return "";
 }
 
-/// Writes a line, part by part.
 class LineWriter {
  public:
   template <typename... Args>
@@ -55,7 +53,7 @@ class LineWriter {
     const bool plain = std::ranges::all_of(text, [](char c) { return c >= ' ' && c < 0x7f && c != '"' && c != '\\'; });
     text_ += plain ? "\"" + text + "\"" : Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
   }
-  /// `,"key":[…]` of as many values as `add_one` is called for; nothing of an empty list.
+  /// Adds `,"key":[…]` with one value per item; adds nothing if the list is empty.
   template <typename List, typename AddOne>
   void AddList(std::string_view key, const List& list, const AddOne& add_one) {
     if (list.empty()) return;
@@ -72,14 +70,14 @@ class LineWriter {
   std::string text_;
 };
 
-/// Reads a line, part by part; the first part that is not there makes all that follow fail.
+/// Reads a line, part by part. After the first unexpected part, all further reads fail.
 class LineReader {
  public:
   explicit LineReader(std::string_view text) : at_(text.data()), end_(text.data() + text.size()) {}
 
   bool is_good() const { return good_; }
   bool IsNext(std::string_view text) const { return good_ && Rest().starts_with(text); }
-  /// Passes over `text` if it is next.
+  /// Skips `text` if it is next, and returns whether it was.
   bool Skip(std::string_view text) {
     if (!IsNext(text)) return false;
     at_ += text.size();
@@ -113,7 +111,7 @@ class LineReader {
     if (!text.is_string()) Refuse();
     return good_ ? text.get<std::string>() : "";
   }
-  /// The other side of LineWriter::AddList.
+  /// Reads what LineWriter::AddList writes.
   template <typename ReadOne>
   void ReadList(std::string_view key, const ReadOne& read_one) {
     if (!Skip(key)) return;
@@ -121,7 +119,7 @@ class LineReader {
     while (Skip(","));
     Expect("]");
   }
-  /// All up to the sum.
+  /// The unread part, which ends before the checksum.
   std::string_view Rest() const { return {at_, static_cast<std::size_t>(end_ - at_)}; }
 
  private:
@@ -158,7 +156,7 @@ CellUsage ReadUsage(LineReader& reader) {
 }  // namespace
 
 std::string WithSum(std::string json) {
-  json.pop_back();  // its last brace
+  json.pop_back();  // the closing brace
   return fmt::format("{}{}{:016x}{}", json, kSumBegin, Fingerprint(json), kSumEnd);
 }
 
@@ -173,6 +171,7 @@ bool HasRightSum(std::string_view line) {
 
 std::string EncodeCellLine(std::size_t cell, FinishedCell finished) {
   CellResult& result = finished.row.result;
+  // A cell that JSON cannot represent becomes bad_output.
   std::string recording, bad = FindBadValue(result);
   if (bad.empty() && result.recording) {
     const auto encoded = EncodeRecording(*result.recording);
@@ -185,6 +184,7 @@ std::string EncodeCellLine(std::size_t cell, FinishedCell finished) {
   }
   if (!bad.empty()) result = CellResult::Ended(Status::kBadOutput, bad);
 
+  // The identity, status and usage.
   LineWriter line;
   line.AddText(finished.is_measured || !bad.empty() ? kCellBegin : kAnsweredBegin);
   line.Add(R"({},"status":"{}")", cell, StatusName(result.status));
@@ -196,10 +196,11 @@ std::string EncodeCellLine(std::size_t cell, FinishedCell finished) {
   line.Add(R"(,"usage":[{},{},{})", usage.wall_s, usage.cpu_s, usage.peak_mb);
   if (usage.world_wall_s > 0) line.Add(",{},{}", usage.world_wall_s, usage.world_cpu_s);
   line.AddText("]");
+  // The values of the metrics, then the reasons of the missing ones, in the same order.
   std::vector<const std::string*> why;
   line.AddList("values", result.metrics, [&](const MetricValue& metric) {
-    const auto place = PlaceInCatalogue(metric.id);
-    place ? line.Add("{},", *place) : line.Add("\"{}\",", metric.id);
+    const auto index = IndexInCatalogue(metric.id);
+    index ? line.Add("{},", *index) : line.Add("\"{}\",", metric.id);
     if (metric.value) return line.Add("{}", *metric.value);
     line.AddText("null");
     why.push_back(&metric.null_reason);
@@ -210,6 +211,7 @@ std::string EncodeCellLine(std::size_t cell, FinishedCell finished) {
     line.AddText(",");
     line.AddString(digest.second);
   });
+  // Curves, and the recording.
   line.AddList("series", result.series, [&](const Series& series) {
     line.AddText("[");
     line.AddString(series.name);
@@ -241,11 +243,13 @@ Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const P
   CellResult& result = cell.row.result;
   LineReader reader(line.substr(0, line.size() - kSumSize));
   try {
+    // The head and the usage.
     const CellLineHead head = ReadHead(reader);
     result.status = head.status;
     cell.is_measured = head.is_measured;
     result.reason = reader.Skip(R"(,"reason":)") ? reader.ReadString() : "";
     cell.usage = ReadUsage(reader);
+    // The metrics: a number is an index in the catalogue, a text the id of a scenario's own metric.
     std::vector<std::size_t> missing;
     reader.ReadList(R"(,"values":[)", [&] {
       std::string id;
@@ -253,9 +257,9 @@ Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const P
         id = reader.ReadString();
         if (!AddedMetrics().contains(id)) reader.Refuse();
       } else {
-        const auto place_in_catalogue = reader.ReadNumber<std::size_t>();
-        if (place_in_catalogue >= AllMetrics().size()) reader.Refuse();
-        if (reader.is_good()) id = AllMetrics()[place_in_catalogue].id;
+        const auto index_in_catalogue = reader.ReadNumber<std::size_t>();
+        if (index_in_catalogue >= AllMetrics().size()) reader.Refuse();
+        if (reader.is_good()) id = AllMetrics()[index_in_catalogue].id;
       }
       reader.Expect(",");
       if (!reader.is_good()) return;
@@ -266,6 +270,7 @@ Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const P
         result.Measure(id, reader.ReadNumber<double>());
       }
     });
+    // The reasons of the missing values, in order.
     std::size_t told = 0;
     reader.ReadList(R"(,"why":[)", [&] {
       std::string reason = reader.ReadString();
@@ -276,6 +281,7 @@ Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const P
       reader.Expect(",");
       result.digests.emplace_back(std::move(stage), reader.ReadString());
     });
+    // Each curve: name, axis, values, names of categories.
     reader.ReadList(R"(,"series":[)", [&] {
       Series& series = result.series.emplace_back();
       reader.Expect("[");

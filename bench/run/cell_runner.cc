@@ -30,7 +30,7 @@ class Stopwatch {
   const double cpu_start_ = CpuSeconds();
 };
 
-/// The kernel's high-water mark of this process begins anew.
+/// Resets the kernel's record of this process's peak memory.
 void ForgetPeakMemory() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
 double ReadPeakMemoryMb() {
@@ -41,7 +41,7 @@ double ReadPeakMemoryMb() {
   return 0;
 }
 
-/// True if memory ended; a length that no memory could hold is a mistake of the code that asked for it.
+/// Returns true if memory ran out. An impossible array length is a bug instead.
 bool IsShortage(const std::exception& error) {
   return dynamic_cast<const std::bad_alloc*>(&error) != nullptr &&
          dynamic_cast<const std::bad_array_new_length*>(&error) == nullptr;

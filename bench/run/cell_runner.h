@@ -15,37 +15,34 @@ namespace etude {
 struct FinishedCell {
   Row row;
   CellUsage usage;
-  /// False: the method has answered, and metrics of other programs have yet to measure what it did
-  /// (CellRunner::Measure).
+  /// False: the method has answered, but other programs have yet to measure its answer (CellRunner::Measure).
   bool is_measured = true;
-  /// The reason why this machine kept the method from being asked; "" = it was asked. A cell with a reason has no row.
+  /// The fault of this machine that kept the method from being asked, so that there is no row; "" = no fault.
   std::string why_not_run = {};
 };
 
-/// Scores an answer that did not come from a built-in method; its fingerprint stands among the digests of the cell.
-/// Fails as TaskWorld::Judge.
+/// Scores an outside answer, and adds its digest to those of the cell. Fails like TaskWorld::Judge.
 Result<CellResult> JudgeAnswer(TaskWorld& world, const Json& answer);
 
-/// Runs the cells of one world after the other, as a worker does: the world is built once, methods outside
-/// stay alive from world to world.
+/// Runs cells, world after world. Each world is built once; outside methods keep running between worlds.
 class CellRunner {
  public:
-  /// Standard error of methods outside goes to files in `error_folder`; "" = to our own. They run in `fence`.
+  /// Outside methods run in `fence`. Their standard error goes to files in `error_folder`; "" = to our own.
   CellRunner(const PreparedScenario& scenario, std::string error_folder, const Fence& fence);
   ~CellRunner();
 
-  /// Builds the world. Whatever goes wrong in it is told by every cell.
+  /// Builds the world. If that fails, every cell of the world reports the failure.
   void Open(int condition, int trial);
-  /// Runs a method in the open world. A task that throws gives a failed row. Where memory ends, the cell is
-  /// `out_of_memory` if it held more than the scenario allows; else the machine lacks it, and the cell is not run. A
-  /// cell that left a motion is not measured by other programs yet: they would know the truth of a world in which
-  /// methods are still to be asked.
+  /// Runs a method in the open world. An exception gives a failed row. If memory runs out, the cell is `out_of_memory`
+  /// if it held more than the scenario allows; otherwise the machine has too little, and the cell is not run. A cell
+  /// with a motion is not yet measured by programs that are metrics: they would learn the truth of a world in which
+  /// other methods are still to be asked.
   FinishedCell Run(std::size_t method);
-  /// Asks the programs that measure an answered cell. A run does so when all methods have answered (RunOrders).
+  /// Lets programs measure an answered cell. A run does so when all methods have answered (RunOrders).
   FinishedCell Measure(int condition, FinishedCell answered);
 
  private:
-  /// The high-water mark of this process's memory. To ask the kernel takes as long as a short cell.
+  /// The peak resident size of this process. Reading it takes as long as a short cell, so the value is cached briefly.
   class PeakMemory {
    public:
     void Begin();
@@ -57,31 +54,30 @@ class CellRunner {
     double mb_ = 0;
   };
 
-  /// The result of a cell in which something was thrown; or `why_not_run_`.
+  /// Returns the result of a cell that ended with an exception, or sets `why_not_run_`.
   CellResult Thrown(const std::string& when, const std::exception& error);
-  /// Drops the motion of a measured cell that is not recorded, and names the metrics that it does not report.
+  /// Drops the motion of a measured cell that is not recorded, and adds the metrics that it does not report.
   void Complete(int condition, Row& row) const;
   CellResult RunMethod(std::size_t method, CellUsage& usage);
   CellResult AskOutside(std::size_t method, CellUsage& usage);
   CellResult RunWithProgram(std::size_t method, CellUsage& usage);
-  /// Its place among those that the task runs.
   std::size_t IndexInTask(std::size_t method) const;
-  /// The message to methods outside before their first problem; a cell that ended when it cannot be made.
+  /// Returns the message that precedes the first problem, or the result of the cell if it cannot be made.
   tl::expected<const Payload*, CellResult> OpenSetting();
   std::string SettingId() const;
 
   const PreparedScenario& scenario_;
   const std::string error_folder_;
-  std::map<std::size_t, OutsideMethod> outside_;  ///< by method
+  std::map<std::size_t, OutsideMethod> outside_;  ///< key: index of the method
   OutsideMetrics metrics_;
   int condition_ = 0, trial_ = 0;
   std::unique_ptr<TaskWorld> world_;
   CellResult why_no_world_;
-  std::string why_not_run_;        ///< the cell that is being run
-  std::string why_world_not_run_;  ///< the cells of a world that could not be built
+  std::string why_not_run_;        ///< of the current cell
+  std::string why_world_not_run_;  ///< of all cells, if the world could not be built
   CellUsage world_usage_;
   PeakMemory peak_memory_;
-  std::unique_ptr<Payload> setting_, problem_;  ///< of the open world, once asked for
+  std::unique_ptr<Payload> setting_, problem_;  ///< of the open world; null until needed
   int condition_of_setting_ = -1;
 };
 

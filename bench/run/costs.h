@@ -8,27 +8,26 @@
 
 namespace etude {
 
-/// Names what a scenario's worlds and methods are made of, whatever it asks, expects and calls them, and however many
-/// trials it has: two scenarios of one work cost the same a trial.
+/// Returns a digest of all that decides the cost per trial of a scenario: its worlds and methods, but not its question,
+/// expectations, names or number of trials.
 std::string WorkOf(const Scenario& scenario);
 
-/// The processor time of a scenario, in yardsticks (MeasurePace).
+/// The processor time of a scenario, in yardsticks: units of fixed arithmetic (MeasurePace).
 struct KeptCost {
-  double once = 0;   ///< start, what conditions prepare, statistics
-  double trial = 0;  ///< a world of every condition, with all methods
+  double once = 0;   ///< for start-up, preparation of conditions, and statistics
+  double trial = 0;  ///< for one world of every condition, with all methods
 };
 
-/// The costs of shipped scenarios by WorkOf, as `scripts/costs` measured them; none where nothing is shipped. A table
-/// that cannot be read is refused.
+/// Reads the kept costs of shipped scenarios, by WorkOf; empty if nothing is shipped. Fails if the table is invalid.
 Result<std::map<std::string, KeptCost>> ReadKeptCosts();
 
-/// The speed of this machine as it is now, other people's work on it included.
+/// The speed of this machine under its present load.
 struct Pace {
-  double yardsticks_per_s = 0;  ///< by the clock, of all workers together
-  double yardstick_ms = 0;      ///< processor time of one: half a millisecond of an AMD EPYC
+  double yardsticks_per_s = 0;  ///< wall clock, all workers together
+  double yardstick_ms = 0;      ///< processor time of one yardstick; 0.5 ms on an AMD EPYC
 };
 
-/// Has as many copies of this process as there will be workers do fixed arithmetic for an eighth of a second.
+/// Measures the speed: one copy of this process per worker does fixed arithmetic for an eighth of a second.
 Result<Pace> MeasurePace(int workers);
 
 }  // namespace etude

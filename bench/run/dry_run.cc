@@ -15,7 +15,6 @@
 namespace etude {
 namespace {
 
-/// The units that the worlds of the first condition are drawn from.
 int CountUnitsOf(const PreparedScenario& prepared) {
   const Scenario& scenario = prepared.scenario();
   if (WorldsAreUnits(scenario.unit)) return scenario.trials;
@@ -27,8 +26,7 @@ int CountUnitsOf(const PreparedScenario& prepared) {
   return static_cast<int>(units.size());
 }
 
-/// Returns a step by which all of so many conditions are visited, each time far from those before: costs rise and fall
-/// along a sweep.
+/// Returns a step that visits all conditions in an order without trend, because costs vary along a sweep.
 int StepOver(int conditions) {
   constexpr double kGolden = 0.618;
   int step = std::max(1, static_cast<int>(std::lround(kGolden * conditions)));
@@ -36,13 +34,13 @@ int StepOver(int conditions) {
   return step;
 }
 
-/// True if worlds are made of what the scenario's file names, and of nothing else that the command line does.
+/// Returns true if no option of the command line replaces the clips or recordings that the file names.
 bool IsAsShipped(const RunOptions& options) {
   return options.clips.empty() && options.libraries.empty() && options.streams.empty() && options.from.empty();
 }
 
-/// Measures first worlds until the time is up. The first of all pays for what a worker makes once, and counts only
-/// where it is the only one.
+/// Returns the mean time of the first worlds, measured until the time is up. The first of all includes one-time costs,
+/// so it counts only if it is the only one.
 double MeasureSecondsPerWorld(const PreparedScenario& prepared, const Fence& fence, double until,
                               Clock::time_point start) {
   const Scenario& scenario = prepared.scenario();
@@ -65,7 +63,7 @@ double MeasureSecondsPerWorld(const PreparedScenario& prepared, const Fence& fen
   return world == 1 ? first : others / (world - 1);
 }
 
-/// Puts another key in the place of a secret one: programs that are asked here learn nothing of the run to come.
+/// Replaces a secret key, so that the programs that are asked here learn nothing of the real run.
 void ThrowOtherDice(SuiteSetup& suite) {
   constexpr Words256 kDryRun = {0x0064'7279'2d72'756e};
   suite.seed = Seed::Secret(Encrypt(suite.seed.key(), kDryRun));
@@ -75,11 +73,13 @@ void ThrowOtherDice(SuiteSetup& suite) {
 }  // namespace
 
 Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
+  // Check all input as a run does.
   ASSIGN_OR_RETURN(auto suite, ReadSuiteToRun(options));
   if (!suite.seed.IsPlain()) ThrowOtherDice(suite);
   ASSIGN_OR_RETURN(const auto scenarios, PrepareToRun(suite, options));
   Forecast forecast{.scenarios = {}, .workers = WorkerCount(options.jobs), .pace = {}};
   ASSIGN_OR_RETURN(const Fence fence, FenceFor(scenarios, options.outside, "", options.key));
+  // The kept costs, and the speed of this machine to scale them by.
   ASSIGN_OR_RETURN(const auto kept, ReadKeptCosts());
   ASSIGN_OR_RETURN(forecast.pace, MeasurePace(forecast.workers));
   const double seconds_per_yardstick = forecast.workers / forecast.pace.yardsticks_per_s;  // of one worker
@@ -95,6 +95,7 @@ Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
                          .work = WorkOf(scenario),
                          .unit = scenario.unit,
                          .units = CountUnitsOf(scenarios[i])};
+    // The cost per world: kept, or measured.
     const double worlds = static_cast<double>(one.worlds * one.conditions);
     const auto cost = kept.find(one.work);
     one.is_kept = cost != kept.end() && IsAsShipped(options);

@@ -9,30 +9,30 @@
 
 namespace etude {
 
-/// The time that a scenario would take, and the differences that it could show.
+/// A scenario as it would be run: its size, its time, and what its comparisons are based on.
 struct ScenarioForecast {
   std::string name, task;
-  std::size_t worlds = 0;      ///< of each condition
-  std::size_t conditions = 0;  ///< values of what is swept
+  std::size_t worlds = 0;  ///< per condition
+  std::size_t conditions = 0;
   std::size_t methods = 0;
-  std::string work = {};         ///< WorkOf
-  bool is_kept = false;          ///< its costs come from ReadKeptCosts; else first worlds were measured
-  double seconds_per_world = 0;  ///< all methods of a world, by the clock, on one worker
-  int comparisons = 0;           ///< judged together
+  std::string work = {};  ///< WorkOf
+  bool is_kept = false;   ///< true: the time comes from ReadKeptCosts; false: it was measured on the first worlds
+  double seconds_per_world = 0;  ///< all methods of a world, wall clock, on one worker
+  int comparisons = 0;           ///< tested together, with one Holm correction
   SamplingUnit unit = SamplingUnit::kWorld;
-  int units = 0;  ///< of the first condition; worlds where every world is its own
+  int units = 0;  ///< in the first condition; the worlds, if each is a unit of its own
 };
 
 struct Forecast {
   std::vector<ScenarioForecast> scenarios;
-  double seconds = 0;  ///< by the clock, on `workers`
+  double seconds = 0;  ///< wall clock, on `workers`
   int workers = 1;
   Pace pace;
 };
 
-/// Reads and checks everything as Run does and writes nothing. What shipped scenarios cost is kept, and scaled by this
-/// machine's pace; of others, and with other clips or recordings than their own, first worlds of conditions are run
-/// until `sample_seconds` have passed, one of each scenario at least.
+/// Checks all input as Run does, writes nothing, and estimates the time. For a shipped scenario with its own clips and
+/// recordings, the kept cost is scaled by this machine's speed. For any other, the first worlds are run until
+/// `sample_seconds` have passed, at least one per scenario.
 Result<Forecast> DryRun(const RunOptions& options, double sample_seconds);
 
 }  // namespace etude

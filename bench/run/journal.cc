@@ -18,7 +18,7 @@ namespace etude {
 namespace {
 
 constexpr std::uint32_t kInMemory = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t kMemory = std::size_t{64} << 20;  // for the parts of all files together
+constexpr std::size_t kMemory = std::size_t{64} << 20;  // bytes, for the parts of all files together
 constexpr std::size_t kMaxPartBytes = 1 << 20, kMinPartBytes = 1 << 14;
 
 namespace fs = std::filesystem;
@@ -45,14 +45,14 @@ Result<JournalHead> DecodeHead(const std::string& line, const Place& place) {
   return head;
 }
 
-/// The position of the line that `place` names.
+/// The position of a line.
 struct LineInFile {
   std::uint32_t file;
   std::uint64_t offset;
   std::size_t length;
 };
 
-/// Returns whether the line counts: a second one of the same cell does not.
+/// Adds a cell. Returns false if it has a line already.
 Result<bool> AddCell(const CellLineHead& head, const LineInFile& line, const Place& place, const Plan& plan,
                      const Shard& shard, CellTable& cells) {
   const std::size_t cell = head.cell;
@@ -110,7 +110,7 @@ Result<std::string_view> CellTable::ReadLine(std::size_t cell) {
 
 Result<void> CellTable::ReadPart(Source& source, const LinePlace& place) const {
   const std::size_t size = std::clamp(kMemory / sources_.size(), kMinPartBytes, kMaxPartBytes);
-  // Lines stand in order of completion: the next cell's may stand a little before this one's.
+  // Lines are in order of completion, so the line of the next cell may be slightly before this one.
   source.begin = place.offset - std::min<std::uint64_t>(place.offset, size / 2);
   source.part.resize(std::max<std::size_t>(size, place.offset - source.begin + place.length));
   ASSIGN_OR_RETURN(const auto file, OpenFile(source.file, O_RDONLY));
@@ -192,7 +192,7 @@ Result<void> Journal::Sync() {
 
 namespace {
 
-/// The first of the head's copies that is as it was written, from the lines at the file's beginning.
+/// Returns the first copy of the head that was not changed, from the lines at the beginning of the file.
 Result<JournalHead> ReadHead(FileLines lines, const std::string& path) {
   std::string line;
   int read = 0;
@@ -224,13 +224,15 @@ Result<JournalContent> ReadJournal(const fs::path& folder, const Plan& plan, Cel
   int number = 1;
   for (std::string line;; ++number, offset += line.size() + 1) {
     ASSIGN_OR_RETURN(const bool has_line, lines.Next(line));
-    if (!has_line || !lines.had_end()) break;  // a last line without its end is torn
+    if (!has_line || !lines.had_end()) break;  // an incomplete last line
     if (number <= kHeads) continue;
+    // A changed line is damaged.
     const auto cell = ReadCellLineHead(line);
     if (!cell) {
       content.damaged.push_back(number);
       continue;
     }
+    // A second line of a cell is damaged, too.
     if (!cell->is_measured && answered == nullptr) continue;
     const LineInFile place{cell->is_measured ? file : answered_file, offset, line.size()};
     ASSIGN_OR_RETURN(const bool counts, AddCell(*cell, place, {path.string(), number}, plan, content.head.shard,
@@ -243,6 +245,7 @@ Result<JournalContent> ReadJournal(const fs::path& folder, const Plan& plan, Cel
     ++content.cells;
     content.cells_ok += cell->status == Status::kOk ? 1 : 0;
   }
+  // Count the answered cells that have no finished line.
   for (std::size_t cell = 0; answered != nullptr && cell < answered->size(); ++cell) {
     content.answered += answered->Has(cell) && !cells.Has(cell) ? 1 : 0;
   }

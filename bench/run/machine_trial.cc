@@ -25,21 +25,21 @@ bool Draws(const PreparedScenario& prepared) {
   return IsFilmed(scenario) || FindTaskKind(scenario.task)->platform != nullptr;
 }
 
-/// A copy of this process tries to make a renderer: where memory is short, its libraries end the process that asks.
+/// Makes a renderer in a copy of this process, because Mesa ends the process if memory is short.
 Result<void> TryRendererInACopy() {
   constexpr int kNotLoaded = 2;
   ASSIGN_OR_RETURN(ForkedCopy copy, ForkedCopy::Start([](int) {
-    const int silence = ::open("/dev/null", O_WRONLY);
-    ::dup2(silence, STDERR_FILENO);
-    return !LoadRenderer() ? kNotLoaded : SharedRenderer() ? 0 : 1;
-  }));
+                     const int silence = ::open("/dev/null", O_WRONLY);
+                     ::dup2(silence, STDERR_FILENO);
+                     return !LoadRenderer() ? kNotLoaded : SharedRenderer() ? 0 : 1;
+                   }));
   const int status = copy.Wait();
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
   if (WIFEXITED(status) && WEXITSTATUS(status) == kNotLoaded) RETURN_IF_ERROR(LoadRenderer());
   return Fail({}, "nothing can be drawn: Mesa gets no memory, or gives no context");
 }
 
-/// A fence that is there, and merely has no process or memory left today, is no reason to run programs without it.
+/// Fails if the fence is missing only for lack of processes, memory or files.
 Result<void> CheckFence(const Fence& fence) {
   for (const int shortage : {EAGAIN, ENOMEM, EMFILE, ENFILE}) {
     if (!fence.IsUp() && fence.description().find(std::strerror(shortage)) != std::string::npos) {
@@ -63,7 +63,7 @@ Result<void> Try(std::span<const PreparedScenario> scenarios, const Fence& fence
       RETURN_IF_ERROR(CheckFence(fence));
       ASSIGN_OR_RETURN(const auto folder, TemporaryFolder::Make("trial"));
       if (auto kept = WriteFileAtomically(folder.path() / "file", "a file of some bytes\n"); !kept) {
-        const std::string& said = kept.error().message;  // of a file whose name tells nobody anything: only the reason
+        const std::string& said = kept.error().message;  // the path is temporary; only the reason helps
         return Fail({folder.path().parent_path().string()}, "takes no temporary files: {}",
                     said.substr(said.rfind(": ") + 2));
       }

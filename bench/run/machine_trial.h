@@ -8,13 +8,11 @@
 
 namespace etude {
 
-/// Tries what the cells of these scenarios will need of this machine, so that a fault of it is told before anything is
-/// written: processes, the renderer, and for methods outside their programs, a folder for temporary files and the
-/// fence. Fails with an error of this machine.
+/// Tries what these scenarios need, so that a fault of this machine is reported before anything is written: processes,
+/// the renderer and, for outside methods, their programs, temporary files and the fence.
 Result<void> TryMachine(std::span<const PreparedScenario> scenarios, const Fence& fence);
 
-/// Fails when the scenario's worlds are to be drawn and nothing can be drawn in this process. What is made for that is
-/// what its worlds then use.
+/// Makes the renderer of this process if the scenario's worlds are drawn. Fails if nothing can be drawn.
 Result<void> TryRenderer(const PreparedScenario& scenario);
 
 }  // namespace etude

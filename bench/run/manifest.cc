@@ -47,7 +47,6 @@ Json DescribeClips(const ClipLibrary& library) {
   return clips;
 }
 
-/// Describes the clips, then the recordings of people.
 Json DescribeMotions(const PreparedScenario& scenario) {
   Json motions = DescribeClips(scenario.clips());
   if (scenario.setup().streams.empty()) return motions;
@@ -75,10 +74,10 @@ std::string DigestOf(const std::vector<std::string>& texts) {
   return digest.Hex();
 }
 
-/// The libraries whose code a result passes through, by the beginnings of their files' names: C and C++, the renderer
-/// and its compiler, Ceres with linear algebra and orderings below it, codecs of pictures. Eigen, GLM, Random123, and
-/// on Debian 12 Ceres are part of our own build, which a journal's head names. What only draws pages, reads fonts or
-/// trains is not here, so that its updates change no run's identity.
+/// The libraries that affect results, by the beginnings of their file names: C and C++, the renderer and its compiler,
+/// Ceres with its linear algebra and orderings, image codecs. Eigen, GLM, Random123, and on Debian 12 Ceres are part of
+/// our own build, which the head of a journal names. Libraries that only draw pages, read fonts or train are not
+/// listed, so their updates do not change the identity of a run.
 constexpr std::array kDecisiveLibraries = {
     "libc.",        "libm.",       "libstdc++.",   "libOSMesa.", "libEGL_mesa.", "libgallium", "swrast_dri.",
     "libglapi.",    "libLLVM",     "libblas.",     "libceres.",  "liblapack.",   "libatlas",   "libopenblas",
@@ -86,10 +85,10 @@ constexpr std::array kDecisiveLibraries = {
     "libmetis.",    "libhwy.",     "libjpeg.",     "libpng",     "libz.",        "libzip.",    "libOpenEXR",
     "libImath",     "libIex",      "libtinygltf.", "libstb."};
 
-/// The builds of the decisive libraries, by name: the first half of their build IDs.
+/// Returns the builds of the decisive libraries: name and first half of the build ID.
 Result<Json> DescribeLibraries() {
   constexpr std::size_t kToldDigits = 20;
-  // A renderer that is not installed is missing in the list.
+  // If the renderer is not installed, it is simply not in the list.
   if (auto loaded = LoadRenderer(); !loaded && IsOfThisMachine(loaded.error())) return tl::unexpected(loaded.error());
   Json libraries = Json::object();
   for (const auto& [name, build] : LoadedLibraries()) {
@@ -100,7 +99,7 @@ Result<Json> DescribeLibraries() {
   return libraries;
 }
 
-/// Adds to `found` what differs at `path` or below it.
+/// Adds the differences at or below `path` to `found`.
 void CompareJson(const std::string& path, const Json& then, const Json& now, std::vector<JsonDifference>& found) {
   if (then == now) return;
   if (then.is_object() && now.is_object()) {

@@ -11,51 +11,49 @@
 
 namespace etude {
 
-/// Makes manifest.json, which repeats the run. Its bytes do not depend on how or where it is run. Fails, with an error
-/// of this machine, when the renderer is there and cannot be loaded: the libraries would not be those of the next
-/// start.
+/// Makes manifest.json, from which the run can be repeated. Its bytes do not depend on how or where it is run. Fails if
+/// the renderer is installed but cannot be loaded, because the list of libraries would be incomplete.
 Result<Json> MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> scenarios,
                           const std::string& version);
 
-/// The suite that a manifest describes. Fails when it is of another schema.
+/// Reads the suite that a manifest describes. Fails if its schema has another version.
 Result<SuiteSetup> ReadManifest(const FilePath& path);
 
-/// Checks that `scenarios`, prepared from the suite of the manifest at `path`, have the very clips that it had then.
+/// Fails unless the clips of `scenarios`, which the manifest at `path` describes, are unchanged.
 Result<void> CheckClips(const FilePath& path, std::span<const PreparedScenario> scenarios);
 
-/// A run made ready to be gone on with, merged or repeated.
+/// A run that is prepared to be resumed, merged or repeated.
 struct PreparedRun {
   SuiteSetup suite;
   std::vector<PreparedScenario> scenarios;
 };
 
-/// Makes ready what a manifest describes, with the very clips that it had then.
-/// Secret worlds need their key.
+/// Prepares the run that a manifest describes, with the same clips (CheckClips). Secret worlds need their key.
 Result<PreparedRun> PrepareRun(const FilePath& manifest, const std::optional<SecretKey>& key = {});
 
-/// A value of a manifest that is another in a second one.
+/// A value that differs between two manifests.
 struct JsonDifference {
   std::string path;       ///< "libraries.libLLVM-15.so.1", "scenarios[0].trials"
-  std::string then, now;  ///< cut short; "absent"
+  std::string then, now;  ///< shortened; "absent" if missing
 
   bool operator==(const JsonDifference&) const = default;
 };
 
-/// Finds all values that two manifests do not share.
+/// Returns all values that differ between two manifests.
 std::vector<JsonDifference> CompareManifests(const Json& then, const Json& now);
-/// Tells the first few of them: "seed was 1 and is 2; …".
+/// Lists the first few differences: "seed was 1 and is 2; …".
 std::string InWords(std::span<const JsonDifference> differences);
-/// Tells whether all of them are builds of libraries.
+/// Returns true if all of them are builds of libraries.
 bool AreOfLibraries(std::span<const JsonDifference> differences);
-/// The differences that the folder of a run notes.
+/// Reads the differences of libraries that a run's folder records.
 Result<std::vector<JsonDifference>> OtherLibrariesOf(const std::filesystem::path& folder);
-/// Notes in the run's folder, once, that cells of it were computed under other libraries than its manifest names.
+/// Records in the run's folder that libraries changed while its cells were computed; each difference once.
 Result<void> RecordOtherLibraries(const std::filesystem::path& folder, std::span<const JsonDifference> differences);
 
-/// Makes host.json: where and how the run was made.
+/// Makes host.json, which says where and how the run was made.
 Json DescribeHost(const std::string& command_line, int jobs, double seconds);
 
-/// A fingerprint of the program that is running: two builds have two.
+/// Returns a digest of the running program, which differs between builds.
 Result<std::string> BuildDigest();
 
 }  // namespace etude

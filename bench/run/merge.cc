@@ -17,16 +17,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The parts of one run that were found, by index.
 struct Shards {
   int count = 0;
   std::map<int, fs::path> folders;
-  std::string manifest;              ///< the text that all of them have
-  std::vector<std::string> missing;  ///< in words: shards that no folder holds, folders that hold none
+  std::string manifest;              ///< the text of the manifest that all of them have
+  std::vector<std::string> missing;  ///< messages: shards that no folder holds, folders without a shard
   std::vector<JsonDifference> other_libraries = {};
 };
 
-/// Finds out how a shard's manifest differs from those before: libraries may, if that is asked for.
+/// Fails unless a shard's manifest equals the earlier ones. `other_libraries` allows and collects other libraries.
 Result<void> CheckManifest(const fs::path& folder, const JournalHead& head, bool other_libraries, Shards& shards) {
   if (head.manifest == Digest().Add(std::string_view(shards.manifest)).Hex()) return {};
   ASSIGN_OR_RETURN(const auto then, ReadJson(shards.manifest, shards.folders.begin()->second.string()));
@@ -65,7 +64,7 @@ Result<void> AddShard(const fs::path& folder, const std::string& build, bool oth
   return {};
 }
 
-/// Finds which shards the folders hold, after checking that they are parts of one run, each there once.
+/// Finds the shards in the folders. Fails unless they belong to one run and each is there once.
 Result<Shards> FindShards(const std::vector<std::string>& folders, bool other_libraries) {
   ASSIGN_OR_RETURN(const auto build, BuildDigest());
   Shards shards;
@@ -84,7 +83,7 @@ Result<Shards> FindShards(const std::vector<std::string>& folders, bool other_li
   return shards;
 }
 
-/// Tells what a shard lacks: "2/4 in DIR lacks 3 of 40 cells, the first ik/…", or "".
+/// Describes the missing cells of a shard: "2/4 in DIR lacks 3 of 40 cells, the first ik/…"; "" if none is missing.
 std::string WhatLacks(const Plan& plan, const Shard& shard, const fs::path& folder, const CellTable& cells) {
   std::size_t wanted = 0, lacking = 0;
   std::string first;
@@ -103,6 +102,7 @@ std::string WhatLacks(const Plan& plan, const Shard& shard, const fs::path& fold
 
 Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(double share)>& on_progress) {
   const Clock::time_point start = Clock::now();
+  // Find the shards, and prepare their run.
   ASSIGN_OR_RETURN(auto shards, FindShards(options.folders, options.other_libraries));
   if (shards.folders.empty()) return Fail({}, "there is nothing to merge: {}", Join(shards.missing, "; "));
   ASSIGN_OR_RETURN(const auto prepared,
@@ -111,11 +111,12 @@ Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(d
   CellTable cells(plan.cell_count());
   Json hosts = Json::array();
   RunOutcome outcome{.folder = options.output, .cells = cells.size()};
-  // Half of the way is reading what there is, half writing it; `rows` are those of both.
+  // Reading the shards is the first half of the progress, writing the run the second.
   const auto goes_on = [&](std::size_t rows) {
     on_progress(static_cast<double>(rows) / static_cast<double>(2 * cells.size()));
     return options.stop == nullptr || !*options.stop;
   };
+  // Read every journal, and list what is missing.
   std::size_t read = 0;
   for (const auto& [index, folder] : shards.folders) {
     if (!goes_on(read)) {
@@ -134,6 +135,7 @@ Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(d
     return Fail({}, "not all {} shards are there and finished (etude run --shard i/{} --resume goes on): {}",
                 shards.count, shards.count, Join(shards.missing, "; "));
   }
+  // Write the whole run.
   ASSIGN_OR_RETURN(const auto state, LookAtFolder(options.output));
   if (state != FolderState::kFree && !options.overwrite) {
     return Fail({options.output, 0, 0}, "already holds a run; --overwrite replaces it, -o chooses another folder");

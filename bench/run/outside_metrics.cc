@@ -19,12 +19,12 @@ Payload SettingOf(const MetricInfo& info, const std::string& task) {
   return PayloadOf(std::move(setting));
 }
 
-/// The reply of a metric's program about a cell.
+/// The value that a metric's program returned for a cell.
 struct Measured {
-  Status status = Status::kOk;  ///< kOk: a number, or null with its reason; kUnsolved: no answer; else it failed
+  Status status = Status::kOk;  ///< kOk: a number, or null with a reason; kUnsolved: no answer; else: a failure
   MetricValue value;
 
-  /// True if the program itself said that there is no value.
+  /// Returns true if the program itself said that there is no value.
   bool IsNull() const { return !value.value && (status == Status::kOk || status == Status::kUnsolved); }
 };
 
@@ -84,7 +84,7 @@ OutsideReply OutsideMetrics::Ask(std::size_t metric, const std::string& id, cons
 std::string OutsideMetrics::Measure(const std::string& cell, CellResult& result) {
   if (programs_.empty() || !result.recording) return "";
   auto json = EncodeMotions(*result.recording);
-  if (!json) json = Json::object();  // which the cell's line tells of
+  if (!json) json = Json::object();  // the line of the cell reports this error
   const Payload told = PayloadOf(*std::move(json));
   for (std::size_t m = 0; m < programs_.size(); ++m) {
     const OutsideReply reply = Ask(m, cell, told);

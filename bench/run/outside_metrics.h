@@ -8,18 +8,18 @@
 
 namespace etude {
 
-/// The metrics of a scenario that other programs measure, each by a process of its own, which is started at its first
-/// cell and kept. They are told what a recording of the cell holds, truth among it; methods never are.
+/// The metrics of a scenario that other programs measure. Each program is started for its first cell and then kept. It
+/// receives the recording of the cell, the truth included; outside methods never receive the truth.
 class OutsideMetrics {
  public:
-  /// Takes what CellRunner takes. The scenario must outlive it.
+  /// The arguments are those of CellRunner. The scenario must outlive this object.
   OutsideMetrics(const PreparedScenario& scenario, const std::string& error_folder, const Fence& fence);
 
   bool empty() const { return programs_.empty(); }
-  /// Adds every metric's value of a cell that has its recording, or why there is none; a cell without one has none of
-  /// them. Returns what of this machine kept a program from being asked; "" = nothing did.
+  /// Adds every metric's value, or the reason why it has none, to a cell with a recording; adds nothing to other cells.
+  /// Returns the fault of this machine that kept a program from being asked; "" = no fault.
   std::string Measure(const std::string& cell, CellResult& result);
-  /// Puts every test vector. Fails at the first whose value is another, with what was expected and found.
+  /// Asks for every test vector. Fails at the first wrong value, and names the expected and the found value.
   Result<void> CheckVectors();
 
  private:
@@ -30,11 +30,10 @@ class OutsideMetrics {
   std::vector<Payload> settings_;
 };
 
-/// Checks the test vectors of all scenarios' metrics.
 Result<void> CheckMetricVectors(std::span<const PreparedScenario> scenarios, const Fence& fence);
 
-/// The standard error of a program that a scenario starts goes to this file in `folder`; "" = to ours. Programs of one
-/// scenario differ in name.
+/// Returns the file in `folder` that gets the standard error of a program of a scenario; "" if `folder` is "": the
+/// program then shares ours. Programs of one scenario must have different names.
 std::string ErrorFileOf(const std::string& folder, const Scenario& scenario, const std::string& program);
 
 }  // namespace etude

@@ -12,29 +12,29 @@
 
 namespace etude {
 
-/// The rules by which methods outside may be run.
+/// How the programs of a run may be run.
 struct OutsideRules {
-  bool is_fenced = true;    ///< where the kernel allows it
-  bool allow_exec = false;  ///< also those that a manifest or a pack names, which may come from anybody
+  bool is_fenced = true;    ///< use the sandbox, if the kernel allows it
+  bool allow_exec = false;  ///< also run programs that a manifest or a pack names, which may come from a stranger
 };
 
-/// "python3 my_solver.py (ik-weights/mine)" of every method and metric that is a program.
+/// Lists every method and metric that is a program: "python3 my_solver.py (ik-weights/mine)".
 std::vector<std::string> ProgramsOf(std::span<const PreparedScenario> scenarios);
 
-/// Refuses to run the programs that `file` names unless that is allowed, and lists them.
+/// Fails if `file` names programs and the rules do not allow them; the message lists the programs.
 Result<void> CheckPrograms(const std::string& file, std::span<const PreparedScenario> scenarios,
                            const OutsideRules& rules);
 
-/// The fence for the methods outside of these scenarios, which shall not see the run's `folder` ("" = there is none).
-/// It is looked for only where there are such methods. Under a secret seed, a machine without a fence is refused unless
-/// none is asked for, and so are methods that would be shown a scenario, the folder or the file of the key.
+/// Makes the fence for the programs of these scenarios, which hides the run's `folder` ("" = none). Without programs,
+/// the fence is empty. Fails if a secret seed meets a machine without a fence, unless the rules ask for none, and if a
+/// program would see a scenario with secret worlds, the run's folder or the key's file.
 Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const OutsideRules& rules,
                        const std::filesystem::path& folder, const std::optional<SecretKey>& key);
 
-/// Has no program see the truth that an exported folder or a run holds, if `folder` is one.
+/// Hides the truth that an exported folder or a run holds.
 void HideTruthIn(const std::filesystem::path& folder, Fence& fence);
 
-/// Encodes a fence for a worker's set-up, and decodes it there.
+/// Encodes a fence for the set-up of a worker, and decodes it.
 Json EncodeFence(const Fence& fence);
 Fence DecodeFence(const Json& json);
 

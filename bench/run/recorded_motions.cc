@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The files of a run's recordings that stand for `cell`: its own; of a world without a method, those of all methods.
+/// Returns the recordings of `cell`: one, or those of all methods if `cell` names a world only.
 std::vector<FilePath> RecordingsOf(const fs::path& run, const std::string& cell) {
   if (FilePath own = RecordingFile(run, cell); Exists(own)) return {std::move(own)};
   const std::string world = RecordingFile(run, cell + "/").whole().stem().string();
@@ -33,7 +33,7 @@ std::vector<FilePath> RecordingsOf(const fs::path& run, const std::string& cell)
   return found;
 }
 
-/// A reference to the file of a recording. Links in a run, which may be a stranger's, are refused.
+/// Returns a reference to a recording's file. Links in a run are refused, because a stranger may have made it.
 Result<SplitReference> ReferTo(const FilePath& file, const std::optional<std::string>& animation) {
   RETURN_IF_ERROR(OpenFile(file, O_RDONLY));
   return SplitReference{file.string(), animation};

@@ -5,8 +5,8 @@
 namespace etude {
 
 /// Returns the reader of recordings in result folders, for `OpenOptions::recorded`. In "RUN#CELL@NAME", NAME is a track
-/// of that cell's recording, or another method of the same world; CELL may leave its method out. Links inside a run are
-/// refused: a stranger may have made it.
+/// of that cell's recording, or another method of the same world; CELL may leave out its method. Links inside a run are
+/// refused, because a stranger may have made it.
 const RecordedMotions& MotionsOfRuns();
 
 }  // namespace etude

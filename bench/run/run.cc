@@ -31,7 +31,7 @@ fs::path FolderFor(const RunOptions& options, const SuiteSetup& suite) {
   return fmt::format("out/{}-{}{}", suite.suite, seed, part);
 }
 
-/// Fails unless the folder may be written into as the options want it.
+/// Fails unless the options allow to write into the folder.
 Result<FolderState> CheckFolder(const fs::path& folder, const RunOptions& options) {
   auto state = LookAtFolder(folder);
   if (!state || *state == FolderState::kFree || options.resume || options.overwrite) return state;
@@ -40,8 +40,7 @@ Result<FolderState> CheckFolder(const fs::path& folder, const RunOptions& option
               *state == FolderState::kFinished ? "" : "--resume goes on with it, ");
 }
 
-/// A folder can only be gone on with by the same build, suite, seed and clips; by other libraries if that is asked for,
-/// which the folder then records.
+/// Fails unless the folder's manifest is this one. With `other_libraries`, libraries may differ, which is recorded.
 Result<void> CheckManifest(const fs::path& folder, const std::string& manifest, bool other_libraries) {
   const FilePath path = Inside(folder) / "manifest.json";
   ASSIGN_OR_RETURN(const auto found, ReadWholeFile(path));
@@ -75,7 +74,7 @@ Result<void> CheckHead(const fs::path& folder, const JournalHead& found, const J
   return {};
 }
 
-/// Keeps what finished cells say on the disk, and tells how far the run has come.
+/// Writes finished cells to the journal, and reports the progress.
 class JournalRecorder {
  public:
   JournalRecorder(CellTable& cells, CellTable* answered, Journal journal, const FilePath& file, const Progress& before,
@@ -106,7 +105,7 @@ class JournalRecorder {
     return journal_.IsSyncDue() ? Sync() : Result<void>();
   }
 
-  /// Puts on the disk what is not there yet; only then it counts.
+  /// Synchronises the journal, then reports the cells that are now safe.
   Result<void> Sync() {
     RETURN_IF_ERROR(journal_.Sync());
     progress_ = unsynced_;
@@ -120,14 +119,13 @@ class JournalRecorder {
  private:
   const Clock::time_point start_ = Clock::now();
   CellTable& cells_;
-  CellTable* answered_;  ///< null where nothing is measured by programs
+  CellTable* answered_;  ///< null if no program measures cells
   Journal journal_;
-  std::uint32_t file_, answered_file_;  ///< that the journal is in the tables
-  Progress progress_, unsynced_;        ///< what is on the disk, and what is written
+  std::uint32_t file_, answered_file_;  ///< numbers of the journal in the two tables
+  Progress progress_, unsynced_;        ///< on the disk; written
   const std::function<void(const Progress&)>& on_progress_;
 };
 
-/// The outcome of a folder that needs nothing more.
 Result<RunOutcome> AlreadyWhole(const fs::path& folder) {
   ASSIGN_OR_RETURN(const auto run, LoadRunOutline(folder));
   RunOutcome outcome{.folder = folder};
@@ -142,14 +140,15 @@ Result<RunOutcome> AlreadyWhole(const fs::path& folder) {
   return outcome;
 }
 
-/// A journal that cells can be added to, and what it held before.
+/// An open journal, and the progress at which it was opened.
 struct OpenedJournal {
   Journal journal;
-  Progress before;  ///< `cells` counts those that the folder will hold
+  Progress before;  ///< `cells` is the final number of cells of the folder
   std::vector<int> damaged;
 };
 
-/// Begins the folder of a run, or goes on with what it holds, which is put into `cells` and, unless null, `answered`.
+/// Writes the manifest and begins a journal; with `continues`, reads the cells of the existing journal into `cells`
+/// and, unless null, `answered`, and continues it.
 Result<OpenedJournal> OpenJournal(const fs::path& folder, const std::string& manifest, const JournalHead& head,
                                   bool continues, const RunOptions& options, const Plan& plan, CellTable& cells,
                                   CellTable* answered) {
@@ -176,8 +175,8 @@ Result<OpenedJournal> OpenJournal(const fs::path& folder, const std::string& man
   return OpenedJournal{std::move(journal), before, std::move(damaged)};
 }
 
-/// Writes the results of a whole run; of a shard, which keeps its journal, host.json alone. False when it was
-/// stopped amid that. `was_done`: there was nothing left to run.
+/// Writes the results of a whole run; for a shard, which keeps its journal, only host.json. Returns false if it was
+/// stopped meanwhile. `was_done`: nothing was left to run.
 Result<bool> FinishFolder(const fs::path& folder, const Plan& plan, CellTable& cells, const Json& host, bool was_done,
                           const RunOptions& options) {
   if (options.shard.IsWhole()) {
@@ -195,6 +194,7 @@ Result<bool> FinishFolder(const fs::path& folder, const Plan& plan, CellTable& c
 
 Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const Progress&)>& on_progress) {
   const auto start = Clock::now();
+  // Check all input before anything is written.
   ASSIGN_OR_RETURN(const auto suite, ReadSuiteToRun(options));
   const fs::path folder = FolderFor(options, suite);
   ASSIGN_OR_RETURN(const auto state, CheckFolder(folder, options));
@@ -205,6 +205,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
     RETURN_IF_ERROR(TryMachine(scenarios, fence));
     RETURN_IF_ERROR(CheckMetricVectors(scenarios, fence));
   }
+  // Everything that identifies the run.
   const Plan plan(scenarios);
   ASSIGN_OR_RETURN(const auto described, MakeManifest(suite, scenarios, options.program_version));
   ASSIGN_OR_RETURN(const auto manifest, WriteJson(described));
@@ -217,12 +218,14 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   const bool may_be_used = options.reuse_key;
   const bool is_secret = !suite.seed.IsPlain();
   if (is_secret && !may_be_used && !continues) RETURN_IF_ERROR(CheckUnused(*options.key, use));
+  // Claim the folder. From here on, files are written.
   ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(folder, continues));
   if (continues) {
     RETURN_IF_ERROR(CheckManifest(folder, manifest + "\n", options.other_libraries));
     if (state == FolderState::kFinished) return AlreadyWhole(folder);
     if (is_secret && !may_be_used) RETURN_IF_ERROR(CheckUnused(*options.key, use));
   }
+  // Open the journal, then run what it lacks.
   CellTable cells(plan.cell_count()), answered_cells(HasOutsideMetrics(plan) ? plan.cell_count() : 0);
   CellTable* const answered = answered_cells.size() > 0 ? &answered_cells : nullptr;
   ASSIGN_OR_RETURN(auto opened, OpenJournal(folder, manifest + "\n", head, continues, options, plan, cells, answered));
@@ -244,6 +247,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
                                  if (kept) claimed.Keep();
                                  return kept;
                                });
+  // Report how far the run came.
   RETURN_IF_ERROR(recorder.Sync());
   const Progress& progress = recorder.progress();
   if (!whole) {
@@ -266,6 +270,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
       if (std::ranges::find(outcome.refused, one) == outcome.refused.end()) outcome.refused.push_back(one);
     }
   }
+  // Write the final results.
   if (outcome.stopped) return outcome;
   claimed.Keep();
   Json host = DescribeHost(options.command_line, WorkerCount(options.jobs), outcome.seconds);

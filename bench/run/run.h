@@ -17,80 +17,80 @@
 namespace etude {
 
 struct RunOptions {
-  std::vector<std::string> scenarios;  ///< files, or folders of *.yaml; none with `from`
-  std::string from;                    ///< the manifest.json of a run to be repeated
-  std::optional<std::uint64_t> seed;   ///< else each scenario's own, else 1
-  std::optional<SecretKey> key = {};   ///< of secret worlds, in the place of a seed
-  bool reuse_key = false;              ///< take a key that was used before (used_keys.h)
-  std::optional<int> trials;           ///< else each scenario's own
-  std::vector<std::string> clips;      ///< replaces the scenarios' clips when not empty
-  std::vector<std::string> libraries;  ///< NAME=CLIPS, beside the scenarios' libraries; one name may stand repeatedly
-  std::vector<std::string> streams;  ///< in the place of simulated people or the scenarios' recordings, when not empty
-  std::string labels;                ///< of `streams`, or of `clips`
-  std::string joint_map;             ///< replaces the scenarios' joint maps when not empty
-  std::string clip_facts = {};       ///< further lines of that file, such as "unit: cm\n"
-  bool skip_refused = false;         ///< leave out clips that cannot be read; the manifest names them
-  bool keeps_motions = false;        ///< record every cell
-  std::string output;                ///< "" = out/<suite>-<seed>, and "-<i>-of-<n>" for a shard
-  bool overwrite = false;            ///< replace a folder that already holds a run
-  bool resume = false;               ///< go on with the run that the folder holds
-  bool other_libraries = false;      ///< … even where libraries have changed since; the folder records it
-  Shard shard;                       ///< run this part only
-  int jobs = 0;                      ///< worker processes; 0 = one per processor
+  std::vector<std::string> scenarios;  ///< files, or folders of *.yaml; empty with `from`
+  std::string from;                    ///< manifest.json of the run to be repeated
+  std::optional<std::uint64_t> seed;   ///< instead of each scenario's own seed, or 1
+  std::optional<SecretKey> key = {};   ///< of secret worlds; instead of a seed
+  bool reuse_key = false;              ///< accept a key that was used before (used_keys.h)
+  std::optional<int> trials;           ///< instead of each scenario's own number
+  std::vector<std::string> clips;      ///< instead of the scenarios' clips, if not empty
+  std::vector<std::string> libraries;  ///< NAME=CLIPS, in addition to the scenarios' libraries
+  std::vector<std::string> streams;    ///< instead of simulated people or the scenarios' recordings, if not empty
+  std::string labels;                  ///< labels of `streams`, or of `clips`
+  std::string joint_map;               ///< instead of the scenarios' joint maps, if not empty
+  std::string clip_facts = {};         ///< additional lines of the joint map, such as "unit: cm\n"
+  bool skip_refused = false;           ///< leave out clips that cannot be read; the manifest lists them
+  bool keeps_motions = false;          ///< record every cell
+  std::string output;                  ///< "" = out/<suite>-<seed>, and "-<i>-of-<n>" for a shard
+  bool overwrite = false;              ///< replace a run that the folder holds
+  bool resume = false;                 ///< continue the run that the folder holds
+  bool other_libraries = false;        ///< resume even if libraries have changed; the folder records it
+  Shard shard;                         ///< the part to be run
+  int jobs = 0;                        ///< worker processes; 0 = one per processor
   OutsideRules outside;
-  JournalLag sync;           ///< how far the disk may be behind
+  JournalLag sync;           ///< the maximum amount of results not yet on the disk
   std::string command_line;  ///< for host.json
   std::string program_version;
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// The progress of a run: told before the first cell, and whenever more cells are safe on the disk.
+/// The progress of a run, reported before the first cell and whenever more cells are safe on the disk.
 struct Progress {
-  std::size_t cells = 0;  ///< of this run or shard
+  std::size_t cells = 0;  ///< all cells of this run or shard
   std::size_t cells_done = 0;
   std::size_t cells_ok = 0;
-  std::size_t cells_answered = 0;  ///< others, which have yet to be measured by programs
-  double work_before = 0;          ///< Work() of the run that this one resumes
+  std::size_t cells_answered = 0;  ///< answered, but not yet measured by programs
+  double work_before = 0;          ///< Work() of the interrupted run that this one resumes
   double seconds = 0;
 
-  /// Counts cells that are done; one that has yet to be measured is half of its way.
+  /// Counts the finished cells; an answered cell that is not yet measured counts half.
   double Work() const { return static_cast<double>(cells_done) + 0.5 * static_cast<double>(cells_answered); }
 };
 
 struct RunOutcome {
   std::filesystem::path folder;
-  std::size_t cells = 0;  ///< that have their row
+  std::size_t cells = 0;  ///< with a row
   std::size_t cells_ok = 0;
-  std::size_t cells_answered = 0;  ///< others, which have yet to be measured; when it ended early
+  std::size_t cells_answered = 0;  ///< answered, but not yet measured, because the run ended early
   double seconds = 0;
-  bool stopped = false;                   ///< ended early; the journal holds what was done
-  std::string fence = {};                 ///< what methods outside ran in; "" = there were none
-  std::vector<RefusedClip> refused = {};  ///< left out of all scenarios together, each once
-  std::string why_unlocked = {};          ///< nothing kept other runs out of the folder; "" = a lock did
-  /// Lines of the journal gone on with that were not as they had been written; their cells were run again.
+  bool stopped = false;                   ///< ended early; the journal holds the finished cells
+  std::string fence = {};                 ///< description of the sandbox of outside programs; "" = there were none
+  std::vector<RefusedClip> refused = {};  ///< clips and recordings left out of any scenario, each listed once
+  std::string why_unlocked = {};          ///< why the folder could not be locked against other runs; "" = it was locked
+  /// Numbers of the damaged lines of a resumed journal; their cells were run again.
   std::vector<int> damaged_lines = {};
 };
 
-/// Runs scenarios into a result folder. Everything that can be wrong with the input is found before anything is
-/// written; from then on, every cell that ends is written to journal.jsonl at once and synchronised in groups;
-/// a run that was ended at any moment, by a kill or a power cut, can be resumed to the same bytes. A shard leaves its
-/// journal, for Merge. A run that ends before any cell did leaves no folder that was not there before.
+/// Runs scenarios and writes a result folder. All input is checked before anything is written. Then each finished cell
+/// is written to journal.jsonl at once, and synchronised in groups. A run that was ended at any moment, by a kill or a
+/// power cut, can be resumed to the same bytes. A shard keeps its journal for Merge. If no cell is finished, no new
+/// folder is left.
 Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const Progress&)>& on_progress);
 
 struct MergeOptions {
-  std::vector<std::string> folders;  ///< of the shards 1/n … n/n, in any order
+  std::vector<std::string> folders;  ///< folders of the shards 1/n … n/n, in any order
   std::string output;
   bool overwrite = false;
   std::optional<SecretKey> key = {};  ///< of secret worlds
-  bool other_libraries = false;       ///< shards may have run under different libraries; the merged folder records it
+  bool other_libraries = false;  ///< accept shards that ran under different libraries; the merged folder records it
   std::string command_line;
   std::string program_version;
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Makes one run of its shards: the same bytes as a run in one piece. Shards of different builds, suites or
-/// seeds, shards that overlap, and cells that are missing are refused with a list. Stopped, it leaves nothing. Its
-/// progress is the share of rows that are written, and promises nothing: only its end does.
+/// Merges the shards of a run; the result has the same bytes as a run in one piece. Fails, with a list, if shards have
+/// different builds, suites or seeds, if they overlap, or if cells are missing. If stopped, it leaves nothing.
+/// `on_progress` gets the share of rows that are read and written; only the return means success.
 Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(double share)>& on_progress);
 
 }  // namespace etude

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The name of a part of a result folder, or of one that was being written.
+/// Returns true for the name of a part of a result folder, or of its temporary file.
 bool IsPartOfRun(const fs::path& name) {
   static const std::vector<std::string> parts = {
       "manifest.json", "host.json",  kJournalFile,        kSealFile,   kCellsFile,     kTimingsFile,
@@ -36,7 +36,7 @@ bool IsPartOfRun(const fs::path& name) {
                      [&](const std::string& part) { return name == part || name == TemporaryName(part); });
 }
 
-// Beside the folder, while one takes the other's place; and what is to be deleted.
+// Names in the temporary folder: the old run, the new folder before the exchange, and what is to be deleted.
 constexpr const char *kOldRun = "old", *kNewRun = "new", *kGone = "gone";
 
 bool HoldsMoreThanLock(const fs::path& folder) {
@@ -50,7 +50,7 @@ bool IsWithin(const fs::path& path, const fs::path& folder) {
   return !from.empty() && *from.begin() != "..";
 }
 
-/// Gives the folder `fresh` the name `old`, and what had it the name `aside`, in one step where the file system can.
+/// Renames `fresh` to `old`, and the previous `old` to `aside`, in one step if the file system can.
 bool Exchange(const fs::path& fresh, const fs::path& old, const fs::path& aside) {
   if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, old.c_str(), RENAME_EXCHANGE) == 0) {
     return ::rename(fresh.c_str(), aside.c_str()) == 0;
@@ -61,7 +61,7 @@ bool Exchange(const fs::path& fresh, const fs::path& old, const fs::path& aside)
   return false;
 }
 
-/// A journal without a whole head belongs to a run that was ended while it began.
+/// Returns true if the journal has a complete first line. Otherwise the run was ended while it began.
 Result<bool> HoldsWholeLine(const FilePath& journal) {
   if (!Exists(journal)) return false;
   ASSIGN_OR_RETURN(auto lines, FileLines::Open(journal));
@@ -111,14 +111,14 @@ std::vector<TemporaryFolder> RunFolder::FindLeft() const {
 }
 
 Result<bool> RunFolder::TakeUp() {
-  std::vector<TemporaryFolder> left = FindLeft();  // removed with what they hold unless we take one
+  std::vector<TemporaryFolder> left = FindLeft();  // deleted at the end of this scope, unless one is moved out
   if (left.empty()) return false;
   ASSIGN_OR_RETURN(const auto state, LookAtFolder(path_));
   if (state == FolderState::kFinished) return false;
   for (TemporaryFolder& one : left) {
     std::error_code error;
     const fs::path old = one.path() / kOldRun, exchanged = one.path() / kNewRun;
-    // It was killed between the two steps of `Exchange`.
+    // The process was killed between the two renames of `Exchange`.
     if (!fs::exists(old, error) && HoldsMoreThanLock(exchanged)) fs::rename(exchanged, old, error);
     if (!HoldsMoreThanLock(old)) continue;
     aside_ = std::move(one);
@@ -131,11 +131,11 @@ Result<bool> RunFolder::TakeUp() {
 
 bool RunFolder::Replace() {
   std::error_code error;
-  const fs::path old = fs::canonical(path_, error);  // a link to the folder stays
+  const fs::path old = fs::canonical(path_, error);  // resolved, so that a link to the folder is kept
   if (error || IsWithin(fs::current_path(error), old) || !old.has_relative_path()) return false;
   auto aside = TemporaryFolder::MakeKept(old.parent_path(), old.filename().string());
   if (!aside) return false;
-  // A folder of its own, locked before it gets the name.
+  // Lock the new folder before it gets the name.
   const fs::path fresh = aside->path() / kNewRun;
   fs::create_directory(fresh, old, error);
   RunFolder successor(fresh, false);
@@ -143,7 +143,7 @@ bool RunFolder::Replace() {
   if (!Exchange(fresh, old, aside->path() / kOldRun)) return false;
   std::swap(lock_, successor.lock_);
   why_unlocked_ = successor.why_unlocked_;
-  successor.path_ = aside->path() / kOldRun;  // whose lock goes
+  successor.path_ = aside->path() / kOldRun;  // the destructor removes its lock file
   aside_ = std::move(*aside);
   is_ours_ = true;
   return true;
@@ -153,7 +153,7 @@ Result<void> RunFolder::Empty() {
   std::error_code error;
   fs::remove(path_ / "host.json", error);
   if (error) return CannotWrite(path_.string(), "cannot be emptied", error.value());
-  // Somebody who reads the run may be writing its report.
+  // Try again if a reader writes its report meanwhile.
   constexpr int kMaxTries = 100, kPauseMicroseconds = 10'000;
   for (int tries = 0; tries < kMaxTries; ++tries) {
     error.clear();
@@ -173,16 +173,16 @@ void RunFolder::Keep() {
   if (std::exchange(is_kept_, true)) return;
   is_ours_ = false;
   std::error_code ignored;
-  // Killed while it deletes, it leaves nothing that looks like a run.
+  // After the rename, a kill during the deletion leaves nothing that looks like a run.
   if (aside_) fs::rename(aside_->path() / kOldRun, aside_->path() / kGone, ignored);
   aside_.reset();
-  FindLeft();  // of an overwriting that was killed, whose run was gone on with
+  FindLeft();  // deletes the rest of a killed overwriting whose run was continued
 }
 
 Result<void> RunFolder::Lock() {
   const fs::path file = path_ / kLockFile;
   while (true) {
-    // Opening a pipe would wait for its other end.
+    // O_NONBLOCK, because opening a pipe would wait for its other end.
     lock_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, S_IWUSR);
     struct stat kind {};
     if (lock_ < 0 ? errno == ENXIO : ::fstat(lock_, &kind) == 0 && !S_ISREG(kind.st_mode)) {
@@ -190,7 +190,7 @@ Result<void> RunFolder::Lock() {
       is_ours_ = false;
       return Fail({file.string()}, "is no file");
     }
-    if (lock_ < 0 && (errno == EROFS || errno == EACCES)) return {};  // nobody writes here
+    if (lock_ < 0 && (errno == EROFS || errno == EACCES)) return {};  // nobody can write here, so no lock is needed
     if (lock_ < 0) return CannotWrite(file.string(), "cannot be made", errno);
     if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
       const int reason = errno;
@@ -202,7 +202,7 @@ Result<void> RunFolder::Lock() {
       is_ours_ = false;
       return Fail({path_.string(), 0, 0}, "another run is writing into it; choose another folder with -o");
     }
-    // The run that had it before may have taken it away meanwhile.
+    // The previous owner may have deleted the file before we locked it: try again.
     struct stat locked {
     }, named{};
     if (::fstat(lock_, &locked) == 0 && ::stat(file.c_str(), &named) == 0 && locked.st_ino == named.st_ino) return {};
@@ -230,6 +230,7 @@ RunFolder::~RunFolder() {
 Result<bool> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cells, const Json& host, int jobs,
                        const std::function<bool(std::size_t rows)>& goes_on) {
   constexpr std::size_t kRowsBetweenReports = 4096;
+  // Write every row, and summarise each scenario.
   std::vector<Study> studies;
   for (const PreparedScenario& prepared : plan.scenarios()) studies.push_back(StudyOf(prepared.scenario()));
   ASSIGN_OR_RETURN(auto results, ResultWriter::Begin(folder, studies));
@@ -252,7 +253,7 @@ Result<bool> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cell
   if (!goes_on(cell)) return false;
   RETURN_IF_ERROR(results.Finish(summaries));
   RETURN_IF_ERROR(SaveJson(Inside(folder) / "host.json", host, OnDisk::kLater));
-  // The journal is the only other place that knows the results: it goes when all of them are on the disk.
+  // The journal is the only other copy of the results: remove it once all of them are on the disk.
   RETURN_IF_ERROR(SealRun(folder));
   RETURN_IF_ERROR(SyncTree(folder));
   RETURN_IF_ERROR(SyncPathTo(folder));

@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kAllowed = "64 hexadecimal digits, or 32 bytes as they are";
 
-/// The first digits of a digest, which tell keys apart.
+/// Returns the first digits of a digest, which suffice to tell keys apart.
 std::string Short(const Seed& seed) { return seed.Digest().substr(0, 16) + "…"; }
 
 Result<Words256> ParseKey(std::string_view bytes) {
@@ -42,7 +42,7 @@ Result<std::optional<SecretKey>> FindSecretKey(const std::string& file) {
   char* text = std::getenv(kKeyVariable);
   if (text == nullptr) return std::nullopt;
   const auto words = ParseWords256(text);
-  std::memset(text, '0', std::strlen(text));  // what others could read of our environment
+  std::memset(text, '0', std::strlen(text));  // other processes could read it in our environment
   ::unsetenv(kKeyVariable);
   if (!words) return Fail({kKeyVariable}, "holds no key; allowed: 64 hexadecimal digits");
   return SecretKey{*words, ""};

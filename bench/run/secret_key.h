@@ -8,21 +8,21 @@
 
 namespace etude {
 
-/// The key of secret worlds, and the file that it was read from: "" = the environment.
+/// The key of secret worlds, and the file that it was read from; "" = the environment.
 struct SecretKey {
   Words256 words{};
   std::filesystem::path file;
 };
 
-/// Reads `file`, 64 hexadecimal digits or 32 bytes as they are; without one the variable ETUDE_SEED_KEY, which is
-/// blotted out then. Nothing where there is neither. No complaint shows what was found.
+/// Reads the key from `file`, as 64 hexadecimal digits or 32 raw bytes; if `file` is "", from the environment variable
+/// ETUDE_SEED_KEY, whose value is then erased. Nothing if there is neither. Error messages never show the content.
 Result<std::optional<SecretKey>> FindSecretKey(const std::string& file);
 
-/// Refuses secret worlds of another version than this program makes.
+/// Fails if secret worlds have another version than this program makes.
 Result<void> CheckSecretWorlds(int version, const Place& place);
 
-/// Opens the seeds of a suite that was read from `place`. A secret one needs its own key; other keys are refused by
-/// their digests, and so is the key of a file where the seeds are plain.
+/// Sets the key of a suite's secret seeds; `place` is where the suite was read from. Fails if the key is missing, if it
+/// has another digest, or if a key file is given for plain seeds.
 Result<void> OpenSeeds(const std::optional<SecretKey>& key, const Place& place, SuiteSetup& suite);
 
 }  // namespace etude

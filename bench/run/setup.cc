@@ -19,7 +19,7 @@
 namespace etude {
 namespace {
 
-/// The texts of the files that a condition names, by key.
+/// Returns the texts of the files that a condition names, by key.
 Result<std::map<std::string, std::string>> NamedTextsOf(const Condition& condition, const TaskKind& kind,
                                                         const SourceTexts& texts) {
   std::map<std::string, std::string> named_texts;
@@ -31,8 +31,8 @@ Result<std::map<std::string, std::string>> NamedTextsOf(const Condition& conditi
   return named_texts;
 }
 
-/// One task per condition. The task reads its own keys from the condition's mapping; what neither it nor
-/// the scenario knows is refused here.
+/// Makes one task per condition. The task reads its own keys from the condition's mapping; a key that neither the task
+/// nor the scenario knows is an error.
 Result<std::vector<std::unique_ptr<Task>>> MakeTasks(
     const Scenario& scenario, const std::function<const ClipLibrary&(const Condition&)>& clips_of,
     const SourceTexts& texts, const LabelledStreams* recordings) {
@@ -54,7 +54,7 @@ Result<std::vector<std::unique_ptr<Task>>> MakeTasks(
   return tasks;
 }
 
-/// The units that a world of these clips was drawn from, each once and in order; nothing where every world is its own.
+/// Returns the units of a world of these clips, each once, sorted; empty if every world is a unit of its own.
 std::vector<std::string> UnitsOf(const std::vector<std::string>& clips, SamplingUnit unit, const ClipLibrary& library) {
   if (WorldsAreUnits(unit)) return {};
   if (unit == SamplingUnit::kLibrary) {
@@ -63,7 +63,7 @@ std::vector<std::string> UnitsOf(const std::vector<std::string>& clips, Sampling
       const bool is_shown = std::find(clips.begin(), clips.end(), clip.name) != clips.end();
       if (is_shown || clips.empty()) collections.insert(CollectionOf(clip));
     }
-    // A world of all clips is made of all collections at once.
+    // A world of all clips is one unit of all collections.
     if (clips.empty()) return {fmt::format("{}", fmt::join(collections, " + "))};
     return {collections.begin(), collections.end()};
   }
@@ -72,8 +72,8 @@ std::vector<std::string> UnitsOf(const std::vector<std::string>& clips, Sampling
   return {names.begin(), names.end()};
 }
 
-/// Names the dice of every condition: those of secret worlds by what is swept, so that another value changes no other
-/// condition's. The length keeps a label from reading as the beginning of a longer one.
+/// Returns the dice name of every condition. In secret worlds it contains the swept values, so that adding a value
+/// changes no other condition's dice; the length keeps one label from being read as the start of another.
 std::vector<std::string> NameDice(const Scenario& scenario, const Seed& seed) {
   std::vector<std::string> names;
   for (const Condition& condition : scenario.conditions) {
@@ -114,6 +114,7 @@ Json EncodeSetup(const SuiteSetup& setup) {
       scenarios.back()["libraries"].push_back({{"name", library.name}, {"clips", library.clips}});
     }
   }
+  // The texts, and what only some suites have.
   Json sources = Json::object();
   for (const auto& [file, text] : setup.sources) sources[file] = text;
   Json json{{"suite", setup.suite},
@@ -142,6 +143,7 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
     ASSIGN_OR_RETURN(setup.seed, DecodeSeed(json.at("seed"), place));
     for (const auto& [file, text] : json.at("sources").items()) setup.sources[file] = text.get<std::string>();
     if (json.at("scenarios").empty()) return Fail(place, "names no scenario");
+    // Each scenario; all seeds are plain, or all are the same secret one.
     for (const Json& scenario : json.at("scenarios")) {
       ASSIGN_OR_RETURN(const int trials, TrialsOf(scenario, place));
       ASSIGN_OR_RETURN(const Seed seed, DecodeSeed(scenario.at("seed"), place));
@@ -161,6 +163,7 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
             {library.at("name").get<std::string>(), library.at("clips").get<std::vector<std::string>>()});
       }
     }
+    // What only some suites have.
     setup.secret_worlds = json.value("secret_worlds", 1);
     if (json.contains("scored")) {
       const Json& scored = json.at("scored");
@@ -185,7 +188,7 @@ Result<OpenOptions> OpenOptionsOf(const ScenarioSetup& setup, const SourceTexts&
   return how;
 }
 
-/// Null where worlds are not made of recordings. `refused` gets the files that are left out.
+/// Returns null if worlds are not made of recordings. `refused`, unless null, gets the files that are left out.
 Result<std::unique_ptr<LabelledStreams>> LoadRecordings(const ScenarioSetup& setup, const StreamSource& source,
                                                         const ClipLibrary& clips, const SourceTexts& texts,
                                                         std::vector<RefusedClip>* refused = nullptr) {
@@ -204,7 +207,7 @@ Result<std::unique_ptr<LabelledStreams>> LoadRecordings(const ScenarioSetup& set
     if (refused != nullptr) {
       for (const Error& error : loaded.refused) refused->push_back({error.place.file, ToString(error)});
     }
-    // What is read as a stream is what a sensor saw, whatever its format: no simulated one sees it once more.
+    // A stream is sensor data, whatever its format: remove the motion, so that no simulated sensor sees it again.
     for (NamedStream& stream : streams) stream.motion.reset();
   }
   if (streams.empty()) return Fail({setup.file, 0, 0}, "labels need 'streams' or 'clips' that they are of");

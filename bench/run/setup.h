@@ -15,84 +15,81 @@
 
 namespace etude {
 
-/// The most cells of one run: the places of their rows are held in memory.
+/// The maximum number of cells of one run, because 16 bytes per cell are held in memory.
 inline constexpr std::size_t kMaxCells = 10'000'000;
 
 /// A clip or a recording that a run leaves out because it cannot be read or understood.
 struct RefusedClip {
-  std::string clip;  ///< a reference
+  std::string clip;
   std::string why;
   friend bool operator==(const RefusedClip&, const RefusedClip&) = default;
 };
 
-/// The inputs of a scenario's worlds beside the texts that it stands in: enough to make them again anywhere.
+/// The inputs of a scenario's worlds. With SuiteSetup::sources, the worlds can be made again anywhere.
 struct ScenarioSetup {
   std::string file;  ///< a key of SuiteSetup::sources
   std::string name;  ///< a file may hold several scenarios
   Seed seed = 1;
   int trials = 1;
-  std::vector<std::string> clips;          ///< references; the scenario's own, or those of --clips
-  std::string joint_map;                   ///< a key of SuiteSetup::sources, "" = none
-  std::string digest;                      ///< of the texts that the scenario stands in
-  std::vector<NamedClips> libraries = {};  ///< the scenario's own, and those of --library
-  std::vector<std::string> streams = {};   ///< recordings; the scenario's own, or those of --streams
+  std::vector<std::string> clips;          ///< references: the scenario's own, or those of --clips
+  std::string joint_map;                   ///< a key of SuiteSetup::sources; "" = none
+  std::string digest;                      ///< digest of the scenario's texts
+  std::vector<NamedClips> libraries = {};  ///< the scenario's own and those of --library
+  std::vector<std::string> streams = {};   ///< recordings: the scenario's own, or those of --streams
   std::vector<std::string> labels = {};    ///< keys of SuiteSetup::sources
-  std::vector<RefusedClip> refused = {};   ///< what `clips`, `libraries` and `streams` were to name as well
-  bool keeps_motions = false;              ///< of every cell (--keep motions), not of those alone that `video` names
+  std::vector<RefusedClip> refused = {};   ///< left out of `clips`, `libraries` and `streams`
+  bool keeps_motions = false;              ///< record every cell (--keep motions), not only those that `video` names
 };
 
-/// A method whose answers are known already (etude score).
+/// A method whose answers are scored instead of being asked for (etude score).
 struct ScoredMethod {
   std::string name;
-  bool alone = false;  ///< in the place of the scenarios' own methods, not beside them
+  bool alone = false;  ///< true: instead of the scenarios' own methods; false: in addition to them
 };
 
-/// The version of what secret worlds are made of. Version 2 disguises clips (bench/tasks/base/disguise.h); version 3
-/// throws dice of its own for every condition.
+/// The version of how secret worlds are made. Version 2 disguises clips (bench/tasks/base/disguise.h); version 3 has
+/// separate dice for every condition.
 inline constexpr int kSecretWorldsVersion = 3;
 
-/// The set-up of a suite, which the manifest keeps and every worker is started with.
+/// The set-up of a suite. The manifest stores it, and every worker receives it.
 struct SuiteSetup {
   std::string suite;
   Seed seed = 1;
   SourceTexts sources;
   std::vector<ScenarioSetup> scenarios;
-  std::optional<ScoredMethod> scored;        ///< a method of every scenario, too
-  int secret_worlds = kSecretWorldsVersion;  ///< of a secret seed
-  /// The manifest's names of `sources` that are known by other names here (CanonicalNames); people are shown names as
-  /// they were given.
+  std::optional<ScoredMethod> scored;        ///< an additional method of every scenario
+  int secret_worlds = kSecretWorldsVersion;  ///< version; relevant only for a secret seed
+  /// The names that the manifest uses for `sources`, by their names here, if these differ (CanonicalNames). Messages
+  /// show the names as they were given.
   std::map<std::string, std::string> canonical = {};
-  /// The scenarios of those files of `sources` that were parsed already, as they stand there.
+  /// Scenarios parsed already, by file of `sources`.
   std::map<std::string, std::vector<Scenario>> parsed = {};
 };
 
-/// Encodes a set-up; of secret seeds the digest alone.
+/// Encodes a set-up. A secret seed is written as its digest only.
 Json EncodeSetup(const SuiteSetup& setup);
-/// Complains of what is no set-up, names no scenario, or asks for no trials or too many.
+/// Fails if the JSON is not a set-up, names no scenario, or asks for no or too many trials.
 Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place);
 
-/// A scenario with its clips loaded and its tasks made: ready to run any of its worlds.
+/// A scenario with its clips loaded and its tasks made, so that any of its worlds can be run.
 class PreparedScenario {
  public:
   const ScenarioSetup& setup() const { return setup_; }
   const Scenario& scenario() const { return scenario_; }
-  /// The clips, those of all libraries where there are any.
+  /// Returns the clips; if there are libraries, the clips of all of them.
   const ClipLibrary& clips() const { return *clips_; }
-  /// Returns the clip libraries by name, where there are any.
   const std::map<std::string, ClipLibrary>& libraries() const { return libraries_; }
-  /// The recordings of people that its worlds are made of; null where they are not.
+  /// Returns the recordings of people that its worlds are made of; null if they are not made of recordings.
   const LabelledStreams* recordings() const { return recordings_.get(); }
   const Task& task(int condition) const { return *tasks_[condition]; }
 
-  /// The key of the dice of a trial under a condition. Conditions of open worlds share it; secret worlds have one for
-  /// every condition, since two worlds of the same dice and of different noise tell their truth together.
+  /// Returns the key of the dice of a trial under a condition. Conditions of open worlds share it. Secret worlds have
+  /// one per condition, because two worlds with the same dice and different noise would together reveal the truth.
   WorldKey KeyOf(int condition, int trial) const { return {setup_.seed, dice_names_[condition], trial}; }
-  /// A cell's row before anything is known about its result.
+  /// Returns a cell's row without a result.
   Row IdentityOf(int condition, int trial, std::size_t method) const;
-  /// The row of a cell that ended without measurements.
   Row EndedRow(int condition, int trial, std::size_t method, Status status, const std::string& reason) const;
-  /// Names every metric of the task that `row` does not report: with the value that failing has, else as
-  /// missing for the row's reason.
+  /// Adds the metrics that `row` lacks: with the task's value for a failure, else as missing for the row's reason.
   void CompleteMetrics(int condition, Row& row) const;
 
  private:
@@ -108,22 +105,22 @@ class PreparedScenario {
   std::map<std::string, ClipLibrary> libraries_;  ///< by name
   std::unique_ptr<LabelledStreams> recordings_;
   std::vector<std::unique_ptr<Task>> tasks_;  ///< one per condition
-  std::vector<std::string> dice_names_;       ///< by condition: WorldKey::scenario
+  std::vector<std::string> dice_names_;       ///< one per condition: WorldKey::scenario
 };
 
-/// True if a task of another kind sees by the cameras of the capture task.
+/// Returns true if the cameras of task `capture` are the sensor of a task of another kind.
 bool IsFilmed(const Scenario& scenario);
 
-/// The number of people that a scenario's recordings show; nothing where its worlds are not made of them. `texts` hold
-/// its labels. Files of its folders and patterns that cannot be read are added to `setup.refused`.
+/// Counts the people in a scenario's recordings; nothing if its worlds are not made of recordings. `texts` hold its
+/// labels. Files of its folders and patterns that cannot be read are added to `setup.refused`.
 Result<std::optional<int>> CountRecordedPeople(ScenarioSetup& setup, const StreamSource& source,
                                                const SourceTexts& texts);
 
-/// Finds the scenarios of a suite, which must outlive it; each file is parsed once.
+/// Finds the scenarios of a suite, which must outlive this object. Each file is parsed once.
 class ParsedSuite {
  public:
   explicit ParsedSuite(const SuiteSetup& suite) : suite_(suite) {}
-  /// The scenario of `setup`, with its trials and libraries. Fails where the suite's texts do not hold it.
+  /// Returns the scenario of `setup`, with its trials and libraries. Fails if the suite's texts do not hold it.
   Result<Scenario> Find(const ScenarioSetup& setup);
 
  private:
@@ -131,14 +128,13 @@ class ParsedSuite {
   std::map<std::string, std::vector<Scenario>> parsed_;  ///< by file
 };
 
-/// Loads the clips of a scenario (ParsedSuite::Find) and makes its tasks; every complaint about its methods' keys or
-/// its clips comes from here.
+/// Loads the clips of a scenario (ParsedSuite::Find) and makes its tasks. Fails at an invalid clip or key of a method.
 Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& setup, Scenario scenario);
-/// Prepares all scenarios of a suite. Refuses more than kMaxCells cells.
+/// Prepares all scenarios of a suite. Fails if there are more than kMaxCells cells.
 Result<std::vector<PreparedScenario>> PrepareAll(const SuiteSetup& suite);
 
-/// Puts the method behind those of the file, compared with the first, or in their place, with nothing expected. Fails
-/// when its name is taken or no name.
+/// Adds the method after those of the file, compared with the first of them, or replaces them and drops the
+/// expectations. Fails if its name is in use or is not a plain name.
 Result<void> AddScoredMethod(const ScoredMethod& method, Scenario& scenario);
 
 }  // namespace etude

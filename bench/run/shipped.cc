@@ -19,7 +19,7 @@ bool HoldsSuites(const fs::path& folder) {
   return fs::is_directory(folder / kScenarioFolder / kSuites[0], none);
 }
 
-/// The *.yaml of a folder, sorted.
+/// Returns the *.yaml of a folder, sorted.
 std::vector<fs::path> ScenarioFilesIn(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;

@@ -8,28 +8,27 @@
 
 namespace etude {
 
-/// The folder of what comes with the program, scenarios and examples among it: `share/etude` beside the `bin` of an
-/// installation, else the top of the source tree that the program was built in. Empty where neither is there.
+/// Returns the folder of what comes with the program: `share/etude` beside the `bin` of an installation, else the root
+/// of the source tree that holds the program; empty if there is neither.
 std::filesystem::path ShippedFolder();
 
-/// The names of all shipped scenario files, sorted: "full/ik_weights", "quick/ik".
+/// Returns the names of all shipped scenario files, sorted: "full/ik_weights", "quick/ik".
 std::vector<std::string> ShippedScenarios();
 
-/// The shipped file or folder of a name such as "full/ik_weights" or "quick"; empty where there is none.
+/// Returns the shipped file or folder for a name such as "full/ik_weights" or "quick"; empty if there is none.
 std::filesystem::path FindShipped(const std::string& name);
 
-/// Says that nothing stands at a path and nothing is shipped under that name, with the nearest name that is.
+/// Returns the error that neither a path nor a shipped name exists, with the nearest shipped name.
 tl::unexpected<Error> NotShipped(const std::string& path);
 
-/// The scenario file, or the folder of them, that a path or a name means: what is here, else what is shipped. A folder
-/// without a scenario does not stand in the way of what is shipped under its name. Empty where neither is there.
+/// Returns the scenario file, or the folder of scenario files, for a path or shipped name. A local file or folder wins,
+/// except a folder without scenarios. Empty if nothing is found.
 std::filesystem::path FindScenario(const std::string& path);
 
-/// Says of those of `paths` that are here and are shipped under the same name, too, which of the two is meant.
+/// Returns a note for each of `paths` that exists both locally and under a shipped name: which of the two is used.
 std::vector<Error> WhichIsMeant(const std::vector<std::string>& paths);
 
-/// Copies a shipped scenario or suite into `folder`; gives the files written. Fails when the name is not shipped or a
-/// file is there already.
+/// Copies a shipped scenario or suite into `folder`; returns the files. Fails if `name` is unknown or a file exists.
 Result<std::vector<std::filesystem::path>> CopyShipped(const std::string& name, const std::filesystem::path& folder);
 
 }  // namespace etude

@@ -26,7 +26,7 @@ fs::path TopOf(const fs::path& folder) {
   for (fs::path above = folder; above != above.parent_path(); above = above.parent_path()) {
     if (std::error_code none; fs::exists(above / ".git", none)) return above;
   }
-  // What is shipped has the names that it has in its repository, wherever it is installed.
+  // A shipped file keeps its name in the repository, wherever it is installed.
   const fs::path shipped = ShippedFolder();
   const fs::path inside = folder.lexically_relative(shipped);
   return shipped.empty() || inside.empty() || *inside.begin() == ".." ? fs::path() : shipped;
@@ -43,7 +43,7 @@ std::string SuiteName(const std::vector<std::string>& paths) {
   return name.empty() || name == "." ? "suite" : name;
 }
 
-/// Keeps the text of a file that a scenario names among the sources, so that the manifest alone repeats the run.
+/// Adds the text of a file that a scenario names to `texts`, so that the manifest alone suffices to repeat the run.
 Result<void> KeepText(const std::string& file, SourceTexts& texts) {
   if (file.empty() || texts.contains(file)) return {};
   ASSIGN_OR_RETURN(auto text, ReadWholeFile(file));
@@ -51,8 +51,7 @@ Result<void> KeepText(const std::string& file, SourceTexts& texts) {
   return {};
 }
 
-/// Keeps the texts of the files that a scenario's conditions name among the sources. A file that is no text is refused
-/// when the tasks are made.
+/// Adds the texts of the files that a scenario's conditions name; their content is checked later, by the tasks.
 Result<void> KeepNamedFiles(const Scenario& scenario, SourceTexts& texts) {
   for (const Condition& condition : scenario.conditions) {
     for (const NamedFile& file : FilesNamedBy(condition, *FindTaskKind(scenario.task))) {
@@ -64,7 +63,7 @@ Result<void> KeepNamedFiles(const Scenario& scenario, SourceTexts& texts) {
   return {};
 }
 
-/// Keeps the text of a joint map, with further lines; gives the name that it is kept under.
+/// Adds the text of a joint map with the additional lines `more`; returns its name in `texts`.
 Result<std::string> KeepJointMap(const std::string& file, const std::string& more, SourceTexts& texts) {
   RETURN_IF_ERROR(KeepText(file, texts));
   if (more.empty()) return file;
@@ -74,7 +73,7 @@ Result<std::string> KeepJointMap(const std::string& file, const std::string& mor
   return name;
 }
 
-/// Keeps those of `references` that give clips, each of its own, and notes the others.
+/// Returns those clips of `references` that can be understood; adds the others to `refused`.
 Result<std::vector<std::string>> OnlyUnderstood(const std::vector<std::string>& references, const OpenOptions& how,
                                                 const Place& place, std::vector<RefusedClip>& refused) {
   std::vector<std::string> understood;
@@ -116,7 +115,7 @@ Result<void> LeaveOutRefused(ScenarioSetup& setup, const SourceTexts& texts) {
   return {};
 }
 
-/// The files of labels, by which `texts` keeps them.
+/// Adds the texts of label files; returns their names.
 Result<std::vector<std::string>> KeepLabels(const std::string& path, SourceTexts& texts) {
   if (path.empty()) return std::vector<std::string>{};
   ASSIGN_OR_RETURN(auto files, LabelFiles(path));
@@ -124,7 +123,7 @@ Result<std::vector<std::string>> KeepLabels(const std::string& path, SourceTexts
   return files;
 }
 
-/// Refuses options with a file or a folder that has no use for them; one that has may also hold scenarios without.
+/// Fails if one of `paths` has no scenario that can use an option. A folder may also hold scenarios that cannot.
 Result<void> CheckThatUsed(const std::vector<std::string>& paths, const std::set<std::string>& with_use,
                            std::string_view why) {
   for (const std::string& path : paths) {
@@ -135,7 +134,7 @@ Result<void> CheckThatUsed(const std::vector<std::string>& paths, const std::set
   return {};
 }
 
-/// Reads "NAME=CLIPS" each; those of one name are put together.
+/// Parses options "NAME=CLIPS"; clips of the same name are combined.
 Result<std::vector<NamedClips>> ReadLibraryOptions(const std::vector<std::string>& options) {
   std::vector<NamedClips> libraries;
   for (const std::string& option : options) {
@@ -151,22 +150,21 @@ Result<std::vector<NamedClips>> ReadLibraryOptions(const std::vector<std::string
   return libraries;
 }
 
-/// The scenario files with a scenario that has a use for clips, and for recordings.
+/// The files with a scenario that can use clips, or recordings.
 struct UsersOfFiles {
   std::set<std::string> clips, recordings;
 };
 
-/// The seed that options ask for, in the place of the scenarios'.
 std::optional<Seed> SeedOf(const RunOptions& options) {
   if (options.key) return Seed::Secret(options.key->words);
   return options.seed ? std::optional<Seed>(*options.seed) : std::nullopt;
 }
 
-/// A scenario of `file` with what the options put in the place of its own. The texts of what it names are kept among
-/// `sources`; what it has a use for is noted in `users`.
+/// Applies the options to a scenario. Adds the texts that it names to `sources`, and its file to `users`.
 Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const std::string& digest, int trials,
                             const RunOptions& options, SourceTexts& sources, UsersOfFiles& users) {
   const bool uses_clips = FindTaskKind(scenario.task)->uses_clips;
+  // Which options apply; refuse those that contradict the scenario.
   if (uses_clips) users.clips.insert(file);
   const bool replaced = !options.clips.empty() && uses_clips;
   if (replaced && !scenario.libraries.empty()) {
@@ -182,14 +180,15 @@ Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const s
   }
   if (uses_recordings) users.recordings.insert(file);
   if (is_recorded) scenario.streams.files = options.streams;
-  // Labels of other recordings are of no use.
+  // New recordings need new labels.
   if (is_recorded || (uses_recordings && !options.labels.empty())) scenario.streams.labels = options.labels;
-  // Clips of no library are not loaded where there are libraries, and none where there are recordings.
+  // With libraries or recordings, the scenario's own clips are not used.
   std::vector<std::string> clips = replaced ? options.clips : scenario.clips;
   if (!scenario.libraries.empty() || !scenario.streams.files.empty()) clips.clear();
   ASSIGN_OR_RETURN(
       const auto joint_map,
       KeepJointMap(options.joint_map.empty() ? scenario.joint_map : options.joint_map, options.clip_facts, sources));
+  // Keep the texts, and look at the clips and recordings.
   RETURN_IF_ERROR(KeepNamedFiles(scenario, sources));
   ScenarioSetup setup{file,   scenario.name,      SeedOf(options).value_or(scenario.seed.value_or(1)),
                       trials, std::move(clips),   joint_map,
@@ -198,7 +197,7 @@ Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const s
   if (options.skip_refused) RETURN_IF_ERROR(LeaveOutRefused(setup, sources));
   ASSIGN_OR_RETURN(setup.labels, KeepLabels(scenario.streams.labels, sources));
   ASSIGN_OR_RETURN(const auto people, CountRecordedPeople(setup, scenario.streams, sources));
-  if (people) setup.trials = std::min(trials, *people);  // a person is judged once
+  if (people) setup.trials = std::min(trials, *people);  // each person is one trial
   return setup;
 }
 
@@ -212,7 +211,7 @@ std::map<std::string, std::string> CanonicalNames(const std::string& scenario_fi
   const fs::path top = TopOf(folder);
   std::map<std::string, std::string> names;
   for (const std::string& source : sources) {
-    // As an include says it: from the scenario's folder, whatever links lead there.
+    // The path as an include would give it: relative to the scenario's folder, links not resolved.
     const fs::path from_folder = fs::absolute(source, error).lexically_normal().lexically_relative(given);
     const fs::path path = (folder / from_folder).lexically_normal();
     names[source] = (top.empty() ? path : path.lexically_relative(top)).generic_string();
@@ -236,7 +235,7 @@ Result<std::vector<std::string>> FindScenarioFiles(const std::vector<std::string
       std::sort(inside.begin(), inside.end());
       files.insert(files.end(), inside.begin(), inside.end());
     } else {
-      files.push_back(path);  // reading it tells what else is wrong with it
+      files.push_back(path);  // any error is reported when it is read
     }
   }
   return files;
@@ -252,6 +251,7 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
   UsersOfFiles users;
   std::size_t cells = 0;
   for (const std::string& file : files) {
+    // The file with its includes, and their digest in the order of their canonical names.
     SourceTexts texts;
     ASSIGN_OR_RETURN(auto scenarios, ReadScenarios(file, texts));
     suite.parsed[file] = scenarios;
@@ -262,6 +262,7 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
     for (const auto& [name, text] : texts) texts_in_order[canonical.at(name)] = text;
     Digest digest;
     for (const auto& [name, text] : texts_in_order) digest.Add(text);
+    // Each scenario with the options applied. Names are unique, and the number of cells is limited.
     for (Scenario& scenario : scenarios) {
       const bool uses_clips = FindTaskKind(scenario.task)->uses_clips;
       for (const NamedClips& library : libraries) {
@@ -286,6 +287,7 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
     suite.canonical.insert(canonical.begin(), canonical.end());
     suite.sources.merge(texts);
   }
+  // Refuse options that no scenario can use.
   if (!options.clips.empty() || !options.libraries.empty()) {
     RETURN_IF_ERROR(CheckThatUsed(options.scenarios, users.clips,
                                   "--clips or --library: no task of its scenarios makes its worlds of clips"));

@@ -9,26 +9,25 @@
 
 namespace etude {
 
-/// The manifest's names of scenario files and those that they include, by the names in `sources`: the path from the top
-/// of the repository that holds the scenario (the nearest folder above it with `.git`) or of ShippedFolder, absolute
-/// where neither holds it.
-/// These names are the same wherever a run was started from, and in every checkout. Names stay such that includes find
-/// each other.
+/// Returns the names that the manifest uses for a scenario file and its included files, by the names in `sources`. A
+/// name is the path from the root of the repository (the nearest folder above the scenario with `.git`) or from
+/// ShippedFolder; absolute if neither holds the scenario. These names are the same in every checkout and working
+/// folder, and includes still find each other.
 std::map<std::string, std::string> CanonicalNames(const std::string& scenario_file,
                                                   const std::vector<std::string>& sources);
 
-/// The scenario files behind paths: a file is itself, a folder its *.yaml, sorted by name; what is neither may be the
-/// name of a suite or a scenario that is shipped ("quick", "full/ik_weights").
+/// Returns the scenario files of `paths`: a file itself, the *.yaml of a folder, sorted, or the files of a shipped
+/// suite or scenario ("quick", "full/ik_weights").
 Result<std::vector<std::string>> FindScenarioFiles(const std::vector<std::string>& paths);
 
-/// Reads the scenarios that `options` names, with its seed, trials and clips put in place of theirs.
-/// Refuses two scenarios of one name, and more cells than can be held in memory.
+/// Reads the scenarios that `options` names, with its seed, trials and clips instead of theirs. Fails if two scenarios
+/// have one name, or if there are more than kMaxCells cells.
 Result<SuiteSetup> ReadSuite(const RunOptions& options);
 
-/// The suite to be run: of scenarios, or of the manifest that `options.from` names. Refuses one of scored answers.
+/// Reads the suite from scenario files, or from the manifest `options.from`, which must not be of scored answers.
 Result<SuiteSetup> ReadSuiteToRun(const RunOptions& options);
 
-/// PrepareAll; refuses clips that have changed since a manifest was written.
+/// Calls PrepareAll. With `options.from`, fails if clips have changed since, or if programs are not allowed.
 Result<std::vector<PreparedScenario>> PrepareToRun(const SuiteSetup& suite, const RunOptions& options);
 
 }  // namespace etude

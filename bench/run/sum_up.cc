@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint64_t kComplaint = ~std::uint64_t{0};
 
-/// A copy at work, and what of its answers has come: number, length, text; number, length, text; …
+/// A forked copy, and the part of its output that is not yet parsed: number, length, text; number, length, text; …
 struct Copy {
   ForkedCopy process;
   std::string said = {};
@@ -41,7 +41,7 @@ int Work(std::size_t first, std::size_t count, std::size_t step, int output,
   return 0;
 }
 
-/// Takes whole answers from what a copy has said, and counts them.
+/// Moves complete answers from a copy's output to `answers`, and counts them.
 Result<void> Take(Copy& copy, std::vector<std::string>& answers, std::size_t& taken) {
   std::size_t at = 0;
   std::array<std::uint64_t, 2> head{};
@@ -58,12 +58,12 @@ Result<void> Take(Copy& copy, std::vector<std::string>& answers, std::size_t& ta
   return {};
 }
 
-/// The copies at work.
 class Copies {
  public:
   Result<void> Start(std::size_t count, std::size_t jobs, const std::function<Result<std::string>(std::size_t)>& work) {
     for (std::size_t first = 0; first < jobs; ++first) {
-      ASSIGN_OR_RETURN(auto copy, ForkedCopy::Start([&](int output) { return Work(first, count, jobs, output, work); }));
+      ASSIGN_OR_RETURN(auto copy,
+                       ForkedCopy::Start([&](int output) { return Work(first, count, jobs, output, work); }));
       copies_.push_back({std::move(copy)});
     }
     return {};
@@ -99,8 +99,8 @@ class Copies {
   std::vector<Copy> copies_;
 };
 
-/// The findings of a condition as the summaries of two: the questions without failures, and with them. A question that
-/// has no answer with failures has one of no pairs there, which no other has.
+/// Encodes the findings of a condition as two summaries: the questions without failures, and with them. A question that
+/// has no answer with failures gets a comparison of zero pairs, which no real question has.
 Result<std::string> EncodeFindings(const ConditionFindings& findings) {
   ScenarioSummary both;
   ConditionSummary& without = both.conditions.emplace_back(findings.summary);
@@ -151,10 +151,10 @@ Result<std::vector<std::string>> RunForked(std::size_t count, int jobs,
 }
 
 Result<ScenarioSummary> SumUp(const Study& study, const ScenarioTable& table, std::uint64_t seed, int jobs) {
-  constexpr std::size_t kWorthSharing = 20'000;  // rows; fewer are summed up before copies would be made
+  constexpr std::size_t kMinRowsToShare = 20'000;  // with fewer rows, forking takes longer than summarising
   const auto conditions = table.conditions();
   const std::size_t rows = conditions.size() * static_cast<std::size_t>(study.trials) * study.methods.size();
-  if (rows < kWorthSharing || conditions.size() == 1 || jobs == 1) return Summarise(study, table, seed);
+  if (rows < kMinRowsToShare || conditions.size() == 1 || jobs == 1) return Summarise(study, table, seed);
   ASSIGN_OR_RETURN(const auto texts, RunForked(conditions.size(), jobs, [&](std::size_t condition) {
                      return EncodeFindings(MeasureCondition(study, conditions[condition], seed));
                    }));

@@ -25,41 +25,40 @@
 namespace etude {
 namespace {
 
-constexpr int kPollMilliseconds = 20;      // how stale a look at memory or at the clock may be
-constexpr double kAheadS = 0.05;           // of work that is handed out at once, by what worlds took until now
-constexpr double kLongWorldS = 1;          // to wait for such a world at the end is worse than to prepare it twice
-constexpr int kGatherMicroseconds = 2000;  // where workers have work ahead, their answers are taken together
-constexpr int kMaxDeathsInSetup = 3;      // one may be chance (out of memory, a stray kill); a row of them is not
-constexpr double kMaxSetupS = 600;     // clips are read in it
-constexpr double kClockPerLimit = 20;   // what a worker needs a second of processor time for may take so many seconds
-constexpr double kGraceS = 10;          // a method outside is ended by the worker, which then still has to tell
-constexpr int kShutdownGraceMs = 3000;  // in which a worker lets its methods outside come to their end
+constexpr int kPollMilliseconds = 20;      // the maximum age of a measured memory size or time
+constexpr double kAheadS = 0.05;           // seconds of work given to a worker at a time, estimated from earlier worlds
+constexpr double kLongWorldS = 1;          // a longer one at the end delays the run more than preparing twice
+constexpr int kGatherMicroseconds = 2000;  // if all workers have further orders, their answers are collected together
+constexpr int kMaxDeathsInSetup = 3;       // one may be chance (a shortage of memory, a stray kill); a series is not
+constexpr double kMaxSetupS = 600;         // clips are loaded during it
+constexpr double kClockPerLimit = 20;      // the maximum seconds of wall time per second of the processor-time limit
+constexpr double kGraceS = 10;             // time for a worker to end an outside method and to report that
+constexpr int kShutdownGraceMs = 3000;     // time for a worker to end all its outside methods
 
 Clock::time_point After(double seconds) {
-  constexpr double kLongest = 1e9;  // beyond any run, within what the clock can hold
+  constexpr double kMaxSeconds = 1e9;  // longer than any run; Clock::time_point can represent it
   return Clock::now() +
-         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(seconds, kLongest)));
+         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(seconds, kMaxSeconds)));
 }
 
-/// A child and what it is at.
+/// A worker process and its current work: its set-up, the building of a world, or a method.
 struct Worker {
   Worker(ChildProcess child, Clock::time_point setup_deadline) : process(std::move(child)), deadline(setup_deadline) {}
 
   ChildProcess process;
-  Clock::time_point deadline;       ///< of what it is at: past it, this machine was too slow
-  double cpu_s = 0;                 ///< its processor time when it was last looked at …
-  double cpu_began = 0;             ///< … and when it began what it is at
+  Clock::time_point deadline;       ///< of the current work; if it passes, this machine was too slow
+  double cpu_s = 0;                 ///< processor time at the last measurement …
+  double cpu_began = 0;             ///< … and at the beginning of the current work
   bool ready = false;               ///< its set-up is done
-  std::deque<Order> orders;         ///< the one it works on, with the methods not yet answered, and those it has ahead
-  bool built = false;               ///< the world that it works on is
-  bool dismissed = false;           ///< it ended, and no other takes its place
-  Clock::time_point began = {};     ///< the world that it works on
-  Clock::time_point measured = {};  ///< when it was last looked at
-  /// The condition of the last order that it was given.
+  std::deque<Order> orders;         ///< the current one, with the methods not yet answered, then further ones
+  bool built = false;               ///< its current world is built
+  bool dismissed = false;           ///< it has ended and is not replaced
+  Clock::time_point began = {};     ///< start of its current world
+  Clock::time_point measured = {};  ///< time of the last measurement
   std::size_t condition = OrderQueue::kNowhere;
 };
 
-/// The time that worlds of a scenario took, as this process saw it.
+/// The time that a scenario's worlds took so far, wall clock.
 struct Pace {
   double seconds = 0;
   int worlds = 0;
@@ -68,7 +67,7 @@ struct Pace {
 
 class Supervisor {
  public:
-  /// Without `answered`, workers run the orders' methods; with it, they measure its cells.
+  /// If `answered` is null, workers run the methods of the orders; otherwise they measure the cells in `answered`.
   Supervisor(const Plan& plan, std::vector<Order> orders, CellTable* answered, const SupervisorOptions& options,
              const Deliver& deliver)
       : plan_(plan),
@@ -80,9 +79,9 @@ class Supervisor {
         paces_(plan.scenarios().size()) {}
 
   Result<bool> Run(const SuiteSetup& setup) {
-    AdoptOrphans();  // a worker that is killed leaves its methods outside to us
+    AdoptOrphans();  // the outside methods of a killed worker become our children
     const std::size_t jobs = std::min<std::size_t>(WorkerCount(options_.jobs), orders_.size());
-    std::size_t programs = 1;  // of one worker at the same time
+    std::size_t programs = 1;  // the maximum number that one worker runs at the same time
     for (const PreparedScenario& scenario : plan_.scenarios())
       programs = std::max(programs, ProgramsIn(scenario.scenario()).size());
     Fence fence = options_.fence;
@@ -94,7 +93,7 @@ class Supervisor {
     setup_line_ = setup_line;
     while (workers_.size() < jobs) {
       auto worker = StartWorker();
-      if (!worker && !workers_.empty()) break;  // fewer do the same work
+      if (!worker && !workers_.empty()) break;  // fewer workers suffice
       if (!worker) return tl::unexpected(worker.error());
       workers_.push_back(std::move(*worker));
     }
@@ -110,13 +109,13 @@ class Supervisor {
   Result<Worker> StartWorker() {
     ASSIGN_OR_RETURN(auto process,
                      ChildProcess::Start({.program = options_.program, .arguments = {"worker"}, .error_file = ""}));
-    process.Send(setup_line_);  // a worker that is already dead is noticed when it is polled
+    process.Send(setup_line_);  // a dead worker is noticed when it is polled
     return Worker(std::move(process), After(kMaxSetupS));
   }
 
   const Limits& LimitsOf(const Order& order) const { return plan_.scenario_of(order.world).scenario().limits; }
 
-  /// Gives a worker what it has time for, or the end of its work.
+  /// Gives a worker further orders, or ends it if there are none.
   Result<void> HandOut(Worker& worker) {
     double ahead_s = 0;
     for (const Order& order : worker.orders) ahead_s += PaceOf(order).SecondsPerWorld().value_or(kAheadS);
@@ -135,7 +134,7 @@ class Supervisor {
     return {};
   }
 
-  /// Adds what tells a worker of an order: the world, or the answered cells one by one.
+  /// Adds the lines that a worker receives for an order: the world, or the answered cells one by one.
   Result<void> AddText(const Order& order, std::string& text) {
     const World& world = plan_.world(order.world);
     if (answered_ == nullptr) {
@@ -157,12 +156,12 @@ class Supervisor {
 
   static ProcessUsage Measure(Worker& worker) {
     worker.measured = Clock::now();
-    const ProcessUsage usage = worker.process.MeasureAlone();  // it watches methods outside itself
+    const ProcessUsage usage = worker.process.MeasureAlone();  // the worker watches its outside methods
     worker.cpu_s = usage.own_cpu_s;
     return usage;
   }
 
-  /// A worker begins something that may take so long by the clock. What it used before does not count against it.
+  /// Starts the time limits of a worker's next piece of work, which may take `clock_s` of wall time.
   static void Begin(Worker& worker, double clock_s) {
     constexpr auto kStale = std::chrono::milliseconds(100);
     if (Clock::now() - worker.measured > kStale) Measure(worker);
@@ -170,7 +169,7 @@ class Supervisor {
     worker.deadline = After(clock_s);
   }
 
-  /// Begins the world that is first in a worker's orders. To measure, no world is built.
+  /// Begins the first of a worker's orders. If cells are measured, no world is built.
   Result<void> BeginWorld(Worker& worker) {
     worker.built = answered_ != nullptr;
     worker.began = Clock::now();
@@ -186,7 +185,7 @@ class Supervisor {
     return worker.orders.empty() ? HandOut(worker) : BeginWorld(worker);
   }
 
-  /// Begins the first method whose line has not come yet.
+  /// Begins the next method that has no answer yet.
   Result<void> StartNextMethod(Worker& worker) {
     const Order& order = worker.orders.front();
     if (order.methods.empty()) return EndWorld(worker);
@@ -219,7 +218,7 @@ class Supervisor {
       const bool has_input = watched[2 * i].revents != 0 || watched[2 * i + 1].revents != 0;
       RETURN_IF_ERROR(WatchOver(workers_[i], has_input));
     }
-    // With no orders left, idle workers are dropped, also those still in their set-up.
+    // With no orders left, end idle workers, even during their set-up.
     std::erase_if(workers_,
                   [&](const Worker& worker) { return worker.dismissed || (orders_.empty() && worker.orders.empty()); });
     const bool nobody_waits =
@@ -229,7 +228,8 @@ class Supervisor {
   }
 
   Result<void> WatchOver(Worker& worker, bool has_input) {
-    if (worker.process.broken_by() != 0) return ReplaceEnded(worker);  // it may never hear of what it is to do
+    if (worker.process.broken_by() != 0) return ReplaceEnded(worker);  // it may not have received its orders
+    // Handle its lines, and its end.
     if (has_input) {
       const bool alive = worker.process.Receive();
       for (auto line = worker.process.NextLine(); line && !worker.dismissed; line = worker.process.NextLine()) {
@@ -238,8 +238,9 @@ class Supervisor {
       }
       if (worker.dismissed) return {};
       if (!alive) return ReplaceEnded(worker);
-      if (worker.ready) RETURN_IF_ERROR(HandOut(worker));  // what it has ahead of it
+      if (worker.ready) RETURN_IF_ERROR(HandOut(worker));  // further orders
     }
+    // Enforce the limits of wall time, memory and processor time.
     const auto now = Clock::now();
     if (now > worker.deadline) {
       Measure(worker);
@@ -262,13 +263,14 @@ class Supervisor {
   }
 
   void CountNotRun(std::size_t cells, const std::string& why) {
-    const std::string prefix = ToString(FailOfMachine("").value());  // which stands before it anyway
+    const std::string prefix = ToString(FailOfMachine("").value());  // this prefix is added again later
     if (not_run_ == 0) why_not_run_ = why.starts_with(prefix) ? why.substr(prefix.size()) : why;
     not_run_ += cells;
   }
 
-  /// False when a worker said something that it should not.
+  /// Handles one line of a worker. Returns false if the line is not an expected one.
   Result<bool> Take(Worker& worker, const std::string& line) {
+    // The set-up is done.
     if (!worker.ready) {
       if (line != kWorkerReady) return false;
       worker.ready = true;
@@ -277,11 +279,13 @@ class Supervisor {
       return true;
     }
     if (worker.orders.empty()) return false;
+    // The world is built.
     if (!worker.built) {
       worker.built = line == kWorldBuilt;
       if (worker.built) RETURN_IF_ERROR(StartNextMethod(worker));
       return worker.built;
     }
+    // A cell was not run.
     Order& order = worker.orders.front();
     if (line.starts_with(kNotRun)) {
       CountNotRun(1, line.substr(std::string_view(kNotRun).size()));
@@ -289,6 +293,7 @@ class Supervisor {
       RETURN_IF_ERROR(StartNextMethod(worker));
       return true;
     }
+    // A cell is finished or answered.
     const auto head = ReadCellLineHead(line);
     if (!head || head->cell != plan_.CellAt(order.world, order.methods.front())) return false;
     const bool may_be_unmeasured =
@@ -300,7 +305,7 @@ class Supervisor {
     return true;
   }
 
-  /// Replaces a worker that ended by itself, or cannot be talked to.
+  /// Replaces a worker that ended by itself or whose pipes are broken.
   Result<void> ReplaceEnded(Worker& worker) {
     if (const int reason = worker.process.broken_by(); reason != 0) {
       return Replace(worker, {}, fmt::format("a worker cannot be talked to: {}", std::strerror(reason)));
@@ -312,8 +317,8 @@ class Supervisor {
     return Replace(worker, Status::kCrashed, "its worker ended with " + end);
   }
 
-  /// Ends a worker, makes rows of what it was at, and starts another while there is work. Without a status it is this
-  /// machine that ended it, and what it was at has no row.
+  /// Ends a worker, reports its current work as lost, and starts another worker while there are orders. If there is no
+  /// `status`, this machine is the cause, and the lost cells get no rows.
   Result<void> Replace(Worker& worker, std::optional<Status> status, const std::string& reason) {
     worker.process.Finish();
     if (!worker.ready && ++deaths_in_setup_ == kMaxDeathsInSetup) {
@@ -322,7 +327,7 @@ class Supervisor {
     if (!worker.orders.empty()) {
       Order order = std::move(worker.orders.front());
       worker.orders.pop_front();
-      for (; !worker.orders.empty(); worker.orders.pop_back()) {  // those ahead were not begun
+      for (; !worker.orders.empty(); worker.orders.pop_back()) {  // orders that were not begun
         orders_.PutBack(std::move(worker.orders.back()));
       }
       RETURN_IF_ERROR(GiveUp(std::move(order), worker.built, status, reason));
@@ -337,8 +342,8 @@ class Supervisor {
     return {};
   }
 
-  /// Delivers the cell in progress as lost (every cell, while the world was being built) unless this machine is to
-  /// blame, and orders the rest anew.
+  /// Delivers the cell in progress as lost, or all cells if the world was still being built, and returns the other
+  /// methods to the queue. Without a `status`, the lost cells are only counted.
   Result<void> GiveUp(Order order, bool built, std::optional<Status> status, const std::string& reason) {
     const World& world = plan_.world(order.world);
     const std::size_t lost = built ? 1 : order.methods.size();
@@ -357,19 +362,19 @@ class Supervisor {
   }
 
   const Plan& plan_;
-  CellTable* const answered_;  ///< that are measured; null = methods are run
+  CellTable* const answered_;  ///< the cells to be measured; null = methods are run
   OrderQueue orders_;
   const SupervisorOptions& options_;
   const Deliver& deliver_;
   std::string setup_line_;
   std::vector<Worker> workers_;
-  std::vector<Pace> paces_;  ///< by scenario
-  int deaths_in_setup_ = 0;  ///< since a worker last became ready
+  std::vector<Pace> paces_;  ///< one per scenario
+  int deaths_in_setup_ = 0;  ///< since the last worker became ready
   std::size_t not_run_ = 0;  ///< cells
-  std::string why_not_run_;  ///< the first of them
+  std::string why_not_run_;  ///< the first reason
 };
 
-/// The orders' cells that are among the answered ones, or those that are not.
+/// Returns the orders restricted to cells that are answered, or to those that are not.
 std::vector<Order> OrdersOf(const Plan& plan, const std::vector<Order>& orders, const CellTable& answered,
                             bool are_answered) {
   std::vector<Order> found;
@@ -381,7 +386,7 @@ std::vector<Order> OrdersOf(const Plan& plan, const std::vector<Order>& orders, 
   return found;
 }
 
-/// Runs methods, then measures what they have answered.
+/// Runs all methods, then measures the answered cells.
 Result<bool> RunAndMeasure(const SuiteSetup& setup, const Plan& plan, const std::vector<Order>& orders,
                            const SupervisorOptions& options, const Deliver& deliver) {
   CellTable& answered = *options.answered;

@@ -15,49 +15,44 @@
 namespace etude {
 
 struct SupervisorOptions {
-  std::string program;       ///< what to start as `PROGRAM worker`
-  std::string error_folder;  ///< where methods outside leave what they say on standard error; "" = nowhere
-  Fence fence = {};          ///< that methods outside run in
-  int jobs = 0;              ///< worker processes; 0 = one per processor
-  const std::atomic<bool>* stop = nullptr;  ///< set (by Ctrl-C) to end early
-  /// Cells that were answered and have yet to be measured: those of an earlier attempt, and those that Deliver puts
-  /// there. Null = they are kept in a temporary file, and Deliver is given measured cells alone.
+  std::string program;                      ///< started as `PROGRAM worker`
+  std::string error_folder;                 ///< folder for the standard error of outside methods; "" = they share ours
+  Fence fence = {};                         ///< the sandbox of outside methods
+  int jobs = 0;                             ///< worker processes; 0 = one per processor
+  const std::atomic<bool>* stop = nullptr;  ///< set to true (by Ctrl-C) to end early
+  /// The cells that are answered but not yet measured: those of an earlier attempt, and those that Deliver adds. Null =
+  /// they are kept in a temporary file, and Deliver receives measured cells only.
   CellTable* answered = nullptr;
-  /// Is called when all methods have answered, before the first program that measures is started.
+  /// Called when all methods have answered, before the first measuring program starts.
   std::function<Result<void>()> on_all_answered = {};
 };
 
-/// A cell that has ended, or was answered and has yet to be measured (CellLineHead::is_measured): the head of its line,
-/// and the line (cell_line.h), which is as it was written.
+/// A finished or answered cell (CellLineHead::is_measured): its line as the worker wrote it, and the head of that.
 struct DeliveredCell {
   CellLineHead head;
   std::string_view line;
-  /// All that is known of it.
   Result<FinishedCell> Read(const Plan& plan) const;
 };
 
-/// Called for every cell, in order of completion; of those that other programs measure a second time.
+/// Called for every cell in order of completion; a second time for a cell that other programs measure.
 using Deliver = std::function<Result<void>(const DeliveredCell& cell)>;
 
-/// Hands worlds to worker processes and collects their cells, several worlds ahead where worlds are short, so that no
-/// worker waits for this process. A worker that dies, takes longer or holds more
-/// than the scenario's limits allow is ended and takes only the cell in progress with it: that cell's row becomes
-/// `crashed`, `timeout` or `out_of_memory`, with the reason, and a new worker runs the world's other methods.
-/// When it ends while it builds the world, all methods of the world get that row. One that dies in its set-up
-/// holds no world and costs no cell. Programs that measure are told the truth, so they are started when all methods
-/// have answered and all of these workers, with the programs of methods, have ended. False when stopped early; fails,
-/// with an error of this machine (machine.h), when no worker can start, when several in a row die in their set-up, and
-/// in the end when cells could not be run, which then were not delivered.
+/// Gives worlds to worker processes and collects their cells; short worlds are given several at a time, so that no
+/// worker waits. A worker that dies, or exceeds the scenario's limits of time or memory, is ended. Only the cell in
+/// progress is lost: its row becomes `crashed`, `timeout` or `out_of_memory`, with the reason, and a new worker runs
+/// the world's other methods. If the worker ended while it built the world, all methods of the world get that row. A
+/// worker that dies during its set-up costs no cell. Programs that measure learn the truth, so they are started only
+/// after all methods have answered and these workers, with the methods' programs, have ended.
+/// Returns false if stopped early. Fails with an error of this machine (machine.h) if no worker can start, if several
+/// in a row die during their set-up, or, at the end, if cells could not be run and were not delivered.
 Result<bool> RunOrders(const SuiteSetup& setup, const Plan& plan, std::vector<Order> orders,
                        const SupervisorOptions& options, const Deliver& deliver);
 
-/// True if programs measure cells of the plan.
 bool HasOutsideMetrics(const Plan& plan);
 
-/// The number of workers that `jobs` means: 0 is one per processor.
+/// Returns the number of workers for `jobs`; 0 = one per processor.
 int WorkerCount(int jobs);
 
-/// The program that is running, to be started again as a worker.
 std::string ThisProgram();
 
 }  // namespace etude

@@ -9,31 +9,31 @@
 
 namespace etude {
 
-/// What threw dice under a secret key.
+/// A use of a secret key to make worlds.
 struct KeyUse {
   std::string command;  ///< "run", "export", "score", "replay"
   std::string suite;
   std::string manifest;  ///< DigestOfRun
   Shard shard = {};
-  std::filesystem::path folder;  ///< that it wrote
-  bool continues = false;        ///< it goes on with a run (`--resume`), which the list must tell of
-  bool repeats = false;          ///< it repeats a run (`--from`): runs of the same manifest may have used the key
+  std::filesystem::path folder;  ///< the folder that the command wrote
+  bool continues = false;        ///< it resumes a run (`--resume`), which the list must name
+  bool repeats = false;          ///< it repeats a run (`--from`): runs with the same manifest may have used the key
 };
 
-/// A digest of a manifest that shards of one run share, whatever libraries they run under.
+/// Returns a digest of a manifest that is the same for all shards of a run, whatever libraries they run under.
 std::string DigestOfRun(const Json& manifest);
 
-/// Refuses a key that stands in the list of used keys, KEYFILE.used: whoever was asked in those worlds may know them. A
-/// shard may use the key of the run's other shards. Refused, too: a list that cannot be read or written. A key from
-/// the environment or a pipe has no list.
+/// Fails if the key is in the list of used keys, KEYFILE.used: programs that were asked in its worlds may know them.
+/// Other shards of the same run may use the key. Fails also if the list cannot be read or written. A key from the
+/// environment or a pipe has no list, and is not checked.
 Result<void> CheckUnused(const SecretKey& key, const KeyUse& use);
 
-/// Adds a use to the list, on the disk when this returns; checks it again, since two runs may begin at the same time.
-/// With `may_be_used` nothing is refused, and a list that cannot be written is left as it is.
+/// Checks again, because two runs may begin at the same time, then adds a use to the list; it is on the disk on return.
+/// With `may_be_used`, nothing is checked, and a list that cannot be written is left unchanged.
 Result<void> NoteUse(const SecretKey& key, const KeyUse& use, bool may_be_used);
 
-/// Notes that cells of a run are run again by programs that its manifest names, whoever wrote that: of a key that the
-/// list has not, what they are asked is new to everybody. Refused where that cannot be written.
+/// Adds the key to its list, if it is not there, because cells of a run are run again by programs that its manifest
+/// names, and those learn the worlds. Fails if the list cannot be written.
 Result<void> NoteRepeat(const SecretKey& key, const KeyUse& use);
 
 }  // namespace etude

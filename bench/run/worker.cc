@@ -24,8 +24,8 @@
 namespace etude {
 namespace {
 
-/// Eigen chooses its block sizes by the CPU's caches, and with them the order of its sums; a fixed
-/// choice keeps the bytes the same on every machine.
+/// Fixes the cache sizes that Eigen chooses its block sizes by. The order of its sums depends on these, so fixed sizes
+/// give the same bytes on every machine.
 void FixEigenBlocking() { Eigen::setCpuCacheSizes(32 * 1024, 256 * 1024, 2 * 1024 * 1024); }
 
 int GiveUp(const Error& error) {
@@ -33,7 +33,7 @@ int GiveUp(const Error& error) {
   return IsOfThisMachine(error) ? kCannotGoOn : 2;
 }
 
-/// Says a line at once. Fails when it cannot be said: whoever waits for it would wait for ever.
+/// Writes a line and flushes it. A failure ends the worker, because the supervisor would wait for the line forever.
 Result<void> Say(const std::string& line, std::ostream& out) {
   if (out << line << '\n' << std::flush) return {};
   return FailOfMachine("a worker's answer cannot be written: {}", std::strerror(errno));
@@ -44,7 +44,6 @@ Result<void> Answer(std::size_t number, FinishedCell cell, std::ostream& out) {
   return Say(why.empty() ? EncodeCellLine(number, std::move(cell)) : kNotRun + why, out);
 }
 
-/// Measures an answered cell.
 Result<void> Measure(const std::string& line, const Plan& plan, std::span<const std::unique_ptr<CellRunner>> runners,
                      std::ostream& out) {
   const Place place{"a worker's orders"};
@@ -56,7 +55,7 @@ Result<void> Measure(const std::string& line, const Plan& plan, std::span<const 
   return Answer(head->cell, runner.Measure(world.condition, std::move(answered)), out);
 }
 
-/// Runs the methods of one order, answering as it goes.
+/// Runs the methods of one order, and answers after each.
 Result<void> Execute(const Json& order, std::span<const std::unique_ptr<CellRunner>> runners, std::ostream& out) {
   const Json& world = order.at("world");
   const auto scenario = world.at(0).get<std::size_t>();
@@ -73,6 +72,7 @@ Result<void> Execute(const Json& order, std::span<const std::unique_ptr<CellRunn
 }
 
 Result<void> Work(std::istream& in, std::ostream& out) {
+  // Set up: the scenarios, their seeds, a runner for each.
   std::string line;
   if (!std::getline(in, line)) return {};
   const Place place{"a worker's set-up", 1, 0};
@@ -87,8 +87,9 @@ Result<void> Work(std::istream& in, std::ostream& out) {
   for (const PreparedScenario& scenario : scenarios) {
     runners.push_back(std::make_unique<CellRunner>(scenario, json.at("error_folder").get<std::string>(), fence));
   }
-  std::optional<Plan> plan;  // a large run's is worth making only where cells are measured
+  std::optional<Plan> plan;  // made only if cells are measured, because it is large
   RETURN_IF_ERROR(Say(kWorkerReady, out));
+  // Then one line per order or per cell to be measured.
   while (std::getline(in, line)) {
     if (line.starts_with(kAnsweredBegin)) {
       if (!plan) plan.emplace(scenarios);
@@ -107,10 +108,11 @@ Result<void> Work(std::istream& in, std::ostream& out) {
 int RunWorker(std::istream& in, std::ostream& out) {
   FixEigenBlocking();
   AdoptOrphans();
-  // A job scheduler signals every process of a job; only the parent decides whether workers stop.
+  // A job scheduler signals every process of a job, but only the parent decides when workers stop.
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGTERM, SIG_IGN);
-  in.exceptions(std::ios::badbit);  // memory for a line, else taken for the end
+  std::signal(SIGBUS, SIG_DFL);  // a method's fault is a crash
+  in.exceptions(std::ios::badbit);  // else a shortage of memory for a line would look like the end of input
   try {
     const auto done = Work(in, out);
     return done ? 0 : GiveUp(done.error());

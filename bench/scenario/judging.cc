@@ -33,7 +33,7 @@ std::vector<SweptValue> ReadWhere(Fields& fields, const Scenario& scenario) {
     fields.Complain(node->place, "'where' must map swept parameters to one of their values, found " + Describe(*node));
     return where;
   }
-  // The values that the sweep has.
+  // The swept values.
   std::vector<std::string> known;
   for (const Condition& condition : scenario.conditions) {
     for (const SweptValue& swept : condition.swept) {

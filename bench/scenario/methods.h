@@ -8,9 +8,7 @@ namespace etude {
 /// Returns true if a name may be part of a cell's identity and of a file's name: letters, digits, '_', and after the
 /// first character '-' and '.', at most 80 characters.
 bool IsPlainName(const std::string& name);
-/// Describes a plain name as the value of a key.
 ValueKind PlainNameKind();
-/// Reads a required plain name.
 std::string ReadPlainName(Fields& fields, std::string_view key);
 
 /// The keys of an outside method. A built-in method has `name`, `against` and `description` of them, and its task's

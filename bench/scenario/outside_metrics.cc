@@ -125,6 +125,7 @@ const FieldTable<OutsideMetric>& OutsideMetricFields() {
         {{"name", TextKind("a letter, then at most 59 of a…z, 0…9, '_'", kIdPattern), "",
           "Its id in rows and tables; no metric of ours."},
          ReadName}};
+    // The keys about the program are those of an outside method, with their own meanings.
     for (auto& field : FieldsOf<OutsideMetric>(OutsideMethodFields(), &OutsideMetric::program, Keep::kThese,
                                                {"exec", "options", "files", "time_s"})) {
       if (field.info.key == "exec") {
@@ -134,6 +135,7 @@ const FieldTable<OutsideMetric>& OutsideMetricFields() {
       if (field.info.key == "time_s") field.info.meaning = "How long it may take over one cell.";
       fields.push_back(std::move(field));
     }
+    // The keys about the metric.
     Append<OutsideMetric>(
         {Key::Text("unit", info(&MetricInfo::unit), "a text", "Of its values: `mm`, `deg`.").WhenAbsent("(none)"),
          Key::Name("direction", info(&MetricInfo::direction),

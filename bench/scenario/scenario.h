@@ -54,7 +54,6 @@ struct RecordingSelection {
   bool KeepsMethod(std::string_view name) const;
 };
 
-/// One of the methods compared.
 struct MethodEntry {
   std::string name;
   std::string against;            ///< the method it is compared with; the first method is compared with itself

@@ -16,7 +16,6 @@ namespace etude {
 /// have the place of the range. At least one value, at most `most`.
 Result<std::vector<Node>> SweptValues(const Node::Entry& swept, std::size_t most);
 
-/// The values of the keys of a range.
 struct RangeWords {
   double from = 0, to = 0;
   std::optional<double> step;

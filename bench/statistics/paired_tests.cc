@@ -129,8 +129,8 @@ class FlippedSample {
     return sum / static_cast<double>(sizes_.size());
   }
 
-  /// Sorted, the flipped values are the negative ones from the largest size down, then the others upwards. The middle
-  /// one lies near the sizes close to zero, so a short walk over the bits finds it.
+  /// In sorted order the negative values come first, from the largest size to the smallest, then the positive ones from
+  /// the smallest size to the largest. The middle value has a small size, so a short walk over the bits finds it.
   double MedianUnder(const Signs& signs) const {
     std::size_t negatives = 0;
     for (std::uint64_t bits : signs) negatives += static_cast<std::size_t>(std::popcount(bits));

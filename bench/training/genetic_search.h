@@ -43,13 +43,13 @@ GeneticResult SearchGenetically(const std::function<double(std::span<const doubl
 
 /// The module's only function, pointed to by its symbol `etude_pagmo_evolve`: the search, with the seeds of its random
 /// genomes and of its algorithm.
-using PagmoEvolve = void(const std::function<double(std::span<const double>)>& score,
-                         std::span<const Genome> ancestors, const GeneticOptions& options, unsigned population_seed,
-                         unsigned algorithm_seed, GeneticResult& result);
+using PagmoEvolve = void(const std::function<double(std::span<const double>)>& score, std::span<const Genome> ancestors,
+                         const GeneticOptions& options, unsigned population_seed, unsigned algorithm_seed,
+                         GeneticResult& result);
 
-/// The half-width of the ramp, as a share of d² = 0.4², within which the genetic algorithms count a pair as matched in
-/// part (PairTable::SoftF1). Close pairs are so few that F1 itself changes in steps of single pairs: a search with F1
-/// overfits them and does worse on other clips.
+/// The half-width of the ramp, as a share of d² = 0.4², on which a pair counts as partly matched (PairTable::SoftF1).
+/// Close pairs are so few that F1 itself changes in steps of single pairs: a search with F1 overfits them and does
+/// worse on other clips.
 constexpr double kFitnessRamp = 0.5;
 
 /// Fits the `genetic` weights (future work in paper A; the method is ours): the S ≥ 0 with sum 8 by which "d < 0.4"

@@ -25,8 +25,8 @@ struct TrainingClips {
   std::vector<std::vector<TrainingFrame>> frames;  ///< of each clip, sampled evenly
 };
 
-/// The number of frames taken of a clip: the middles of equal parts, so that long clips count no more than short ones;
-/// all frames of a shorter clip.
+/// The number of frames sampled from a clip: the middles of equal parts, so that long clips count no more than short
+/// ones. A shorter clip gives all its frames.
 constexpr int kFramesPerClip = 16;
 
 /// Samples clips in the given order, retargeted to `proportions`.
@@ -50,10 +50,10 @@ std::vector<LabelledPair> LabelPairs(std::span<const TrainingFrame> a, std::span
 std::vector<LabelledPair> LabelPairsAcross(std::span<const std::vector<TrainingFrame>> clips,
                                            const Memberships& memberships = PaperMemberships());
 
-/// Updates the grade differences of the pairs that LabelPairsAcross made of the same clips to other memberships. Much
-/// faster, because poses are not compared again.
+/// Computes the grade differences of `pairs`, which LabelPairsAcross returned for the same clips, for other
+/// memberships. This is much faster, because poses are not compared again.
 void UpdateGrades(std::span<const std::vector<TrainingFrame>> clips, const Memberships& memberships,
-               std::span<LabelledPair> pairs);
+                  std::span<LabelledPair> pairs);
 
 /// The score of separating close pairs from others by "d < threshold".
 struct MatchScore {

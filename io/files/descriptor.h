@@ -6,7 +6,7 @@
 
 namespace etude {
 
-/// Owns a file descriptor, and closes it at the end; −1 stands for none.
+/// Owns a file descriptor and closes it in the destructor. −1 = none.
 class Descriptor {
  public:
   explicit Descriptor(int number = -1) : number_(number) {}

@@ -14,15 +14,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The permissions that the user's mask leaves of a new folder's.
-constexpr mode_t kFolderMode = 0777;
+constexpr mode_t kFolderMode = 0777;  // before the umask
 
 bool IsLink(int folder, const std::string& name) {
   struct stat status {};
   return ::fstatat(folder, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 && S_ISLNK(status.st_mode);
 }
 
-/// Opens the folder `name` in `folder`; -1 where it cannot, and never through a link.
+/// Opens the folder `name` in `folder`, but never through a link; returns −1 if it cannot be opened.
 int OpenNext(int folder, const std::string& name, bool makes) {
   constexpr int kFlags = O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
   const int next = ::openat(folder, name.c_str(), kFlags);
@@ -31,11 +30,11 @@ int OpenNext(int folder, const std::string& name, bool makes) {
   return ::openat(folder, name.c_str(), kFlags);
 }
 
-/// The folder at the end of the way from `given` over `below`.
+/// The result of opening the folders of `below`, one after the other, from `given` on.
 struct Walk {
-  Descriptor end;
-  fs::path stopped_at = {};  ///< where there is none: the part that could not be opened
-  int reason = 0;            ///< and why; ELOOP: it is a link; EXDEV: it leads out of `given`
+  Descriptor end;            ///< the last folder; none on failure
+  fs::path stopped_at = {};  ///< the folder that could not be opened
+  int reason = 0;            ///< its errno; ELOOP = it is a link, EXDEV = the path leads out of `given`
 };
 
 Walk WalkDown(const fs::path& given, const fs::path& below, bool makes) {
@@ -66,7 +65,7 @@ tl::unexpected<Error> WhyNot(const Walk& walk, const FilePath& path, bool makes)
 }
 
 Result<void> MakeGiven(const fs::path& folder) {
-  if (folder.empty()) return {};  // of a plain file name: the one we stand in
+  if (folder.empty()) return {};  // a file in the working folder
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return CannotWrite(folder.string(), "cannot make this folder", error.value());
@@ -108,9 +107,9 @@ int FileSpot::folder() const { return folder_.number() < 0 ? AT_FDCWD : folder_.
 
 Result<Descriptor> OpenFile(const FilePath& path, int flags, mode_t mode) {
   ASSIGN_OR_RETURN(const auto spot, FileSpot::Find(path, (flags & O_CREAT) != 0));
-  // Opening a pipe would wait for its other end; of a regular file O_NONBLOCK changes nothing.
+  // Without O_NONBLOCK, opening a pipe would block. It has no effect on a regular file.
   const int more = O_CLOEXEC | O_NONBLOCK | O_NOCTTY | (path.is_inside() ? O_NOFOLLOW : 0);
-  // A file is emptied only when it is known to be the one that was meant.
+  // The file is truncated below, after the checks.
   Descriptor file(::openat(spot.folder(), spot.name().c_str(), (flags & ~O_TRUNC) | more, mode));
   if (file.number() < 0) {
     const int reason = errno;

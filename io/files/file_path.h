@@ -14,12 +14,12 @@
 
 namespace etude {
 
-/// The path of a file or folder. A path that a person gave is used as the system does it, links and all. What stands in
-/// a folder that somebody else may have filled (a run, a shard, answers) is `Inside(folder) / "name"`: no link below
-/// that folder is followed, and no name leads out of it.
+/// The path of a file or folder, of one of two kinds. In a path that the user gave, symbolic links are followed. A file
+/// in a folder that somebody else may have filled (a run, a shard, answers) is written `Inside(folder) / "name"`: no
+/// link below that folder is followed, and no name may lead out of it.
 class FilePath {
  public:
-  /// A path that a person gave.
+  /// A path that the user gave.
   template <typename Text>
   requires(!std::same_as<std::remove_cvref_t<Text>, FilePath> && std::constructible_from<std::filesystem::path, Text>)
       FilePath(Text&& path)
@@ -30,9 +30,9 @@ class FilePath {
   std::filesystem::path whole() const { return below_.empty() ? given_ : given_ / below_; }
   std::string string() const { return whole().string(); }
   bool is_inside() const { return is_inside_; }
-  /// Of a path inside a folder: that folder, as a person gave it; else the whole path.
+  /// Returns the folder of an `Inside` path, as the user gave it; for other paths the whole path.
   const std::filesystem::path& given() const { return given_; }
-  /// Of a path inside a folder: the part below it; else empty.
+  /// Returns the part of an `Inside` path below its folder; "" for other paths.
   const std::filesystem::path& below() const { return below_; }
 
  private:
@@ -42,41 +42,40 @@ class FilePath {
   bool is_inside_ = false;
 };
 
-/// A folder that a person gave and somebody else may have filled; it may be a link itself.
+/// Marks a folder that the user gave and somebody else may have filled. The folder itself may be a link.
 FilePath Inside(const std::filesystem::path& folder);
 
-/// A name, and the folder that it is looked up in.
+/// An open folder and a file name in it: the arguments of the system calls that end in "at" (openat, renameat).
 class FileSpot {
  public:
-  /// Opens the folders of `path` one by one, and with `makes_folders` makes those that are missing. Fails naming a link
-  /// that would have to be followed, a path that leads out of its folder, or the system's reason.
+  /// Opens the folders of an `Inside` path one by one; `makes_folders` creates missing ones. Fails on a link among
+  /// them, on a path that leads out of its folder, and with the system's reason.
   static Result<FileSpot> Find(const FilePath& path, bool makes_folders);
 
-  /// For the system's calls that end in …at.
   int folder() const;
-  /// The name in that folder; of a path that a person gave, all of it.
+  /// Returns the name in that folder; for a path that the user gave, the whole path.
   const std::string& name() const { return name_; }
 
  private:
-  Descriptor folder_;  ///< none: the one we stand in
+  Descriptor folder_;  ///< none = the working folder
   std::string name_;
 };
 
-/// Opens a regular file as ::open does (O_CLOEXEC is added); with O_CREAT it makes the folders above it, too. Fails as
-/// FileSpot::Find does; on whatever is no regular file, so that nobody waits for a pipe; and with the system's reason.
+/// Opens a regular file with the flags of ::open (O_CLOEXEC is added); O_CREAT also creates its folders. Fails as
+/// FileSpot::Find does, on anything but a regular file (opening a pipe could block), and with the system's reason.
 Result<Descriptor> OpenFile(const FilePath& path, int flags, mode_t mode = 0666);
 
-/// True if something stands there: also a link that is not followed and will be refused by whoever opens it.
+/// Returns true if something has this path. A link below an `Inside` folder counts, although OpenFile refuses it.
 bool Exists(const FilePath& path);
 
-/// Makes a folder and those above it. Fails as FileSpot::Find does.
+/// Creates a folder and those above it. Fails as FileSpot::Find does.
 Result<void> MakeFolder(const FilePath& folder);
 
-/// Lists the files in a folder and in all folders below by their paths from it, ascending; none where there is no
-/// folder. Fails naming the first link, pipe or device.
+/// Lists all regular files below a folder: sorted paths relative to it; empty if the folder does not exist. Fails on
+/// the first link, pipe or device.
 Result<std::vector<std::filesystem::path>> PlainFilesBelow(const FilePath& folder);
 
-/// Says that a link is not followed.
+/// Returns the error "is a link; inside this folder no link is followed".
 tl::unexpected<Error> RefuseLink(const std::filesystem::path& link);
 
 }  // namespace etude

@@ -17,11 +17,11 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kBuffer = 1 << 16;
+constexpr std::size_t kBufferBytes = 1 << 16;
 
 Place InFile(const FilePath& path) { return Place{.file = path.string()}; }
 
-/// Reads what comes next of a file; 0 at its end.
+/// Reads the next bytes of a file; returns their number, 0 at the end.
 Result<std::size_t> ReadSome(const FilePath& path, int file, std::span<char> into) {
   ssize_t count = 0;
   do count = ::read(file, into.data(), into.size());
@@ -30,12 +30,13 @@ Result<std::size_t> ReadSome(const FilePath& path, int file, std::span<char> int
   return static_cast<std::size_t>(count);
 }
 
-/// Some file systems have nothing to synchronise and say so.
+/// Some file systems do not support fsync (EINVAL, ENOTSUP): that is no failure.
 bool Synced(int file) { return ::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP; }
 
 Result<void> Sync(const std::filesystem::path& path, int flags) {
   int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
-  if (file < 0 && errno == EACCES) file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags);  // such as a lock
+  if (file < 0 && errno == EACCES)
+    file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags);  // a lock file may not be readable
   if (file < 0) return CannotWrite(path.string(), "cannot be opened to synchronise it", errno);
   const int failed = Synced(file) ? 0 : errno;
   ::close(file);
@@ -43,7 +44,7 @@ Result<void> Sync(const std::filesystem::path& path, int flags) {
   return {};
 }
 
-/// The extension stays last: encoders choose the container by it.
+/// Returns the `copy`-th temporary name. It keeps the extension, because encoders choose the container by it.
 std::filesystem::path NameOfCopy(const std::filesystem::path& path, int copy) {
   const std::string number = copy == 0 ? "" : std::to_string(copy + 1);
   return path.parent_path() / (path.stem().string() + ".partial" + number + path.extension().string());
@@ -66,7 +67,6 @@ Result<void> SaveJson(const FilePath& path, const Json& json, OnDisk when) {
 
 namespace {
 
-/// Locks an open file against other processes. False when another holds it, or when it no longer has this name.
 bool LockNamed(int file, int folder, const std::string& name) {
   if (::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
   struct stat ours {
@@ -75,7 +75,7 @@ bool LockNamed(int file, int folder, const std::string& name) {
   return ours.st_dev == there.st_dev && ours.st_ino == there.st_ino;
 }
 
-/// True if a file has no other name, at which it would be written over, too.
+/// Returns true if the file has no second name (hard link), under which it would be overwritten too.
 bool HasOneName(int file) {
   struct stat status {};
   return ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink == 1;
@@ -92,7 +92,7 @@ Result<PartialFile> PartialFile::Claim(const FilePath& path) {
   std::error_code ignored;
   partial.made_folder_ = !folder.empty() && !std::filesystem::exists(folder, ignored);
   ASSIGN_OR_RETURN(partial.spot_, FileSpot::Find(path, /*makes_folders=*/true));
-  constexpr int kMaxTries = 1000;  // a try fails where another process writes the same file, or has just finished it
+  constexpr int kMaxTries = 1000;  // a try fails if another process writes the same file, or has just renamed it
   constexpr int kFlags = O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
   for (int copy = 0; copy < kMaxTries; ++copy) {
     partial.name_ = NameOfCopy(partial.spot_.name(), copy / 2).string();
@@ -122,7 +122,7 @@ PartialFile& PartialFile::operator=(PartialFile&& other) noexcept {
 PartialFile::~PartialFile() {
   if (file_ < 0) return;
   ::unlinkat(spot_.folder(), name_.c_str(), 0);
-  ::close(file_);  // last: until then nobody else takes the name
+  ::close(file_);  // last, because closing releases the lock
 }
 
 tl::unexpected<Error> PartialFile::Failure() const {
@@ -130,17 +130,17 @@ tl::unexpected<Error> PartialFile::Failure() const {
 }
 
 Result<void> PartialFile::CheckRoom() const {
-  const std::array<char, kBuffer> more{};
+  const std::array<char, kBufferBytes> more{};
   const off_t end = ::lseek(file_, 0, SEEK_END);
   const ssize_t count = ::pwrite(file_, more.data(), more.size(), end);
   if (count == static_cast<ssize_t>(more.size())) return {};
-  // What was taken in part says the reason when the rest is tried.
+  // A partial write sets no errno; a second write gives the reason.
   if (count >= 0 && ::pwrite(file_, more.data(), more.size(), end + count) >= 0) return {};
   return Failure();
 }
 
 Result<void> PartialFile::Finish(OnDisk when) {
-  // What cannot be written is told by fsync, or else, on some file systems, when a descriptor of the file is closed.
+  // fsync reports failed writes; without it, some file systems (NFS) report them on closing a descriptor.
   if (when == OnDisk::kAtOnce ? !Synced(file_) : ::close(::dup(file_)) != 0) return Failure();
   const int folder = spot_.folder();
   if (::renameat(folder, name_.c_str(), folder, spot_.name().c_str()) != 0) return Failure();
@@ -159,7 +159,7 @@ Result<AtomicFile> AtomicFile::Begin(const FilePath& path) {
 
 Result<void> AtomicFile::Write(std::string_view bytes) {
   unwritten_ += bytes;
-  return unwritten_.size() >= kBuffer ? Flush() : Result<void>();
+  return unwritten_.size() >= kBufferBytes ? Flush() : Result<void>();
 }
 
 Result<void> AtomicFile::Flush() {
@@ -210,7 +210,7 @@ Result<bool> FileLines::Next(std::string& line) {
       had_end_ = true;
       return true;
     }
-    part_.resize(kBuffer);
+    part_.resize(kBufferBytes);
     at_ = 0;
     const auto size = ReadSome(path_, file_.number(), part_);
     part_.resize(size.value_or(0));

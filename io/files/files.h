@@ -12,60 +12,64 @@
 
 namespace etude {
 
-/// The moment at which a finished file is on its disk, name and all, so that a power cut cannot take it.
+/// When a finished file and its name are synchronised to disk (fsync), so that they survive a power cut.
 enum class OnDisk {
   kAtOnce,  ///< before the call returns
-  kLater,   ///< when the caller synchronises the folder (SyncTree); or never, of what is temporary
+  kLater,   ///< when the caller calls SyncTree on the folder, or never for temporary files
 };
 
-/// Puts `bytes` at `path`, whole or not at all: written beside it first, then renamed, which replaces a link instead of
-/// following it. Makes the folder it stands in. Fails as FileSpot::Find does, naming the path and the system's reason.
+/// Writes a file completely or not at all: first under a temporary name beside `path`, which is then renamed. The
+/// rename replaces a link instead of following it. Creates the folder. Fails as FileSpot::Find does, and with the path
+/// and the system's reason.
 Result<void> WriteFileAtomically(const FilePath& path, std::string_view bytes, OnDisk when = OnDisk::kAtOnce);
 
-/// Puts one JSON value and a line end at `path`, whole or not at all.
+/// Writes one JSON value and a line end like WriteFileAtomically. Fails also on NaN and infinity (WriteJson).
 Result<void> SaveJson(const FilePath& path, const Json& json, OnDisk when = OnDisk::kAtOnce);
 
-/// Names the file beside `path` that is written first and renamed to `path` when it is whole. While another process
-/// writes the same file, it is another name.
+/// Returns the temporary name under which `path` is written, unless another process is writing the same file (then a
+/// number is added).
 std::filesystem::path TemporaryName(const std::filesystem::path& path);
 
-/// The file beside its place that becomes another when it is whole, and goes when it is not finished. It is locked, so
-/// that two processes that write the same file have two; what a killed one has left is used by the next.
+/// A file that is written under a temporary name, beside its final path. Finish renames it; without Finish it is
+/// deleted. It is locked: if two processes write the same path, each has its own temporary file. The temporary file of
+/// a killed process is reused by the next one.
 class PartialFile {
  public:
-  /// Makes the folder it stands in, and an empty file. Fails as WriteFileAtomically does.
+  /// Creates the folder and an empty temporary file. Fails as WriteFileAtomically does.
   static Result<PartialFile> Claim(const FilePath& path);
   PartialFile() = default;
   PartialFile(PartialFile&& other) noexcept { *this = std::move(other); }
   PartialFile& operator=(PartialFile&& other) noexcept;
   ~PartialFile();
 
-  const FilePath& path() const { return path_; }  ///< that it will have
-  int file() const { return file_; }              ///< open for writing; −1 once it is finished
-  /// Gives the file its name.
+  const FilePath& path() const { return path_; }  ///< the final path
+  int file() const { return file_; }              ///< descriptor, open for writing; −1 after Finish
+  /// Renames the file to its final path.
   Result<void> Finish(OnDisk when = OnDisk::kAtOnce);
+  /// Returns the error "cannot write this file" with the reason in errno.
   tl::unexpected<Error> Failure() const;
-  /// Fails when the file cannot become longer: another program that was to write it has then met the same.
+  /// Tries to append to the file, and fails with the system's reason. It explains why another program (an encoder)
+  /// could not write the file: a full disk, for instance.
   Result<void> CheckRoom() const;
 
  private:
   FilePath path_ = "";
   FileSpot spot_;     ///< of `path_`
-  std::string name_;  ///< in the spot's folder, as long as it is not finished
+  std::string name_;  ///< the temporary name, in the same folder
   int file_ = -1;
   bool made_folder_ = false;
 };
 
-/// A file that is written bit by bit and has its name only once it is whole.
+/// A PartialFile that is written in pieces, through a buffer.
 class AtomicFile {
  public:
-  /// Fails like PartialFile.
+  /// Fails like PartialFile::Claim.
   static Result<AtomicFile> Begin(const FilePath& path);
 
   Result<void> Write(std::string_view bytes);
-  /// Puts bytes in the place of some that were written.
+  /// Replaces bytes that were written before, from `offset` on.
   Result<void> Overwrite(std::uint64_t offset, std::string_view bytes);
-  /// Gives the file its name.
+  /// Writes what is buffered, and renames the file to its final path.
   Result<void> Finish(OnDisk when = OnDisk::kAtOnce);
 
  private:
@@ -75,13 +79,13 @@ class AtomicFile {
   std::string unwritten_;
 };
 
-/// Larger files are refused before memory is taken.
+/// The maximum size of a file that is read whole, bytes. A larger one is refused before memory is allocated.
 constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{2} << 30;
 
 /// Reads all bytes of a file of at most `limit` bytes. Fails as OpenFile does.
 Result<std::string> ReadWholeFile(const FilePath& path, std::uintmax_t limit = kMaxFileBytes);
 
-/// Hands a file of any size to `use`, at most 256 KiB at a time. Fails as OpenFile does.
+/// Calls `use` with consecutive parts of a file of any size, each at most 256 KiB. Fails as OpenFile does.
 Result<void> ReadInChunks(const FilePath& path, const std::function<void(std::string_view)>& use);
 
 /// Reads a file of any size line by line.
@@ -90,9 +94,9 @@ class FileLines {
   /// Fails as OpenFile does.
   static Result<FileLines> Open(const FilePath& path);
 
-  /// Puts the next line into `line`, without its end. False when there is none, or when reading fails.
+  /// Reads the next line into `line`, without its line end. Returns false at the end of the file.
   Result<bool> Next(std::string& line);
-  /// True if the last line had an end, and was not cut off there.
+  /// Returns true if the last line read had a line end; without one, the file may have been cut off.
   bool had_end() const { return had_end_; }
 
  private:
@@ -100,30 +104,30 @@ class FileLines {
 
   FilePath path_;
   Descriptor file_;
-  std::string part_;  ///< of the file
-  std::size_t at_ = 0;
+  std::string part_;    ///< the part of the file in memory
+  std::size_t at_ = 0;  ///< the next byte of `part_`
   bool had_end_ = false;
 };
 
-/// Hands a file to `use` line by line, without the lines' ends. Stops at the first complaint, and fails with it.
+/// Calls `use` with each line of a file, without line ends. Stops at the first error and returns it.
 Result<void> ForEachLine(const FilePath& path,
                          const std::function<Result<void>(std::string_view line, const Place& place)>& use);
 
-/// Returns once what a file holds is on its disk, so that a power cut cannot take it. Fails naming the file.
+/// Synchronises a file's contents to disk (fsync). Fails with the file's name.
 Result<void> SyncFile(const std::filesystem::path& path);
 
-/// Returns once a folder's own entries, the names that it holds, are on its disk: a new file's name is only safe then.
+/// Synchronises the entries of one folder: only then does the name of a new file survive a power cut.
 Result<void> SyncFolder(const std::filesystem::path& folder);
 
-/// Returns once the entries of all folders above a folder are on their disks, as far as they may be opened, so that the
-/// folder itself is there after a power cut.
+/// Synchronises the entries of all folders above a folder, as far as they can be opened, so that the folder itself
+/// survives a power cut.
 Result<void> SyncPathTo(const std::filesystem::path& folder);
 
-/// Returns once every file and folder below a folder, and the folder itself, are on their disks.
+/// Synchronises a folder and every file and folder below it.
 Result<void> SyncTree(const std::filesystem::path& folder);
 
-/// Locks an open file or folder against other processes until it is closed. False when another holds it, or when it no
-/// longer has this name; true also on file systems that know no locks.
+/// Locks an open file or folder against other processes until it is closed. Returns false if another process has the
+/// lock, or if the file does not have this name any more; true on file systems without locks.
 bool LockUnlessTaken(int file, const std::filesystem::path& name);
 
 }  // namespace etude

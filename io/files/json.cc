@@ -15,9 +15,8 @@
 namespace etude {
 namespace {
 
-constexpr int kDeepest = 100;  // what walks over values recurses
+constexpr int kMaxNesting = 100;  // functions that walk over values recurse
 
-/// Finds the path to the first number that JSON cannot hold.
 std::optional<std::string> FindNonFinite(const Json& json) {
   if (json.is_number_float()) return std::isfinite(json.get<double>()) ? std::nullopt : std::optional<std::string>("");
   if (!json.is_structured()) return std::nullopt;
@@ -30,11 +29,10 @@ std::optional<std::string> FindNonFinite(const Json& json) {
   return std::nullopt;
 }
 
-/// Tells whether a CBOR value is one that Json::to_cbor may have written and nests no deeper than allowed:
-/// Json::from_cbor recurses as deep as its input says, in lists and in texts of no told length. What is cut short, it
-/// finds out itself.
+/// Returns true if a CBOR value nests at most kMaxNesting deep and has no tags or indefinite lengths. Json::from_cbor
+/// recurses for each level, so this must be known before; it detects truncated input itself.
 bool IsShallowCbor(std::string_view bytes) {
-  std::vector<std::uint64_t> open = {1};  // values still to come, of each list that has begun
+  std::vector<std::uint64_t> open = {1};  // for each open list or map: the number of values still to come
   for (std::size_t at = 0; at < bytes.size() && !open.empty();) {
     const auto first = static_cast<unsigned char>(bytes[at++]);
     const int kind = first >> 5;
@@ -51,13 +49,13 @@ bool IsShallowCbor(std::string_view bytes) {
     if (kind == 2 || kind == 3) at += std::min<std::uint64_t>(count, bytes.size() - at);
     if (kind == 4) open.push_back(count);
     if (kind == 5) open.push_back(count > bytes.size() ? count : 2 * count);
-    if (kind == 6 || open.size() > kDeepest + 1) return false;
+    if (kind == 6 || open.size() > kMaxNesting + 1) return false;
     while (!open.empty() && open.back() == 0) open.pop_back();
   }
   return true;
 }
 
-/// JSON in which characters that nobody sees (IsHidden) are written as their numbers, which mean the same.
+/// Replaces invisible characters (IsHidden) by escaped code points, which mean the same.
 std::string WithHiddenEscaped(std::string json) {
   const auto is_ascii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };
   if (std::ranges::all_of(json, is_ascii)) return json;
@@ -90,9 +88,9 @@ std::string ShowJson(const Json& json) {
   if (json.is_number_float() && !std::isfinite(json.get<double>())) return fmt::format("{}", json.get<double>());
   if (json.is_array()) return fmt::format("a list of {}", json.size());
   if (json.is_object()) return "an object";
-  constexpr std::size_t kLongest = 40;
-  std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);  // ASCII, so that it may be cut
-  return text.size() <= kLongest ? text : text.substr(0, kLongest) + "…";
+  constexpr std::size_t kMaxShownLength = 40;
+  std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);  // ASCII, so it can be cut anywhere
+  return text.size() <= kMaxShownLength ? text : text.substr(0, kMaxShownLength) + "…";
 }
 
 int NestingOf(std::string_view text) {
@@ -115,8 +113,8 @@ int NestingOf(std::string_view text) {
 }
 
 Result<Json> ReadJson(const std::string& text, const std::string& file, int line) {
-  if (NestingOf(text) > kDeepest) return Fail({file, line, 0}, "nested more than {} deep", kDeepest);
-  // The parser takes a zero byte for the end, and whatever follows for nothing.
+  if (NestingOf(text) > kMaxNesting) return Fail({file, line, 0}, "nested more than {} deep", kMaxNesting);
+  // The parser stops at a zero byte and ignores what follows.
   if (text.find('\0') != std::string::npos) return Fail({file, line, 0}, "not valid JSON: a zero byte");
   try {
     return Json::parse(text);
@@ -132,7 +130,7 @@ Result<Json> ReadJsonFile(const FilePath& path) {
 
 Result<Json> ReadCbor(std::string_view bytes, const std::string& file) {
   if (!IsShallowCbor(bytes))
-    return Fail({file}, "not CBOR as it is written here, or nested more than {} deep", kDeepest);
+    return Fail({file}, "not CBOR as it is written here, or nested more than {} deep", kMaxNesting);
   try {
     return Json::from_cbor(bytes);
   } catch (const Json::exception& error) {

@@ -12,33 +12,34 @@ namespace etude {
 
 using Json = nlohmann::ordered_json;
 
-/// Deletes where the type is known, so that whoever only passes a value on need not read nlohmann's header.
+/// Deletes a Json in json.cc, so that headers which only pass values on need not include nlohmann/json.hpp.
 struct DeleteJson {
   DeleteJson() = default;
-  DeleteJson(std::default_delete<Json>) {}  // NOLINT: what std::make_unique made is welcome
+  DeleteJson(std::default_delete<Json>) {}  // NOLINT: converts from std::make_unique
   void operator()(Json* json) const;
 };
 using JsonPtr = std::unique_ptr<Json, DeleteJson>;
 
-/// Writes JSON in the one way in which it leaves Etude: one line, keys in the order given, shortest digits that read
-/// back the same, characters that nobody sees (IsHidden) by their numbers. Refuses NaN and infinity, which nlohmann
-/// would silently write as null, naming their path.
+/// Writes JSON, in the form of all of Etude's files: one line, keys in insertion order, numbers with the fewest digits
+/// that read back the same, invisible characters (IsHidden) escaped as code points. Fails on NaN and infinity with the
+/// path to the value; nlohmann would silently write null.
 Result<std::string> WriteJson(const Json& json);
 
-/// Shows a value in a complaint: its JSON, cut after forty characters; a list by its length.
+/// Describes a value for a complaint: its JSON, cut after 40 characters, or "an object", or the length of a list.
 std::string ShowJson(const Json& json);
 
-/// Counts how deep brackets nest, whether or not the rest is JSON.
+/// Returns the depth to which brackets nest. The text need not be valid JSON.
 int NestingOf(std::string_view text);
 
-/// Reads one JSON value, nested at most 100 deep; complains with the file and `line` (0 = a file of one value).
+/// Reads one JSON value, nested at most 100 deep. `file` and `line` are for complaints; line 0 = the file is one value.
+/// Fails on invalid JSON and on a zero byte.
 Result<Json> ReadJson(const std::string& text, const std::string& file, int line = 0);
 
-/// Reads a file of one JSON value; fails like ReadWholeFile and ReadJson.
+/// Reads a file of one JSON value. Fails like ReadWholeFile and ReadJson.
 Result<Json> ReadJsonFile(const FilePath& path);
 
-/// Reads one value as CBOR (RFC 8949), nested at most 100 deep. Refused, too, what Json::to_cbor never writes: lengths
-/// that are not told beforehand, and tags.
+/// Reads one CBOR value (RFC 8949), nested at most 100 deep. Fails also on what Json::to_cbor never writes: indefinite
+/// lengths and tags.
 Result<Json> ReadCbor(std::string_view bytes, const std::string& file);
 
 }  // namespace etude

@@ -7,9 +7,8 @@
 namespace etude {
 namespace {
 
-constexpr int kNumberOverflow = 406;  // nlohmann's number of that error
+constexpr int kNumberOverflow = 406;  // nlohmann's error id
 
-/// Builds the value of which the parser tells the parts.
 class Builder : public nlohmann::json_sax<Json> {
  public:
   explicit Builder(JsonText& built) : built_(built) {}
@@ -20,7 +19,7 @@ class Builder : public nlohmann::json_sax<Json> {
   bool number_unsigned(number_unsigned_t value) override { return Add(value); }
   bool number_float(number_float_t value, const string_t&) override { return Add(value); }
   bool string(string_t& value) override { return Add(std::move(value)); }
-  bool binary(binary_t&) override { return false; }  // JSON has none
+  bool binary(binary_t&) override { return false; }  // JSON has no binary values
 
   bool start_object(std::size_t) override {
     keys_.emplace_back();
@@ -47,12 +46,12 @@ class Builder : public nlohmann::json_sax<Json> {
   }
 
  private:
-  // A list or object that is open is its parent's last part, so that it stays where it is until it is closed.
+  // Pointers to open lists and objects stay valid: each is its parent's last entry until it is closed.
   Json& Place(Json value) {
     if (open_.empty()) return built_.value = std::move(value);
     Json& parent = *open_.back();
     if (parent.is_array()) return parent.get_ref<Json::array_t&>().emplace_back(std::move(value));
-    // As the list of pairs that it is, which looks up no key.
+    // Appends to ordered_json's list of pairs, without looking up the key.
     std::vector<std::pair<const std::string, Json>>& pairs = parent.get_ref<Json::object_t&>();
     return pairs.emplace_back(std::move(key_), std::move(value)).second;
   }
@@ -67,7 +66,7 @@ class Builder : public nlohmann::json_sax<Json> {
 
   JsonText& built_;
   std::vector<Json*> open_;
-  std::vector<std::set<std::string>> keys_;  // of the objects that are open
+  std::vector<std::set<std::string>> keys_;  // of each open object
   std::string key_;
 };
 

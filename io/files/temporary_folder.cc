@@ -18,11 +18,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kPrefix = "etude-temporary-";  // nobody calls a folder of results so
+constexpr const char* kPrefix = "etude-temporary-";  // unlikely for a folder of results
 constexpr const char* kKeptPrefix = "etude-kept-";
-constexpr std::size_t kOwnLetters = 7;  // "-XXXXXX" at the end of a name
+constexpr std::size_t kSuffixLength = 7;  // "-XXXXXX", replaced by mkdtemp
 
-/// Locks a folder until we end; -1 when another process has it, or the folder is not ours.
+/// Opens and locks a folder; returns −1 if another process has the lock or the folder belongs to another user.
 int Lock(const fs::path& folder) {
   const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   struct stat status {};
@@ -32,8 +32,8 @@ int Lock(const fs::path& folder) {
   return -1;
 }
 
-/// Makes a folder, and gives its path and lock. It gets its final name when it is locked, lest another process take it
-/// for abandoned before.
+/// Makes a folder; returns its path and lock. It gets its final name only when it is locked; otherwise another process
+/// could delete it as abandoned.
 Result<std::pair<fs::path, int>> MakeLocked(const fs::path& parent, const std::string& start) {
   std::string name = (parent / ("." + start + "-XXXXXX")).string();
   const bool made = ::mkdtemp(name.data()) != nullptr;
@@ -81,7 +81,7 @@ std::vector<TemporaryFolder> TemporaryFolder::FindKept(const fs::path& parent, c
   std::error_code error;
   for (fs::directory_iterator entry(parent, error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    if (name.size() != start.size() + kOwnLetters || !name.starts_with(start + "-")) continue;
+    if (name.size() != start.size() + kSuffixLength || !name.starts_with(start + "-")) continue;
     if (const int lock = Lock(entry->path()); lock >= 0) found.push_back(TemporaryFolder(entry->path(), lock));
   }
   return found;

@@ -8,19 +8,20 @@
 
 namespace etude {
 
-/// A folder of our own, in the system's place for temporary files unless told another, removed with all in it at the
-/// end; after a kill, by the next process that makes one there.
+/// A temporary folder, deleted with its contents by the destructor. If the process is killed, the next process that
+/// makes a temporary folder in the same parent folder deletes it.
 class TemporaryFolder {
  public:
-  /// `purpose` becomes part of its name.
+  /// Makes it in $TMPDIR, else in /tmp. `purpose` becomes part of its name.
   static Result<TemporaryFolder> Make(const std::string& purpose);
-  /// Makes it in a folder of the caller's choice, such as one of the file system that something is to be renamed in.
+  /// Makes it in `parent`: for files that will be renamed, which works only within one file system.
   static Result<TemporaryFolder> MakeIn(const std::filesystem::path& parent, const std::string& purpose);
-  /// Makes one in whose name `kept` stands; it is no longer removed when its process has been killed, but found again.
+  /// Makes one that survives if its process is killed; FindKept finds it by `kept`, a part of its name.
   static Result<TemporaryFolder> MakeKept(const std::filesystem::path& parent, const std::string& kept);
-  /// Takes over those of this name whose processes have been killed.
+  /// Takes over the folders of MakeKept with this name whose processes have been killed.
   static std::vector<TemporaryFolder> FindKept(const std::filesystem::path& parent, const std::string& kept);
-  /// Removes those whose processes have been killed, of a folder or of the system's place. Make does it, too.
+  /// Deletes the folders in `parent` (default: the system's temporary folder) whose processes have been killed. Make
+  /// and MakeIn do this too.
   static void RemoveAbandoned(const std::filesystem::path& parent);
   static void RemoveAbandoned();
   TemporaryFolder(TemporaryFolder&& other) noexcept;
@@ -33,7 +34,7 @@ class TemporaryFolder {
   TemporaryFolder(std::filesystem::path path, int lock) : path_(std::move(path)), lock_(lock) {}
 
   std::filesystem::path path_;
-  int lock_ = -1;  ///< held while we live, so that it is seen to be in use
+  int lock_ = -1;  ///< descriptor of the locked folder: the lock shows other processes that it is in use
 };
 
 }  // namespace etude

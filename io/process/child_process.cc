@@ -36,7 +36,7 @@ bool IsProgram(const std::string& path) {
   return ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && ::access(path.c_str(), X_OK) == 0;
 }
 
-constexpr int kChunksPerReceive = 16;  // a child that never stops talking must not keep us from looking at the clock
+constexpr int kChunksPerReceive = 16;  // of 64 KiB, so that Receive returns even if the child writes endlessly
 
 std::vector<char*> Pointers(std::vector<std::string>& texts) {
   std::vector<char*> pointers;
@@ -45,7 +45,7 @@ std::vector<char*> Pointers(std::vector<std::string>& texts) {
   return pointers;
 }
 
-constexpr int kNotContained = -1;  // in the place of an errno
+constexpr int kNotContained = -1;  // reported instead of an errno
 
 struct Pipe {
   Descriptor read, write;
@@ -57,15 +57,14 @@ Result<Pipe> MakePipe() {
   return Pipe{Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
-void Limit(__rlimit_resource resource, rlim_t most) {
+void Limit(__rlimit_resource resource, rlim_t maximum) {
   rlimit limit{};
   ::getrlimit(resource, &limit);
-  limit.rlim_max = std::min(limit.rlim_max, most);
+  limit.rlim_max = std::min(limit.rlim_max, maximum);
   limit.rlim_cur = std::min(limit.rlim_cur, limit.rlim_max);
   ::setrlimit(resource, &limit);
 }
 
-/// Sets the limits that keep a program that is not ours within bounds wherever it runs.
 void LimitProgram() {
   ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   Limit(RLIMIT_FSIZE, ProgramLimits::kFileBytes);
@@ -73,25 +72,25 @@ void LimitProgram() {
   Limit(RLIMIT_SIGPENDING, ProgramLimits::kPendingSignals);
   Limit(RLIMIT_MEMLOCK, ProgramLimits::kLockedBytes);
   Limit(RLIMIT_MSGQUEUE, 0);
-  Limit(RLIMIT_CORE, 1);  // at 1 the kernel starts no helper of the machine either, which it does at 0
+  Limit(RLIMIT_CORE, 1);  // at 0 the kernel would still start a core dump helper
 }
 
-/// The program that a forked child becomes, all made ready before: between fork and exec only system calls are safe.
-struct Becoming {
+/// All that a forked child needs for exec, prepared before the fork: between fork and exec only system calls are safe.
+struct ExecPlan {
   const char* path;
   char* const* argv;
   char* const* envp;
-  int input, output, errors;  ///< -1 = it keeps ours
-  int report;                 ///< where it writes why it cannot become the program
-  int parent;                 ///< a pidfd of ours
+  int input, output, errors;  ///< descriptors; errors −1 = it shares ours
+  int report;                 ///< a pipe to which it writes the errno if it fails
+  int parent;                 ///< a pidfd of this process
   bool limited, contained;
   std::string user_map, group_map;
-  std::vector<Descriptor> told;
-  std::vector<std::pair<const char*, std::string>> user_limits;  ///< files of /proc, and what is written to them
+  std::vector<Descriptor> texts;
+  std::vector<std::pair<const char*, std::string>> user_limits;  ///< files in /proc, and the texts to write to them
 };
 
-/// Forks into a space of processes of its own, with the privileges there (not here) that a fence needs to begin, and
-/// into a control group (-1 = none).
+/// Forks into new user, PID and mount namespaces, where the child has the privileges that bubblewrap needs, and into a
+/// control group (−1 = none).
 pid_t ForkContained(int control_group) {
   clone_args how{};
   how.flags = CLONE_NEWUSER | CLONE_NEWPID | CLONE_NEWNS;
@@ -110,47 +109,44 @@ bool WriteTo(const char* path, std::string_view text) {
   return written;
 }
 
-/// Makes a new space of processes what a fence expects of the one around it: we are ourselves there, and /proc tells
-/// it. What the kernel counts by user for all that is inside gets limits there, so that the user keeps some of it.
-bool SettleIn(const Becoming& child) {
-  const bool has_settled = WriteTo("/proc/self/setgroups", "deny") && WriteTo("/proc/self/uid_map", child.user_map) &&
-                           WriteTo("/proc/self/gid_map", child.group_map) &&
-                           ::mount("proc", "/proc", "proc", MS_NOSUID | MS_NODEV | MS_NOEXEC, nullptr) == 0;
-  if (!has_settled || !child.limited) return has_settled;
+/// Sets up the new namespaces as bubblewrap expects them: the same user and group IDs, and a /proc of its own. Kernel
+/// limits per user are set for the namespace, so that the user's other programs keep a share.
+bool SetUpNamespaces(const ExecPlan& child) {
+  const bool is_set_up = WriteTo("/proc/self/setgroups", "deny") && WriteTo("/proc/self/uid_map", child.user_map) &&
+                         WriteTo("/proc/self/gid_map", child.group_map) &&
+                         ::mount("proc", "/proc", "proc", MS_NOSUID | MS_NODEV | MS_NOEXEC, nullptr) == 0;
+  if (!is_set_up || !child.limited) return is_set_up;
   for (const auto& [file, text] : child.user_limits) WriteTo(file, text);
   return true;
 }
 
-[[noreturn]] void GiveUp(const Becoming& child, int reason) {
+[[noreturn]] void GiveUp(const ExecPlan& child, int reason) {
   if (::write(child.report, &reason, sizeof reason) < 0) ::_exit(126);
   ::_exit(127);
 }
 
-/// Turns a forked child into the program.
-[[noreturn]] void BecomeProgram(const Becoming& child) {
+[[noreturn]] void BecomeProgram(const ExecPlan& child) {
   ::setpgid(0, 0);
-  ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // orphans below it stay below it, where they can be found
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // orphans among its descendants become its children
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   pollfd parent{child.parent, POLLIN, 0};
-  if (::poll(&parent, 1, 0) != 0) ::_exit(0);  // we died before the line above
+  if (::poll(&parent, 1, 0) != 0) ::_exit(0);  // the parent died before the line above
   for (const int number : {SIGINT, SIGTERM, SIGPIPE, SIGCHLD, SIGXFSZ}) ::signal(number, SIG_DFL);
-  if (child.contained && !SettleIn(child)) GiveUp(child, kNotContained);
+  if (child.contained && !SetUpNamespaces(child)) GiveUp(child, kNotContained);
   if (child.limited) LimitProgram();
   ::dup2(child.input, STDIN_FILENO);
   ::dup2(child.output, STDOUT_FILENO);
   if (child.errors >= 0) ::dup2(child.errors, STDERR_FILENO);
   ::close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
-  for (std::size_t i = 0; i < child.told.size(); ++i) {
+  for (std::size_t i = 0; i < child.texts.size(); ++i) {
     const int wanted = STDERR_FILENO + 1 + static_cast<int>(i);
-    // Those of what is told were opened last, behind two pipes and the report: none is overwritten that is still
-    // wanted.
-    if (::dup2(child.told[i].number(), wanted) < 0 || ::lseek(wanted, 0, SEEK_SET) != 0) GiveUp(child, errno);
+    // The texts were opened after three pipes, so each number is higher than its copy's: none is overwritten too early.
+    if (::dup2(child.texts[i].number(), wanted) < 0 || ::lseek(wanted, 0, SEEK_SET) != 0) GiveUp(child, errno);
   }
   ::execve(child.path, child.argv, child.envp);
   GiveUp(child, errno);
 }
 
-/// A file in memory that holds a text.
 Result<Descriptor> MakeFile(const std::string& text) {
   Descriptor file(::memfd_create("text", MFD_CLOEXEC));
   if (file.number() < 0 || ::write(file.number(), text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
@@ -166,26 +162,25 @@ void Change(std::vector<std::string>& environment, const std::string& change) {
   if (change.size() >= start.size()) environment.push_back(change);
 }
 
-/// Starts a program where the kernel grants it no space of its own.
 Result<ChildProcess> StartUncontained(ChildOptions options) {
   options.contained = false;
   return ChildProcess::Start(options);
 }
 
-/// The children of this process that are spoken to. Where it adopts orphans, all others are such.
+/// The children of this process that ChildProcess started. After AdoptOrphans, all its other children are orphans.
 std::set<pid_t>& ManagedChildren() {
   static std::set<pid_t> children;
   return children;
 }
 
-/// Ends what a child that has ended left behind, if this process adopts it.
+/// Kills adopted orphans, if this process adopts any (AdoptOrphans).
 void EndOrphans() {
   int adopts = 0;
   ::prctl(PR_GET_CHILD_SUBREAPER, &adopts);
   if (adopts == 0) return;
-  constexpr int kMaxLooks = 100;  // at orphans of orphans
+  constexpr int kMaxPasses = 100;  // killing an orphan may make its children orphans
   bool found = true;
-  for (int i = 0; found && i < kMaxLooks; ++i) {
+  for (int i = 0; found && i < kMaxPasses; ++i) {
     found = false;
     for (const pid_t child : ChildrenOf(::getpid())) {
       if (ManagedChildren().contains(child)) continue;
@@ -196,7 +191,7 @@ void EndOrphans() {
   }
 }
 
-/// The exit code as a shell, and a fence, tell it: a signal is one beyond 128.
+/// Returns the exit code as shells and bubblewrap report it: 128 + n for signal n.
 int ExitCode(int status) { return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status); }
 
 std::string DescribeEnd(int code) {
@@ -227,6 +222,7 @@ Result<std::string> FindProgram(const std::string& name) {
 void AdoptOrphans() { ::prctl(PR_SET_CHILD_SUBREAPER, 1); }
 
 Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
+  // Pipes, and the file for standard error.
   ASSIGN_OR_RETURN(const auto path, FindProgram(options.program));
   auto input = MakePipe(), output = MakePipe(), report = MakePipe();
   for (const auto* pipe : {&input, &output, &report}) {
@@ -237,6 +233,7 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
     errors = Descriptor(::open(options.error_file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666));
     if (errors.number() < 0) return CannotWrite(options.error_file, "cannot write", errno);
   }
+  // Prepare all that the child needs after the fork.
   std::vector<std::string> argument_texts = {options.program};
   argument_texts.insert(argument_texts.end(), options.arguments.begin(), options.arguments.end());
   std::vector<std::string> environment_texts = ClosedEnvironment();
@@ -246,7 +243,7 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
   const std::vector<char*> envp = Pointers(environment_texts);
   const Descriptor ourselves(static_cast<int>(::syscall(SYS_pidfd_open, ::getpid(), 0)));
   if (ourselves.number() < 0) return FailOfMachine("no process can be watched: {}", std::strerror(errno));
-  Becoming child{
+  ExecPlan child{
       .path = path.c_str(),
       .argv = argv.data(),
       .envp = envp.data(),
@@ -259,20 +256,22 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
       .contained = options.contained,
       .user_map = fmt::format("{0} {0} 1", ::geteuid()),
       .group_map = fmt::format("{0} {0} 1", ::getegid()),
-      .told = {},
+      .texts = {},
       .user_limits = {
           {"/proc/sys/user/max_inotify_instances", std::to_string(ProgramLimits::InotifyInstances(options.programs))},
           {"/proc/sys/user/max_inotify_watches", std::to_string(ProgramLimits::kInotifyWatches)}}};
-  for (const std::string& text : options.told) {
+  for (const std::string& text : options.inherited_texts) {
     ASSIGN_OR_RETURN(auto file, MakeFile(text));
-    child.told.push_back(std::move(file));
+    child.texts.push_back(std::move(file));
   }
+  // Fork. If the kernel refuses the control group or the namespaces, go on without.
   ::signal(SIGPIPE, SIG_IGN);
   pid_t pid = options.contained ? ForkContained(options.control_group) : ::fork();
   if (pid < 0 && options.control_group >= 0) pid = ForkContained(-1);
   if (pid == 0) BecomeProgram(child);
   if (pid < 0 && options.contained && errno != EAGAIN && errno != ENOMEM) return StartUncontained(options);
   if (pid < 0) return FailOfMachine("no process can be started: {}", std::strerror(errno));
+  // Wait until the child has executed the program (the pipe closes) or reports why not.
   ManagedChildren().insert(pid);
   report->write.Close();
   int reason = 0;
@@ -324,7 +323,7 @@ bool ChildProcess::SendOn() {
     const ssize_t count = ::write(input_, unsent_.data() + sent_, unsent_.size() - sent_);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return true;
-    if (count < 0) {  // nobody will ever take the rest
+    if (count < 0) {  // the rest cannot be sent
       if (errno != EPIPE) broken_by_ = errno;
       break;
     }
@@ -342,8 +341,8 @@ std::size_t ChildProcess::UnreadBytes() const {
   return static_cast<std::size_t>(in_pipe) + unsent_.size() - sent_;
 }
 
-bool ChildProcess::Receive(std::size_t longest_line) {
-  SendOn();  // a child that no longer listens may still have something to say
+bool ChildProcess::Receive(std::size_t max_line_bytes) {
+  SendOn();  // also if it has closed its input: there may be output to read
   buffer_.erase(0, line_start_);
   scanned_ -= line_start_;
   line_start_ = 0;
@@ -358,7 +357,7 @@ bool ChildProcess::Receive(std::size_t longest_line) {
     ++chunks;
   }
   if (broken_by_ != 0) return false;
-  return buffer_.size() <= longest_line || buffer_.find('\n', scanned_) != std::string::npos;
+  return buffer_.size() <= max_line_bytes || buffer_.find('\n', scanned_) != std::string::npos;
 }
 
 std::optional<std::string> ChildProcess::NextLine() {
@@ -387,12 +386,12 @@ bool ChildProcess::HasEnded() const {
 
 std::string ChildProcess::Finish(int patience_ms) {
   if (pid_ < 0) return "not running";
-  HeldTree tree(pid_);  // descendants of a child that ended could not be found any more
+  HeldTree tree(pid_);  // before the child ends, while its descendants can still be found
   ::close(input_);
   for (int i = 0; i < patience_ms && !HasEnded(); ++i) ::usleep(1000);
   ::close(output_);
   tree.Kill();
-  ::kill(-pid_, SIGKILL);  // before it is reaped: until then its number, and so its group's, is nobody else's
+  ::kill(-pid_, SIGKILL);  // before it is reaped: afterwards the group's ID may be reused
   int status = 0;
   while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
   }

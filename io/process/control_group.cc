@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kPrefix = "etude-";  // then the process that made it, and its number there
-constexpr int kEndingMs = 100;                  // that the last process in a group takes to be gone
+constexpr std::string_view kPrefix = "etude-";  // followed by the ID of the process that made it, and a counter
+constexpr int kMaxEndingMs = 100;               // wait for the last process to leave its group
 
 bool Write(const fs::path& file, std::string_view text) {
   const Descriptor opened(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
@@ -37,13 +37,14 @@ bool HasWord(const std::string& text, std::string_view wanted) {
   return false;
 }
 
-/// True if groups below a folder count memory, and we may make some and start processes in them.
+/// Returns true if groups below a folder count memory, and this user may make groups there and start processes in them.
 bool IsPlace(const fs::path& folder) {
   return HasWord(ReadProcFile((folder / "cgroup.subtree_control").string()), "memory") &&
          ::access(folder.c_str(), W_OK) == 0 && ::access((folder / "cgroup.procs").c_str(), W_OK) == 0;
 }
 
-/// Makes our own group a place, if it is ours alone: a group that passes its controllers on holds no process itself.
+/// Makes the own group usable (IsPlace), if no other process is in it: moves this process into a child group, because
+/// a group that passes controllers on may not contain processes.
 bool MakePlaceOf(const fs::path& own) {
   const fs::path below = own / fmt::format("{}{}", kPrefix, ::getpid());
   std::error_code error;
@@ -59,8 +60,7 @@ bool MakePlaceOf(const fs::path& own) {
   return false;
 }
 
-/// Removes the groups of processes that are gone. Of others, and of those in which somebody still is, the kernel
-/// refuses it.
+/// Removes the groups whose makers have ended. The kernel refuses it for groups that still contain processes.
 void RemoveLeftGroups(const fs::path& place) {
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(place, error)) {
@@ -138,9 +138,9 @@ ControlGroup ControlGroup::Make(const std::string& place, double max_mb) {
   group.path_ = fmt::format("{}/{}{}-{}", place, kPrefix, ::getpid(), ++made);
   std::error_code error;
   if (!fs::create_directory(group.path_, error)) return {};
-  // Looks end a program that holds too much; the kernel ends one that takes it between two of them.
-  const double most_bytes = (1.25 * max_mb + 64) * (1 << 20);
-  const bool is_limited = Write(group.path_ + "/memory.max", fmt::format("{:.0f}", most_bytes)) &&
+  // WatchedProgram enforces `max_mb` at each sample; the kernel's higher limit stops faster growth.
+  const double max_bytes = (1.25 * max_mb + 64) * (1 << 20);
+  const bool is_limited = Write(group.path_ + "/memory.max", fmt::format("{:.0f}", max_bytes)) &&
                           Write(group.path_ + "/memory.oom.group", "1");
   Write(group.path_ + "/pids.max", std::to_string(ProgramLimits::kThreads));
   group.folder_ = Descriptor(is_limited ? ::open(group.path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1);
@@ -169,7 +169,7 @@ std::string ControlGroup::Read(const char* name) const { return ReadProcFile(fmt
 void ControlGroup::Remove() {
   if (!IsUp()) return;
   folder_.Close();
-  for (int i = 0; i < kEndingMs && ::rmdir(path_.c_str()) != 0 && errno == EBUSY; ++i) ::usleep(1000);
+  for (int i = 0; i < kMaxEndingMs && ::rmdir(path_.c_str()) != 0 && errno == EBUSY; ++i) ::usleep(1000);
 }
 
 }  // namespace etude

@@ -6,45 +6,41 @@
 
 namespace etude {
 
-/// The control group (cgroup v2) that a process is in.
 struct OwnGroup {
-  std::string folder, top;  ///< its folder, and that of all groups that can be seen; "" without cgroup v2
+  std::string folder, top;  ///< its folder, and the mount point of the hierarchy; "" without cgroup v2
 
-  /// As the process' files `cgroup` and `mountinfo` in /proc tell.
+  /// Parses the contents of the process's files `cgroup` and `mountinfo` in /proc.
   static OwnGroup Read(const std::string& groups, const std::string& mounts);
 };
 
-/// MB that the processes of a group hold, as its files memory.stat and memory.swap.current tell: without files that the
-/// kernel merely keeps at hand.
+/// Returns the memory of a group, MB, from the contents of its files memory.stat and memory.swap.current: anonymous and
+/// shared pages, sockets, kernel memory and swap. The page cache of files and reclaimable kernel memory do not count.
 double HeldMbIn(const std::string& memory_stat, const std::string& swapped);
 
-/// A control group of its own (cgroup v2) for a program and all that it starts: the kernel counts what they hold,
-/// whatever it is, and ends them when that is far too much. Removed with this object, when nobody is in it any more.
+/// A control group (cgroup v2) for one program and its descendants. The kernel counts all their memory, and kills them
+/// if it far exceeds the limit. The destructor removes the group, once it has no processes any more.
 class ControlGroup {
  public:
-  /// Finds the folder below which groups can be made; "" where this machine gives none: that needs cgroup v2 with its
-  /// memory controller, and a group above ours, or ours, that belongs to us. Moves this process into a group of its
-  /// own where ours has no other process. Removes what groups killed runs have left behind.
+  /// Finds the folder in which groups can be made; "" if there is none. That requires cgroup v2 with its memory
+  /// controller, and that the group of this process, or one above, belongs to this user. If this process is alone in
+  /// its group, it moves into a new child group, because only a group without processes can limit its child groups.
+  /// Also removes groups that killed runs have left.
   static std::string FindPlace();
-  /// The same, of a process in that group.
   static std::string FindPlace(const OwnGroup& of_process);
 
-  /// No group.
   ControlGroup() = default;
-  /// Makes a group below `place` for a program that may hold `max_mb`; none where `place` is "", or it cannot be made.
+  /// Makes a group in `place` for a program that may hold `max_mb` MB; no group if `place` is "" or it cannot be made.
   static ControlGroup Make(const std::string& place, double max_mb);
   ControlGroup(ControlGroup&& other) noexcept = default;
   ControlGroup& operator=(ControlGroup&& other) noexcept;
   ~ControlGroup() { Remove(); }
 
   bool IsUp() const { return folder_.number() >= 0; }
-  /// The descriptor of its folder, to start a process in it; -1 = none.
+  /// Returns the descriptor of its folder, for starting a process in it; −1 = no group.
   int folder() const { return folder_.number(); }
-  /// True if no process is in it.
   bool IsEmpty() const { return Read("cgroup.procs").empty(); }
-  /// What it holds now, MB (HeldMbIn).
   double HeldMb() const;
-  /// True if the kernel has ended somebody in it since it held far too much.
+  /// Returns true if the kernel has killed a process in it for lack of memory.
   bool WasFull() const;
 
  private:

@@ -31,13 +31,13 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kTrialMs = 5000;
-constexpr double kNameBytes = 700, kInodeBytes = 900;  // of a temporary file, as measured on Linux 6.18; of long names
+constexpr double kNameBytes = 700, kInodeBytes = 900;  // per temporary file with a long name, measured on Linux 6.18
 
-/// The folders that every program sees: the system's programs and libraries.
+/// Folders that every program sees: the system's programs and libraries.
 constexpr std::array kSystem = {"/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/opt", "/nix"};
-/// What every program sees of the system's settings, in a folder of its own: those of loaders, interpreters and
-/// libraries. What holds secrets, names users or tells machines apart is not among them, also when it comes later. A
-/// name with a * stands for all that begin so.
+/// The system's settings that every program sees: those of loaders, interpreters and libraries. It is a list of allowed
+/// names, so that files with secrets, users or the machine's identity stay hidden, also ones added later. "*" at the
+/// end matches any rest of the name.
 constexpr const char* kSettings = "/etc";
 constexpr std::array kShownSettings = {
     "ld.so.*",       "alternatives",   "localtime",     "timezone",  "locale.alias",
@@ -46,7 +46,7 @@ constexpr std::array kShownSettings = {
     "pki/tls/certs", "python*",        "java-*",        "R",         "julia*",
     "octave*",       "ImageMagick-*",  "OpenCL",        "vulkan",    "glvnd",
     "matplotlibrc",  "papersize",      "static"};
-/// Folders to write to, empty at first.
+/// Scratch folders: programs may write to them; they are empty at the start.
 constexpr std::array kScratch = {"/tmp", "/var/tmp", "/dev/shm"};
 
 bool IsWithin(const fs::path& path, const fs::path& folder) {
@@ -54,7 +54,7 @@ bool IsWithin(const fs::path& path, const fs::path& folder) {
   return at_folder == folder.end();
 }
 
-/// True if one of the settings that are shown has this name, or holds or is held by it.
+/// Returns true if a path relative to /etc is a shown setting, or is in one.
 bool IsShownSetting(const fs::path& below) {
   return std::ranges::any_of(kShownSettings, [&](const std::string_view pattern) {
     if (!pattern.ends_with('*')) return IsWithin(below, pattern);
@@ -62,7 +62,7 @@ bool IsShownSetting(const fs::path& below) {
   });
 }
 
-/// Lists the settings that are shown and there, by their whole paths.
+/// Lists the absolute paths of the shown settings; names without "*" need not exist.
 std::vector<fs::path> ShownSettings() {
   std::vector<fs::path> found;
   std::error_code error;
@@ -80,7 +80,7 @@ void Add(std::vector<std::string>& words, std::initializer_list<std::string> mor
   words.insert(words.end(), more.begin(), more.end());
 }
 
-/// What a program inside is told beside the closed environment: of our folders and of the user nothing.
+/// Returns changes to the closed environment that remove what names our folders or the user.
 std::vector<std::string> Environment(const std::vector<fs::path>& shown) {
   std::string folders;
   const char* variable = ::getenv("PATH");
@@ -98,7 +98,8 @@ std::vector<std::string> Environment(const std::vector<fs::path>& shown) {
           "SHELL"};
 }
 
-/// Sets the one limit that must be set inside: the kernel counts a user's threads by namespace.
+/// Returns the prlimit command that sets the thread limit. It must run inside, because the kernel counts a user's
+/// threads by namespace. Empty if prlimit is missing.
 std::vector<std::string> Limiter(int programs) {
   const auto prlimit = FindProgram("prlimit");
   rlimit ours{};
@@ -107,9 +108,9 @@ std::vector<std::string> Limiter(int programs) {
   return {*prlimit, fmt::format("--nproc={0}:{0}", threads), "--"};
 }
 
-/// Lists what users other than root could not read, where this process is root, and sockets and named pipes, which can
-/// be written to through a read-only mount: of the folders in which an administrator puts settings and programs, and of
-/// /proc. Walks them, which takes some 5 ms per 1000 files. Of /usr/share sockets and pipes alone, 2 ms per 1000.
+/// Lists Fence::kept: sockets and named pipes (PipesBelow) and, if this process is root, what only root can read. It
+/// searches the folders in which an administrator puts settings and programs, and /proc (5 ms per 1000 files); in
+/// /usr/share only for sockets and pipes (2 ms per 1000).
 std::vector<fs::path> KeptFromUsers() {
   const bool is_root = ::geteuid() == 0;
   std::vector<fs::path> kept;
@@ -120,13 +121,14 @@ std::vector<fs::path> KeptFromUsers() {
     fs::recursive_directory_iterator at(root, fs::directory_options::skip_permission_denied, error), end;
     for (; !error && at != end; at.increment(error)) {
       const fs::path& path = at->path();
-      // A fence has processes and network settings of its own.
+      // Skip processes and network settings: a fence has its own.
       const std::string name = path.filename().string();
       const bool is_process = name.find_first_not_of("0123456789") == std::string::npos || name.ends_with("self");
       if (is_proc && ((at.depth() == 0 && is_process) || path == "/proc/sys/net")) {
         at.disable_recursion_pending();
         continue;
       }
+      // Secrets, sockets and pipes.
       std::error_code gone;
       const fs::file_status status = at->symlink_status(gone);
       if (gone || fs::is_symlink(status)) continue;
@@ -144,11 +146,11 @@ std::vector<fs::path> KeptFromUsers() {
   return kept;
 }
 
-/// The first process in a fence: a shell that waits for the program. Bubblewrap's own would tell all that it was told
-/// to whoever reads its memory.
+/// The first process in a fence: a shell that waits for the program. It replaces bubblewrap's own, whose memory holds
+/// our folders' names and could be read by programs inside.
 constexpr const char* kFirstProcess = R"(exec 3>&2 2>/dev/null; (exec "$@" 2>&3 3>&-); exit $?)";
 
-/// The first line that a fenced command says, a refusal of the fence among them; "" when it says none in time.
+/// Returns the first line that a command in the fence prints, or the error of the fence; "" if there is none in time.
 std::string FirstLineOf(const Fence& fence, const std::vector<std::string>& command) {
   std::vector<std::string> words = {"-c", R"(exec "$0" "$@" 2>&1)"};
   FencedCommand fenced = fence.Around(command, {});
@@ -156,7 +158,7 @@ std::string FirstLineOf(const Fence& fence, const std::vector<std::string>& comm
   auto child = ChildProcess::Start({.program = "sh",
                                     .arguments = std::move(words),
                                     .contained = true,
-                                    .told = std::move(fenced.told),
+                                    .inherited_texts = std::move(fenced.inherited_texts),
                                     .environment = std::move(fenced.environment)});
   if (!child) return ToString(child.error());
   pollfd watched{child->output(), POLLIN, 0};
@@ -185,7 +187,7 @@ Fence Fence::Find() {
     return none;
   }
   Fence fence = Of(*program);
-  // It tells its version from within the whole fence.
+  // Bubblewrap runs `bwrap --version` in the complete fence.
   const std::string said = FirstLineOf(fence, {*program, "--version"});
   fence.description_ = said;
   if (said.starts_with("bubblewrap ")) {
@@ -212,7 +214,7 @@ ScratchUse Fence::MeasureScratch(pid_t inside) const {
   ScratchUse use;
   if (!IsUp()) return use;
   constexpr double kMb = 1 << 20;
-  std::set<dev_t> seen;  // a folder may be one with another, or not be there yet
+  std::set<dev_t> seen;  // several folders may be one file system, or not be mounted yet
   if (struct stat ours{}; ::stat(kScratch[0], &ours) == 0) seen.insert(ours.st_dev);
   for (const char* folder : kScratch) {
     const std::string path = fmt::format("/proc/{}/root{}", inside, folder);
@@ -253,20 +255,22 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
                             const fs::path& start) const {
   if (!IsUp()) return {command};
   FencedCommand fenced{{program_, "--args", "3", "--", "/bin/sh", "-c", kFirstProcess, "sh"}, {""}, Environment(shown)};
-  const auto tell = [&](std::string text) {  // gives the descriptor at which it can be read
-    fenced.told.push_back(std::move(text));
-    return std::to_string(fenced.told.size() + 2);
+  const auto pass_text = [&](std::string text) {  // returns the number of its descriptor
+    fenced.inherited_texts.push_back(std::move(text));
+    return std::to_string(fenced.inherited_texts.size() + 2);
   };
+  // Namespaces and privileges.
   std::vector<std::string> words = {"--unshare-user", "--unshare-pid", "--unshare-ipc", "--unshare-net"};
   Add(words, {"--unshare-uts", "--unshare-cgroup-try", "--disable-userns", "--cap-drop", "ALL"});
   Add(words, {"--new-session", "--die-with-parent", "--as-pid-1", "--proc", "/proc", "--tmpfs", "/dev"});
-  // Not bubblewrap's --dev, which has terminals (/dev/pts): their number is one pool of the machine.
+  // Devices. Bubblewrap's --dev would add terminals (/dev/pts), of which the whole machine has one limited pool.
   for (const char* device : {"/dev/null", "/dev/zero", "/dev/full", "/dev/random", "/dev/urandom", "/dev/tty"}) {
     Add(words, {"--dev-bind-try", device, device});
   }
   Add(words, {"--symlink", "/proc/self/fd", "/dev/fd", "--symlink", "/proc/self/fd/0", "/dev/stdin"});
   Add(words, {"--symlink", "/proc/self/fd/1", "/dev/stdout", "--symlink", "/proc/self/fd/2", "/dev/stderr"});
   Add(words, {"--ro-bind-try", "/sys/devices/system", "/sys/devices/system"});
+  // Scratch folders, and the visible part of the system.
   const std::string scratch_bytes = std::to_string(ProgramLimits::kFileBytes);
   for (const char* folder : kScratch) Add(words, {"--size", scratch_bytes, "--tmpfs", folder});
   Add(words, {"--dir", "/run"});
@@ -281,11 +285,11 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
     const std::string target = is_link ? fs::read_symlink(setting, error).string() : setting.string();
     Add(words, {is_link ? "--symlink" : "--ro-bind-try", target, setting.string()});
   }
-  // Of all users the one that it is, under no name.
-  Add(words, {"--file", tell(fmt::format("user:x:{}:{}::{}:/bin/sh\n", ::geteuid(), ::getegid(), kScratch[0]))});
-  Add(words, {"/etc/passwd", "--file", tell(fmt::format("user:x:{}:\n", ::getegid())), "/etc/group"});
-  // In this order a folder comes before what it holds. What lies in no folder that is seen needs no hiding, which would
-  // tell its name.
+  // Lists of users and groups with this user alone, without its real name.
+  Add(words, {"--file", pass_text(fmt::format("user:x:{}:{}::{}:/bin/sh\n", ::geteuid(), ::getegid(), kScratch[0]))});
+  Add(words, {"/etc/passwd", "--file", pass_text(fmt::format("user:x:{}:\n", ::getegid())), "/etc/group"});
+  // Shown and hidden paths, sorted, so that a folder comes before its contents. Only visible paths are hidden: an
+  // unneeded mask would reveal a name.
   std::map<fs::path, bool> is_shown;
   for (const fs::path& path : shown) is_shown.emplace(path, true);
   const auto is_within_shown = [&](const fs::path& path) {
@@ -299,6 +303,7 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
     const bool is_seen = IsOfSystem(path) || IsWithin(path, "/proc");
     if (is_seen && !is_within_shown(path) && fs::exists(path, error)) is_shown.emplace(path, false);
   }
+  // Masks are empty folders over hidden ones. They become read-only after everything below them is mounted.
   std::vector<std::string> masks;
   for (const auto& [path, is_seen] : is_shown) {
     if (is_seen) {
@@ -312,10 +317,11 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
   }
   words.insert(words.end(), masks.begin(), masks.end());
   Add(words, {"--chdir", start.empty() ? kScratch[0] : start.string()});
+  // The filter; then all arguments become the text of descriptor 3.
   std::string filter = SystemCallFilter();
-  if (!filter.empty()) Add(words, {"--seccomp", tell(std::move(filter))});
+  if (!filter.empty()) Add(words, {"--seccomp", pass_text(std::move(filter))});
   for (const char* folder : {"/dev", "/proc", "/"}) Add(words, {"--remount-ro", folder});
-  for (const std::string& word : words) fenced.told[0] += word + '\0';
+  for (const std::string& word : words) fenced.inherited_texts[0] += word + '\0';
   const std::vector<std::string> limiter = Limiter(programs_);
   fenced.words.insert(fenced.words.end(), limiter.begin(), limiter.end());
   fenced.words.insert(fenced.words.end(), command.begin(), command.end());

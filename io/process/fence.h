@@ -10,71 +10,70 @@
 
 namespace etude {
 
-/// The words that run a program behind a fence, and what bubblewrap is told besides: what programs inside could read in
-/// its command line must not name our folders.
+/// The command that runs a program in a fence. Bubblewrap reads its own arguments from a descriptor, because programs
+/// inside can read its command line, which must not reveal our folders.
 struct FencedCommand {
-  std::vector<std::string> words;             ///< a path and arguments
-  std::vector<std::string> told = {};         ///< what descriptors 3 and 4 give (ChildOptions::told)
-  std::vector<std::string> environment = {};  ///< ChildOptions::environment, of bubblewrap and what is inside
+  std::vector<std::string> words;                 ///< a path and arguments
+  std::vector<std::string> inherited_texts = {};  ///< ChildOptions::inherited_texts
+  std::vector<std::string> environment = {};      ///< ChildOptions::environment, of bubblewrap and of the program
 };
 
-/// Temporary files, which are memory.
+/// The memory of temporary files in scratch folders (tmpfs).
 struct ScratchUse {
-  double mb = 0;  ///< of what was written to them
-  double names_mb = 0,
-         inodes_mb =
-             0;  ///< what the kernel keeps of each: its name, which it takes for easy to find again, and the rest
+  double mb = 0;  ///< of their contents
+  /// Estimated kernel memory of their names (which control groups count as reclaimable) and of their inodes.
+  double names_mb = 0, inodes_mb = 0;
 
   double Mb() const { return mb + names_mb + inodes_mb; }
 };
 
-/// A fence around programs that are not ours, made by bubblewrap where the kernel lets it: user, process, mount, ipc
-/// and network namespaces of their own, no capabilities, and of all files only the system's, what they are shown, both
-/// read-only, and scratch folders that go with them (docs/outside-methods.md).
+/// A fence: the sandbox in which outside programs run, made by bubblewrap if the kernel allows it. Programs inside have
+/// user, PID, mount, IPC and network namespaces of their own and no capabilities. They see the system's files and those
+/// shown to them, all read-only, and scratch folders that disappear with them (docs/outside-methods.md).
 class Fence {
  public:
-  /// No fence: programs run as we do.
+  /// No fence: programs run like this process.
   Fence() = default;
-  /// The fence that this machine allows, tried once; else none, and `description` says why.
+  /// Tries once to run bubblewrap, and returns the fence; no fence if that fails, and `description` says why.
   static Fence Find();
-  /// The fence that another process has found: its `program`, and the `kept` and the `groups` that it tells.
+  /// Makes the fence that another process has found, from its `program`, `kept` and `groups`.
   static Fence Of(const std::string& program, std::vector<std::filesystem::path> kept = {}, std::string groups = "");
-  /// Tells whether every program sees a path, as part of the system.
+  /// Returns true if a path belongs to the part of the system that every program sees.
   static bool IsOfSystem(const std::filesystem::path& path);
-  /// The sockets and named pipes below a folder, which can be written to through a read-only mount.
+  /// Lists the sockets and named pipes below a folder: programs can write to them even through a read-only mount.
   static std::vector<std::filesystem::path> PipesBelow(const std::filesystem::path& folder);
-  /// Tells whether a folder holds one that programs have to write to, so that it cannot be shown as it is.
+  /// Returns true if a folder is or contains a scratch folder, so it cannot be shown as it is.
   static bool HoldsScratch(const std::filesystem::path& folder);
 
   bool IsUp() const { return !program_.empty(); }
-  /// The path of bubblewrap; "" = no fence.
+  /// Returns the path of bubblewrap; "" = no fence.
   const std::string& program() const { return program_; }
-  /// "bubblewrap 0.8.0"; "none (not asked for)".
+  /// Returns "bubblewrap 0.8.0", or "none (…)" with the reason.
   const std::string& description() const { return description_; }
 
-  /// Says how many programs run in such fences at the same time, and share what the kernel counts by user.
+  /// Sets the number of programs that run in such fences at the same time and share the kernel's limits per user.
   void ShareBy(int programs) { programs_ = programs; }
   int programs() const { return programs_; }
 
-  /// ControlGroup::FindPlace; "" without a fence.
+  /// Returns ControlGroup::FindPlace(); "" without a fence.
   const std::string& groups() const { return groups_; }
-  /// "counted by the kernel (cgroup v2)"; by whom the memory of programs inside is counted.
+  /// Returns who counts the memory of programs inside: "counted by the kernel (cgroup v2)", for instance.
   std::string MemoryDescription() const;
 
-  /// Has programs inside see a folder empty, and a file not at all, even where the system or what is shown holds it.
+  /// Hides a path, even if it is in the system or in a shown folder: a folder appears empty, a file cannot be read.
   void Hide(const std::filesystem::path& path) { hidden_.push_back(path); }
   const std::vector<std::filesystem::path>& hidden() const { return hidden_; }
-  /// What of the system is not shown unless a program is granted it: what only root can read, where root asks.
+  /// Returns the system's paths that are hidden unless shown explicitly: sockets, named pipes, and, if this process is
+  /// root, what only root can read.
   const std::vector<std::filesystem::path>& kept() const { return kept_; }
 
-  /// What is in the scratch folders that a process inside sees.
   ScratchUse MeasureScratch(pid_t inside) const;
 
-  /// Fails, with an error of this machine, when nothing can be run inside now, though it could.
+  /// Tries again to run bubblewrap; fails with an error of this machine. Does nothing without a fence.
   Result<void> Try() const;
 
-  /// The words that run `command`, a path and arguments, inside, in the folder `start` ("" = /tmp); `command` itself
-  /// without a fence. It sees `shown`, files and folders by absolute paths, beside the system.
+  /// Returns the command that runs `command` (a path and arguments) inside, with the working folder `start` ("" =
+  /// /tmp). Besides the system it sees `shown`, absolute paths of files and folders. Without a fence: `command` itself.
   FencedCommand Around(const std::vector<std::string>& command, const std::vector<std::filesystem::path>& shown,
                        const std::filesystem::path& start = {}) const;
 

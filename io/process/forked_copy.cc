@@ -24,7 +24,7 @@ Result<ForkedCopy> ForkedCopy::Start(const std::function<int(int socket)>& work)
   if (child == 0) {
     ::close(ends[0]);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(1);  // it died before the line above
+    if (::getppid() != parent) ::_exit(1);  // the parent died before the line above
     ::_exit(work(ends[1]));
   }
   const int why = errno;
@@ -74,7 +74,7 @@ std::optional<int> ForkedCopy::StatusIfEnded() {
 
 void ForkedCopy::CloseSocket() {
   if (socket_ < 0) return;
-  ::shutdown(socket_, SHUT_RDWR);  // copies that were forked later hold this end open, too
+  ::shutdown(socket_, SHUT_RDWR);  // copies that were forked later keep this end open too
   ::close(std::exchange(socket_, -1));
 }
 

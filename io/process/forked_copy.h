@@ -11,9 +11,9 @@
 
 namespace etude {
 
-/// A copy of this process (fork) that does one piece of work and ends. Both sides hold one end of a pair of sockets. The
-/// kernel ends the copy if this process dies; the destructor ends it (SIGKILL) and reaps it. Threads of this process, if
-/// it has any, must not hold what `work` needs.
+/// A forked copy of this process that does one piece of work and ends. Each side has one end of a pair of sockets. The
+/// kernel kills the copy if this process dies; the destructor kills and reaps it. At the fork, other threads of this
+/// process must not hold locks that `work` needs.
 class ForkedCopy {
  public:
   /// Starts a copy that runs `work` with its end of the sockets; what `work` returns becomes its exit code, and no
@@ -26,10 +26,10 @@ class ForkedCopy {
   /// The descriptor of our end of the sockets; −1 after `Wait`.
   int socket() const { return socket_; }
 
-  /// Ends it with SIGKILL. It must still be waited for.
+  /// Sends SIGKILL. Wait must still be called.
   void Kill();
 
-  /// Closes our end of the sockets, waits for its end, and returns its status as waitpid gives it.
+  /// Closes our end of the sockets, waits until the copy has ended, and returns its status (waitpid).
   int Wait();
 
   /// Returns its status if it has ended; does not wait.
@@ -39,12 +39,12 @@ class ForkedCopy {
   ForkedCopy(pid_t pid, int socket) : pid_(pid), socket_(socket) {}
   void CloseSocket();
 
-  pid_t pid_ = -1;  ///< −1: it has been reaped
+  pid_t pid_ = -1;  ///< −1 = it has been reaped
   int socket_ = -1;
   int status_ = 0;
 };
 
-/// Writes all bytes to a socket. Returns false if nobody listens at the other end.
+/// Writes all bytes to a socket. Returns false if the other end is closed.
 bool SendAll(int socket, std::string_view bytes);
 
 /// Reads exactly `size` bytes from a socket. Returns false if the other end is closed before.

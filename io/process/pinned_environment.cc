@@ -20,7 +20,7 @@
 namespace etude {
 namespace {
 
-/// The variable that tells a process started anew which one it is; processes keep their number then.
+/// The variable that marks a restarted process; it holds the process ID, which exec keeps.
 constexpr std::string_view kRestarted = "ETUDE_RESTARTED";
 
 std::string_view NameOf(std::string_view assignment) { return assignment.substr(0, assignment.find('=')); }
@@ -30,7 +30,7 @@ bool Holds(const Texts& texts, std::string_view text) {
   return std::ranges::find(texts, text) != texts.end();
 }
 
-/// True if the environment is what `ClosedEnvironment` would make of it.
+/// Returns true if the environment equals ClosedEnvironment (the key of secret worlds may be there too).
 bool IsClosed() {
   std::size_t pinned = 0;
   for (char** entry = environ; *entry != nullptr; ++entry) {
@@ -45,7 +45,7 @@ bool IsClosed() {
 
 using Libraries = std::vector<std::pair<std::string, std::string>>;
 
-/// The build ID among the notes of an ELF segment.
+/// Finds the build ID in the notes of an ELF segment; "" if there is none.
 std::string BuildIdIn(std::span<const unsigned char> notes) {
   const auto padded = [](std::size_t size) { return (size + 3) / 4 * 4; };
   while (notes.size() >= sizeof(ElfW(Nhdr))) {
@@ -63,12 +63,12 @@ std::string BuildIdIn(std::span<const unsigned char> notes) {
 
 int AddLibrary(dl_phdr_info* object, std::size_t, void* list) {
   const std::string name = std::filesystem::path(object->dlpi_name).filename().string();
-  // The program itself and its modules; the kernel's part of it.
+  // Skip the program itself, its modules and the kernel's vDSO.
   if (name.empty() || name.starts_with("etude_") || name.starts_with("linux-vdso")) return 0;
   std::string build;
   for (const ElfW(Phdr) & part : std::span(object->dlpi_phdr, object->dlpi_phnum)) {
     if (part.p_type != PT_NOTE || !build.empty()) continue;
-    // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader tells addresses as numbers
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader gives addresses as numbers
     build = BuildIdIn({reinterpret_cast<const unsigned char*>(object->dlpi_addr + part.p_vaddr), part.p_memsz});
   }
   static_cast<Libraries*>(list)->emplace_back(name, std::move(build));
@@ -79,11 +79,11 @@ int AddLibrary(dl_phdr_info* object, std::size_t, void* list) {
 
 const std::vector<std::string>& PinnedEnvironment() {
   static const std::vector<std::string> settings = {
-      "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4",  // its sin, exp, … have FMA variants with other last bits
-      "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1",                  // llvmpipe compiles shaders for the CPU it meets
-      "MESA_SHADER_CACHE_DISABLE=true",                    // the cache forgets for which CPU a shader was compiled
+      "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4",  // FMA variants of sin, exp, … differ in the last bits
+      "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1",                  // else llvmpipe compiles shaders for the machine's CPU
+      "MESA_SHADER_CACHE_DISABLE=true",                    // cached shaders may be from another CPU
       "LP_NUM_THREADS=0",                                  // one process per core is faster than threads
-      "LC_ALL=C.UTF-8",                                    // numbers and sorting of the libraries below us
+      "LC_ALL=C.UTF-8",                                    // formats of numbers and sort orders in libraries
   };
   return settings;
 }

@@ -8,28 +8,27 @@
 
 namespace etude {
 
-/// The settings under which the same build gives the same bytes on any machine, as NAME=VALUE. They must stand before a
-/// process starts, which is why commands that compute start themselves anew (cli/main.cc).
+/// Returns the settings (NAME=VALUE) with which one build gives the same bytes on every machine. They must be set
+/// before the process starts, so commands that compute restart themselves (cli/main.cc).
 const std::vector<std::string>& PinnedEnvironment();
 
-/// The variable that may hold the key of secret worlds (bench/run/secret_key.h). No child is given it.
+/// The variable with the key of secret worlds (bench/run/secret_key.h). It is never passed to child processes.
 inline constexpr const char* kKeyVariable = "ETUDE_SEED_KEY";
 
-/// The names of what may come from outside: where programs, homes and temporary files are, who asks, the terminal, how
-/// GL is reached, and what sanitizers are told. Nothing of these reaches a result, but for GL's, which the manifest
-/// tells.
+/// Returns the names of the variables that are passed on unchanged: folders, the user, the terminal, GL and sanitizers.
+/// None of them affects a result except ETUDE_GL, which the manifest records.
 const std::vector<std::string>& PassedVariables();
 
-/// The whole environment of everything that computes, methods outside included: the pinned settings, and of ours what
-/// may pass. Built from these lists, so that no variable of somebody's shell decides about a pixel.
+/// Returns the complete environment of every process that computes, outside methods included: the pinned settings and
+/// the passed variables. No other variable of the user's shell can change a result.
 std::vector<std::string> ClosedEnvironment();
 
-/// Starts this very command anew in the closed environment, unless it is in there already. Returns only when it is, or
-/// when that fails.
+/// Restarts this command (exec) in the closed environment. Returns without restarting if the environment is closed
+/// already; fails if the restart does.
 Result<void> EnterPinnedEnvironment();
 
-/// The shared libraries that are loaded now, sorted by name: "libOSMesa.so.8" and its build ID in hexadecimal, which
-/// tells any two builds of it apart ("" where it has none).
+/// Returns the loaded shared libraries, sorted by name: "libOSMesa.so.8" and its build ID in hexadecimal ("" = none),
+/// which differs between any two builds.
 std::vector<std::pair<std::string, std::string>> LoadedLibraries();
 
 }  // namespace etude

@@ -19,7 +19,6 @@ namespace {
 
 constexpr std::size_t kMaxProcesses = 4096;
 
-/// Adds the children that any thread of `parent` has started.
 void AddChildren(pid_t parent, std::vector<pid_t>& processes) {
   const std::string folder = fmt::format("/proc/{}/task", parent);
   DIR* threads = ::opendir(folder.c_str());
@@ -37,7 +36,7 @@ void AddChildren(pid_t parent, std::vector<pid_t>& processes) {
   ::closedir(threads);
 }
 
-/// The CPU time of a process alone, to the nanosecond, where /proc/<pid>/stat counts in hundredths of a second.
+/// Returns the processor time of one process, in nanoseconds; /proc/<pid>/stat has ticks of 10 ms.
 double OwnCpuSeconds(pid_t process) {
   clockid_t clock;
   timespec time;
@@ -45,7 +44,7 @@ double OwnCpuSeconds(pid_t process) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-constexpr int kMaxLooks = 100;  // at a tree that grows while it is held
+constexpr int kMaxPasses = 100;  // over a tree that grows meanwhile
 
 bool Signal(const Descriptor& process, int signal) {
   return ::syscall(SYS_pidfd_send_signal, process.number(), signal, nullptr, 0) == 0;
@@ -67,14 +66,14 @@ std::string ReadProcFile(const std::string& path, std::size_t max_bytes) {
 
 ProcessUsage MeasureProcess(pid_t process) {
   const std::string stat = ReadProcFile(fmt::format("/proc/{}/stat", process));
-  // The second field, the program's name in parentheses, may hold anything; numbers follow the last one.
+  // The second field is the program's name in parentheses, which may contain parentheses: fields follow the last one.
   const std::size_t name_end = stat.rfind(')');
   if (name_end == std::string::npos) return {};
   unsigned long faults = 0;
   long user_waited_for = 0, system_waited_for = 0, resident_pages = 0;
   const int read = std::sscanf(stat.c_str() + name_end + 1,
-                               " %*c %*s %*s %*s %*s %*s %*s %lu %*s %*s %*s %*s %*s"  // fields 3 to 15, of them 10
-                               " %ld %ld %*s %*s %*s %*s %*s %*s %ld",                 // 16, 17, 24
+                               " %*c %*s %*s %*s %*s %*s %*s %lu %*s %*s %*s %*s %*s"  // fields 3 to 15; reads 10
+                               " %ld %ld %*s %*s %*s %*s %*s %*s %ld",                 // reads 16, 17, 24
                                &faults, &user_waited_for, &system_waited_for, &resident_pages);
   if (read != 4) return {};
   static const double seconds_per_tick = 1.0 / static_cast<double>(::sysconf(_SC_CLK_TCK));
@@ -99,13 +98,13 @@ std::vector<pid_t> ProcessTree(pid_t root) {
 
 HeldTree::HeldTree(pid_t root) {
   AddTree(root);
-  for (int i = 0; i < kMaxLooks && Grow(); ++i) {
+  for (int i = 0; i < kMaxPasses && Grow(); ++i) {
   }
 }
 
 void HeldTree::Kill() {
-  // A stopped process starts no other, but may have just forked: stop and list until two passes find nothing new.
-  for (int i = 0, quiet = 0; i < kMaxLooks && quiet < 2; ++i) {
+  // A stopped process starts no other one, but may have just forked: stop and list until two passes find nothing new.
+  for (int i = 0, quiet = 0; i < kMaxPasses && quiet < 2; ++i) {
     SignalAll(SIGSTOP);
     quiet = Grow() ? 0 : quiet + 1;
   }
@@ -115,8 +114,8 @@ void HeldTree::Kill() {
 bool HeldTree::Grow() {
   const std::size_t before = processes_.size();
   for (std::size_t i = 0; i < before; ++i) {
-    constexpr int kOnlyAsk = 0;
-    if (Signal(processes_[i].handle, kOnlyAsk)) AddTree(processes_[i].number);
+    constexpr int kExists = 0;  // signal 0 only tests
+    if (Signal(processes_[i].handle, kExists)) AddTree(processes_[i].number);
   }
   return processes_.size() > before;
 }

@@ -11,35 +11,33 @@
 
 namespace etude {
 
-/// The memory and processor time of one process.
 struct ProcessUsage {
-  double resident_mb = 0;     ///< pages that it shares with others count in full
-  double cpu_s = 0;           ///< with what was used by those that it has waited for
-  std::uint64_t faults = 0;   ///< pages that it has touched for the first time, or that had to be copied
-  std::size_t processes = 0;  ///< 1; 0 when it has vanished
-  double own_cpu_s = 0;       ///< without those waited for
+  double resident_mb = 0;     ///< shared pages count in full
+  double cpu_s = 0;           ///< includes child processes that it has waited for
+  std::uint64_t faults = 0;   ///< minor page faults: pages touched for the first time, or copied on write
+  std::size_t processes = 0;  ///< 1; 0 if the process does not exist any more
+  double own_cpu_s = 0;       ///< without child processes
 };
 
-/// The text of one of /proc's files, or its first `max_bytes` and a bit; "" when the process has vanished.
+/// Reads a file in /proc, at most `max_bytes` and up to 4 KiB more; returns "" if the process does not exist any more.
 std::string ReadProcFile(const std::string& path, std::size_t max_bytes = std::size_t{1} << 30);
 
-/// `root` and all its living descendants, parents first. Processes come and go while this looks: it is
-/// what was seen on the way. Stops at 4096 of them.
+/// Returns `root` and its living descendants, parents before children, at most 4096 processes. Processes may start and
+/// end during the search, so the list is not an exact snapshot.
 std::vector<pid_t> ProcessTree(pid_t root);
 
-/// Lists the processes that any thread of `parent` has started, or adopted.
+/// Returns the living children of `parent`, adopted ones included.
 std::vector<pid_t> ChildrenOf(pid_t parent);
 
-/// The process alone, without its descendants; zeros when it has vanished.
+/// Measures one process without its living descendants; zeros if it does not exist any more.
 ProcessUsage MeasureProcess(pid_t process);
 
-/// A process and its descendants, held so that ending them cannot hit another process that has been given one of
-/// their numbers meanwhile.
+/// A process and its descendants, held by pidfds, so that Kill cannot hit a process that has reused one of their IDs.
 class HeldTree {
  public:
   explicit HeldTree(pid_t root);
 
-  /// Ends all of them, and all that they have started since.
+  /// Kills all of them, and all descendants started since.
   void Kill();
 
  private:
@@ -47,7 +45,7 @@ class HeldTree {
     pid_t number;
     Descriptor handle;  ///< a pidfd
   };
-  /// Takes hold of what the held ones have started since; whether there was any.
+  /// Adds descendants started since; returns true if there were any.
   bool Grow();
   void AddTree(pid_t root);
   void SignalAll(int signal) const;

@@ -8,17 +8,17 @@
 
 namespace etude {
 
-/// Stands for a program's input or output where it has none.
+/// No input or output: the program gets /dev/null.
 inline constexpr int kNowhere = -1;
 
-/// Starts a program of this machine, without a shell, between two descriptors; its standard error goes to `log`. Returns
-/// 0, or the errno that says why it could not be started. Programs that are not ours are a `ChildProcess`.
+/// Starts a trusted program, without a shell, with two descriptors as standard input and output and `log` as standard
+/// error. Sets `child` and returns 0, or the errno of the failure. Outside programs are started as a ChildProcess.
 int SpawnProgram(const std::vector<std::string>& words, int input, int output, std::FILE* log, pid_t& child);
 
-/// Waits for the end of a child and returns its status as waitpid gives it; −1 stands for a child that has been reaped.
+/// Waits until a child has ended and returns its status (waitpid); 0 for child −1.
 int WaitFor(pid_t child);
 
-/// Returns the first line of a log, which names the cause; the lines that follow are consequences.
+/// Returns the first line of a log, which usually names the cause; cut after 400 bytes.
 std::string FirstLineOf(std::FILE* log);
 
 }  // namespace etude

@@ -28,39 +28,38 @@ constexpr std::uint32_t kArchitecture = AUDIT_ARCH_AARCH64;
 constexpr std::uint32_t kArchitecture = 0;
 #endif
 
-/// A system call that programs inside have to do without, and the error that tells them so.
 struct Refusal {
   long number;
   int error;
 };
 
 constexpr auto kRefused = std::to_array<Refusal>({
-    // Memory that no look at processes and folders sees, and what is counted by user or machine.
+    // Memory that cannot be measured, and resources that are counted per user or machine.
     {SYS_memfd_create, ENOSYS},
     {SYS_memfd_secret, ENOSYS},
     {SYS_shmget, ENOSYS},
     {SYS_msgget, ENOSYS},
     {SYS_semget, ENOSYS},
     {SYS_mq_open, ENOSYS},
-    {SYS_vmsplice, ENOSYS},  // these four: pages that nobody maps stay in pipes and sockets
+    {SYS_vmsplice, ENOSYS},  // these four: pipes and sockets hold pages that no process maps
     {SYS_splice, EINVAL},
     {SYS_tee, EINVAL},
     {SYS_sendfile, EINVAL},
-    {SYS_seccomp, EINVAL},  // a megabyte of filters a thread, translated within one pool of the machine
+    {SYS_seccomp, EINVAL},  // a megabyte of filters per thread, in a pool of the machine
     {SYS_userfaultfd, ENOSYS},
     {SYS_io_setup, ENOSYS},
     {SYS_landlock_create_ruleset, ENOSYS},
     {SYS_fanotify_init, ENOSYS},
-    {SYS_setxattr, EOPNOTSUPP},  // these three: attributes of files in memory are nobody's memory
+    {SYS_setxattr, EOPNOTSUPP},  // these three: attributes of files in tmpfs count as no process's memory
     {SYS_lsetxattr, EOPNOTSUPP},
     {SYS_fsetxattr, EOPNOTSUPP},
-    // Threads with open files of their own, and processes that share them: their files and locks are not found. The
-    // arguments of clone3 cannot be looked at; without it, C libraries use clone.
+    // Threads with their own descriptor tables, and processes that share one: files and locks could not be counted.
+    // A filter cannot read the arguments of clone3; without it, C libraries use clone.
     {SYS_unshare, EPERM},
     {SYS_clone3, ENOSYS},
-    // It does all of these without system calls.
+    // It performs the operations above without system calls.
     {SYS_io_uring_setup, ENOSYS},
-    // The user's keys, and what the kernel knows of others.
+    // The user's keys, and information about other processes.
     {SYS_add_key, ENOSYS},
     {SYS_request_key, ENOSYS},
     {SYS_keyctl, ENOSYS},
@@ -69,14 +68,14 @@ constexpr auto kRefused = std::to_array<Refusal>({
     {SYS_syslog, EPERM},
 });
 constexpr std::array kFamilies = {AF_UNIX, AF_INET, AF_INET6, AF_NETLINK};
-constexpr std::uint32_t kOtherNumbers = 0x40000000;  // from here on the x32 ABI's, on x86-64; nobody's elsewhere
+constexpr std::uint32_t kOtherNumbers = 0x40000000;  // from here on the x32 ABI's on x86-64; unused elsewhere
 
 using Filter = std::vector<sock_filter>;
 
 constexpr sock_filter Load(std::size_t offset) {
   return BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset));
 }
-/// Loads the lower half of an argument: both CPUs are little-endian.
+/// Loads the lower 32 bits of an argument; both supported CPUs are little-endian.
 constexpr sock_filter LoadArgument(std::size_t index) { return Load(offsetof(seccomp_data, args) + 8 * index); }
 constexpr sock_filter Return(std::uint32_t what) { return BPF_STMT(BPF_RET | BPF_K, what); }
 constexpr sock_filter Refuse(int error) { return Return(SECCOMP_RET_ERRNO | static_cast<std::uint32_t>(error)); }
@@ -87,7 +86,7 @@ constexpr sock_filter SkipUnless(std::uint16_t test, std::uint32_t value, std::s
 
 void Add(Filter& filter, const Filter& more) { filter.insert(filter.end(), more.begin(), more.end()); }
 
-/// Adds what shall be done at one system call, after which the filter has decided.
+/// Adds the rules for one system call; the last rule must decide.
 void AddCall(Filter& filter, long number, const Filter& rules) {
   filter.push_back(SkipUnless(BPF_JEQ, static_cast<std::uint32_t>(number), rules.size()));
   Add(filter, rules);
@@ -97,6 +96,7 @@ void AddCall(Filter& filter, long number, const Filter& rules) {
 
 std::string SystemCallFilter() {
   if (kArchitecture == 0) return "";
+  // Refuse other ABIs, then the calls of kRefused.
   Filter filter = {Load(offsetof(seccomp_data, arch)),
                    BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, kArchitecture, 1, 0),
                    Refuse(ENOSYS),
@@ -104,32 +104,35 @@ std::string SystemCallFilter() {
                    SkipUnless(BPF_JGE, kOtherNumbers, 1),
                    Refuse(ENOSYS)};
   for (const auto& [number, error] : kRefused) AddCall(filter, number, {Refuse(error)});
+  // Families of sockets.
   Filter families = {LoadArgument(0)};
   for (const int family : kFamilies)
     Add(families, {SkipUnless(BPF_JEQ, static_cast<std::uint32_t>(family), 1), kAllow});
   families.push_back(Refuse(EAFNOSUPPORT));
   for (const auto number : {SYS_socket, SYS_socketpair}) AddCall(filter, number, families);
+  // Large pipes, and locks and leases that CountLocks cannot attribute to a process.
   AddCall(filter, SYS_fcntl,
           {LoadArgument(1), SkipUnless(BPF_JEQ, F_SETPIPE_SZ, 1), Refuse(EPERM), SkipUnless(BPF_JEQ, F_OFD_SETLK, 1),
            Refuse(EINVAL), SkipUnless(BPF_JEQ, F_OFD_SETLKW, 1), Refuse(EINVAL), SkipUnless(BPF_JEQ, F_SETLEASE, 1),
            Refuse(EINVAL), kAllow});
-  constexpr std::uint32_t kFutexHash = 78;  // PR_FUTEX_HASH of Linux 6.16: up to a gigabyte that is nobody's
+  constexpr std::uint32_t kFutexHash = 78;  // PR_FUTEX_HASH of Linux 6.16: up to a gigabyte that counts for no process
   AddCall(filter, SYS_prctl,
           {LoadArgument(0), SkipUnless(BPF_JEQ, PR_SET_SECCOMP, 1), Refuse(EINVAL), SkipUnless(BPF_JEQ, kFutexHash, 1),
            Refuse(EINVAL), kAllow});
   AddCall(filter, SYS_close_range,
           {LoadArgument(2), SkipUnless(BPF_JSET, CLOSE_RANGE_UNSHARE, 1), Refuse(EINVAL), kAllow});
-  // Open files are shared by the threads of a process, and by nobody else.
+  // Descriptor tables: shared by the threads of one process, and by no other process.
   AddCall(filter, SYS_clone,
           {LoadArgument(0), BPF_STMT(BPF_ALU | BPF_AND | BPF_K, CLONE_THREAD | CLONE_FILES),
            SkipUnless(BPF_JEQ, CLONE_THREAD, 1), Refuse(EINVAL), SkipUnless(BPF_JEQ, CLONE_FILES, 1), Refuse(EINVAL),
            kAllow});
+  // Huge pages.
   constexpr std::uint32_t kCollapse = 25;  // MADV_COLLAPSE
   AddCall(filter, SYS_madvise,
           {LoadArgument(2), SkipUnless(BPF_JEQ, MADV_HUGEPAGE, 1), Refuse(EINVAL), SkipUnless(BPF_JEQ, kCollapse, 1),
            Refuse(EINVAL), kAllow});
   AddCall(filter, SYS_mmap, {LoadArgument(3), SkipUnless(BPF_JSET, MAP_HUGETLB, 1), Refuse(ENOMEM), kAllow});
-  // Whoever asks for other buffers is told that it has them, as by a kernel that rounds.
+  // Sizes of socket buffers: report success without changing them, because the kernel may round sizes anyway.
   constexpr int kDone = 0;
   AddCall(filter, SYS_setsockopt,
           {LoadArgument(1), SkipUnless(BPF_JEQ, SOL_SOCKET, 9), LoadArgument(2), SkipUnless(BPF_JEQ, SO_SNDBUF, 1),

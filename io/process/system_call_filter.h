@@ -4,10 +4,10 @@
 
 namespace etude {
 
-/// A filter of system calls for programs that are not ours, as the kernel takes it (a seccomp BPF program); "" where it
-/// is not known for this CPU. It refuses memory that no look at processes and folders sees, what is counted by user or
-/// by machine and has no limit in a namespace, the keys of the user, the log of the kernel, and sockets of other
-/// families than UNIX, INET, INET6 and NETLINK, which no network namespace closes (AF_VSOCK speaks to the host).
+/// Returns the system call filter for outside programs, a seccomp BPF program; "" if this CPU is not supported. It
+/// refuses memory that TreeMeter and Fence::MeasureScratch cannot see; resources that are counted per user or machine
+/// and have no limit in a namespace; the user's keys; the kernel's log; and sockets of families other than UNIX, INET,
+/// INET6 and NETLINK, because network namespaces do not isolate all others (AF_VSOCK reaches the host).
 std::string SystemCallFilter();
 
 }  // namespace etude

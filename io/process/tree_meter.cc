@@ -28,26 +28,26 @@ namespace {
 
 constexpr double kMb = 1 << 20;
 
-// What the kernel keeps for each, as measured on Linux 6.18 (docs/outside-methods.md).
+// Kernel memory per thread, mapping and lock, measured on Linux 6.18 (docs/outside-methods.md).
 constexpr double kThreadMb = 25e3 / kMb, kMappingMb = 250 / kMb, kLockMb = 250 / kMb;
 
-constexpr std::size_t kFewDescriptors = 256;   // from here on pipes are told from other files
-constexpr std::size_t kFewSockets = 64;        // from here on each counts as full
-constexpr std::size_t kMaxMappings = 1 << 20;  // that one look reads
+constexpr std::size_t kMaxUncheckedDescriptors = 256;  // above this, pipes are counted
+constexpr std::size_t kMaxFreeSockets = 64;            // sockets above this number count as full
+constexpr std::size_t kMaxMappings = 1 << 20;          // read in one sample
 constexpr std::size_t kMaxLockBytes = 4 << 20;
-constexpr int kMaxLooksUnseen = 3;
+constexpr int kMaxSamplesUnseen = 3;
 
-/// A number of kB, or of what else, that a line of /proc's gives; 0 when there is no such line.
+/// Returns the number that follows `name` in a file of /proc; 0 if the name is missing.
 double FieldOf(std::string_view text, std::string_view name) {
   const std::size_t at = text.find(name);
   return at == std::string_view::npos ? 0
                                       : static_cast<double>(std::strtoull(text.data() + at + name.size(), nullptr, 10));
 }
 
-/// The memory of one process, as /proc/<pid>/status tells it: pages that others share count in full.
+/// An upper bound on the memory of one process (/proc/<pid>/status): shared pages count in full.
 struct ProcessBound {
-  double private_mb = 0;  ///< anonymous pages and pages of files, resident or swapped out
-  double shared_mb = 0;   ///< of shared memory and temporary files
+  double private_mb = 0;  ///< anonymous pages and pages of files, resident or swapped
+  double shared_mb = 0;   ///< pages of shared memory and tmpfs
   double page_tables_mb = 0;
   std::size_t threads = 0, descriptors = 0;
 };
@@ -71,16 +71,16 @@ ProcessBound BoundOf(pid_t process) {
           static_cast<std::size_t>(FieldOf(status, "\nThreads:")), CountDescriptors(process, status)};
 }
 
-/// The private memory of a process in which a page that n processes map counts as 1/n; `bound_mb` where the kernel does
-/// not tell.
+/// Returns the private memory of a process, MB, where a page that n processes map counts 1/n (PSS); `bound_mb` if the
+/// kernel refuses it, 0 if the process has ended.
 double ProportionalMb(pid_t process, double bound_mb) {
   const std::string shares = ReadProcFile(fmt::format("/proc/{}/smaps_rollup", process));
   if (shares.empty()) return ::access(fmt::format("/proc/{}", process).c_str(), F_OK) == 0 ? bound_mb : 0;
   return (FieldOf(shares, "\nPss_Anon:") + FieldOf(shares, "\nPss_File:") + FieldOf(shares, "\nSwapPss:")) / 1024;
 }
 
-/// Counts the pipes, named ones too, that processes hold open. Files of a process that nobody may look at count as
-/// such.
+/// Counts the different pipes, named ones included, that processes hold open. If the descriptors of a process cannot be
+/// read, each counts as a pipe.
 std::size_t CountPipes(const std::vector<pid_t>& processes) {
   std::set<std::pair<dev_t, ino_t>> pipes;
   std::size_t hidden = 0;
@@ -88,7 +88,7 @@ std::size_t CountPipes(const std::vector<pid_t>& processes) {
     const std::string folder = fmt::format("/proc/{}/fd", process);
     DIR* files = ::opendir(folder.c_str());
     if (files == nullptr) {
-      if (errno != EACCES) continue;  // it has ended
+      if (errno != EACCES) continue;  // the process has ended
       hidden += CountDescriptors(process, ReadProcFile(fmt::format("/proc/{}/status", process)));
       continue;
     }
@@ -103,14 +103,13 @@ std::size_t CountPipes(const std::vector<pid_t>& processes) {
   return pipes.size() + hidden;
 }
 
-/// Counts the locks of files that processes hold or wait for.
 std::size_t CountLocks(const std::vector<pid_t>& processes) {
   const std::set<pid_t> ours(processes.begin(), processes.end());
   const std::string locks = ReadProcFile("/proc/locks", kMaxLockBytes);
   std::size_t count = 0;
   for (std::size_t at = 0, end = 0; at < locks.size(); at = end + 1) {
     end = std::min(locks.find('\n', at), locks.size());
-    // "1: POSIX  ADVISORY  WRITE 1234 fe:00:5678 0 EOF"; "1: -> …" waits for the one before
+    // "1: POSIX  ADVISORY  WRITE 1234 fe:00:5678 0 EOF"; a waiting lock begins with "1: ->"
     std::array<char, 64> line{};
     locks.copy(line.data(), std::min(end - at, line.size() - 1), at);
     int owner = 0;
@@ -120,13 +119,12 @@ std::size_t CountLocks(const std::vector<pid_t>& processes) {
   return count;
 }
 
-/// Counts the sockets of the network namespace of a process.
 std::size_t CountSockets(pid_t process) {
   return static_cast<std::size_t>(
       FieldOf(ReadProcFile(fmt::format("/proc/{}/net/sockstat", process)), "sockets: used "));
 }
 
-/// The bytes that wait in the queues of all TCP sockets in the network namespace of a process.
+/// Returns the bytes in the queues of all TCP sockets in the network namespace of a process.
 double QueuedTcpBytes(pid_t process) {
   double bytes = 0;
   for (const char* name : {"tcp", "tcp6"}) {
@@ -141,7 +139,7 @@ double QueuedTcpBytes(pid_t process) {
   return bytes;
 }
 
-/// What a socket of any other kind can hold: programs in a fence cannot set it.
+/// Returns the buffer size of a socket other than TCP; the fence's filter prevents changes of it.
 double FullSocketMb() {
   static const double size = std::atof(ReadProcFile("/proc/sys/net/core/wmem_default").c_str()) / kMb;
   return size;
@@ -154,7 +152,7 @@ bool HasOwnNetwork(pid_t process) {
          ::stat("/proc/self/ns/net", &ours) == 0 && theirs.st_ino != ours.st_ino;
 }
 
-/// Adds a part to a set of parts that do not touch.
+/// Adds a range to a set of disjoint ranges, and merges those that touch.
 void AddPart(std::map<std::uint64_t, std::uint64_t>& parts, std::uint64_t begin, std::uint64_t end) {
   auto next = parts.upper_bound(begin);
   if (next != parts.begin() && std::prev(next)->second >= begin) --next;
@@ -172,9 +170,9 @@ TreeLoad TreeMeter::Count() {
   processes_ = ProcessTree(root_);
   bounds_mb_.clear();
   const TreeLoad before = std::exchange(load_, {});
-  page_tables_mb_ = most_shared_mb_ = 0;
+  page_tables_mb_ = max_shared_mb_ = 0;
 
-  // What two small files of each process tell.
+  // Read two small files per process.
   std::map<pid_t, std::uint64_t> faults;
   for (const pid_t process : processes_) {
     const ProcessUsage usage = MeasureProcess(process);
@@ -188,13 +186,13 @@ TreeLoad TreeMeter::Count() {
     faults[process] = usage.faults;
     bounds_mb_.push_back(bound.private_mb);
     page_tables_mb_ += bound.page_tables_mb;
-    most_shared_mb_ = std::max(most_shared_mb_, bound.shared_mb);
+    max_shared_mb_ = std::max(max_shared_mb_, bound.shared_mb);
   }
   faults_ = std::move(faults);
-  least_since_mb_ = std::min(least_since_mb_, most_shared_mb_);
-  peak_since_mb_ = std::max(peak_since_mb_, most_shared_mb_);
+  min_since_mb_ = std::min(min_since_mb_, max_shared_mb_);
+  max_since_mb_ = std::max(max_since_mb_, max_shared_mb_);
 
-  // What the kernel keeps lists of, which may be long.
+  // Read the kernel's lists less often, because they may be long.
   load_.sockets = before.sockets;
   load_.file_locks = before.file_locks;
   load_.pipes = before.pipes;
@@ -205,7 +203,7 @@ TreeLoad TreeMeter::Count() {
     load_.file_locks = CountLocks(processes_);
     kernel_pace_.Took(start);
   }
-  if (load_.descriptors <= kFewDescriptors) {
+  if (load_.descriptors <= kMaxUncheckedDescriptors) {
     load_.pipes = 0;
   } else if (const Clock::time_point start = Clock::now(); pipes_pace_.IsDue(start)) {
     load_.pipes = CountPipes(processes_);
@@ -216,18 +214,18 @@ TreeLoad TreeMeter::Count() {
 
 double TreeMeter::HeldMb(double scratch_mb, double precise_from_mb) {
   if (const Clock::time_point start = Clock::now(); mappings_pace_.IsDue(start)) {
-    LookAtMappings();
+    SampleMappings();
     mappings_pace_.Took(start);
   }
   double shared_mb = scratch_mb;
   for (const auto& [inode, memory] : shared_) shared_mb += memory.Mb();
-  const auto full_sockets = static_cast<double>(std::max(load_.sockets, kFewSockets) - kFewSockets);
-  const double others_mb = std::max(shared_mb, most_shared_mb_) + page_tables_mb_ +
+  const auto full_sockets = static_cast<double>(std::max(load_.sockets, kMaxFreeSockets) - kMaxFreeSockets);
+  const double others_mb = std::max(shared_mb, max_shared_mb_) + page_tables_mb_ +
                            kThreadMb * static_cast<double>(load_.threads) +
                            kMappingMb * static_cast<double>(mappings_) +
                            kLockMb * static_cast<double>(load_.file_locks) + FullSocketMb() * full_sockets + tcp_mb_;
 
-  // A process gets a page of its own by touching it, and the bound grows by that unless another page goes.
+  // Private memory grows only by touched pages. So the last precise value plus the growth since then is an upper bound.
   static const double mb_per_page = static_cast<double>(::sysconf(_SC_PAGESIZE)) / kMb;
   const double bound_mb = std::accumulate(bounds_mb_.begin(), bounds_mb_.end(), 0.0);
   const double touched_mb = static_cast<double>(touched_pages_ - precise_.touched_pages) * mb_per_page;
@@ -256,29 +254,30 @@ double TreeMeter::SharedMemory::Mb() const {
   return mb;
 }
 
-void TreeMeter::LookAtMappings() {
-  for (auto& [inode, memory] : shared_) ++memory.looks_unseen;
+void TreeMeter::SampleMappings() {
+  // Find the anonymous shared mappings of all processes.
+  for (auto& [inode, memory] : shared_) ++memory.samples_unseen;
   mappings_ = 0;
-  std::size_t looked_at = 0;
+  std::size_t processes_read = 0;
   for (const pid_t process : processes_) {
     const std::string maps = ReadProcFile(fmt::format("/proc/{}/maps", process));
     mappings_ += static_cast<std::size_t>(std::ranges::count(maps, '\n'));
-    constexpr std::string_view kName = "/dev/zero (deleted)\n";  // what the kernel calls them
+    constexpr std::string_view kName = "/dev/zero (deleted)\n";  // the kernel's name of anonymous shared memory
     for (std::size_t at = 0; (at = maps.find(kName, at)) != std::string::npos; at += kName.size()) {
       unsigned long begin = 0, end = 0, offset = 0, inode = 0;
       const char* line = maps.c_str() + maps.rfind('\n', at) + 1;  // npos + 1 = 0
       if (std::sscanf(line, "%lx-%lx %*2c%*c%*1[s] %lx %*s %lu", &begin, &end, &offset, &inode) != 4) continue;
       AddPart(shared_[inode].parts, offset, offset + (end - begin));
-      shared_[inode].looks_unseen = 0;
+      shared_[inode].samples_unseen = 0;
     }
-    if (++looked_at; mappings_ > kMaxMappings) break;
+    if (++processes_read; mappings_ > kMaxMappings) break;
   }
-  mappings_ = mappings_ * processes_.size() / std::max<std::size_t>(looked_at, 1);
-  // A process that was started while we looked may have the only mapping left.
-  std::erase_if(shared_, [](const auto& one) { return one.second.looks_unseen > kMaxLooksUnseen; });
+  mappings_ = mappings_ * processes_.size() / std::max<std::size_t>(processes_read, 1);
+  // Forget a mapping only after several samples: a process that started during this one may still map it.
+  std::erase_if(shared_, [](const auto& one) { return one.second.samples_unseen > kMaxSamplesUnseen; });
 
-  // Pages that came and went since the last look may be held by any of the new ones.
-  double gone_mb = std::exchange(peak_since_mb_, most_shared_mb_) - std::exchange(least_since_mb_, most_shared_mb_);
+  // Pages that were mapped and unmapped since the last sample may belong to any of the new mappings.
+  double gone_mb = std::exchange(max_since_mb_, max_shared_mb_) - std::exchange(min_since_mb_, max_shared_mb_);
   for (const auto& [inode, memory] : shared_) gone_mb -= memory.is_new ? memory.Mb() : 0;
   for (auto& [inode, memory] : shared_) {
     if (std::exchange(memory.is_new, false)) memory.hidden_mb = std::max(gone_mb, 0.0);

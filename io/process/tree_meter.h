@@ -13,80 +13,78 @@
 
 namespace etude {
 
-/// What a program and all that it has started hold, and what they have used.
+/// The resources that a program and its descendants hold, and the processor time that they have used.
 struct TreeLoad {
-  double cpu_s = 0;  ///< with that of processes that they have waited for
+  double cpu_s = 0;  ///< includes ended processes that they have waited for
   std::size_t processes = 0, threads = 0;
   std::size_t descriptors = 0;  ///< open files of all processes
-  std::size_t pipes = 0;        ///< counted only where there are many descriptors
-  std::size_t sockets = 0;      ///< of its network namespace, if it has one: those that wait in queues, too
+  std::size_t pipes = 0;        ///< counted only if there are more than 256 descriptors
+  std::size_t sockets = 0;      ///< of its own network namespace, including sockets in flight; 0 without a namespace
   std::size_t file_locks = 0;
 };
 
-/// Tells what a tree of processes holds, look by look, where the kernel does not count it for us: every page once,
-/// however many processes share it, and what the kernel keeps for them.
+/// Measures the resources of a tree of processes by repeated sampling, for machines without control groups: each page
+/// once, however many processes share it, plus the kernel's memory for the processes.
 ///
-/// A look reads two small files a process, some 30 µs. Bounds from them are enough most of the time; what costs more is
-/// read when the bounds are in doubt, or less often.
+/// A sample reads two small files per process, about 30 µs. They give an upper bound on memory, which usually suffices.
+/// Expensive files are read only if the bound is near the limit, or less often.
 class TreeMeter {
  public:
   explicit TreeMeter(pid_t root) : root_(root) {}
 
-  /// Looks at the tree.
+  /// Takes a sample and returns the load; HeldMb then returns the memory.
   TreeLoad Count();
-  /// What the processes that were counted last hold, with `scratch_mb` in temporary files, MB. Below `precise_from_mb`
-  /// this may be an upper bound, in which pages that processes share count for each.
+  /// Returns the memory of the processes of the last Count, MB, including `scratch_mb` of temporary files. A result
+  /// below `precise_from_mb` may be an upper bound, in which shared pages count once per process.
   double HeldMb(double scratch_mb, double precise_from_mb);
 
  private:
-  /// Has something done every now and then, and leaves nineteen twentieths of the time to others where it is quick.
+  /// Schedules a repeated action so that it takes at most 5 % of the time, if one run takes less than 16 ms.
   class Pace {
    public:
-    explicit Pace(std::chrono::milliseconds least) : least_(least) {}
+    explicit Pace(std::chrono::milliseconds min_interval) : min_interval_(min_interval) {}
     bool IsDue(Clock::time_point now) const { return now >= next_; }
-    /// Notes that what began at `start` has ended.
     void Took(Clock::time_point start) {
       const Clock::time_point now = Clock::now();
-      constexpr std::chrono::milliseconds kMaxPause{300};  // what makes looks slow shall not make us blind
-      next_ =
-          std::max<Clock::time_point>(start + least_, now + std::min<Clock::duration>(19 * (now - start), kMaxPause));
+      constexpr std::chrono::milliseconds kMaxPause{300};  // a slow action must still be repeated
+      next_ = std::max<Clock::time_point>(start + min_interval_,
+                                          now + std::min<Clock::duration>(19 * (now - start), kMaxPause));
     }
 
    private:
-    std::chrono::milliseconds least_;
+    std::chrono::milliseconds min_interval_;
     Clock::time_point next_{};
   };
 
-  /// Memory that processes share and no file backs. It lives while anybody maps any part of it, and keeps the pages of
-  /// parts that nobody maps any more.
+  /// One anonymous shared mapping (shmem). It exists while any process maps a part of it, and keeps the pages of parts
+  /// that no process maps any more.
   struct SharedMemory {
-    std::map<std::uint64_t, std::uint64_t> parts;  ///< ends by beginnings, bytes: all that was ever seen mapped
-    double hidden_mb = 0;                          ///< what it may hold in parts that were gone before the first look
-    int looks_unseen = 0;
-    bool is_new = true;  ///< at the look that goes on
+    std::map<std::uint64_t, std::uint64_t> parts;  ///< all byte ranges ever seen mapped: begin → end
+    double hidden_mb = 0;                          ///< bound on parts that were unmapped before the first sample
+    int samples_unseen = 0;                        ///< consecutive samples in which no process mapped it
+    bool is_new = true;                            ///< first seen in the current sample
 
     double Mb() const;
   };
 
-  void LookAtMappings();
-  /// True if a process has the very memory of one before it in the list, as a child has until it becomes a program.
+  void SampleMappings();
+  /// Returns true if a process shares its whole memory with an earlier one in the list, as a child of vfork does.
   bool SharesMemoryBefore(std::size_t at) const;
 
   const pid_t root_;
   Pace mappings_pace_{std::chrono::milliseconds(0)}, kernel_pace_{std::chrono::milliseconds(100)};
   Pace pipes_pace_{std::chrono::milliseconds(0)};
   std::vector<pid_t> processes_;
-  std::vector<double> bounds_mb_;  ///< of each of them: its private memory, with pages that it shares with others
+  std::vector<double> bounds_mb_;  ///< of each process: its private memory, shared pages included
   TreeLoad load_;
   double page_tables_mb_ = 0, tcp_mb_ = 0;
-  /// Shared pages of the process that maps most of them; at least and at most since the last look at mappings.
-  double most_shared_mb_ = 0, least_since_mb_ = 0, peak_since_mb_ = 0;
+  /// The largest amount of shared pages that one process maps, now, and its minimum and maximum since SampleMappings.
+  double max_shared_mb_ = 0, min_since_mb_ = 0, max_since_mb_ = 0;
   std::size_t mappings_ = 0;
   std::map<std::uint64_t, SharedMemory> shared_;  ///< by inode
-  std::map<pid_t, std::uint64_t> faults_;         ///< of each process, as last seen
-  std::uint64_t touched_pages_ = 0;               ///< by all of them, so far
+  std::map<pid_t, std::uint64_t> faults_;         ///< page faults of each process in the last sample
+  std::uint64_t touched_pages_ = 0;               ///< page faults of all processes since the start
 
-  /// The last precise look.
   struct {
     double private_mb = 0, bound_mb = 0;
     std::uint64_t touched_pages = 0;

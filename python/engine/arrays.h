@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
-/// The module `etude_engine`: libetude's functions (docs/library.md), and simulated sensors, on arrays of numpy. Lists,
-/// other types of numbers and views are taken as they are; shapes are checked; the interpreter is free while the engine
-/// works.
+/// The module `etude_engine`: libetude's functions (docs/library.md) and simulated sensors on numpy arrays. Lists,
+/// other number types and views are converted, and shapes are checked. The interpreter's lock is released while the
+/// engine works.
 namespace etude::engine {
 
 namespace py = pybind11;
@@ -62,7 +62,7 @@ inline void ExpectFinite(const char* name, const Array& array) {
 }
 
 inline glm::dvec3 Vector(const double* values) { return {values[0], values[1], values[2]}; }
-/// Of a matrix in numpy's order, row after row.
+/// Returns the matrix that numpy stores row by row.
 inline glm::dmat3 Matrix(const double* rows) {
   return {{rows[0], rows[3], rows[6]}, {rows[1], rows[4], rows[7]}, {rows[2], rows[5], rows[8]}};
 }
@@ -90,7 +90,7 @@ inline Array ToArray(const std::vector<double>& values, std::vector<py::ssize_t>
   return array;
 }
 
-/// A matrix or vector of a class, as an array.
+/// Returns the getter of a class's matrix or vector as an array.
 template <typename Class, typename Value>
 auto ArrayOf(Value Class::*member) {
   return [member](const Class& of) { return ToArray(of.*member); };

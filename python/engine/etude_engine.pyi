@@ -1,4 +1,4 @@
-"""Etude's engine on arrays: lengths are metres, angles radians, the world is right-handed with Y up."""
+"""Etude's engine on arrays. Lengths are metres, angles radians; the world is right-handed with Y up."""
 from os import PathLike
 from typing import Dict, List, Mapping, Optional, Sequence, Tuple, Union
 

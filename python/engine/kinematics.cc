@@ -8,7 +8,7 @@
 namespace etude::engine {
 namespace {
 
-/// The roots of so many poses: one for all, or one each; the world's own frame where none is given.
+/// Returns the roots of `count` poses: one for all, or one each; the world's frame if none is given.
 std::vector<Frame> ToRoots(const std::optional<Array>& positions_m, const std::optional<Array>& axes,
                            py::ssize_t count) {
   for (const auto* given : {&positions_m, &axes}) {
@@ -35,7 +35,7 @@ std::vector<Frame> ToRoots(const std::optional<Array>& positions_m, const std::o
 
 using FramesOf = std::vector<Frame> (Kinematics::*)(const TreePose&) const;
 
-/// Places (poses, n, 3) and axes (poses, n, 3, 3) of the limbs or effectors of many poses.
+/// Returns the positions (poses, n, 3) and axes (poses, n, 3, 3) of the limbs or effectors of many poses.
 py::tuple FramesOfPoses(const Kinematics& body, FramesOf frames_of, std::size_t per_pose, const Array& angles,
                         const std::optional<Array>& positions_m, const std::optional<Array>& axes) {
   Expect("angles", angles, {kAny, body.dofs()});

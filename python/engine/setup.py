@@ -1,4 +1,4 @@
-"""The wheel `etude-engine`: what CMake builds (ETUDE_BUILD, build/release by default, configured with ETUDE_PYTHON), packed."""
+"""Builds the wheel `etude-engine` from what CMake builds in ETUDE_BUILD (default: build/release, with ETUDE_PYTHON)."""
 import os
 import pathlib
 import re

@@ -12,7 +12,7 @@
 namespace etude::engine {
 namespace {
 
-/// A move's name and its right performances.
+/// The name and the right performances of each move.
 using Moves = std::vector<std::pair<std::string, std::vector<Motion>>>;
 
 std::vector<TaughtMove> ToTaught(const Moves& moves) {
@@ -27,7 +27,7 @@ Recogniser Teach(const Moves& moves, const std::string& kind, bool smooths) {
   return Recogniser(taught, {.kind = kind, .smooths = smooths});
 }
 
-constexpr std::string_view kStates = "tin";  ///< by Seen
+constexpr std::string_view kStates = "tin";  ///< letters in the order of Seen
 
 SensedPose ToSensed(const Array& positions_m, const std::string& states, bool body_seen) {
   Expect("positions_m", positions_m, {kRoleCount, 3});

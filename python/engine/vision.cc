@@ -23,7 +23,7 @@ std::span<const std::uint8_t> PictureOf(const char* name, const Bytes& picture, 
   return {picture.data(), static_cast<std::size_t>(picture.size())};
 }
 
-/// A PersonFinder and the size that its masks have.
+/// A PersonFinder and the size of its masks.
 struct Finder {
   PersonFinder finder;
   py::ssize_t height, width;
@@ -31,9 +31,9 @@ struct Finder {
 
 Finder MakeFinder(const Bytes& background, const std::string& segmenter, bool all_pieces) {
   const auto bytes = PictureOf("background", background, kAny, kAny);
-  constexpr py::ssize_t kLargest = 1 << 20;  // which the engine refuses
-  const int height = static_cast<int>(std::min(background.shape(0), kLargest));
-  const int width = static_cast<int>(std::min(background.shape(1), kLargest));
+  constexpr py::ssize_t kMaxSize = 1 << 20;  // more than the engine accepts
+  const int height = static_cast<int>(std::min(background.shape(0), kMaxSize));
+  const int width = static_cast<int>(std::min(background.shape(1), kMaxSize));
   return {PersonFinder(bytes, width, height, {.segmenter = segmenter, .all_pieces = all_pieces}), background.shape(0),
           background.shape(1)};
 }
@@ -53,9 +53,9 @@ py::array_t<bool> FindIn(Finder& finder, const Bytes& picture) {
 using Masks = py::array_t<bool, py::array::c_style | py::array::forcecast>;
 
 PersonMask MaskOf(const bool* pixels, py::ssize_t height, py::ssize_t width) {
-  constexpr py::ssize_t kLargest = 1 << 20;  // which the engine refuses
-  PersonMask mask{.width = static_cast<int>(std::min(width, kLargest)),
-                  .height = static_cast<int>(std::min(height, kLargest)),
+  constexpr py::ssize_t kMaxSize = 1 << 20;  // more than the engine accepts
+  PersonMask mask{.width = static_cast<int>(std::min(width, kMaxSize)),
+                  .height = static_cast<int>(std::min(height, kMaxSize)),
                   .pixels = {}};
   mask.pixels.assign(pixels, pixels + height * width);
   return mask;

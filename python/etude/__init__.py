@@ -1,7 +1,7 @@
-"""Etude from Python: runs as tables, methods of your own, scenarios run from a notebook (docs/python.md).
+"""Etude from Python: runs as tables, your own methods, scenarios run from a notebook (docs/python.md).
 
-Nothing but the standard library is imported, and what is not used is not loaded; numpy, pandas and matplotlib are taken
-where they are there.
+Imports only the standard library, and each module when it is first used; uses numpy, pandas and matplotlib if they are
+installed.
 """
 import importlib
 

@@ -8,10 +8,10 @@ from etude.program import call, find_program
 
 @dataclass(frozen=True)
 class Metric:
-    """A metric: `unit` is empty for shares and counts; `direction`, "lower", "higher" or "neither", is better;
-    `aggregate`, "median" or "mean", is how a run sums up its cells; a difference below `practical_threshold` does not
-    matter; `vectors` are inputs with what must come out; `reads`: "amount", or "yes-no", "share", "score", which people
-    are shown in per cent."""
+    """A metric. `unit` is "" for shares and counts. `direction` says whether "lower", "higher" or "neither" is better,
+    `aggregate` whether the "median" or "mean" stands for a run's cells. Differences below `practical_threshold` do not
+    matter. `vectors` are inputs with expected outputs. `reads`: "amount", or "yes-no", "share" or "score", which are
+    shown in per cent."""
     id: str
     version: int
     domain: str
@@ -31,17 +31,17 @@ class Metric:
 
 
 def metrics(program=None):
-    """Every metric by its id."""
+    """Returns every metric by its id."""
     return _read(find_program(program))[0]
 
 
 def own(manifest):
-    """The metrics of a run's own, by their ids."""
+    """Returns a run's own metrics by their ids."""
     return {each["id"]: Metric(**each) for each in manifest.get("own_metrics", [])}
 
 
 def joints(program=None):
-    """The twenty joints in the order of poses: each one's name, and its parent's (None for the first)."""
+    """Returns the twenty joints in the order of poses: each one's name and its parent's (None for the first)."""
     return _read(find_program(program))[1]
 
 

@@ -1,4 +1,4 @@
-"""Scenarios run, reported, gated, compared and scored by the program."""
+"""Runs, reports, gates, compares and scores scenarios by calling the program."""
 import contextlib
 import hashlib
 import json
@@ -16,16 +16,17 @@ from etude.shipping import ship, write_once
 
 def run(scenario, *, methods=(), metrics=(), trials=None, output=None, seed=None, clips=(), jobs=None, overwrite=False,
         resume=False, fenced=True, progress=True, program=None):
-    """Runs a scenario and gives its Run, as load does.
+    """Runs a scenario and returns its Run, as load does.
 
-    scenario: a file, a folder of them, what comes with etude (`"quick/ik"`), or a dict with the keys of a scenario.
-    methods: further ones, of @etude.method or as dicts with the keys of a scenario's entry; those of @etude.method go
-    into the scenarios of their task. metrics: further ones of every scenario, of @etude.metric or as dicts; the scenario's
-    headline metrics stay. output: the result folder, out/NAME-SEED by default; it must be new unless
-    `overwrite` or `resume`. progress: True shows it on standard error, a function is called with (cells done, cells).
+    scenario: a file, a folder of files, the name of one that comes with etude (`"quick/ik"`), or a dict with the keys
+    of a scenario. methods: further methods, made by @etude.method or dicts with the keys of a scenario's entry; one
+    made by @etude.method is added to the scenarios of its task. metrics: further metrics of every scenario, made by
+    @etude.metric or dicts; the scenario's headline metrics stay. output: the result folder, by default out/NAME-SEED;
+    it must be new unless `overwrite` or `resume` is true. progress: True shows the progress on standard error; a
+    function is called with (cells done, cells).
 
-    Warns when no cell is ok. Raises EtudeError, whose `run` is the run where one is there all the same: exit code 1, a
-    method has no answer.
+    Warns if no cell is ok. Raises EtudeError; its `run` is set if the run finished but a method has no answer (exit
+    code 1).
     """
     if isinstance(scenario, dict) or methods or metrics:
         scenario = _write_scenario(scenario, methods, metrics, program)
@@ -46,7 +47,7 @@ def run(scenario, *, methods=(), metrics=(), trials=None, output=None, seed=None
 
 
 def _judged(found, code, printed, said):
-    """The run; raises where a method has no answer, warns where nobody met its goal."""
+    """Returns the run. Raises EtudeError if a method has no answer; warns if no method met its goal."""
     if code == 0:
         return found
     lines = [line.strip() for line in (said + printed).splitlines()]
@@ -58,7 +59,7 @@ def _judged(found, code, printed, said):
 
 
 def _write_scenario(scenario, methods, metrics, program):
-    """A scenario, or a folder of them, with the methods and metrics in it; named by its contents."""
+    """Writes a scenario, or a folder of them, with the methods and metrics added, and returns its path."""
     measures = [each if isinstance(each, dict) else _metric(each) for each in metrics]
     entries = [(spec_of(each).task, ship(each)) if not isinstance(each, dict) else (None, each) for each in methods]
     if isinstance(scenario, dict):
@@ -89,12 +90,12 @@ def _refuse_unused(entries, tasks):
 
 
 def _texts_of(scenario, program):
-    """The texts of a file, a folder, or a scenario that comes with etude, by file name."""
+    """Returns the texts of a file, a folder or a scenario that comes with etude, by file name."""
     import tempfile
     path = pathlib.Path(scenario)
     with contextlib.ExitStack() as stack:
         files = sorted(path.glob("*.yaml")) if path.is_dir() else [path] if path.exists() else []
-        if not files:  # a folder without scenarios is not in the way of what comes with etude under its name
+        if not files:  # a folder without scenarios does not hide a shipped scenario of its name
             scratch = stack.enter_context(tempfile.TemporaryDirectory())
             call("scenario", "copy", scenario, scratch, program=program)
             files = sorted(pathlib.Path(scratch).rglob("*.yaml"))
@@ -107,7 +108,7 @@ def _value_of(key, text):
 
 
 def _with_methods(name, text, entries):
-    """The text of a scenario with entries at the end of its list of methods, which stays as it is otherwise."""
+    """Returns the text of a scenario with entries added at the end of its list of methods, otherwise unchanged."""
     if re.search(r"^include:", text, re.MULTILINE):
         raise EtudeError(f"{name}: includes another file, which a copy would not find: write the methods into it")
     if not entries:
@@ -116,6 +117,7 @@ def _with_methods(name, text, entries):
     heads = [i for i, line in enumerate(lines) if re.match(r"methods:\s*(#.*)?$", line.rstrip("\n"))]
     if len(heads) != 1:
         raise EtudeError(f"{name}: has no list of methods with a line each, to which others could be added")
+    # The list ends before the first line that is neither indented nor an entry.
     end = heads[0] + 1
     indent = None
     for i in range(end, len(lines)):
@@ -140,7 +142,7 @@ def _metric(each):
 
 
 def _with_metrics(name, text, entries):
-    """The text of a scenario with entries at the end of its list of metrics, which stays as it is otherwise."""
+    """Returns the text of a scenario with entries added at the end of its list of metrics, otherwise unchanged."""
     if not entries:
         return text
     added = ", ".join(json.dumps(entry, ensure_ascii=False) for entry in entries)
@@ -155,7 +157,7 @@ def _with_metrics(name, text, entries):
 
 
 def _keep(texts, suite=None):
-    """The path of scenario files below the cache, in a folder that is named by what is in them."""
+    """Writes scenario files to the cache, in a folder named by their digest, and returns their path."""
     digest = hashlib.sha256(json.dumps(sorted(texts.items())).encode()).hexdigest()[:16]
     folder = cache_folder() / "scenarios" / digest
     if len(texts) > 1:
@@ -166,7 +168,7 @@ def _keep(texts, suite=None):
 
 
 def report(run, *, video=True, progress=True, program=None):
-    """Writes a run's page, tables and films; gives the path of the page."""
+    """Writes a run's page, tables and films. Returns the path of the page."""
     folder = pathlib.Path(getattr(run, "folder", run))
     call("report", folder, *([] if video else ["--no-video"]), program=program, progress=progress)
     return folder / "report" / "index.html"
@@ -174,7 +176,7 @@ def report(run, *, video=True, progress=True, program=None):
 
 @dataclass(frozen=True)
 class Gate:
-    """A gate's judgement; true when it passed. `text` is all that it says, a line a check."""
+    """The verdict of a gate; true if it passed. `text` is all that the gate says, one line per check."""
     passed: bool
     text: str
 
@@ -183,7 +185,7 @@ class Gate:
 
 
 def gate(run, baseline=None, *, update=False, program=None):
-    """Holds a run against its expectations and a baseline. Raises EtudeError when it cannot be judged (exit code 3:
+    """Judges a run by its expectations and a baseline. Raises EtudeError if it cannot be judged (exit code 3:
     incomplete)."""
     flags = [] if baseline is None else ["--baseline", os.fspath(baseline)]
     code, printed, _ = call("gate", getattr(run, "folder", run), *flags, *["--update"] * update, program=program,
@@ -192,18 +194,18 @@ def gate(run, baseline=None, *, update=False, program=None):
 
 
 def compare(a, b, *, program=None):
-    """What differs between two runs of the same worlds, as text."""
+    """Returns the differences between two runs of the same worlds as text."""
     return call("compare", getattr(a, "folder", a), getattr(b, "folder", b), program=program)[1].strip()
 
 
 def score(target, predictions, output, *, name=None, alone=False, allow_missing=False, allow_exec=False, jobs=None,
           progress=True, program=None):
-    """Scores answers and gives the Run.
+    """Scores answers and returns the Run.
 
-    target: a data set that `etude export` wrote; allow_exec: the programs that it names, metrics of its own among them,
-    may be run. predictions: a folder of answers; or a method of @etude.method, which
-    is then asked here, in this process and without a fence, all problems of a setting at once where it takes batches,
-    and whose answers are kept in the folder `output` + ".answers".
+    target: a data set written by `etude export`. allow_exec: allows the data set's own programs, such as metrics, to
+    run. predictions: a folder of answers, or a method made by @etude.method. Such a method is asked in this process
+    without a fence, all problems of a setting at once if it takes batches, and its answers are kept in the folder
+    `output` + ".answers".
     """
     if hasattr(predictions, "__etude__"):
         name = name or spec_of(predictions).name
@@ -220,7 +222,7 @@ def score(target, predictions, output, *, name=None, alone=False, allow_missing=
 
 
 def _answer_all(target, method, answers, progress):
-    """Asks a method all problems of its task in a data set. What it has no answer to stays missing."""
+    """Asks a method all problems of its task in a data set. Problems without an answer stay missing."""
     from etude.conversation import NoAnswer
     from etude.messages import plain
     player, spec, inputs = Player(method), spec_of(method), target / "inputs"
@@ -243,7 +245,7 @@ def _answer_all(target, method, answers, progress):
 
 
 def _task_of(inputs, setting):
-    """The task of a setting's scenario, of the index beside it."""
+    """Returns the task of a setting's scenario, from the index beside the setting."""
     import csv
     scenario = setting.relative_to(inputs).parts[0]
     with open(inputs / "index.csv", newline="") as file:

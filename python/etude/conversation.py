@@ -1,21 +1,21 @@
-"""Methods in Python: `@etude.method`, and the protocol in which Etude asks them (docs/outside-methods.md)."""
+"""Methods in Python: `@etude.method`, and the protocol by which Etude asks them (docs/outside-methods.md)."""
 import inspect
 import json
 import sys
 
 PROTOCOL = 1
-TASKS = {  # task -> its seats; "" = the program answers whole problems
+TASKS = {  # task → its seats; "" if the program answers whole problems
     "ik": [""], "tracking": [""], "transition": [""], "pose-distance": [""], "search": [""], "detection": [""],
     "capture": ["", "segmenter"], "coach": ["recogniser", "policy", "learner"],
 }
 
 
 class NoAnswer(Exception):
-    """The method has no answer to this problem; the message tells why."""
+    """Raised by a method that has no answer to this problem; the message says why."""
 
 
 class Spec:
-    """What @method says of a method."""
+    """The arguments of @method."""
 
     def __init__(self, task, seat, name, version, options, time_s, files, batch):
         self.task, self.seat, self.name, self.version = task, seat, name, version
@@ -23,21 +23,21 @@ class Spec:
 
 
 def method(task, seat="", *, name=None, version="1", options=None, time_s=None, files=(), batch=False):
-    """Makes a method of a function or a class, which stays what it was and can be called as before.
+    """Makes a method of a function or a class, which stays unchanged and can still be called.
 
-    A function is given a problem and returns its answer. It may ask, by the names of its arguments, for `setting`,
-    `options` (of the scenario, a dict) and `files` (the folder of attachments) as well. With `batch`, it is given a
-    list of problems and returns a list of answers: a run asks for one at a time, etude.score for all of a setting.
+    A function takes a problem and returns its answer. If it has arguments named `setting`, `options` (of the scenario,
+    a dict) or `files` (the folder of attachments), it gets them too. With `batch` it takes a list of problems and
+    returns a list of answers: a run passes one problem at a time, etude.score all problems of a setting.
 
-    A class is made anew for every setting, by `__init__(self, …)` with any of `setting`, `options`, `files`, and has
-    `answer(self, problem)`. With a `seat` in a loop it has `begin(self, session)`, which may be missing, and
-    `step(self, seen)`: what is remembered of one session must not change another.
+    A class is constructed for every setting by `__init__(self, …)` with any of `setting`, `options`, `files`, and has
+    `answer(self, problem)`. In a `seat` of a loop it has `step(self, seen)` and optionally `begin(self, session)`: what
+    it remembers of one session must not affect another.
 
-    Settings, problems and steps are the dataclasses of etude.problems. An answer is one, or a dict, or, where an answer
-    is one thing, that thing: a list of angles, an array. Raise NoAnswer(why) where there is none.
+    Settings, problems and steps are dataclasses of etude.problems. An answer is such a dataclass, a dict, or, if it has
+    one field only, that field's value: a list of angles, an array. Raise NoAnswer(why) if there is none.
 
     task, seat: as in a scenario. name, version: what the program calls itself. options, time_s, files: the keys of its
-    entry in a scenario, for etude.run. Raises ValueError for a task or a seat that is not there.
+    entry in a scenario, for etude.run. Raises ValueError for an unknown task or seat.
     """
     if task not in TASKS:
         raise ValueError(f"no task {task!r}; there are {', '.join(TASKS)}")
@@ -59,7 +59,7 @@ def method(task, seat="", *, name=None, version="1", options=None, time_s=None, 
 
 
 class MetricSpec(Spec):
-    """What @metric says of a metric. facts: the keys of its entry in a scenario beside those of a program."""
+    """The arguments of @metric. facts: the keys of its entry in a scenario beside those of a program."""
 
     def __init__(self, name, version, options, time_s, files, facts):
         super().__init__("metric", "", name, version, options, time_s, files, False)
@@ -68,19 +68,19 @@ class MetricSpec(Spec):
 
 def metric(id, unit="", direction="lower", version=1, vectors=(), *, practical=None, aggregate=None, reads=None,
            label=None, definition=None, options=None, time_s=None, files=()):
-    """Makes a metric of a function, which stays what it was and can be called as before.
+    """Makes a metric of a function, which stays unchanged and can still be called.
 
-    It is given a finished cell, an etude.MetricProblem: `cell.motion("truth")` and so on are positions in metres,
-    `cell.extras` what the task keeps beside them (docs/reference/recordings.md). It may ask, by the names of its
-    arguments, for `setting` (an etude.MetricSetting: joints, task) and `options` as well. It returns a number; raise
-    NoAnswer(why) where there is none. What it answers must depend on the cell alone.
+    The function takes a finished cell, an etude.MetricProblem: `cell.motion("truth")` and the like are positions in
+    metres, `cell.extras` is what the task records besides motions (docs/reference/recordings.md). If it has arguments
+    named `setting` (an etude.MetricSetting: joints, task) or `options`, it gets them too. It returns a number, or
+    raises NoAnswer(why) if there is none. The result must depend on the cell alone.
 
-    id: its name in rows and tables, small letters, digits and '_'. direction: "lower", "higher" or "neither" is better.
-    version: to be raised with every change of what it measures. vectors: cells whose value is known, checked before a
-    run's first cell: (cell, value) or dicts with the keys cell, expected, tolerance, title; value None: there is none.
-    A track of such a cell has `poses`, or `frames` and `joints_m`, by joint, and the others are at the origin.
-    practical: the smallest difference that matters. aggregate, reads, label, definition, options, time_s, files: the
-    keys of its entry in a scenario. Raises ValueError for a direction that is not there.
+    id: its name in rows and tables, of lower-case letters, digits and '_'. direction: whether "lower", "higher" or
+    "neither" is better. version: raise it with every change of what the metric measures. vectors: cells with known
+    values, checked before a run's first cell: (cell, value), or dicts with the keys cell, expected, tolerance, title;
+    the value None means that there is none. A track of such a cell has `poses`, or `frames` and `joints_m` by joint
+    name; other joints are at the origin. practical: the smallest difference that matters. aggregate, reads, label,
+    definition, options, time_s, files: the keys of its entry in a scenario. Raises ValueError for an unknown direction.
     """
     if direction not in ("lower", "higher", "neither"):
         raise ValueError(f"no direction {direction!r}; there are lower, higher, neither")
@@ -99,7 +99,7 @@ def metric(id, unit="", direction="lower", version=1, vectors=(), *, practical=N
 
 
 def spec_of(what):
-    """What @method or @metric said of it. Raises TypeError when neither did."""
+    """Returns the arguments that @method or @metric stored. Raises TypeError if neither was applied."""
     spec = getattr(what, "__etude__", None)
     if spec is None:
         raise TypeError(f"{getattr(what, '__name__', what)!r} is no method and no metric: write "
@@ -108,7 +108,7 @@ def spec_of(what):
 
 
 def _class_names(spec):
-    """The classes of its setting, of what it is asked, and of its answer."""
+    """Returns the classes of a method's setting, problem or step, answer, and begin message (or None)."""
     from etude import problems
     task = "".join(word.capitalize() for word in spec.task.split("-"))
     seated = task + spec.seat.capitalize()
@@ -118,7 +118,7 @@ def _class_names(spec):
 
 
 def _call(function, first, **offered):
-    """Calls it with `first` and those of `offered` that it has arguments for."""
+    """Calls a function with `first` and with those of `offered` that it has arguments for."""
     parameters = inspect.signature(function).parameters.values()
     takes_all = any(parameter.kind is parameter.VAR_KEYWORD for parameter in parameters)
     names = [parameter.name for parameter in parameters]
@@ -126,7 +126,7 @@ def _call(function, first, **offered):
 
 
 class Player:
-    """A method at work: settings, problems and steps as dicts in, answers as dicts out."""
+    """Runs a method on messages: takes settings, problems and steps as dicts, returns answers as dicts."""
 
     def __init__(self, what):
         self.what, self.spec = what, spec_of(what)
@@ -134,7 +134,7 @@ class Player:
         self._offered, self._instance = {}, None
 
     def set(self, setting, options, files=None):
-        """A setting is in force from now on; `files` is the folder of its attachments, or None."""
+        """Sets the setting for all problems that follow. `files` is the folder of its attachments, or None."""
         self._offered = {"setting": self._setting_class.of(setting), "options": dict(options), "files": files}
         if inspect.isclass(self.what):
             self._instance = _call(self.what, (), **self._offered)
@@ -150,8 +150,7 @@ class Player:
         return self.answers([problem], [files])[0]
 
     def answers(self, problems, files):
-        """The answers of several problems, with the folders of their attachments; a NoAnswer in the place of one that
-        has none."""
+        """Returns the answers to several problems with the folders of their attachments; NoAnswer if it has none."""
         asked = [self._asked_class.of(problem) for problem in problems]
         if self.spec.batch:
             answers = list(_call(self._function(), (asked,), **{**self._offered, "files": files}))
@@ -171,7 +170,7 @@ class Player:
         return self.what if self._instance is None else self._instance.answer
 
     def _told(self, answer):
-        """An answer as an object of JSON."""
+        """Returns an answer as a JSON object."""
         from etude.messages import Message, plain
         if isinstance(answer, NoAnswer):
             return answer
@@ -192,7 +191,7 @@ def _is_needed(field):
 
 
 def serve(what, lines=None, output=None):
-    """Speaks for a method until the input ends: the last line of a program that Etude starts.
+    """Answers for a method until the input ends. It is the last line of a program that Etude starts.
 
     Standard output belongs to the protocol: what methods print goes to standard error, which Etude keeps.
     """
@@ -211,6 +210,7 @@ def serve(what, lines=None, output=None):
         kind, files = message["type"], message.get("files")
         reply = {"id": message["id"], **({"number": message["number"]} if "number" in message else {})} \
             if kind in ("problem", "step") else {}
+        # The handshake first; then settings, sessions, problems and steps.
         if kind == "hello":
             if message["protocol"] != PROTOCOL:
                 sys.exit(f"speaks protocol {PROTOCOL}, was asked for {message['protocol']}")

@@ -3,6 +3,6 @@ try:
     from etude_engine import *  # noqa: F401, F403
 except ImportError as error:
     if error.name != "etude_engine":
-        raise  # it is there, and something of its own is not
+        raise  # it is installed, but one of its own imports is missing
     raise ImportError("etude.engine is the module etude_engine: python3 -m build --wheel --no-isolation python/engine, then "
                       "pip install the wheel") from error

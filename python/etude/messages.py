@@ -1,19 +1,18 @@
-"""What problems, steps and answers have in common: dataclasses that are read from JSON and turned into it."""
+"""The base of problems, steps and answers: dataclasses that are read from JSON and written to it."""
 import dataclasses
 
 
 class Message:
-    """A dataclass whose fields are the keys of an object of the protocol (`from_` is its `from`).
+    """A dataclass whose fields are the keys of a JSON object of the protocol (`from_` stands for `from`).
 
-    It can also be read like the object itself: `problem["root"]`, `problem.get("ask")`, `"ask" in step`.
+    It can also be read like the object: `problem["root"]`, `problem.get("ask")`, `"ask" in step`.
     """
 
-    HOLDS = {}  # by key: the class of what it holds, or [class] of a list's values
+    HOLDS = {}  # by key: the class of its value, or [class] if the value is a list
 
     @classmethod
     def of(cls, told):
-        """Makes one of an object as json.loads gives it. Keys that it does not know are for later versions, and left
-        out; what is missing is None."""
+        """Makes a message from a dict. Unknown keys (of later versions) are left out; missing ones become None."""
         found = {}
         for name in (field.name for field in dataclasses.fields(cls)):
             key = _key(name)
@@ -24,7 +23,7 @@ class Message:
         return cls(**found)
 
     def to_json(self):
-        """The object, of dicts and lists alone; what may be left out and is None is left out."""
+        """Returns the object as dicts and lists. Optional fields that are None are left out."""
         told = {}
         for field in dataclasses.fields(self):
             value = getattr(self, field.name)
@@ -47,17 +46,17 @@ class Message:
 
 
 class Cell(Message):
-    """The motions of a finished cell, which a metric is given."""
+    """The motions of a finished cell, as a metric gets them."""
 
     def track(self, name):
-        """The motion of that name: rate_hz, and poses of sixty numbers. Raises KeyError with what there is."""
+        """Returns the motion of that name: rate_hz and poses of sixty numbers. Raises KeyError with the known names."""
         for track in self.tracks:
             if track.name == name:
                 return track
         raise KeyError(f"no track '{name}'; there are {', '.join(track.name for track in self.tracks)}")
 
     def motion(self, name):
-        """That motion's positions, frames × joints × 3 in metres: an array where numpy is there, else lists."""
+        """Returns its positions, frames × joints × 3 in metres: an array if numpy is installed, else lists."""
         frames = [[pose[at:at + 3] for at in range(0, len(pose), 3)] for pose in self.track(name).poses]
         try:
             import numpy
@@ -83,7 +82,7 @@ def _name(key):
 
 
 def plain(value):
-    """For json.dumps(default=plain): messages, and whatever has a `tolist`, such as numpy's arrays and numbers."""
+    """Converts messages, and values with a `tolist` such as numpy's, for json.dumps(default=plain)."""
     if isinstance(value, Message):
         return value.to_json()
     if hasattr(value, "tolist"):

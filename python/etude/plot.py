@@ -1,5 +1,5 @@
-"""The page's pictures as matplotlib figures, which are returned: nothing is drawn on a screen. Values stand in their
-metric's unit; shares and scores, as on the page, in per cent. Intervals, estimates and budgets are the summary's."""
+"""The page's pictures as matplotlib figures. They are returned, not shown on a screen. Values have their metric's unit;
+shares and scores are in per cent, as on the page. Intervals, estimates and budgets come from the summary."""
 import statistics
 import sys
 
@@ -8,7 +8,7 @@ from etude.results import Pairs
 from etude.tables import condition_text
 
 Figure = needed("matplotlib.figure").Figure
-# The page's, in its order.
+# The page's colours, in its order.
 COLOURS = ("#41464b", "#1ea194", "#9c5201", "#8b19e6", "#316f93", "#ae8f16", "#470014", "#02175b")
 DASHES = ("-", "-", "-", "-", "--", "--", ":", ":")
 BAND, QUIET = "#e4e2da", "#8a8a86"
@@ -16,10 +16,11 @@ SWARM = 0.18
 
 
 def estimation(pairs, **named):
-    """The estimation plot of two methods: both world by world, joined; then the paired differences, with the summary's
-    intervals over worlds and over clips, and shaded what does not matter (Gardner & Altman 1986).
+    """Returns the estimation plot of two methods (Gardner & Altman 1986). The left side joins both methods' values in
+    each world. The right side has the paired differences with the summary's intervals over worlds and over clips, and a
+    band for differences that do not matter.
 
-    pairs: of Run.pairs. Or a Run, with the arguments of Run.pairs after it: estimation(run, method="a", baseline="b").
+    pairs: from Run.pairs; or a Run, followed by the arguments of Run.pairs: estimation(run, method="a", baseline="b").
     A pair that the summary does not compare has no interval.
     """
     if not isinstance(pairs, Pairs):
@@ -28,6 +29,7 @@ def estimation(pairs, **named):
         raise EtudeError(f"no world in which both '{pairs.method_name}' and '{pairs.baseline_name}' have a value")
     figure = Figure(figsize=(8, 3.6), layout="constrained")
     values, differences = figure.subplots(1, 2)
+    # Dots are coloured by unit, or by method if worlds are units.
     names = sorted({unit for unit in pairs.units if unit is not None})
     colours = [_colour(names.index(unit)) if unit is not None else None for unit in pairs.units]
     baseline, method = (_shown_values(of, pairs.metric) for of in (pairs.baseline, pairs.method))
@@ -39,6 +41,7 @@ def estimation(pairs, **named):
     values.set_xlim(-0.5, 1.5)
     values.set_ylabel(_label(pairs.metric))
     _differences(differences, pairs, names, colours)
+    # The title has the condition, if there is one, and both verdicts.
     condition = pairs.condition[0] if len(set(pairs.condition)) == 1 and pairs.condition[0] != "-" else ""
     says = f": {pairs.verdict.verdict} on these worlds" if pairs.verdict else ""
     beyond = f", {pairs.verdict.beyond} beyond them" if pairs.verdict and pairs.verdict.beyond else ""
@@ -76,8 +79,8 @@ def _differences(axes, pairs, names, colours):
 
 
 def curves(run, name, *, scenario=None, condition=None):
-    """A curve of every method over its steps: the median of all cells, of which one that has ended keeps its last
-    value, as on the page. name: of a series, such as "position_error_max_cm"."""
+    """Returns a curve per method over its steps: the median of all cells. A cell that has ended keeps its last value,
+    as on the page. name: of a series, such as "position_error_max_cm"."""
     scenario = run._named(scenario)
     found, axis, unit = {}, "", ""
     for each in run.series(name, scenario=scenario, condition=condition):
@@ -104,13 +107,13 @@ def curves(run, name, *, scenario=None, condition=None):
 
 
 def median_curve(several):
-    """The median at every step; what has ended keeps its last value."""
+    """Returns the median at every step. A curve that has ended keeps its last value."""
     longest = max(len(each) for each in several)
     return [statistics.median(float(each[min(step, len(each) - 1)]) for each in several) for step in range(longest)]
 
 
 def error_budget(run, *, scenario=None, condition=None, method=None):
-    """What each stage costs: a waterfall from a method's error down to what is left, with the summary's intervals."""
+    """Returns what each stage costs: a waterfall from a method's error to the rest, with the summary's intervals."""
     wanted = [scenario] if scenario is not None else run.scenarios
     for each in run.summary["scenarios"]:
         for of in each["conditions"] if each["name"] in wanted else ():
@@ -155,7 +158,7 @@ def _label(metric):
 
 
 def _scale(metric):
-    """100 where the page shows per cent."""
+    """Returns 100 if the page shows the metric in per cent, else 1."""
     return 1 if metric is None or metric.reads == "amount" else 100
 
 
@@ -171,7 +174,7 @@ def _interval(axes, x, estimate, low, high, scale):
 
 
 def _aside(values):
-    """How far dots stand aside, so that those of like values do not hide each other."""
+    """Returns how far dots are moved aside, so that equal values do not hide each other."""
     low, high = min(values), max(values)
     bins = {}
     for i, value in enumerate(values):
@@ -185,7 +188,7 @@ def _aside(values):
 
 
 def _shown(figure):
-    """The figure, which a notebook shows when it is the value of a cell."""
+    """Returns the figure, which a notebook shows if it is the value of a cell."""
     if "IPython" in sys.modules:
         from IPython import get_ipython
         if get_ipython() is not None:

@@ -1,4 +1,4 @@
-"""The program `etude`: where it is, and how it is called."""
+"""Finds the program `etude` and calls it."""
 import importlib
 import os
 import pathlib
@@ -16,11 +16,11 @@ _TENTH = re.compile(r" *(\d+) %  (\d+)/(\d+) ")
 
 
 class EtudeError(Exception):
-    """What the program complained of, or what of a run cannot be had.
+    """An error that the program reported, or something that a run does not have.
 
-    text: the complaint. place: `file:line:column` where it names one, else "". exit_code: the program's (1: a method
-    has no answer; 2: bad input, nothing was written; 3: this machine hindered it), None where none ran. said: all that
-    it said on standard error. run: the run that is there all the same, else None.
+    text: the error. place: its `file:line:column`, else "". exit_code: the program's (1: a method has no answer; 2: bad
+    input, nothing was written; 3: this machine prevented it), None if the program did not run. said: its whole output
+    on standard error. run: the run if there is one nevertheless, else None.
     """
 
     def __init__(self, text, exit_code=None, said="", run=None):
@@ -32,10 +32,10 @@ class EtudeError(Exception):
 
 
 def find_program(program=None):
-    """The path of the program: the one given, else that of the environment's ETUDE, else in PATH, else beside this
-    package: `bin/etude` of the prefix that it is installed in, or a build of the clone that it lies in.
+    """Returns the path of the program: the argument, else the environment's ETUDE, else the one in PATH, else one
+    beside this package: `bin/etude` of the prefix that it is installed in, or a build of the clone that it lies in.
 
-    Raises EtudeError where there is none.
+    Raises EtudeError if there is none.
     """
     for origin, given in (("argument", program), ("ETUDE", os.environ.get("ETUDE"))):
         if given:
@@ -54,16 +54,14 @@ def find_program(program=None):
 
 
 def call(*arguments, program=None, progress=False, allowed=(0,)):
-    """Runs the program and gives its exit code, which must be one of `allowed`, and what it said on standard output and
-    standard error.
+    """Runs the program. Returns its exit code, which must be one of `allowed`, its standard output and standard error.
 
-    progress: True shows on standard error how far it is; a function is called with the cells done and all cells. An
-    interrupt is passed on, the program ends in its own way, and KeyboardInterrupt is raised when it has. Raises
-    EtudeError with the complaint.
+    progress: True shows the progress on standard error; a function is called with (cells done, cells). An interrupt is
+    passed on; KeyboardInterrupt is raised when the program has ended. Raises EtudeError with the program's error.
     """
     command = [find_program(program), *map(os.fspath, arguments)]
     with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as output:
-        # In a session of its own: a terminal's Ctrl-C reaches it once, through us.
+        # A session of its own: a terminal's Ctrl-C reaches the program once, through this process.
         child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.PIPE, text=True,
                                  encoding="utf-8", errors="replace", start_new_session=True)
         said, interrupted = [], False
@@ -92,18 +90,18 @@ def call(*arguments, program=None, progress=False, allowed=(0,)):
 
 
 def complaint(said):
-    """The last line that the program says of itself, without its name."""
+    """Returns the last line that begins with the program's name, without that name."""
     lines = [line[len("etude: "):] for line in said.splitlines() if line.startswith("etude: ")]
     return lines[-1].strip() if lines else said.strip()
 
 
 def _in_python(text):
-    """A complaint with the options of the program called as they are here: `--overwrite` is `overwrite=True`."""
+    """Returns an error with options as they are called here: `--overwrite` becomes `overwrite=True`."""
     return _FLAG.sub(lambda found: "output=" if found[2] else found[1].replace("-", "_") + "=True", text)
 
 
 def needed(module):
-    """A module that is not of the standard library. Raises ModuleNotFoundError that tells where it is to be had."""
+    """Imports a module that is not in the standard library. Raises ModuleNotFoundError that says how to install it."""
     name = module.split(".")[0]
     try:
         importlib.import_module(name)
@@ -116,7 +114,7 @@ def needed(module):
 
 
 def _tell(line, progress):
-    """Whether a line is one of progress; it is told on."""
+    """Passes a line of progress on. Returns False if the line is something else."""
     tenth = _TENTH.match(line)
     if tenth is None:
         return False
@@ -129,12 +127,12 @@ def _tell(line, progress):
 
 
 def cache_folder():
-    """Where what is made once is kept: `etude` in XDG_CACHE_HOME, else in ~/.cache."""
+    """Returns the folder for files that are made once: `etude` in XDG_CACHE_HOME, else in ~/.cache."""
     return pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache") / "etude"
 
 
 def nearest(name, names):
-    """'; did you mean …?' where a name is like one of those."""
+    """Returns '; did you mean …?' if the name resembles one of `names`, else ''."""
     import difflib
     close = difflib.get_close_matches(str(name), [str(each) for each in names], 1)
     return f"; did you mean {close[0]!r}?" if close else ""

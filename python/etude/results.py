@@ -1,4 +1,4 @@
-"""A run as tables, pairs, verdicts, motions and series. Nothing is judged here: verdicts are those of its summary."""
+"""A run as tables, pairs, verdicts, motions and series. Verdicts are read from its summary, never computed here."""
 import json
 import math
 import pathlib
@@ -16,8 +16,8 @@ __all__ = ["load", "Run", "Table", "Column", "Pairs", "Verdict", "Motion", "Seri
 def load(folder, *, unsealed=False, program=None):
     """Reads the result folder of a finished run.
 
-    The program checks its seal, so that a value that somebody changed is refused; `unsealed` reads it all the same.
-    Raises EtudeError.
+    The program checks the run's seal, so that changed values are refused; `unsealed` reads them nevertheless. Raises
+    EtudeError.
     """
     folder = pathlib.Path(folder)
     if not (folder / "manifest.json").is_file():
@@ -34,8 +34,8 @@ class Verdict:
     """A paired comparison of the summary: method − baseline in the same worlds.
 
     verdict: on these worlds, "better", "worse", "no difference", "inconclusive" or "untested"; beyond: for others like
-    them, None where there are too few units. against: "baseline" or "rival", the strongest other method. details: all
-    that the summary says of it.
+    them, None if there are too few units. against: "baseline", or "rival" for the strongest other method. details: the
+    summary's whole entry.
     """
     scenario: str
     condition: str
@@ -56,11 +56,11 @@ class Verdict:
 
 
 class Pairs:
-    """The worlds in which two methods have a value, in order: condition, trial, clip, units (what each was drawn from),
-    baseline, method and their difference, method − baseline, a list or an array each.
+    """The worlds in which two methods have a value, in order. Lists or arrays, one value per world: condition, trial,
+    clip, units (what the world was drawn from), baseline, method, and difference (method − baseline).
 
-    only_baseline, only_method, neither: how many other worlds there are. verdict: what the run's summary says of the
-    two; None where it compares them not, or where there are several conditions.
+    only_baseline, only_method, neither: the numbers of other worlds. verdict: the summary's Verdict on the two methods;
+    None if it has none, or if there are several conditions.
     """
 
     def __init__(self, metric, method_name, baseline_name, found, counts, verdict, scenario):
@@ -93,8 +93,8 @@ class Pairs:
 
 @dataclass(frozen=True)
 class Motion:
-    """A motion of a recording. positions_m: frames × joints × 3 in metres, Y up, an array where numpy is there, else
-    lists; joints: their names, parents: the joint above each (None for the first)."""
+    """A recorded motion. positions_m: frames × joints × 3 in metres, Y up; an array if numpy is installed, else lists.
+    joints: their names. parents: the joint above each (None for the first)."""
     cell: str
     name: str
     rate_hz: float
@@ -109,7 +109,7 @@ class Motion:
 
 @dataclass(frozen=True)
 class Series:
-    """A curve of one cell: `values` along `axis` ("frame", "iteration", …). names: what its whole numbers stand for."""
+    """A curve of one cell: `values` along `axis` ("frame", "iteration", …). names: what whole numbers stand for."""
     cell: str
     condition: str
     trial: int
@@ -125,7 +125,7 @@ class Series:
 
 
 class Run:
-    """A finished run. run["ik-weights"]: the Table of a scenario. summary, manifest: those files, as read."""
+    """A finished run. run["ik-weights"] is the Table of a scenario. summary and manifest are these files as read."""
 
     def __init__(self, folder, metrics, joints):
         self.folder = pathlib.Path(folder)
@@ -159,7 +159,7 @@ class Run:
         return list(self._scenarios[self._named(scenario)]["methods"])
 
     def verdicts(self, scenario=None, metric=None):
-        """Every comparison that the page tells, in its order: against baselines, then against the strongest rivals."""
+        """Returns every comparison on the page, in its order: against baselines, then against the strongest rivals."""
         found = []
         for name, summary in self._scenarios.items():
             for condition in summary["conditions"]:
@@ -171,8 +171,8 @@ class Run:
         return [each for each in found if scenario in (None, each.scenario) and metric in (None, each.metric)]
 
     def pairs(self, method, baseline, metric=None, *, scenario=None, condition=None):
-        """Two methods in the same worlds. metric: the scenario's first by default. scenario: may be left out where one
-        alone has both methods. condition: as rows have it ("joint_noise_deg=15"); all by default."""
+        """Returns the Pairs of two methods. metric: the scenario's first by default. scenario: may be left out if only
+        one has both methods. condition: as in rows ("joint_noise_deg=15"); all by default."""
         if scenario is None:
             both = [name for name, each in self._scenarios.items() if {method, baseline} <= set(each["methods"])]
             if len(both) != 1:
@@ -183,6 +183,7 @@ class Run:
             scenario = both[0]
         scenario = self._named(scenario)
         summary, table = self._scenarios[scenario], self[scenario]
+        # Both names and the condition must exist.
         for name in (method, baseline):
             if name not in summary["methods"]:
                 raise EtudeError(f"{scenario}: no method '{name}'{nearest(name, summary['methods'])}; there are "
@@ -191,6 +192,7 @@ class Run:
         if condition is not None and condition not in conditions:
             raise EtudeError(f"{scenario}: no condition '{condition}'; there are {', '.join(conditions)}")
         metric = metric or summary["headline_metrics"][0]
+        # Both methods' values by world.
         values, methods = list(table[metric]), list(table["method"])
         clips, units = (list(table[name]) if name in table else [None] * len(table) for name in ("clip", "units"))
         worlds = {}
@@ -203,6 +205,7 @@ class Run:
                 if name == method:
                     world[2] = values[i]
         found = [(*key, *world) for key, world in worlds.items() if world[1] is not None and world[2] is not None]
+        # The numbers of other worlds, and the summary's verdict.
         counts = (sum(world[1] is not None and world[2] is None for world in worlds.values()),
                   sum(world[1] is None and world[2] is not None for world in worlds.values()),
                   sum(world[1] is None and world[2] is None for world in worlds.values()))
@@ -212,14 +215,14 @@ class Run:
         return Pairs(self.metrics.get(metric), method, baseline, found, counts, said[0] if said else None, scenario)
 
     def recorded(self):
-        """The cells that left a recording."""
+        """Returns the cells that kept a recording."""
         return [_cell_of(path) for path in sorted((self.folder / "recordings").glob("*.json"))]
 
     def motion(self, cell, name="truth"):
-        """A motion of a cell's recording.
+        """Returns a motion from a cell's recording.
 
-        cell: as rows have it, or a row. name: "truth", another of its tracks ("sensed", "solution", …), or a method,
-        whose own motion in the same world it is. Raises EtudeError with what there is.
+        cell: a row, or its cell as text. name: "truth", another of its tracks ("sensed", "solution", …), or a method,
+        for that method's motion in the same world. Raises EtudeError that lists what there is.
         """
         cell = cell["cell"] if isinstance(cell, dict) else cell
         recorded = self.recorded()
@@ -244,7 +247,7 @@ class Run:
         return _motion(cell, tracks[name], [(joint, dict(self._joints)[joint]) for joint in told["joints"]])
 
     def series(self, name=None, *, scenario=None, method=None, condition=None, trial=None):
-        """The curves of cells by the name of the curve; all curves without one."""
+        """Yields the curves of cells that have this name, or all curves if it is None."""
         wanted = [self._named(scenario)] if scenario is not None else self.scenarios
         known = set()
         for each in wanted:
@@ -297,7 +300,7 @@ def _motion(cell, track, joints):
 
 
 def _unit_of(name):
-    """The unit that a curve's name ends with, "" where it has none."""
+    """Returns the unit at the end of a curve's name, or ""."""
     found = re.search(r"_(cm|deg|mm|s|mps3|cmps)$", name)
     return found[1] if found else ""
 
@@ -317,7 +320,7 @@ def _series_of_lines(run, scenario):
 
 
 def _split(cell):
-    """scenario, condition, trial, method of a cell; a condition may hold slashes."""
+    """Splits a cell into scenario, condition, trial and method; a condition may contain slashes."""
     scenario, rest = cell.split("/", 1)
     condition, trial, method = rest.rsplit("/", 2)
     return scenario, condition, int(trial), method

@@ -1,8 +1,8 @@
-"""A method as a program of its own: a folder that Etude can start it from, today and when the run is repeated.
+"""A method as a program of its own: a folder from which Etude can start it, now and when the run is repeated.
 
-A method of a module is imported by its file. One of a notebook, of `__main__`, or made within a function is sent by its
-source, with what it uses of its surroundings: functions, classes, modules, numbers, texts, lists and dicts of them, and
-numpy's arrays, as they are at that moment. What else it uses is refused, by name.
+A method of a module is imported from its file. A method of a notebook, of `__main__` or within a function is sent by
+its source, with what it uses, as it is at that moment: functions, classes, modules, numbers, texts, lists and dicts of
+them, and numpy arrays. Anything else is refused by name.
 """
 import ast
 import builtins
@@ -23,19 +23,20 @@ from etude.messages import plain
 from etude.program import cache_folder
 
 PLAIN = (type(None), bool, int, float, complex, str, bytes)
-SYSTEM = ("/usr/", "/bin/", "/lib", "/opt/", "/nix/")  # what every program is shown
-LARGEST = 1_000_000  # characters of a value that is written as source
+SYSTEM = ("/usr/", "/bin/", "/lib", "/opt/", "/nix/")  # folders that every program can read
+MAX_LITERAL_LENGTH = 1_000_000  # characters of a value that is written as source
 
 
 def ship(method):
-    """The entry of a scenario's `methods` or `metrics` (a dict) for one of @method or @metric. Its folder is named by what is in it, below
-    etude.program.cache_folder(), so that the same method is the same entry.
+    """Returns the entry (a dict) of a scenario's `methods` or `metrics` for one made by @method or @metric. Its folder,
+    below etude.program.cache_folder(), is named by its contents, so that the same method gives the same entry.
 
-    Raises ValueError, which names what cannot be sent and why.
+    Raises ValueError that names what cannot be sent and why.
     """
     spec = spec_of(method)
     module = sys.modules.get(method.__module__)
     granted = list(spec.files)
+    # The source of the program: it imports the method, or contains it with all that it uses.
     if _is_importable(method, module):
         top = _folder_of(module)
         granted.append(top)
@@ -47,6 +48,7 @@ def ship(method):
         pieces.add(method, f"{'metric' if spec.task == 'metric' else 'method'} '{spec.name}'")
         source, called, arrays = pieces.text(), method.__name__, pieces.arrays
         granted += pieces.folders
+    # The program's folder, and the entry of the scenario.
     source = f'"""Written by etude.run."""\n{source}\nimport etude\netude.serve({called})\n'
     folder = _write(source, arrays, "metrics" if spec.task == "metric" else "methods")
     entry = {"name": spec.name, "exec": [_interpreter(granted), str(folder / "program.py")],
@@ -67,13 +69,13 @@ def _is_importable(method, module):
 
 
 def _folder_of(module):
-    """The folder that a module is imported from."""
+    """Returns the folder that a module is imported from."""
     path = pathlib.Path(module.__file__).resolve()
     return str(path.parents[module.__name__.count(".") + (path.name == "__init__.py")])
 
 
 def _interpreter(granted):
-    """The Python that runs us, which the fence must show where it is none of the system's."""
+    """Returns the Python that runs this process; adds its prefix to `granted` if the fence does not show it anyway."""
     for prefix in dict.fromkeys([sys.prefix, sys.base_prefix]):
         if not f"{prefix}/".startswith(SYSTEM):
             granted.append(prefix)
@@ -81,7 +83,7 @@ def _interpreter(granted):
 
 
 def _write(source, arrays, room):
-    """The folder of a program, in that room of the cache: its source, its arrays and a copy of what of this package speaks for it."""
+    """Returns a program's folder in this part of the cache: with its source, arrays and imported modules."""
     here = pathlib.Path(__file__).resolve().parent
     files = {"program.py": source.encode(), **{f"{name}.npy": data for name, data in arrays.items()}}
     for name in ("__init__.py", "conversation.py", "engine.py", "messages.py", "problems.py"):
@@ -96,7 +98,7 @@ def _write(source, arrays, room):
 
 
 def write_once(path, data):
-    """Writes a file whose folder is named by its contents: whole, or not at all."""
+    """Writes a file, whole or not at all, unless it has these contents already."""
     if path.exists() and path.read_bytes() == data:
         return
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -106,13 +108,13 @@ def write_once(path, data):
 
 
 class _Pieces:
-    """What a method is made of, in the order in which it must be written."""
+    """The parts of a method in the order in which they must be written."""
 
     def __init__(self):
         self.arrays, self.folders, self._seen, self._lines, self._imports = {}, [], {}, [], []
 
     def add(self, thing, whose):
-        """A function or class of a notebook, after all that it uses."""
+        """Adds a function or class of a notebook, after all that it uses."""
         name = thing.__name__
         if name == "<lambda>":
             raise ValueError(f"{whose} is a lambda, which has no source of its own: write it with def")
@@ -136,6 +138,7 @@ class _Pieces:
             if self._seen[name] is not value:
                 raise ValueError(f"{whose} uses '{name}', which means something else elsewhere in it; rename one")
             return
+        # Modules are imported, a notebook's functions and classes sent by source, values as arrays or literals.
         if isinstance(value, types.ModuleType):
             self._seen[name] = value
             if value.__name__.partition(".")[0] == "etude" and "etude_engine" in sys.modules:
@@ -155,7 +158,7 @@ class _Pieces:
             self._add_array(name, value)
         elif _is_plain(value):
             text = pprint.pformat(value, width=120, compact=True, sort_dicts=False)
-            if len(text) > LARGEST:
+            if len(text) > MAX_LITERAL_LENGTH:
                 raise ValueError(f"{whose} uses '{name}', a {type(value).__name__} too large to be sent; read it from "
                                  "a file that its `files` lists")
             self._seen[name] = value
@@ -165,7 +168,7 @@ class _Pieces:
                              "within the method, or in a class's __init__, or read it from a file that its `files` lists")
 
     def _import(self, module, line):
-        """One of our own folders must be shown and in the path; what Python brings is there."""
+        """Adds an import line, and the module's folder if Python does not bring it."""
         if getattr(module, "__file__", None) and module.__name__.partition(".")[0] != "etude":
             self._show(module)
         self._imports.append(line)
@@ -191,7 +194,7 @@ class _Pieces:
 
 
 def _names_used(source, whose):
-    """The names that a piece of source takes from around it, its decorators and defaults among them."""
+    """Returns the names that a piece of source takes from around it, also in decorators and defaults."""
     found = {}
 
     def look(table):
@@ -209,7 +212,7 @@ def _names_used(source, whose):
 
     try:
         look(symtable.symtable(source, "method", "exec"))
-    except SyntaxError as error:  # a nonlocal without its function
+    except SyntaxError as error:  # a `nonlocal` without its function
         raise ValueError(f"{whose} cannot be sent by its source: {error}. A state of the function around it is open: "
                          "remember it in a class") from None
     found.pop("__class__", None)
@@ -224,7 +227,7 @@ def _functions_of(thing):
 
 
 def _source_of(thing):
-    """The source of a function or class. A notebook's classes belong to no file: they are found by their functions."""
+    """Returns the source of a function or class. A notebook's class has no file, so it is found by its functions."""
     if isinstance(thing, types.FunctionType) or not _functions_of(thing):
         return textwrap.dedent(inspect.getsource(thing))
     code = _functions_of(thing)[0].__code__
@@ -238,7 +241,7 @@ def _source_of(thing):
 
 
 def _find(thing, name, whose):
-    """Whether a name that a function or class uses is there, and what it stands for."""
+    """Returns whether a name that a function or class uses is defined, and its value."""
     for function in _functions_of(thing):
         if name not in function.__code__.co_freevars:
             continue
@@ -257,8 +260,7 @@ def _find(thing, name, whose):
 
 
 def _name_in_module(value):
-    """What a function, class or value is called in the module that it says it is of; else None. Compiled ones tell it by
-    their `__name__` alone."""
+    """Returns the name of a value in its own module, else None. Compiled functions have only a `__name__`."""
     for told in ("__qualname__", "__name__"):
         name = getattr(value, told, None)
         if isinstance(name, str) and name.isidentifier() and \
@@ -268,7 +270,7 @@ def _name_in_module(value):
 
 
 def _is_ours(value):
-    """Whether a function or class is of a notebook, or made within a function."""
+    """Returns whether a function or class is defined in a notebook or within a function."""
     return value.__module__ == "__main__" or "<locals>" in value.__qualname__
 
 

@@ -1,4 +1,4 @@
-"""Tables of cells: columns by name, read when they are asked for, with the units and definitions of their metrics."""
+"""Tables of cells: columns by name, read on demand, with the units and definitions of their metrics."""
 import array
 import collections.abc
 import json
@@ -22,10 +22,10 @@ def numpy_or_none():
 
 
 class Column(collections.abc.Sequence):
-    """The values of one column, a row each. Missing ones are None; in `values` and as an array, NaN.
+    """The values of one column, one per row. A missing value is None; NaN in `values` and in an array.
 
-    name; values: a numpy array where numpy is there, else an array of the standard library or a list; metric: its
-    etude.catalogue.Metric, None of what was not measured; unit, definition: the metric's, else "".
+    values: a numpy array if numpy is installed, else an array of the standard library or a list. metric: its
+    etude.catalogue.Metric, or None if the column is no metric. unit, definition: the metric's, else "".
     """
 
     def __init__(self, name, values, metric=None):
@@ -57,11 +57,11 @@ class Column(collections.abc.Sequence):
 
 
 class Table:
-    """The cells of one scenario, which are of one task. Columns without any value are left out; `null_columns` tells
-    why they have none.
+    """The cells of one scenario, all of one task. Columns without any value are left out; `null_columns` gives the
+    reasons by name.
 
-    columns: the names, settings first. null_columns: by name, the reason. table["iterations"]: a Column; digests of
-    stages, `digest_…`, too, although `columns` leaves them out.
+    columns: the names, settings first. table["iterations"] is a Column; so are the digests of stages, `digest_…`,
+    although `columns` leaves them out.
     """
 
     def __init__(self, scenario, task, length, readers, null_columns, metrics, reasons, digests=()):
@@ -87,19 +87,19 @@ class Table:
         return self._read[name]
 
     def reasons(self, name):
-        """Per cell why its value of a metric is missing; None where it is not."""
+        """Returns for each cell why its value of a metric is missing; None if it is not."""
         column = self[name] if name in self else [None] * len(self)
         why = self._reasons(name)
         return [None if value is not None else why(i) for i, value in enumerate(column)]
 
     def rows(self):
-        """The cells, a dict each, without their digests."""
+        """Returns the cells as dicts, without their digests."""
         columns = [self[name] for name in self.columns]
         for values in zip(*columns) if columns else ():
             yield dict(zip(self.columns, values))
 
     def where(self, **wanted):
-        """The cells whose columns are as wanted: `table.where(method="adaptive", joint_noise_deg=15)`."""
+        """Returns the cells whose columns have these values: `table.where(method="adaptive", joint_noise_deg=15)`."""
         kept = range(len(self))
         for name, value in wanted.items():
             values = list(self[name])
@@ -110,7 +110,7 @@ class Table:
                      lambda name: (lambda why: lambda i: why(kept[i]))(self._reasons(name)), digests)
 
     def to_pandas(self):
-        """A DataFrame; its `attrs` hold the `units` and `definitions` of the metrics' columns."""
+        """Returns a DataFrame; its `attrs` hold the `units` and `definitions` of the metrics' columns."""
         frame = needed("pandas").DataFrame({name: self[name].values for name in self.columns})
         measured = {name: self._metrics[name] for name in self.columns if name in self._metrics}
         frame.attrs["units"] = {name: metric.unit for name, metric in measured.items()}
@@ -118,9 +118,9 @@ class Table:
         return frame
 
     def to_xarray(self):
-        """A Dataset over condition × trial × method, in their order; settings are coordinates of the condition, and every
-        metric has `units`, `long_name` and `definition` in its `attrs`. NaN (None of texts) where there is no such cell.
-        `sel` has an argument `method` of its own: write `data.sel({"method": "fixed"})`."""
+        """Returns a Dataset over condition × trial × method, in their order. Settings are coordinates of the condition;
+        every metric has `units`, `long_name` and `definition` in its `attrs`. A cell that does not exist is NaN, or
+        None for texts. `sel` has an argument named `method`, so write `data.sel({"method": "fixed"})`."""
         needed("xarray")
         frame, axes = self.to_pandas(), ["condition", "trial", "method"]
         settings = [name for name in self.columns if name not in IDENTITY and name not in self._metrics]
@@ -145,7 +145,7 @@ def _take(values, places):
 
 
 def _typed(values):
-    """Numbers as an array, NaN where None; other values as a list."""
+    """Returns numbers as an array, with NaN for None; other values as a list."""
     if not all(value is None or isinstance(value, (int, float)) for value in values):
         return values
     numpy = numpy_or_none()
@@ -157,7 +157,7 @@ def _typed(values):
 
 
 def tables_of_rows(file, metrics):
-    """The tables of cells.jsonl, by scenario."""
+    """Returns the tables of cells.jsonl, by scenario."""
     rows_of = {}
     with open(file, encoding="utf-8") as lines:
         for number, line in enumerate(lines, 1):
@@ -201,7 +201,7 @@ def _whys(rows, name):
 
 
 def read_npy(path):
-    """The numbers of a .npy file that a run wrote, mapped into memory, as one line."""
+    """Returns the numbers of a .npy file that a run wrote, mapped into memory, as one dimension."""
     with open(path, "rb") as file:
         magic = file.read(10)
         length = struct.unpack("<H", magic[8:])[0] if len(magic) == 10 and magic[:6] == b"\x93NUMPY" else 0
@@ -217,14 +217,14 @@ def read_npy(path):
 
 
 def table_of_columns(folder, metrics):
-    """The table of a scenario of more than 100,000 cells: `folder` is its columns/SCENARIO."""
+    """Returns the table of a scenario with more than 100,000 cells. `folder` is its columns/SCENARIO."""
     index = json.loads((folder / "index.json").read_text(encoding="utf-8"))
     trials, methods, conditions = index["trials"], index["methods"], index["conditions"]
     length = trials * len(methods) * len(conditions)
     numpy = numpy_or_none()
 
     def spread(values, before, after):
-        """Each of `values` for all that comes `after` it, over again for all that comes `before`."""
+        """Repeats each of `values` `after` times, and the whole `before` times."""
         if numpy:
             return numpy.tile(numpy.repeat(numpy.array(values), after), before)
         return [value for _ in range(before) for value in values for _ in range(after)]
@@ -240,6 +240,7 @@ def table_of_columns(folder, metrics):
 
     here = {path.stem for path in folder.glob("*.npy")}
     named = [text or None for text in index["texts"]]
+    # Readers of the settings, which the index stores once per condition, trial and method.
     readers = {}
     for key in conditions[0] if conditions else ():
         of_conditions = [_as_row_has_it(each[key]) for each in conditions]
@@ -252,6 +253,7 @@ def table_of_columns(folder, metrics):
     for name in ("clip", "reason"):
         if name in here:
             readers[name] = lambda name=name: texts(name, named)
+    # Readers of the metrics; a metric without a file has no value in any cell.
     wanted = list(dict.fromkeys(name for kind in index["kinds"] for name in kind["metrics"]))
     nulls = {}
     for name in wanted:
@@ -281,7 +283,7 @@ def table_of_columns(folder, metrics):
 
 
 def _as_row_has_it(text):
-    """A swept value, of which an index has the text: a number where it is one."""
+    """Returns a swept value, which an index stores as text, as rows have it: a number if it is one."""
     try:
         return float(text)
     except ValueError:
@@ -289,6 +291,6 @@ def _as_row_has_it(text):
 
 
 def condition_text(condition):
-    """`key=value,key=value`, or - without a sweep, as rows have it."""
+    """Returns `key=value,key=value` as in rows, or "-" without a sweep."""
     items = condition.items() if isinstance(condition, dict) else [(each["key"], each["value"]) for each in condition]
     return ",".join(f"{key}={value:g}" if isinstance(value, float) else f"{key}={value}" for key, value in items) or "-"

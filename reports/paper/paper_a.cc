@@ -15,7 +15,8 @@
 namespace etude {
 namespace {
 
-// The panel in its own units; the page scales it. Above the curves stand the terms, below the axis two rows of numbers.
+// Size and margins of the panel in its own units; the page scales it. Terms are above the curves, numbers below the
+// axis.
 constexpr double kPanelWide = 240, kPanelHeight = 150, kPanelTop = 22, kBase = 118;
 constexpr double kPanelMargin = 24, kPanelRim = 10;
 constexpr Axis kGrades{.low = 0, .high = 1, .from = kBase, .to = kPanelTop};
@@ -51,23 +52,23 @@ class MembershipPanel {
   std::string Label(const Shape& shape, std::string_view name) const {
     const Cut top = CutOf(shape, 1);
     const double peak = 0.5 * (std::max(top.low, universe_.low) + std::min(top.high, universe_.high));
-    const double room = 0.15 * (universe_.high - universe_.low);  // a middle name there would leave the panel
+    const double room = 0.15 * (universe_.high - universe_.low);  // a centred name would leave the panel here
     const char* anchor = peak < universe_.low + room ? "start" : peak > universe_.high - room ? "end" : "middle";
     return PanelText(inputs_.At(peak), kPanelTop - 8, name, anchor);
   }
 
-  /// Writes numbers along the axis; one too near to its neighbour stands a row lower.
+  /// Returns the numbers along the axis. One too close to its neighbour stands a row lower.
   std::string Numbers(std::vector<double> marks) const {
     marks.insert(marks.end(), {universe_.low, universe_.high});
     std::ranges::sort(marks);
     marks.erase(std::unique(marks.begin(), marks.end()), marks.end());
-    constexpr double kNear = 22;
+    constexpr double kMinGap = 22;
     std::string svg;
-    std::array<double, 2> last = {-kNear, -kNear};  // where the rows' last numbers stand
+    std::array<double, 2> last = {-kMinGap, -kMinGap};  // where each row's last number stands
     for (double mark : marks) {
       const double x = inputs_.At(mark);
-      const std::size_t row = x - last[0] < kNear ? 1 : 0;
-      if (x - last[row] < kNear) continue;  // no room in either
+      const std::size_t row = x - last[0] < kMinGap ? 1 : 0;
+      if (x - last[row] < kMinGap) continue;  // no room in either row
       last[row] = x;
       svg += fmt::format("<path d=\"M{:.1f} {}v4\"/>", x, kBase) +
              PanelText(x, kBase + 14 + 13 * static_cast<double>(row), TickText(mark), "middle");
@@ -75,11 +76,11 @@ class MembershipPanel {
     return svg;
   }
 
-  /// Gives the places where a straight-sided function bends, within the universe.
+  /// Returns the places in the universe where a piecewise linear function bends.
   std::vector<double> Bends(const Shape& shape) const {
     std::vector<double> bends;
     for (double grade : {1.0, 0.0}) {
-      if (grade == 0 && std::holds_alternative<Gaussian>(shape)) continue;  // has no foot
+      if (grade == 0 && std::holds_alternative<Gaussian>(shape)) continue;  // a Gaussian has no foot
       const Cut cut = CutOf(shape, grade);
       bends.insert(bends.end(), {cut.low, cut.high});
     }
@@ -94,8 +95,7 @@ class MembershipPanel {
 
 constexpr std::string_view kFuzzyKey = "fuzzy", kBuiltin = "builtin:";
 
-/// Gives the paper's system, then those of the program's own that the scenario sweeps. A file's functions are not in
-/// the results.
+/// Returns the paper's system, then the built-in ones that the scenario sweeps. Results do not hold a file's functions.
 std::vector<FuzzySystem> ShownSystems(const ScenarioSummary& scenario) {
   std::vector<FuzzySystem> systems = {FuzzySystem{}};
   for (const ConditionSummary& condition : scenario.conditions) {
@@ -150,7 +150,6 @@ std::string RoundTripHtml(const FuzzySystem& system) {
   return fmt::format("<p class=\"quiet legend\">{}</p>{}", legend, TableHtml(table));
 }
 
-/// Gives one row per term.
 Table PaperTerms() {
   Table table{.columns = {{.head = "figure", .is_number = true},
                           {"feature"},
@@ -207,7 +206,7 @@ double MeanRoundTripError(Feature feature, const Memberships& memberships, Defuz
     PoseFeatures pose;
     pose[feature] = universe.low + (universe.high - universe.low) * i / kSteps;
     const auto back = DefuzzifyFeature(Fuzzify(pose, memberships), feature, memberships, method);
-    if (!back) continue;  // no grade at all says nothing to go back to
+    if (!back) continue;  // without grades there is nothing to defuzzify
     sum += std::abs(*back - pose[feature]);
     ++count;
   }

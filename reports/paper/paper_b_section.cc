@@ -23,17 +23,16 @@ constexpr std::array<Quantity, 4> kQuantities{{{"position_error_cm", "position, 
                                                {"x_axis_error_deg", "X axis, degrees"},
                                                {"y_axis_error_deg", "Y axis, degrees"},
                                                {"z_axis_error_deg", "Z axis, degrees"}}};
-// Figure 5.2 goes from the head to the foot.
+// In the order of figure 5.2.
 constexpr std::array<const char*, 4> kEffectors{"head", "left_hand", "right_hand", "right_foot"};
 
-/// One panel's curves.
 struct Panel {
   std::string title;
   bool of_positions = false;
   std::vector<PlotCurve> curves;
 };
 
-/// Gives the first trial's curve of each method, and the median of all trials when there are several.
+/// Returns the first trial's curve of each method, and the median of all trials if there are several.
 std::vector<PlotCurve> CurvesOf(const CellSeriesIndex& series, const std::vector<const Row*>& rows,
                                 const std::vector<std::string>& methods, const std::string& name) {
   std::vector<PlotCurve> singles, medians;
@@ -67,7 +66,7 @@ std::vector<Panel> PanelsOf(const CellSeriesIndex& series, const std::vector<con
   return panels;
 }
 
-/// Makes the axes that all positions share, or all angles.
+/// Returns the axes that all panels of positions share, or all panels of angles.
 CurveAxes SharedAxes(const std::vector<Panel>& panels, bool of_positions) {
   std::vector<const PlotCurve*> curves;
   for (const Panel& panel : panels) {
@@ -108,7 +107,7 @@ std::string Figure(const std::vector<Panel>& panels, const ScenarioSummary& scen
   return html + "</div>";
 }
 
-// So many tables of one kind fit a page of A4.
+// The numbers of tables that fit a page of A4.
 constexpr std::size_t kErrorTablesPerFloat = 6;
 constexpr std::size_t kAngleTablesPerFloat = 3;
 
@@ -116,7 +115,7 @@ std::string Under(const PaperBCondition& condition) {
   return condition.condition.empty() ? "" : ", " + ConditionLabel(condition.condition);
 }
 
-// Table 5.2 has what 5.1 has, and the hidden angles.
+// Table 5.2 has the figures of 5.1 and the hidden angles.
 std::string_view TableName(const PaperBSet& set) { return set.angles.empty() ? "table 5.1" : "table 5.2"; }
 
 std::string Note(const PaperBSet& set) {
@@ -155,7 +154,7 @@ std::string PrintedHtml(bool with_angles) {
   return html + "</details>";
 }
 
-/// Writes floats of at most `most` tables each, the note beneath the first.
+/// Returns floats of at most `most` tables each, with the note below the first.
 std::string FloatsLatex(const std::vector<PaperTable>& tables, std::size_t most, const std::string& caption,
                         const std::string& note) {
   std::string text;
@@ -170,15 +169,14 @@ std::string FloatsLatex(const std::vector<PaperTable>& tables, std::size_t most,
   return text;
 }
 
-/// Is true when any cell of this scenario keeps such curves: its task is `ik`, and it asks to `record:
-/// [effector_curves]`.
+/// Returns true if a cell of this scenario keeps such curves: the task is `ik`, with `record: [effector_curves]`.
 bool HasEffectorCurves(const RunData& run, const ScenarioSummary& scenario) {
   return scenario.task == "ik" && KeepsSeries(run, scenario, "head_position_error_cm");
 }
 
-/// Draws paper B's figure 5.2: how each end effector's position error and the errors of its three axes fall from
-/// iteration to iteration, all methods in one small panel each, on a logarithmic axis; thin the first trial, thick the
-/// median of all. One folding figure per condition; "" for a scenario whose cells keep no such curves.
+/// Draws paper B's figure 5.2: each end effector's position error, and the error along each axis, over iterations.
+/// Each is a small panel of all methods on a logarithmic axis, thin for the first trial, thick for the median of all.
+/// One folded figure per condition; "" if no cell keeps such curves.
 std::string EffectorCurvesHtml(const RunData& run, const ScenarioSummary& scenario) {
   if (!HasEffectorCurves(run, scenario)) return "";
   const CellSeriesIndex series(run);
@@ -212,7 +210,7 @@ std::string PaperBHtml(const RunData& run, const ScenarioSummary& scenario) {
       with_angles = with_angles || !set.angles.empty();
     }
   }
-  // No trial left a distance to close, so there are no tables to compare with the paper's.
+  // Without a filled table there is nothing to compare with the paper's.
   return open ? html : html + PrintedHtml(with_angles);
 }
 

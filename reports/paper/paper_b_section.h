@@ -6,18 +6,18 @@
 
 namespace etude {
 
-/// Is true when any cell of this scenario keeps the curves or errors that these pictures and tables are made of
-/// (`record` of the task ik).
+/// Returns true if a cell of this scenario keeps curves or errors that these pictures and tables show (key `record` of
+/// the task ik).
 bool ShowsPaperB(const RunData& run, const ScenarioSummary& scenario);
 
-/// Shows single effectors and joints as paper B does: the curves of its figure 5.2, its tables 5.1 and 5.2 filled from
-/// the run, and beside them what the paper prints. "" for a scenario whose cells keep none.
+/// Returns single effectors and joints as paper B shows them: the curves of its figure 5.2, its tables 5.1 and 5.2
+/// filled from the run, and beside them the printed ones. Returns "" if no cell keeps them.
 std::string PaperBHtml(const RunData& run, const ScenarioSummary& scenario);
-/// Writes the tables alone, folded away.
+/// Returns the tables alone, folded.
 std::string PaperBMarkdown(const RunData& run, const ScenarioSummary& scenario);
-/// Writes the tables as floats of the package booktabs.
+/// Returns the tables as floats for the package booktabs.
 std::string PaperBLatex(const RunData& run, const ScenarioSummary& scenario);
-/// Writes a line per figure, full precision, with a header line.
+/// Returns one line per figure in full precision, below a header line.
 std::string PaperBCsv(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

@@ -102,7 +102,7 @@ constexpr AngleFigures kBoundAngles{{
 }};
 // clang-format on
 
-/// Gives the heads of an effector's six columns, and of a joint's three.
+/// Returns the headings of an effector's six columns.
 std::vector<PaperColumns> PaperBErrorColumns() {
   return {{"position error (cm)", {"X", "Y", "Z"}}, {"orientation error (degrees)", {"X", "Y", "Z"}}};
 }
@@ -131,7 +131,7 @@ constexpr std::string_view kErrorSeries = "position_error_x_cm";
 constexpr std::string_view kNoAxis = "a — stands where the joint has no such axis.";
 
 using Rows = std::vector<const Row*>;
-/// Sums up several trials' values of one figure.
+/// Reduces several trials' values of a figure to one.
 using Aggregator = std::function<double(std::vector<double>)>;
 
 double First(const std::vector<double>& values) { return values.front(); }
@@ -147,7 +147,7 @@ double RootMeanSquare(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// Sums up a figure over those of `rows` that have it; nothing when none has.
+/// Returns a figure over those of `rows` that have it; nothing if none has.
 std::optional<double> Figure(const CellSeriesIndex& series, std::span<const Row* const> rows, const std::string& name,
                              std::size_t index, const Aggregator& aggregate) {
   std::vector<double> values;
@@ -258,7 +258,7 @@ class Study {
     return found;
   }
 
-  // All methods start from the same pose, so the first cell of a trial that records it is enough.
+  // All methods start from the same pose, so one recorded cell per trial is enough.
   Rows OnePerTrial(std::span<const Row* const> rows) const {
     Rows found;
     std::set<int> trials;

@@ -12,36 +12,36 @@
 
 namespace etude {
 
-/// Neighbouring columns under one head.
+/// Neighbouring columns under one heading.
 struct PaperColumns {
   std::string head;  ///< with the unit: "position error (cm)"
   std::vector<std::string> names;
 };
 
-/// One row of figures, as many as the table has columns. Nothing where a value cannot exist or is missing.
+/// One row with a figure per column, unset if a value cannot exist or is missing.
 struct PaperRow {
   std::string label;
   std::vector<std::optional<double>> values;
 };
 
-/// A table of figures in the layout of a printed one: six decimals, values of one row beside each other.
+/// A table in the layout of a printed one, with six decimals.
 struct PaperTable {
   std::string caption;
   std::vector<PaperColumns> columns;
   std::vector<PaperRow> rows;
 };
 
-/// Gives "(a)", "(b)", …, "(z)", "(27)", …
+/// Returns "(a)", "(b)", …, "(z)", "(27)", …
 std::string PaperLetter(std::size_t index);
 
-/// Gives the table as what all writers take: the caption, two rows of heads, values beside their six decimals.
+/// Returns the table as all writers take it: the caption, two rows of headings, values beside their six decimals.
 Table TableOf(const PaperTable& table);
 
-/// A row of paper B's tables of errors, in its order and under its name.
+/// A row of paper B's tables of errors, in the paper's order.
 struct PaperBEffector {
   const char* label;        ///< "R_hand"
-  const char* name;         ///< of the tree's effector
-  const char* description;  ///< in figure 5.2
+  const char* name;         ///< of the effector in the tree
+  const char* description;  ///< as in figure 5.2
 };
 inline constexpr std::array<PaperBEffector, 4> kPaperBEffectors{{{"foot", "right_foot", "right foot"},
                                                                  {"R_hand", "right_hand", "right hand"},
@@ -67,34 +67,34 @@ inline constexpr std::array<PaperBJoint, 14> kPaperBJoints{{{"R_shoulder", kTree
                                                             {"L_knee", kTreeLeftKnee},
                                                             {"L_ankle", kTreeLeftAnkle}}};
 
-/// Gives tables 5.1 (a)–(c) and 5.2 (b), (d), (e) as the paper prints them, of its one pose. 5.2 (a) and (c) repeat 5.1
-/// (a) and (c).
+/// Returns tables 5.1 (a)–(c) and 5.2 (b), (d), (e) as the paper prints them for its one pose. Its tables 5.2 (a) and
+/// (c) repeat 5.1 (a) and (c).
 std::vector<PaperTable> PaperBPrintedErrors();
 std::vector<PaperTable> PaperBPrintedAngles();
 
-/// Tables 5.1 and 5.2 of paper B, filled from a run: of one trial, or summed up over all.
+/// Tables 5.1 and 5.2 of paper B, filled from a run: for one trial, or over all trials.
 struct PaperBSet {
   std::string title;                  ///< "trial 0", "all 200 trials"
-  std::string error_note;             ///< what the figures of `errors` are, in words
-  std::string angle_note;             ///< what those of `angles` are; "" without any
+  std::string error_note;             ///< explains the figures of `errors`
+  std::string angle_note;             ///< explains those of `angles`; "" if there are none
   std::string replay;                 ///< the command that repeats the trial; "" for all trials
-  std::vector<PaperTable> errors;     ///< "(a) before", then one per method: of each effector
+  std::vector<PaperTable> errors;     ///< "(a) before", then one per method; a row per effector
   std::vector<PaperTable> angles;     ///< one per method: the hidden angles of each joint
   std::vector<std::string> outcomes;  ///< one line per method: how it ended, after how many iterations
 };
 
 struct PaperBCondition {
   std::vector<SweptValue> condition;
-  std::vector<PaperBSet> sets;  ///< the first trial; then, when there are several, all
+  std::vector<PaperBSet> sets;  ///< the first trial; then all, if there are several
 };
 
-/// Is true when any cell of this scenario keeps the errors that the tables are made of: its task is `ik`, and it asks
-/// to `record: [effector_errors]`.
+/// Returns true if a cell of this scenario keeps the errors for these tables: the task is `ik`, with `record:
+/// [effector_errors]`.
 bool HasPaperBTables(const RunData& run, const ScenarioSummary& scenario);
 
-/// Fills the tables, one entry per condition whose cells keep effectors' errors; empty for other scenarios. A method
-/// without such figures has no table, and its line in `outcomes` says why. Position errors have signs; over all trials
-/// they are medians of absolute values.
+/// Returns the filled tables, one entry per condition whose cells keep effectors' errors; empty for other scenarios. A
+/// method without such figures has no table, and its line in `outcomes` says why. Position errors have signs; over all
+/// trials they are medians of absolute values.
 std::vector<PaperBCondition> PaperBTables(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

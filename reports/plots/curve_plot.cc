@@ -12,11 +12,11 @@ namespace {
 
 constexpr std::size_t kMaxPoints = 80;
 
-// The panel in its own units; the page scales it.
+// Size and margins of the panel in its own units; the page scales it.
 constexpr double kSmallWidth = 240, kSmallHeight = 150;
 constexpr double kSmallLeft = 38, kSmallRight = 8, kSmallTop = 8, kSmallBottom = 20;
 
-/// Gives the attributes of a line's colour and dashes: `class="c2" stroke-dasharray="6 4"`.
+/// Returns the attributes of a curve's colour and dashes: `class="c2" stroke-dasharray="6 4"`.
 std::string CurveStyle(std::size_t style, bool faint = false) {
   return fmt::format("class=\"c{}{}\"{}", style % 8, faint ? " faint" : "", MarkDashes(style));
 }
@@ -35,7 +35,7 @@ CurveAxes AxesFor(const std::vector<const PlotCurve*>& curves) {
 }
 
 std::string CurveLine(const PlotCurve& curve, const Axis& across, const Axis& up) {
-  // More points than the panel has room for only make the page heavy; where the curve ends is always told.
+  // More points would only make the page heavy. The last one is always drawn.
   const std::size_t count = curve.values.size();
   const std::size_t stride = std::max<std::size_t>(1, (count + kMaxPoints - 1) / kMaxPoints);
   std::string points;

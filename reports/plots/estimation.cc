@@ -34,8 +34,8 @@ constexpr double kHeight = 250, kTop = 8, kBottom = 212;
 constexpr double kSwarm = 26;  // how far dots spread to either side
 constexpr std::size_t kMaxNamed = 16;
 
-/// The indices of both methods in the scenario, by which they are drawn.
-struct Cast {
+/// The indices of both methods in the scenario, which select their colours and marks.
+struct MethodIndices {
   std::size_t baseline = 0, method = 0;
 };
 
@@ -46,7 +46,7 @@ class Plot {
         c_(*judged.comparison),
         pairs_(pairs),
         words_(WordsFor(c_.metric)),
-        cast_{IndexOf(scenario, c_.baseline), IndexOf(scenario, c_.method)} {}
+        indices_{IndexOf(scenario, c_.baseline), IndexOf(scenario, c_.method)} {}
 
   std::string Values() const {
     std::vector<double> all;
@@ -59,8 +59,8 @@ class Plot {
       const PairedWorld& world = pairs_.worlds[i];
       const double y1 = axis.At(world.baseline), y2 = axis.At(world.method);
       lines += fmt::format("M{:.0f} {:.1f}L{:.0f} {:.1f}", kBaselineX + left[i], y1, kMethodX + right[i], y2);
-      dots += Dot(cast_.baseline, world, world.baseline_cell, kBaselineX + left[i], y1, "") +
-              Dot(cast_.method, world, world.method_cell, kMethodX + right[i], y2, "");
+      dots += Dot(indices_.baseline, world, world.baseline_cell, kBaselineX + left[i], y1, "") +
+              Dot(indices_.method, world, world.method_cell, kMethodX + right[i], y2, "");
     }
     return BeginPanel(kHeight, fmt::format("{} under both methods", words_.plain_label)) + VerticalAxisGrid(axis) +
            fmt::format("<path class=\"pairs\" d=\"{}\"/>", lines) + dots +
@@ -82,7 +82,7 @@ class Plot {
     std::string dots;
     for (std::size_t i = 0; i < places.size(); ++i) {
       const PairedWorld& world = pairs_.worlds[i];
-      dots += Dot(cast_.method, world, world.method_cell, kWorldsX + aside[i], places[i], Title(world));
+      dots += Dot(indices_.method, world, world.method_cell, kWorldsX + aside[i], places[i], Title(world));
     }
     const double high = axis.At(practical), low = axis.At(-practical);
     const std::string band = fmt::format("<rect class=\"band\" x=\"{}\" y=\"{:.1f}\" width=\"{}\" height=\"{:.1f}\"/>",
@@ -104,7 +104,7 @@ class Plot {
     const MetricInfo* info = FindMetric(c_.metric);
     return info == nullptr ? 0 : info->practical * words_.scale;
   }
-  // Below a hundredth of what matters nobody asks how near to zero a cost is.
+  // The end of a logarithmic axis: costs below a hundredth of the practical threshold need not be told apart.
   double Floor() const {
     return words_.is_share || words_.direction != Direction::kLowerIsBetter ? 0 : Practical() / 100;
   }
@@ -131,7 +131,7 @@ class Plot {
                    title);
   }
 
-  /// Draws a bar from low to high with a dot for the estimate, all in the metric's unit.
+  /// Draws a bar from `low` to `high` with a dot for the estimate, all in the metric's unit.
   std::string Interval(const Axis& axis, double x, const std::optional<double>& estimate,
                        const std::optional<double>& low, const std::optional<double>& high) const {
     if (!estimate) return "";
@@ -141,10 +141,10 @@ class Plot {
     return svg + fmt::format("<circle class=\"estimate\" cx=\"{}\" cy=\"{:.1f}\" r=\"4.5\"/>", x, at(*estimate));
   }
 
-  /// Draws each unit's mean difference beside the interval that counts units.
+  /// Draws each unit's mean difference, and beside them the interval over units.
   std::string Units(const Axis& axis) const {
     if (!ShowsUnits()) return "";
-    // A world of two clips belongs to both: no clip has a mean of its own.
+    // A world of two clips belongs to both, so no clip has a mean of its own.
     std::string interval = Interval(axis, kUnitsX + 10, c_.beyond.difference, c_.beyond.low, c_.beyond.high);
     if (scenario_.unit == SamplingUnit::kClipPair) return interval;
     std::map<std::size_t, std::pair<double, int>> sums;
@@ -159,7 +159,7 @@ class Plot {
     std::size_t i = 0;
     for (const auto& [unit, sum] : sums) {
       const double mean = sum.first / sum.second;
-      dots += MarkUse(cast_.method, unit, kUnitsX - 22 + aside[i], places[i], "",
+      dots += MarkUse(indices_.method, unit, kUnitsX - 22 + aside[i], places[i], "",
                       fmt::format("{}: mean {}{} over {}", pairs_.units[unit], FormatNumber(mean),
                                   words_.difference_suffix, Plural(sum.second, "world")));
       ++i;
@@ -171,7 +171,7 @@ class Plot {
   const Comparison& c_;
   const PairedDots& pairs_;
   MetricWords words_;
-  Cast cast_;
+  MethodIndices indices_;
 };
 
 std::string Caption(const Judged& judged, const PairedDots& pairs) {
@@ -189,7 +189,7 @@ std::string Caption(const Judged& judged, const PairedDots& pairs) {
 
 constexpr double kStripHeight = 58, kStripTop = 6, kStripBottom = 36;
 
-/// Gives the unit that matters most: when the difference matters, the one without which least of it is left, else the
+/// Returns the unit that matters most: if the difference matters, the one without which least of it is left, else the
 /// one without which it would be largest.
 const LeftOut& Extreme(const Beyond& beyond, double practical) {
   const double all = *beyond.difference;
@@ -226,6 +226,7 @@ double PracticalOf(const Comparison& c) {
 PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, const Judged& judged) {
   const Comparison& c = *judged.comparison;
   const double scale = WordsFor(c.metric).scale;
+  // Both methods' values in every world.
   std::map<int, Found> found;
   const KeptCells kept(run);
   for (const Row* row : RowsUnder(run, scenario.name, judged.condition->condition)) {
@@ -240,6 +241,7 @@ PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, c
   }
   std::erase_if(found, [](const auto& entry) { return !entry.second.baseline || !entry.second.method; });
 
+  // Every n-th world that has both, with its unit.
   PairedDots pairs;
   pairs.total = found.size();
   pairs.units = UnitNames(found);
@@ -276,7 +278,7 @@ std::string EstimationLegend(const ScenarioSummary& scenario, const std::string&
   const MetricInfo* info = FindMetric(metric);
   std::string text =
       fmt::format("Left both methods, a dot a world, coloured by {}; right their differences with 95 % intervals",
-                  WorldsAreUnits(scenario.unit)          ? "method"
+                  WorldsAreUnits(scenario.unit)              ? "method"
                   : scenario.unit == SamplingUnit::kClipPair ? "the clip left"
                                                              : "what it was drawn from");
   if (info != nullptr) {

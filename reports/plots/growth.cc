@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kFrames = "frames";
 
-/// A condition taken apart into the library's size and everything else.
+/// A condition, split into the library's size and everything else.
 struct SizedCondition {
   double frames = 0;
   std::vector<SweptValue> rest;
@@ -38,7 +38,7 @@ std::optional<SizedCondition> SplitCondition(const std::vector<SweptValue>& cond
   return taken.frames > 0 ? std::optional(taken) : std::nullopt;
 }
 
-/// Gives the processor time of a query, microseconds; a cell that ended sooner than the clock ticks has none.
+/// Returns the processor time of a query in microseconds; nothing if the cell took less than one tick of the clock.
 std::optional<double> MicrosecondsOf(const RunData& run, const Row& row, const CellSeriesIndex& series) {
   const auto seconds = run.cpu_seconds.find(row.Id());
   const std::vector<double>* queries = series.Find(row, "matches_per_query");
@@ -48,7 +48,7 @@ std::optional<double> MicrosecondsOf(const RunData& run, const Row& row, const C
 }
 
 void AddMedian(double frames, std::vector<double> values, GrowthCurve& curve) {
-  std::erase_if(values, [](double value) { return value <= 0; });  // has no logarithm
+  std::erase_if(values, [](double value) { return value <= 0; });  // zero has no logarithm
   if (!values.empty()) curve.points.push_back({frames, Median(std::move(values))});
 }
 
@@ -56,7 +56,7 @@ void SortByFrames(std::vector<GrowthCurve>& curves) {
   for (GrowthCurve& curve : curves) std::ranges::sort(curve.points, {}, &GrowthPoint::frames);
 }
 
-// The panel in its own units; the page scales it.
+// Size and margins of the panel in its own units; the page scales it.
 constexpr double kGrowthWidth = 420, kGrowthHeight = 260;
 constexpr double kGrowthLeft = 44, kGrowthRight = 14, kGrowthTop = 10, kGrowthBottom = 34;
 
@@ -131,6 +131,7 @@ std::vector<Growth> ComputeGrowth(const RunData& run, const ScenarioSummary& sce
   if (scenario.task != "search") return {};
   const CellSeriesIndex series(run);
   std::vector<Growth> all;
+  // Conditions that differ only in the library's size share a Growth.
   for (const ConditionSummary& condition : scenario.conditions) {
     const auto sized = SplitCondition(condition.condition);
     if (!sized) continue;
@@ -139,6 +140,7 @@ std::vector<Growth> ComputeGrowth(const RunData& run, const ScenarioSummary& sce
     if (growth == all.end()) growth = all.insert(growth, {label, {}, {}});
     growth->distances.resize(scenario.methods.size());
     growth->microseconds.resize(scenario.methods.size());
+    // The median over the trials is one point of a method's curve.
     const std::vector<const Row*> rows = RowsUnder(run, scenario.name, condition.condition);
     for (std::size_t m = 0; m < scenario.methods.size(); ++m) {
       std::vector<double> distances, microseconds;

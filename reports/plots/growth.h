@@ -15,27 +15,27 @@ struct GrowthPoint {
 
 struct GrowthCurve {
   std::size_t style = 0;            ///< colour and dashes: the method's index in the scenario
-  std::vector<GrowthPoint> points;  ///< by frames; sizes at which nothing was measured are left out
+  std::vector<GrowthPoint> points;  ///< by frames; sizes without a measurement are left out
 };
 
-/// The curves of all methods under conditions that differ in nothing but their library's size.
+/// The curves of all methods under conditions that differ only in the size of their library.
 struct Growth {
-  std::string label;  ///< of what else is swept, "" when nothing is
+  std::string label;  ///< of the other swept parameters; "" if there are none
   std::vector<GrowthCurve> distances;
-  std::vector<GrowthCurve> microseconds;  ///< processor time per query; no points in a run without times
+  std::vector<GrowthCurve> microseconds;  ///< processor time per query; no points if the run has no times
 };
 
-/// Computes how a search's cost grows with its library. Empty unless the scenario is a search that sweeps `frames`.
+/// Returns how a search's cost grows with its library; empty unless the scenario is a search that sweeps `frames`.
 std::vector<Growth> ComputeGrowth(const RunData& run, const ScenarioSummary& scenario);
 
-/// Draws the curves as an SVG element, both axes logarithmic in whole decades; "" when no curve has a point.
+/// Draws the curves as an SVG element, both axes logarithmic in whole decades; "" if no curve has a point.
 std::string GrowthPlotSvg(const std::vector<GrowthCurve>& curves, const std::string& title);
 
-/// Tells a search that sweeps the size of its library from other scenarios.
+/// Returns true if the scenario is a search that sweeps the size of its library.
 bool ShowsGrowth(const ScenarioSummary& scenario);
 
-/// Shows work and processor time of a query over the library's size, as curves and as a table; "" for other scenarios.
-/// Work is the same on every machine, time is not; a run merged of shards has times of several machines.
+/// Returns the work and processor time of a query over the library's size, as curves and as a table; "" for other
+/// scenarios. Work is the same on every machine. A run merged from shards has times of several machines.
 std::string GrowthHtml(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

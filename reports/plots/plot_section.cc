@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kMaxPlots = 8;
 constexpr std::size_t kMaxStrips = 12;
 
-/// Gives the place of the condition whose worlds are shown first: that of the largest difference which is asked about.
+/// Returns the index of the condition in which the method in question differs most from its baseline.
 std::size_t LeadCondition(const ScenarioSummary& scenario, const std::string& metric) {
   std::size_t lead = 0;
   double largest = -1;
@@ -32,7 +32,7 @@ std::size_t LeadCondition(const ScenarioSummary& scenario, const std::string& me
   return lead;
 }
 
-/// Pictures of comparisons, each pair of methods once under each condition; what explains them is said once.
+/// Collects pictures of comparisons, each pair of methods once under each condition, and explains them once.
 class Section {
  public:
   Section(const RunData& run, const ScenarioSummary& scenario) : run_(run), scenario_(scenario) {}
@@ -97,7 +97,7 @@ std::string OtherStrips(const RunData& run, const ScenarioSummary& scenario, con
   return html.empty() ? "" : "<div class=\"panels\">" + html + "</div>";
 }
 
-// Each with the condition that it is of, where there are several.
+// Draws the error budgets, each with its condition if there are several.
 std::string Budgets(const ScenarioSummary& scenario) {
   std::string html;
   std::size_t count = 0;

@@ -17,15 +17,15 @@ namespace etude {
 namespace {
 
 constexpr double kRow = 40, kLabel = 13, kSpread = 9, kFoot = 20;
-constexpr std::size_t kMaxDots = 100;  // of one row
+constexpr std::size_t kMaxDots = 100;  // per row
 
 struct Dot {
   int trial = 0;
   double value = 0;
-  std::string cell = {};  ///< its attribute, where it was recorded
+  std::string cell = {};  ///< HTML attribute if it was recorded
 };
 
-/// The dots of one method, with quartiles and typical value of all its values.
+/// The dots of one method, and the quartiles and typical value of all its values.
 struct StripRow {
   std::size_t method = 0;  ///< index in the scenario
   std::vector<Dot> dots = {};
@@ -120,8 +120,8 @@ std::string StripsHtml(const RunData& run, const ScenarioSummary& scenario, cons
   return fmt::format(
       "<figure class=\"worlds\" data-s=\"{}\" data-c=\"{}\"><figcaption>{}</figcaption>{}{}{}</svg></figure>",
       EscapeMarkup(scenario.name), EscapeMarkup(CompactLabel(condition.condition)),
-      EscapeMarkup(Caption(condition, words, rows)), BeginPanel(bottom + kFoot, described), HorizontalAxisGrid(axis, 0, bottom),
-      strips);
+      EscapeMarkup(Caption(condition, words, rows)), BeginPanel(bottom + kFoot, described),
+      HorizontalAxisGrid(axis, 0, bottom), strips);
 }
 
 }  // namespace etude

@@ -22,17 +22,16 @@ constexpr double kCurveHeight = 200, kCurveTop = 8, kCurveBottom = 172;
 constexpr std::size_t kMaxPanels = 4;
 constexpr std::size_t kMaxLines = 16;
 
-/// A metric whose values end before what they measure does.
+/// A metric that is censored: its value may end before what it measures does.
 struct Censored {
   std::string_view metric;
-  std::string_view done;   ///< the metric that is 1 when it came to its end; "" = it did when there is a value
-  std::string_view share;  ///< of what the curve tells
+  std::string_view done;   ///< metric that is 1 if it came to its end; "" if any value means so
+  std::string_view share;  ///< what the curve is the share of
 };
 constexpr std::array<Censored, 2> kCensored = {
     {{"iterations", "solved_practical", "worlds not yet solved"}, {"wait_s", "", "requests still waiting"}}};
 
-/// Returns how long the cell took until it was done, without end where it never was; nothing for a cell that was
-/// skipped.
+/// Returns how long the cell took until it was done, infinite if it never was; nothing for a skipped cell.
 std::optional<Wait> WaitOf(const Row& row, const Censored& rule) {
   if (row.result.status == Status::kSkipped) return std::nullopt;
   const auto took = ValueOf(row, rule.metric);
@@ -40,7 +39,7 @@ std::optional<Wait> WaitOf(const Row& row, const Censored& rule) {
   return is_done ? Wait{*took, true} : Wait{std::numeric_limits<double>::infinity(), false};
 }
 
-/// Returns the waits by method, in the scenario's order; of methods that never measure this nothing.
+/// Returns the waits by method, in the scenario's order, without methods that never measure this.
 std::map<std::size_t, std::vector<Wait>> WaitsUnder(const RunData& run, const ScenarioSummary& scenario,
                                                     const ConditionSummary& condition, const Censored& rule) {
   std::map<std::size_t, std::vector<Wait>> waits;
@@ -97,7 +96,8 @@ std::string PanelOf(const RunData& run, const ScenarioSummary& scenario, const C
       "<figure><figcaption>{}{}: {}, per cent, by {}{}. What never is done stays.</figcaption>{}{}{}{}</svg></figure>",
       EscapeMarkup(condition_label), condition_label.empty() ? "How long it takes" : "", rule.share,
       EscapeMarkup(words.plain_label), words.suffix.empty() ? "" : " (" + words.suffix.substr(1) + ")",
-      BeginPanel(kCurveHeight, described), VerticalAxisGrid(share), HorizontalAxisGrid(time, kCurveTop, kCurveBottom), lines);
+      BeginPanel(kCurveHeight, described), VerticalAxisGrid(share), HorizontalAxisGrid(time, kCurveTop, kCurveBottom),
+      lines);
 }
 
 std::string SectionOf(const RunData& run, const ScenarioSummary& scenario, const Censored& rule) {

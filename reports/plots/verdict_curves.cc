@@ -36,7 +36,7 @@ std::string Figure(const std::string& caption, const std::string& words, const s
                      BeginPanel(kRocHeight, words), drawn);
 }
 
-/// Lines of shares over shares, a mark on each where there is one.
+/// Draws curves of shares over shares, each with a mark if it has one.
 std::string SharePanel(const std::string& caption, const std::string& words,
                        const std::map<std::size_t, SharePoints>& curves,
                        const std::map<std::size_t, std::pair<double, double>>& marked = {}) {
@@ -52,8 +52,8 @@ std::string SharePanel(const std::string& caption, const std::string& words,
   return Figure(caption, words, drawn);
 }
 
-/// Shares as deviates of the normal distribution, from 1 to 99 %: two normal distributions of scores give a straight
-/// line (Martin et al. 1997).
+/// An axis of shares as normal deviates, from 1 to 99 %: two normal distributions of scores give a straight line
+/// (Martin et al. 1997).
 struct DeviateAxis {
   static constexpr double kLow = 0.01, kHigh = 0.99;
   double from = 0, to = 1;
@@ -87,7 +87,7 @@ std::string DetPanel(const std::string& caption, const std::string& words,
   return Figure(caption, words, drawn);
 }
 
-/// Steps of shares over seconds.
+/// Draws step curves of shares over seconds.
 std::string WaitPanel(const std::string& caption, const std::string& words,
                       const std::map<std::size_t, SharePoints>& curves) {
   Axis time{.low = 0, .high = 0, .from = kPanelLeft, .to = kPanelRight};
@@ -126,7 +126,7 @@ struct Curves {
   std::string words, found_words, wait_words, keys;
 };
 
-/// The performances that are truly right or wrong, and who performed each; grey ones are none.
+/// The performances that are truly right or wrong (not grey), and who performed each.
 struct PooledEvents {
   std::vector<JudgedEvent> events;
   std::vector<int> people;
@@ -169,11 +169,13 @@ void AddMethod(const ScenarioSummary& scenario, std::size_t method, const Method
 }
 
 std::string VerdictPanels(const RunData& run, const ScenarioSummary& scenario, const ConditionSummary& condition) {
+  // The curves of every method.
   Curves curves;
   for (const auto& [method, verdicts] : VerdictsUnder(run, scenario, condition)) {
     if (method < kMaxRocs) AddMethod(scenario, method, verdicts, curves);
   }
   const std::string prefix = ConditionPrefix(condition);
+  // One panel per kind of curve.
   std::string html;
   if (!curves.rocs.empty()) {
     html += SharePanel(prefix +

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMaxTabled = 1;
 constexpr std::size_t kMaxMethods = 16;
 constexpr std::size_t kMaxSessions = 5;
-constexpr std::size_t kMaxMoves = 60;  // of a confusion: its cells grow with the square
+constexpr std::size_t kMaxMoves = 60;  // per confusion table; cells grow with the square
 
 using Verdicts = std::map<std::size_t, MethodVerdicts>;
 
@@ -64,7 +64,7 @@ std::string FaultTable(const ScenarioSummary& scenario, const std::string& prefi
       head, body);
 }
 
-/// Names the session of a trial: a recorded person's name, else the trial's number.
+/// Returns the name of a trial's session: a recorded person's name, else the trial's number.
 std::string SessionName(const RunData& run, const ScenarioSummary& scenario, int trial) {
   for (const Row& row : run.rows) {
     if (row.scenario == scenario.name && row.trial == trial && !row.clip.empty()) return row.clip;

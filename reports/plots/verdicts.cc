@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-/// The series of a cell that have one length; null where it has none of that name, or of another length.
+/// The series of a cell, all of the first one's length; null for a series of another name or length.
 class Columns {
  public:
   Columns(const CellSeries& cell, std::size_t count) : cell_(cell), count_(count) {}
@@ -19,7 +19,7 @@ class Columns {
     return found == nullptr || found->values.size() != count_ ? nullptr : found;
   }
 
-  /// Names the value of a series; "" for −1 and for values without a name.
+  /// Returns the name that a series' value stands for; "" for −1 and for values without a name.
   static std::string Name(const Series* series, std::size_t i) {
     if (series == nullptr || !(series->values[i] >= 0)) return "";
     const auto place = static_cast<std::size_t>(std::lround(series->values[i]));

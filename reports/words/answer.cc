@@ -14,7 +14,7 @@ std::string Amount(double difference, const MetricWords& words) {
   return FormatNumber(difference * words.scale) + (words.is_share ? " pp" : words.difference_suffix);
 }
 
-// "58 of 60 worlds", or a share when ties (which count half) leave no whole number.
+// Returns "58 of 60 worlds", or a share if ties, which count half, leave no whole number.
 std::string WorldsWon(double share, int pairs) {
   const double won = share * pairs;
   if (std::abs(won - std::round(won)) < 1e-6) {
@@ -36,7 +36,7 @@ std::string ClearSentence(const Comparison& c, const std::string& other, const M
     return fmt::format("“{}” has the {} {} than {} on {}, with equal halves on the others", c.method,
                        worse ? "worse" : "better", words.label, other, worlds);
   }
-  // "Lowers by 12.3 (10.1–14.0)": the verb carries the sign, so the interval is turned with it.
+  // "Lowers by 12.3 (10.1–14.0)": the verb states the sign, so the interval is negated.
   std::optional<double> low = c.ci_low, high = c.ci_high;
   if (difference < 0 && low && high) {
     low = -*c.ci_high;
@@ -46,12 +46,12 @@ std::string ClearSentence(const Comparison& c, const std::string& other, const M
                      words.label, Amount(std::abs(difference), words), FormatInterval(low, high, words), other, worlds);
 }
 
-/// True if median and mean tell different things: the one's interval does not hold the other.
+/// Returns true if the mean lies outside the interval of the median.
 bool MeanTellsMore(const Comparison& c) {
   return c.mean && c.ci_low && c.ci_high && (*c.mean < *c.ci_low || *c.mean > *c.ci_high);
 }
 
-/// Writes the sentence without its end: on which worlds, and why it is open.
+/// Returns the sentence about one condition, without its units and full stop.
 std::string SentenceFor(const Comparison& c, const std::string& other, const MetricWords& words) {
   if (c.pairs == 0 || !c.difference) {
     return fmt::format("“{}” could not be compared with {} by {}: no world gave both a value", c.method, other,
@@ -61,6 +61,7 @@ std::string SentenceFor(const Comparison& c, const std::string& other, const Met
     return fmt::format("“{}” and {} met in {} only: too few to judge the {}", c.method, other, Plural(c.pairs, "world"),
                        words.label);
   }
+  // The difference, and the mean if it tells more.
   std::string figures =
       fmt::format("{} (95 % CI {})", Amount(*c.difference, words), FormatInterval(c.ci_low, c.ci_high, words));
   if (c.verdict == Verdict::kInconclusive && MeanTellsMore(c)) {
@@ -68,6 +69,7 @@ std::string SentenceFor(const Comparison& c, const std::string& other, const Met
                           FormatInterval(c.mean_low, c.mean_high, words));
   }
   figures += fmt::format(" on {}", Plural(c.pairs, "world"));
+  // The verdict chooses the verb.
   switch (c.verdict) {
     case Verdict::kBetter:
     case Verdict::kWorse:
@@ -104,7 +106,7 @@ std::string RangeOfChanges(const std::vector<Judged>& judged, const MetricWords&
 std::string SentenceOverConditions(const std::vector<Judged>& judged, const MetricWords& words) {
   const Comparison& first = *judged.front().comparison;
   const std::string others = OthersOf(judged), range = RangeOfChanges(judged, words);
-  // Of two, both are named in the range.
+  // The range names both of two conditions.
   const std::string under = judged.size() > 2 ? " under " + AllConditions(judged.size()) : "";
   const auto verdict = CommonVerdict(judged);
   if (verdict == Verdict::kBetter || verdict == Verdict::kWorse) {
@@ -123,7 +125,7 @@ std::string SentenceOverConditions(const std::vector<Judged>& judged, const Metr
                      CountVerdicts(VerdictsOf(judged), judged.size()), range);
 }
 
-// A method that fails in hard worlds must not look better for being judged on the easy ones alone.
+// Names the worlds without a pair: a method that fails in hard worlds must not look better for it.
 std::string UnpairedWords(const std::vector<Judged>& judged) {
   int only_baseline = 0, only_method = 0;
   for (const Judged& j : judged) {
@@ -140,9 +142,9 @@ std::string UnpairedWords(const std::vector<Judged>& judged) {
   return text.empty() ? "" : fmt::format(" Not in this difference, since one of the two has no value there: {}.", text);
 }
 
-// From here on a ratio says more than a difference.
-constexpr double kTelling = 2;
-// A value that is nearer to zero than this part of what matters is as good as none: a ratio to it says nothing.
+// From this value on, a ratio says more than a difference.
+constexpr double kMinTellingRatio = 2;
+// A value below this share of the practical threshold counts as zero, so a ratio to it says nothing.
 constexpr double kMinShareOfThreshold = 0.1;
 
 std::optional<double> TypicalOf(const ConditionSummary& condition, const std::string& method, const std::string& metric,
@@ -157,7 +159,7 @@ std::string RatioText(const CostRatio& ratio) {
   return least == most ? least : fmt::format("{}–{}", least, most);
 }
 
-/// Gives the verb of a cost: steps are needed, errors are had.
+/// Returns the verb of a cost: a method needs steps, but has an error.
 std::string_view VerbOf(const Comparison& c) {
   const MetricInfo* info = FindMetric(c.metric);
   return info != nullptr && info->unit.empty() && info->practical >= 1 ? "needs" : "has";
@@ -186,7 +188,7 @@ std::string VerdictPhrase(const std::vector<Judged>& judged) {
   return "undecided against " + others;
 }
 
-/// Writes the difference with its sign and unit, over conditions the least and the largest: " (−0.949 mm)"; "" without.
+/// Returns the smallest to the largest difference over conditions: " (−0.949 mm)"; "" if there is none.
 std::string ChangeOf(const std::vector<Judged>& judged, std::string_view what) {
   std::optional<double> low, high;
   for (const Judged& j : judged) {
@@ -211,7 +213,7 @@ std::string PhraseOf(const std::vector<Judged>& judged, std::string_view what = 
                : VerdictPhrase(judged) + ChangeOf(judged, what);
 }
 
-/// Finds the largest ratio by which the rival leads in another headline metric; "" without any.
+/// Returns the largest cost ratio by which the rival leads in another headline metric, in words; "" if there is none.
 std::string CostElsewhere(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                           const std::string& rival) {
   std::string phrase;
@@ -235,7 +237,7 @@ std::string AgainstRival(const ScenarioSummary& scenario, const std::string& met
   if (judged.empty()) return "";
   const std::string rival = OthersOf(judged);
   const std::string elsewhere = CostElsewhere(scenario, method, metric, rival);
-  // Where the baseline is the strongest other one, the first half has said how it compares.
+  // If the baseline is the strongest other method, the first half has compared the two already.
   if (rival == baseline) return elsewhere.empty() ? ", the strongest other method" : ", but " + elsewhere;
   const auto verdict = CommonVerdict(judged);
   const bool twice_better = verdict == Verdict::kBetter && of_baseline == Verdict::kBetter;
@@ -245,15 +247,15 @@ std::string AgainstRival(const ScenarioSummary& scenario, const std::string& met
   return "; " + (elsewhere.empty() ? phrase : is_led ? phrase + " and " + elsewhere : phrase + ", but " + elsewhere);
 }
 
-/// Writes the means of units, where a claim beyond these worlds counts them: " Mean of 8 clips 2.39 cm (−6.3 to 11.0)."
+/// Returns the mean that decides beyond these worlds: " Mean of 8 clips 2.39 cm (−6.3 to 11.0)."; "" if worlds do.
 std::string MeanOfUnits(const Comparison& c, const MetricWords& words, SamplingUnit unit) {
   if (WorldsAreUnits(unit) || !c.beyond.low || !c.beyond.difference) return "";
   return fmt::format(" Mean of {} {} ({}).", CountUnits(c.beyond.units, unit), Amount(*c.beyond.difference, words),
                      FormatInterval(c.beyond.low, c.beyond.high, words));
 }
 
-/// Writes how a method did against another, over all its conditions, in a sentence with the figures that carry its
-/// verdicts, which stand beside it. `judged` must not be empty.
+/// Returns a sentence on how a method did against another over all its conditions, with the figures behind its
+/// verdicts. `judged` must not be empty.
 std::string SentenceOf(const std::vector<Judged>& judged, SamplingUnit unit) {
   const Comparison& first = *judged.front().comparison;
   const MetricWords words = WordsFor(first.metric);
@@ -279,7 +281,7 @@ std::optional<CostRatio> CostRatioOf(const std::vector<Judged>& judged) {
       const auto theirs = TypicalOf(*j.condition, baseline, c.metric, words);
       if (!mine || !theirs || *theirs <= kMinShareOfThreshold * info->practical) return std::nullopt;
       const double ratio = *mine / *theirs;
-      if (ratio < kTelling) return std::nullopt;
+      if (ratio < kMinTellingRatio) return std::nullopt;
       range = range ? CostRatio{std::min(range->least, ratio), std::max(range->most, ratio)} : CostRatio{ratio, ratio};
     }
   }

@@ -8,24 +8,24 @@
 
 namespace etude {
 
-/// Writes a scenario's first line: how `method` did against its baseline, and against the strongest other method:
-/// "better than “fixed”; needs 140 × the solver steps of “gauss-newton”". Where a cost is at least twice the other's,
-/// the ratio says it, else the verdict. Without rivals it is the first half alone. Where nothing is known beyond these
-/// worlds it says so.
+/// Returns a scenario's first line: how `method` did against its baseline, and against the strongest other method:
+/// "better than “fixed”; needs 140 × the solver steps of “gauss-newton”". If a cost is at least twice the other's, it
+/// gives the ratio, else the verdict. Without rivals it has the first half only. It says so if nothing is known beyond
+/// these worlds.
 std::string HeadlineOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric);
 
-/// The ratio of a cost to another's; under several conditions the smallest and largest.
+/// One method's cost divided by another's: the smallest and largest ratio over conditions.
 struct CostRatio {
   double least = 0, most = 0;
 };
 std::optional<CostRatio> CostRatioOf(const std::vector<Judged>& judged);
 
-/// Puts into words how `method` did by `metric` against its baseline, or the strongest other method, over all
+/// Returns in words how `method` did by `metric` against its baseline, or the strongest other method, over all
 /// conditions.
 MethodFinding CompareInWords(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                              Against against);
 
-/// Gives the method that the scenario's question is about, its second one (docs/scenarios.md); "" where only one ran.
+/// Returns the method that the question is about: the first one that is compared with another; "" if none is.
 std::string MethodInQuestion(const ScenarioSummary& scenario);
 
 }  // namespace etude

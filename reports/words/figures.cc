@@ -6,11 +6,10 @@
 #include <cmath>
 #include <utility>
 
-
 namespace etude {
 namespace {
 
-// Angles read better with their sign; every other unit stands in the catalogue as people write it.
+// Returns "°" for degrees; other units stand in the catalogue as people write them.
 std::string Suffix(const std::string& unit) {
   if (unit == "deg") return "°";
   return unit.empty() ? "" : " " + unit;

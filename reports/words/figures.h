@@ -9,27 +9,27 @@
 
 namespace etude {
 
-/// The words of a metric, from the catalogue, or its id when it is not listed there. Shares and scores are shown in per
-/// cent, and their differences in percentage points.
+/// The words of a metric from the catalogue, or its id if the catalogue does not list it. Shares and scores are shown
+/// in per cent, their differences in percentage points.
 struct MetricWords {
   std::string label;              ///< "orientation error"; "share “solved”", "mean F1"
-  std::string suffix;             ///< put behind a value: "°", " cm", " %", ""
-  std::string difference_suffix;  ///< the same, but " percentage points" where values are in per cent
-  double scale = 1;               ///< what values are multiplied by before they are shown
+  std::string suffix;             ///< follows a value: "°", " cm", " %", ""
+  std::string difference_suffix;  ///< follows a difference: the same, but " percentage points" after values in per cent
+  double scale = 1;               ///< factor that turns a value into the one shown
   bool is_share = false;          ///< 0…1, shown in per cent
   bool by_mean = false;           ///< the mean stands for all cells, not the median
   Direction direction = Direction::kNeither;
-  std::string plain_label = {};  ///< "orientation error", "solved", "F1": where mean or share is said already
+  std::string plain_label = {};  ///< "orientation error", "solved", "F1": for texts that already say mean or share
 };
 MetricWords WordsFor(const std::string& metric_id);
-/// Gives the suffix as a caption has it, without its blank: "cm", "".
+/// Returns the suffix without its space, for captions: "cm", "".
 std::string UnitOf(const MetricWords& words);
 
-/// Gives the one number that stands for all cells, the metric's own aggregate, median or mean, in the metric's unit.
+/// Returns the one number that stands for all cells: the median or mean, whichever the metric uses, in its unit.
 std::optional<double> TypicalValue(const MetricSummary& summary, const MetricWords& words);
-/// Writes a value: "12.3°", "98 %"; kNoValue without one.
+/// Returns a value as text: "12.3°", "98 %"; kNoValue if there is none.
 std::string FormatValue(std::optional<double> value, const MetricWords& words);
 
-/// Writes an interval: "10.1–14.0", both ends with the same digits, or "−1.2 to 0.4"; kNoValue without one.
+/// Returns an interval as text: "10.1–14.0", both ends with equal digits, or "−1.2 to 0.4"; kNoValue if none.
 std::string FormatInterval(std::optional<double> low, std::optional<double> high, const MetricWords& words);
 }  // namespace etude

@@ -15,7 +15,7 @@
 namespace etude {
 namespace {
 
-// More methods than this are told by the least and the most successful one.
+// Of more methods than this, only the least and the most successful are named.
 constexpr std::size_t kMaxSuccesses = 12;
 
 std::string ExpectationsSentence(const RunFindings& f) {
@@ -32,7 +32,7 @@ std::string ExpectationsSentence(const RunFindings& f) {
   return text + ".";
 }
 
-/// Says how many cells were measured; success has shares of its own.
+/// Returns how many cells were measured. SuccessSentence says how many of them reached their goal.
 std::string MeasuredSentence(const RunFindings& f) {
   if (f.cells == 0) return " No cell ran.";
   const int measured = f.ok + f.unsolved;
@@ -45,7 +45,7 @@ std::string MeasuredSentence(const RunFindings& f) {
   return text + ".";
 }
 
-/// The mean of each metric of success, by method; what no row of the scenario has is left out.
+/// Averages each metric of success by method. Metrics that no row has are left out.
 class Successes {
  public:
   Successes() {
@@ -82,7 +82,6 @@ class Successes {
   std::vector<std::pair<std::string, Sums>> sums_;
 };
 
-/// Processor times of a scenario's cells, by method.
 class Times {
  public:
   void Add(const RunData& run, const Row& row, std::size_t place) {
@@ -103,7 +102,7 @@ std::string TimeText(std::optional<double> seconds) {
   return *seconds < 1 ? FormatNumber(*seconds * 1000) + " ms" : FormatNumber(*seconds) + " s";
 }
 
-/// Writes a method's values by a metric, over conditions from the least to the largest: "0.06–0.08°".
+/// Returns a method's values by a metric, over conditions from the smallest to the largest: "0.06–0.08°".
 std::string ValuesOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric) {
   const MetricWords words = WordsFor(metric);
   std::optional<double> low, high;
@@ -118,7 +117,7 @@ std::string ValuesOf(const ScenarioSummary& scenario, const std::string& method,
   return low == high ? FormatValue(low, words) : FormatInterval(low, high, words) + words.suffix;
 }
 
-/// Writes the share of a method's cells that reached their goal, or where nobody says what that is, that were measured.
+/// Returns the share of a method's cells that reached their goal; without a metric of success, the share that ended ok.
 std::string SuccessOf(const ScenarioFindings& findings, const ScenarioSummary& scenario, const std::string& method) {
   if (!findings.successes.empty()) {
     const SuccessFinding& success = findings.successes.front();
@@ -135,7 +134,7 @@ std::string SuccessOf(const ScenarioFindings& findings, const ScenarioSummary& s
   return FormatShare(ok, attempted);
 }
 
-/// Names whom the method in question is held against: its baselines, then the strongest others; none twice.
+/// Returns the methods that `asked` is compared with, each once: baselines, then the strongest others.
 std::vector<std::string> OthersBeside(const ScenarioSummary& scenario, const std::string& asked,
                                       const std::string& metric) {
   std::vector<std::string> names;
@@ -146,12 +145,12 @@ std::vector<std::string> OthersBeside(const ScenarioSummary& scenario, const std
       }
     }
   }
-  constexpr std::size_t kMost = 3;
-  names.resize(std::min(names.size(), kMost));
+  constexpr std::size_t kMaxOthers = 3;
+  names.resize(std::min(names.size(), kMaxOthers));
   return names;
 }
 
-/// Counts the worlds in which another method loses to `asked`, over all conditions, ties as halves.
+/// Returns in how many worlds another method loses to `asked`, over all conditions; ties count half.
 std::string WorldsLostTo(const ScenarioSummary& scenario, const std::string& asked, const std::string& other,
                          const std::string& metric) {
   for (const Against against : {Against::kBaseline, Against::kRival}) {
@@ -163,7 +162,7 @@ std::string WorldsLostTo(const ScenarioSummary& scenario, const std::string& ask
     }
     if (pairs > 0) return fmt::format("{:g}/{}", std::round(2 * lost) / 2, std::llround(pairs));
   }
-  return "";  // it was chosen on half of the worlds
+  return "";  // one of two rivals that half of the worlds each chose
 }
 
 KeyFigures KeyFiguresOf(const ScenarioSummary& scenario, const std::string& asked, Times& times,
@@ -209,6 +208,7 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
   ScenarioFindings findings;
   if (!scenario.headline_metrics.empty()) findings.metric = scenario.headline_metrics.front();
   const std::string asked = MethodInQuestion(scenario);
+  // The method in question against its baseline and the strongest other method.
   if (asked.empty()) {
     findings.answer.verdict = Verdict::kInconclusive;
     findings.answer.sentence = "Only one method ran, so there is nothing to compare it with.";
@@ -217,6 +217,7 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
     findings.answer = CompareInWords(scenario, asked, findings.metric, Against::kBaseline);
     findings.rival = CompareInWords(scenario, asked, findings.metric, Against::kRival);
   }
+  // Every method that is compared, and the yardsticks.
   for (std::size_t i = 1; i < scenario.methods.size(); ++i) {
     if (IsYardstick(scenario, scenario.methods[i])) {
       findings.yardsticks.push_back(scenario.methods[i]);
@@ -225,6 +226,7 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
     }
   }
 
+  // One pass over all rows.
   std::map<Status, int> statuses;
   std::map<std::tuple<Status, std::string, std::string>, int> reasons;
   Successes successes;
@@ -240,6 +242,7 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
   findings.successes = successes.Of(scenario);
   if (!asked.empty()) findings.figures = KeyFiguresOf(scenario, asked, times, findings);
   findings.statuses.assign(statuses.begin(), statuses.end());
+  // Reasons, the most frequent first.
   for (const auto& [key, cells] : reasons) {
     findings.reasons.push_back({std::get<0>(key), std::get<1>(key), std::get<2>(key), cells});
   }
@@ -249,6 +252,7 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
 
 RunFindings FindingsOf(const RunData& run) {
   RunFindings f;
+  // How the cells ended.
   ForEachRow(run, [&](const Row& row, std::size_t) {
     ++f.cells;
     switch (row.result.status) {
@@ -265,6 +269,7 @@ RunFindings FindingsOf(const RunData& run) {
         ++f.broken;
     }
   });
+  // How the expectations were decided.
   for (const ScenarioSummary& scenario : run.scenarios) {
     for (const ExpectationResult& expectation : scenario.expectations) {
       if (expectation.ruling == ClaimOutcome::kMet) ++f.met;

@@ -14,43 +14,43 @@
 
 namespace etude {
 
-/// Gives a verdict's words, or "it depends" when there are several.
+/// Returns a verdict's words, or "it depends" if the conditions differ.
 inline std::string_view VerdictWords(const std::optional<Verdict>& verdict) {
   return verdict ? VerdictName(*verdict) : "it depends";
 }
 
-/// The finding on one method against another, over all conditions, by one metric.
+/// How one method did against another by one metric, over all conditions.
 struct MethodFinding {
   std::string method;
-  std::string baseline;  ///< whom it was compared with; the strongest other one may be another under each condition
+  std::string baseline;  ///< the method compared with; of several strongest other ones, that of the first condition
   SamplingUnit unit = SamplingUnit::kWorld;
-  bool is_compared = false;             ///< by this metric at all
-  std::optional<Verdict> verdict = {};  ///< on these worlds; empty when it depends on the condition
+  bool is_compared = false;             ///< false if not compared by this metric
+  std::optional<Verdict> verdict = {};  ///< on these worlds; empty if it depends on the condition
   BeyondFinding beyond = {};            ///< for others like them
-  std::string others = {};              ///< all whom it was compared with: “a” or “b”
+  std::string others = {};              ///< all methods that it was compared with: “a” or “b”
   std::string sentence = {};            ///< plain words with the figures that carry the verdicts
-  std::string why_open = {};            ///< why nothing is decided, where that can be said of one condition
+  std::string why_open = {};            ///< why nothing is decided; set only if there is one condition
 
-  /// Writes the verdict in words: "better on these clips".
+  /// Returns the verdict in words: "better on these clips".
   std::string Words() const { return fmt::format("{} on {}", VerdictWords(verdict), TheseUnits(unit)); }
-  /// Writes both verdicts: "better on these clips, inconclusive for other clips".
+  /// Returns both verdicts: "better on these clips, inconclusive for other clips".
   std::string BothVerdicts() const;
 };
 
-/// The method in question beside its baseline and the strongest other one: a few figures of each.
+/// Key figures of the method in question, its baseline and the strongest other method.
 struct KeyFigures {
   struct Method {
     std::string name;
-    std::vector<std::string> values;  ///< one per label, with its unit; "" where it has no meaning
+    std::vector<std::string> values;  ///< one per label, with its unit; "" if it has no meaning
   };
-  std::vector<std::string> labels;  ///< headline metric, success, processor time, worlds lost; what is known
-  std::vector<Method> methods;      ///< the one in question first; empty where nothing is compared
+  std::vector<std::string> labels;  ///< headline metric, success, processor time, worlds lost; only known ones
+  std::vector<Method> methods;      ///< the one in question first; empty if nothing is compared
 };
 
-/// Writes the figures as a table: in columns of numbers, where the place that it stands in does not align them itself.
+/// Returns the figures as a table. Its columns are aligned as numbers if `has_number_columns`.
 Table FiguresTable(const KeyFigures& figures, bool has_number_columns);
 
-/// The count of cells that ended in one way for one reason.
+/// The number of cells that ended with one status for one reason.
 struct ReasonCount {
   Status status;
   std::string method;
@@ -58,19 +58,19 @@ struct ReasonCount {
   int cells = 0;
 };
 
-/// The finding on how far the methods reached what their task is about, by one metric. Status ok says only that a cell
-/// was measured.
+/// How many cells of each method reached the task's goal, by one metric. Status ok says only that a cell was
+/// measured.
 struct SuccessFinding {
   std::string metric;
-  std::vector<std::pair<std::string, double>> shares;  ///< by method: mean over all its cells that have a value, 0…1
+  std::vector<std::pair<std::string, double>> shares;  ///< per method: mean over its cells that have a value, 0…1
 };
 
-/// All findings on one scenario, in words; the page and the Markdown say the same.
+/// All findings on one scenario in words, which the page and the Markdown share.
 struct ScenarioFindings {
   std::string metric;    ///< the first headline metric, which the answer is about; "" without any
   std::string headline;  ///< the answer in one line: against the baseline, and against the strongest other method
   MethodFinding answer;  ///< against the baseline
-  MethodFinding rival;   ///< against the strongest other method; not compared in older runs, or where there is none
+  MethodFinding rival;   ///< against the strongest other method; not compared in old runs, or if there is none
   KeyFigures figures;
   std::vector<MethodFinding> methods;  ///< every method compared with another, in the scenario's order
   std::vector<std::string> yardsticks;
@@ -79,35 +79,35 @@ struct ScenarioFindings {
   std::vector<SuccessFinding> successes;         ///< by every metric that tells success (MetricInfo::is_success)
   std::vector<ReasonCount> reasons;              ///< of every cell that is not ok, most frequent first
 };
-/// Is true where the strongest other method is another one than the baseline, so that there is more to tell.
+/// Returns true if the strongest other method is not the baseline, so that there is more to tell.
 bool HasOtherRival(const ScenarioFindings& findings);
 
 ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario);
 
-/// The whole run in one sentence, and the counts that it speaks of.
+/// The whole run in one sentence, and the counts in it.
 struct RunFindings {
   int cells = 0;
-  int ok = 0;        ///< measured; whether anything was reached is no matter of status
-  int unsolved = 0;  ///< measured too, known to have stopped short of the goal
+  int ok = 0;        ///< measured; the status does not tell whether a goal was reached
+  int unsolved = 0;  ///< measured, but stopped short of the goal
   int skipped = 0;   ///< the world lacked what the task needs
-  int broken = 0;    ///< failed, crashed, out of time or of bad output
+  int broken = 0;    ///< failed, crashed, timed out or answered badly
   int met = 0, unmet = 0, undecided = 0;
   std::string sentence;
 };
 RunFindings FindingsOf(const RunData& run);
 
-/// Writes a finding on success: "Reached (share “as smooth as nature”): fuzzy 0 %, natural 98.3 %."; of many methods
-/// the least and the most.
+/// Returns a finding on success: "Reached (share “as smooth as nature”): fuzzy 0 %, natural 98.3 %."; of many methods
+/// only the smallest and the largest share.
 std::string SuccessSentence(const SuccessFinding& finding);
 
-/// Counts the statuses: "480 cells: 470 ok, 8 unsolved, 2 failed".
+/// Returns the counts of the statuses: "480 cells: 470 ok, 8 unsolved, 2 failed".
 std::string StatusSentence(const ScenarioFindings& findings);
 
-/// Says why values of this metric are missing in these cells: "2 × no effector seen; 1 × timeout".
+/// Returns why values of this metric are missing in these cells: "2 × no effector seen; 1 × timeout".
 std::string MissingReasons(const RunData& run, const std::string& scenario, const std::vector<SweptValue>& condition,
                            const std::string& method, const std::string& metric);
 
-/// Finds the summary of a metric; null when the method has none of that name.
+/// Returns the summary of a metric; null if the method has none.
 const MetricSummary* FindSummary(const MethodSummary& method, const std::string& metric);
 
 }  // namespace etude

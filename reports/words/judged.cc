@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// The words for what worlds were drawn from, in the order of SamplingUnit: these ones, and others like them.
+/// The units in words, in the order of SamplingUnit: these ones, and others like them.
 constexpr std::array<std::array<std::string_view, 2>, kSamplingUnits.size()> kUnitWords = {
     {{"these worlds", "other worlds"},
      {"these people", "other people"},
@@ -18,7 +18,7 @@ constexpr std::array<std::array<std::string_view, 2>, kSamplingUnits.size()> kUn
      {"these clips", "other clips"},
      {"these libraries", "other libraries"}}};
 
-/// Writes the figures: "mean over 12 clips −4.50 mm, 95 % CI −6.00 to −3.00".
+/// Returns the figures: "mean over 12 clips −4.50 mm, 95 % CI −6.00 to −3.00".
 std::string FiguresOf(const Beyond& beyond, const MetricWords& words, SamplingUnit unit) {
   if (!beyond.difference) return CountUnits(beyond.units, unit);
   std::string text = fmt::format("mean over {} {}{}", CountUnits(beyond.units, unit),
@@ -27,7 +27,7 @@ std::string FiguresOf(const Beyond& beyond, const MetricWords& words, SamplingUn
   return text;
 }
 
-/// Says why no condition has a verdict beyond its worlds; the first reason given speaks for all.
+/// Returns why no condition has a verdict beyond its worlds: the first reason found.
 std::string WhyNone(const std::vector<Judged>& judged, SamplingUnit unit) {
   for (const Judged& j : judged) {
     const Beyond& beyond = j.comparison->beyond;
@@ -128,7 +128,7 @@ std::vector<Verdict> VerdictsOf(const std::vector<Judged>& judged) {
 }
 
 bool IsComparedWithNone(const ScenarioSummary& scenario, const std::string& method) {
-  // A scenario without metrics compares no method; that says nothing about this one.
+  // A scenario without metrics compares no method, which says nothing about this one.
   if (scenario.methods.empty() || method == scenario.methods.front()) return false;
   if (scenario.headline_metrics.empty() || scenario.conditions.empty()) return false;
   // A method that is compared at all is compared under every condition.

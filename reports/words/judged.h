@@ -9,68 +9,67 @@
 
 namespace etude {
 
-/// The other side of a comparison: the method that the scenario names, or the strongest other one.
+/// The other side of a comparison: the baseline that the scenario names, or the strongest other method.
 enum class Against { kBaseline, kRival };
 
-/// A comparison and the condition that it was made under.
 struct Judged {
   const Comparison* comparison;
   const ConditionSummary* condition;
 };
 
-/// Gives the comparisons of `method` by `metric`, one per condition, in their order. Runs that were summed up before
-/// rivals were compared have none with a rival.
+/// Returns the comparisons of `method` by `metric`, one per condition, in their order. Summaries of old versions have
+/// no comparisons with a rival.
 std::vector<Judged> JudgedOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                              Against against);
 
-/// Gives the methods that a comparison's baseline names: itself, or of a rival "a or b" both
+/// Returns the methods that a comparison's baseline names: one, or both of a rival "a or b"
 /// (bench/statistics/scenario_table.h).
 std::vector<std::string> BaselinesOf(const Judged& judged);
 
-/// Names the other sides: "“a”", or where conditions or halves of the worlds have other rivals "“a” or “b”".
+/// Names the other sides: "“a”", or "“a” or “b”" if conditions or halves of the worlds have different rivals.
 std::string OthersOf(const std::vector<Judged>& judged);
 
-/// Gives the verdict on these worlds that all of them agree in; nothing when they differ. `judged` must not be empty.
+/// Returns the verdict on these worlds if all agree, else nothing. `judged` must not be empty.
 std::optional<Verdict> CommonVerdict(const std::vector<Judged>& judged);
 
-/// Writes "both conditions", "all 4 conditions".
+/// Returns "both conditions", "all 4 conditions".
 std::string AllConditions(std::size_t count);
 
-/// Counts verdicts: "better under 3 of 4, inconclusive under 1 of 4", "worse under all 4 conditions"; "" without
-/// verdicts.
+/// Returns the counts of verdicts: "better under 3 of 4, inconclusive under 1 of 4", "worse under all 4 conditions"; ""
+/// if there are none.
 std::string CountVerdicts(const std::vector<Verdict>& verdicts, std::size_t conditions);
 
-/// Gives their verdicts on these worlds.
+/// Returns the verdicts on these worlds.
 std::vector<Verdict> VerdictsOf(const std::vector<Judged>& judged);
 
-/// Is true of a method that is compared with none, as its scenario says (`against` itself). The first method is
-/// everyone's baseline, and not meant.
+/// Returns true if the scenario compares a method with none (`against` itself). False for the first method, the
+/// baseline of all others.
 bool IsComparedWithNone(const ScenarioSummary& scenario, const std::string& method);
 
-/// Is true of a yardstick: a method that is compared with none and none with it, like natural motion.
+/// Returns true for a yardstick, such as natural motion: it is compared with no method, and no method with it.
 bool IsYardstick(const ScenarioSummary& scenario, const std::string& method);
 
-/// Gives the method's place among the scenario's, by which it is drawn; their number when it is none of them.
+/// Returns the method's index in the scenario, which selects its colour and mark; the number of methods if it has none.
 std::size_t IndexOf(const ScenarioSummary& scenario, const std::string& method);
 
-/// Gives the method's name, a yardstick's as "natural (yardstick)".
+/// Returns the method's name; a yardstick is "natural (yardstick)".
 std::string MethodLabel(const ScenarioSummary& scenario, const std::string& method);
 
-/// Names the units of a verdict on the worlds that were run: "these worlds", "these people", "these clips".
+/// Returns the units of a verdict on the worlds that were run: "these worlds", "these people", "these clips".
 std::string_view TheseUnits(SamplingUnit unit);
-/// Names the units of a verdict beyond them: "other worlds", "other people", "other clips".
+/// Returns the units of a verdict beyond them: "other worlds", "other people", "other clips".
 std::string_view OtherUnits(SamplingUnit unit);
 
-/// The finding of comparisons beyond their worlds, over all conditions.
+/// What comparisons say beyond their worlds, over all conditions.
 struct BeyondFinding {
-  bool on_these_only = true;            ///< under no condition is there a verdict beyond these worlds
-  bool as_on_these = false;             ///< under every condition there is one, the same as on these worlds
-  std::optional<Verdict> verdict = {};  ///< that all conditions with a verdict agree in
+  bool on_these_only = true;            ///< no condition has a verdict beyond these worlds
+  bool as_on_these = false;             ///< every condition has one, the same as on these worlds
+  std::optional<Verdict> verdict = {};  ///< the common one of all conditions that have one
   std::string words = {};               ///< "for other clips: worse", "on these clips only (4 clips, 6 are needed)"
 };
 BeyondFinding BeyondInWords(const std::vector<Judged>& judged, SamplingUnit unit);
 
-/// Writes the finding of one comparison in as few words as a table's cell or an XML attribute takes.
+/// Returns the finding of one comparison, short enough for a table's cell or an XML attribute.
 std::string ShortBeyond(const Comparison& comparison, SamplingUnit unit);
 
 }  // namespace etude

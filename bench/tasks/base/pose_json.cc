@@ -23,8 +23,8 @@ Json DescribeBody() {
 }
 
 Result<BodyPose> ReadPose(const Json& json, const std::string& path) {
-  constexpr double kFarthest = 1000;
-  ASSIGN_OR_RETURN(const auto numbers, ReadNumbers(json, path, 3 * kRoleCount, {-kFarthest, kFarthest}));
+  constexpr double kMaxCoordinate = 1000;
+  ASSIGN_OR_RETURN(const auto numbers, ReadNumbers(json, path, 3 * kRoleCount, {-kMaxCoordinate, kMaxCoordinate}));
   BodyPose pose;
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     pose.joints[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};

@@ -75,8 +75,8 @@ Json InDegrees(std::span<const double> angles) {
 }
 
 Result<std::vector<double>> ReadDegrees(const Json& json, const std::string& path, std::size_t count) {
-  constexpr double kLargest = 1e6;
-  auto angles = ReadNumbers(json, path, count, {-kLargest, kLargest});
+  constexpr double kMaxDegrees = 1e6;
+  auto angles = ReadNumbers(json, path, count, {-kMaxDegrees, kMaxDegrees});
   if (!angles) return tl::unexpected(angles.error());
   for (double& angle : *angles) angle = Radians(angle);
   return angles;

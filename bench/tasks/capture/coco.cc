@@ -37,6 +37,7 @@ std::optional<Json> Annotation(std::size_t frame, const Marks& marks) {
   Json keypoints = Json::array();
   int marked = 0;
   glm::dvec2 low(1e9), high(-1e9);
+  // Keypoints as (u, v, 2), or three zeros if not marked; COCO's pixel centres are whole numbers.
   const SeenPerson person = PersonOf(marks);
   for (const Landmark landmark : FindKeypointLayout("halpe_26_hands")->landmarks) {
     if (person[landmark].confidence == 0) {
@@ -52,6 +53,7 @@ std::optional<Json> Annotation(std::size_t frame, const Marks& marks) {
     ++marked;
   }
   if (marked == 0) return std::nullopt;
+  // The bounding box of the marked keypoints.
   const glm::dvec2 size = high - low;
   return Json{{"id", frame + 1},
               {"image_id", frame + 1},

@@ -134,7 +134,7 @@ FieldTable<StudioOptions> MakeConditionFields() {
 void CheckMethod(Fields& fields, CaptureMethod& method) {
   const Oracle& oracle = method.oracle;
   if (method.recovery == Recovery::kKeypoints) {
-    method.lengths = LengthSource::kMeasured;  // it knows of no others
+    method.lengths = LengthSource::kMeasured;  // it uses no others
     if (oracle.lengths)
       fields.Complain(fields.Raw("oracle")->place, "'recovery: keypoints' measures the lengths itself");
   }
@@ -142,6 +142,7 @@ void CheckMethod(Fields& fields, CaptureMethod& method) {
     fields.Complain(fields.Raw("oracle")->place,
                     "the oracle marks and 'marks: colours' do not go together: both say who marks the pictures");
   }
+  // Silhouettes use marks only with `start: keypoints`.
   if (method.recovery == Recovery::kSilhouettes) {
     const bool has_marks = method.start == SilhouetteStart::kKeypoints;
     if (!has_marks && (oracle.marks || method.lengths == LengthSource::kMeasured)) {
@@ -153,6 +154,7 @@ void CheckMethod(Fields& fields, CaptureMethod& method) {
       fields.Complain(fields.Raw("causal")->place, "'start: keypoints' follows the whole take, not picture by picture");
     }
   }
+  // A causal method may not use what depends on the whole take.
   const bool knows_all =
       method.smoothing != Smoothing::kNone || method.sync != Sync::kAssumed || method.lengths != LengthSource::kKnown;
   if (method.causal && knows_all) {
@@ -311,6 +313,7 @@ void AddSource(const PersonSource& source, std::vector<PersonSource>& sources) {
 Result<void> OpenOwnCameras(const TaskInput& input, StudioOptions& options) {
   if (options.rig.shape != RigShape::kFile) return {};
   const Node& condition = input.condition.node();
+  // The key `rig_file` must name a file that is among the condition's texts.
   const Node* named = condition.Find(kRigFileKey);
   const auto text = input.texts.find(kRigFileKey);
   if (named == nullptr || text == input.texts.end()) {
@@ -322,6 +325,7 @@ Result<void> OpenOwnCameras(const TaskInput& input, StudioOptions& options) {
     return Fail(named->place, "'{}' has {} cameras; allowed: 2 to {}", named->scalar, cameras.size(), kMaxCameras);
   }
   std::vector<Camera>& own = options.rig.own;
+  // Every camera must have a possible size, lens and position.
   for (const NamedCamera& camera : cameras) {
     const Intrinsics& in = camera.camera.intrinsics;
     if (in.width < 1 || in.height < 1 || in.width > kMaxPictureSide || in.height > kMaxPictureSide) {
@@ -335,10 +339,10 @@ Result<void> OpenOwnCameras(const TaskInput& input, StudioOptions& options) {
                   "p1, p2, k3)",
                   camera.name, named->scalar);
     }
-    constexpr double kFarthest = 100;
-    if (const double far = glm::length(camera.camera.p_WC); far > kFarthest) {
+    constexpr double kMaxDistance = 100;
+    if (const double far = glm::length(camera.camera.p_WC); far > kMaxDistance) {
       return Fail(named->place, "camera '{}' of '{}' is {:.0f} m away; allowed: {:g}. Is the file in metres?",
-                  camera.name, named->scalar, far, kFarthest);
+                  camera.name, named->scalar, far, kMaxDistance);
     }
     own.push_back(camera.camera);
   }

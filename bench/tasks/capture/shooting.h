@@ -28,8 +28,8 @@ class Shooting {
 
   /// Shoots a camera's frame with its clock, lens and sensor; with labels and depth on request.
   View Shoot(std::size_t camera, std::size_t frame, Targets targets);
-  /// Shoots the stage without the performer and with `props`. Moving things are where they were before the take.
-  /// Without props it is the background picture.
+  /// Shoots the stage with `props` but without the performer; without props this is the background picture. Moving
+  /// things are where they were before the take.
   ColourImage ShootStage(std::size_t camera, const std::vector<Figure>& props = {});
 
   /// Returns the pose at the time of the picture's middle row.

@@ -127,9 +127,9 @@ class Tape {
   Tape(double error_mm, const WorldKey& key) : error_m_(0.001 * error_mm), random_(key, "capture/limb-tape") {}
 
   double Measure(double length) {
-    constexpr double kShortest = 0.01;
+    constexpr double kMinLength = 0.01;
     const double measured = length + error_m_ * random_.Normal();
-    return length > kShortest ? std::max(kShortest, measured) : length;
+    return length > kMinLength ? std::max(kMinLength, measured) : length;
   }
   /// Measures the vector from one position to another.
   glm::dvec3 Measure(const glm::dvec3& from_to) {

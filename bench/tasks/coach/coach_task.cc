@@ -24,14 +24,14 @@ struct Rehearsal {
   std::vector<CoachMethod> methods;
 };
 
-/// A rehearsal's coaches, made ready the first time that worlds of a scenario and seed ask for them: with an operating
-/// point their thresholds are set on people keyed apart from those judged.
+/// Keeps a rehearsal's coaches by scenario and seed. They are made at the first request; an operating point sets their
+/// thresholds on people keyed apart from the judged ones.
 class ReadyCoaches {
  public:
   /// `rehearsal` must outlive this.
   explicit ReadyCoaches(const Rehearsal& rehearsal) : rehearsal_(rehearsal) {}
 
-  /// Fails where a method's recogniser cannot be taught.
+  /// Fails if a method's recogniser cannot be taught.
   Result<std::vector<ReadyCoach>*> For(const WorldKey& key) {
     const auto [known, is_new] = known_.try_emplace({key.suite_seed, std::string(key.scenario)});
     if (is_new) {
@@ -55,7 +55,7 @@ class CoachTaskWorld final : public TaskWorld {
         world_(MakeCoachWorld(shared.condition, key)),
         keeps_motion_(keeps_motion) {}
 
-  /// The coaches, which all worlds of the condition share.
+  /// Makes the coaches, which all worlds of the condition share.
   void PrepareShared() override { Coaches(); }
 
   CellResult Run(std::size_t method) override {
@@ -83,7 +83,7 @@ class CoachTaskWorld final : public TaskWorld {
     return result;
   }
 
-  /// Returns the coaches, made once when the task was: they can be taught.
+  /// Returns the coaches. Making them cannot fail here, because the task has made them before.
   const std::vector<ReadyCoach>& Coaches() const { return **coaches_.For(world_.key); }
 
   const Rehearsal& shared_;
@@ -104,10 +104,10 @@ class CoachTask final : public Task {
 
  private:
   const Rehearsal shared_;
-  mutable ReadyCoaches coaches_{shared_};  // a memory of what depends on keys alone
+  mutable ReadyCoaches coaches_{shared_};  // a cache of what depends on keys alone
 };
 
-/// Returns the stage of a song, which is made once for all conditions that are danced on it.
+/// Returns the stage of a song, which all conditions with this song share.
 Result<std::shared_ptr<const CoachStage>> SharedStage(const std::string& song) {
   static std::map<std::string, std::weak_ptr<const CoachStage>> stages;
   if (auto known = stages[song].lock()) return known;

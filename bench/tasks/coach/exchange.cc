@@ -222,6 +222,7 @@ Recording RecordCoaching(const CoachStage& stage, const SessionLog& log) {
   CoachExtras extras;
   extras.song = stage.dance().title;
   extras.modes = ModesOf(log);
+  // Every performance: the truth, and what the coach called it.
   for (const LoggedPerformance& performance : log.performances) {
     const CoachedPerformance& judged = performance.judged;
     extras.performances.push_back({.move = stage.moves[static_cast<std::size_t>(performance.move)].name,
@@ -233,6 +234,7 @@ Recording RecordCoaching(const CoachStage& stage, const SessionLog& log) {
                                    .end_frame = judged.end_frame,
                                    .faults = performance.faults});
   }
+  // What the coach said, decided, corrected and showed.
   for (const LoggedWords& words : log.words) {
     extras.words.push_back({words.begin_frame, words.say, words.hint, words.picture});
   }

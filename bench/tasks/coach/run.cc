@@ -190,6 +190,7 @@ Series TruthSeries(const SessionLog& log) {
 }  // namespace
 
 void ScoreCoaching(const CoachWorld& world, const CoachStage& stage, const SessionLog& log, CellResult& result) {
+  // How the learner and the coach did.
   result.MeasureOr("retention", Retention(log.test), "nothing in the test was right or wrong");
   const CoachedSession session = SessionOf(log);
   MeasureCorrections(session, result);
@@ -198,6 +199,7 @@ void ScoreCoaching(const CoachWorld& world, const CoachStage& stage, const Sessi
   const auto danced = std::ranges::count(log.modes, CoachMode::kDance);
   result.Measure("danced_share", static_cast<double>(danced) / world.frames);
   result.Measure("gave_up", log.given_up_at ? 1 : 0);
+  // How the dance looked: beats and transitions.
   result.MeasureOr("beat_error_ms", BeatErrorMs(log.beat_errors_s), "nothing was danced to music");
   const auto bridged = std::ranges::count_if(log.transitions, &LoggedTransition::is_bridged);
   result.MeasureOr("switch_bridged_share", Share(bridged, static_cast<std::int64_t>(log.transitions.size())),
@@ -206,6 +208,7 @@ void ScoreCoaching(const CoachWorld& world, const CoachStage& stage, const Sessi
   result.MeasureOr("switch_jump_cm", MedianOf(jumps), "there was no transition");
   result.MeasureOr("switch_natural_share", NaturalShare(jumps, stage.natural_jumps_cm), "there was no transition");
 
+  // Digests of the session's stages.
   Digest sensed;
   for (const SensedFrame& frame : log.sensed.frames) {
     for (const SensedJoint& joint : frame.joints) {

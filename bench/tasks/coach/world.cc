@@ -39,9 +39,9 @@ Result<CoachStage> SetCoachStage(const std::string& name) {
 
 CoachWorld MakeCoachWorld(const CoachCondition& condition, const WorldKey& key) {
   // About the distance at which Kinect's makers ask players to stand.
-  constexpr double kNearest = 2.5, kFarthest = 3.0;
+  constexpr double kMinDistance = 2.5, kMaxDistance = 3.0;
   RandomStream place_dice(key, "sensor-place");
-  const double drawn = place_dice.Uniform(kNearest, kFarthest);
+  const double drawn = place_dice.Uniform(kMinDistance, kMaxDistance);
   const DetectionOptions& sight = condition.sight;
   const SensorPlacement place{
       .distance = sight.distance_m.value_or(drawn), .turn = Radians(sight.turn_deg), .height = sight.sensor_height_m};

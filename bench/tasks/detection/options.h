@@ -80,19 +80,19 @@ struct DetectionMethod {
   double refractory_s = DecisionOptions{}.refractory_s;
 
   CaptureMethod Capture() const { return capture.value_or(CaptureMethod{}); }
-  /// One threshold for both questions: its own, else the recogniser's.
+  /// Returns one threshold for both decisions: the method's own, else the recogniser's.
   MethodDecision Decision() const {
     const double both = threshold.value_or(recogniser.kind->threshold);
     return {.spotting = {.threshold = both, .refractory_s = refractory_s}, .judging = both};
   }
 };
 
-/// The sensor that the condition names, v2 when it names none or cameras.
+/// Returns the sensor that the condition names; v2 if it names none or cameras.
 Result<SkeletonSensorOptions> SensorOf(const TaskInput& input);
-/// Complains of keys of another sensor than the condition's.
+/// Complains of keys that belong to another sensor than the condition's.
 void CheckSensorKeys(Fields& condition, DetectionOptions& options);
-/// Refuses methods, those of the input in their order, that want cameras where there are none; prepares the cameras for
-/// the others. `sight` gives the DetectionMethod of a method.
+/// Refuses methods that set `capture` if the condition has no cameras; else prepares the cameras for every method.
+/// `methods` has the order of the input's methods; `sight` returns the DetectionMethod of one.
 template <typename Methods, typename Sight>
 Result<void> PrepareCameras(const TaskInput& input, const Methods& methods, Sight sight, DetectionOptions& options) {
   RETURN_IF_ERROR(OpenOwnCameras(input, options.cameras.studio));
@@ -109,10 +109,10 @@ Result<void> PrepareCameras(const TaskInput& input, const Methods& methods, Sigh
 }
 
 const FieldTable<DetectionOptions>& DetectionConditionFields();
-/// The keys of a condition that say who is simulated, and those that say how they are sensed.
+/// Return the keys of a condition that say who is simulated, and those that say how they are sensed.
 std::span<const std::string_view> PeopleKeys();
 std::span<const std::string_view> SensingKeys();
-/// `threshold` may stand in the condition for all methods, which makes it sweepable.
+/// A condition may set `threshold` for all methods, so that it can be swept.
 const FieldTable<DetectionMethod>& DetectionMethodFields();
 
 }  // namespace etude

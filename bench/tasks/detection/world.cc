@@ -99,11 +99,11 @@ std::vector<FrameInterval> DetectionWorld::Takes() const {
 
 SkeletonStream Sense(const BodyMotion& motion, const DetectionOptions& options, const WorldKey& key) {
   // About the distance at which Kinect's makers ask players to stand.
-  constexpr double kNearest = 2.5, kFarthest = 3.0;
+  constexpr double kMinDistance = 2.5, kMaxDistance = 3.0;
   RandomStream place_dice(key, "sensor-place");
   SkeletonSensorOptions errors = options.sensor;
   errors.strength = options.noise;
-  const double drawn = place_dice.Uniform(kNearest, kFarthest);
+  const double drawn = place_dice.Uniform(kMinDistance, kMaxDistance);
   const SensorPlacement place{.distance = options.distance_m.value_or(drawn),
                           .turn = Radians(options.turn_deg),
                           .height = options.sensor_height_m};

@@ -24,9 +24,9 @@ std::vector<int> Growing(int last, int share) {
 }
 
 std::optional<int> ReadCount(AnswerFields& fields, const char* key) {
-  constexpr int kMost = 1'000'000'000;
+  constexpr int kMaxCount = 1'000'000'000;
   if (!fields.Has(key)) return std::nullopt;
-  return fields.Integer(key, 0, kMost);
+  return fields.Integer(key, 0, kMaxCount);
 }
 
 }  // namespace

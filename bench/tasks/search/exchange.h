@@ -5,10 +5,10 @@
 
 namespace etude {
 
-/// Describes a library to search to methods outside the program.
+/// Describes a library to search to outside methods.
 ///
-/// Setting; the library lies beside it as `library.f64`: `frames` times 24 numbers, frame by frame in time order, the
-/// grades of paper A's terms in the order of `terms`, each a little-endian IEEE 754 number of 64 bits:
+/// Setting; the library lies beside it as `library.f64`: `frames` times 24 numbers, frame by frame in time order. They
+/// are the grades of paper A's terms in the order of `terms`, as little-endian IEEE 754 numbers of 64 bits:
 ///
 ///     {"frames": 10000, "terms": [{"feature": "RH", "term": "down", "weight": 1}, …],
 ///      "query": "nearest", "threshold": 0.4, "file": "library.f64"}
@@ -16,22 +16,21 @@ namespace etude {
 /// The distance of two frames is √(Σ weight · (difference of the grades)²) over the terms (paper A, equation 1).
 Payload LibraryPayload(const SearchProblem& problem, SearchQuestion question);
 
-/// Makes the problem: the frames asked about, as their grades.
+/// Encodes the problem: the grades of the frames asked about.
 ///
 ///     {"queries": [[twenty-four numbers], …]}
 ///
-/// Each query asks for a list of frames of the library (their numbers, from 0): `first` for the one of smallest number
-/// whose distance is below the threshold, or none; `within` for all of these, by number; `nearest` and `nearest-10` for
-/// the one, or ten, of smallest distance, by distance, those of equal distance by number.
+/// Each query asks for a list of frames of the library, numbered from 0. `first`: the earliest frame whose distance is
+/// below the threshold, or none. `within`: all such frames, in order. `nearest` and `nearest-10`: the one or ten frames
+/// of smallest distance, by distance, those of equal distance in order.
 Payload DescribeQueries(std::span<const Grades> queries);
 
-/// Makes the truth, itself a perfect answer; a method outside answers the same:
+/// Encodes the truth, which is also a perfect answer; outside methods answer in the same form:
 ///
 ///     {"found": [[4711], …]}
 Payload DescribeFound(const std::vector<FoundFrames>& found);
 
-/// Reads an answer. Refuses what is not as told above: another number of lists, and frames that the library does not
-/// have or that stand twice in a list.
+/// Reads an answer. Another number of lists, unknown frames, and frames that a list repeats are errors.
 Result<SearchAnswer> ReadSearchAnswer(const Json& answer, const SearchProblem& problem, std::size_t queries,
                                       SearchQuestion question);
 

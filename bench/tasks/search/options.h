@@ -7,24 +7,24 @@
 
 namespace etude {
 
-/// A question about a frame: the first of those that match it, all of them, or those that are most like it.
+/// A question about a frame: the first frame that matches it, all that match, or the nearest one or ten.
 enum class SearchQuestion { kFirst, kWithin, kNearest, kNearest10 };
 /// "first", "within", "nearest", "nearest-10".
 std::string_view QuestionName(SearchQuestion question);
 
-/// The number of frames that `nearest` and `nearest-10` ask for; needs one of these two.
+/// Returns the number of frames that `nearest` or `nearest-10` asks for; allows only these two.
 int FramesAskedFor(SearchQuestion question);
 
 /// One condition of a search scenario.
 struct SearchOptions {
-  int frames = 10'000;  ///< of the library
-  int queries = 200;    ///< of a world
+  int frames = 10'000;  ///< in the library
+  int queries = 200;    ///< per world
   double threshold = 0.4;
-  SearchQuestion question = SearchQuestion::kNearest;  ///< of methods that do not say otherwise, and of those outside
+  SearchQuestion question = SearchQuestion::kNearest;  ///< of methods that set none, and of outside methods
 };
 constexpr int kMaxLibraryFrames = 1'000'000;
 
-/// The way in which frames are found.
+/// How frames are found.
 enum class SearchWay { kIndex, kBruteForce };
 
 struct SearchMethod {

@@ -39,7 +39,7 @@ FoundFrames AskIndex(const SearchProblem& problem, const Grades& query, SearchQu
   return FramesOf(index.Nearest(query, FramesAskedFor(question), &work));
 }
 
-/// The distance to a frame where it is below `limit`.
+/// Returns the distance to a frame if it is below `limit`.
 std::optional<double> DistanceBelow(const SearchProblem& problem, const Grades& query, const Grades& frame,
                                     double limit) {
   if (!IsCloser(query, frame, problem.weights, limit)) return std::nullopt;
@@ -59,13 +59,13 @@ FoundFrames ScanForMatches(const SearchProblem& problem, const Grades& query, bo
 }
 
 FoundFrames ScanForNearest(const SearchProblem& problem, const Grades& query, std::size_t wanted, std::int64_t& seen) {
-  std::vector<Neighbour> best;  // the best so far, in order
+  std::vector<Neighbour> best;  // the best so far, nearest first
   double limit = std::numeric_limits<double>::max();
   const std::vector<Grades>& frames = problem.library.frames;
   for (std::size_t f = 0; f < frames.size(); ++f) {
     ++seen;
     const auto distance = DistanceBelow(problem, query, frames[f], limit);
-    if (!distance) continue;  // at the limit itself the earlier frame stays
+    if (!distance) continue;  // of two equal distances the earlier frame stays
     const Neighbour neighbour{static_cast<int>(f), *distance};
     best.insert(std::upper_bound(best.begin(), best.end(), neighbour, IsBefore), neighbour);
     if (best.size() > wanted) best.pop_back();
@@ -87,7 +87,7 @@ FoundFrames Scan(const SearchProblem& problem, const Grades& query, SearchQuesti
   return ScanForNearest(problem, query, static_cast<std::size_t>(FramesAskedFor(question)), seen);
 }
 
-/// The frames that are the answer, of all frames with their distances.
+/// Returns the answer, given all frames with their distances.
 FoundFrames Choose(const std::vector<Neighbour>& all, SearchQuestion question, double threshold) {
   std::vector<Neighbour> chosen;
   if (question == SearchQuestion::kNearest || question == SearchQuestion::kNearest10) {
@@ -161,7 +161,7 @@ std::vector<std::size_t> SizesOf(const std::vector<FoundFrames>& found) {
   return sizes;
 }
 
-/// "" when all are right.
+/// Returns how many answers are wrong and the first of them; "" if all are right.
 std::string DescribeMistakes(const std::vector<FoundFrames>& found, const std::vector<FoundFrames>& truth) {
   const auto first = std::mismatch(found.begin(), found.end(), truth.begin());
   if (first.first == found.end()) return "";

@@ -20,8 +20,8 @@ namespace etude {
 struct SearchAnswer {
   SearchQuestion question = SearchQuestion::kNearest;
   std::vector<FoundFrames> found;
-  std::optional<std::vector<std::int64_t>> distances;  ///< computed; nothing where the method does not tell
-  std::optional<std::vector<std::int64_t>> boxes;      ///< looked at; nothing where there are none
+  std::optional<std::vector<std::int64_t>> distances;  ///< number computed; nothing if the method does not tell
+  std::optional<std::vector<std::int64_t>> boxes;      ///< number of boxes examined; nothing without an index
 };
 
 /// The data that all queries of a world share.
@@ -31,27 +31,26 @@ struct SearchProblem {
   double threshold = 0;
 };
 
-/// Through the index.
+/// Finds the frames by the index.
 SearchAnswer FindByIndex(const SearchProblem& problem, std::span<const Grades> queries, SearchQuestion question);
 
-/// Looks at every frame, without looking longer than it must: `first` ends at the first match, and the sum of a
-/// distance ends where it is too large already.
+/// Examines every frame, but stops early: `first` at the first match, and the sum of a distance when it is too large.
 SearchAnswer FindByBruteForce(const SearchProblem& problem, std::span<const Grades> queries, SearchQuestion question);
 
-/// The right answers to each of the questions: every distance in full, then sorted.
+/// Returns the right answers to each question: computes every distance in full, and sorts.
 std::map<SearchQuestion, std::vector<FoundFrames>> FindPlainly(const SearchProblem& problem,
                                                                std::span<const Grades> queries,
                                                                const std::set<SearchQuestion>& questions);
 
-/// Measures an answer, whoever gave it: `ok` when every query is answered right, else `unsolved` with how many are not
-/// and the first of them. Series along the queries: how many frames were found and, where it is told, looked at.
+/// Measures an answer. The cell is `ok` if every query is answered right, else `unsolved`, with the number of wrong
+/// answers and the first of them. Series along the queries: how many frames were found and, if known, examined.
 CellResult ScoreSearch(const SearchLibrary& library, std::span<const Grades> queries, const SearchAnswer& answer,
                        const std::vector<FoundFrames>& truth);
 
-/// The ids of all metrics that a cell reports, a value or a reason for each.
+/// Returns the ids of all metrics that a cell reports, each by a value or a reason.
 std::vector<std::string> SearchMetrics();
 
-/// The value of a metric for a cell without an answer: no right answer.
+/// Returns the value of a metric for a cell without an answer: no query is answered right.
 std::optional<double> SearchFailureValue(std::string_view metric);
 
 }  // namespace etude

@@ -89,7 +89,7 @@ class SearchTask final : public Task {
   mutable SharedLibrary library_;
 };
 
-/// Refuses clips that nothing can be made of.
+/// Refuses clips that cannot make a library.
 Result<void> CheckClips(const ClipLibrary& clips, const Place& place) {
   if (clips.clips.empty()) return Fail(place, "a search scenario needs clips, e.g. clips: ['builtin:*']");
   for (const LibraryClip& clip : clips.clips) {

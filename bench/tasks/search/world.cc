@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-// Motions are made and forgotten piece by piece: a pose takes twenty times the memory of its grades.
+// Makes motions piece by piece, because a pose takes twenty times the memory of its grades.
 constexpr int kPiece = 50'000;
 constexpr int kHeldOut = 10'000;
 

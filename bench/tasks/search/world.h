@@ -13,26 +13,27 @@
 
 namespace etude {
 
-/// The frames that are searched, and those that may be asked about.
+/// The frames that are searched, and those from which queries are drawn.
 struct SearchLibrary {
   std::vector<Grades> frames;    ///< in time order
-  std::vector<Grades> held_out;  ///< of further performances of the same clips
+  std::vector<Grades> held_out;  ///< from further performances of the same clips
   GradeIndex index;
-  std::string digest;  ///< of the frames
+  std::string digest;  ///< of `frames`
 };
 
-/// The digest of all grades, in their order.
+/// Returns the digest of all grades in their order.
 std::string DigestOf(std::span<const Grades> frames);
 
-/// `frames` frames of the clips, performed by dancers whose tempo and amplitude vary (sim/choreography's VariedLibrary;
-/// at least one clip, each of two frames at least). The dice are always the same: what is searched belongs to the
-/// condition, only what is asked is a world's. A smaller library is the beginning of a larger one.
+/// Makes a library of `frames` frames: the clips performed by dancers with varied tempo and amplitude (VariedLibrary of
+/// sim/choreography). Needs at least one clip, each of at least two frames. The dice are always the same, because the
+/// library belongs to the condition; only queries differ between worlds. A smaller library is the beginning of a larger
+/// one.
 SearchLibrary MakeSearchLibrary(const ClipLibrary& clips, const FuzzySystem& fuzzy, int frames);
 
-/// `queries` of the library's held-out frames, each drawn from all of them.
+/// Draws `queries` frames from all held-out frames of the library.
 std::vector<Grades> DrawQueries(const SearchLibrary& library, int queries, const WorldKey& key);
 
-/// The library that the worlds of a condition share, made when the first of them is. Not for several threads.
+/// The library that the worlds of a condition share. It is made at the first request. Not thread-safe.
 class SharedLibrary {
  public:
   SharedLibrary(ClipLibrary clips, FuzzySystem fuzzy, int frames)

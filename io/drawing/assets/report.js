@@ -1,5 +1,5 @@
-// Draws every <canvas data-chart="id"> from the JSON island of that id, a line per method; tells of a dot or a row which
-// cells it shows and how to run them again; sorts, filters and copies tables; saves pictures.
+// Draws every <canvas data-chart="id"> from the JSON element of that id, a line per method. Shows which cells stand
+// behind a dot or a row and how to run them again. Sorts, filters and copies tables; saves pictures.
 (() => {
   'use strict';
   const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -73,7 +73,8 @@
   };
   document.documentElement.classList.add('js');
 
-  // What a dot or a row shows, and how to run it again: `etude replay` of the folder that this page lies in.
+  // The card that shows the cells of a dot or row, with the command that runs them again: `etude replay` of this page's
+  // folder.
   const folder = location.protocol === 'file:' ? decodeURIComponent(location.pathname).replace(/\/report\/[^/]*$/, '') : '.';
   const word = (text) => /^[\w.\/=,:@%+-]+$/.test(text) ? text : "'" + text.replaceAll("'", "'\\''") + "'";
   const card = make('div', '', {className: 'row-card', hidden: true});
@@ -89,7 +90,7 @@
     picked = null;
     back?.focus();
   };
-  // A table's row stands for all trials: it shows the one that most of its cells were recorded of, else the first.
+  // A table's row stands for all trials. Its card shows the trial with the most recorded cells, else the first.
   const TRIAL = /\/\d+(?=\/[^/]*$)/, without = (id) => id.replace(TRIAL, '');
   const ofRow = (ids, kept) => {
     const asked = ids.map(without), count = new Map();
@@ -127,9 +128,9 @@
     card.hidden = false;
     picked = shown;
     shown.classList.add('picked');
-    // For scripts that add to it, such as one that shows the motion of a cell that was recorded.
+    // Other scripts may add to the card, such as one that shows the motion of a recorded cell.
     card.dispatchEvent(new CustomEvent('etude:cells', {bubbles: true, detail: {cells, kept: cells.filter((id) => kept.includes(id)), card}}));
-    card.querySelector('button').focus();  // what shows the motion, or closes
+    card.querySelector('button').focus();  // the button that shows the motion, else the one that closes
   };
   document.addEventListener('click', (event) => {
     const dot = event.target.closest?.('use[data-t]'), row = event.target.closest?.('tr[data-ids]');
@@ -145,7 +146,7 @@
     });
   });
 
-  // One stop of the Tab key per picture; arrows go from dot to dot, Enter opens one.
+  // The Tab key stops once per picture; arrows move from dot to dot, Enter opens one.
   document.querySelectorAll('figure svg').forEach((svg) => {
     const dots = [...svg.querySelectorAll('use[data-t]')];
     if (!dots.length) return;
@@ -173,8 +174,8 @@
     if (row.dataset.ids) (row.tagName === 'TR' ? row.cells[0] : row).append(button('', 'Run it again', () => show(row), 'rerun'));
   });
 
-  // A picture as a file: with the colours that it has here, and the marks that it points to; or printed, alone on a page of its size,
-  // which every browser saves as a PDF of lines and letters.
+  // A picture is saved as a file, with its present colours and the marks that it uses, or printed alone on a page of
+  // its size, which every browser saves as a PDF of vector graphics.
   const PAINTS = ['fill', 'stroke', 'stroke-width', 'stroke-dasharray', 'fill-opacity', 'stroke-opacity', 'opacity', 'font-size', 'font-family', 'paint-order'];
   const whole = (svg) => {
     const copy = svg.cloneNode(true), there = svg.querySelectorAll('*');
@@ -220,7 +221,7 @@
                  '−': '$-$', '–': '--', '°': '$^\\circ$', '±': '$\\pm$', '×': '$\\times$', '≤': '$\\le$', '≥': '$\\ge$', '“': '``', '”': "''", '’': "'", '…': '\\dots{}',
                  '↓': '$\\downarrow$', '↑': '$\\uparrow$', '▲': '$\\bigtriangleup$', '▼': '$\\bigtriangledown$'};
   const ESCAPES = {
-    TSV: (text) => /^[=+@-]/.test(text) && isNaN(text) ? "'" + text : text,  // no formula in a spreadsheet
+    TSV: (text) => /^[=+@-]/.test(text) && isNaN(text) ? "'" + text : text,  // a spreadsheet runs formulas
     Markdown: (text) => text.replace(/[\\`*_[\]<>#|&$~]/g, '\\$&'),
     LaTeX: (text) => text.replace(/[\\{}&%$#_]|[^\x20-\x7e]|[~^<>|]/gu, (c) => LATEX[c] ?? (c < '\x7f' ? '\\' + c : c)),
   };

@@ -1,11 +1,11 @@
-// Shows recorded motions: bodies to walk round, errors by colour, marks on a bar of time (reports/viewer). Buttons with data-cell,
-// a recorded cell's identity, open it; cards of dots and rows get one (event etude:cells).
+// Shows recorded motions: bodies to walk round, errors by colour, marks on a time bar (reports/viewer). A button whose
+// data-cell is a recorded cell's identity opens it; the cards of dots and rows get such a button (event etude:cells).
 const JOINTS = ['hip centre', 'spine', 'shoulder centre', 'head', ...['shoulder elbow wrist hand', 'hip knee ankle foot'].flatMap((limb) =>
   ['left', 'right'].flatMap((side) => limb.split(' ').map((joint) => `${side} ${joint}`)))];
 const PARENT = [-1, 0, 1, 2, 2, 4, 5, 6, 2, 8, 9, 10, 0, 12, 13, 14, 0, 16, 17, 18];
 const ARM = [.052, .042, .034, .026], LEG = [.075, .054, .04, .03], RADIUS = [.085, .085, .055, .05, ...ARM, ...ARM, ...LEG, ...LEG];
 const HEAD = 3, HEAD_RADIUS = .1, COUNT = 20;
-// Blue, pale, red: told apart by people who see no green or no red, too.
+// Blue, pale, red: readers who see no green or no red can tell them apart.
 const SCALE = [[45, 100, 180], [125, 180, 220], [248, 232, 175], [236, 140, 72], [178, 28, 40]];
 
 const island = document.getElementById('motions');
@@ -20,7 +20,7 @@ const fileOf = (cell) => {
   return files.get(cell);
 };
 
-// ---- Data: what the script beside the page holds, made ready to be drawn.
+// ---- Data: decodes what the script beside the page holds.
 const worlds = {};
 const prepare = (world) => {
   const scale = world.unit === 'mm' ? 1000 : 100;
@@ -37,7 +37,7 @@ const prepare = (world) => {
   }
   for (const body of world.bodies) {
     if (!body.against.length) continue;
-    // No error where nothing is there to compare with: never 0.
+    // NaN, never 0, if there is nothing to compare with.
     body.errors = new Float32Array(body.frames * COUNT).fill(NaN);
     for (let f = 0; f < body.frames; ++f) {
       const t = f + body.begin;
@@ -51,14 +51,14 @@ const prepare = (world) => {
       }
     }
   }
-  // One error in ten is beyond the scale, of those that are seen beside the greatest.
+  // The colour scale ends at the 90th percentile of the errors that are above a fiftieth of the greatest.
   const greatest = everyError.reduce((a, b) => Math.max(a, b), 0), seen = everyError.filter((e) => e > greatest / 50).sort((a, b) => a - b);
   const high = seen[Math.floor(.9 * (seen.length - 1))] || 1, power = 10 ** Math.floor(Math.log10(high));
   world.most = [1, 2, 3, 5, 10].find((n) => n * power >= high * .999) * power;
   return world;
 };
 const isThere = (body, t) => t > body.begin - 1e-6 && t < body.begin + body.frames - 1 + 1e-6;
-// Joints at a time in the world's frames: between two frames in a straight line.
+// Returns the joints at time t, in frames of the world, interpolated linearly.
 const place = (body, t, steps = false, out = new Float32Array(3 * COUNT)) => {
   const at = Math.min(Math.max(t - body.begin, 0), body.stored - 1), f = Math.floor(at + 1e-6);
   const part = steps ? 0 : at - f, p = body.places, from = f * 3 * COUNT, to = Math.min(f + 1, body.stored - 1) * 3 * COUNT;
@@ -80,7 +80,7 @@ const load = (file) => new Promise((resolve, reject) => {
   document.head.append(script);
 });
 
-// ---- Vectors and turns, for cameras and for files.
+// ---- Vectors and rotations, for cameras and for files.
 const sub = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -96,7 +96,7 @@ const shortest = (from, to) => {
   const q = [w, ...cross(a, b)], l = Math.hypot(...q);
   return q.map((x) => x / l);
 };
-// The turn whose Y is `up` and whose X is near `left`.
+// Returns the rotation whose Y is `up` and whose X is near `left`.
 const standing = (left, up) => {
   const z = unit(cross(left, up)), x = unit(cross(up, z)), y = unit(up);
   const first = shortest([1, 0, 0], x), mid = turned(first, [0, 1, 0]);
@@ -104,7 +104,8 @@ const standing = (left, up) => {
   return times([Math.cos(half), ...x.map((v) => v * Math.sin(half))], first);
 };
 
-// ---- Files for other programs: arms held out at rest, limbs turn the shortest way, joints are where they are shown.
+// ---- Files for other programs. In the rest pose the arms point sideways; limbs turn by the shortest rotation, so that
+// all joints are where the viewer shows them.
 const restOf = (body) => PARENT.map((parent, j) => {
   if (parent < 0) return [0, 0, 0];
   const p = place(body, body.begin), length = Math.hypot(...sub(jointOf(p, j), jointOf(p, parent)));
@@ -166,7 +167,7 @@ const glbOf = (world, body) => {
       accessors.push({bufferView: 0, byteOffset: 4 * numbers.length, componentType: 5126, count: n, type});
       for (const frame of frames) {
         let q = frame[j].turn;
-        if (dot(q.slice(1), last.slice(1)) + q[0] * last[0] < 0) q = q.map((x) => -x);  // the same turn, near the last one
+        if (dot(q.slice(1), last.slice(1)) + q[0] * last[0] < 0) q = q.map((x) => -x);  // q and −q: the nearer to last
         if (type === 'VEC4') last = q;
         numbers.push(...(type === 'VEC3' ? frame[j].place : [q[1], q[2], q[3], q[0]]));
       }
@@ -206,13 +207,14 @@ const cameraOf = (view, width, height) => {
   };
   return {eye, matrix, project, focus: fy * height / 2};
 };
-// Sixteen numbers a limb: from, its radius, to, its radius, colour there and opacity, colour here and how flat it is.
+// Returns sixteen numbers per limb: start, radius there, end, radius there, start's colour, opacity, end's colour,
+// flatness.
 const limbsOf = (scene, ghosts) => [...scene.items.filter((item) => item.ghost === ghosts).flatMap(({places: p, colours: c}) => PARENT.map((parent, j) => {
   const from = j ? parent : HEAD, to = j || HEAD, wide = ghosts ? 1.14 : 1, ends = j === HEAD ? [RADIUS[HEAD], RADIUS[HEAD]] : j ? [RADIUS[from], RADIUS[to]] : [HEAD_RADIUS, HEAD_RADIUS];
   return [...jointOf(p, from), wide * ends[0], ...jointOf(p, to), wide * ends[1], ...jointOf(c, from), ghosts ? .1 : 1, ...jointOf(c, to), 1];
 })), ...ghosts ? [] : scene.spots.map(({at, radius, colour, squash}) => [...at, radius, ...at, radius, ...colour, 1, ...colour, squash])];
 const glRenderer = (canvas, onLost) => {
-  // Smooth edges, but where the processor draws.
+  // Antialiases only if the graphics card draws.
   const options = {stencil: true, alpha: false};
   const gl = canvas.getContext('webgl2', {...options, antialias: true, failIfMajorPerformanceCaveat: true}) ??
       canvas.getContext('webgl2', {...options, antialias: false});
@@ -235,7 +237,7 @@ const glRenderer = (canvas, onLost) => {
     }
     return {program, at};
   };
-  // A capsule from a to b with radii a.w and b.w; its shadow is laid on the floor along the light.
+  // Draws a capsule from a to b with radii a.w and b.w; its shadow is projected on the floor along the light.
   const limbs = build(`layout(location=0) in vec4 v; layout(location=1) in vec4 a; layout(location=2) in vec4 b;
     layout(location=3) in vec4 ca; layout(location=4) in vec4 cb;
     uniform mat4 m; uniform float ground; uniform bool isShadow; out vec3 n; out vec3 w; out vec4 c;
@@ -314,7 +316,7 @@ const glRenderer = (canvas, onLost) => {
       gl.drawElementsInstanced(gl.TRIANGLES, ids.length, gl.UNSIGNED_SHORT, 0, capsules.length);
     };
     const solid = limbsOf(scene, false), ghosts = limbsOf(scene, true);
-    // A shadow falls once on each pixel of the floor.
+    // The stencil lets each pixel of the floor be shaded once.
     gl.enable(gl.STENCIL_TEST);
     gl.stencilFunc(gl.EQUAL, 0, 255);
     gl.stencilOp(gl.KEEP, gl.KEEP, gl.INCR);
@@ -406,7 +408,7 @@ const show = (world, cells) => {
   const labelOf = (body) => world.cells.length > 1 && body.cell >= 0 && body.label !== world.cells[body.cell].method ?
       `${body.label} (${world.cells[body.cell].method})` : body.label;
 
-  // Methods stand beside each other when apart; a partner always.
+  // Methods stand side by side if they are shown apart; a partner always stands beside its dancer.
   const box = () => {
     const low = [1e9, 1e9, 1e9], high = [-1e9, -1e9, -1e9];
     for (const i of chosen) {
@@ -489,7 +491,7 @@ const show = (world, cells) => {
     seek(ahead ? ahead.frame : way > 0 ? last : 0);
   };
 
-  // What the colours say, for those who do not see them.
+  // The errors as a table, for readers who do not see the colours.
   const table = make('div', {class: 'table', tabindex: 0, role: 'region', 'aria-label': 'Error by joint'});
   let cellsNow = [];
   const tabulate = () => {
@@ -570,7 +572,7 @@ const show = (world, cells) => {
     stage.prepend(canvas);
     renderer = (!flat && glRenderer(canvas, () => setUp(true))) || null;
     if (!renderer) {
-      if (!flat) return setUp(true);  // a canvas that was asked for WebGL gives nothing else
+      if (!flat) return setUp(true);  // a canvas that has given WebGL gives no other context
       renderer = flatRenderer(canvas);
     }
     stage.dataset.renderer = renderer.kind;
@@ -643,7 +645,7 @@ const show = (world, cells) => {
       if (state.t > last) state.t = last;
       dirty = true;
     }
-    // Slow: half as sharp, then 2D.
+    // If drawing is slow, halves the resolution, then draws in 2D.
     slow = state.playing && now - before > 36 ? slow + 1 : 0;
     if (slow > 5) {
       slow = 0;
@@ -686,7 +688,7 @@ const show = (world, cells) => {
 
 window.etudeViewer = {
   has: (cell) => fileOf(cell) !== undefined,
-  // Opens their world; others of its cells can be chosen.
+  // Opens the world of these cells; the dialog offers the world's other cells.
   open: (...cells) => {
     const known = cells.filter((cell) => fileOf(cell) !== undefined);
     if (opened || !known.length) return Promise.resolve(false);
@@ -704,7 +706,7 @@ document.addEventListener('click', (event) => {
   event.preventDefault();
   window.etudeViewer.open(cell);
 });
-// The page's card of a dot or a row: it gets a button where a motion is there.
+// Adds a button to the page's card of a dot or a row if it has a recorded motion.
 document.addEventListener('etude:cells', ({detail: {cells, card}}) => {
   const known = cells.filter(window.etudeViewer.has);
   if (!known.length) return;

@@ -68,7 +68,7 @@ TEST(Gate, DoesNotJudgeARunThatLacksRows) {
   run.data.rows.erase(run.data.rows.begin() + 7);
   ASSERT_TRUE(CheckRows(run, {"cells.jsonl", 0, 0}));
   EXPECT_THAT(run.incomplete, ElementsAre("s: 1 of 96 rows are missing, the first is s/joint_noise_deg=1/003/b"));
-  EXPECT_EQ(VerdictOn(run, baseline), GateVerdict::kNotWhole);
+  EXPECT_EQ(VerdictOn(run, baseline), GateVerdict::kIncomplete);
   FinishedRun whole = Worse();
   ASSERT_TRUE(CheckRows(whole, {}));
   EXPECT_THAT(whole.incomplete, IsEmpty());
@@ -89,7 +89,7 @@ TEST(Gate, IsIncompleteWhereTheMachineEndedACell) {
   for (Status status : {Status::kTimeout, Status::kCrashed, Status::kOutOfMemory}) {
     FinishedRun run = Steady();
     run.data.rows[5].result = CellResult::Ended(status, "signal 9");
-    EXPECT_EQ(VerdictOn(run, baseline), GateVerdict::kNotWhole);
+    EXPECT_EQ(VerdictOn(run, baseline), GateVerdict::kIncomplete);
     EXPECT_THAT(WhyIncomplete(run), ElementsAre(HasSubstr("s/joint_noise_deg=1/002/b: signal 9")));
   }
   EXPECT_THAT(WhyIncomplete(Steady()), IsEmpty());
@@ -112,7 +112,7 @@ TEST(Gate, IsIncompleteWhereNothingWasRun) {
   FinishedRun run = Steady();
   for (Row& row : run.data.rows) row.result = CellResult::Ended(Status::kSkipped, "no labels");
   const auto report = JudgeRun(run, nullptr, "");
-  EXPECT_EQ(GateVerdictOf(*report), GateVerdict::kNotWhole);
+  EXPECT_EQ(GateVerdictOf(*report), GateVerdict::kIncomplete);
   EXPECT_THAT(report->incomplete,
               ElementsAre("every cell was skipped; the first is s/joint_noise_deg=1/000/a: no labels"));
 }
@@ -122,7 +122,7 @@ TEST(Gate, IsIncompleteWhenTheBaselineHoldsMoreThanTheRun) {
   Snapshot more = baseline;
   more.scenarios.push_back(more.scenarios[0]);
   more.scenarios[1].name = "gone";
-  EXPECT_EQ(VerdictOn(Steady(), more), GateVerdict::kNotWhole);
+  EXPECT_EQ(VerdictOn(Steady(), more), GateVerdict::kIncomplete);
   Snapshot less = baseline;
   less.scenarios[0].cells.pop_back();
   EXPECT_EQ(VerdictOn(Steady(), less), GateVerdict::kPassed);

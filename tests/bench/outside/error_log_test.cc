@@ -20,7 +20,7 @@ TEST(ErrorLog, TrimmingGivesMemoryBackAndLosesNothingSaidMeanwhile) {
   struct stat status {};
   ASSERT_EQ(::stat(log.path().c_str(), &status), 0);
   EXPECT_GT(status.st_size, 5L << 20);
-  EXPECT_LT(status.st_blocks * 512, ErrorLog::kLargest + (1 << 20) + (64 << 10));
+  EXPECT_LT(status.st_blocks * 512, ErrorLog::kMaxBytes + (1 << 20) + (64 << 10));
   log.Trim();
   EXPECT_EQ(log.LastLine(), "the last words");
 }

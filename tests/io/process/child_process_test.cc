@@ -227,7 +227,7 @@ TEST(ChildProcess, InASpaceOfItsOwnItTakesAllThatItHasStartedWithIt) {
 
 TEST(ChildProcess, ReadsWhatItIsToldFromItsDescriptors) {
   auto child = ChildProcess::Start(
-      {.program = "/bin/sh", .arguments = {"-c", "cat <&3; echo; cat <&4; echo"}, .told = {"one", "two"}});
+      {.program = "/bin/sh", .arguments = {"-c", "cat <&3; echo; cat <&4; echo"}, .inherited_texts = {"one", "two"}});
   ASSERT_TRUE(child);
   EXPECT_THAT(LinesUntilEnd(*child), ::testing::ElementsAre("one", "two"));
 }

@@ -32,8 +32,8 @@ Result<ChildProcess> Start(const FencedCommand& command) {
   return ChildProcess::Start({.program = command.words[0],
                               .arguments = {command.words.begin() + 1, command.words.end()},
                               .limited = true,
-                              .contained = !command.told.empty(),
-                              .told = command.told,
+                              .contained = !command.inherited_texts.empty(),
+                              .inherited_texts = command.inherited_texts,
                               .environment = command.environment});
 }
 

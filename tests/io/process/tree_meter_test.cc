@@ -200,7 +200,7 @@ TEST(TreeMeter, CountsSocketsThatNoProcessHasOpen) {
                                     .arguments = {command.words.begin() + 1, command.words.end()},
                                     .limited = true,
                                     .contained = true,
-                                    .told = command.told});
+                                    .inherited_texts = command.inherited_texts});
   ASSERT_TRUE(child);
   EXPECT_EQ(NextAnswer(*child), "held");
   TreeMeter meter(child->number());
