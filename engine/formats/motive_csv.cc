@@ -1,5 +1,7 @@
 #include "engine/formats/motive_csv.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -143,6 +145,10 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
       }
       frame.push_back(is_seen ? std::optional(at) : std::nullopt);
     }
+  }
+  const auto announced = MotiveNumber(ValueBehind(facts, "Total Exported Frames"));
+  if (announced && *announced > static_cast<double>(motion.frames.size())) {
+    motion.remark = fmt::format("{} rows where {:g} frames are announced", motion.frames.size(), *announced);
   }
   // Without a time in any row, the frames' numbers are the clock.
   if (std::ranges::all_of(rows.times_s, [](double time) { return std::isnan(time); })) {

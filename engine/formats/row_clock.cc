@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMaxStep_s = 600, kMaxBridged_s = 1, kMinSpan_s = 0.5;
 constexpr double kBriefTolerance = 0.05;
-constexpr double kEven = 0.1, kMaxEven = 0.45;  // of a frame
+constexpr double kEven = 0.1, kMaxEven = 0.45, kExact = 1e-4;  // of a frame
 constexpr double kMaxAddedValues = 1e7;
 
 /// Returns the power of ten, at most 0.1, of which all times are multiples because they were printed with so many
@@ -111,24 +111,34 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
   ASSIGN_OR_RETURN(const auto rows, CountingRows(times_s, lines, file));
   if (rows.size() < 2) return std::nullopt;
 
-  // Choose the rate: the one told, a whole one, or the one that fits the steps.
+  // Fit the rate to the steps.
   std::vector<double> steps;
   for (std::size_t i = 1; i < rows.size(); ++i) steps.push_back(times_s[rows[i]] - times_s[rows[i - 1]]);
   const double start = times_s[rows.front()], span = times_s[rows.back()] - start;
-  RowGrid grid{.rate_hz = FittedRate(steps), .frames = {}, .remark = {}};
-  const double printed = 1.05 * PrintedStep(times_s);
-  const auto tolerance = [&] { return std::clamp(printed * grid.rate_hz, kEven, kMaxEven); };
-  const auto lies_within = [&](double rate) { return std::abs(grid.rate_hz - rate) * span <= tolerance(); };
+  const double printed = 1.05 * PrintedStep(times_s), fitted = FittedRate(steps);
+  const auto tolerance = [&](double rate) { return std::clamp(printed * rate, kEven, kMaxEven); };
+  const auto fits = [&](double rate, double slack) {
+    return rate > 0 && std::ranges::all_of(rows, [&](std::size_t row) {
+             const double place = (times_s[row] - start) * rate;
+             return std::abs(place - std::round(place)) <= slack;
+           });
+  };
   const bool is_brief = told_hz && span < kMinSpan_s;
-  if (is_brief && std::abs(grid.rate_hz / *told_hz - 1) > kBriefTolerance) return std::nullopt;
-  if (told_hz && (is_brief || lies_within(*told_hz))) {
+  if (is_brief && std::abs(fitted / *told_hz - 1) > kBriefTolerance) return std::nullopt;
+  // Of these rates, the first at which all rows lie on frames: told, whole, one at which the last row lies on a frame.
+  RowGrid grid{.rate_hz = fitted, .frames = {}, .remark = {}};
+  const double whole = std::round(fitted), to_last = std::round(span * fitted) / span;
+  const bool is_near = told_hz && std::abs(fitted - *told_hz) * span <= kMaxEven;
+  if (is_brief || (is_near && fits(*told_hz, tolerance(*told_hz)))) {
     grid.rate_hz = *told_hz;
-  } else if (const double whole = std::round(grid.rate_hz); whole > 0 && lies_within(whole)) {
+  } else if (std::abs(fitted - whole) * span <= kMaxEven && fits(whole, std::clamp(printed * whole, kExact, kMaxEven))) {
     grid.rate_hz = whole;
+  } else if (fits(to_last, tolerance(to_last))) {
+    grid.rate_hz = to_last;
   }
 
   // Refuse holes that would take too much memory.
-  const double slack = tolerance(), count = std::floor(span * grid.rate_hz + slack) + 1;
+  const double slack = tolerance(grid.rate_hz), count = std::floor(span * grid.rate_hz + slack) + 1;
   const double added = (count - static_cast<double>(rows.size())) * static_cast<double>(width);
   if (!(added <= kMaxAddedValues)) {
     return Fail({file}, "{} rows in {:.6g} s, mostly {:.3g} s apart; allowed: holes of {:g} values in all, {} a frame",

@@ -99,7 +99,9 @@ TEST(BvhRoundTrip, KeepsJointsOfAnySceneWhereTheyAreAndWhatRestsWithoutMoving) {
     const bool rests_as_before = seed % 2 == 0 && seed % 4 < 2 && seed % 3 == 0;
     Clip rooted = clip;
     rooted.skeleton.joints.front().rest.translation = glm::dvec3(0);
-    if (rests_as_before) EXPECT_LT(WorstDistance(Resting(rooted), Resting(again)), 1e-5);
+    if (rests_as_before) {
+      EXPECT_LT(WorstDistance(Resting(rooted), Resting(again)), 1e-5);
+    }
     for (const Joint& joint : again.skeleton.joints) EXPECT_EQ(joint.rest.rotation, glm::dquat(1, 0, 0, 0));
   }
 }
