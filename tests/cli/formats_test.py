@@ -241,7 +241,7 @@ class Formats(MotionFileCase):
         path = self.folder / "poses.npy"
         numpy.save(path, (1000 * places).astype("f4"))
         told = self.info(path)["clips"][0]
-        self.assertIn("layout etude, 1 unit = 0.1 cm, no rate in the file: 30 Hz are assumed", told["body"]["note"])
+        self.assertIn("layout etude, 1 unit = 0.1 cm; no rate in the file: 30 Hz are assumed", told["body"]["note"])
         self.assert_read_back(path, places)
         order = ["hip_centre", "right_hip", "right_knee", "right_ankle", "left_hip", "left_knee", "left_ankle", "spine",
                  "shoulder_centre", "head", "head", "left_shoulder", "left_elbow", "left_wrist", "right_shoulder",
