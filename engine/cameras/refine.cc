@@ -2,6 +2,7 @@
 
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/crs_matrix.h>
+#include <ceres/jet.h>
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
@@ -11,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "engine/cameras/angle_axis.h"
 #include "engine/cameras/camera_parameters.h"
@@ -27,11 +29,40 @@ constexpr std::array<const char*, kIntrinsicsCount> kIntrinsicsNames = {
 /// target.
 constexpr int kPoseCount = 6;
 
+/// Returns true if a lens has more than the five coefficients that are estimated.
+bool IsBeyondBrown(const Distortion& d) {
+  const Distortion brown{.k1 = d.k1, .k2 = d.k2, .p1 = d.p1, .p2 = d.p2, .k3 = d.k3};
+  return d != brown;
+}
+
+/// Distorts a ray by any lens, for Ceres: the derivatives are those of `Distort` by central differences.
+std::array<double, 2> DistortByAny(const Distortion& lens, double x, double y) {
+  const glm::dvec2 shown = Distort(lens, {x, y});
+  return {shown.x, shown.y};
+}
+template <int kCount>
+std::array<ceres::Jet<double, kCount>, 2> DistortByAny(const Distortion& lens, const ceres::Jet<double, kCount>& x,
+                                                       const ceres::Jet<double, kCount>& y) {
+  constexpr double kStep = 1e-6;
+  const glm::dvec2 ray(x.a, y.a), shown = Distort(lens, ray);
+  const auto slope = [&](const glm::dvec2& step) {
+    return (Distort(lens, ray + step) - Distort(lens, ray - step)) / (2 * kStep);
+  };
+  const glm::dvec2 by_x = slope({kStep, 0}), by_y = slope({0, kStep});
+  std::array<ceres::Jet<double, kCount>, 2> distorted;
+  for (int i = 0; i < 2; ++i) {
+    distorted[i].a = shown[i];
+    distorted[i].v = by_x[i] * x.v + by_y[i] * y.v;
+  }
+  return distorted;
+}
+
 /// The reprojection error of a point. It repeats the five-coefficient distortion of camera.h because Ceres
-/// differentiates it.
+/// differentiates it; any other lens is held fixed.
 struct ReprojectionError {
   glm::dvec3 p_TQ;
   glm::dvec2 pixel;
+  std::optional<Distortion> fixed_lens;
 
   template <typename T>
   bool operator()(const T* intrinsics, const T* camera, const T* target, T* residual) const {
@@ -45,8 +76,13 @@ struct ReprojectionError {
     const T x = in_camera[0] / in_camera[2], y = in_camera[1] / in_camera[2];
     const T r2 = x * x + y * y;
     const T gain = 1.0 + r2 * (intrinsics[kK1] + r2 * (intrinsics[kK2] + r2 * intrinsics[kK3]));
-    const T xd = x * gain + 2.0 * intrinsics[kP1] * x * y + intrinsics[kP2] * (r2 + 2.0 * x * x);
-    const T yd = y * gain + intrinsics[kP1] * (r2 + 2.0 * y * y) + 2.0 * intrinsics[kP2] * x * y;
+    T xd = x * gain + 2.0 * intrinsics[kP1] * x * y + intrinsics[kP2] * (r2 + 2.0 * x * x);
+    T yd = y * gain + intrinsics[kP1] * (r2 + 2.0 * y * y) + 2.0 * intrinsics[kP2] * x * y;
+    if (fixed_lens) {
+      const auto distorted = DistortByAny(*fixed_lens, x, y);
+      xd = distorted[0];
+      yd = distorted[1];
+    }
     residual[0] = intrinsics[kFx] * xd + intrinsics[kSkew] * yd + intrinsics[kCx] - pixel.x;
     residual[1] = intrinsics[kFy] * yd + intrinsics[kCy] - pixel.y;
     return true;
@@ -170,7 +206,9 @@ class Bundle {
       Camera& camera = rig.cameras[i];
       camera.intrinsics = {
           camera.intrinsics.width, camera.intrinsics.height, in[kFx], in[kFy], in[kCx], in[kCy], in[kSkew]};
-      camera.distortion = {.k1 = in[kK1], .k2 = in[kK2], .p1 = in[kP1], .p2 = in[kP2], .k3 = in[kK3]};
+      if (options_.lens != LensModel::kAsInCamera) {
+        camera.distortion = {.k1 = in[kK1], .k2 = in[kK2], .p1 = in[kP1], .p2 = in[kP2], .k3 = in[kK3]};
+      }
       camera.R_CW = RotationOf(cameras_[i]);
       camera.p_WC = -(glm::transpose(camera.R_CW) * glm::dvec3(cameras_[i][3], cameras_[i][4], cameras_[i][5]));
     }
@@ -190,9 +228,12 @@ class Bundle {
   };
 
   void AddView(const TargetView& view) {
+    const Distortion& lens = guess_.cameras[view.camera].distortion;
+    const bool is_fixed = options_.lens == LensModel::kAsInCamera && IsBeyondBrown(lens);
+    const std::optional<Distortion> fixed = is_fixed ? std::optional(lens) : std::nullopt;
     for (const PointPair& pair : view.pairs) {
       using Cost = ceres::AutoDiffCostFunction<ReprojectionError, 2, kIntrinsicsCount, kPoseCount, kPoseCount>;
-      problem_.AddResidualBlock(new Cost(new ReprojectionError{pair.world, pair.pixel}), nullptr,
+      problem_.AddResidualBlock(new Cost(new ReprojectionError{pair.world, pair.pixel, fixed}), nullptr,
                                 intrinsics_[view.camera].data(), cameras_[view.camera].data(),
                                 targets_[view.target].data());
     }

@@ -292,15 +292,16 @@ std::string NameWithoutFolderAndExtension(std::string_view file) {
   return std::string(base.substr(0, base.find_last_of('.')));
 }
 
-/// Returns true if all joints below the root have offset 0, and one of them has a position in the frame.
-bool LeavesOffsetsToFrames(const Skeleton& skeleton, const LocalPose& frame) {
-  bool is_placed = false;
+/// Gives joints below the root with an offset of 0 the positions of the first frame at rest. Returns their number.
+std::size_t TakeOffsetsFromFrame(const LocalPose& frame, Skeleton& skeleton) {
+  std::size_t taken = 0;
   for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
-    if (skeleton.joints[i].parent < 0) continue;
-    if (skeleton.joints[i].rest.translation != glm::dvec3(0)) return false;
-    is_placed = is_placed || frame[i].translation != glm::dvec3(0);
+    LocalTransform& rest = skeleton.joints[i].rest;
+    if (skeleton.joints[i].parent < 0 || rest.translation != glm::dvec3(0)) continue;
+    rest.translation = frame[i].translation;
+    if (rest.translation != glm::dvec3(0)) ++taken;
   }
-  return is_placed;
+  return taken;
 }
 
 }  // namespace
@@ -338,13 +339,9 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
     return Fail(scanner.At(header.frames_place), "{} frames announced; the file holds {}", announced,
                 clip.frames.size());
   }
-  // If all offsets are 0, take the rest pose from the first frame.
-  if (LeavesOffsetsToFrames(clip.skeleton, clip.frames.front())) {
-    for (std::size_t i = 0; i < clip.skeleton.joints.size(); ++i) {
-      if (clip.skeleton.joints[i].parent < 0) continue;
-      clip.skeleton.joints[i].rest.translation = clip.frames.front()[i].translation;
-    }
-    remark("all OFFSETs are 0: the first frame's places are taken for the rest pose");
+  // Offsets of 0 beside positions tell no rest pose.
+  if (const std::size_t taken = TakeOffsetsFromFrame(clip.frames.front(), clip.skeleton); taken > 0) {
+    remark(fmt::format("{} joints with positions have an OFFSET of 0: they rest where the first frame has them", taken));
   }
   return clip;
 }

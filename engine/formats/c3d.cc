@@ -1,5 +1,7 @@
 #include "engine/formats/c3d.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -168,8 +170,9 @@ std::size_t CountFrames(const Bytes& bytes, const Parameters& parameters) {
   };
   const auto begin = field("TRIAL:ACTUAL_START_FIELD"), end = field("TRIAL:ACTUAL_END_FIELD");
   if (begin && end && *end >= *begin) frames = *end - *begin + 1;
-  // If the number exceeds the header's words, POINT:FRAMES may hold it as a float.
+  // If the number exceeds the header's words, POINT:LONG_FRAMES holds it, or POINT:FRAMES does as a float.
   if (const auto told = parameters.Number("POINT:FRAMES"); told && last >= 65535 && *told > frames) frames = *told;
+  if (const auto told = parameters.Number("POINT:LONG_FRAMES"); told && *told > frames) frames = *told;
   return frames >= 1 && frames <= kMaxC3dFrames ? static_cast<std::size_t>(frames) : 0;
 }
 
@@ -248,12 +251,20 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
       places[point] = PointAt(all, at, layout);
     }
   }
+  // Say if more data follow than the last frame and the rest of its block.
+  const std::size_t end = layout.begin + frames * layout.frame_bytes;
+  const std::size_t data_end = parameters_at >= end ? parameters_at : bytes.size();
+  const std::size_t padded = (end + kC3dBlock - 1) / kC3dBlock * kC3dBlock;
+  if (data_end >= padded + layout.frame_bytes &&
+      bytes.substr(padded, data_end - padded).find_first_not_of('\0') != std::string_view::npos) {
+    read.markers.remark = fmt::format("data of {} more frames follow the {} that its header tells: not read",
+                                      (data_end - end) / layout.frame_bytes, frames);
+  }
   return read;
 }
 
 namespace {
 
-constexpr std::size_t kBlock = 512;
 constexpr std::size_t kMaxNamesPerParameter = 255;
 
 void PutWord(std::string& bytes, std::size_t value) {
@@ -279,7 +290,7 @@ std::string Float(double value) {
   return bytes;
 }
 
-void PadToBlock(std::string& bytes) { bytes.resize((bytes.size() + kBlock - 1) / kBlock * kBlock, '\0'); }
+void PadToBlock(std::string& bytes) { bytes.resize((bytes.size() + kC3dBlock - 1) / kC3dBlock * kC3dBlock, '\0'); }
 
 /// Writes a parameter section, which holds groups and their parameters.
 class ParameterWriter {
@@ -352,7 +363,7 @@ std::string ParameterSection(const MarkerMotion& motion, std::size_t data_block)
   section += parameters.bytes();
   section += '\0';  // end of the parameters
   PadToBlock(section);
-  section[2] = static_cast<char>(section.size() / kBlock);
+  section[2] = static_cast<char>(section.size() / kC3dBlock);
   return section;
 }
 
@@ -362,7 +373,7 @@ std::string WriteC3d(const MarkerMotion& motion) {
   constexpr std::size_t kMaxWord = 65535;
   constexpr double kMillimetres = 1000;
   // Write the header block.
-  const std::size_t blocks = ParameterSection(motion, 0).size() / kBlock;
+  const std::size_t blocks = ParameterSection(motion, 0).size() / kC3dBlock;
   const std::size_t data_block = 2 + blocks;
   std::string bytes("\x02\x50", 2);
   PutWord(bytes, motion.names.size());

@@ -21,7 +21,8 @@ struct C3d {
 bool IsC3d(std::string_view bytes);
 
 /// Reads the points of a C3D file (c3d.org's format). It accepts files of Intel, DEC and MIPS machines, whole numbers
-/// and floats, parameters at any block, more than 255 points (LABELS2 …) and more than 65,535 frames (TRIAL's fields).
+/// and floats, parameters at any block, more than 255 points (LABELS2 …) and more than 65,535 frames (TRIAL's fields,
+/// LONG_FRAMES). The remark tells of data beyond the last frame.
 /// A point with a negative residual or without finite coordinates counts as not seen. Analogue channels, rotations and
 /// events are ignored. Returns an error if the file is not C3D or is truncated, has no points or no rate, has a unit
 /// other than m, cm, mm, in, ft, or more than 10,000 points or 10⁷ frames.

@@ -138,8 +138,7 @@ Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional
       if (place) *place *= unit;
     }
   }
-  note = fmt::format("layout {}, 1 unit = {:g} cm, no rate in the file: {:g} Hz are assumed", found.name, 100 * unit,
-                     kJudgedRateHz);
+  note = fmt::format("layout {}, 1 unit = {:g} cm", found.name, 100 * unit);
   return motion;
 }
 

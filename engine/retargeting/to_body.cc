@@ -195,7 +195,9 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
   for (std::size_t i = 0; i < count; ++i) {
     const double frame = std::min(static_cast<double>(i) * clip.rate_hz / rate_hz, frames);
     poses.push_back(Upright(sampler.At(static_cast<double>(first) + frame), up));
-    if (!IsFinite(poses.back())) return Fail({file}, "in frame {:.0f} joints lie beyond all measure", frame);
+    if (!IsFinite(poses.back())) {
+      return Fail({file}, "in frame {:.0f} joints lie beyond all measure", static_cast<double>(first) + frame);
+    }
   }
   return poses;
 }

@@ -15,6 +15,7 @@
 #include "engine/formats/joint_csv.h"
 #include "engine/formats/motive_csv.h"
 #include "engine/formats/npz.h"
+#include "engine/formats/row_clock.h"
 #include "engine/formats/text_scanner.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/edit.h"
@@ -81,7 +82,7 @@ ClipFile FileOfOne(ClipFormat format, Clip clip) {
 }
 
 /// Makes a clip file of a motion that is a body already; `note` says where it comes from.
-ClipFile FileOfBody(ClipFormat format, const BodyMotion& motion, const std::string& path, const char* note) {
+ClipFile FileOfBody(ClipFormat format, const BodyMotion& motion, const std::string& path, const std::string& note) {
   ClipFile file = FileOfOne(format, RigClip(motion, StandingPose(), fs::path(path).stem().string()));
   file.notes = {note};
   return file;
@@ -150,10 +151,16 @@ Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const st
 
 Result<ClipFile> ReadJointTable(std::string_view text, const std::string& path) {
   ASSIGN_OR_RETURN(const auto csv, ReadJointCsv(text, path));
-  MarkerMotion markers{.rate_hz = csv.rate_hz.value_or(kJudgedRateHz), .names = {}, .frames = {}};
-  for (const Role role : AllRoles()) markers.names.emplace_back(RoleName(role));
-  for (const auto& frame : csv.frames) markers.frames.emplace_back(frame.begin(), frame.end());
-  return FileOfMarkers(ClipFormat::kCsv, std::move(markers), path, 'Y');
+  MarkerRows rows{.markers = {.names = {}, .frames = {}}, .times_s = csv.times_s, .lines = csv.lines};
+  for (const Role role : AllRoles()) rows.markers.names.emplace_back(RoleName(role));
+  for (const auto& frame : csv.frames) rows.markers.frames.emplace_back(frame.begin(), frame.end());
+  // Without times, the frames' numbers are the clock, at an assumed rate.
+  const bool has_rate = csv.rate_hz.has_value();
+  if (!has_rate) rows.times_s = TimesOfNumbers(csv.numbers, kJudgedRateHz);
+  ASSIGN_OR_RETURN(auto markers, LayOnClock(std::move(rows), path));
+  ASSIGN_OR_RETURN(auto file, FileOfMarkers(ClipFormat::kCsv, std::move(markers), path, 'Y'));
+  file.has_rate = has_rate;
+  return file;
 }
 
 /// Reads a file of markers; returns nullopt if the file is of another kind.
@@ -317,6 +324,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     ASSIGN_OR_RETURN(const auto joints, JointsOfArray(array, layout, path, note));
     ASSIGN_OR_RETURN(file, FileOfMarkers(ClipFormat::kNpy, joints, path));
     for (std::string& told : file.notes) told += "; " + note;
+    file.has_rate = false;
     return file;
   }
   // Markers, and recordings of runs.
@@ -324,8 +332,9 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   if (recorded != nullptr && recorded->IsRecording(bytes)) return recorded->Read(bytes, path);
   // Text formats of bodies: OpenSim's angles and DeepMimic's motions.
   if (first.text == "Coordinates" && HasModelOfAngles(bytes)) {
-    ASSIGN_OR_RETURN(const auto motion, ReadOpenSimMotion(bytes, path));
-    return FileOfBody(ClipFormat::kMot, motion, path, "angles of the model in the file's head");
+    std::string note = "angles of the model in the file's head";
+    ASSIGN_OR_RETURN(const auto motion, ReadOpenSimMotion(bytes, path, &note));
+    return FileOfBody(ClipFormat::kMot, motion, path, note);
   }
   if (first.text == "{" && IsDeepMimicMotion(bytes)) {
     ASSIGN_OR_RETURN(auto clip, ReadDeepMimicMotion(bytes, path));
@@ -342,11 +351,13 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     if (is_fbx) {
       ASSIGN_OR_RETURN(fbx, ReadFbx(bytes, path));
       file.remarks.push_back("read by " + fbx.reader);
+      if (!fbx.remark.empty()) file.remarks.push_back(fbx.remark);
     }
-    ASSIGN_OR_RETURN(auto content,
-                     ReadGltf(
-                         is_fbx ? fbx.glb : bytes, path,
-                         [&](const std::string& uri) { return ReadBeside(path, uri, reader); }, DecodeTexture));
+    auto read = ReadGltf(
+        is_fbx ? fbx.glb : bytes, path, [&](const std::string& uri) { return ReadBeside(path, uri, reader); },
+        DecodeTexture);
+    if (!read && is_fbx) return Fail({path}, "an FBX file whose motion is refused: {}", read.error().message);
+    ASSIGN_OR_RETURN(auto content, std::move(read));
     for (std::string& remark : content.remarks) file.remarks.push_back(std::move(remark));
     file.figure = std::move(content.character);
     file.clips = std::move(content.clips);
@@ -384,6 +395,10 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   const bool is_recording = file.format == ClipFormat::kRecording;
   if (!is_recording && options.roles && options.roles->rate_hz) {
     for (Clip& clip : file.clips) clip.rate_hz = *options.roles->rate_hz;
+  } else if (!file.has_rate) {
+    for (std::string& told : file.notes) {
+      told += fmt::format("; no rate in the file: {:g} Hz are assumed", kJudgedRateHz);
+    }
   }
   if (is_recording && wanted.animation == "") wanted.animation = options.recorded->OwnTrack(file.clips);
   // A file of one motion: a '#' chooses nothing, except the layout of an .npy array.

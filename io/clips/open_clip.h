@@ -48,6 +48,7 @@ struct ClipFile {
   std::vector<std::string> notes = {};    ///< for clips that are bodies already: how each was made of markers
   std::vector<std::string> remarks = {};  ///< repairs that were made while reading
   std::optional<JointMapOverrides> roles = {};  ///< roles that the bone table of a VRM file assigns
+  bool has_rate = true;  ///< false: the file tells no rate, and the judged one was assumed
 };
 
 /// The maximum size of a file, or of a .gltf with its buffers, bytes. A larger file is refused before memory is taken.

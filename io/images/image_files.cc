@@ -111,7 +111,9 @@ void WriteExr(const View& view, const NormalImage& normals, std::span<const Dept
   }
   // Depth, labels, normals, and further depth images.
   if (!view.depth.pixels.empty()) add(kDepthChannel, Imf::FLOAT, view.depth.pixels.data(), sizeof(float));
-  if (!view.labels.pixels.empty()) add(kLabelChannel, Imf::UINT, view.labels.pixels.data(), sizeof(std::uint32_t));
+  // Labels are floats, because readers of web pages (three.js, parse-exr) misread files with whole numbers.
+  const std::vector<float> labels(view.labels.pixels.begin(), view.labels.pixels.end());
+  if (!labels.empty()) add(kLabelChannel, Imf::FLOAT, labels.data(), sizeof(float));
 
   for (int i = 0; i < 3 && !normals.pixels.empty(); ++i) {
     add(kNormalChannels[i], Imf::FLOAT, &normals.pixels.front()[i], sizeof(glm::vec3));

@@ -36,7 +36,7 @@ struct DepthChannel {
 };
 
 /// Returns the bytes of an OpenEXR file (ZIP, lossless) with the channels R, G, B (half; linear light, 1 is the
-/// brightest value of an 8-bit picture), Z (float, metres along the viewing axis), label (uint), N.X, N.Y, N.Z (float,
+/// brightest value of an 8-bit picture), Z (float, metres along the viewing axis), label (float, a whole number below 2²⁴), N.X, N.Y, N.Z (float,
 /// normals in world coordinates) and further depth images (float) under their own names. Empty pictures are left out;
 /// all others must have one size. The same pictures give the same bytes. Fails with OpenEXR's message, which names no
 /// file.

@@ -104,7 +104,7 @@ Result<void> AddFilm(std::size_t camera, const fs::path& film, const CalibrateOp
   constexpr int kUsual = 30, kPictures = 200;
   const bool is_printed = ReadPrintedBoard(options.boards.front()).has_value();
   seen.every = options.every > 0 ? options.every
-               : is_printed      ? std::max(1, static_cast<int>(facts.frames) / kPictures)
+               : is_printed      ? std::max(1, (static_cast<int>(facts.frames) + kPictures - 1) / kPictures)
                                  : kUsual;
   seen.period_s = seen.every / (facts.rate_hz > 0 ? facts.rate_hz : 1.0);
   const OnProgress progress = options.listener.progress(fmt::format("frames of {}", seen.name));

@@ -125,6 +125,23 @@ TEST(Planes, TellAnyFocalLengthOfUpToFiftyPictureWidths) {
   }
 }
 
+TEST(Planes, BoardsAreLocatedThroughAnyLens) {
+  const std::vector<Distortion> lenses = {
+      {.k1 = -0.1, .k2 = 0.03, .p1 = 0.001, .p2 = -0.001},
+      {.k1 = 0.08, .k2 = -0.02, .k3 = 0.01, .k4 = 0.006, .is_fisheye = true},
+      {.k1 = 0.2, .k2 = 0.05, .p1 = 0.002, .p2 = -0.007, .k3 = 0.02, .k4 = 0.1, .k5 = -0.03, .k6 = 0.01},
+      {.k1 = -0.25, .k2 = 0.06, .s1 = 0.01, .s2 = -0.006, .s3 = 0.02, .s4 = 0.004},
+      {.k1 = 0.15, .tau_x = 0.06, .tau_y = -0.09}};
+  for (const Distortion& lens : lenses) {
+    std::vector<Camera> cameras = TrueCameras();
+    for (Camera& camera : cameras) camera.distortion = lens;
+    const auto located = LocateBoards(cameras, Views(cameras, 6, 0));
+    ASSERT_TRUE(located) << ToString(located.error());
+    EXPECT_LT(located->rms_px, 1e-5) << lens.k1;
+    EXPECT_EQ(located->cameras[1].distortion, lens) << "cameras are held";
+  }
+}
+
 TEST(Planes, RefusedWithTheReason) {
   const std::vector<Camera> cameras = TrueCameras();
   std::vector<TargetView> views = Views(cameras, 8, 0);

@@ -438,6 +438,12 @@ TEST(ToBodyMotion, RefusesWhatGivesNoMotion) {
   const auto gone = Convert(flying);
   ASSERT_FALSE(gone);
   EXPECT_THAT(gone.error().message, HasSubstr("beyond all measure"));
+  Clip later = AtRest(testing::PersonSkeleton(), 9, 30);
+  for (std::size_t i = 3; i < 9; ++i) LowerArms(later, i);
+  At(later, 7, "Hips").translation.x = 1e300;
+  const auto counted = Convert(later);
+  ASSERT_FALSE(counted);
+  EXPECT_EQ(counted.error().message, "in frame 7 joints lie beyond all measure") << "the T-pose's frames count";
 
   const auto endless = Convert(AtRest(testing::PersonSkeleton(), 400, 0.1));
   ASSERT_FALSE(endless);
