@@ -172,6 +172,7 @@ Result<int> CoachCommand(const CoachCommandOptions& options) {
   StreamReading reading{.rate_hz = options.rate_hz};
   if (!options.format.empty()) reading.format = FindStreamFormat(options.format);
   LiveStream stream(is_live ? "the stream" : options.stream, reading, {.reflects = options.reflect});
+  coach.on_remark = [&](const std::string& remark) { fmt::print(stderr, "{}\n", remark); };
   LiveCoach live(transitions, *recogniser, coach, PrintLine);
   RETURN_IF_ERROR(live.Follow(is_live ? std::cin : file, stream));
   if (options.timing) TellTiming(live.times_ms());

@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/output_file.h"
+#include "engine/streams/stream_maker.h"
 #include "io/files/files.h"
 #include "sim/skeleton_sensor/options.h"
 #include "tools/sensor_fit/fit.h"
@@ -76,9 +77,21 @@ double MissingShare(const JointRecording& recording) {
   return all > 0 ? static_cast<double>(missing) / all : 0;
 }
 
+/// Describes how a sensor is turned or tilted that gives reason to; "" otherwise. Statistics are along its line of
+/// sight and across, so a turn about that changes none.
+std::string DescribeTurn(const JointRecording& recording) {
+  std::vector<RecordedFrame> frames(recording.frames.size());
+  for (std::size_t t = 0; t < frames.size(); ++t) frames[t].places = recording.frames[t];
+  const StreamLevel level = recording.sensor_at ? EstimateLevel(frames, recording.rate_hz) : StreamLevel{};
+  if (level.turn_deg != 0) return fmt::format("; the sensor is turned by {} degrees", level.turn_deg);
+  if (level.trunk_deg == 0) return "";
+  return fmt::format("; trunks are {:.0f} degrees from up: who lies, or a tilted sensor", level.trunk_deg);
+}
+
 std::string DescribeRecording(const JointRecording& recording) {
-  return fmt::format("{} frames at {:g} Hz, {:.1f} s; {:.1f} % of the joints missing", recording.frames.size(),
-                     recording.rate_hz, recording.DurationSeconds(), 100 * MissingShare(recording));
+  return fmt::format("{} frames at {:g} Hz, {:.1f} s; {:.1f} % of the joints missing{}", recording.frames.size(),
+                     recording.rate_hz, recording.DurationSeconds(), 100 * MissingShare(recording),
+                     DescribeTurn(recording));
 }
 
 Json FactsOf(const std::string& file, const JointRecording& recording) {

@@ -187,13 +187,16 @@ class Bundle {
         eigen.eigenvectors() * eigen.eigenvalues().cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
     const double freedom = 2.0 * static_cast<double>(points_) - static_cast<double>(parameters());
     const double sigma = freedom > 0 ? std::sqrt(2 * cost_ / freedom) : 0;
+    const Eigen::VectorXd by_views =
+        VariancesByViews(scale.cwiseInverse().asDiagonal() * inverse * scale.cwiseInverse().asDiagonal());
     std::vector<IntrinsicsDeviation> deviations(intrinsics_.size());
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       if (columns_[i].intrinsic < 0 || columns_[i].intrinsic > kCy) continue;
       IntrinsicsDeviation& of = deviations[columns_[i].camera];
       double* const members[] = {&of.fx, &of.fy, &of.cx, &of.cy};
       const auto at = static_cast<Eigen::Index>(i);
-      *members[columns_[i].intrinsic] = sigma * std::sqrt(std::max(0.0, inverse(at, at))) / scale[at];
+      const double independent = sigma * std::sqrt(std::max(0.0, inverse(at, at))) / scale[at];
+      *members[columns_[i].intrinsic] = std::max(independent, std::sqrt(by_views[at]));
     }
     return deviations;
   }
@@ -260,7 +263,7 @@ class Bundle {
     return ordering;
   }
 
-  // Returns JᵀJ over the free parameters, and sets columns_ and cost_.
+  // Returns JᵀJ over the free parameters, and sets columns_, cost_, jacobian_ and residuals_.
   Eigen::MatrixXd NormalMatrix() {
     ceres::Problem::EvaluateOptions evaluate;
     columns_.clear();
@@ -280,8 +283,8 @@ class Bundle {
       columns_.insert(columns_.end(), kPoseCount, Column{intrinsics_.size() + i, -1});
     }
     // Evaluate the Jacobian and sum up its products.
-    ceres::CRSMatrix jacobian;
-    problem_.Evaluate(evaluate, &cost_, nullptr, nullptr, &jacobian);
+    problem_.Evaluate(evaluate, &cost_, &residuals_, nullptr, &jacobian_);
+    const ceres::CRSMatrix& jacobian = jacobian_;
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(jacobian.num_cols, jacobian.num_cols);
     for (int row = 0; row < jacobian.num_rows; ++row) {
       for (int a = jacobian.rows[row]; a < jacobian.rows[row + 1]; ++a) {
@@ -291,6 +294,29 @@ class Bundle {
       }
     }
     return normal;
+  }
+
+  // Returns the variances of the free parameters if the corners of one view err together (a blur, a bent board, a
+  // finder's bias): the sandwich A⁻¹ (Σ g gᵀ) A⁻¹ with the gradient g of each view, enlarged as for few groups (Cameron
+  // and Miller 2015, CR1). Zeros with fewer than four views.
+  Eigen::VectorXd VariancesByViews(const Eigen::MatrixXd& inverse) const {
+    Eigen::VectorXd variances = Eigen::VectorXd::Zero(inverse.rows());
+    constexpr std::size_t kMinViews = 4;
+    if (views_.size() < kMinViews) return variances;
+    int row = 0;
+    for (const TargetView& view : views_) {
+      Eigen::VectorXd gradient = Eigen::VectorXd::Zero(inverse.rows());
+      for (const int end = row + 2 * static_cast<int>(view.pairs.size()); row < end; ++row) {
+        for (int k = jacobian_.rows[row]; k < jacobian_.rows[row + 1]; ++k) {
+          gradient[jacobian_.cols[k]] += jacobian_.values[k] * residuals_[row];
+        }
+      }
+      variances += (inverse * gradient).cwiseAbs2();
+    }
+    const auto views = static_cast<double>(views_.size()), equations = 2.0 * static_cast<double>(points_);
+    const double few =
+        views / (views - 1) * (equations - 1) / std::max(1.0, equations - static_cast<double>(parameters()));
+    return few * variances;
   }
 
   tl::unexpected<Error> Undetermined(std::size_t column) const {
@@ -312,6 +338,8 @@ class Bundle {
   ceres::Problem problem_;
   std::vector<Column> columns_;
   double cost_ = 0;
+  ceres::CRSMatrix jacobian_;
+  std::vector<double> residuals_;
 };
 
 Result<void> CheckViews(const RigGuess& guess, std::span<const TargetView> views) {

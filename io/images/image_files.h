@@ -15,8 +15,8 @@ namespace etude {
 // side are refused before memory is taken. Errors name the file unless stated otherwise.
 
 /// Returns the bytes of a PNG file, for embedding in a page. The same picture gives the same bytes. `image` must have
-/// at least one pixel.
-std::string EncodePng(const ColourImage& image);
+/// at least one pixel. With `pixels_per_metre` above 0 the file says how large it is to be printed.
+std::string EncodePng(const ColourImage& image, double pixels_per_metre = 0);
 /// Returns a mask as the bytes of a grey PNG: 0 becomes black, any other value white.
 std::string EncodePng(const Mask& mask);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
 #include "engine/boards/board_views.h"
 #include "engine/boards/film_delays.h"
@@ -383,6 +384,13 @@ Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options) {
                own.with_board, own.corners));
   }
   if (!search.Told().empty()) options.listener.print(fmt::format("the board: {}\n", search.Told()));
+  for (std::size_t camera = 0; camera < seen.size(); ++camera) {
+    if (seen[camera].corners > 0) continue;
+    return Fail({options.inputs[camera]},
+                "no picture of {} shows the board {}; tell which it is by --board: Etude's own as 5x7x0.034, a ChArUco "
+                "board as charuco:5x7x0.04, a chessboard as chess:9x6x0.025",
+                seen[camera].looked, Join(options.boards));
+  }
   // Synchronise the films, calibrate, and report the residuals.
   ASSIGN_OR_RETURN(std::vector<TargetView> views, SynchroniseFilms(options, search, seen));
   ASSIGN_OR_RETURN(RefinedRig refined, CalibrateWithoutOutliers(search, options, views));
