@@ -139,7 +139,7 @@ class Streams(EtudeCase):
         self.assertIn("anna alone; leaving one person out needs two people",
                       refused(scenario, "--streams", takes / "anna.txt", "--labels", alone))
         both = self.write("both.yaml", SCENARIO + f"streams: ['{takes}']\nclips: ['builtin:*']\n")
-        self.assertIn("'streams' stands in the place of 'clips'", refused(both))
+        self.assertIn("'streams' replaces 'clips'", refused(both))
         fewer = takes / "fewer.txt"
         fewer.write_text("\n".join(" ".join(row.split()[:-3]) for row in (takes / "bo.txt").read_text().splitlines()))
         self.assertIn("57 numbers in its first row", refused(scenario, "--streams", fewer, "--labels", labels))
