@@ -191,7 +191,7 @@ class Errors(EtudeCase):
         self.write("precious.txt", "mine")
         result = self.etude("run", path, "-o", self.folder, "--overwrite")
         self.assertEqual(result.returncode, 2)
-        self.assertIn("holds something that is no run", result.stderr)
+        self.assertIn("holds something that is not part of a run", result.stderr)
         self.assertEqual((self.folder / "precious.txt").read_text(), "mine")
 
 
