@@ -150,7 +150,7 @@ class OutsideMethods(EtudeCase):
         for command, code, words in [
                 ([EXAMPLES / "ik_dls.py"], 0, "9 of 9 checks passed"),
                 ([HOSTILE, "crashes"], 1, "FAILED  gives answers that can be scored: crashed: ended with signal 11"),
-                ([self.radians()], 1, "FAILED  solves what a plain method solves: none of 3, of which damped-least-squares "
+                ([self.radians()], 1, "FAILED  solves what a plain method solves: solves none of 3; damped-least-squares "
                  "solves 3; taken for radians, its angles solve 3: degrees are asked for"),
                 ([HOSTILE, "answers_twice", json.dumps({"angles_deg": [0] * 29})], 1, "FAILED  answers every question once")]:
             result = self.etude("check-method", "--task", "ik", "--", "python3", *command)
