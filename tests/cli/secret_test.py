@@ -62,7 +62,7 @@ class SecretWorlds(EtudeCase):
         raw.write_bytes(b"".join(bytes.fromhex(KEY)[at:at + 8][::-1] for at in range(0, 32, 8)))
         raw.chmod(0o644)
         again = self.etude("run", self.scenario, "-o", self.out, "--seed-file", raw, "--jobs", 1)
-        self.assertIn("can be read by everybody", again.stderr)
+        self.assertIn("can be read by other users", again.stderr)
         self.assert_same_results(self.run_folder, self.out)
         self.run_suite(self.scenario, "--seed-file", self.other, "--reuse-key", out=self.folder / "other")
         self.assertNotEqual((self.folder / "other/cells.jsonl").read_bytes(), (self.out / "cells.jsonl").read_bytes())
@@ -87,7 +87,7 @@ class SecretWorlds(EtudeCase):
         refused = subprocess.run([ETUDE, "run", scenario, "--seed", "3", "-o", self.folder / "no"], capture_output=True,
                                  text=True, env={**os.environ, "ETUDE_SEED_KEY": KEY})
         self.assertEqual(refused.returncode, 2)
-        self.assertIn("ETUDE_SEED_KEY: is set, and --seed, too", refused.stderr)
+        self.assertIn("ETUDE_SEED_KEY: is set together with --seed", refused.stderr)
 
     def test_the_folder_is_named_by_the_digest(self):
         run = subprocess.run([ETUDE, "run", self.scenario, "--trials", "1", "--seed-file", self.key, "--reuse-key"],

@@ -206,7 +206,7 @@ class Survival(EtudeCase):
         merge.send_signal(signal.SIGINT)
         said = merge.communicate(timeout=60)[1]
         self.assertEqual(merge.returncode, 130, said)
-        self.assertIn("stopped; the shards are as they were", said)
+        self.assertIn("stopped; the shards are unchanged", said)
         self.assertFalse(self.out.exists())
         whole = self.etude("merge", *shards, "-o", self.out)
         self.assertEqual(whole.returncode, 0, whole.stderr)

@@ -146,7 +146,7 @@ class Verify(EtudeCase):
         self.assertIn("65 % of those who forge 5 % of the 20 cells (1), 1 in 12 of those who forge half of ik/fixed (5)", said)
         self.assertIn("--sample-seed 5 draws this one again", said)
         self.assertEqual(self.facts("verify", self.out, "--sample", "all")["sample"]["missed"], [])
-        self.assertIn("'some' is no sample; allowed: 0 to 10000000, or 'all'", self.verify("--sample", "some", expect=2))
+        self.assertIn("'some' is not a sample; allowed: 0 to 10000000, or 'all'", self.verify("--sample", "some", expect=2))
 
     def keys(self, name, *arguments):
         secret, public = self.folder / f"{name}.key", self.folder / f"{name}.pub"
