@@ -153,7 +153,8 @@ TEST_F(RecordedPeopleTest, RefusesWhatHasNoUseOrCannotBeJudged) {
   EXPECT_THAT(ComplaintAbout("noise: 2\n" + method, set), HasSubstr("what its sensor saw"));
   EXPECT_THAT(ComplaintAbout("methods: [{name: a, oracle: [stream]}]\n", set), HasSubstr("is unknown"));
   LabelledStreams alone = SetOf(Record(1, kDanced, 5));
-  EXPECT_THAT(ComplaintAbout(method, alone), HasSubstr("only person-0 was recorded; leaving one person out needs two people"));
+  EXPECT_THAT(ComplaintAbout(method, alone),
+              HasSubstr("only person-0 was recorded; leaving one person out needs two people"));
   LabelledStreams unnamed = set;
   unnamed.nobody = "take";
   EXPECT_THAT(ComplaintAbout(method, unnamed), HasSubstr("the person of take is unknown"));
