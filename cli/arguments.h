@@ -46,7 +46,7 @@ void AddReuseKey(CLI::App& command, bool& reuse_key);
 /// Adds -j, --jobs.
 CLI::Option* AddJobs(CLI::App& command, int& jobs);
 /// Adds --overwrite.
-CLI::Option* AddOverwrite(CLI::App& command, bool& overwrite, const std::string& help = "Replace a file that is there");
+CLI::Option* AddOverwrite(CLI::App& command, bool& overwrite, const std::string& help = "Replace an existing file");
 /// The names of the joint-map option, for every command that opens clips.
 constexpr const char* kJointMapOption = "--joint-map,--map";
 /// Adds --seed, --trials, --clips, --joint-map, --unit, --up and --rate, for every command that makes worlds from

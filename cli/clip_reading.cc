@@ -12,7 +12,8 @@
 namespace etude {
 
 void AddClipReading(CLI::App& command, ClipReading& reading, const std::string& rate) {
-  command.add_option(kJointMapOption, reading.joint_map, "Which joints play which roles (etude clip map writes one)");
+  command.add_option(kJointMapOption, reading.joint_map,
+                     "Joint map: which joints play which roles (etude clip map writes one)");
   command.add_option("--unit", reading.unit,
                      "Unit of the file: m, cm, mm, in, ft, cmu, or metres per unit (default: found by the stature)");
   command.add_option("--up", reading.up, "Axis of the file that points up: y or z (default: found)")

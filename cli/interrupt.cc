@@ -25,7 +25,7 @@ void RequestStop(int signal) {
 
 /// Ends the program at once. Only system calls are safe in a signal handler.
 void End(int) {
-  constexpr std::string_view kLine = "etude: stopped; nothing half done is kept\n";
+  constexpr std::string_view kLine = "etude: stopped; no partial result is kept\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kLine.data(), kLine.size());
   ::_exit(kInterrupted);
 }

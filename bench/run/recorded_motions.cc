@@ -75,7 +75,7 @@ class ResultFolders : public RecordedMotions {
     }
     const std::vector<FilePath> files = RecordingsOf(run, cell);
     if (files.empty()) {
-      return Fail({wanted.path}, "recorded no cell {}: a scenario's key 'video' says which are; they are in {}",
+      return Fail({wanted.path}, "recorded no cell {}; a scenario's key 'video' says which cells are recorded, into {}",
                   Quote(cell), (run / "recordings").string());
     }
     return ReferTo(files.front(), animation);

@@ -21,9 +21,9 @@ def load(folder, *, unsealed=False, program=None):
     """
     folder = pathlib.Path(folder)
     if not (folder / "manifest.json").is_file():
-        raise EtudeError(f"{folder}: is no result folder: it has no manifest.json", 2)
+        raise EtudeError(f"{folder}: is not a result folder: it has no manifest.json", 2)
     if not (folder / "summary.json").is_file():
-        raise EtudeError(f"{folder}: did not come to its end; etude.run(…, resume=True) goes on with it", 3)
+        raise EtudeError(f"{folder}: did not come to its end; etude.run(…, resume=True) continues it", 3)
     if not unsealed:
         call("cite", folder, program=program)
     return Run(folder, catalogue.metrics(program), catalogue.joints(program))

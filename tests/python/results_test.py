@@ -126,7 +126,7 @@ class Results(PythonCase):
                           (lambda: self.run_.pairs("adaptive", "fixed", condition="x=1"), "there are joint_noise_deg=5"),
                           (lambda: self.run_.motion("ik/joint_noise_deg=15/001/fixed"), "the scenario's key `video`"),
                           (lambda: list(self.run_.series("mpjpe_mm")), "no curve 'mpjpe_mm'"),
-                          (lambda: etude.load(self.folder), "is no result folder")):
+                          (lambda: etude.load(self.folder), "is not a result folder")):
             with self.assertRaises(etude.EtudeError) as raised:
                 ask()
             self.assertIn(says, str(raised.exception))

@@ -134,7 +134,7 @@ Result<std::unique_ptr<Task>> MakeCoachTask(TaskInput& input) {
   }
   if (shared.condition.sight.has_cameras && shared.condition.operating_point) {
     return Fail(input.condition.node().place,
-                "'operating_point' goes with the skeleton sensor: cameras show every method something else; say "
+                "'operating_point' needs the skeleton sensor, because cameras show every method something else; use "
                 "'threshold'");
   }
   ASSIGN_OR_RETURN(shared.stage, SharedStage(shared.condition.song));

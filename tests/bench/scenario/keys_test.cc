@@ -76,7 +76,7 @@ TEST(Keys, OfEveryScenarioAreThoseThatAreRead) {
       {"", "A file of several scenarios", AllowedBy(Complaint("scenarios: [{}]\nzzzz: 1\n"))},
       {"sweep.PARAMETER", "A range of values", complaint_of("sweep: {poses: {from: 0, to: 1, zzzz: 1}}")},
       {"expect[]", "An expectation", complaint_of("expect: [{metric: iterations, of: a, zzzz: 1}]")},
-      {"video", "What is kept for films", complaint_of("video: {zzzz: 1}")},
+      {"video", "Recordings for films", complaint_of("video: {zzzz: 1}")},
       {"limits", "Limits", complaint_of("limits: {zzzz: 1}")},
       {"gate", "The gate", complaint_of("gate: {zzzz: 1}")},
       {"gate.tail", "The gate's tail rule", complaint_of("gate: {tail: {zzzz: 1}}")},

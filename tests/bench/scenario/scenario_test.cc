@@ -21,7 +21,7 @@ TEST(Scenario, ComparesEachMethodWithTheFirstOrTheOneItNames) {
 
 TEST(Scenario, TellsWhatIsWrongAndWhere) {
   EXPECT_THAT(Complaint("question: q?\ntask: ik\n" + kMethods), HasSubstr("a scenario needs 'scenario'"));
-  EXPECT_THAT(Complaint("scenario: ../x\n" + kMethods), HasSubstr("s.yaml:1:11: '../x' is no scenario"));
+  EXPECT_THAT(Complaint("scenario: ../x\n" + kMethods), HasSubstr("s.yaml:1:11: '../x' is not a valid scenario"));
   EXPECT_THAT(
       Complaint("scenario: s\nquestion: q?\ntask: ikk\n" + kMethods),
       HasSubstr(
@@ -36,7 +36,7 @@ TEST(Scenario, TellsWhatIsWrongAndWhere) {
       Complaint(kHead + kMethods + "metrics: [position_eror_cm]\n"),
       HasSubstr("s.yaml:5:11: unknown metric of task ik 'position_eror_cm'; did you mean 'position_error_cm'?"));
   EXPECT_THAT(Complaint(kHead + kMethods + "metrics: [iterations, iterations]\n"),
-              HasSubstr("s.yaml:5:23: the metric 'iterations' stands here twice"));
+              HasSubstr("s.yaml:5:23: the metric 'iterations' is listed twice"));
   EXPECT_THAT(Complaint(kHead + kMethods + "max_swaps: 5\n"),
               HasSubstr("s.yaml:5:1: unknown key of a scenario 'max_swaps'; did you mean 'max_sweeps'?"));
 }
@@ -128,7 +128,7 @@ TEST(Scenario, TellsWhatIsWrongWithLimitsAndTheGate) {
   EXPECT_THAT(complaint("gate: {metrics: [iteration]}"), HasSubstr("s.yaml:5:18: unknown metric of task ik"));
   EXPECT_THAT(complaint("gate: {time_ratios: {of: a}}"), HasSubstr("'time_ratios' must be a list, found a mapping"));
   EXPECT_THAT(complaint("gate: {time_ratios: [{of: a}]}"), HasSubstr("s.yaml:5:22: a time ratio needs 'over'"));
-  EXPECT_THAT(complaint("gate: {time_ratios: [{of: a, over: a}]}"), HasSubstr("over itself says nothing"));
+  EXPECT_THAT(complaint("gate: {time_ratios: [{of: a, over: a}]}"), HasSubstr("needs two methods"));
   EXPECT_THAT(complaint("gate: {time_ratios: [{of: a, over: c}]}"), HasSubstr("s.yaml:5:36: unknown over 'c'"));
   EXPECT_THAT(complaint("gate: {time_ratios: [{of: a, over: b, at_most: 0}]}"), HasSubstr("'at_most': 0 is out of"));
 }
