@@ -251,8 +251,8 @@ class Bundle {
     }
   }
 
-  // Eliminate the targets first. Intrinsics and poses are groups of their own: Ceres sorts the blocks of a group by their
-  // addresses, and only those of one array have an order that the heap does not decide.
+  // Eliminate the targets first. Intrinsics and poses are groups of their own: Ceres sorts the blocks of a group by
+  // their addresses, and only those of one array have an order that the heap does not decide.
   std::shared_ptr<ceres::ParameterBlockOrdering> TargetsFirst() {
     auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
     for (PoseBlock& target : targets_) ordering->AddElementToGroup(target.data(), 0);

@@ -341,7 +341,8 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
   }
   // Offsets of 0 beside positions tell no rest pose.
   if (const std::size_t taken = TakeOffsetsFromFrame(clip.frames.front(), clip.skeleton); taken > 0) {
-    remark(fmt::format("{} joints with positions have an OFFSET of 0: they rest where the first frame has them", taken));
+    remark(
+        fmt::format("{} joints with positions have an OFFSET of 0: they rest where the first frame has them", taken));
   }
   return clip;
 }

@@ -23,9 +23,7 @@ constexpr double kMaxAddedValues = 1e7;
 double PrintedStep(std::span<const double> times) {
   constexpr double kRounding = 1e-6;
   for (double scale = 10; scale < 2e6; scale *= 10) {
-    const auto is_multiple = [&](double time) {
-      return std::abs(time * scale - std::round(time * scale)) < kRounding;
-    };
+    const auto is_multiple = [&](double time) { return std::abs(time * scale - std::round(time * scale)) < kRounding; };
     if (std::ranges::all_of(times, is_multiple)) return 1 / scale;
   }
   return 0;
@@ -131,7 +129,8 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
   const bool is_near = told_hz && std::abs(fitted - *told_hz) * span <= kMaxEven;
   if (is_brief || (is_near && fits(*told_hz, tolerance(*told_hz)))) {
     grid.rate_hz = *told_hz;
-  } else if (std::abs(fitted - whole) * span <= kMaxEven && fits(whole, std::clamp(printed * whole, kExact, kMaxEven))) {
+  } else if (std::abs(fitted - whole) * span <= kMaxEven &&
+             fits(whole, std::clamp(printed * whole, kExact, kMaxEven))) {
     grid.rate_hz = whole;
   } else if (fits(to_last, tolerance(to_last))) {
     grid.rate_hz = to_last;
@@ -184,7 +183,7 @@ Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
   if (!grid) return std::move(markers);
   if (told && grid->rate_hz != *told) {
     AddRemark(markers.remark, fmt::format("{} says {:g} Hz, but the column Time runs at {:g} Hz, which counts",
-                                       rows.rate_name, *told, grid->rate_hz));
+                                          rows.rate_name, *told, grid->rate_hz));
   }
   markers.rate_hz = grid->rate_hz;
   AddRemark(markers.remark, grid->remark);
@@ -224,7 +223,7 @@ Result<BodyMotion> LayOnClock(BodyMotion rows, std::span<const double> times_s, 
   }
   if (best_end - best_begin < grid->frames.size()) {
     AddRemark(remark, fmt::format("frames {} to {} of {} are kept (gaps of over {:g} s)", best_begin + 1, best_end,
-                               grid->frames.size(), kMaxBridged_s));
+                                  grid->frames.size(), kMaxBridged_s));
   }
   // Interpolate every joint.
   BodyMotion laid{.rate_hz = rows.rate_hz, .poses = {}};

@@ -29,11 +29,12 @@ struct RowGrid {
 
 /// Lays rows on an even grid by their times, which may be rounded to some decimals. The rate is the one that fits the
 /// steps between neighbouring rows; a whole one, or `told_hz` (of the file's header, if any), if it lies within their
-/// rounding. Rows that span less than half a second have `told_hz`, or no clock if they differ from it by more than 5 %.
-/// A frame is a row that lies within a tenth of a frame of it (or the rounding of times), else it is interpolated, or a
-/// hole if a row is missing. Of rows with equal times the last one counts. Returns nullopt if there is no clock: fewer
-/// than two rows, no time, or equal times. Fails, naming the row's line (`lines` may be empty), for a missing time,
-/// falling times, steps over ten minutes, and holes of more than ten million values in all, `width` values a frame.
+/// rounding. Rows that span less than half a second have `told_hz`, or no clock if they differ from it by more than 5
+/// %. A frame is a row that lies within a tenth of a frame of it (or the rounding of times), else it is interpolated,
+/// or a hole if a row is missing. Of rows with equal times the last one counts. Returns nullopt if there is no clock:
+/// fewer than two rows, no time, or equal times. Fails, naming the row's line (`lines` may be empty), for a missing
+/// time, falling times, steps over ten minutes, and holes of more than ten million values in all, `width` values a
+/// frame.
 Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::span<const int> lines,
                                           std::optional<double> told_hz, std::size_t width, const std::string& file);
 
@@ -44,9 +45,9 @@ std::vector<double> TimesOfNumbers(std::span<const double> numbers, double rate_
 /// Markers as rows of a file, before they are laid on its clock.
 struct MarkerRows {
   MarkerMotion markers;
-  std::vector<double> times_s;          ///< of each row; NaN if it tells none
-  std::vector<int> lines;               ///< of each row, from 1
-  std::string rate_name = "";  ///< the header that tells `markers.rate_hz`, "" if none does
+  std::vector<double> times_s;  ///< of each row; NaN if it tells none
+  std::vector<int> lines;       ///< of each row, from 1
+  std::string rate_name = "";   ///< the header that tells `markers.rate_hz`, "" if none does
 };
 /// Lays markers on their clock: in a hole no marker was seen. The remark says what was changed. Fails as GridOfRows.
 Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file);

@@ -241,8 +241,7 @@ Result<StreamRecording> ReadTrcStream(std::string_view text, const std::string& 
   const MarkerMotion& markers = rows.markers;
   RETURN_IF_ERROR(CheckMarkerNames(markers.names, file));
   // Even rows are exactly one period apart, whatever their times are rounded to.
-  ASSIGN_OR_RETURN(const auto grid,
-                   GridOfRows(rows.times_s, rows.lines, markers.rate_hz, markers.names.size(), file));
+  ASSIGN_OR_RETURN(const auto grid, GridOfRows(rows.times_s, rows.lines, markers.rate_hz, markers.names.size(), file));
   StreamRecording recording{.format = StreamFormat::kTrc, .records_times = true, .is_level = true};
   recording.rate_hz = grid ? grid->rate_hz : markers.rate_hz;
   const bool is_even = !grid || grid->is_even;

@@ -140,9 +140,10 @@ Result<std::vector<Keypoint>> PointsOfPairs(const Json& list, const Json* scores
 }
 
 Result<std::vector<Keypoint>> PointsOf(const Json& person, const Place& place) {
-  const Json* list = person.is_array()
-                         ? &person
-                         : FirstMember(person, {"keypoints", "pose_keypoints_2d", "pose_keypoints", "pose_landmarks", "landmarks"});
+  const Json* list =
+      person.is_array()
+          ? &person
+          : FirstMember(person, {"keypoints", "pose_keypoints_2d", "pose_keypoints", "pose_landmarks", "landmarks"});
   if (list == nullptr || !list->is_array() || list->empty()) {
     return Fail(place, "a person without a list of keypoints: {}", ShowJson(person));
   }

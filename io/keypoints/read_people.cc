@@ -238,7 +238,8 @@ Result<PeopleOfFilm> ReadFile(const fs::path& file, const std::string& layout, c
 }  // namespace
 
 Result<PeopleOfFilm> ReadKeypoints(const fs::path& path, const std::string& layout, const FilmOfKeypoints& of) {
-  ASSIGN_OR_RETURN(PeopleOfFilm film, fs::is_directory(path) ? ReadFolder(path, layout, of) : ReadFile(path, layout, of));
+  ASSIGN_OR_RETURN(PeopleOfFilm film,
+                   fs::is_directory(path) ? ReadFolder(path, layout, of) : ReadFile(path, layout, of));
   Denormalise(of, film);
   return film;
 }

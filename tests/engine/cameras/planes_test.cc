@@ -70,7 +70,8 @@ TEST(Planes, APoseComesBackFromItsHomography) {
   const std::vector<Camera> pinhole{LookAt({}, {0.4, 1.2, 2.5}, {0, 1, 0})};
   RandomStream dice(WorldKey{.suite_seed = 1, .scenario = "planes", .trial = 1}, "boards");
   const CalibrationTargetPose pose = AnyPose(dice);
-  const CalibrationTargetPose found = PoseOfPlane(pinhole[0].intrinsics, *HomographyOf(Views(pinhole, 1, 0).front().pairs));
+  const CalibrationTargetPose found =
+      PoseOfPlane(pinhole[0].intrinsics, *HomographyOf(Views(pinhole, 1, 0).front().pairs));
   const glm::dmat3 R_CT = pinhole[0].R_CW * pose.R_WT;
   for (int i = 0; i < 3; ++i) EXPECT_LT(glm::distance(found.R_WT[i], R_CT[i]), 1e-8);
   EXPECT_LT(glm::distance(found.p_WT, pinhole[0].R_CW * (pose.p_WT - pinhole[0].p_WC)), 1e-8);

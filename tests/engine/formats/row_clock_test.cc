@@ -159,7 +159,8 @@ TEST(RowClock, FrameNumbersAreAClock) {
 /// A take of Motive's with one marker at 120 Hz and 30 rows lost.
 std::string MotiveTake(bool has_times) {
   std::string text =
-      "Format Version,1.23,Export Frame Rate,120.000000,Total Exported Frames,240,Length Units,Meters,Coordinate Space,Global\n\n"
+      "Format Version,1.23,Export Frame Rate,120.000000,Total Exported Frames,240,Length Units,Meters,Coordinate "
+      "Space,Global\n\n"
       ",Type,Marker,Marker,Marker\n,Name,A,A,A\n,ID,1,1,1\n,,Position,Position,Position\n";
   text += has_times ? "Frame,Time (Seconds),X,Y,Z\n" : "Frame,Label,X,Y,Z\n";
   for (int k = 0; k < 240; ++k) {

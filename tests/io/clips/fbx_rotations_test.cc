@@ -69,11 +69,11 @@ FbxWriter::Node Entry(const std::string& name, std::int32_t number) {
 /// A file of three models, whose middle one tells `active`; `pre` is its PreRotation.
 std::string Models(std::uint32_t version, std::int32_t active, const std::vector<double>& pre, std::int32_t order) {
   const auto model = [](std::vector<FbxWriter::Node> entries) {
-    return FbxWriter::Node{"Model",
-                           "L" + NumberBytes(std::int64_t{7}) + TextValue("Arm") + TextValue("LimbNode"),
-                           3,
-                           {{"Version", "I" + NumberBytes(std::int32_t{232}), 1},
-                            {"Properties70", "", 0, std::move(entries)}}};
+    return FbxWriter::Node{
+        "Model",
+        "L" + NumberBytes(std::int64_t{7}) + TextValue("Arm") + TextValue("LimbNode"),
+        3,
+        {{"Version", "I" + NumberBytes(std::int32_t{232}), 1}, {"Properties70", "", 0, std::move(entries)}}};
   };
   const std::vector<double> turn = {0, 90, 0};
   return FbxWriter(version).File(
@@ -103,7 +103,8 @@ TEST(FbxRotations, AreZeroInTextWhereTheyAreNotActive) {
     return fmt::format(
         "; FBX 7.4.0 project file\nDefinitions: {{\n\tProperties70: {{\n\t\tP: \"RotationActive\", \"bool\", \"\", "
         "\"\",0\n\t}}\n}}\nObjects: {{\n\tModel: 7, \"Model::Arm\", \"LimbNode\" {{\n\t\tProperties70: {{\n\t\t\tP: "
-        "\"PreRotation\", \"Vector3D\", \"Vector\", \"\",{}\n\t\t\tP: \"RotationActive\", \"bool\", \"\", \"\",{}\n\t\t\tP: "
+        "\"PreRotation\", \"Vector3D\", \"Vector\", \"\",{}\n\t\t\tP: \"RotationActive\", \"bool\", \"\", "
+        "\"\",{}\n\t\t\tP: "
         "\"RotationOrder\", \"enum\", \"\", \"\",{}\n\t\t\tP: \"Lcl Rotation\", \"Lcl Rotation\", \"\", "
         "\"A\",1,2,3\n\t\t}}\n\t}}\n}}\n",
         pre, active, order);

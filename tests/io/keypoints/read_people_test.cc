@@ -82,7 +82,8 @@ TEST_F(ReadPeople, FramesAreLaidOnTheirTimes) {
     }
     return Write("list.json", "[" + text + "]");
   };
-  for (const auto& [key, unit] : {std::pair("timestamp_ms", 1e3), std::pair("timestamp", 1e6), std::pair("time", 1e9)}) {
+  for (const auto& [key, unit] :
+       {std::pair("timestamp_ms", 1e3), std::pair("timestamp", 1e6), std::pair("time", 1e9)}) {
     const auto film = ReadKeypoints(list(key, unit), "");
     ASSERT_TRUE(film) << ToString(film.error());
     ASSERT_EQ(film->frames.size(), 60u) << key;
@@ -99,12 +100,13 @@ TEST_F(ReadPeople, PicturesOfCocoAreLaidOnTheNumbersOfTheirNames) {
     if (k >= 10 && k < 14) continue;
     images += fmt::format("{}{{\"id\": {}, \"file_name\": \"film/frame_{:06}.PNG\"}}", images.empty() ? "" : ",",
                           100 + images.size(), k);
-    annotations += fmt::format("{}{{\"image_id\": {}, \"keypoints\": [{}]}}", annotations.empty() ? "" : ",",
-                               images.substr(images.rfind("\"id\": ") + 6, images.rfind(", \"file") - images.rfind("\"id\": ") - 6),
-                               Triples(17, fmt::format("{}, 20, 2", k)));
+    annotations += fmt::format(
+        "{}{{\"image_id\": {}, \"keypoints\": [{}]}}", annotations.empty() ? "" : ",",
+        images.substr(images.rfind("\"id\": ") + 6, images.rfind(", \"file") - images.rfind("\"id\": ") - 6),
+        Triples(17, fmt::format("{}, 20, 2", k)));
   }
-  const auto film = ReadKeypoints(
-      Write("coco.json", "{\"images\": [" + images + "], \"annotations\": [" + annotations + "]}"), "");
+  const auto film =
+      ReadKeypoints(Write("coco.json", "{\"images\": [" + images + "], \"annotations\": [" + annotations + "]}"), "");
   ASSERT_TRUE(film) << ToString(film.error());
   ASSERT_EQ(film->frames.size(), 30u);
   EXPECT_TRUE(film->frames[12].empty());

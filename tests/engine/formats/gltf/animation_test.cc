@@ -106,8 +106,8 @@ TEST(GltfAnimation, KeysThatCoincideAreOneFrame) {
 }
 
 TEST(GltfAnimation, JumpsWhereTwoKeysHaveOneTime) {
-  const auto frames = Frames(
-      OnlyClip(Animated({{"translation", "LINEAR", {0, 0.5f, 0.5f, 1}, {0, 0, 0, 1, 0, 0, 5, 0, 0, 6, 0, 0}}})));
+  const auto frames =
+      Frames(OnlyClip(Animated({{"translation", "LINEAR", {0, 0.5f, 0.5f, 1}, {0, 0, 0, 1, 0, 0, 5, 0, 0, 6, 0, 0}}})));
   ASSERT_EQ(frames.size(), 3u);
   EXPECT_EQ(frames[1].translation, glm::dvec3(5, 0, 0)) << "the last of both";
 }
