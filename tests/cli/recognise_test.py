@@ -70,7 +70,7 @@ class Recognise(EtudeCase):
                 found = [json.loads(line) for line in result.stdout.splitlines()]
                 self.assertEqual([(e["move"], e["frame"]) for e in found], [(e["move"], e["frame"]) for e in wanted], name)
                 self.assertRegex(result.stderr, r"sensor turned by (90|180|270) degrees, turned back \(--level none: as it is\)")
-            self.assertEqual(self.events(file, "--moves", moves, "--level", "none"), [])
+            self.assertNotIn("turned", self.etude("recognise", file, "--moves", moves, "--level", "none").stderr)
             taught = self.etude("teach", file, "-o", self.folder / "again.yaml", "--overwrite")
             self.assertIn("turned back", taught.stderr)
             v2 = [row.split() for row in text.splitlines()]
