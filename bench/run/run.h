@@ -57,6 +57,11 @@ struct Progress {
   double Work() const { return static_cast<double>(cells_done) + 0.5 * static_cast<double>(cells_answered); }
 };
 
+/// What was found in a clip's file, or changed of what it holds, for people.
+struct LoadedChange {
+  std::string clip, change;
+};
+
 struct RunOutcome {
   std::filesystem::path folder;
   std::size_t cells = 0;  ///< that have their row
@@ -66,6 +71,7 @@ struct RunOutcome {
   bool stopped = false;                   ///< ended early; the journal holds what was done
   std::string fence = {};                 ///< what methods outside ran in; "" = there were none
   std::vector<RefusedClip> refused = {};  ///< left out of all scenarios together, each once
+  std::vector<LoadedChange> changes = {};  ///< what was changed of what clips' files hold, each once
   std::string why_unlocked = {};          ///< nothing kept other runs out of the folder; "" = a lock did
   /// Lines of the journal gone on with that were not as they had been written; their cells were run again.
   std::vector<int> damaged_lines = {};

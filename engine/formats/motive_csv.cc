@@ -112,7 +112,7 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
   }
 
   // Read the frames; a position with an empty cell was not seen.
-  MarkerMotion motion{.rate_hz = *rate, .names = {}, .frames = {}};
+  MarkerMotion motion{.rate_hz = *rate, .names = {}, .frames = {}, .metres_per_unit = metres};
   for (const PlaceColumns& place : places) motion.names.push_back(place.name);
   while (!text.empty()) {
     const std::string_view here = NextLine(text, line);

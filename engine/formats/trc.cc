@@ -169,7 +169,7 @@ Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file) {
   TakeLine(text, line);  // PathFileType
   const std::string_view keys = TakeLine(text, line), values = TakeLine(text, line);
   ASSIGN_OR_RETURN(const TrcHeader header, ReadHeader(keys, values, {file, line, 0}));
-  MarkerMotion motion{.rate_hz = header.rate_hz, .names = {}, .frames = {}};
+  MarkerMotion motion{.rate_hz = header.rate_hz, .names = {}, .frames = {}, .metres_per_unit = header.metres};
   const auto names = Cells(TakeLine(text, line));
   for (std::size_t marker = 0; marker < header.markers; ++marker) {
     const std::size_t at = 2 + 3 * marker;
