@@ -13,6 +13,7 @@
 #include "bench/run/outside_programs.h"
 #include "bench/run/worker.h"
 #include "cli/commands.h"
+#include "engine/retargeting/marker_sets.h"
 #include "io/process/pinned_environment.h"
 
 namespace etude {
@@ -221,7 +222,7 @@ CLI::Option* AddOverwrite(CLI::App& command, bool& overwrite, const std::string&
   return command.add_flag("--overwrite", overwrite, help);
 }
 
-std::array<CLI::Option*, 7> AddWorldOptions(CLI::App& command, std::optional<std::uint64_t>& seed,
+std::array<CLI::Option*, 9> AddWorldOptions(CLI::App& command, std::optional<std::uint64_t>& seed,
                                             std::optional<int>& trials, std::vector<std::string>& clips,
                                             std::string& joint_map, std::string& clip_facts) {
   const auto tell = [&clip_facts](const std::string& key) {
@@ -242,7 +243,13 @@ std::array<CLI::Option*, 7> AddWorldOptions(CLI::App& command, std::optional<std
       command
           .add_option_function<std::string>("--rate", tell("rate"),
                                             "Frames per second of the clips (default: their own)")
-          ->check(NumberWithin(1, 1000, "rate in Hz"))};
+          ->check(NumberWithin(1, 1000, "rate in Hz")),
+      command.add_flag_callback("--keep-floor", [&clip_facts] { clip_facts += "keep_floor: true\n"; },
+                                "Leave bodies at the heights that their files say"),
+      command
+          .add_option_function<std::string>("--marker-set", tell("marker_set"),
+                                            "Which markers of the clips count (default: the best they hold)")
+          ->check(CLI::IsMember(MarkerSetKeys()))};
 }
 
 void AddUnsealed(CLI::App& command, Sealing& sealing) {

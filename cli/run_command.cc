@@ -135,6 +135,15 @@ void TellUnlocked(const RunOutcome& outcome) {
             fmt::format("could not be locked ({}); make sure that no other run writes into it", outcome.why_unlocked)});
 }
 
+/// Tells what was changed of what the clips' files hold: a line each, of many the first.
+void TellChanges(const std::vector<LoadedChange>& changes) {
+  constexpr std::size_t kShown = 40;
+  for (std::size_t i = 0; i < std::min(changes.size(), kShown); ++i) {
+    fmt::print("{}: {}\n", changes[i].clip, changes[i].change);
+  }
+  if (changes.size() > kShown) fmt::print("… and {} more changes of clips: manifest.json\n", changes.size() - kShown);
+}
+
 int RunCommand(const RunOptions& given) {
   RunOptions options = given;
   // Run, with Ctrl-C as a request to stop.
@@ -146,6 +155,7 @@ int RunCommand(const RunOptions& given) {
   if (!outcome) return Complain(outcome.error());
   // Report what was left out or damaged.
   TellUnlocked(*outcome);
+  TellChanges(outcome->changes);
   for (const RefusedClip& one : outcome->refused) Complain({{one.clip}, "left out: " + one.why});
   const std::string folder = outcome->folder.string();
   for (const int line : outcome->damaged_lines) {

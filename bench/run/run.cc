@@ -1,6 +1,7 @@
 #include "bench/run/run.h"
 
 #include <algorithm>
+#include <set>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -267,6 +268,15 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   for (const ScenarioSetup& setup : suite.scenarios) {
     for (const RefusedClip& one : setup.refused) {
       if (std::ranges::find(outcome.refused, one) == outcome.refused.end()) outcome.refused.push_back(one);
+    }
+  }
+  // Say what was changed of the clips' files, each change once.
+  std::set<std::pair<std::string, std::string>> told;
+  for (const PreparedScenario& scenario : scenarios) {
+    for (const LibraryClip& clip : scenario.clips().clips) {
+      for (const std::string& change : clip.changes) {
+        if (told.emplace(clip.source, change).second) outcome.changes.push_back({clip.source, change});
+      }
     }
   }
   // Write the final results.

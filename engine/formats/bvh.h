@@ -13,15 +13,16 @@ namespace etude {
 ///
 /// Accepted:
 /// - any order and mix of channels per joint, with rotations multiplied in the order written (R = R₁R₂R₃); position
-///   channels of any joint, which replace that joint's offset; joints without channels;
+///   channels of any joint, which replace that joint's offset, or are added to it if most of them stay near 0 where
+///   their offsets do not; joints without channels;
 /// - "End Site"s, which become joints named "<parent>_End" (names that some exporters give them are ignored);
 /// - names with spaces and colons, keywords in any case, tabs, empty lines, line ends LF, CR LF or CR, a missing last
 ///   line end, a byte order mark.
 /// A name that occurs again becomes "<name>#2", so that joints can be told apart. A rate within 0.01 % of a whole
 /// number is rounded to it, because files print few digits (.0083333 means 120 Hz). One frame more than announced is
 /// dropped, because some exporters announce the number of their last frame (Boxing_Toes of assimp's models). A joint
-/// below the root with an OFFSET of 0 and positions rests where the first frame has it. `remarks` receives a sentence
-/// about each of the last two cases.
+/// below the root with an OFFSET of 0 and positions rests where the first frame has it. Positions that stay around 0 beside
+/// an OFFSET are relative to it. `remarks` receives a sentence about each of the last three cases.
 ///
 /// Returns an error with line and column for anything outside the grammar, a second ROOT, a frame that is not one line
 /// with one number per channel, a wrong number of frames, no frames, frame times outside 0.1 ms…10 s, nesting deeper

@@ -161,6 +161,21 @@ std::vector<std::string> PointNames(const Parameters& parameters, std::size_t po
   return names;
 }
 
+/// Returns the widths of joints that Vicon's programs write, by their names without the group, metres.
+std::map<std::string, double> BodySizes(const Parameters& parameters) {
+  constexpr double kMin_mm = 5, kMax_mm = 400;
+  std::map<std::string, double> sizes;
+  const auto add = [&](const std::string& name) {
+    const auto value = parameters.Number("PROCESSING:" + name);
+    if (value && *value >= kMin_mm && *value <= kMax_mm) sizes[name] = *value / 1000;
+  };
+  for (const char* side : {"L", "R"}) {
+    for (const char* size : {"KNEEWIDTH", "ANKLEWIDTH", "ELBOWWIDTH", "SHOULDEROFFSET"}) add(std::string(side) + size);
+  }
+  add("MARKERDIAMETER");
+  return sizes;
+}
+
 std::size_t CountFrames(const Bytes& bytes, const Parameters& parameters) {
   const double first = bytes.Word(6), last = bytes.Word(8);
   double frames = last - first + 1;
@@ -231,8 +246,11 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   read.step_m = layout.has_floats ? 0 : layout.metres;
   if (const auto screen = parameters.Texts("POINT:Y_SCREEN"); !screen.empty() && screen.front().size() == 2) {
     const char axis = screen.front()[1];
-    if (axis == 'Y' || axis == 'Z') read.up = axis;
+    if (axis >= 'X' && axis <= 'Z') read.up = axis;
+    read.is_up_negative = screen.front()[0] == '-';
   }
+  read.markers.metres_per_unit = *metres;
+  read.markers.sizes_m = BodySizes(parameters);
 
   // Locate the frames and check that they are all there.
   const auto data_block = static_cast<std::size_t>(parameters.Number("POINT:DATA_START").value_or(all.Word(16)));

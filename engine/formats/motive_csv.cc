@@ -116,7 +116,7 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
   }
 
   // Read the frames; a position with an empty cell was not seen.
-  MarkerRows rows{.markers = {.rate_hz = *rate, .names = {}, .frames = {}},
+  MarkerRows rows{.markers = {.rate_hz = *rate, .names = {}, .frames = {}, .metres_per_unit = metres},
                   .times_s = {},
                   .lines = {},
                   .rate_name = "the first line"};

@@ -160,7 +160,7 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   TakeLine(text, line);  // PathFileType
   const std::string_view keys = TakeLine(text, line), values = TakeLine(text, line);
   ASSIGN_OR_RETURN(const TrcHeader header, ReadHeader(keys, values, {file, line, 0}));
-  MarkerRows rows{.markers = {.rate_hz = header.rate_hz, .names = {}, .frames = {}},
+  MarkerRows rows{.markers = {.rate_hz = header.rate_hz, .names = {}, .frames = {}, .metres_per_unit = header.metres},
                   .times_s = {},
                   .lines = {},
                   .rate_name = "DataRate"};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,7 +23,9 @@ struct MarkerMotion {
   std::vector<std::string> names;
   /// The markers' positions in each frame, in metres; empty if a marker was not seen.
   std::vector<std::vector<std::optional<glm::dvec3>>> frames;
-  std::string remark = "";  ///< a message of the reader for the user
+  std::string remark = "";     ///< a message of the reader for the user
+  double metres_per_unit = 1;  ///< of the file; the positions here are in metres
+  std::map<std::string, double> sizes_m = {};  ///< sizes of the body that the file states: "LKNEEWIDTH"
 };
 
 /// Writes markers as a TRC file. The cells of a marker that was not seen are empty, as OpenSim expects.

@@ -132,7 +132,7 @@ Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional
     }
   }
   // Convert to metres.
-  const double unit = UnitOfSpread(motion);
+  const double unit = motion.metres_per_unit = UnitOfSpread(motion);
   for (auto& frame : motion.frames) {
     for (auto& place : frame) {
       if (place) *place *= unit;

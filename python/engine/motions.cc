@@ -46,11 +46,17 @@ Array PositionsOf(const Motion& motion) {
   return positions;
 }
 
-Motion ReadFile(const std::filesystem::path& path, double rate_hz) {
+Motion ReadFile(const std::filesystem::path& path, double rate_hz, bool keep_floor, const std::string& up,
+                double metres_per_unit, const std::string& marker_set) {
   std::ifstream file(path, std::ios::binary);
   const std::string bytes(std::istreambuf_iterator<char>(file), {});
   if (!file) throw BadInput(path.string() + ": cannot be read");
-  return ReadMotion(bytes, path.string(), rate_hz);
+  if (up.size() > 1) throw BadInput("up: '" + up + "'; allowed: y, z");
+  return ReadMotion(bytes, path.string(), rate_hz,
+                    {.keep_floor = keep_floor,
+                     .up = up.empty() ? '\0' : up.front(),
+                     .metres_per_unit = metres_per_unit,
+                     .marker_set = marker_set});
 }
 
 std::vector<std::string> RoleNames() {
@@ -75,11 +81,16 @@ void AddMotions(py::module_& module) {
            "positions_m: frames x 20 x 3, metres, Y up. Raises BadInput for another shape or what is not finite.")
       .def_readonly("rate_hz", &Motion::rate_hz)
       .def_property_readonly("positions_m", &PositionsOf, "A copy: frames x 20 x 3, metres, Y up.")
+      .def_readonly("changes", &Motion::changes,
+                    "Of a motion that was read: what was found, and every change of what the file holds.")
       .def("__len__", [](const Motion& motion) { return motion.poses.size(); });
   module.attr("ROLES") = py::tuple(py::cast(RoleNames()));
   module.def(
-      "read_motion", &ReadFile, "path"_a, "rate_hz"_a = 30.0, py::call_guard<py::gil_scoped_release>(),
-      "Reads a BVH, AMASS, C3D or TRC file as the twenty joints. Raises BadInput with the place and what was found.");
+      "read_motion", &ReadFile, "path"_a, "rate_hz"_a = 30.0, "keep_floor"_a = false, "up"_a = "",
+      "metres_per_unit"_a = 0.0, "marker_set"_a = "", py::call_guard<py::gil_scoped_release>(),
+      "Reads a BVH, AMASS, C3D, TRC, CSV or Etude's own .npz file as the twenty joints, on the floor unless keep_floor; "
+      "up ('y' or 'z'), metres_per_unit and marker_set overrule what is found. `changes` of the motion says what was "
+      "changed. Raises BadInput with the place and what was found.");
 
   module.attr("FEATURES") = py::tuple(py::cast(FeatureNames()));
   module.def(
