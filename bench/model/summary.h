@@ -73,15 +73,16 @@ struct LeftOut {
 /// The result of a comparison for other units (clips, people, …) like those that its worlds were drawn from
 /// (bench/statistics/beyond.h). If every world is its own unit, it equals the result on the worlds.
 struct Beyond {
-  int units = 0;                                  ///< units that have a pair
-  int differing = 0;                              ///< units whose mean difference is not zero
-  std::optional<double> difference, low, high;    ///< mean over units of their mean difference; 95 % interval
-  std::optional<double> median_low, median_high;  ///< 95 % interval of the median of the units' mean differences
-  PairedTest test;                                ///< the test that decides
-  std::optional<double> p_holm;                   ///< corrected over the scenario's comparisons (Holm)
-  std::optional<Verdict> verdict;                 ///< nothing = too few units for a verdict
-  std::string why_open;                           ///< says why there is no verdict, or an inconclusive one
-  std::vector<LeftOut> left_out;                  ///< in the order of the units' names; empty if worlds are the units
+  int units = 0;                                ///< units that have a pair
+  int differing = 0;                            ///< units whose mean difference is not zero
+  std::optional<double> difference, low, high;  ///< pseudo-median of the units' mean differences, which the verdict is
+                                                ///< about, and its 95 % interval
+  std::optional<double> mean, mean_low, mean_high;  ///< their mean and its 95 % interval
+  PairedTest test;                                  ///< the test that decides
+  std::optional<double> p_holm;                     ///< corrected over the scenario's comparisons (Holm)
+  std::optional<Verdict> verdict;                   ///< nothing = too few units for a verdict
+  std::string why_open;                             ///< says why there is no verdict, or an inconclusive one
+  std::vector<LeftOut> left_out;                    ///< in the order of the units' names; empty if worlds are the units
 };
 
 /// `method` against `baseline` on the same worlds: the aggregate (MetricInfo: median, or mean for shares and

@@ -86,10 +86,9 @@ struct Family {
   int size = 0;  ///< number of comparisons that are judged together
 
   /// Estimates the difference for other units; empty if every world is its own unit.
-  Beyond MeasureUnits(const PairedWorlds& worlds, const ConditionTable& table, const MetricInfo& metric,
-                      const std::string& purpose) const {
+  Beyond MeasureUnits(const PairedWorlds& worlds, const ConditionTable& table, const MetricInfo& metric) const {
     if (WorldsAreUnits(study.unit)) return {};
-    return MeasureBeyond(UnitsOf(worlds, table, metric), size, seed, purpose);
+    return MeasureBeyond(UnitsOf(worlds, table, metric), size);
   }
 
   /// Measures one comparison. Its verdict is left open, because it depends on the other comparisons.
@@ -99,10 +98,10 @@ struct Family {
     question.comparison.only_baseline = worlds.only_baseline;
     question.comparison.only_method = worlds.only_method;
     question.comparison.neither = worlds.neither;
-    question.comparison.beyond = MeasureUnits(worlds, table, metric, purpose);
+    question.comparison.beyond = MeasureUnits(worlds, table, metric);
     if (const auto all = WithFailures(worlds, metric)) {
       question.with_failures = ComparePaired(all->pairs, metric, seed, purpose + "/failures");
-      question.with_failures->beyond = MeasureUnits(*all, table, metric, purpose + "/failures");
+      question.with_failures->beyond = MeasureUnits(*all, table, metric);
     }
     return question;
   }
