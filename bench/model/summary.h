@@ -110,6 +110,28 @@ struct Comparison {
   Beyond beyond;                             ///< the same comparison for other units like these
 };
 
+/// The step of an answer that decided it: success first, then the value, then the tail.
+enum class AnswerStep { kNone, kSuccess, kValue, kTail };
+inline constexpr std::array<Named<AnswerStep>, 4> kAnswerSteps = {{{"none", AnswerStep::kNone},
+                                                                   {"success", AnswerStep::kSuccess},
+                                                                   {"value", AnswerStep::kValue},
+                                                                   {"tail", AnswerStep::kTail}}};
+
+/// How a method did against another under one condition, in one verdict (bench/statistics/answers.h). Every reader of a
+/// run speaks of this one.
+struct Answer {
+  std::string method;
+  std::string baseline = {};                 ///< the method that the scenario names, or the strongest rival
+  std::string value_metric = {};             ///< the first headline metric that is not the success; "" if there is none
+  Verdict verdict = Verdict::kInconclusive;  ///< on these worlds
+  AnswerStep decided_by = AnswerStep::kNone;
+  std::optional<Verdict> beyond = {};      ///< the deciding step's verdict for other units; nothing = too few units
+  std::optional<Comparison> success = {};  ///< of the task's success, failed cells as 0; nothing if no cell says it
+  std::optional<Comparison> both_succeed = {};  ///< of the value where both succeeded; nothing if that is every world,
+                                                ///< or none, or success is no yes or no
+  std::optional<Comparison> tail = {};  ///< share of worlds far better − share of worlds far worse
+};
+
 /// The cost of one stage: how much smaller the error is if the truth replaces the stage, mean over worlds.
 struct BudgetShare {
   std::string stage;  ///< or several stages that were replaced together
@@ -130,9 +152,11 @@ struct ErrorBudget {
 struct ConditionSummary {
   std::vector<SweptValue> condition;
   std::vector<MethodSummary> methods;
-  std::vector<Comparison> comparisons;    ///< every method with its baseline, on the headline metrics
-  std::vector<Comparison> rivals;         ///< every method with the strongest other one, on the headline metrics
-  std::vector<ErrorBudget> budgets = {};  ///< of the first headline metric, for methods that differ in oracles alone
+  std::vector<Comparison> comparisons;     ///< every method with its baseline, on the headline metrics
+  std::vector<Comparison> rivals;          ///< every method with the strongest other one, on the headline metrics
+  std::vector<Answer> answers = {};        ///< every method with its baseline
+  std::vector<Answer> rival_answers = {};  ///< every method with the strongest other one
+  std::vector<ErrorBudget> budgets = {};   ///< of the first headline metric, for methods that differ in oracles alone
 };
 
 /// One comparison under every value of the parameters across which a verdict must hold (`across`). If a parameter of

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "bench/statistics/answers.h"
 #include "bench/statistics/beyond.h"
 #include "bench/statistics/bootstrap.h"
 #include "bench/statistics/interval.h"
@@ -185,6 +186,8 @@ ConditionFindings MeasureCondition(const Study& study, const ConditionTable& tab
   if (!study.metrics.empty()) {
     findings.summary.budgets = ComputeErrorBudgets(study, table, study.metrics.front(), seed);
   }
+  findings.summary.answers = MeasureAnswersAgainstBaselines(study, table, seed);
+  findings.summary.rival_answers = MeasureAnswersAgainstRivals(study, table, seed);
   findings.against_baselines = AskAgainstBaselines(study, table, seed);
   findings.against_rivals = AskAgainstRivals(study, table, seed);
   return findings;
@@ -203,6 +206,7 @@ ScenarioSummary JudgeFindings(const Study& study, const ScenarioTable& table, st
       JudgeTogether(findings, study.unit, &ConditionFindings::against_baselines, &ConditionSummary::comparisons);
   JudgeTogether(findings, study.unit, &ConditionFindings::against_rivals, &ConditionSummary::rivals);
   for (ConditionFindings& of_condition : findings) summary.conditions.push_back(std::move(of_condition.summary));
+  JudgeAnswers(study, summary.conditions);
   summary.across = JudgeAcross(study, summary.conditions);
   for (const Expectation& expectation : study.expectations) {
     summary.expectations.push_back(JudgeExpectation(expectation, study, table, seed));

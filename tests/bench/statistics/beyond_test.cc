@@ -53,7 +53,7 @@ TEST(MeasureBeyond, CountsUnitsAndNotWorlds) {
   const Beyond few = Judged(OneWay({-4, -6, -5, -9}, 300));
   EXPECT_EQ(few.units, 4);
   EXPECT_FALSE(few.verdict);
-  EXPECT_DOUBLE_EQ(*few.difference, -6);
+  EXPECT_DOUBLE_EQ(*few.mean, -6);
   EXPECT_FALSE(few.low);
   EXPECT_FALSE(few.test.p);
   EXPECT_EQ(few.left_out.size(), 4u) << "does one clip carry it?";

@@ -49,7 +49,7 @@ TEST(PseudoMedianOf, AgreesWithHollanderAndWolfe) {
 
 TEST(PseudoMedianOf, IsTheMiddleOfAllWalshAverages) {
   RandomStream dice({.suite_seed = 1, .scenario = "walsh", .trial = 0}, "x");
-  for (int n = 1; n <= 70; ++n) {
+  for (int n : {1, 2, 3, 5, 6, 7, 8, 9, 12, 21, 33, 50, 51, 66}) {
     std::vector<double> values;
     for (int i = 0; i < n; ++i) values.push_back(n % 3 == 0 ? std::round(dice.Normal(0, 2)) : dice.Normal(0.3, 1));
     const std::vector<double> averages = WalshAveragesOf(values);
@@ -59,7 +59,8 @@ TEST(PseudoMedianOf, IsTheMiddleOfAllWalshAverages) {
     ASSERT_EQ(found.interval.has_value(), n >= 6) << n;
     if (n < 6) continue;
     // The largest rank whose tail is at most 2.5 %; above 50 values nearly that one.
-    int rank = 0;
+    int rank = n * n / 5 - n;
+    while (rank > 0 && SignedRankCdf(n, rank) > 0.025) --rank;
     while (SignedRankCdf(n, rank) <= 0.025) ++rank;
     const auto at = static_cast<std::size_t>(rank - 1);
     if (n <= 50) {
