@@ -101,6 +101,7 @@ struct Comparison {
   PairedTest signed_rank;                           ///< Wilcoxon's; decides if the aggregate is the median
   PairedTest sign_flip;                             ///< of the aggregate; decides if it is the mean
   std::optional<double> p_holm;       ///< the deciding p, corrected over the scenario's comparisons (Holm)
+  int better = 0, worse = 0;          ///< pairs in which the method is better, or worse, by at least what matters
   double share_better = 0;            ///< share of the pairs in which the method is better; ties count half
   std::optional<double> effect_size;  ///< rank-biserial correlation, −1…1; positive favours `method`, or, without a
                                       ///< direction, larger values
@@ -129,7 +130,7 @@ struct Answer {
   std::optional<Comparison> success = {};  ///< of the task's success, failed cells as 0; nothing if no cell says it
   std::optional<Comparison> both_succeed = {};  ///< of the value where both succeeded; nothing if that is every world,
                                                 ///< or none, or success is no yes or no
-  std::optional<Comparison> tail = {};  ///< share of worlds far better − share of worlds far worse
+  std::optional<Comparison> tail = {};          ///< share of worlds far better − share of worlds far worse
 };
 
 /// The cost of one stage: how much smaller the error is if the truth replaces the stage, mean over worlds.

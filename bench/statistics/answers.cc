@@ -69,14 +69,28 @@ PairedWorlds FarOff(const PairedWorlds& values, const MetricInfo& metric, double
   return far;
 }
 
-/// What the steps of all answers of a condition share.
-struct Measurer {
-  const Study& study;
-  const ConditionTable& table;
-  std::uint64_t seed = 1;
+/// Measures the answers of one condition.
+class Measurer {
+ public:
+  Measurer(const Study& study, const ConditionTable& table, std::uint64_t seed)
+      : study_(study), table_(table), seed_(seed) {}
 
+  /// `other` is the name of the other side, `key` what keys the random streams.
+  Answer Measure(const Pairing& pairing, const PairedWorlds& values, const std::string& other,
+                 const std::string& key) const {
+    Answer answer = MeasureSteps(pairing, values, key);
+    answer.baseline = other;
+    for (std::optional<Comparison>* step : {&answer.success, &answer.both_succeed, &answer.tail}) {
+      if (!*step) continue;
+      (*step)->method = answer.method;
+      (*step)->baseline = other;
+    }
+    return answer;
+  }
+
+ private:
   Comparison Compare(const PairedWorlds& worlds, const MetricInfo& metric, const std::string& purpose) const {
-    Comparison found = ComparePaired(worlds.pairs, metric, seed, purpose);
+    Comparison found = ComparePaired(worlds.pairs, metric, seed_, purpose);
     if (!worlds.pairs.empty() && metric.aggregate == Aggregate::kMean && AreShares(worlds.pairs)) {
       const auto count = [&](double sign) {
         return static_cast<int>(std::ranges::count_if(
@@ -84,20 +98,20 @@ struct Measurer {
       };
       found.sign_flip = {McNemarMidP(count(1), count(-1)), "McNemar's mid-p"};
     }
-    if (!WorldsAreUnits(study.unit)) found.beyond = MeasureBeyond(UnitsOf(worlds, table, metric), 1);
+    if (!WorldsAreUnits(study_.unit)) found.beyond = MeasureBeyond(UnitsOf(worlds, table_, metric), CountAnswers());
     return found;
   }
 
-  Answer Measure(const Pairing& pairing, const PairedWorlds& values, const std::string& key) const {
-    const std::string method = pairing.method->name(), value = ValueMetricOf(study);
+  Answer MeasureSteps(const Pairing& pairing, const PairedWorlds& values, const std::string& key) const {
+    const std::string method = pairing.method->name(), value = ValueMetricOf(study_);
     const auto purpose = [&](const std::string& step) {
-      return PurposeOf(study.scenario, table.condition, step, key, method);
+      return PurposeOf(study_.scenario, table_.condition, step, key, method);
     };
     Answer answer{.method = method, .value_metric = value};
     // Success, counting failures.
-    const PairedWorlds successes = study.success.empty() ? PairedWorlds() : SuccessesOf(pairing, study.success);
+    const PairedWorlds successes = study_.success.empty() ? PairedWorlds() : SuccessesOf(pairing, study_.success);
     if (!successes.pairs.empty()) {
-      answer.success = Compare(successes, ShareMetric(study, study.success), purpose("success"));
+      answer.success = Compare(successes, ShareMetric(study_, study_.success), purpose("success"));
     }
     if (value.empty()) return answer;
     // The value where both succeed.
@@ -117,11 +131,22 @@ struct Measurer {
     }
     // The tail.
     if (!values.pairs.empty() && FindMetric(value)->direction != Direction::kNeither) {
-      const PairedWorlds far = FarOff(values, *FindMetric(value), study.gate.tail.times);
-      answer.tail = Compare(far, ShareMetric(study, value), purpose("tail"));
+      const PairedWorlds far = FarOff(values, *FindMetric(value), study_.gate.tail.times);
+      answer.tail = Compare(far, ShareMetric(study_, value), purpose("tail"));
     }
     return answer;
   }
+
+  /// Returns how many answers against baselines are judged together; of those against rivals there are about as many.
+  int CountAnswers() const {
+    const auto compared = std::ranges::count_if(
+        study_.methods, [](const ComparedMethod& method) { return method.name != method.against; });
+    return static_cast<int>(compared) * static_cast<int>(study_.conditions.size());
+  }
+
+  const Study& study_;
+  const ConditionTable& table_;
+  const std::uint64_t seed_;
 };
 
 /// Corrects one step's p-values over a family of answers, and judges it. `metric_of` gives the definition by which an
@@ -214,21 +239,20 @@ double McNemarMidP(int gained, int lost) {
 
 std::vector<Answer> MeasureAnswersAgainstBaselines(const Study& study, const ConditionTable& table,
                                                    std::uint64_t seed) {
-  const Measurer measurer{study, table, seed};
+  const Measurer measurer(study, table, seed);
   const std::string value = ValueMetricOf(study);
   std::vector<Answer> answers;
   for (const ComparedMethod& entry : study.methods) {
     if (entry.name == entry.against) continue;
     const std::vector<const MethodColumns*> other(static_cast<std::size_t>(table.trials()), &table.Of(entry.against));
     const PairedWorlds values = value.empty() ? PairedWorlds() : PairsOf(table, entry.against, entry.name, value);
-    answers.push_back(measurer.Measure({&table.Of(entry.name), other}, values, entry.against));
-    answers.back().baseline = entry.against;
+    answers.push_back(measurer.Measure({&table.Of(entry.name), other}, values, entry.against, entry.against));
   }
   return answers;
 }
 
 std::vector<Answer> MeasureAnswersAgainstRivals(const Study& study, const ConditionTable& table, std::uint64_t seed) {
-  const Measurer measurer{study, table, seed};
+  const Measurer measurer(study, table, seed);
   const std::string value = ValueMetricOf(study);
   std::vector<Answer> answers;
   for (const ComparedMethod& entry : study.methods) {
@@ -239,8 +263,7 @@ std::vector<Answer> MeasureAnswersAgainstRivals(const Study& study, const Condit
       other.push_back(&table.Of(rival->of_half[static_cast<std::size_t>(HalfOf(table, trial))]));
     }
     const PairedWorlds values = value.empty() ? PairedWorlds() : WorldsAgainst(*rival, table, entry.name, value);
-    answers.push_back(measurer.Measure({&table.Of(entry.name), other}, values, "rival"));
-    answers.back().baseline = rival->Name();
+    answers.push_back(measurer.Measure({&table.Of(entry.name), other}, values, rival->Name(), "rival"));
   }
   return answers;
 }

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "bench/statistics/distributions.h"
+#include "bench/statistics/interval.h"
 #include "bench/statistics/paired_tests.h"
 #include "bench/statistics/pseudo_median.h"
 
@@ -61,6 +63,20 @@ PairedTest StudentTest(double estimate, double error, int units) {
   return {KeepThirtyBits(StudentTwoSided(estimate / error, units - 1)), std::move(how)};
 }
 
+/// Returns the interval of the mean of values that are −1, 0 or 1.
+std::pair<double, double> ShareInterval(std::span<const double> values) {
+  const auto gained = std::ranges::count(values, 1.0), lost = std::ranges::count(values, -1.0);
+  const Interval interval =
+      PairedShareInterval(static_cast<int>(gained), static_cast<int>(lost), static_cast<int>(values.size()));
+  return {interval.low, interval.high};
+}
+
+/// Returns true if the interval lies on one side of zero. It may touch zero where the estimate does not: units without
+/// a difference make many Walsh averages zero, and the test counts them.
+bool IsOnOneSide(const Beyond& beyond) {
+  return (*beyond.low >= 0 && *beyond.difference > 0) || (*beyond.high <= 0 && *beyond.difference < 0);
+}
+
 /// Returns true if the mean has the sign of the pseudo-median, so that no few units outweigh the others.
 bool MeanAgrees(const Beyond& beyond) { return *beyond.mean * *beyond.difference > 0; }
 
@@ -111,11 +127,12 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons) {
       values[i] = KeepThirtyBits(n * mean - (n - 1) * beyond.left_out[i].difference);
     }
   }
+  const bool is_yes_or_no =
+      std::ranges::all_of(values, [](double value) { return std::abs(value) == 1 || value == 0; });
   const PseudoMedian centre = PseudoMedianOf(values);
-  beyond.difference = centre.value;
+  beyond.difference = is_yes_or_no ? mean : centre.value;
   if (beyond.units < kMinUnits || beyond.left_out.size() < means.size()) return beyond;
-  beyond.low = centre.interval->first;
-  beyond.high = centre.interval->second;
+  std::tie(beyond.low, beyond.high) = is_yes_or_no ? ShareInterval(values) : *centre.interval;
   // The interval of the mean, by Student's t from the jackknife's standard error.
   const double error = JackknifeError(beyond.left_out);
   const double half = StudentQuantile(1 - kAlpha / 2, beyond.units - 1) * error;
@@ -123,6 +140,7 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons) {
   beyond.mean_high = KeepThirtyBits(mean + half);
   // Choose the test by the counts, never by the result.
   if (SmallestP(beyond.units) * comparisons <= kAlpha) {
+    // Values of one size have equal ranks: this is the sign test.
     beyond.test = SignedRankTest(values);
     beyond.test.how = "signed ranks of units, " + beyond.test.how;
   } else {
@@ -140,8 +158,7 @@ std::optional<Verdict> VerdictBeyond(const Beyond& beyond, const MetricInfo& met
     return holds ? Verdict::kNoDifference : Verdict::kInconclusive;
   }
   // Otherwise a clear verdict needs the interval, the test and the threshold.
-  const bool beyond_zero = *beyond.low > 0 || *beyond.high < 0;
-  if (!beyond_zero || !MeanAgrees(beyond) || *beyond.p_holm > kAlpha ||
+  if (!IsOnOneSide(beyond) || !MeanAgrees(beyond) || *beyond.p_holm > kAlpha ||
       std::abs(*beyond.difference) < metric.practical || metric.direction == Direction::kNeither) {
     return Verdict::kInconclusive;
   }
@@ -161,7 +178,7 @@ std::string WhyOpenBeyond(const Beyond& beyond, const MetricInfo& metric, Sampli
                        CountUnits(beyond.units, unit));
   }
   if (within) return "the middle lies within what matters, but whether the mean does is open";
-  if (*beyond.low <= 0 && *beyond.high >= 0) return "the interval holds zero, and differences that matter";
+  if (!IsOnOneSide(beyond)) return "the interval holds zero, and differences that matter";
   if (!MeanAgrees(beyond))
     return "the middle differs, but the mean does not differ the same way: few outweigh the others";
   if (*beyond.p_holm > kAlpha) {

@@ -32,9 +32,11 @@ constexpr int kMinUnits = 6;
 ///
 /// The estimate is the pseudo-median of these values, with its interval, because intervals of a mean over few units
 /// fail where units are skewed, or one lies far off (docs/findings/verdicts.md). The mean stands beside it, with
-/// Student's interval from the jackknife's standard error. The test is Wilcoxon's signed-rank test of the values where
-/// that can reach 5 % among `comparisons` (2^(1 − units) × comparisons ≤ 0.05), and Student's t test of their mean
-/// otherwise. The choice depends on the numbers of units and comparisons, never on the result.
+/// Student's interval from the jackknife's standard error. Where every unit's value is −1, 0 or 1 (one yes-or-no world
+/// each) the estimate is the mean, with the interval of two shares: such values are symmetric if their mean is zero.
+/// The test is Wilcoxon's signed-rank test of the values where that can reach 5 % among `comparisons` (2^(1 − units) ×
+/// comparisons ≤ 0.05), and Student's t test of their mean otherwise. The choice depends on the numbers of units and
+/// comparisons, never on the result.
 ///
 /// With fewer than kMinUnits units the result holds the estimate and the leave-one-out means, but no interval and
 /// no test.

@@ -146,7 +146,7 @@ TEST(Findings, NeverCallWhatWasMeasuredReached) {
   for (Row& row : run.rows) row.result.status = Status::kOk;
   EXPECT_THAT(FindingsOf(run).sentence, HasSubstr(" cells were measured."));
   run.rows.front().result.status = Status::kUnsolved;
-  EXPECT_THAT(FindingsOf(run).sentence, HasSubstr(" cells were measured, 1 of them stopped short of their goal."));
+  EXPECT_THAT(FindingsOf(run).sentence, HasSubstr(" cells were measured, 1 of them unsolved (the method answered, but missed its goal)."));
 }
 
 TEST(Findings, GiveSuccessItsOwnShareWhateverTheStatus) {
