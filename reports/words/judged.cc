@@ -18,7 +18,7 @@ constexpr std::array<std::array<std::string_view, 2>, kSamplingUnits.size()> kUn
      {"these clips", "other clips"},
      {"these libraries", "other libraries"}}};
 
-/// Returns the figures: "mean over 12 clips −4.50 mm, 95 % CI −6.00 to −3.00".
+/// Returns the figures: "middle of 12 clips −4.50 mm, 95 % CI −6.00 to −3.00".
 std::string FiguresOf(const Beyond& beyond, const MetricWords& words, SamplingUnit unit) {
   if (!beyond.difference) return CountUnits(beyond.units, unit);
   std::string text = fmt::format("middle of {} {}{}", CountUnits(beyond.units, unit),

@@ -182,7 +182,7 @@ TEST(Findings, GiveAFewFiguresOfTheMethodItsBaselineAndTheStrongestOther) {
   EXPECT_EQ(figures.methods[1].name, "now");
   EXPECT_EQ(figures.methods[2].name, "gate-inertialised");
   EXPECT_EQ(figures.labels,
-            (std::vector<std::string>{"jump at the seam", "ended ok", "processor time", "worlds lost"}));
+            (std::vector<std::string>{"jump at the transition", "ended ok", "processor time", "worlds lost to “wait-for-end”"}));
   EXPECT_EQ(figures.methods[2].values[0], "6.40 cm");
   EXPECT_EQ(figures.methods[1].values[2], "250 ms");
   EXPECT_EQ(figures.methods[2].values[2], "2.00 s");
@@ -201,7 +201,7 @@ TEST(Findings, AnswerTwiceAndSayWhatTheVerdictIsAbout) {
   const ScenarioFindings transition = FindingsOf(run, run.scenarios[0]);
   EXPECT_EQ(transition.answer.baseline, "now");
   EXPECT_EQ(transition.rival.baseline, "gate-inertialised");
-  EXPECT_THAT(transition.headline, HasSubstr("; has 7.83 × the jump at the seam of “gate-inertialised”"));
+  EXPECT_THAT(transition.headline, HasSubstr("; has 7.83 × the jump at the transition of “gate-inertialised”"));
   EXPECT_THAT(FindingsOf(run, run.scenarios[2]).answer.BothVerdicts(), ::testing::EndsWith(" for other worlds"));
 }
 
