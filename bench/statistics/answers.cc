@@ -129,9 +129,10 @@ class Measurer {
         answer.both_succeed = Compare(both, *FindMetric(value), purpose("both succeed"));
       }
     }
-    // The tail.
-    if (!values.pairs.empty() && FindMetric(value)->direction != Direction::kNeither) {
-      const PairedWorlds far = FarOff(values, *FindMetric(value), study_.gate.tail.times);
+    // The tail; of a share every difference would be one.
+    const MetricInfo& metric = *FindMetric(value);
+    if (!values.pairs.empty() && metric.direction != Direction::kNeither && metric.reading == Reading::kAmount) {
+      const PairedWorlds far = FarOff(values, metric, study_.gate.tail.times);
       answer.tail = Compare(far, ShareMetric(study_, value), purpose("tail"));
     }
     return answer;

@@ -22,7 +22,7 @@ double McNemarMidP(int gained, int lost);
 /// which both succeeded, if success is yes or no and some world was lost. The comparison over all worlds, with failures
 /// counted, stands in ConditionSummary::comparisons or ::rivals.
 /// *Tail*: the share of worlds in which the method is far better minus that in which it is far worse, by more than
-/// TailRule::times practical thresholds of the value's metric.
+/// TailRule::times practical thresholds of the value's metric; not of shares.
 std::vector<Answer> MeasureAnswersAgainstBaselines(const Study& study, const ConditionTable& table, std::uint64_t seed);
 std::vector<Answer> MeasureAnswersAgainstRivals(const Study& study, const ConditionTable& table, std::uint64_t seed);
 
