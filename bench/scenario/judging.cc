@@ -145,6 +145,25 @@ FieldTable<Expectation> ExpectationFields(const Scenario& scenario, const std::v
           CheckExpectation};
 }
 
+std::vector<std::string> SuccessMetricsOf(const TaskKind& kind, const Scenario& scenario) {
+  std::vector<std::string> shares;
+  for (const std::string& id : MetricsOf(kind, scenario)) {
+    const MetricInfo* metric = FindMetric(id);
+    if (metric != nullptr && metric->direction == Direction::kHigherIsBetter && metric->reading != Reading::kAmount) {
+      shares.push_back(id);
+    }
+  }
+  return shares;
+}
+
+FieldTable<Scenario> SuccessFields(const std::vector<std::string>& metrics) {
+  return {{KnownName("metric", &Scenario::success, "a share that the task reports, of which more is better", metrics,
+                     "A share of cells, or of each cell.")
+               .WhenAbsent("(the task's)"),
+           Field<Scenario>::Number("matters", &Scenario::success_matters, {0.001, 1},
+                                   "The smallest difference of two methods that matters, as a share.")}};
+}
+
 FieldTable<TimeRatio> TimeRatioFields(const Scenario& scenario) {
   const std::vector<std::string> methods = MethodNames(scenario);
   return {{KnownName("of", &TimeRatio::of, "a method", methods, "The method whose time is judged."),

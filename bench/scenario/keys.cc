@@ -52,6 +52,7 @@ std::vector<KeyGroup> AllKeyGroups() {
       Group("expect[]", "An expectation", ExpectationFields(any, {}).Describe()),
       Group("video", "Recordings for films", VideoFields(any).Describe()),
       Group("limits", "Limits", LimitFields().Describe()),
+      Group("success", "What success is", SuccessFields({}).Describe()),
       Group("gate", "The gate", GateFields(any, {}).Describe()),
       Group("gate.tail", "The gate's tail rule", TailFields().Describe()),
       Group("gate.time_ratios[]", "A ratio of times", TimeRatioFields(any).Describe())};

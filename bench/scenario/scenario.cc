@@ -214,6 +214,12 @@ const FieldTable<Scenario>& ScenarioFields() {
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
           s.metrics = ReadHeadline(fields, kind, s.outside_metrics);
         })},
+       {{"success", MappingKind("a mapping", SuccessFields({}).Describe()), "{}",
+         "What a cell is to reach. A verdict is about it first, then about the first other headline metric."},
+        when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
+          s.success = kind.success;
+          ReadNested(fields, "success", SuccessFields(SuccessMetricsOf(kind, s)), s);
+        })},
        {{"expect", ListKind("a list of expectations", MappingKind("", ExpectationFields(unread, {}).Describe())), "[]",
          "The results that are expected, checked after the run."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
@@ -314,7 +320,8 @@ Result<std::vector<Scenario>> ParseAll(const std::string& file, const TextOf& te
     ASSIGN_OR_RETURN(auto scenario, ParseScenario(node, file));
     values += scenario.conditions.size() * CountValues(node);
     if (values > kMaxFileValues) {
-      return Fail(node.place, "with this scenario, the conditions of the file hold more than {} values", kMaxFileValues);
+      return Fail(node.place, "with this scenario, the conditions of the file hold more than {} values",
+                  kMaxFileValues);
     }
     for (const Scenario& other : scenarios) {
       if (other.name != scenario.name) continue;
@@ -390,6 +397,8 @@ Study StudyOf(const Scenario& scenario) {
               .conditions = {},
               .metrics = scenario.metrics,
               .across = scenario.across,
+              .success = scenario.success,
+              .success_matters = scenario.success_matters,
               .rival = scenario.rival,
               .expectations = scenario.expectations,
               .gate = scenario.gate};

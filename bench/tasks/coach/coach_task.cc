@@ -151,6 +151,7 @@ TaskKind MakeCoachTaskKind() {
   return {.name = "coach",
           .question = "Does the learner end up better for having been coached?",
           .default_metrics = {"retention", "answered_share", "corrections_unneeded_per_min"},
+          .success = "retention",
           .metrics = CoachMetrics(),
           .make = MakeCoachTask,
           .condition_keys = CoachConditionFields().Describe(),

@@ -78,6 +78,7 @@ TEST(Keys, OfEveryScenarioAreThoseThatAreRead) {
       {"expect[]", "An expectation", complaint_of("expect: [{metric: iterations, of: a, zzzz: 1}]")},
       {"video", "Recordings for films", complaint_of("video: {zzzz: 1}")},
       {"limits", "Limits", complaint_of("limits: {zzzz: 1}")},
+      {"success", "What success is", complaint_of("success: {zzzz: 1}")},
       {"gate", "The gate", complaint_of("gate: {zzzz: 1}")},
       {"gate.tail", "The gate's tail rule", complaint_of("gate: {tail: {zzzz: 1}}")},
       {"gate.time_ratios[]", "A ratio of times", complaint_of("gate: {time_ratios: [{of: a, over: b, zzzz: 1}]}")},

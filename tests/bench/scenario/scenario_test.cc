@@ -1,3 +1,5 @@
+#include "bench/metrics/catalogue.h"
+#include "bench/tasks/registry.h"
 #include "tests/bench/scenario/parse.h"
 
 namespace etude {
@@ -131,6 +133,33 @@ TEST(Scenario, TellsWhatIsWrongWithLimitsAndTheGate) {
   EXPECT_THAT(complaint("gate: {time_ratios: [{of: a, over: a}]}"), HasSubstr("needs two methods"));
   EXPECT_THAT(complaint("gate: {time_ratios: [{of: a, over: c}]}"), HasSubstr("s.yaml:5:36: unknown over 'c'"));
   EXPECT_THAT(complaint("gate: {time_ratios: [{of: a, over: b, at_most: 0}]}"), HasSubstr("'at_most': 0 is out of"));
+}
+
+TEST(Scenario, NamesWhatSuccessIsOrTakesTheTasks) {
+  const Scenario plain = ParseOne(kHead + kMethods);
+  EXPECT_EQ(plain.success, "solved_practical");
+  EXPECT_EQ(plain.success_matters, 0.05);
+  const Study study = StudyOf(ParseOne(kHead + kMethods + "success: {metric: solved_tight, matters: 0.1}\n"));
+  EXPECT_EQ(study.success, "solved_tight");
+  EXPECT_EQ(study.success_matters, 0.1);
+  EXPECT_EQ(ParseOne(kHead + kMethods + "success: {matters: 0.02}\n").success, "solved_practical");
+  const auto complaint = [](const std::string& line) { return Complaint(kHead + kMethods + line + "\n"); };
+  EXPECT_THAT(complaint("success: {metric: iterations}"), HasSubstr("s.yaml:5:19: unknown metric 'iterations'"));
+  EXPECT_THAT(complaint("success: {metric: solved_tigt}"), HasSubstr("did you mean 'solved_tight'?"));
+  EXPECT_THAT(complaint("success: {matters: 5}"), HasSubstr("s.yaml:5:20: 'matters': 5 is out of range"));
+  EXPECT_THAT(complaint("success: solved_tight"), HasSubstr("s.yaml:5:10: 'success' must be a mapping"));
+}
+
+TEST(Scenario, OfEveryTaskHasASuccessThatItsCellsReport) {
+  for (const TaskKind& kind : AllTaskKinds()) {
+    const MetricInfo* success = FindMetric(kind.success);
+    ASSERT_NE(success, nullptr) << kind.name;
+    EXPECT_TRUE(success->is_success) << kind.name;
+    EXPECT_EQ(success->direction, Direction::kHigherIsBetter) << kind.name;
+    EXPECT_EQ(success->aggregate, Aggregate::kMean) << kind.name;
+    const bool reported = kind.metrics.empty() || std::ranges::find(kind.metrics, kind.success) != kind.metrics.end();
+    EXPECT_TRUE(reported) << kind.name;
+  }
 }
 
 TEST(Scenario, TellsWhatIsWrongWithAnExpectation) {

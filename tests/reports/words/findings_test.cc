@@ -146,7 +146,7 @@ TEST(Findings, NeverCallWhatWasMeasuredReached) {
   for (Row& row : run.rows) row.result.status = Status::kOk;
   EXPECT_THAT(FindingsOf(run).sentence, HasSubstr(" cells were measured."));
   run.rows.front().result.status = Status::kUnsolved;
-  EXPECT_THAT(FindingsOf(run).sentence, HasSubstr(" cells were measured, 1 of them stopped short of their goal."));
+  EXPECT_THAT(FindingsOf(run).sentence, HasSubstr(" cells were measured, 1 of them unsolved (the method answered, but missed its goal)."));
 }
 
 TEST(Findings, GiveSuccessItsOwnShareWhateverTheStatus) {
@@ -182,7 +182,7 @@ TEST(Findings, GiveAFewFiguresOfTheMethodItsBaselineAndTheStrongestOther) {
   EXPECT_EQ(figures.methods[1].name, "now");
   EXPECT_EQ(figures.methods[2].name, "gate-inertialised");
   EXPECT_EQ(figures.labels,
-            (std::vector<std::string>{"jump at the transition point", "ended ok", "processor time", "worlds lost"}));
+            (std::vector<std::string>{"jump at the transition point", "ended ok", "processor time", "worlds lost to “wait-for-end”"}));
   EXPECT_EQ(figures.methods[2].values[0], "6.40 cm");
   EXPECT_EQ(figures.methods[1].values[2], "250 ms");
   EXPECT_EQ(figures.methods[2].values[2], "2.00 s");
