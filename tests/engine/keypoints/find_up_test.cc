@@ -21,8 +21,8 @@ using testing::Dice;
 using ::testing::HasSubstr;
 using enum Landmark;
 
-constexpr double kTakeRate = 15;
-constexpr int kTakeFrames = 45;
+constexpr double kPostureRate = 15;
+constexpr int kPostureFrames = 45;
 const std::vector<std::string> kPostures = {"sits", "crawls", "lies", "squats", "bows"};
 
 glm::dmat3 AboutX(double radians) { return glm::mat3_cast(glm::angleAxis(radians, glm::dvec3(1, 0, 0))); }
@@ -123,8 +123,8 @@ std::vector<LandmarkPositions> Motion(const std::string& kind, Dice& dice) {
   const double stride = kind == "crawls" ? 0.15 : 0.0;
   const double slow = 1 + 0.3 * way;
   std::vector<LandmarkPositions> frames;
-  for (int k = 0; k < kTakeFrames; ++k) {
-    const double t = k / kTakeRate, sway = std::sin(2 * slow * t);
+  for (int k = 0; k < kPostureFrames; ++k) {
+    const double t = k / kPostureRate, sway = std::sin(2 * slow * t);
     Posture now = base;
     now.trunk += 0.06 * sway;
     now.arm += 0.3 * std::sin(3 * slow * t);
@@ -212,7 +212,7 @@ Covered Cover(int takes, std::uint64_t seed, double roll_deg, double noise_px) {
     const auto motion = Motion(kPostures[static_cast<std::size_t>(i) % kPostures.size()], dice);
     const auto cameras = TripodCameras(2 + static_cast<int>(dice.Below(3)), roll_deg, dice);
     const Take take = InFirstCamera(motion, cameras, noise_px, dice, dice.Below(3) == 0);
-    const FoundUp found = FindUp(take.rig.cameras, take.points, kTakeRate, 1.7, 1);
+    const FoundUp found = FindUp(take.rig.cameras, take.points, kPostureRate, 1.7, 1);
     const double off = AngleBetween(found.up, take.up);
     ++counted.takes;
     counted.covered += off <= found.within;
@@ -252,11 +252,11 @@ TEST(FindUp, AFilesOwnAxisIsKeptWhateverThePosture) {
     const auto motion = Motion(kPostures[i], dice);
     const auto cameras = TripodCameras(3, 1, dice);
     const Take as_said = FilmedTake(motion, cameras, 1, glm::dmat3(1), {1, 2, 3}, dice);
-    const auto kept = PlaceRig(as_said.rig, as_said.points, kTakeRate, {});
+    const auto kept = PlaceRig(as_said.rig, as_said.points, kPostureRate, {});
     ASSERT_TRUE(kept) << ToString(kept.error());
     EXPECT_EQ(kept->R, glm::dmat3(1)) << kPostures[i] << ": " << kept->told;
     const Take z_up = FilmedTake(motion, cameras, 1, AboutX(kPi / 2), {1, 2, 3}, dice);
-    const auto found = PlaceRig(z_up.rig, z_up.points, kTakeRate, {});
+    const auto found = PlaceRig(z_up.rig, z_up.points, kPostureRate, {});
     ASSERT_TRUE(found) << ToString(found.error());
     EXPECT_LT(AngleBetween(found->R * z_up.up, {0, 1, 0}), 1e-9) << kPostures[i] << ": " << found->told;
     EXPECT_THAT(found->told, HasSubstr("up is z (found: "));
@@ -270,7 +270,7 @@ TEST(FindUp, CamerasInPortraitAreReadAsTurnedAndTheirUpIsFound) {
     auto cameras = TripodCameras(3, 1, dice);
     cameras[i % 3].camera.R_CW = AboutZ(Radians(i % 2 == 0 ? 90 : -90)) * cameras[i % 3].camera.R_CW;
     const Take take = InFirstCamera(motion, cameras, 1, dice);
-    const FoundUp found = FindUp(take.rig.cameras, take.points, kTakeRate, 1.7, 1);
+    const FoundUp found = FindUp(take.rig.cameras, take.points, kPostureRate, 1.7, 1);
     EXPECT_LT(AngleBetween(found.up, take.up), found.within) << i;
     EXPECT_LT(found.within, Radians(15)) << i;
   }
@@ -286,7 +286,7 @@ TEST(FindUp, AHandstandIsNotTurnedUpsideDownAndMayBeAskedFor) {
   }
   const Take take = FilmedTake(motion, TripodCameras(2, 1, dice), 0, glm::dmat3(1), {0, 0, 0}, dice);
   for (const char* up : {"auto", "y"}) {
-    const auto place = PlaceRig(take.rig, take.points, kTakeRate, {.up = up});
+    const auto place = PlaceRig(take.rig, take.points, kPostureRate, {.up = up});
     ASSERT_TRUE(place) << ToString(place.error());
     EXPECT_EQ(place->R, glm::dmat3(1)) << place->told;
   }
