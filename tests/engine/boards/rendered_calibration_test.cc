@@ -1,9 +1,9 @@
 // Cameras calibrated from rendered pictures of boards: corners are where they were, and the truth is within the ± told.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <functional>
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
 
@@ -56,7 +56,7 @@ View Thrown(const Sheet& sheet, Dice& dice) {
 }
 
 /// A picture of the board: nine rays a pixel, blurred by a lens, with a sensor's noise.
-ColourImage Photograph(const Sheet& sheet, const View& view, double blur_px, Dice& dice) {
+ColourImage PhotographOf(const Sheet& sheet, const View& view, double blur_px, Dice& dice) {
   const glm::dmat3 R_TC = glm::transpose(view.R_CT);
   const glm::dvec3 eye = -(R_TC * view.p_CT);
   std::vector<double> light(kWidth * kHeight);
@@ -123,7 +123,7 @@ std::optional<Measured> Measure(const Sheet& sheet, double blur_px, int calibrat
     for (int k = 0; k < pictures; ++k) {
       views.push_back(Thrown(sheet, dice));
       const std::size_t before = search->views().size();
-      EXPECT_TRUE(search->Add(0, std::to_string(k), Photograph(sheet, views.back(), blur_px, dice)));
+      EXPECT_TRUE(search->Add(0, std::to_string(k), PhotographOf(sheet, views.back(), blur_px, dice)));
       if (search->views().size() == before) continue;
       const TargetView seen = search->views().back();
       for (const PointPair& pair : seen.pairs) {

@@ -1,13 +1,12 @@
 // Which way is up, of people in every posture before cameras as people set them up: the truth is within the angle told.
 #include "engine/keypoints/find_up.h"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <glm/gtc/quaternion.hpp>
-#include <map>
 
 #include "engine/base/angles.h"
 #include "engine/base/directions.h"
@@ -22,8 +21,8 @@ using testing::Dice;
 using ::testing::HasSubstr;
 using enum Landmark;
 
-constexpr double kRate = 15;
-constexpr int kFrames = 45;
+constexpr double kPostureRate = 15;
+constexpr int kPostureFrames = 45;
 const std::vector<std::string> kPostures = {"sits", "crawls", "lies", "squats", "bows"};
 
 glm::dmat3 AboutX(double radians) { return glm::mat3_cast(glm::angleAxis(radians, glm::dvec3(1, 0, 0))); }
@@ -40,9 +39,9 @@ struct Posture {
 
 /// Somebody of a stature, whose feet are shaped their own way, by forward kinematics; the lowest landmark's own height
 /// over the floor is that of the foot, the knee or the trunk.
-class Body {
+class PosedPerson {
  public:
-  explicit Body(Dice& dice) : stature(1.7 + 0.15 * dice.Signed()) {
+  explicit PosedPerson(Dice& dice) : stature(1.7 + 0.15 * dice.Signed()) {
     heel = 0.03 + 0.02 * dice.Signed();
     toe = 0.02 + 0.01 * dice.Signed();
     ankle = 0.08 + 0.02 * dice.Signed();
@@ -55,7 +54,7 @@ class Body {
     double lowest = 1e9;
     const auto put = [&](Landmark landmark, const glm::dvec3& place, double radius) {
       places[Index(landmark)] = place;
-      lowest = std::min(lowest, (AboutY(p.roll) * glm::dvec3(place)).y - radius * s);
+      lowest = std::min(lowest, place.y - radius * s);
     };
     const glm::dvec3 up_trunk(0, std::cos(p.trunk), std::sin(p.trunk));
     for (const double side : {1.0, -1.0}) {
@@ -92,7 +91,7 @@ class Body {
 
 /// Three seconds of a posture: the trunk sways, the arms swing, and who crawls goes on.
 std::vector<LandmarkPositions> Motion(const std::string& kind, Dice& dice) {
-  const Body body(dice);
+  const PosedPerson body(dice);
   Posture base;
   const double yaw = kPi * dice.Signed(), way = dice.Signed();
   const glm::dvec3 at(0.5 * dice.Signed(), 0, 0.5 * dice.Signed());
@@ -124,8 +123,8 @@ std::vector<LandmarkPositions> Motion(const std::string& kind, Dice& dice) {
   const double stride = kind == "crawls" ? 0.15 : 0.0;
   const double slow = 1 + 0.3 * way;
   std::vector<LandmarkPositions> frames;
-  for (int k = 0; k < kFrames; ++k) {
-    const double t = k / kRate, sway = std::sin(2 * slow * t);
+  for (int k = 0; k < kPostureFrames; ++k) {
+    const double t = k / kPostureRate, sway = std::sin(2 * slow * t);
     Posture now = base;
     now.trunk += 0.06 * sway;
     now.arm += 0.3 * std::sin(3 * slow * t);
@@ -142,7 +141,7 @@ std::vector<LandmarkPositions> Motion(const std::string& kind, Dice& dice) {
 }
 
 /// Cameras about the middle, as on tripods: level to 1.5° or so.
-std::vector<NamedCamera> Cameras(int count, double roll_deg, Dice& dice) {
+std::vector<NamedCamera> TripodCameras(int count, double roll_deg, Dice& dice) {
   std::vector<NamedCamera> cameras;
   const double first = kPi * dice.Signed();
   for (int i = 0; i < count; ++i) {
@@ -164,8 +163,8 @@ struct Take {
   glm::dvec3 up{0};  ///< the truth
 };
 
-Take Filmed(const std::vector<LandmarkPositions>& motion, const std::vector<NamedCamera>& cameras, double noise_px,
-            const glm::dmat3& R_FW, const glm::dvec3& p_FW, Dice& dice, bool only_ankles = false) {
+Take FilmedTake(const std::vector<LandmarkPositions>& motion, const std::vector<NamedCamera>& cameras, double noise_px,
+                const glm::dmat3& R_FW, const glm::dvec3& p_FW, Dice& dice, bool only_ankles = false) {
   Take take;
   take.rig.format = "Pose2Sim";
   take.up = R_FW * glm::dvec3(0, 1, 0);
@@ -197,7 +196,7 @@ Take Filmed(const std::vector<LandmarkPositions>& motion, const std::vector<Name
 Take InFirstCamera(const std::vector<LandmarkPositions>& motion, const std::vector<NamedCamera>& cameras,
                    double noise_px, Dice& dice, bool only_ankles = false) {
   const Camera& first = cameras.front().camera;
-  return Filmed(motion, cameras, noise_px, first.R_CW, -(first.R_CW * first.p_WC), dice, only_ankles);
+  return FilmedTake(motion, cameras, noise_px, first.R_CW, -(first.R_CW * first.p_WC), dice, only_ankles);
 }
 
 struct Covered {
@@ -211,18 +210,14 @@ Covered Cover(int takes, std::uint64_t seed, double roll_deg, double noise_px) {
   for (int i = 0; i < takes; ++i) {
     Dice dice(seed + static_cast<std::uint64_t>(i));
     const auto motion = Motion(kPostures[static_cast<std::size_t>(i) % kPostures.size()], dice);
-    const auto cameras = Cameras(2 + static_cast<int>(dice.Below(3)), roll_deg, dice);
+    const auto cameras = TripodCameras(2 + static_cast<int>(dice.Below(3)), roll_deg, dice);
     const Take take = InFirstCamera(motion, cameras, noise_px, dice, dice.Below(3) == 0);
-    const FoundUp found = FindUp(take.rig.cameras, take.points, kRate, 1.7, 1);
+    const FoundUp found = FindUp(take.rig.cameras, take.points, kPostureRate, 1.7, 1);
     const double off = AngleBetween(found.up, take.up);
     ++counted.takes;
     counted.covered += off <= found.within;
     counted.worst_deg = std::max(counted.worst_deg, Degrees(off));
     counted.sum_told_deg += Degrees(found.within);
-    if (std::getenv("ETUDE_TELL") != nullptr) {
-      fmt::print("{} {} cameras roll {} noise {}: off {:.2f}, told {:.2f} by {}\n", kPostures[i % 5], cameras.size(),
-                 roll_deg, noise_px, Degrees(off), Degrees(found.within), found.by);
-    }
   }
   return counted;
 }
@@ -255,13 +250,13 @@ TEST(FindUp, AFilesOwnAxisIsKeptWhateverThePosture) {
   for (std::size_t i = 0; i < kPostures.size(); ++i) {
     Dice dice(40 + i);
     const auto motion = Motion(kPostures[i], dice);
-    const auto cameras = Cameras(3, 1, dice);
-    const Take as_said = Filmed(motion, cameras, 1, glm::dmat3(1), {1, 2, 3}, dice);
-    const auto kept = PlaceRig(as_said.rig, as_said.points, kRate, {});
+    const auto cameras = TripodCameras(3, 1, dice);
+    const Take as_said = FilmedTake(motion, cameras, 1, glm::dmat3(1), {1, 2, 3}, dice);
+    const auto kept = PlaceRig(as_said.rig, as_said.points, kPostureRate, {});
     ASSERT_TRUE(kept) << ToString(kept.error());
     EXPECT_EQ(kept->R, glm::dmat3(1)) << kPostures[i] << ": " << kept->told;
-    const Take z_up = Filmed(motion, cameras, 1, AboutX(kPi / 2), {1, 2, 3}, dice);
-    const auto found = PlaceRig(z_up.rig, z_up.points, kRate, {});
+    const Take z_up = FilmedTake(motion, cameras, 1, AboutX(kPi / 2), {1, 2, 3}, dice);
+    const auto found = PlaceRig(z_up.rig, z_up.points, kPostureRate, {});
     ASSERT_TRUE(found) << ToString(found.error());
     EXPECT_LT(AngleBetween(found->R * z_up.up, {0, 1, 0}), 1e-9) << kPostures[i] << ": " << found->told;
     EXPECT_THAT(found->told, HasSubstr("up is z (found: "));
@@ -272,10 +267,10 @@ TEST(FindUp, CamerasInPortraitAreReadAsTurnedAndTheirUpIsFound) {
   for (std::size_t i = 0; i < 6; ++i) {
     Dice dice(90 + i);
     const auto motion = Motion(i == 0 ? "stands" : kPostures[i - 1], dice);
-    auto cameras = Cameras(3, 1, dice);
+    auto cameras = TripodCameras(3, 1, dice);
     cameras[i % 3].camera.R_CW = AboutZ(Radians(i % 2 == 0 ? 90 : -90)) * cameras[i % 3].camera.R_CW;
     const Take take = InFirstCamera(motion, cameras, 1, dice);
-    const FoundUp found = FindUp(take.rig.cameras, take.points, kRate, 1.7, 1);
+    const FoundUp found = FindUp(take.rig.cameras, take.points, kPostureRate, 1.7, 1);
     EXPECT_LT(AngleBetween(found.up, take.up), found.within) << i;
     EXPECT_LT(found.within, Radians(15)) << i;
   }
@@ -289,9 +284,9 @@ TEST(FindUp, AHandstandIsNotTurnedUpsideDownAndMayBeAskedFor) {
       if (place) *place = AboutZ(kPi) * *place + glm::dvec3(0, 2, 0);
     }
   }
-  const Take take = Filmed(motion, Cameras(2, 1, dice), 0, glm::dmat3(1), {0, 0, 0}, dice);
+  const Take take = FilmedTake(motion, TripodCameras(2, 1, dice), 0, glm::dmat3(1), {0, 0, 0}, dice);
   for (const char* up : {"auto", "y"}) {
-    const auto place = PlaceRig(take.rig, take.points, kRate, {.up = up});
+    const auto place = PlaceRig(take.rig, take.points, kPostureRate, {.up = up});
     ASSERT_TRUE(place) << ToString(place.error());
     EXPECT_EQ(place->R, glm::dmat3(1)) << place->told;
   }
