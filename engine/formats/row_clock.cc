@@ -30,7 +30,9 @@ double PrintedStep(std::span<const double> times) {
 }
 
 /// Returns the rate that fits steps of one to three frames best, starting from that of the median step.
-double FittedRate(const std::vector<double>& steps) {
+/// Unclear steps, such as those beside a row at a wrong time, are about half-way between whole numbers of frames.
+double FittedRate(const std::vector<double>& steps, bool only_clear_steps) {
+  constexpr double kUnclear = 0.4;  // of a frame
   constexpr int kRounds = 4;
   constexpr double kMaxFrames = 3;
   double rate = 1 / LowerPercentile(steps, 0.5);
@@ -38,7 +40,8 @@ double FittedRate(const std::vector<double>& steps) {
     double frames = 0, seconds = 0;
     for (const double step : steps) {
       const double count = std::round(step * rate);
-      if (count > kMaxFrames) continue;
+      const bool is_left_out = only_clear_steps && std::abs(step * rate - count) > kUnclear;
+      if (count > kMaxFrames || is_left_out) continue;
       frames += count;
       seconds += step;
     }
@@ -113,27 +116,35 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
   std::vector<double> steps;
   for (std::size_t i = 1; i < rows.size(); ++i) steps.push_back(times_s[rows[i]] - times_s[rows[i - 1]]);
   const double start = times_s[rows.front()], span = times_s[rows.back()] - start;
-  const double printed = 1.05 * PrintedStep(times_s), fitted = FittedRate(steps);
+  const double printed = 1.05 * PrintedStep(times_s), fitted = FittedRate(steps, false);
   const auto tolerance = [&](double rate) { return std::clamp(printed * rate, kEven, kMaxEven); };
   const auto fits = [&](double rate, double slack) {
-    return rate > 0 && std::ranges::all_of(rows, [&](std::size_t row) {
-             const double place = (times_s[row] - start) * rate;
-             return std::abs(place - std::round(place)) <= slack;
-           });
+    constexpr double kMost = 0.9;  // of the rows
+    const auto lies_on_frame = [&](std::size_t row) {
+      const double place = (times_s[row] - start) * rate;
+      return std::abs(place - std::round(place)) <= slack;
+    };
+    const auto count = static_cast<double>(std::ranges::count_if(rows, lies_on_frame));
+    return rate > 0 && count >= kMost * static_cast<double>(rows.size());
   };
   const bool is_brief = told_hz && span < kMinSpan_s;
   if (is_brief && std::abs(fitted / *told_hz - 1) > kBriefTolerance) return std::nullopt;
-  // Of these rates, the first at which all rows lie on frames: told, whole, one at which the last row lies on a frame.
+  // Of these rates, the first at which nearly all rows lie on frames: told, whole, one at which the last row lies on a
+  // frame.
   RowGrid grid{.rate_hz = fitted, .frames = {}, .remark = {}};
-  const double whole = std::round(fitted), to_last = std::round(span * fitted) / span;
-  const bool is_near = told_hz && std::abs(fitted - *told_hz) * span <= kMaxEven;
-  if (is_brief || (is_near && fits(*told_hz, tolerance(*told_hz)))) {
-    grid.rate_hz = *told_hz;
-  } else if (std::abs(fitted - whole) * span <= kMaxEven &&
-             fits(whole, std::clamp(printed * whole, kExact, kMaxEven))) {
-    grid.rate_hz = whole;
-  } else if (fits(to_last, tolerance(to_last))) {
-    grid.rate_hz = to_last;
+  for (const double near : {fitted, FittedRate(steps, true)}) {
+    const double whole = std::round(near), to_last = std::round(span * near) / span;
+    const auto is_near = [&](double rate) { return std::abs(near - rate) * span <= kMaxEven; };
+    if (is_brief || (told_hz && is_near(*told_hz) && fits(*told_hz, tolerance(*told_hz)))) {
+      grid.rate_hz = *told_hz;
+    } else if (is_near(whole) && fits(whole, std::clamp(printed * whole, kExact, kMaxEven))) {
+      grid.rate_hz = whole;
+    } else if (fits(to_last, tolerance(to_last))) {
+      grid.rate_hz = to_last;
+    } else {
+      continue;
+    }
+    break;
   }
 
   // Refuse holes that would take too much memory.

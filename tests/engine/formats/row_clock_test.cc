@@ -91,6 +91,16 @@ TEST(RowClock, TimesMayBePrintedWithFewDecimals) {
   EXPECT_LT(FarthestFromCurve(*untold), 1e-9);
 }
 
+TEST(RowClock, ARowAtAWrongTimeChangesNoRate) {
+  std::vector<double> times = TimesAt(30, 70);
+  times[40] -= 0.45 / 30;
+  const auto laid = LayOnClock(RowsAt(times), "a");
+  ASSERT_TRUE(laid) << ToString(laid.error());
+  EXPECT_EQ(laid->rate_hz, 30);
+  EXPECT_EQ(laid->frames.size(), 70u);
+  EXPECT_LT(FarthestFromCurve(*laid), 0.002);
+}
+
 TEST(RowClock, UnevenTimesAreInterpolatedAndTold) {
   // A camera whose period changes by up to a third, and whose clock is right.
   std::vector<double> times;
