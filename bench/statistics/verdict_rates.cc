@@ -48,10 +48,14 @@ double Draw(SampleLaw law, RandomStream& dice) {
       return HeavyTailed(dice);
     case SampleLaw::kLogNormal:
       return std::exp(dice.Normal()) - kLogNormalCentre;
-    case SampleLaw::kFarOff:
-      return dice.Normal() + (dice.Chance(kOffsetShare) ? kOffset : 0) - kFarOffCentre;
-    case SampleLaw::kBimodal:
-      return (dice.Chance(0.5) ? 1 : -1) + kModeWidth * dice.Normal();
+    case SampleLaw::kFarOff: {
+      const double usual = dice.Normal();
+      return usual + (dice.Chance(kOffsetShare) ? kOffset : 0) - kFarOffCentre;
+    }
+    case SampleLaw::kBimodal: {
+      const double mode = dice.Chance(0.5) ? 1 : -1;
+      return mode + kModeWidth * dice.Normal();
+    }
     default:
       return dice.Normal();
   }
