@@ -34,8 +34,12 @@ void CheckRate(double rate_hz) {
   throw BadInput(fmt::format("a rate of {} Hz; allowed: {} to {}", rate_hz, kMinRateHz, kMaxRateHz));
 }
 
+/// Returns true if two rates differ by rounding only: one found by a column of times is rounded.
+bool KeepsRate(double a_hz, double b_hz) { return std::abs(a_hz / b_hz - 1) < 1e-6; }
+
 /// Resamples a body's motion by turning its joints, so that limbs keep their lengths.
 BodyMotion Resampled(const BodyMotion& motion, double rate_hz) {
+  if (KeepsRate(motion.rate_hz, rate_hz)) return {.rate_hz = rate_hz, .poses = motion.poses};
   const Clip clip = Resample(RigClip(motion, motion.poses.front(), ""), rate_hz);
   std::array<int, kRoleCount> joints;
   for (const etude::Role role : AllRoles())
@@ -76,7 +80,7 @@ Motion MotionOfMarkers(const MarkerMotion& markers, const std::string& file, dou
   const MarkerBody& body = bodies.front();
   Motion motion = FromBodyMotion(Resampled(body.motion, rate_hz));
   motion.changes = body.changes;
-  if (body.motion.rate_hz != rate_hz) {
+  if (!KeepsRate(body.motion.rate_hz, rate_hz)) {
     motion.changes.push_back(fmt::format("resampled from {:.6g} to {:.6g} Hz", body.motion.rate_hz, rate_hz));
   }
   return motion;
@@ -108,7 +112,7 @@ Motion MotionOfArrays(const Npz& arrays, const std::string& file, double rate_hz
   Motion motion = FromBodyMotion(Resampled(body, rate_hz));
   motion.changes = {"Etude's own arrays"};
   if (const std::string turn = DescribeTurn(up); !turn.empty()) motion.changes.push_back(turn);
-  if (body.rate_hz != rate_hz) {
+  if (!KeepsRate(body.rate_hz, rate_hz)) {
     motion.changes.push_back(fmt::format("resampled from {:.6g} to {:.6g} Hz", body.rate_hz, rate_hz));
   }
   return motion;

@@ -28,7 +28,7 @@ struct Wands {
 /// - shoulder: below its marker, along the trunk.
 /// The distances are (width + marker diameter) / 2 by `sizes_m`, the file's own: "LKNEEWIDTH", "RANKLEWIDTH",
 /// "LELBOWWIDTH", "RSHOULDEROFFSET", "MARKERDIAMETER" (else 14 mm); without them shares of the limb before the joint:
-/// 12 % of the thigh, 8.5 % of the shank, 16 % of the upper arm, both at elbow and shoulder.
+/// 12 % of the thigh, 8.5 % of the shank, 13.5 % of the upper arm (between its markers), both at elbow and shoulder.
 /// `frames` are in metres, with shoulders, elbows, wrists, knees and ankles at their markers; `wands` has as many
 /// frames. Returns a sentence about what was moved, or "".
 std::string MoveToJointCentres(const MarkerSet& set, const std::map<std::string, double>& sizes_m,

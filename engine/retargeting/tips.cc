@@ -110,12 +110,18 @@ double MedianOf(const JointMapDraft& draft, const MovingPoses& moving, Measure m
 template <typename Direction>
 void ComposeTip(JointMapDraft& draft, Role tip, int joint, Role base, const glm::dvec3& rest, double length,
                 const MovingPoses& moving, Direction direction) {
-  constexpr double kElsewhere = Radians(45);
+  // Feet point anywhere beside the body's own forward in people who kneel or lie; hands bend by 90° in push-ups.
+  constexpr double kHeadElsewhere = Radians(60), kHandElsewhere = Radians(100);
+  const double elsewhere = tip == kHead ? kHeadElsewhere : kHandElsewhere;
+  const bool is_foot = tip == kLeftFoot || tip == kRightFoot;
   const glm::dvec3 offset = draft.tree().InFrameOf(joint, rest);
   const auto off = [&](const PosedBody& body) {
-    return AngleBetween(body.Placed(joint, offset) - body.At(base), direction(body));
+    const glm::dvec3 wanted = body.At(base) + length * UnitOr(direction(body), glm::dvec3(0));
+    return AngleBetween(body.Placed(joint, offset) - body.JointAt(joint), wanted - body.JointAt(joint));
   };
-  if (moving.empty() || MedianOf(draft, moving, off) <= kElsewhere) return draft.Compose(tip, joint, rest);
+  if (is_foot || moving.empty() || MedianOf(draft, moving, off) <= elsewhere) {
+    return draft.Compose(tip, joint, rest);
+  }
   glm::dvec3 sum(0);
   for (const std::vector<GlobalTransform>& joints : moving) {
     const PosedBody body(draft, joints);
@@ -141,12 +147,15 @@ void FindLimbTip(JointMapDraft& draft, const Limb& limb, const MovingPoses& movi
     const auto is_no_thumb = [&](int joint) { return FingerBelow(draft.tree(), joint, top) != Finger::kThumb; };
     const auto at_rest = [&](int joint) { return glm::distance(draft.tree().RestOf(joint), end); };
     auto tip = FarthestTip(draft.tree(), top, length, plausible, at_rest, is_no_thumb);
-    if (!tip && !moving.empty()) {
-      const auto in_motion = [&](int joint) {
+    // In motion another may be farther: toes that rest folded back. Fingers curl, so hands need none at rest.
+    if ((!tip || !limb.is_arm) && !moving.empty()) {
+      constexpr double kFarther = 1.2;
+      const auto in_motion = [&, last = last](int joint) {
         return MedianOf(draft, moving,
                         [&](const PosedBody& body) { return glm::distance(body.JointAt(joint), body.At(last)); });
       };
-      tip = FarthestTip(draft.tree(), top, length, plausible, in_motion, is_no_thumb);
+      const auto other = FarthestTip(draft.tree(), top, length, plausible, in_motion, is_no_thumb);
+      if (other && (!tip || in_motion(*other) > kFarther * in_motion(*tip))) tip = other;
     }
     if (tip) return draft.Set(limb.tip, *tip);
   }

@@ -16,8 +16,8 @@ using MovingPoses = std::vector<std::vector<GlobalTransform>>;
 /// in the proportions of paper B's body. A thumb is never the tip of a hand. Among equally far tips (within 10⁻⁴) the
 /// middle finger is taken, then index, ring and little finger, then the skeleton's first, so that both sides agree. A
 /// head joint that was found by name is first assigned to the head; it then becomes the joint that carries the tip. A
-/// point is composed at rest, unless it points elsewhere in motion (by over 45° in the median): then the rest pose is
-/// none, and the point is where the motion has it in the mean.
+/// point is composed at rest, unless a head or a hand points elsewhere in motion (by over 60° or 100° in the median): then
+/// the rest pose is none, and the point is where the motion has it in the mean.
 void FindTips(JointMapDraft& draft, const std::array<bool, kRoleCount>& is_taught, const MovingPoses& moving = {});
 
 }  // namespace etude

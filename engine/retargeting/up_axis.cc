@@ -20,6 +20,7 @@ using enum Role;
 struct Stance {
   double upright = 0;   ///< share of the frames with the trunk upright, the hips above the feet, and the head on top
   double balanced = 0;  ///< share of the frames with the weight over the feet
+  double straight = 0;  ///< share of the frames with trunk, head and legs straight along it, as in static trials
   double floor = 0;     ///< how far the lowest joint's height varies (5th to 95th percentile)
   double way = 0;       ///< how far the hips travel across the axis
   double steps = 0;     ///< share of that travelling during which one ankle stands
@@ -63,6 +64,20 @@ bool IsBalanced(const BodyPose& pose, const glm::dvec3& up, double stature) {
   });
 }
 
+bool IsStraight(const BodyPose& pose, const glm::dvec3& up) {
+  constexpr double kAlong = 0.97, kHeadAlong = 0.9, kKneeAside = 0.05;
+  const auto is_along = [&](const glm::dvec3& v, double least) { return glm::dot(v, up) > least * glm::length(v); };
+  const auto is_leg_straight = [&](Role hip, Role knee, Role ankle) {
+    const glm::dvec3 leg = pose[hip] - pose[ankle];
+    const double length = glm::length(leg);
+    return is_along(leg, kAlong) &&
+           glm::length(glm::cross(pose[knee] - pose[ankle], leg)) < kKneeAside * length * length;
+  };
+  return is_along(pose[kShoulderCentre] - pose[kHipCentre], kAlong) &&
+         is_along(pose[kHead] - pose[kShoulderCentre], kHeadAlong) && is_leg_straight(kLeftHip, kLeftKnee, kLeftAnkle) &&
+         is_leg_straight(kRightHip, kRightKnee, kRightAnkle);
+}
+
 double Lowest(const BodyPose& pose, const glm::dvec3& up) {
   double lowest = glm::dot(pose[kHipCentre], up);
   for (const Role role : AllRoles()) lowest = std::min(lowest, glm::dot(pose[role], up));
@@ -102,6 +117,7 @@ Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
     count += 1;
     stance.upright += IsUpright(pose, up) ? 1 : 0;
     stance.balanced += IsBalanced(pose, up, frames.stature) ? 1 : 0;
+    stance.straight += IsStraight(pose, up) ? 1 : 0;
     const double wrist = std::max(glm::dot(pose[kLeftWrist], up), glm::dot(pose[kRightWrist], up));
     stance.on_hands += wrist > glm::dot(pose[kHead], up) ? 1 : 0;
     lowest.push_back(Lowest(pose, up));
@@ -118,6 +134,7 @@ Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
   }
   stance.upright /= count;
   stance.balanced /= count;
+  stance.straight /= count;
   stance.on_hands /= count;
   stance.steps = travelling > 0 ? stance.steps / travelling : 0;
   stance.floor = (LowerPercentile(lowest, 0.95) - LowerPercentile(lowest, 0.05)) / frames.stature;
@@ -142,7 +159,7 @@ bool Overrules(const Stance& other, const Stance& usual, bool is_opposite, const
   if (rule.is_of_rest) return false;
   // It stands on its feet, and moves or is quite still.
   if (other.balanced > 0.75 && other.floor < kStillFloor && usual.floor > std::max(0.06, 2 * other.floor)) return true;
-  return other.upright > 0.9 && other.balanced > 0.9 && other.floor < 0.02;
+  return other.straight > 0.9 && other.balanced > 0.9 && other.floor < 0.02;
 }
 
 constexpr std::array<glm::dvec3, 6> kAxes = {

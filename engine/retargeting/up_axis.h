@@ -38,7 +38,7 @@ struct UpFinding {
 ///   their hands keep a floor), or
 /// - it walks: it travels across that axis while one foot stands, or
 /// - its weight is over its feet along that axis throughout (a person who lies is not in balance on the soles), it
-///   moves, and the floor is stiller along it; or it stands quite still so.
+///   moves, and the floor is stiller along it; or it stands quite still and straight, as in static trials.
 /// In doubt the usual axis holds. `poses` are in the file's unit and axes, at `rate_hz`; there is at least one. A missing
 /// toe is at its ankle.
 UpFinding FindUp(std::span<const BodyPose> poses, double rate_hz, const UpRule& rule);

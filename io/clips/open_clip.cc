@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <map>
 
@@ -241,11 +242,13 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
     AddChange(is_ours ? "unit and up axis are its own, not those told" : "its unit is its own, not the one told",
               opened.body);
   }
-  if (opened.source.clip.rate_hz != options.rate_hz) {
+  constexpr double kSameRate = 1e-6;  // a rate found by a column of times is rounded
+  const bool keeps_rate = std::abs(opened.source.clip.rate_hz / options.rate_hz - 1) < kSameRate;
+  if (!keeps_rate) {
     AddChange(fmt::format("resampled from {:.6g} to {:.6g} Hz", opened.source.clip.rate_hz, options.rate_hz),
               opened.body);
   }
-  const Clip clip = Resample(opened.source.clip, options.rate_hz);
+  const Clip clip = keeps_rate ? opened.source.clip : Resample(opened.source.clip, options.rate_hz);
   opened.body.motion.rate_hz = options.rate_hz;
   // Evaluate the joint positions of every frame.
   std::vector<GlobalTransform> globals;

@@ -214,7 +214,7 @@ TEST(JointMap, TakesNoEyeForTheCrownOfTheHead) {
 /// A person whose head and left foot rest turned away, and are turned back in every frame.
 Clip TurnedAtRest(const glm::dquat& head, const glm::dquat& foot) {
   Clip clip = testing::AtRest(testing::PersonSkeleton(), 4);
-  for (const auto& [joint, tip, turn] : {std::tuple("Head", "Head_End", head), {"LeftFoot", "LeftToeBase", foot}}) {
+  for (const auto& [joint, tip, turn] : {std::tuple("Head", "Head_End", head), {"LeftToeBase", "LeftToeBase_End", foot}}) {
     LocalTransform& rest = clip.skeleton.joints[clip.skeleton.Find(tip)].rest;
     rest.translation = turn * rest.translation;
     for (std::size_t f = 0; f < clip.frames.size(); ++f) {
