@@ -8,12 +8,12 @@
 #include <glm/gtc/quaternion.hpp>
 #include <vector>
 
+#include "engine/base/angles.h"
 #include "tests/support/random_clip.h"
 
 namespace etude {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 
 double Distance(const glm::dmat3& a, const glm::dmat3& b) {
   double most = 0;
