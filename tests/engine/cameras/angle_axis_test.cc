@@ -14,7 +14,6 @@
 namespace etude {
 namespace {
 
-
 double Distance(const glm::dmat3& a, const glm::dmat3& b) {
   double most = 0;
   for (int i = 0; i < 3; ++i) most = std::max(most, glm::length(a[i] - b[i]));
