@@ -19,6 +19,7 @@
 #include <system_error>
 #include <vector>
 
+#include "bench/results/npy.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
@@ -83,14 +84,6 @@ int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
         UnknownName(extras.front().starts_with("-") ? "option" : "argument", extras.front(), KnownWords(*command));
   }
   return Complain(Error{{}, fmt::format("{} (etude {}--help explains)", message, words)});
-}
-
-/// Handles SIGBUS. Result columns are mapped into memory (bench/results/npy.h); when another program cuts such a file short,
-/// reading the missing part raises this signal.
-void EndAfterCutFile(int) {
-  constexpr std::string_view kComplaint = "etude: a file of a run was cut short while it was read\n";
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kComplaint.data(), kComplaint.size());
-  ::_exit(kIncompleteRun);
 }
 
 /// Returns true for commands whose results need not be identical on all machines: they print existing data, or draw
@@ -212,7 +205,7 @@ int main(int argc, char** argv) {
   etude::OpenStandardStreams();
   std::signal(SIGCHLD, SIG_DFL);  // a parent may leave it ignored, and then the exit status of our children would be
                                   // lost
-  std::signal(SIGBUS, etude::EndAfterCutFile);
+  etude::EndWhenMappedFilesAreCut();
   std::signal(SIGXFSZ, SIG_IGN);  // above a file-size limit, a write then fails with an error that is reported
   if (auto stack = etude::TakeStack(); !stack) return etude::Complain(stack.error());
   etude::MakeOutputSafe();

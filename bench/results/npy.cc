@@ -3,8 +3,10 @@
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <utility>
 
 #include "engine/base/machine.h"
@@ -14,7 +16,15 @@ namespace {
 
 std::size_t SizeOf(std::string_view type) { return static_cast<std::size_t>(type.back() - '0'); }
 
+void EndAfterCutFile(int) {
+  constexpr std::string_view kComplaint = "etude: a file of a run was cut short while it was read\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kComplaint.data(), kComplaint.size());
+  ::_exit(3);  // as every fault of the machine
+}
+
 }  // namespace
+
+void EndWhenMappedFilesAreCut() { std::signal(SIGBUS, EndAfterCutFile); }
 
 Result<NpyWriter> NpyWriter::Begin(const FilePath& path, std::string_view type) {
   ASSIGN_OR_RETURN(auto file, AtomicFile::Begin(path));

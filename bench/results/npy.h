@@ -48,8 +48,11 @@ class NpyWriter {
   std::size_t count_ = 0;
 };
 
-/// A .npy file mapped into memory, of which the system reads the parts that are used. If the file is truncated
-/// meanwhile, the process ends with a message and the exit code for faults of the machine.
+/// Installs a handler of SIGBUS for the process. When another program cuts a mapped file short, reading the missing part
+/// then ends the process with a sentence on standard error and exit code 3, instead of a crash.
+void EndWhenMappedFilesAreCut();
+
+/// An .npy file mapped into memory: the system reads the parts that are used (EndWhenMappedFilesAreCut).
 class NpyFile {
  public:
   /// Fails, naming the path, unless NpyWriter wrote the file with numbers of this type.

@@ -39,7 +39,8 @@ def rodrigues(R):
     axis = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
     if angle > math.pi - 1e-6:  # of half a turn that is nothing
         axis = (R + np.eye(3))[:, np.argmax(np.diag(R))]
-    return axis * 0 if angle < 1e-9 else angle * axis / np.linalg.norm(axis)
+    length = np.linalg.norm(axis)
+    return axis * 0 if length == 0 else angle * axis / length  # the unit matrix has no axis
 
 
 @functools.lru_cache(maxsize=None)

@@ -264,7 +264,7 @@ class Capture(EtudeCase):
         self.assertIn("30 frames a second", slow)
         short = self.refusal(*self.capture("-o", out, films=film("short", "320x240", RATE, 18)))
         self.assertIn("20 frames", short)
-        (self.keypoints / "left_json" / "left_3.json").unlink()
+        (self.keypoints / "left_json" / "left_19.json").unlink()
         self.assertIn("19 frames, the film", self.refusal(*self.capture("-o", out)))
         (self.keypoints / "left_json" / "left_4.json").write_text('{"people": [{"pose_keypoints_2d": [1, 2]}]}')
         self.assertIn("left_4.json: no list of keypoints", self.refusal(*self.capture("-o", out)))

@@ -115,18 +115,6 @@ class Machine(EtudeCase):
             if ended.returncode == 0:
                 self.assertEqual((self.out / "manifest.json").read_bytes(), (whole / "manifest.json").read_bytes())
 
-    def test_a_column_cut_short_while_it_is_read_is_told(self):
-        self.run_suite(self.write("ik.yaml", IK), "--trials", "400")
-        columns = [file for file in self.out.rglob("*.npy") if file.stat().st_size > 1000]
-        with subprocess.Popen([ETUDE, "rows", self.out], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as rows:
-            rows.stdout.read(1)  # It has opened the columns, and now waits for somebody to read its output.
-            for column in columns:
-                os.truncate(column, 0)
-            rows.stdout.read()
-            self.assertEqual(rows.stderr.read().decode(), "etude: a file of a run was cut short while it was read\n")
-        self.assertEqual(rows.returncode, 3)
-        self.assertGreater(len(columns), 3)
-
     def test_a_small_stack_is_made_larger_or_told(self):
         scenario = self.write("ik.yaml", IK)
         for kib in (64, 256):

@@ -1,11 +1,11 @@
-// Shows recorded motions: bodies to walk round, errors by colour, marks on a time bar (reports/viewer). A button whose
+// Shows recorded motions: bodies, errors by colour, marks on a time bar (reports/viewer). A button whose
 // data-cell is a recorded cell's identity opens it; the cards of dots and rows get such a button (event etude:cells).
 const JOINTS = ['hip centre', 'spine', 'shoulder centre', 'head', ...['shoulder elbow wrist hand', 'hip knee ankle foot'].flatMap((limb) =>
   ['left', 'right'].flatMap((side) => limb.split(' ').map((joint) => `${side} ${joint}`)))];
 const PARENT = [-1, 0, 1, 2, 2, 4, 5, 6, 2, 8, 9, 10, 0, 12, 13, 14, 0, 16, 17, 18];
 const ARM = [.052, .042, .034, .026], LEG = [.075, .054, .04, .03], RADIUS = [.085, .085, .055, .05, ...ARM, ...ARM, ...LEG, ...LEG];
 const HEAD = 3, HEAD_RADIUS = .1, COUNT = 20;
-// Blue, pale, red: readers who see no green or no red can tell them apart.
+// Blue, pale, red: also for readers who see no green or red.
 const SCALE = [[45, 100, 180], [125, 180, 220], [248, 232, 175], [236, 140, 72], [178, 28, 40]];
 
 const island = document.getElementById('motions');
@@ -20,7 +20,7 @@ const fileOf = (cell) => {
   return files.get(cell);
 };
 
-// ---- Data: decodes what the script beside the page holds.
+// ---- Data of the script beside the page.
 const worlds = {};
 const prepare = (world) => {
   const scale = world.unit === 'mm' ? 1000 : 100;
@@ -51,14 +51,14 @@ const prepare = (world) => {
       }
     }
   }
-  // The colour scale ends at the 90th percentile of the errors that are above a fiftieth of the greatest.
+  // The colour scale ends at the 90th percentile of errors above a fiftieth of the greatest.
   const greatest = everyError.reduce((a, b) => Math.max(a, b), 0), seen = everyError.filter((e) => e > greatest / 50).sort((a, b) => a - b);
   const high = seen[Math.floor(.9 * (seen.length - 1))] || 1, power = 10 ** Math.floor(Math.log10(high));
   world.most = [1, 2, 3, 5, 10].find((n) => n * power >= high * .999) * power;
   return world;
 };
 const isThere = (body, t) => t > body.begin - 1e-6 && t < body.begin + body.frames - 1 + 1e-6;
-// Returns the joints at time t, in frames of the world, interpolated linearly.
+// Returns the joints at frame t, interpolated linearly.
 const place = (body, t, steps = false, out = new Float32Array(3 * COUNT)) => {
   const at = Math.min(Math.max(t - body.begin, 0), body.stored - 1), f = Math.floor(at + 1e-6);
   const part = steps ? 0 : at - f, p = body.places, from = f * 3 * COUNT, to = Math.min(f + 1, body.stored - 1) * 3 * COUNT;
@@ -104,7 +104,7 @@ const standing = (left, up) => {
   return times([Math.cos(half), ...x.map((v) => v * Math.sin(half))], first);
 };
 
-// ---- Files for other programs. In the rest pose the arms point sideways; limbs turn by the shortest rotation, so that
+// ---- Files for other programs. Arms point sideways at rest; limbs turn by the shortest rotation, so that
 // all joints are where the viewer shows them.
 const restOf = (body) => PARENT.map((parent, j) => {
   if (parent < 0) return [0, 0, 0];
@@ -207,7 +207,7 @@ const cameraOf = (view, width, height) => {
   };
   return {eye, matrix, project, focus: fy * height / 2};
 };
-// Returns sixteen numbers per limb: start, radius there, end, radius there, start's colour, opacity, end's colour,
+// Returns sixteen numbers per limb: start, radius, end, radius, start's colour, opacity, end's colour,
 // flatness.
 const limbsOf = (scene, ghosts) => [...scene.items.filter((item) => item.ghost === ghosts).flatMap(({places: p, colours: c}) => PARENT.map((parent, j) => {
   const from = j ? parent : HEAD, to = j || HEAD, wide = ghosts ? 1.14 : 1, ends = j === HEAD ? [RADIUS[HEAD], RADIUS[HEAD]] : j ? [RADIUS[from], RADIUS[to]] : [HEAD_RADIUS, HEAD_RADIUS];
@@ -491,7 +491,7 @@ const show = (world, cells) => {
     seek(ahead ? ahead.frame : way > 0 ? last : 0);
   };
 
-  // The errors as a table, for readers who do not see the colours.
+  // The errors as a table, for readers without colours.
   const table = make('div', {class: 'table', tabindex: 0, role: 'region', 'aria-label': 'Error by joint'});
   let cellsNow = [];
   const tabulate = () => {
@@ -645,7 +645,7 @@ const show = (world, cells) => {
       if (state.t > last) state.t = last;
       dirty = true;
     }
-    // If drawing is slow, halves the resolution, then draws in 2D.
+    // Slow drawing: half the resolution, then 2D.
     slow = state.playing && now - before > 36 ? slow + 1 : 0;
     if (slow > 5) {
       slow = 0;
@@ -706,7 +706,7 @@ document.addEventListener('click', (event) => {
   event.preventDefault();
   window.etudeViewer.open(cell);
 });
-// Adds a button to the page's card of a dot or a row if it has a recorded motion.
+// Adds a button to the card of a dot or a row with a recorded motion.
 document.addEventListener('etude:cells', ({detail: {cells, card}}) => {
   const known = cells.filter(window.etudeViewer.has);
   if (!known.length) return;

@@ -119,7 +119,7 @@ TEST(Baseline, IsRefusedWhenAKeyStandsTwice) {
               HasSubstr("b.json:7: the key 'cells' appears twice in one object, first in line 6"));
   // Written with an escape, it is the same key.
   EXPECT_THAT(ComplaintAbout(Replaced(text, "\"seed\":5", "\"seed\":5,\"s\\u0065ed\":7")),
-              HasSubstr("the key 'seed' stands twice"));
+              HasSubstr("the key 'seed' appears twice"));
   // A text that looks like a key is none, nor is a key of another object.
   EXPECT_EQ(ComplaintAbout(Replaced(text, "\"suite\":\"example\"", "\"suite\":\"\\\"seed\\\":5,{\"")), "");
 }

@@ -257,5 +257,22 @@ TEST_F(ColumnsTest, RefuseADigestThatIsNone) {
   EXPECT_THAT(added.error().message, HasSubstr("the digest of world is 'happy'"));
 }
 
+TEST_F(ColumnsTest, ThatAreCutShortWhileTheyAreMappedEndTheProcessWithASentence) {
+  const fs::path file = folder() / "cut.npy";
+  auto writer = NpyWriter::Begin(file, kNpyType<double>);
+  for (int i = 0; i < 10'000; ++i) ASSERT_TRUE(writer->Add(1.0 * i));
+  ASSERT_TRUE(writer->Finish());
+  const auto mapped = NpyFile::Open(file, kNpyType<double>);
+  ASSERT_TRUE(mapped);
+  EXPECT_EQ(mapped->Numbers<double>().back(), 9999);
+  fs::resize_file(file, kNpyHead);
+  EXPECT_EXIT(
+      {
+        EndWhenMappedFilesAreCut();
+        std::exit(mapped->Numbers<double>().back() > 0 ? 1 : 0);
+      },
+      testing::ExitedWithCode(3), "a file of a run was cut short");
+}
+
 }  // namespace
 }  // namespace etude

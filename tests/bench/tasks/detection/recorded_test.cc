@@ -258,7 +258,7 @@ TEST_F(RecordedPeopleTest, FaultsThatCannotBeMadeAreRefused) {
               HasSubstr("'late' cannot be made of a recording; allowed: amplitude, wrong_side, wrong_move"));
   LabelledStreams points = set;
   points.parts[0].is_action_point = true;
-  EXPECT_THAT(ComplaintAbout("faults: [amplitude]\n" + method, points), HasSubstr("labels.csv tells moments"));
+  EXPECT_THAT(ComplaintAbout("faults: [amplitude]\n" + method, points), HasSubstr("labels.csv has action points"));
   set.moves = {"clap"};
   EXPECT_THAT(ComplaintAbout("faults: [wrong_move]\n" + method, set), HasSubstr("needs two moves, found: clap"));
 }
