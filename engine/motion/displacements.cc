@@ -66,6 +66,7 @@ std::vector<FrameRange> GroupsOf(const std::vector<int>& frames) {
 
 std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
   constexpr double kStill = 0.002, kMinSeconds = 0.9, kAbrupt = 0.03, kNeverAsStill = 0.003;  // metres per second
+  constexpr double kGentle = 0.6;  // speed of the last step before rest, as a share of the step before
   // Compute the mean speed of the joints at each step, and mark the steps without motion.
   const int steps = static_cast<int>(motion.poses.size()) - 1;
   std::vector<double> mean(steps);
@@ -79,18 +80,24 @@ std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
     }
     is_still[f] = fastest < kStill;
   }
-  // A pose that is held is no fault if the body comes to rest gently and is that still elsewhere, too.
+  // A pose that is held is no fault if the body comes to rest and leaves it gently.
   std::vector<FrameRange> frozen;
-  for (const FrameRange& span : RangesOf(is_still)) {
-    if ((span.last - span.first + 1) / motion.rate_hz < kMinSeconds) continue;
-    std::vector<double> elsewhere(mean.begin(), mean.begin() + span.first);
-    elsewhere.insert(elsewhere.end(), mean.begin() + span.last + 1, mean.end());
+  for (const FrameRange& range : RangesOf(is_still)) {
+    if ((range.last - range.first + 1) / motion.rate_hz < kMinSeconds) continue;
+    std::vector<double> elsewhere(mean.begin(), mean.begin() + range.first);
+    elsewhere.insert(elsewhere.end(), mean.begin() + range.last + 1, mean.end());
     if (elsewhere.empty()) continue;
-    const double before = span.first > 0 ? mean[span.first - 1] : 0;
-    const double after = span.last + 1 < steps ? mean[span.last + 1] : 0;
+    // A body that is never that still elsewhere is judged more strictly.
     constexpr std::size_t kMinElsewhere = 20;
     const bool is_never_as_still = elsewhere.size() > kMinElsewhere && Quantile(elsewhere, 0.02) > kNeverAsStill;
-    if (std::max(before, after) > kAbrupt || is_never_as_still) frozen.push_back({span.first, span.last + 1});
+    const double limit = is_never_as_still ? kNeverAsStill : kAbrupt;
+    const auto is_abrupt = [&](int near, int farther) {
+      if (near < 0 || near >= steps || mean[near] <= limit) return false;
+      return farther < 0 || farther >= steps || mean[near] > kGentle * mean[farther];
+    };
+    if (is_abrupt(range.first - 1, range.first - 2) || is_abrupt(range.last + 1, range.last + 2)) {
+      frozen.push_back({range.first, range.last + 1});
+    }
   }
   return frozen;
 }

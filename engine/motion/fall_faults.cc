@@ -8,8 +8,6 @@
 namespace etude {
 namespace {
 
-using enum Role;
-
 /// A flight: the fall of the mass centre, metres per second², and the height of its arc, metres.
 struct Flight {
   FrameRange frames;
@@ -18,21 +16,12 @@ struct Flight {
 
 /// Returns the flights that take off, land and follow a parabola.
 std::vector<Flight> FindFlights(const GroundView& ground) {
-  constexpr double kClear = 0.03, kOtherJoints = 0.2, kMinClearance = 0.04, kMaxSeconds = 2, kMinSag = 0.02;
+  constexpr double kClear = 0.03, kMinClearance = 0.04, kMaxSeconds = 2, kMinSag = 0.02;
   constexpr double kMaxStray = 0.1, kMinFall = 1.2, kMinUpright = 0.5;
   constexpr int kMinFrames = 3, kEnoughFrames = 5;
   // In flight, all feet have left the floor, and no other joint is near it.
-  const double floor = ground.LowestRest();
   std::vector<bool> is_clear(ground.frames());
-  for (int f = 0; f < ground.frames(); ++f) {
-    double others = ground.Place(f, kHipCentre).y;
-    for (const Role role : AllRoles()) {
-      const bool is_end =
-          std::ranges::find(kFootJoints, role) != kFootJoints.end() || role == kLeftHand || role == kRightHand;
-      if (!is_end) others = std::min(others, ground.Place(f, role).y);
-    }
-    is_clear[f] = ground.FootHeight(f) > kClear && others - floor > kOtherJoints;
-  }
+  for (int f = 0; f < ground.frames(); ++f) is_clear[f] = ground.FootHeight(f) > kClear && ground.IsOnFeet(f);
   // Fit the height of the mass centre in each flight.
   std::vector<Flight> flights;
   for (const FrameRange& span : RangesOf(is_clear)) {

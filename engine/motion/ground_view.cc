@@ -96,6 +96,14 @@ glm::dvec3 GroundView::Velocity(int frame, Role role) const {
   return (Place(to, role) - Place(from, role)) * (motion_.rate_hz / (to - from));
 }
 
+bool GroundView::IsOnFeet(int frame) const {
+  constexpr double kNear = 0.2;
+  return std::ranges::all_of(AllRoles(), [&](Role role) {
+    const bool is_end = std::ranges::find(kFootJoints, role) != kFootJoints.end();
+    return is_end || role == kLeftHand || role == kRightHand || Place(frame, role).y - LowestRest() > kNear;
+  });
+}
+
 double GroundView::UprightShare(const FrameRange& range) const {
   const auto from = is_upright_.begin() + range.first, to = is_upright_.begin() + range.last + 1;
   return static_cast<double>(std::count(from, to, true)) / (range.last - range.first + 1);

@@ -43,6 +43,8 @@ class GroundView {
   /// Returns the height of the lowest joint but finger tips, as shown.
   double Lowest(int frame) const { return lowest_[frame]; }
   const std::vector<double>& lowest() const { return lowest_; }
+  /// Returns true if only feet and hands are near the floor: other joints are 20 cm above the height where feet rest.
+  bool IsOnFeet(int frame) const;
   /// Returns true if trunk and legs are upright.
   bool IsUpright(int frame) const { return is_upright_[frame]; }
   /// Returns the share of upright frames.

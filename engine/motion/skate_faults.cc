@@ -16,13 +16,13 @@ int FramesIn(const GroundView& ground, double seconds, int least) {
 
 constexpr double kStep_s = 1.0 / 15;  ///< time between the windows in which the feet are judged
 
-/// Returns the velocities along the floor of the feet's joints that may stand: low ones of upright bodies that do not
-/// rise or fall.
+/// Returns the velocities along the floor of the feet's joints that may stand: low ones that do not rise or
+/// fall, while the body is on its feet.
 std::vector<glm::dvec2> FootVelocities(const GroundView& ground, const FrameRange& span, int every) {
   constexpr double kLow = 0.04, kLevel = 0.3;
   std::vector<glm::dvec2> velocities;
   for (int f = span.first; f <= span.last; f += every) {
-    if (!ground.IsUpright(f)) continue;
+    if (!ground.IsOnFeet(f)) continue;
     for (const Role joint : kFootJoints) {
       if (ground.Place(f, joint).y - ground.RestHeight(joint) >= kLow) continue;
       const glm::dvec3 velocity = ground.Velocity(f, joint);
@@ -38,13 +38,21 @@ struct Glide {
   glm::dvec2 velocity{0};
 };
 
+/// When the feet around a frame glide: the window, and the shares of their joints that may stand.
+struct GlideRule {
+  double half_s = 0;     ///< half of the window
+  double min_share = 0;  ///< that move alike
+  double max_rest = 0;   ///< that rest
+};
+constexpr GlideRule kShort{0.3, 0.45, 0.12}, kLong{0.6, 0.4, 0.06};
+
 /// Returns the most frequent velocity of the feet around a frame if it is that of a body that is carried along: it is
 /// shared by almost half of the joints that may stand, and few of them rest.
-std::optional<Glide> GlideAround(const GroundView& ground, int frame) {
-  constexpr double kHalf_s = 0.3, kEvery_s = 1.0 / 30, kMinSpeed = 0.11, kEnough = 0.45, kMaxRest = 0.12, kRest = 0.35;
+std::optional<Glide> GlideAround(const GroundView& ground, int frame, const GlideRule& rule) {
+  constexpr double kEvery_s = 1.0 / 30, kMinSpeed = 0.11, kRest = 0.35;
   constexpr double kNear = 0.07, kNearShare = 0.12;
   constexpr std::size_t kMinVelocities = 6;
-  const int half = FramesIn(ground, kHalf_s, 2), last = ground.frames() - 1;
+  const int half = FramesIn(ground, rule.half_s, 2), last = ground.frames() - 1;
   const FrameRange window{std::max(frame - half, 0), std::min(frame + half, last)};
   const auto all = FootVelocities(ground, window, FramesIn(ground, kEvery_s, 1));
   if (all.size() < kMinVelocities) return std::nullopt;
@@ -68,8 +76,8 @@ std::optional<Glide> GlideAround(const GroundView& ground, int frame) {
   const double speed = glm::length(mean), rest = std::max(kNear, kRest * speed);
   const auto count = static_cast<double>(all.size());
   const auto resting = std::ranges::count_if(all, [&](const glm::dvec2& v) { return glm::length(v) < rest; });
-  if (speed < kMinSpeed || static_cast<double>(most) < kEnough * count) return std::nullopt;
-  if (static_cast<double>(resting) > kMaxRest * count) return std::nullopt;
+  if (speed < kMinSpeed || static_cast<double>(most) < rule.min_share * count) return std::nullopt;
+  if (static_cast<double>(resting) > rule.max_rest * count) return std::nullopt;
   return Glide{frame, mean};
 }
 
@@ -116,7 +124,8 @@ void FindSkates(const GroundView& ground, std::vector<MotionFault>& faults) {
   // Join glides of nearly the same velocity; feet may leave the floor between them.
   std::vector<Glide> glides;
   for (int f = 0; f < ground.frames(); f += step) {
-    const auto glide = GlideAround(ground, f);
+    auto glide = GlideAround(ground, f, kShort);
+    if (!glide) glide = GlideAround(ground, f, kLong);
     if (!glide) continue;
     const double alike = std::max(kAlike, kAlikeShare * glm::length(glide->velocity));
     const bool goes_on = !glides.empty() && (f - glides.back().frame) / ground.motion().rate_hz < kMaxGap_s &&
