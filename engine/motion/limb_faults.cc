@@ -98,14 +98,15 @@ double SegmentDistance(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec
   return glm::distance(a + s * u, c + t * v);
 }
 
-/// Returns the distance of a forearm and hand from the line of the spine, without its ends: near the hips, hands rest
-/// on the thighs; the base of the neck is as thin as a neck.
+/// Returns the distance of a forearm and hand from the line of the spine, without its ends (near the hips, hands rest
+/// on the thighs), or of the forearm from neck and head; hands may lie on the nape.
 double DistanceFromSpine(const BodyPose& pose, Role elbow, Role wrist, Role hand) {
   constexpr double kFromHips = 0.3, kToNeck = 0.95;
   const glm::dvec3 low = glm::mix(pose[kHipCentre], pose[kSpine], kFromHips);
   const glm::dvec3 middle = pose[kSpine];
   const glm::dvec3 high = glm::mix(middle, pose[kShoulderCentre], kToNeck);
-  double nearest = SegmentDistance(pose[elbow], pose[wrist], low, middle);
+  double nearest = SegmentDistance(pose[elbow], pose[wrist], pose[kShoulderCentre], pose[kHead]);
+  nearest = std::min(nearest, SegmentDistance(pose[elbow], pose[wrist], low, middle));
   nearest = std::min(nearest, SegmentDistance(pose[elbow], pose[wrist], middle, high));
   nearest = std::min(nearest, SegmentDistance(pose[wrist], pose[hand], low, middle));
   return std::min(nearest, SegmentDistance(pose[wrist], pose[hand], middle, high));

@@ -74,7 +74,7 @@ std::string SentenceOf(const MotionFault& fault, double end_s) {
     case kBends:
       return fmt::format("{} bends backwards by {:.0f}° {}", joint, fault.size, when);
     case kPasses:
-      return fmt::format("{} passes through the trunk {}, {:.0f} cm from the spine", joint, when, cm);
+      return fmt::format("{} passes through trunk or head {}, {:.0f} cm from their middle", joint, when, cm);
     case kRate:
       return fmt::format(
           "in flight at {:.2f} s the mass centre falls with {:.1f} m/s², not {:.2f}: is the rate {:.2g} times too "

@@ -19,7 +19,7 @@ enum class FaultKind {
   kFreezes,    ///< no joint moves while the body was in motion; size: seconds
   kStretches,  ///< a limb changes its length; size: share of its median length
   kBends,      ///< a knee bends backwards; size: degrees
-  kPasses,     ///< a forearm or a hand passes through the trunk; size: its distance from the spine, metres
+  kPasses,     ///< a forearm or a hand passes through trunk or head; size: its distance from the spine's line, metres
   kRate,       ///< in flight the body falls by another gravity: a wrong rate or unit; size: metres per second²
   kSpeed,      ///< most frames show a joint faster than people are; size: metres per second
 };
@@ -40,8 +40,8 @@ struct MotionFault {
 };
 
 struct MotionFaults {
-  double floor_m = 0;               ///< the height of the floor that the motion is judged by
-  bool is_floor_found = false;      ///< the motion is far from height 0, so its floor is the height where its feet rest
+  double floor_m = 0;           ///< the height of the floor that the motion is judged by
+  bool is_floor_found = false;  ///< the motion is far from height 0, so its floor is the height where its feet rest
   std::vector<MotionFault> faults = {};  ///< by kind, then by time
 };
 
@@ -57,7 +57,7 @@ struct MotionFaults {
 /// - Speed: the fastest joint moves at more than 10 m/s in the median frame, and no flight shows the gravity.
 /// - Pops: third differences above 25 cm and six times the joint's usual (95th percentile); 45 cm at any noise.
 /// - Stretches: upper arms, forearms, thighs and shanks, by 3 %. Bends: 25° for 0.1 s, by the direction of the toes.
-/// - Passes: a forearm or a hand within 3.5 cm of the spine's line.
+/// - Passes: a forearm or a hand within 3.5 cm of the spine's line, or a forearm within that of neck and head.
 /// Fewer than eight frames show no fault.
 MotionFaults FindMotionFaults(const BodyMotion& motion, std::optional<double> floor = std::nullopt);
 

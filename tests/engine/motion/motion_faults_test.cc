@@ -259,13 +259,13 @@ TEST(MotionFaults, OfAKneeThatBendsBackwardsHaveItsAngle) {
   EXPECT_THAT(FaultSentences(FindMotionFaults(bent(15)).faults), IsEmpty()) << "some knees overextend";
 }
 
-TEST(MotionFaults, OfAHandThroughTheChestNameTheWrist) {
-  const auto reach = [](double z) {
+TEST(MotionFaults, OfAnArmThroughChestOrHeadNameTheWrist) {
+  const auto reach = [](double y, double z) {
     // The forearm is as long as before; the elbow gives way.
-    return Changed(Swaying(60), 1, 5, [z](BodyPose& pose, double t) {
+    return Changed(Swaying(60), 1, 5, [y, z](BodyPose& pose, double t) {
       const double part = std::clamp(std::min(t, 4 - t), 0.0, 1.0);
       const glm::dvec3 elbow = pose[kRightElbow], hand = pose[kRightHand] - pose[kRightWrist];
-      const glm::dvec3 target(pose[kSpine].x, 1.3, z);
+      const glm::dvec3 target(pose[kSpine].x, y, z);
       const glm::dvec3 wrist = glm::mix(pose[kRightWrist], target, part);
       pose[kRightElbow] = wrist + glm::length(pose[kRightWrist] - elbow) * glm::normalize(elbow - wrist);
       pose[kRightHand] = wrist + hand;
@@ -276,8 +276,9 @@ TEST(MotionFaults, OfAHandThroughTheChestNameTheWrist) {
     const auto found = FindMotionFaults(motion).faults;
     return std::ranges::any_of(found, [](const MotionFault& f) { return f.kind == kPasses && f.joint == kRightWrist; });
   };
-  EXPECT_TRUE(is_told(reach(0)));
-  EXPECT_FALSE(is_told(reach(0.12))) << "a hand on the chest";
+  EXPECT_TRUE(is_told(reach(1.3, 0)));
+  EXPECT_TRUE(is_told(reach(1.5, 0))) << "through the head";
+  EXPECT_FALSE(is_told(reach(1.3, 0.12))) << "a hand on the chest";
 }
 
 TEST(MotionFaults, AWrongRateIsToldByTheGravityOfFlights) {
