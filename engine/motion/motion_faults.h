@@ -58,7 +58,7 @@ struct MotionFaults {
 /// - Pops: third differences above 25 cm and six times the joint's usual (95th percentile); 45 cm at any noise.
 /// - Stretches: upper arms, forearms, thighs and shanks, by 3 %. Bends: 25° for 0.1 s, by the direction of the toes.
 /// - Passes: a forearm or a hand within 3.5 cm of the spine's line, or a forearm within that of neck and head.
-/// Fewer than eight frames show no fault.
+/// Fewer than eight frames show no fault. All positions must be finite.
 MotionFaults FindMotionFaults(const BodyMotion& motion, std::optional<double> floor = std::nullopt);
 
 /// Returns the sentences of the faults, of each kind and joint the three largest in order of time; a last one counts
