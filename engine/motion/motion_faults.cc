@@ -26,7 +26,6 @@ constexpr std::array kFaultWords = {
     FaultWords{"floats", "m"}, FaultWords{"sinks", "m"},   FaultWords{"skates", "m/s"},      FaultWords{"jumps", "m"},
     FaultWords{"pops", "m"},   FaultWords{"freezes", "s"}, FaultWords{"stretches", "share"}, FaultWords{"bends", "deg"},
     FaultWords{"passes", "m"}, FaultWords{"rate", "m/s2"}, FaultWords{"speed", "m/s"}};
-constexpr double kGravity = 9.81;
 
 void AppendDisplacements(const BodyMotion& motion, const Displacements& displacements,
                          std::vector<MotionFault>& faults) {
@@ -46,6 +45,18 @@ void AppendSpeed(const BodyMotion& motion, std::vector<MotionFault>& faults) {
   if (speed <= kFast_m_s) return;
   const double end = static_cast<double>(motion.poses.size() - 1) / motion.rate_hz;
   faults.push_back({kSpeed, 0, end, std::nullopt, speed});
+}
+
+std::string GravitySentence(const MotionFault& fault) {
+  constexpr double kGravity = 9.81;
+  const bool is_fast = fault.size > kGravity;
+  const double factor = is_fast ? fault.size / kGravity : kGravity / fault.size;
+  return fmt::format(
+      "in flight at {:.2f} s the mass centre falls with {:.1f} m/s², not {:.2f}: is the rate {:.2g} times too {}, or "
+      "the "
+      "unit {:.2g} times too {}?",
+      fault.from_s, fault.size, kGravity, std::sqrt(factor), is_fast ? "high" : "low", factor,
+      is_fast ? "large" : "small");
 }
 
 /// Writes the sentence of a fault. `end_s` is the time of the last frame.
@@ -76,11 +87,7 @@ std::string SentenceOf(const MotionFault& fault, double end_s) {
     case kPasses:
       return fmt::format("{} passes through trunk or head {}, {:.0f} cm from their middle", joint, when, cm);
     case kRate:
-      return fmt::format(
-          "in flight at {:.2f} s the mass centre falls with {:.1f} m/s², not {:.2f}: is the rate {:.2g} times too "
-          "high, "
-          "or the unit {:.2g} times too large?",
-          fault.from_s, fault.size, kGravity, std::sqrt(fault.size / kGravity), fault.size / kGravity);
+      return GravitySentence(fault);
     case kSpeed:
       return fmt::format("the fastest joint moves at {:.1f} m/s in the median frame; is the frame time right?",
                          fault.size);
