@@ -43,7 +43,7 @@ int CheckMethodCommand(OutsideOptions options, const std::string& seat, bool is_
     return *all_passed ? kSuccess : kNothingWorked;
   }
   fmt::print("{} of {} checks passed{}\n", passed, checks,
-             *all_passed ? "" : "; docs/outside-methods.md tells what a method has to do");
+             *all_passed ? "" : "; docs/outside-methods.md says what a method has to do");
   return *all_passed ? kSuccess : kNothingWorked;
 }
 
@@ -67,13 +67,13 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   }
   command->add_option("--task", options->task, "One of: " + Join(tasks))->required();
   command->add_option("--seat", options->seat, "The program's place in a loop: " + Join(seats, "; "));
-  command->add_option("--time", options->time_s, "Seconds per problem, or per step of a session")
+  command->add_option("--time", options->time_s, "Time limit per problem, or per step of a session, seconds")
       ->check(NumberWithin(0.001, 1e6, "time in seconds"))
       ->capture_default_str();
-  command->add_option("--memory", options->memory_mb, "MB of memory")
+  command->add_option("--memory", options->memory_mb, "Memory limit, MB")
       ->check(NumberWithin(1, 1e6, "size in MB"))
       ->capture_default_str();
-  command->add_option("--files", options->files, "What the fence shows it (default: its own folder)")
+  command->add_option("--files", options->files, "Files and folders that the fence shows it (default: its own folder)")
       ->allow_extra_args(false);
   command->add_flag("!--no-fence", options->is_fenced, "Run it without a fence, to debug it");
   AddJson(*command, options->as_json);

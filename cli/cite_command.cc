@@ -40,7 +40,7 @@ Result<int> CiteCommand(const std::string& folder, bool as_json) {
 
 void DefineCite(CLI::App& app, Action& action) {
   auto folder = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("cite", "BibTeX, and the sentence that names a run in a paper");
+  CLI::App* command = app.add_subcommand("cite", "Print BibTeX, and a sentence that cites a run in a paper");
   command->add_option("folder", *folder, "A result folder")->required();
   auto as_json = std::make_shared<bool>(false);
   AddJson(*command, *as_json);

@@ -5,7 +5,7 @@
     guard.py RULE ROOT --must-flag  the control: fails unless every file of ROOT is complained about
 
 Rules: imports, rooms (rooms.py), doors, determinism, types (two of one name, which the linker would take for one), pages
-(files that .md files mention). Prints how many files it checked, so that a guard that looks at nothing cannot pass for one that finds nothing.
+(files that .md files mention), words (house words, in code and pages, for which the field has a term). Prints how many files it checked, so that a guard that looks at nothing cannot pass for one that finds nothing.
 """
 import fnmatch
 import functools
@@ -298,6 +298,30 @@ def check_pages(relative, path):
                 yield number, f"mentions {name}, which does not exist"
 
 
+# House words, and the field's. A word of the glossary's column "not" stands here once no text uses it.
+WORDS = [
+    (r"\bk(?:Most|Least|Fewest|Longest|Largest|Shortest|Smallest)[A-Z]\w*", "kMax… or kMin…"),
+    (r"\bseams?\b", "transition point"),
+    (r"manyeth|\bevery so many\b", "every n-th"),
+    (r"\bis no number\b", "is not a number"),
+    (r"\b(?:whence|whereof|thereof)\b", "a relative clause"),
+    (r"\bfor who\b", "for the person who"),
+    (r"\b(?:exhibit|looker|physique)s?\b", "the glossary's word (CONTRIBUTING.md)"),
+]
+GLOSSARY = "CONTRIBUTING.md"  # names the words that are not to be used
+
+
+def check_words(relative, path):
+    text = path.read_text(encoding="utf-8")
+    for number, line in enumerate(text.splitlines(), 1):
+        for pattern, better in WORDS:
+            if found := re.search(pattern, line, re.I if pattern.islower() else 0):
+                yield number, f"'{found.group()}'; write: {better}"
+    # A public comment begins with a sentence about the thing, not with the rest of one.
+    for start in re.finditer(r"(?m)^(?! *///).*\n *///(?!<) (Whether|Of|So that|And|Which|That|Then)\b", text):
+        yield text.count("\n", 0, start.end()) + 1, f"the comment begins with '{start[1]}'; write: subject, verb, object"
+
+
 class Types:
     """Two types of one name in headers: their members would be mixed up by the linker, without a word."""
 
@@ -322,7 +346,7 @@ class Types:
                 yield number, f"{name} is a type in {', '.join(others)}, too"
 
 
-RULES = {"imports": check_imports, "doors": check_doors, "determinism": check_determinism, "pages": check_pages}
+RULES = {"imports": check_imports, "doors": check_doors, "determinism": check_determinism, "pages": check_pages, "words": check_words}
 
 
 def main():
@@ -331,13 +355,13 @@ def main():
     rule = of_the_tree[sys.argv[1]](root) if sys.argv[1] in of_the_tree else RULES[sys.argv[1]]
     must_flag = sys.argv[3:] == ["--must-flag"]
     checked, flagged = 0, set()
-    folders = FOLDERS if rule is check_pages else LAYERS
+    folders = {check_pages: FOLDERS, check_words: LAYERS + ["python", "docs", "scripts", "ci", "examples"]}.get(rule, LAYERS)
     if rule is check_imports:  # finds folders that nobody has listed
         folders = sorted(path.name for path in root.iterdir() if path.is_dir() and path.name[0] != "." and path.name not in NO_LAYERS)
     for layer in folders:
         for path in sorted((root / layer).rglob("*")):
             is_build_file = path.name == "CMakeLists.txt" and rule is check_determinism
-            kinds = {".md"} if rule is check_pages else {".h", ".cc"}
+            kinds = {check_pages: {".md"}, check_words: {".h", ".cc", ".py", ".pyi", ".js", ".md", ".yaml"}}.get(rule, {".h", ".cc"})
             if (path.suffix not in kinds and not is_build_file) or "must_flag" in path.relative_to(root).parts:
                 continue
             checked += 1

@@ -169,7 +169,7 @@ TEST(RetargetingGolden, OfOddPeople) {
     print.Add(UndoScales(clips, *map));
   }
   EXPECT_GT(understood, 75);
-  EXPECT_TRUE(print.Is(583465, 6920.89623523));
+  EXPECT_TRUE(print.Is(583465, 7661.26153742));
   EXPECT_TRUE(testing::AreKept(told, "tests/engine/retargeting/odd_people.txt"));
 }
 

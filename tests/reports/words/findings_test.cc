@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/reports/support/example_run.h"
 #include "tests/reports/support/unit_run.h"
 
@@ -20,6 +22,8 @@ Comparison Figures(int pairs, std::optional<double> difference, std::optional<do
   comparison.ci_low = low;
   comparison.ci_high = high;
   comparison.share_better = share_better;
+  comparison.better = static_cast<int>(std::lround(share_better * pairs));
+  comparison.worse = pairs - comparison.better;
   comparison.verdict = verdict;
   return comparison;
 }
@@ -44,14 +48,15 @@ std::string AnswerTo(const Comparison& comparison) {
 TEST(Answer, SaysHowMuchBetterOnHowManyWorlds) {
   EXPECT_EQ(
       AnswerTo(Figures(60, -12.3, -14.0, -10.1, 58.0 / 60, Verdict::kBetter)),
-      "“adaptive” lowers the effector orientation error by 12.3° (95 % CI 10.1–14.0) against “fixed”, on 58 of 60 "
-      "worlds.");
+      "“adaptive” lowers the effector orientation error by 12.3° (95 % CI 10.1–14.0) against “fixed”, by as much as "
+      "matters in 58 of 60 worlds.");
 }
 
 TEST(Answer, CountsTheWorldsLostWhenWorse) {
-  EXPECT_THAT(AnswerTo(Figures(20, 3.0, 2.0, 4.0, 0.1, Verdict::kWorse)),
-              HasSubstr("raises the effector orientation error by 3.00° (95 % CI 2.00–4.00) against “fixed”, on 18 of "
-                        "20 worlds."));
+  EXPECT_THAT(
+      AnswerTo(Figures(20, 3.0, 2.0, 4.0, 0.1, Verdict::kWorse)),
+      HasSubstr("raises the effector orientation error by 3.00° (95 % CI 2.00–4.00) against “fixed”, by as much as "
+                "matters in 18 of 20 worlds."));
 }
 
 TEST(Answer, ClaimsNothingThatIsNotSettled) {
@@ -146,7 +151,8 @@ TEST(Findings, NeverCallWhatWasMeasuredReached) {
   for (Row& row : run.rows) row.result.status = Status::kOk;
   EXPECT_THAT(FindingsOf(run).sentence, HasSubstr(" cells were measured."));
   run.rows.front().result.status = Status::kUnsolved;
-  EXPECT_THAT(FindingsOf(run).sentence, HasSubstr(" cells were measured, 1 of them stopped short of their goal."));
+  EXPECT_THAT(FindingsOf(run).sentence,
+              HasSubstr(" cells were measured, 1 of them unsolved (the method answered, but missed its goal)."));
 }
 
 TEST(Findings, GiveSuccessItsOwnShareWhateverTheStatus) {
@@ -162,15 +168,15 @@ TEST(Findings, GiveSuccessItsOwnShareWhateverTheStatus) {
   const auto successes = FindingsOf(run, scenario).successes;
   ASSERT_EQ(successes.size(), 1u);
   EXPECT_EQ(SuccessSentence(successes.front()),
-            "Reached (share “as smooth as nature”): now 0 %, wait-for-end 0 %, fuzzy-bridge 0 %, fuzzy-bridge-adaptive "
-            "0 %, gate-inertialised 75.0 %.");
+            "Reached (share “as smooth as unbroken motion”): now 0 %, wait-for-end 0 %, fuzzy-bridge 0 %, "
+            "fuzzy-bridge-adaptive 0 %, gate-inertialised 75.0 %.");
 }
 
 TEST(Findings, OfManyMethodsNameTheLeastAndTheMostSuccessful) {
   SuccessFinding finding{"natural_share", {}};
   for (int i = 0; i < 40; ++i) finding.shares.emplace_back("method-" + std::to_string(i), i / 40.0);
   EXPECT_EQ(SuccessSentence(finding),
-            "Reached (share “as smooth as nature”): from method-0 0 % to method-39 97.5 %, of 40 methods.");
+            "Reached (share “as smooth as unbroken motion”): from method-0 0 % to method-39 97.5 %, of 40 methods.");
 }
 
 TEST(Findings, GiveAFewFiguresOfTheMethodItsBaselineAndTheStrongestOther) {
@@ -181,8 +187,8 @@ TEST(Findings, GiveAFewFiguresOfTheMethodItsBaselineAndTheStrongestOther) {
   EXPECT_EQ(figures.methods[0].name, "wait-for-end");
   EXPECT_EQ(figures.methods[1].name, "now");
   EXPECT_EQ(figures.methods[2].name, "gate-inertialised");
-  EXPECT_EQ(figures.labels,
-            (std::vector<std::string>{"jump at the seam", "ended ok", "processor time", "worlds lost"}));
+  EXPECT_EQ(figures.labels, (std::vector<std::string>{"jump at the transition point", "ended ok", "processor time",
+                                                      "worlds lost to “wait-for-end”"}));
   EXPECT_EQ(figures.methods[2].values[0], "6.40 cm");
   EXPECT_EQ(figures.methods[1].values[2], "250 ms");
   EXPECT_EQ(figures.methods[2].values[2], "2.00 s");
@@ -201,7 +207,7 @@ TEST(Findings, AnswerTwiceAndSayWhatTheVerdictIsAbout) {
   const ScenarioFindings transition = FindingsOf(run, run.scenarios[0]);
   EXPECT_EQ(transition.answer.baseline, "now");
   EXPECT_EQ(transition.rival.baseline, "gate-inertialised");
-  EXPECT_THAT(transition.headline, HasSubstr("; has 7.83 × the jump at the seam of “gate-inertialised”"));
+  EXPECT_THAT(transition.headline, HasSubstr("; has 7.83 × the jump at the transition point of “gate-inertialised”"));
   EXPECT_THAT(FindingsOf(run, run.scenarios[2]).answer.BothVerdicts(), ::testing::EndsWith(" for other worlds"));
 }
 

@@ -1,0 +1,261 @@
+#include "engine/retargeting/skin_markers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/base/directions.h"
+#include "engine/base/names.h"
+#include "engine/base/order_statistics.h"
+#include "engine/base/smoothstep.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+
+/// A kind of joint whose markers lie on the skin.
+struct SkinJoint {
+  Role left, before;       ///< the joint of the left side, and the one at the limb's other end
+  std::string_view size;   ///< the name of its width in files, without the side
+  double share;            ///< distance from marker to centre over the length between the limb's markers
+  std::string_view where;  ///< for people: "knees {:.1f} cm inside"
+};
+constexpr std::array<SkinJoint, 4> kSkinJoints = {{{kLeftKnee, kLeftHip, "KNEEWIDTH", 0.12, "knees"},
+                                                   {kLeftAnkle, kLeftKnee, "ANKLEWIDTH", 0.085, "ankles"},
+                                                   {kLeftElbow, kLeftShoulder, "ELBOWWIDTH", 0.135, "elbows"},
+                                                   {kLeftShoulder, kLeftElbow, "SHOULDEROFFSET", 0.135, "shoulders"}}};
+
+/// The distances from markers to centres, metres, by role.
+struct SkinDepths {
+  std::array<double, kRoleCount> metres{};
+  std::vector<std::string> of_file, of_limb;  ///< which kinds of joints have them from where
+  bool has_elbow_widths = false;
+};
+
+/// One side of a body in one frame.
+class SideOf {
+ public:
+  SideOf(JointPositions& places, bool is_left) : places_(places), is_left_(is_left) {}
+
+  bool is_left() const { return is_left_; }
+  Role On(Role left) const { return is_left_ ? left : Mirrored(left); }
+  MarkerPosition& operator[](Role left) const { return places_[Index(On(left))]; }
+  bool Has(std::initializer_list<Role> roles) const {
+    return std::ranges::all_of(roles, [&](Role role) { return (*this)[role].has_value(); });
+  }
+
+ private:
+  JointPositions& places_;
+  bool is_left_;
+};
+
+glm::dvec3 Across(const glm::dvec3& v, const glm::dvec3& along) {
+  const glm::dvec3 unit = UnitOr(along, glm::dvec3(0));
+  return v - glm::dot(v, unit) * unit;
+}
+
+/// Returns the centre that is `depth` from `marker`, on the side of `inward`, where the lines to the marker and to the
+/// limb's other end are at a right angle.
+glm::dvec3 Chord(const glm::dvec3& other_end, const glm::dvec3& marker, const glm::dvec3& inward, double depth) {
+  const glm::dvec3 limb = marker - other_end;
+  const double length = glm::length(limb);
+  const glm::dvec3 aside = UnitOr(Across(inward, limb), glm::dvec3(0));
+  if (depth >= length || aside == glm::dvec3(0)) return marker;
+  const double share = depth / length;
+  return marker - depth * share * limb / length + depth * std::sqrt(1 - share * share) * aside;
+}
+
+/// Blends from `rough`, which always tells, to the normal of a bend, which tells the more it bends. A marker that is
+/// `depth` beside a straight limb seems to bend it, which does not count.
+glm::dvec3 Inward(const glm::dvec3& rough, const glm::dvec3& upper, const glm::dvec3& lower, double sign, double depth) {
+  constexpr double kCertain = 1.2, kRange = 0.25;  // of sines
+  const double a = std::max(glm::length(upper), 1e-9), b = std::max(glm::length(lower), 1e-9);
+  const glm::dvec3 normal = sign * glm::cross(upper, lower);
+  const double seeming = kCertain * depth * (1 / a + 1 / b);
+  const glm::dvec3 side = UnitOr(Across(rough, upper), glm::dvec3(0));
+  return glm::mix(side, UnitOr(normal, side), Smoothstep(seeming, seeming + kRange, glm::length(normal) / (a * b)));
+}
+
+SkinDepths DepthsOf(const MarkerSet& set, const std::map<std::string, double>& sizes_m,
+                    std::vector<JointPositions>& frames) {
+  constexpr double kUsualMarker = 0.014;
+  SkinDepths depths;
+  const auto size = [&](const std::string& name) {
+    const auto found = sizes_m.find(name);
+    return found == sizes_m.end() ? std::nullopt : std::optional(found->second);
+  };
+  for (const SkinJoint& joint : kSkinJoints) {
+    if (joint.left == kLeftShoulder ? !set.has_skin_shoulders : !set.has_skin_limbs) continue;
+    std::vector<double> lengths;
+    bool is_of_file = true;
+    for (const bool is_left : {true, false}) {
+      // The file's own width, else a share of the limb.
+      const auto width = size((is_left ? "L" : "R") + std::string(joint.size));
+      const bool is_offset = joint.left == kLeftShoulder;
+      const double radius = 0.5 * size("MARKERDIAMETER").value_or(kUsualMarker);
+      if (width) depths.metres[Index(is_left ? joint.left : Mirrored(joint.left))] = (is_offset ? *width : *width / 2) + radius;
+      is_of_file = is_of_file && width.has_value();
+      for (JointPositions& places : frames) {
+        const SideOf side(places, is_left);
+        if (side.Has({joint.left, joint.before})) lengths.push_back(glm::distance(*side[joint.left], *side[joint.before]));
+      }
+    }
+    const double share = lengths.empty() ? 0 : joint.share * LowerPercentile(std::move(lengths), 0.5);
+    for (const Role role : {joint.left, Mirrored(joint.left)}) {
+      if (depths.metres[Index(role)] == 0) depths.metres[Index(role)] = share;
+    }
+    const double mean = 50 * (depths.metres[Index(joint.left)] + depths.metres[Index(Mirrored(joint.left))]);
+    if (joint.left == kLeftElbow) depths.has_elbow_widths = is_of_file;
+    (is_of_file ? depths.of_file : depths.of_limb).push_back(fmt::format("{} {:.1f}", joint.where, mean));
+  }
+  return depths;
+}
+
+void LowerShoulders(JointPositions& places, const SkinDepths& depths) {
+  const auto at = [&](Role role) -> MarkerPosition& { return places[Index(role)]; };
+  // Down along the trunk, by its own markers, else from shoulders to hips.
+  glm::dvec3 down(0);
+  if (at(kShoulderCentre) && at(kSpine)) {
+    down = *at(kSpine) - *at(kShoulderCentre);
+  } else if (at(kLeftShoulder) && at(kRightShoulder) && at(kLeftHip) && at(kRightHip)) {
+    down = *at(kLeftHip) + *at(kRightHip) - *at(kLeftShoulder) - *at(kRightShoulder);
+  }
+  for (const Role role : {kLeftShoulder, kRightShoulder}) {
+    if (at(role)) *at(role) += depths.metres[Index(role)] * UnitOr(down, glm::dvec3(0));
+  }
+}
+
+/// Returns the direction inward by a wand.
+glm::dvec3 ByWand(const glm::dvec3& wand, const glm::dvec3& other_end, const glm::dvec3& marker) {
+  return UnitOr(-Across(wand - other_end, marker - other_end), glm::dvec3(0));
+}
+
+/// Returns the direction inward at a knee by the hips and by its bending: first of the markers, then of the centres that
+/// follow.
+glm::dvec3 KneeInward(const SideOf& side, const SkinDepths& depths) {
+  const glm::dvec3 hip = *side[kLeftHip], skin = *side[kLeftKnee], ankle = *side[kLeftAnkle];
+  const double sign = side.is_left() ? -1 : 1, depth = depths.metres[Index(side.On(kLeftKnee))];
+  const glm::dvec3 rough = *side[kRightHip] - hip;
+  const glm::dvec3 first = UnitOr(Inward(rough, skin - hip, ankle - skin, sign, depth), glm::dvec3(0));
+  const glm::dvec3 knee = skin + depth * first, centre = ankle + depths.metres[Index(side.On(kLeftAnkle))] * first;
+  return Inward(rough, knee - hip, centre - knee, sign, depth);
+}
+
+/// Which wands stand beside their limbs, left then right: those before or behind it tell nothing.
+struct UsedWands {
+  std::array<bool, 2> thigh = {}, shank = {};
+};
+UsedWands FindUsedWands(const std::vector<Wands>& wands, const SkinDepths& depths,
+                        std::vector<JointPositions>& frames) {
+  constexpr double kAside = 0.3;
+  UsedWands used;
+  for (const bool is_left : {true, false}) {
+    // The cosine between the wand's direction and the knee's own, in the median frame.
+    std::array<std::vector<double>, 2> cosines;
+    const std::size_t index = is_left ? 0 : 1;
+    for (std::size_t t = 0; t < frames.size(); ++t) {
+      const SideOf side(frames[t], is_left);
+      if (!side.Has({kLeftHip, kLeftKnee, kLeftAnkle, kRightHip})) continue;
+      const glm::dvec3 hip = *side[kLeftHip], knee = *side[kLeftKnee], ankle = *side[kLeftAnkle];
+      const glm::dvec3 inward = UnitOr(KneeInward(side, depths), glm::dvec3(0));
+      const auto &thigh = wands[t].thigh[index], &shank = wands[t].shank[index];
+      if (thigh) cosines[0].push_back(glm::dot(ByWand(*thigh, hip, knee), inward));
+      if (shank) cosines[1].push_back(glm::dot(ByWand(*shank, knee, ankle), inward));
+    }
+    used.thigh[index] = !cosines[0].empty() && LowerPercentile(std::move(cosines[0]), 0.5) > kAside;
+    used.shank[index] = !cosines[1].empty() && LowerPercentile(std::move(cosines[1]), 0.5) > kAside;
+  }
+  return used;
+}
+
+void MoveLeg(const SideOf& side, const Wands& wands, const UsedWands& used, const SkinDepths& depths) {
+  if (!side.Has({kLeftHip, kLeftKnee, kLeftAnkle, kRightHip})) return;
+  const std::size_t index = side.is_left() ? 0 : 1;
+  const glm::dvec3 hip = *side[kLeftHip], skin = *side[kLeftKnee], ankle = *side[kLeftAnkle];
+  const auto &thigh = wands.thigh[index], &shank = wands.shank[index];
+  const glm::dvec3 in = thigh && used.thigh[index] ? ByWand(*thigh, hip, skin) : KneeInward(side, depths);
+  const glm::dvec3 knee = Chord(hip, skin, in, depths.metres[Index(side.On(kLeftKnee))]);
+  side[kLeftKnee] = knee;
+  // Ankle: parallel to the knee, unless its wand shows otherwise.
+  const glm::dvec3 at_ankle = shank && used.shank[index] ? ByWand(*shank, knee, ankle) : knee - skin;
+  side[kLeftAnkle] = Chord(knee, ankle, at_ankle, depths.metres[Index(side.On(kLeftAnkle))]);
+}
+
+/// Returns the elbow's centre for a marker on its outside.
+glm::dvec3 BesideElbow(const SideOf& side, const SkinDepths& depths) {
+  const double depth = depths.metres[Index(side.On(kLeftElbow))];
+  // With Plug-in Gait's widths its rule counts, which takes the plane of the markers as it is.
+  const double seeming = depths.has_elbow_widths ? 0.3 * depth : depth;
+  const glm::dvec3 shoulder = *side[kLeftShoulder], skin = *side[kLeftElbow], wrist = *side[kLeftWrist];
+  glm::dvec3 rough = *side[kRightShoulder] - shoulder;
+  if (side.Has({kLeftHip}) && glm::length(Across(rough, skin - shoulder)) < 0.5 * glm::length(rough)) {
+    rough = *side[kLeftHip] - shoulder;  // an arm held out
+  }
+  return Chord(shoulder, skin, Inward(rough, skin - shoulder, wrist - skin, side.is_left() ? 1 : -1, seeming), depth);
+}
+
+/// Returns the elbow's centre for a marker on its point.
+glm::dvec3 BeforeElbow(const SideOf& side, double depth) {
+  const glm::dvec3 wrist = *side[kLeftWrist], skin = *side[kLeftElbow];
+  return Chord(wrist, skin, *side[kLeftShoulder] - skin, depth);
+}
+
+/// Returns true if the elbows' markers sit on their points: upper arms then keep their length far better.
+bool AreOnElbowPoints(std::vector<JointPositions>& frames, const SkinDepths& depths) {
+  constexpr std::size_t kMinFrames = 5;
+  constexpr double kBetter = 0.5, kVisible = 0.0005;
+  std::array<double, 2> deviations{};
+  for (const bool is_left : {true, false}) {
+    std::array<std::vector<double>, 2> lengths;
+    for (JointPositions& places : frames) {
+      const SideOf side(places, is_left);
+      if (!side.Has({kLeftShoulder, kRightShoulder, kLeftElbow, kLeftWrist})) continue;
+      const double depth = depths.metres[Index(side.On(kLeftElbow))];
+      lengths[0].push_back(glm::distance(BesideElbow(side, depths), *side[kLeftShoulder]));
+      lengths[1].push_back(glm::distance(BeforeElbow(side, depth), *side[kLeftShoulder]));
+    }
+    if (lengths[0].size() < kMinFrames) return false;
+    for (std::size_t way = 0; way < 2; ++way) {
+      double mean = 0, square = 0;
+      for (const double length : lengths[way]) mean += length / static_cast<double>(lengths[way].size());
+      for (const double length : lengths[way]) square += (length - mean) * (length - mean);
+      deviations[way] += std::sqrt(square / static_cast<double>(lengths[way].size()));
+    }
+  }
+  return deviations[1] < kBetter * deviations[0] && deviations[0] - deviations[1] > kVisible;
+}
+
+}  // namespace
+
+std::string MoveToJointCentres(const MarkerSet& set, const std::map<std::string, double>& sizes_m,
+                               const std::vector<Wands>& wands, std::vector<JointPositions>& frames) {
+  if (!set.has_skin_limbs && !set.has_skin_shoulders) return "";
+  const SkinDepths depths = DepthsOf(set, sizes_m, frames);
+  // Shoulders first: elbows hang from them.
+  if (set.has_skin_shoulders) {
+    for (JointPositions& places : frames) LowerShoulders(places, depths);
+  }
+  const UsedWands used = set.has_skin_limbs ? FindUsedWands(wands, depths, frames) : UsedWands{};
+  const bool is_on_point = set.has_skin_limbs && AreOnElbowPoints(frames, depths);
+  for (std::size_t t = 0; t < frames.size() && set.has_skin_limbs; ++t) {
+    for (const bool is_left : {true, false}) {
+      const SideOf side(frames[t], is_left);
+      MoveLeg(side, wands[t], used, depths);
+      if (!side.Has({kLeftShoulder, kRightShoulder, kLeftElbow, kLeftWrist})) continue;
+      const double depth = depths.metres[Index(side.On(kLeftElbow))];
+      side[kLeftElbow] = is_on_point ? BeforeElbow(side, depth) : BesideElbow(side, depths);
+    }
+  }
+  // Say what was moved, and by which rule.
+  std::string said = "joint centres under the skin, cm from their markers: ";
+  if (!depths.of_file.empty()) said += Join(depths.of_file) + " by the file's widths";
+  if (!depths.of_file.empty() && !depths.of_limb.empty()) said += "; ";
+  if (!depths.of_limb.empty()) said += Join(depths.of_limb) + " by the lengths of the limbs";
+  if (is_on_point) said += "; elbow markers sit on the elbow's point, so upper arms keep their length";
+  return said;
+}
+
+}  // namespace etude

@@ -1,0 +1,3 @@
+#pragma once
+/// Whether the clip is long.
+bool IsLong();

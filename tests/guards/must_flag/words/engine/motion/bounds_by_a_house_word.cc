@@ -1,0 +1,1 @@
+constexpr int kMostFrames = 3;

@@ -1,0 +1,1 @@
+/// Returns the move for who asks.

@@ -1,0 +1,1 @@
+const char* kComplaint = "x is no number";

@@ -1,0 +1,1 @@
+/// Returns the height of the seam.

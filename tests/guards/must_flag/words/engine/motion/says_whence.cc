@@ -1,0 +1,1 @@
+// Goes back whence it came.
