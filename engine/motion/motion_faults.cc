@@ -52,9 +52,8 @@ std::string GravitySentence(const MotionFault& fault) {
   const bool is_fast = fault.size > kGravity;
   const double factor = is_fast ? fault.size / kGravity : kGravity / fault.size;
   return fmt::format(
-      "in flight at {:.2f} s the mass centre falls with {:.1f} m/s², not {:.2f}: is the rate {:.2g} times too {}, or "
-      "the "
-      "unit {:.2g} times too {}?",
+      "in flight at {:.2f} s the mass centre falls with {:.1f} m/s², not {:.2f}: is the rate {:.2g} times too {}, "
+      "or the unit {:.2g} times too {}?",
       fault.from_s, fault.size, kGravity, std::sqrt(factor), is_fast ? "high" : "low", factor,
       is_fast ? "large" : "small");
 }
@@ -133,7 +132,7 @@ std::vector<std::string> FaultSentences(const std::vector<MotionFault>& faults) 
   for (const MotionFault& fault : faults) {
     // Distances from the spine are the worse the smaller they are.
     const auto is_worse = [&](const MotionFault& other) {
-      if (other.kind != fault.kind || other.joint != fault.joint || &other == &fault) return false;
+      if (other.kind != fault.kind || &other == &fault) return false;
       if (other.size == fault.size) return &other < &fault;
       return (other.size > fault.size) != (fault.kind == kPasses);
     };

@@ -61,8 +61,7 @@ struct MotionFaults {
 /// Fewer than eight frames show no fault. All positions must be finite.
 MotionFaults FindMotionFaults(const BodyMotion& motion, std::optional<double> floor = std::nullopt);
 
-/// Returns the sentences of the faults, of each kind and joint the three largest in order of time; a last one counts
-/// the others.
+/// Returns the sentences of the faults, of each kind the three largest; a last one counts the others.
 std::vector<std::string> FaultSentences(const std::vector<MotionFault>& faults);
 
 }  // namespace etude
