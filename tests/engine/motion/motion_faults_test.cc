@@ -15,7 +15,6 @@ namespace etude {
 namespace {
 
 using enum Role;
-using enum FaultKind;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -46,12 +45,12 @@ BodyPose Posed(double hips, double lift, double sway, double arms) {
 
 /// A person who hops on the spot: flights of 0.4 s, stances of 0.5 s in which the knees bend.
 BodyMotion Hopping(double rate_hz, double seconds = 6) {
-  constexpr double kStraight = 0.89, kCycle = kFlight_s + kStance_s, kSpeed = kGravity * kFlight_s / 2;
+  constexpr double kStraight = 0.89, kCycle = kFlight_s + kStance_s, kTakeOff_m_s = kGravity * kFlight_s / 2;
   BodyMotion motion{.rate_hz = rate_hz, .poses = {}};
   for (int f = 0; f < seconds * rate_hz; ++f) {
     const double t = f / rate_hz, phase = std::fmod(t + 0.1, kCycle), flown = phase - kStance_s;
-    const double lift = flown > 0 ? kSpeed * flown - kGravity * flown * flown / 2 : 0;
-    const double dip = flown > 0 ? 0 : kSpeed * kStance_s / kPi * std::sin(kPi * phase / kStance_s);
+    const double lift = flown > 0 ? kTakeOff_m_s * flown - kGravity * flown * flown / 2 : 0;
+    const double dip = flown > 0 ? 0 : kTakeOff_m_s * kStance_s / kPi * std::sin(kPi * phase / kStance_s);
     motion.poses.push_back(Posed(kStraight + lift - dip, lift, 0.02 * std::sin(2 * t), 0.5 * std::sin(3 * t)));
   }
   return motion;
@@ -68,8 +67,8 @@ BodyMotion Swaying(double rate_hz, double seconds = 6) {
 }
 
 /// Changes the poses of the frames from `from` to `to`, seconds, by `change(pose, seconds since from)`.
-BodyMotion Changed(BodyMotion motion, double from, double to,
-                   const std::function<void(BodyPose& pose, double seconds)>& change) {
+BodyMotion WithChange(BodyMotion motion, double from, double to,
+                      const std::function<void(BodyPose& pose, double seconds)>& change) {
   for (std::size_t f = 0; f < motion.poses.size(); ++f) {
     const double t = static_cast<double>(f) / motion.rate_hz;
     if (t >= from - 1e-9 && t < to - 1e-9) change(motion.poses[f], t - from);
@@ -77,18 +76,18 @@ BodyMotion Changed(BodyMotion motion, double from, double to,
   return motion;
 }
 
-void Shift(BodyPose& pose, const glm::dvec3& by) {
+void MoveAll(BodyPose& pose, const glm::dvec3& by) {
   for (glm::dvec3& joint : pose.joints) joint += by;
 }
 
 BodyMotion Lifted(BodyMotion motion, double from, double to, double height) {
-  return Changed(std::move(motion), from, to, [&](BodyPose& pose, double) { Shift(pose, {0, height, 0}); });
+  return WithChange(std::move(motion), from, to, [&](BodyPose& pose, double) { MoveAll(pose, {0, height, 0}); });
 }
 
 /// Expects exactly one fault, and returns it.
 MotionFault OneFault(const BodyMotion& motion, FaultKind kind) {
   const auto found = FindMotionFaults(motion).faults;
-  EXPECT_EQ(found.size(), 1u) << FaultName(kind) << ": " << testing::PrintToString(FaultSentences(found));
+  EXPECT_EQ(found.size(), 1u) << FaultName(kind) << ": " << ::testing::PrintToString(FaultSentences(found));
   if (found.empty()) return {};
   EXPECT_EQ(FaultName(found.front().kind), FaultName(kind)) << found.front().text;
   return found.front();
@@ -112,7 +111,7 @@ TEST(MotionFaults, AreNoneOfPeopleWhoSwayOrHopAtAnyRate) {
 
 TEST(MotionFaults, AreNotSoughtInLessThanEightFrames) {
   BodyMotion motion = Swaying(30, 0.2);
-  Shift(motion.poses[3], {9, 9, 9});
+  MoveAll(motion.poses[3], {9, 9, 9});
   EXPECT_THAT(FindMotionFaults(motion).faults, IsEmpty());
   EXPECT_THAT(FindMotionFaults({.rate_hz = 30, .poses = {}}).faults, IsEmpty());
 }
@@ -121,11 +120,11 @@ TEST(MotionFaults, OfABodyThatSinksHaveItsDepthAndTime) {
   for (const double rate : {30, 120}) {
     for (const BodyMotion& motion : {Swaying(rate), Hopping(rate)}) {
       for (const double seconds : {0.4, 2.0 / 3}) {
-        const MotionFault sinks = OneFault(Lifted(motion, 2, 2 + seconds, -0.12), kSinks);
+        const MotionFault sinks = OneFault(Lifted(motion, 2, 2 + seconds, -0.12), FaultKind::kSinks);
         ExpectTime(sinks, 2, 2 + seconds);
         EXPECT_NEAR(sinks.size, 0.12, 0.01);
       }
-      const MotionFault half = OneFault(Lifted(motion, 3, 9, -0.08), kSinks);
+      const MotionFault half = OneFault(Lifted(motion, 3, 9, -0.08), FaultKind::kSinks);
       ExpectTime(half, 3, 6);
       EXPECT_NEAR(half.size, 0.08, 0.01);
     }
@@ -134,10 +133,10 @@ TEST(MotionFaults, OfABodyThatSinksHaveItsDepthAndTime) {
 
 TEST(MotionFaults, OfABodyThatFloatsAreMeasuredFromHeightZero) {
   for (const BodyMotion& motion : {Swaying(30), Hopping(60)}) {
-    const MotionFault floats = OneFault(Lifted(motion, 1.5, 3.5, 0.06), kFloats);
+    const MotionFault floats = OneFault(Lifted(motion, 1.5, 3.5, 0.06), FaultKind::kFloats);
     ExpectTime(floats, 1.5, 3.5);
     EXPECT_NEAR(floats.size, 0.06, 0.01);
-    const MotionFault always = OneFault(Lifted(motion, 0, 9, 0.15), kFloats);
+    const MotionFault always = OneFault(Lifted(motion, 0, 9, 0.15), FaultKind::kFloats);
     ExpectTime(always, 0, 6);
     EXPECT_NEAR(always.size, 0.15, 0.01);
     EXPECT_THAT(always.text, HasSubstr("never touch the floor"));
@@ -156,14 +155,14 @@ TEST(MotionFaults, AreJudgedOnAFloorThatIsFoundIfTheMotionIsFarFromZero) {
 TEST(MotionFaults, ANarrowRampUpwardsIsAFloatAndAStepIsNone) {
   // Without an edge, only height tells: 30 cm for two seconds, reached smoothly.
   const auto rise = [](double t) { return 0.3 * std::clamp(std::min(t, 3 - t) / 0.5, 0.0, 1.0); };
-  const auto floats = Changed(Swaying(30), 1, 4, [&](BodyPose& pose, double t) {
-    Shift(pose, {0.6 * std::sin(4 * t), rise(t), 0});
+  const auto floats = WithChange(Swaying(30), 1, 4, [&](BodyPose& pose, double t) {
+    MoveAll(pose, {0.6 * std::sin(4 * t), rise(t), 0});
   });
   bool is_told = false;
-  for (const MotionFault& fault : FindMotionFaults(floats).faults) is_told |= fault.kind == kFloats;
+  for (const MotionFault& fault : FindMotionFaults(floats).faults) is_told |= fault.kind == FaultKind::kFloats;
   EXPECT_TRUE(is_told);
   // Who stands still up there stands on something.
-  const auto stands = Changed(Swaying(30), 1, 4, [&](BodyPose& pose, double t) { Shift(pose, {0, rise(t), 0}); });
+  const auto stands = WithChange(Swaying(30), 1, 4, [&](BodyPose& pose, double t) { MoveAll(pose, {0, rise(t), 0}); });
   EXPECT_THAT(FindMotionFaults(stands).faults, IsEmpty());
 }
 
@@ -174,9 +173,9 @@ TEST(MotionFaults, OfABodyThatSkatesHaveItsSpeedWithinATenth) {
         BodyMotion skating = motion;
         for (std::size_t f = 0; f < skating.poses.size(); ++f) {
           const double t = std::clamp(static_cast<double>(f) / rate - 2, 0.0, 2.0);
-          Shift(skating.poses[f], {0.6 * speed * t, 0, -0.8 * speed * t});
+          MoveAll(skating.poses[f], {0.6 * speed * t, 0, -0.8 * speed * t});
         }
-        const MotionFault skates = OneFault(skating, kSkates);
+        const MotionFault skates = OneFault(skating, FaultKind::kSkates);
         ExpectTime(skates, 2, 4, 0.4);
         EXPECT_NEAR(skates.size, speed, 0.1 * speed);
       }
@@ -187,19 +186,20 @@ TEST(MotionFaults, OfABodyThatSkatesHaveItsSpeedWithinATenth) {
 TEST(MotionFaults, OfABodyThatJumpsAreFoundForOneFrameAndForGood) {
   for (const glm::dvec3& by : {glm::dvec3(0.5, 0, 0), glm::dvec3(0, 0.5, 0), glm::dvec3(-0.3, 0, 0.4)}) {
     const MotionFault once =
-        OneFault(Changed(Hopping(30), 2, 2 + 1.0 / 30, [&](BodyPose& pose, double) { Shift(pose, by); }), kJumps);
+        OneFault(WithChange(Hopping(30), 2, 2 + 1.0 / 30, [&](BodyPose& pose, double) { MoveAll(pose, by); }),
+                 FaultKind::kJumps);
     ExpectTime(once, 2, 2);
     EXPECT_NEAR(once.size, 0.5, 0.05);
   }
-  const auto moved = Changed(Swaying(60), 2, 9, [](BodyPose& pose, double) { Shift(pose, {0.4, 0, 0.3}); });
-  const MotionFault for_good = OneFault(moved, kJumps);
+  const auto moved = WithChange(Swaying(60), 2, 9, [](BodyPose& pose, double) { MoveAll(pose, {0.4, 0, 0.3}); });
+  const MotionFault for_good = OneFault(moved, FaultKind::kJumps);
   ExpectTime(for_good, 2, 2);
   EXPECT_NEAR(for_good.size, 0.5, 0.02);
 }
 
 TEST(MotionFaults, OfOneJointThatPopsNameTheInnermostJoint) {
   for (const double frames : {1, 3}) {
-    const auto motion = Changed(Hopping(30), 2, 2 + frames / 30, [](BodyPose& pose, double) {
+    const auto motion = WithChange(Hopping(30), 2, 2 + frames / 30, [](BodyPose& pose, double) {
       for (const Role joint : {kLeftWrist, kLeftHand}) pose[joint] += glm::dvec3(0, 0.3, 0.4);
     });
     const MotionFault pops = FindMotionFaults(motion).faults.front();
@@ -215,7 +215,7 @@ TEST(MotionFaults, ASecondInWhichNothingMovesIsAFreezeAndNotItsCatchingUp) {
     BodyMotion motion = Hopping(rate);
     const auto from = static_cast<std::size_t>(2 * rate), count = static_cast<std::size_t>(rate);
     for (std::size_t f = from; f < from + count; ++f) motion.poses[f] = motion.poses[from];
-    const MotionFault freezes = OneFault(motion, kFreezes);
+    const MotionFault freezes = OneFault(motion, FaultKind::kFreezes);
     ExpectTime(freezes, 2, 3);
   }
   // A pose that is reached and left gently may be held.
@@ -228,12 +228,12 @@ TEST(MotionFaults, ASecondInWhichNothingMovesIsAFreezeAndNotItsCatchingUp) {
 }
 
 TEST(MotionFaults, OfALimbThatStretchesNameItsFarEnd) {
-  const auto motion = Changed(Swaying(30), 2, 4, [](BodyPose& pose, double) {
+  const auto motion = WithChange(Swaying(30), 2, 4, [](BodyPose& pose, double) {
     for (const Role joint : {kRightHand, kRightWrist}) {
       pose[joint] += 0.05 * (pose[kRightWrist] - pose[kRightElbow]);
     }
   });
-  const MotionFault stretches = OneFault(motion, kStretches);
+  const MotionFault stretches = OneFault(motion, FaultKind::kStretches);
   EXPECT_EQ(stretches.joint, kRightWrist);
   EXPECT_NEAR(stretches.size, 0.05, 0.01);
   ExpectTime(stretches, 2, 4);
@@ -242,7 +242,7 @@ TEST(MotionFaults, OfALimbThatStretchesNameItsFarEnd) {
 TEST(MotionFaults, OfAKneeThatBendsBackwardsHaveItsAngle) {
   // Ramps of half a second, so that no joint pops.
   const auto bent = [](double degrees) {
-    return Changed(Swaying(60), 1, 4, [degrees](BodyPose& pose, double t) {
+    return WithChange(Swaying(60), 1, 4, [degrees](BodyPose& pose, double t) {
       const double part = std::clamp(std::min(t, 3 - t) / 0.5, 0.0, 1.0);
       const glm::dvec3 thigh = glm::normalize(pose[kLeftKnee] - pose[kLeftHip]);
       const glm::dvec3 shank = pose[kLeftAnkle] - pose[kLeftKnee], toes = pose[kLeftFoot] - pose[kLeftAnkle];
@@ -252,7 +252,7 @@ TEST(MotionFaults, OfAKneeThatBendsBackwardsHaveItsAngle) {
       pose[kLeftFoot] = pose[kLeftAnkle] + turn * toes;
     });
   };
-  const MotionFault bends = OneFault(bent(30), kBends);
+  const MotionFault bends = OneFault(bent(30), FaultKind::kBends);
   EXPECT_EQ(bends.joint, kLeftKnee);
   EXPECT_NEAR(bends.size, 30, 1);
   ExpectTime(bends, 1.5, 3.5, 0.15);
@@ -262,7 +262,7 @@ TEST(MotionFaults, OfAKneeThatBendsBackwardsHaveItsAngle) {
 TEST(MotionFaults, OfAnArmThroughChestOrHeadNameTheWrist) {
   const auto reach = [](double y, double z) {
     // The forearm is as long as before; the elbow gives way.
-    return Changed(Swaying(60), 1, 5, [y, z](BodyPose& pose, double t) {
+    return WithChange(Swaying(60), 1, 5, [y, z](BodyPose& pose, double t) {
       const double part = std::clamp(std::min(t, 4 - t), 0.0, 1.0);
       const glm::dvec3 elbow = pose[kRightElbow], hand = pose[kRightHand] - pose[kRightWrist];
       const glm::dvec3 target(pose[kSpine].x, y, z);
@@ -274,7 +274,8 @@ TEST(MotionFaults, OfAnArmThroughChestOrHeadNameTheWrist) {
   };
   const auto is_told = [](const BodyMotion& motion) {
     const auto found = FindMotionFaults(motion).faults;
-    return std::ranges::any_of(found, [](const MotionFault& f) { return f.kind == kPasses && f.joint == kRightWrist; });
+    return std::ranges::any_of(
+        found, [](const MotionFault& f) { return f.kind == FaultKind::kPasses && f.joint == kRightWrist; });
   };
   EXPECT_TRUE(is_told(reach(1.3, 0)));
   EXPECT_TRUE(is_told(reach(1.5, 0))) << "through the head";
@@ -285,7 +286,7 @@ TEST(MotionFaults, AWrongRateIsToldByTheGravityOfFlights) {
   for (const double factor : {0.5, 2.0, 4.0}) {
     BodyMotion motion = Hopping(60);
     motion.rate_hz *= factor;
-    const MotionFault rate = OneFault(motion, kRate);
+    const MotionFault rate = OneFault(motion, FaultKind::kRate);
     EXPECT_NEAR(rate.size, factor * factor * kGravity, 0.1 * factor * factor * kGravity);
     EXPECT_THAT(rate.text, HasSubstr(factor > 1 ? " times too high" : "the rate 2 times too low"));
   }
@@ -295,7 +296,7 @@ TEST(MotionFaults, AMotionWithoutFlightsIsToldByItsSpeed) {
   BodyMotion motion = Swaying(60);
   motion.rate_hz *= 40;
   const auto found = FindMotionFaults(motion).faults;
-  EXPECT_TRUE(std::ranges::any_of(found, [](const MotionFault& fault) { return fault.kind == kSpeed; }));
+  EXPECT_TRUE(std::ranges::any_of(found, [](const MotionFault& fault) { return fault.kind == FaultKind::kSpeed; }));
 }
 
 TEST(MotionFaults, OfManyAlikeTheLargestAreToldAndTheOthersCounted) {
