@@ -242,30 +242,4 @@ std::optional<PoseFit> PoseFitter::Fit(const PoseTargets& wanted, const std::opt
   return best;
 }
 
-std::optional<RigidMisfit> MeasureRigidMisfit(const RestBody& rest, std::span<const BodyPose> poses,
-                                              std::size_t max_poses) {
-  const auto body = FittedBody(rest);
-  const std::size_t count = std::min(max_poses, poses.size());
-  if (!body || count == 0) return std::nullopt;
-  const PoseFitter fitter(*body);
-  RigidMisfit misfit;
-  std::optional<PoseFit> last;
-  for (std::size_t i = 0; i < count; ++i) {
-    // Fit the next pose, and record the largest distance of a role.
-    const std::size_t pose = i * poses.size() / count;
-    last = fitter.Fit(TargetsAt(poses[pose]), last);
-    if (!last) return std::nullopt;
-    const BodyPose fitted = ToBodyPose(*body, last->state);
-    double worst = 0;
-    for (const Role role : AllRoles()) {
-      const double off = glm::distance(fitted[role], poses[pose][role]);
-      worst = std::max(worst, off);
-      if (off <= misfit.worst_m) continue;
-      misfit = {misfit.mean_m, off, role, pose};
-    }
-    misfit.mean_m += worst / static_cast<double>(count);
-  }
-  return misfit;
-}
-
 }  // namespace etude

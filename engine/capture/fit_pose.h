@@ -2,14 +2,12 @@
 
 #include <array>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "engine/kinematics/capture_body.h"
 #include "engine/kinematics/solvers/gauss_newton.h"
 #include "engine/kinematics/tree.h"
 #include "engine/motion/body.h"
-#include "engine/motion/rest_body.h"
 
 namespace etude {
 
@@ -79,18 +77,5 @@ class PoseFitter {
   const GaussNewtonSolver solver_;
   std::vector<std::vector<int>> children_;
 };
-
-/// The distances that remain between joints and a body of constant limb lengths.
-struct RigidMisfit {
-  double mean_m = 0;   ///< mean over the poses of their largest distance
-  double worst_m = 0;  ///< the largest distance of all: of `role` in `pose`
-  Role role = Role::kHipCentre;
-  std::size_t pose = 0;
-};
-
-/// Fits the body `rest` to at most `max_poses` of the poses, evenly spaced. Poses are independent, except that the fit
-/// of one is a possible start for the next. Returns nothing if there are no poses or `FittedBody` fails.
-std::optional<RigidMisfit> MeasureRigidMisfit(const RestBody& rest, std::span<const BodyPose> poses,
-                                              std::size_t max_poses);
 
 }  // namespace etude

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "engine/motion/parabola.h"
+
 namespace etude {
 
 std::vector<BodyPose> JointVelocities(std::span<const BodyPose> poses, double rate_hz) {
@@ -62,34 +64,11 @@ Bearing BearingOf(const BodyPose& pose, const BodyPose& velocity, bool falls, co
 /// acceleration is that of a fall.
 bool FitsFlight(std::span<const BodyPose> poses, int first, int last, double rate_hz, const SupportRules& rules) {
   constexpr int kMinFrames = 5;
-  const int count = last - first + 1;
-  if (count < kMinFrames) return false;
-  const auto time = [&](int i) { return (i - 0.5 * (count - 1)) / rate_hz; };  // centred, so odd moments vanish
-  // Compute the mean height and the mean squared time.
-  std::vector<double> height;
-  double mean = 0, mean_square = 0;
-  for (int i = 0; i < count; ++i) {
-    height.push_back(MassCentre(poses[first + i]).y);
-    mean += height.back() / count;
-    mean_square += time(i) * time(i) / count;
-  }
-  // Fit a parabola by least squares; its terms are orthogonal.
-  double rise = 0, bend = 0, bend_norm = 0;
-  for (int i = 0; i < count; ++i) {
-    const double t = time(i), square = t * t - mean_square;
-    rise += t * height[i] / (mean_square * count);
-    bend += square * height[i];
-    bend_norm += square * square;
-  }
-  bend /= bend_norm;
-  // Compute the root mean square deviation from it.
-  double stray = 0;
-  for (int i = 0; i < count; ++i) {
-    const double t = time(i), off = height[i] - (mean + rise * t + bend * (t * t - mean_square));
-    stray += off * off / count;
-  }
-  const double fall = -2 * bend;
-  return rules.min_fall <= fall && fall <= rules.max_fall && std::sqrt(stray) <= rules.flight_stray;
+  if (last - first + 1 < kMinFrames) return false;
+  std::vector<double> heights;
+  for (int i = first; i <= last; ++i) heights.push_back(MassCentre(poses[i]).y);
+  const Parabola fit = FitParabola(heights, rate_hz);
+  return rules.min_fall <= fit.fall && fit.fall <= rules.max_fall && fit.stray <= rules.flight_stray;
 }
 
 // Marks each run of frames without support that is a flight.

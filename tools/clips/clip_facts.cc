@@ -6,108 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/names.h"
-#include "engine/capture/fit_pose.h"
-#include "engine/retargeting/proportions.h"
 #include "io/drawing/numbers.h"
 
 namespace etude {
-namespace {
-
-/// Returns the lowest joint of a pose. Finger tips are ignored, because rigs place them carelessly.
-Role LowestJoint(const BodyPose& pose) {
-  Role lowest = Role::kHipCentre;
-  for (const Role role : AllRoles()) {
-    const bool is_finger_tip = role == Role::kLeftHand || role == Role::kRightHand;
-    if (!is_finger_tip && pose[role].y < pose[lowest].y) lowest = role;
-  }
-  return lowest;
-}
-
-void RemarkOnPenetration(const BodyMotion& motion, std::vector<std::string>& remarks) {
-  constexpr double kDeep = 0.05;
-  double depth = 0;
-  std::size_t deepest = 0, frames = 0;
-  for (std::size_t f = 0; f < motion.poses.size(); ++f) {
-    const double here = -motion.poses[f][LowestJoint(motion.poses[f])].y;
-    if (here > kDeep) ++frames;
-    if (here <= depth) continue;
-    depth = here;
-    deepest = f;
-  }
-  if (depth <= kDeep) return;
-  remarks.push_back(fmt::format(
-      "{} is {:.0f} cm below the floor at {:.2f} s; {:.0f} % of the frames are over 5 cm deep",
-      RoleName(LowestJoint(motion.poses[deepest])), 100 * depth, static_cast<double>(deepest) / motion.rate_hz,
-      100.0 * static_cast<double>(frames) / static_cast<double>(motion.poses.size())));
-}
-
-/// Returns true if trunk and legs are upright. A person who sits or lies has seats, cushions or the body's own
-/// thickness below the joints.
-bool IsUpright(const BodyPose& pose) {
-  constexpr double kSteep = 0.7;
-  using enum Role;
-  const glm::dvec3 trunk = pose[kShoulderCentre] - pose[kHipCentre];
-  const double leg = glm::distance(pose[kLeftHip], pose[kLeftKnee]) + glm::distance(pose[kLeftKnee], pose[kLeftAnkle]);
-  const double ankles = std::min(pose[kLeftAnkle].y, pose[kRightAnkle].y);
-  return trunk.y > kSteep * glm::length(trunk) && pose[kHipCentre].y - ankles > kSteep * leg;
-}
-
-/// Describes floating: the lowest joint stays above `height_m` for more than `longest_s`. Nobody jumps for a second,
-/// but some people sit on high chairs. In recorded dance, toes stay up to 5 cm above their lowest twentieth for two
-/// seconds, 9 cm for one.
-struct Hovering {
-  double height_m, longest_s;
-  bool is_upright;
-};
-constexpr Hovering kHoverings[] = {{0.5, 1, false}, {0.25, 1, true}, {0.09, 2, true}};
-
-void RemarkOnFloating(const BodyMotion& motion, std::vector<std::string>& remarks) {
-  for (const Hovering& kind : kHoverings) {
-    std::size_t longest = 0, last = 0, run = 0;
-    for (std::size_t f = 0; f < motion.poses.size(); ++f) {
-      const BodyPose& pose = motion.poses[f];
-      const bool hovers = pose[LowestJoint(pose)].y > kind.height_m && (!kind.is_upright || IsUpright(pose));
-      run = hovers ? run + 1 : 0;
-      if (run <= longest) continue;
-      longest = run;
-      last = f;
-    }
-    const double seconds = static_cast<double>(longest) / motion.rate_hz;
-    if (seconds <= kind.longest_s) continue;
-    remarks.push_back(fmt::format(
-        "floats: no joint is within {:.0f} cm of the floor for {:.1f} s from {:.2f} s on; are there steps, or is the "
-        "floor elsewhere?",
-        100 * kind.height_m, seconds, static_cast<double>(last + 1 - longest) / motion.rate_hz));
-    return;
-  }
-}
-
-}  // namespace
-
-std::vector<std::string> RemarksOn(const BodyMotion& motion, const MotionStatistics& statistics) {
-  constexpr double kFast_m_s = 10;  // the feet of sprinters
-  std::vector<std::string> remarks;
-  if (statistics.speed_median_m_s > kFast_m_s) {
-    remarks.push_back(fmt::format("the fastest joint moves at {:.1f} m/s in the median frame; is the frame time right?",
-                                  statistics.speed_median_m_s));
-  }
-  RemarkOnPenetration(motion, remarks);
-  RemarkOnFloating(motion, remarks);
-  return remarks;
-}
-
-std::optional<std::string> RemarkOnSliding(const BodyMotion& motion, const RestBody& rest) {
-  constexpr std::size_t kMaxPoses = 120;
-  constexpr double kMinMisfit = 0.002, kMmPerMetre = 1000;
-  const auto misfit = MeasureRigidMisfit(rest, motion.poses, kMaxPoses);
-  if (!misfit || misfit->mean_m < kMinMisfit) return std::nullopt;
-  return fmt::format(
-      "joints slide: a skeleton that keeps its lengths stays {:.1f} mm off (worst joint, mean over the frames), {:.0f} "
-      "mm at {:.2f} s ({})",
-      kMmPerMetre * misfit->mean_m, kMmPerMetre * misfit->worst_m, static_cast<double>(misfit->pose) / motion.rate_hz,
-      RoleName(misfit->role));
-}
-
 namespace {
 
 /// Returns the name of a material: "Fur", or "Fur (texture of 1024 x 1024)".
@@ -155,11 +56,7 @@ BodyFacts FactsOfBody(const OpenedClip& clip) {
                   .dropped_t_pose = body.dropped_frames > 0,
                   .changes = body.changes,
                   .note = body.note,
-                  .motion = ComputeStatistics(body.motion),
-                  .remarks = {}};
-  facts.remarks = RemarksOn(body.motion, facts.motion);
-  auto sliding = RemarkOnSliding(body.motion, MeasureBody(clip.source.clip, clip.map, body));
-  if (sliding) facts.remarks.push_back(std::move(*sliding));
+                  .motion = ComputeStatistics(body.motion)};
   for (const Role role : AllRoles()) {
     facts.joints[Index(role)] = clip.source.clip.skeleton.joints[clip.map[role].joint].name;
   }
@@ -177,6 +74,25 @@ ClipFacts FactsWithoutClip(const std::string& reference, const OpenOptions& opti
   CountJoints(file->figure.skeleton, facts);
   facts.figure = FactsOfFigure(file->figure);
   return facts;
+}
+
+/// Returns what no person does, in words.
+std::vector<std::string> RemarksOf(const BodyFacts& body) {
+  return body.faults ? FaultSentences(body.faults->faults) : std::vector<std::string>();
+}
+
+Json JsonOf(const MotionFaults& found) {
+  Json faults = Json::array();
+  for (const MotionFault& fault : found.faults) {
+    faults.push_back({{"kind", FaultName(fault.kind)},
+                      {"from_s", fault.from_s},
+                      {"to_s", fault.to_s},
+                      {"joint", fault.joint ? Json(RoleName(*fault.joint)) : Json()},
+                      {"size", fault.size},
+                      {"unit", FaultUnit(fault.kind)},
+                      {"text", fault.text}});
+  }
+  return {{"floor_m", found.floor_m}, {"floor_is_found", found.is_floor_found}, {"list", std::move(faults)}};
 }
 
 Json OrNull(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
@@ -216,7 +132,8 @@ Json JsonOf(const BodyFacts& body) {
           {"stance_left_share", slide.stance_share[0]},
           {"stance_right_share", slide.stance_share[1]},
           {"lowest_foot_m", motion.lowest_foot_m},
-          {"remarks", body.remarks},
+          {"faults", body.faults ? JsonOf(*body.faults) : Json()},
+          {"remarks", RemarksOf(body)},
           {"roles", std::move(roles)}};
 }
 
@@ -294,7 +211,7 @@ std::string BodyLines(const BodyFacts& body) {
     }
   }
   std::string remarks;
-  for (const std::string& remark : body.remarks) remarks += Line("remark", remark);
+  for (const std::string& remark : RemarksOf(body)) remarks += Line("remark", remark);
   // The unit or the marker set stands beside the stature; every change has a line.
   std::string changes;
   for (std::size_t i = 1; i < body.changes.size(); ++i) changes += Line("changed", body.changes[i]);
@@ -326,9 +243,11 @@ std::vector<ClipFacts> FactsOf(const std::string& reference, const OpenOptions& 
   std::vector<ClipFacts> all;
   for (SourceClip& clip : *clips) {
     ClipFacts facts = FactsOfSource(clip);
+    auto faults = FaultsOf(clip, options);
     const auto opened = UnderstandClip(std::move(clip), options);
     if (opened) {
       facts.body = FactsOfBody(*opened);
+      facts.body->faults = std::move(faults);
     } else {
       facts.complaint = opened.error();
     }
@@ -341,6 +260,19 @@ ClipFacts FactsOf(const OpenedClip& clip) {
   ClipFacts facts = FactsOfSource(clip.source);
   facts.body = FactsOfBody(clip);
   return facts;
+}
+
+std::optional<MotionFaults> FaultsOf(const SourceClip& clip, const OpenOptions& options) {
+  OpenOptions own = options;
+  own.body.rate_hz = clip.clip.rate_hz;
+  auto opened = UnderstandClip(clip, own);
+  if (!opened) return std::nullopt;
+  // Put the floor back to the height that the file says.
+  BodyConversion& body = opened->body;
+  for (BodyPose& pose : body.motion.poses) {
+    for (glm::dvec3& joint : pose.joints) joint.y += body.floor * body.metres_per_unit;
+  }
+  return FindMotionFaults(body.motion);
 }
 
 Json FactsAsJson(const std::vector<ClipFacts>& facts) {

@@ -7,24 +7,12 @@
 
 #include "engine/base/result.h"
 #include "engine/motion/body.h"
-#include "engine/motion/rest_body.h"
+#include "engine/motion/motion_faults.h"
 #include "engine/motion/statistics.h"
 #include "io/clips/open_clip.h"
 #include "io/files/json.h"
 
 namespace etude {
-
-/// Returns remarks on motion that people do not perform, so that the file or its interpretation is likely wrong (our
-/// own criteria): a fastest joint above 10 m/s in the median frame; joints other than finger tips more than 5 cm below
-/// the floor; a body that floats (`kHoverings`). `motion` is in metres with its floor at y = 0. Empty if there is
-/// nothing to remark.
-std::vector<std::string> RemarksOn(const BodyMotion& motion, const MotionStatistics& statistics);
-
-/// Returns a remark if joints slide along the limbs: a skeleton with constant limb lengths then misses the motion by at
-/// least 2 mm in the mean (`MeasureRigidMisfit`), and no capture with such a skeleton can be closer. Returns nullopt
-/// below that.
-/// @param rest the performer's body at rest
-std::optional<std::string> RemarkOnSliding(const BodyMotion& motion, const RestBody& rest);
 
 /// The figure in a file.
 struct FigureFacts {
@@ -45,7 +33,7 @@ struct BodyFacts {
   std::vector<std::string> changes;  ///< BodyConversion::changes
   std::string note;
   MotionStatistics motion;
-  std::vector<std::string> remarks;  ///< the result of RemarksOn and RemarkOnSliding
+  std::optional<MotionFaults> faults = {};  ///< at the file's own rate and heights (FaultsOf); absent: not searched
 };
 
 /// The facts of a clip, as `etude clip info` shows them. If a fact cannot be determined, it is missing and `complaint`
@@ -67,8 +55,11 @@ struct ClipFacts {
 /// Collects the facts of every clip that a reference stands for (as ExpandReference returns it). The result is never
 /// empty: a file without clips gives facts, too, and an unreadable file gives only the complaint.
 std::vector<ClipFacts> FactsOf(const std::string& reference, const OpenOptions& options);
-/// Collects the facts of a clip whose roles are known.
+/// Collects the facts of a clip whose roles are known, without its faults.
 ClipFacts FactsOf(const OpenedClip& clip);
+/// Finds the faults of a clip's motion as FindMotionFaults does, at the rate and the heights of its file. Empty if the
+/// clip cannot be understood at its own rate.
+std::optional<MotionFaults> FaultsOf(const SourceClip& clip, const OpenOptions& options);
 
 /// Writes the facts as a paragraph for people. If the roles equal those of `before`, they are not repeated.
 std::string FactsAsText(const ClipFacts& facts, const ClipFacts* before = nullptr);

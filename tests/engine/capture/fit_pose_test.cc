@@ -121,25 +121,5 @@ TEST(PoseFitter, RefusesWhatIsNotFiniteAndABodyWithoutAPlace) {
   EXPECT_FALSE(fitter.Fit(wanted));
 }
 
-TEST(RigidMisfit, IsNoneOfABodyThatKeepsItsLengthsAndWhatSlidesOfOneThatDoesNot) {
-  const RestBody rest = RestBodyOf(std::vector<BodyPose>{ModelPose()});
-  const CaptureBody body = FittedBody(rest).value();
-  std::vector<BodyPose> poses;
-  for (int i = 0; i < 12; ++i) poses.push_back(ToBodyPose(body, SomePose(body, i)));
-  const auto exact = MeasureRigidMisfit(rest, poses, 8);
-  ASSERT_TRUE(exact);
-  EXPECT_LT(exact->worst_m, 1e-5);
-  constexpr double kSlide = 0.03;
-  poses[6][kHead] += kSlide * glm::normalize(poses[6][kHead] - poses[6][kShoulderCentre]);
-  const auto one = MeasureRigidMisfit(rest, poses, 12);
-  ASSERT_TRUE(one);
-  EXPECT_EQ(one->role, kHead);
-  EXPECT_EQ(one->pose, 6u);
-  EXPECT_GT(one->worst_m, 0.5 * kSlide);
-  EXPECT_LE(one->worst_m, kSlide);
-  EXPECT_NEAR(one->mean_m, one->worst_m / 12, 1e-6);
-  EXPECT_FALSE(MeasureRigidMisfit(rest, {}, 5));
-}
-
 }  // namespace
 }  // namespace etude

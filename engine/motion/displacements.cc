@@ -1,0 +1,235 @@
+#include "engine/motion/displacements.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/base/order_statistics.h"
+
+namespace etude {
+namespace {
+
+using PoseSteps = std::array<glm::dvec3, kRoleCount>;
+
+/// Returns the steps of all joints from frame `f` to the next.
+PoseSteps StepsFrom(const BodyMotion& motion, int f) {
+  PoseSteps steps;
+  for (std::size_t j = 0; j < kRoleCount; ++j) steps[j] = motion.poses[f + 1].joints[j] - motion.poses[f].joints[j];
+  return steps;
+}
+
+/// Returns how far every joint's step from frame `f` to the next differs from the mean of the steps before and after
+/// it: half of the third difference. 0 where one of these is missing.
+PoseSteps ThirdDifferences(const BodyMotion& motion, int f) {
+  const int last_step = static_cast<int>(motion.poses.size()) - 2;
+  PoseSteps differences{};
+  if (f < 1 || f >= last_step) return differences;
+  const PoseSteps before = StepsFrom(motion, f - 1), here = StepsFrom(motion, f), after = StepsFrom(motion, f + 1);
+  for (std::size_t j = 0; j < kRoleCount; ++j) differences[j] = here[j] - 0.5 * (before[j] + after[j]);
+  return differences;
+}
+
+/// Returns the median of each coordinate over the joints.
+glm::dvec3 MedianOfJoints(const PoseSteps& vectors) {
+  glm::dvec3 median{0};
+  for (int axis = 0; axis < 3; ++axis) {
+    std::array<double, kRoleCount> values;
+    for (std::size_t j = 0; j < kRoleCount; ++j) values[j] = vectors[j][axis];
+    std::ranges::sort(values);
+    median[axis] = 0.5 * (values[kRoleCount / 2 - 1] + values[kRoleCount / 2]);
+  }
+  return median;
+}
+
+/// Returns the length of `median` if four of five vectors agree with it, else 0.
+double AgreedLength(const PoseSteps& vectors, const glm::dvec3& median) {
+  constexpr double kAgreeing = 0.8, kRelative = 0.3, kAbsolute = 0.005;
+  const double length = glm::length(median), tolerance = kRelative * length + kAbsolute;
+  const auto agrees = [&](const glm::dvec3& v) { return glm::distance(v, median) < tolerance; };
+  const auto count = static_cast<double>(std::ranges::count_if(vectors, agrees));
+  return count >= kAgreeing * kRoleCount ? length : 0;
+}
+
+/// Joins the marked frames that are at most two frames apart.
+std::vector<FrameRange> GroupsOf(const std::vector<int>& frames) {
+  constexpr int kMaxGap = 2;
+  std::vector<FrameRange> groups;
+  for (const int f : frames) {
+    if (!groups.empty() && f - groups.back().last <= kMaxGap) {
+      groups.back().last = f;
+    } else {
+      groups.push_back({f, f});
+    }
+  }
+  return groups;
+}
+
+std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
+  constexpr double kStill = 0.002, kMinSeconds = 0.9, kAbrupt = 0.03, kNeverAsStill = 0.003;  // metres per second
+  constexpr double kGentle = 0.6;  // speed of the last step before rest, as a share of the step before
+  // Compute the mean speed of the joints at each step, and mark the steps without motion.
+  const int steps = static_cast<int>(motion.poses.size()) - 1;
+  std::vector<double> mean(steps);
+  std::vector<bool> is_still(steps);
+  for (int f = 0; f < steps; ++f) {
+    double fastest = 0;
+    for (const glm::dvec3& step : StepsFrom(motion, f)) {
+      const double speed = glm::length(step) * motion.rate_hz;
+      fastest = std::max(fastest, speed);
+      mean[f] += speed / kRoleCount;
+    }
+    is_still[f] = fastest < kStill;
+  }
+  // A pose that is held is no fault if the body comes to rest and leaves it gently.
+  std::vector<FrameRange> frozen;
+  for (const FrameRange& range : RangesOf(is_still)) {
+    if ((range.last - range.first + 1) / motion.rate_hz < kMinSeconds) continue;
+    std::vector<double> elsewhere(mean.begin(), mean.begin() + range.first);
+    elsewhere.insert(elsewhere.end(), mean.begin() + range.last + 1, mean.end());
+    if (elsewhere.empty()) continue;
+    // A body that is never that still elsewhere is judged more strictly.
+    constexpr std::size_t kMinElsewhere = 20;
+    const bool is_never_as_still = elsewhere.size() > kMinElsewhere && Quantile(elsewhere, 0.02) > kNeverAsStill;
+    const double limit = is_never_as_still ? kNeverAsStill : kAbrupt;
+    const auto is_abrupt = [&](int near, int farther) {
+      if (near < 0 || near >= steps || mean[near] <= limit) return false;
+      return farther < 0 || farther >= steps || mean[near] > kGentle * mean[farther];
+    };
+    if (is_abrupt(range.first - 1, range.first - 2) || is_abrupt(range.last + 1, range.last + 2)) {
+      frozen.push_back({range.first, range.last + 1});
+    }
+  }
+  return frozen;
+}
+
+/// Returns true if the body freezes or goes on within three frames of the span.
+bool IsAtFrozenEnd(const FrameRange& span, const std::vector<FrameRange>& frozen) {
+  constexpr int kNear = 3;
+  const auto is_near = [&](int frame) { return span.first - kNear <= frame && frame <= span.last + kNear; };
+  return std::ranges::any_of(frozen, [&](const FrameRange& f) { return is_near(f.first) || is_near(f.last); });
+}
+
+/// Measures the displacement between the first and the last of these steps, beside the mean of the steps around them:
+/// of the whole body, or of `joint`.
+Displacement Measure(const BodyMotion& motion, const FrameRange& steps, std::optional<Role> joint = std::nullopt) {
+  const PoseSteps before = StepsFrom(motion, steps.first - 1), after = StepsFrom(motion, steps.last + 1);
+  Displacement found{.before = steps.first, .after = steps.last + 1};
+  PoseSteps moved{};
+  for (int f = steps.first; f <= steps.last; ++f) {
+    const PoseSteps step = StepsFrom(motion, f);
+    for (std::size_t j = 0; j < kRoleCount; ++j) moved[j] += step[j] - 0.5 * (before[j] + after[j]);
+    found.lasting = joint ? moved[Index(*joint)] : MedianOfJoints(moved);
+    if (glm::length(found.lasting) > glm::length(found.largest)) found.largest = found.lasting;
+  }
+  return found;
+}
+
+/// The steps beside a displacement differ by half of it: returns the main ones. `size_of` returns a step's difference.
+template <typename SizeOf>
+FrameRange MainSteps(FrameRange steps, double largest, SizeOf size_of) {
+  constexpr double kMainShare = 0.6;
+  while (size_of(steps.first) <= kMainShare * largest) ++steps.first;
+  while (size_of(steps.last) <= kMainShare * largest) --steps.last;
+  return steps;
+}
+
+std::vector<Displacement> FindCommon(const BodyMotion& motion, const std::vector<double>& agreed,
+                                     const std::vector<FrameRange>& frozen) {
+  constexpr double kMin = 0.03;
+  std::vector<int> hot;
+  for (int f = 0; f < static_cast<int>(agreed.size()); ++f) {
+    if (agreed[f] > kMin) hot.push_back(f);
+  }
+  std::vector<Displacement> found;
+  for (const FrameRange& group : GroupsOf(hot)) {
+    if (IsAtFrozenEnd(group, frozen)) continue;
+    const double largest = *std::max_element(agreed.begin() + group.first, agreed.begin() + group.last + 1);
+    found.push_back(Measure(motion, MainSteps(group, largest, [&](int f) { return agreed[f]; })));
+  }
+  return found;
+}
+
+/// A joint whose third difference is large at the step `step`.
+struct Hot {
+  int step = 0;
+  Role joint = Role::kHipCentre;
+  double size = 0;
+};
+
+std::vector<Hot> FindHot(const BodyMotion& motion, const std::vector<glm::dvec3>& common) {
+  constexpr double kMin = 0.25, kMax = 0.45, kTimesUsual = 6, kUsual = 0.95;
+  std::vector<Hot> hot;
+  std::vector<double> sizes(common.size());
+  for (const Role joint : AllRoles()) {
+    const std::size_t j = Index(joint);
+    for (std::size_t f = 0; f < common.size(); ++f) {
+      sizes[f] = glm::distance(ThirdDifferences(motion, static_cast<int>(f))[j], common[f]);
+    }
+    const double limit = std::clamp(kTimesUsual * Quantile(sizes, kUsual), kMin, kMax);
+    for (std::size_t f = 0; f < sizes.size(); ++f) {
+      if (sizes[f] > limit) hot.push_back({static_cast<int>(f), joint, sizes[f]});
+    }
+  }
+  std::ranges::stable_sort(hot, {}, &Hot::step);
+  return hot;
+}
+
+std::vector<Pop> FindPops(const BodyMotion& motion, const std::vector<glm::dvec3>& common,
+                          const std::vector<FrameRange>& frozen) {
+  constexpr double kAsLarge = 0.8;
+  const std::vector<Hot> hot = FindHot(motion, common);
+  std::vector<int> steps;
+  for (const Hot& h : hot) steps.push_back(h.step);
+  std::vector<Pop> pops;
+  for (const FrameRange& group : GroupsOf(steps)) {
+    if (IsAtFrozenEnd(group, frozen)) continue;
+    std::array<double, kRoleCount> largest{};
+    for (const Hot& h : hot) {
+      if (h.step < group.first || h.step > group.last) continue;
+      largest[Index(h.joint)] = std::max(largest[Index(h.joint)], h.size);
+    }
+    const auto at = static_cast<std::size_t>(std::ranges::max_element(largest) - largest.begin());
+    // What a joint carries along pops with it: name the innermost joint.
+    Role joint = AllRoles()[at];
+    for (auto parent = ParentOf(joint); parent && largest[Index(*parent)] > kAsLarge * largest[at];
+         parent = ParentOf(joint)) {
+      joint = *parent;
+    }
+    const FrameRange main = MainSteps(group, largest[Index(joint)], [&](int f) {
+      return glm::distance(ThirdDifferences(motion, f)[Index(joint)], common[f]);
+    });
+    pops.push_back({{main.first, main.last + 1}, joint, glm::length(Measure(motion, main, joint).largest)});
+  }
+  return pops;
+}
+
+}  // namespace
+
+std::vector<FrameRange> RangesOf(const std::vector<bool>& is_marked) {
+  std::vector<FrameRange> spans;
+  for (int f = 0; f < static_cast<int>(is_marked.size()); ++f) {
+    if (!is_marked[f]) continue;
+    if (f > 0 && is_marked[f - 1]) {
+      spans.back().last = f;
+    } else {
+      spans.push_back({f, f});
+    }
+  }
+  return spans;
+}
+
+Displacements FindDisplacements(const BodyMotion& motion) {
+  Displacements found{.frozen = FindFrozen(motion), .common = {}, .pops = {}};
+  std::vector<glm::dvec3> common;
+  std::vector<double> agreed;
+  for (int f = 0; f + 1 < static_cast<int>(motion.poses.size()); ++f) {
+    const PoseSteps differences = ThirdDifferences(motion, f);
+    common.push_back(MedianOfJoints(differences));
+    agreed.push_back(AgreedLength(differences, common.back()));
+  }
+  found.common = FindCommon(motion, agreed, found.frozen);
+  found.pops = FindPops(motion, common, found.frozen);
+  return found;
+}
+
+}  // namespace etude

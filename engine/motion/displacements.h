@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "engine/motion/body.h"
+
+namespace etude {
+
+/// A stretch of frames, both ends included.
+struct FrameRange {
+  int first = 0, last = 0;
+};
+
+/// Returns the longest stretches of frames in which `is_marked` is true, in order.
+std::vector<FrameRange> RangesOf(const std::vector<bool>& is_marked);
+
+/// A displacement of all joints alike between the frames `before` and `after`.
+struct Displacement {
+  int before = 0, after = 0;
+  glm::dvec3 lasting{0};  ///< of the frames from `after` on, metres
+  glm::dvec3 largest{0};  ///< of a frame after `before` up to `after`, metres
+};
+
+/// A displacement of one joint alone.
+struct Pop {
+  FrameRange frames;
+  Role joint = Role::kHipCentre;
+  double size = 0;  ///< metres
+};
+
+/// The displacements in a motion: what its frames show beside the movement of a body.
+struct Displacements {
+  std::vector<FrameRange> frozen;    ///< frames that repeat their predecessor, with that one, for 0.9 s or more
+  std::vector<Displacement> common;  ///< not those with which a frozen body catches up
+  std::vector<Pop> pops;             ///< likewise
+};
+
+/// Finds displacements by third differences, as FindMotionFaults states. The motion must have at least eight frames.
+Displacements FindDisplacements(const BodyMotion& motion);
+
+}  // namespace etude

@@ -1,0 +1,159 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "engine/base/order_statistics.h"
+#include "engine/motion/ground_faults.h"
+
+namespace etude {
+namespace {
+
+void FindJumps(const GroundView& ground, std::vector<MotionFault>& faults) {
+  constexpr double kAlongFloor = 0.10, kAny = 0.25;
+  for (const Displacement& d : ground.displacements()) {
+    if (std::hypot(d.largest.x, d.largest.z) <= kAlongFloor && glm::length(d.largest) <= kAny) continue;
+    faults.push_back(ground.FaultOf(FaultKind::kJumps, {d.before, d.after}, glm::length(d.largest)));
+  }
+}
+
+/// Frames of equal vertical displacement.
+struct Level {
+  FrameRange frames;
+  double offset = 0;
+};
+
+/// Returns the displacement of the frames that are where they should be: those in which the feet rest near the floor,
+/// the clip begins and ends, and most of its time passes.
+double ReferenceOffset(const GroundView& ground, const std::vector<Level>& levels) {
+  constexpr double kSame = 0.025, kLowest = -0.01, kHighest = 0.07;  // heights of joints in feet on the floor
+  constexpr double kPerMetre = 2, kForTime = 0.04, kForEnd = 0.03;
+  const double rest = ground.LowestRest() - ground.floor();
+  std::optional<double> best;
+  double reference = 0;
+  for (const Level& candidate : levels) {
+    double time = 0;
+    for (const Level& level : levels) {
+      if (std::abs(level.offset - candidate.offset) < kSame) time += level.frames.last - level.frames.first + 1;
+    }
+    const double height = rest + candidate.offset;
+    const double beyond = std::max({0.0, kLowest - height, height - kHighest});
+    double cost = kForTime * (1 - time / ground.frames()) + (ground.is_floor_found() ? 0 : kPerMetre * beyond);
+    for (const Level* end : {&levels.front(), &levels.back()}) {
+      if (std::abs(end->offset - candidate.offset) >= kSame) cost += kForEnd;
+    }
+    if (best && cost >= *best) continue;
+    best = cost;
+    reference = candidate.offset;
+  }
+  return reference;
+}
+
+/// The frames that are displaced, and the displacement that is none.
+struct Told {
+  std::vector<bool> frames;
+  double reference = 0;
+};
+
+Told FindDisplacedLevels(const GroundView& ground, std::vector<MotionFault>& faults) {
+  constexpr double kStep = 0.02, kMin = 0.04, kMinSeconds = 0.1;
+  // Split the motion at its vertical displacements.
+  std::vector<Level> levels = {{{0, ground.frames() - 1}, 0}};
+  double offset = 0;
+  for (const Displacement& d : ground.displacements()) {
+    offset += d.lasting.y;
+    if (std::abs(d.lasting.y) <= kStep) continue;
+    levels.back().frames.last = d.after - 1;
+    levels.push_back({{d.after, ground.frames() - 1}, offset});
+  }
+  Told told{.frames = std::vector<bool>(ground.frames()),
+            .reference = levels.size() > 1 ? ReferenceOffset(ground, levels) : 0};
+  for (const Level& level : levels) {
+    const double height = level.offset - told.reference;
+    if (std::abs(height) <= kMin || ground.Seconds(level.frames) <= kMinSeconds) continue;
+    const FaultKind kind = height > 0 ? FaultKind::kFloats : FaultKind::kSinks;
+    faults.push_back(ground.FaultOf(kind, level.frames, std::abs(height)));
+    for (int f = level.frames.first; f <= level.frames.last; ++f) told.frames[f] = true;
+  }
+  return told;
+}
+
+/// Returns true if feet rest in at least half of these frames: the body stands on something.
+bool FindsRest(const GroundView& ground, const FrameRange& span) {
+  constexpr double kSlow = 0.15, kEnough = 0.5;
+  int resting = 0;
+  for (int f = span.first; f <= span.last; ++f) {
+    const auto rests = [&](Role joint) { return glm::length(ground.Velocity(f, joint)) < kSlow; };
+    resting += std::ranges::any_of(kFootJoints, rests) ? 1 : 0;
+  }
+  return resting >= kEnough * (span.last - span.first + 1);
+}
+
+/// Returns the float or the sink of a body that is too high or too low in the whole clip.
+std::optional<MotionFault> FindWrongHeight(const GroundView& ground, const Told& told) {
+  constexpr double kHighRest = 0.10, kHighAtAll = 0.08, kDeepRest = -0.06, kEnoughUpright = 0.3, kMostUpright = 0.5;
+  const FrameRange all{0, ground.frames() - 1};
+  const double rest = ground.LowestRest() + told.reference - ground.floor();
+  const bool is_high = rest > kHighRest && Quantile(ground.lowest(), 0.1) - ground.floor() > kHighAtAll;
+  if (is_high && ground.UprightShare() > kMostUpright) return ground.FaultOf(FaultKind::kFloats, all, rest);
+  if (rest < kDeepRest && ground.UprightShare() > kEnoughUpright) return ground.FaultOf(FaultKind::kSinks, all, -rest);
+  return std::nullopt;
+}
+
+/// Appends the times in which all of the body is below the floor or its feet are, without a displacement.
+void FindLow(const GroundView& ground, const Told& told, std::vector<MotionFault>& faults) {
+  constexpr double kDeep = 0.06, kMinSunk_s = 0.15;
+  std::vector<bool> is_deep(ground.frames());
+  for (int f = 0; f < ground.frames(); ++f) {
+    const double feet = ground.FootHeight(f) + ground.Offset(f).y - told.reference;
+    is_deep[f] = !told.frames[f] && ground.Lowest(f) - ground.floor() < -kDeep && feet < -kDeep;
+  }
+  for (const FrameRange& span : RangesOf(is_deep)) {
+    if (ground.Seconds(span) < kMinSunk_s) continue;
+    const double low = *std::min_element(ground.lowest().begin() + span.first, ground.lowest().begin() + span.last + 1);
+    faults.push_back(ground.FaultOf(FaultKind::kSinks, span, ground.floor() - low));
+  }
+}
+
+/// Appends the times in which the body is too high without a displacement, by the first of three rules that finds one.
+/// Nobody jumps for a second, but some people sit on high chairs or stand on steps. In recorded dance, toes stay up to
+/// 5 cm above their lowest twentieth for two seconds, 9 cm for one.
+void FindHigh(const GroundView& ground, const Told& told, std::vector<MotionFault>& faults) {
+  struct Hovering {
+    double height_m, longest_s;
+    bool is_upright;
+  };
+  constexpr double kStep = 0.15;
+  for (const Hovering& kind : {Hovering{0.5, 1, false}, Hovering{0.25, 1, true}, Hovering{0.09, 2, true}}) {
+    std::vector<bool> hovers(ground.frames());
+    for (int f = 0; f < ground.frames(); ++f) {
+      hovers[f] = !told.frames[f] && ground.Lowest(f) - ground.floor() > kind.height_m &&
+                  (!kind.is_upright || ground.IsUpright(f));
+    }
+    bool is_found = false;
+    for (const FrameRange& span : RangesOf(hovers)) {
+      if (ground.Seconds(span) <= kind.longest_s) continue;
+      const double height =
+          Median({ground.lowest().begin() + span.first, ground.lowest().begin() + span.last + 1}) - ground.floor();
+      if (height > kStep && FindsRest(ground, span)) continue;
+      faults.push_back(ground.FaultOf(FaultKind::kFloats, span, height));
+      is_found = true;
+    }
+    if (is_found) return;
+  }
+}
+
+}  // namespace
+
+void FindLevelFaults(const GroundView& ground, std::vector<MotionFault>& faults) {
+  FindJumps(ground, faults);
+  const Told told = FindDisplacedLevels(ground, faults);
+  if (const auto always = FindWrongHeight(ground, told)) {
+    faults.push_back(*always);
+    return;
+  }
+  FindLow(ground, told, faults);
+  FindHigh(ground, told, faults);
+}
+
+}  // namespace etude

@@ -1,0 +1,135 @@
+#include "engine/motion/limb_faults.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+#include "engine/base/angles.h"
+#include "engine/base/directions.h"
+#include "engine/base/order_statistics.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+
+/// Appends a fault for every stretch of frames in which `value` is above `limit` for at least `min_s` seconds; its size
+/// is the largest value.
+void AppendRanges(const BodyMotion& motion, const std::vector<double>& value, double limit, double min_s,
+                  MotionFault fault, std::vector<MotionFault>& faults) {
+  std::vector<bool> is_beyond;
+  for (const double v : value) is_beyond.push_back(v > limit);
+  for (const FrameRange& span : RangesOf(is_beyond)) {
+    if ((span.last - span.first + 1) / motion.rate_hz < min_s) continue;
+    fault.from_s = span.first / motion.rate_hz;
+    fault.to_s = span.last / motion.rate_hz;
+    fault.size = *std::max_element(value.begin() + span.first, value.begin() + span.last + 1);
+    faults.push_back(fault);
+  }
+}
+
+/// A limb stretches if its length differs from its median by 3 % in a twentieth of a second or more. One fault covers
+/// all of these frames.
+void FindStretches(const BodyMotion& motion, const std::vector<Pop>& pops, std::vector<MotionFault>& faults) {
+  constexpr double kLimit = 0.03, kMinLength = 0.02, kMinSeconds = 0.05;
+  constexpr int kMinFrames = 3, kNearPop = 2;
+  constexpr std::array kFarEnds = {kLeftElbow, kLeftWrist, kRightElbow, kRightWrist,
+                                   kLeftKnee,  kLeftAnkle, kRightKnee,  kRightAnkle};
+  const int frames = static_cast<int>(motion.poses.size());
+  std::vector<bool> pops_here(frames);
+  for (const Pop& pop : pops) {
+    const int to = std::min(pop.frames.last + kNearPop, frames - 1);
+    for (int f = std::max(pop.frames.first - kNearPop, 0); f <= to; ++f) pops_here[f] = true;
+  }
+  for (const Role end : kFarEnds) {
+    std::vector<double> lengths;
+    for (const BodyPose& pose : motion.poses) lengths.push_back(BoneLength(pose, {*ParentOf(end), end}));
+    const double median = Median(lengths);
+    if (median < kMinLength) continue;
+    FrameRange all{frames, -1};
+    double largest = 0;
+    int count = 0;
+    for (int f = 0; f < frames; ++f) {
+      const double change = std::abs(lengths[f] / median - 1);
+      if (pops_here[f] || change <= kLimit) continue;
+      all = {std::min(all.first, f), f};
+      largest = std::max(largest, change);
+      ++count;
+    }
+    if (count < kMinFrames || count < kMinSeconds * motion.rate_hz) continue;
+    faults.push_back({FaultKind::kStretches, all.first / motion.rate_hz, all.last / motion.rate_hz, end, largest});
+  }
+}
+
+/// Returns by how much a knee is overextended, degrees; negative while it is bent as knees do. The toes show where the
+/// front of the shank is; 0 if they point along it.
+double Overextension(const BodyPose& pose, Role hip, Role knee, Role ankle, Role foot) {
+  constexpr double kMinToes = 0.03;
+  const glm::dvec3 thigh = pose[knee] - pose[hip], toes = pose[foot] - pose[ankle];
+  const glm::dvec3 shank = UnitOr(pose[ankle] - pose[knee], {0, -1, 0});
+  const glm::dvec3 front = toes - glm::dot(toes, shank) * shank;
+  const double length = glm::length(front);
+  if (length < kMinToes) return 0;
+  return -Degrees(std::atan2(glm::dot(thigh, front) / length, glm::dot(thigh, shank) + 0.0));
+}
+
+void FindBends(const BodyMotion& motion, std::vector<MotionFault>& faults) {
+  constexpr double kLimit = 25, kMinSeconds = 0.1;
+  constexpr Role kLegs[2][4] = {{kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot},
+                                {kRightHip, kRightKnee, kRightAnkle, kRightFoot}};
+  for (const auto& [hip, knee, ankle, foot] : kLegs) {
+    std::vector<double> angles;
+    for (const BodyPose& pose : motion.poses) angles.push_back(Overextension(pose, hip, knee, ankle, foot));
+    AppendRanges(motion, angles, kLimit, kMinSeconds, {.kind = FaultKind::kBends, .joint = knee}, faults);
+  }
+}
+
+/// Returns the smallest distance of two line segments (Ericson 2005, "Real-Time Collision Detection", 5.1.9).
+double SegmentDistance(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
+  constexpr double kTiny = 1e-12;
+  const glm::dvec3 u = b - a, v = d - c, w = a - c;
+  const double uu = glm::dot(u, u), vv = glm::dot(v, v), uv = glm::dot(u, v), uw = glm::dot(u, w), vw = glm::dot(v, w);
+  const double normal = uu * vv - uv * uv;
+  // Take the nearest point of the first line, then of the second segment, then of the first again.
+  double s = normal > kTiny ? std::clamp((uv * vw - uw * vv) / normal, 0.0, 1.0) : 0;
+  const double t = vv > kTiny ? std::clamp((uv * s + vw) / vv, 0.0, 1.0) : 0;
+  s = uu > kTiny ? std::clamp((uv * t - uw) / uu, 0.0, 1.0) : 0;
+  return glm::distance(a + s * u, c + t * v);
+}
+
+/// Returns the distance of a forearm and hand from the line of the spine, without its ends (near the hips, hands rest
+/// on the thighs), or of the forearm from neck and head; hands may lie on the nape.
+double DistanceFromSpine(const BodyPose& pose, Role elbow, Role wrist, Role hand) {
+  constexpr double kFromHips = 0.3, kToNeck = 0.95;
+  const glm::dvec3 low = glm::mix(pose[kHipCentre], pose[kSpine], kFromHips);
+  const glm::dvec3 middle = pose[kSpine];
+  const glm::dvec3 high = glm::mix(middle, pose[kShoulderCentre], kToNeck);
+  double nearest = SegmentDistance(pose[elbow], pose[wrist], pose[kShoulderCentre], pose[kHead]);
+  nearest = std::min(nearest, SegmentDistance(pose[elbow], pose[wrist], low, middle));
+  nearest = std::min(nearest, SegmentDistance(pose[elbow], pose[wrist], middle, high));
+  nearest = std::min(nearest, SegmentDistance(pose[wrist], pose[hand], low, middle));
+  return std::min(nearest, SegmentDistance(pose[wrist], pose[hand], middle, high));
+}
+
+void FindPasses(const BodyMotion& motion, std::vector<MotionFault>& faults) {
+  constexpr double kThin = 0.035, kMinSeconds = 0.05;
+  constexpr Role kArms[2][3] = {{kLeftElbow, kLeftWrist, kLeftHand}, {kRightElbow, kRightWrist, kRightHand}};
+  for (const auto& [elbow, wrist, hand] : kArms) {
+    std::vector<double> depth;
+    for (const BodyPose& pose : motion.poses) depth.push_back(-DistanceFromSpine(pose, elbow, wrist, hand));
+    const std::size_t first = faults.size();
+    AppendRanges(motion, depth, -kThin, kMinSeconds, {.kind = FaultKind::kPasses, .joint = wrist}, faults);
+    for (std::size_t i = first; i < faults.size(); ++i) faults[i].size *= -1;
+  }
+}
+
+}  // namespace
+
+void FindLimbFaults(const BodyMotion& motion, const std::vector<Pop>& pops, std::vector<MotionFault>& faults) {
+  FindStretches(motion, pops, faults);
+  FindBends(motion, faults);
+  FindPasses(motion, faults);
+}
+
+}  // namespace etude

@@ -1,0 +1,149 @@
+#include "engine/motion/motion_faults.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "engine/motion/displacements.h"
+#include "engine/motion/ground_faults.h"
+#include "engine/motion/ground_view.h"
+#include "engine/motion/limb_faults.h"
+#include "engine/motion/statistics.h"
+
+namespace etude {
+namespace {
+
+using enum FaultKind;
+
+struct FaultWords {
+  std::string_view name, unit;
+};
+/// In the order of FaultKind.
+constexpr std::array kFaultWords = {
+    FaultWords{"floats", "m"}, FaultWords{"sinks", "m"},   FaultWords{"skates", "m/s"},      FaultWords{"jumps", "m"},
+    FaultWords{"pops", "m"},   FaultWords{"freezes", "s"}, FaultWords{"stretches", "share"}, FaultWords{"bends", "deg"},
+    FaultWords{"passes", "m"}, FaultWords{"rate", "m/s2"}, FaultWords{"speed", "m/s"}};
+
+void AppendDisplacements(const BodyMotion& motion, const Displacements& displacements,
+                         std::vector<MotionFault>& faults) {
+  for (const Pop& pop : displacements.pops) {
+    faults.push_back({kPops, pop.frames.first / motion.rate_hz, pop.frames.last / motion.rate_hz, pop.joint, pop.size});
+  }
+  for (const FrameRange& frozen : displacements.frozen) {
+    const double from = frozen.first / motion.rate_hz, to = frozen.last / motion.rate_hz;
+    faults.push_back({kFreezes, from, to, std::nullopt, to - from});
+  }
+}
+
+/// Appends the speed if most frames show a joint that is faster than the feet of sprinters.
+void AppendSpeed(const BodyMotion& motion, std::vector<MotionFault>& faults) {
+  constexpr double kFast_m_s = 10;
+  const double speed = ComputeStatistics(motion).speed_median_m_s;
+  if (speed <= kFast_m_s) return;
+  const double end = static_cast<double>(motion.poses.size() - 1) / motion.rate_hz;
+  faults.push_back({kSpeed, 0, end, std::nullopt, speed});
+}
+
+std::string GravitySentence(const MotionFault& fault) {
+  constexpr double kGravity = 9.81;
+  const bool is_fast = fault.size > kGravity;
+  const double factor = is_fast ? fault.size / kGravity : kGravity / fault.size;
+  return fmt::format(
+      "in flight at {:.2f} s the mass centre falls with {:.1f} m/s², not {:.2f}: is the rate {:.2g} times too {}, "
+      "or the unit {:.2g} times too {}?",
+      fault.from_s, fault.size, kGravity, std::sqrt(factor), is_fast ? "high" : "low", factor,
+      is_fast ? "large" : "small");
+}
+
+/// Writes the sentence of a fault. `end_s` is the time of the last frame.
+std::string SentenceOf(const MotionFault& fault, double end_s) {
+  const bool is_always = fault.from_s <= 0 && fault.to_s >= end_s;
+  const std::string when =
+      is_always ? "in all frames" : fmt::format("from {:.2f} to {:.2f} s", fault.from_s, fault.to_s);
+  const std::string joint(fault.joint ? RoleName(*fault.joint) : "");
+  const double cm = 100 * fault.size;
+  switch (fault.kind) {
+    case kFloats:
+      if (is_always) return fmt::format("floats: the feet never touch the floor, and rest {:.0f} cm above it", cm);
+      return fmt::format("floats {:.0f} cm {}; are there steps, or is the floor elsewhere?", cm, when);
+    case kSinks:
+      return fmt::format("sinks {:.0f} cm into the floor {}", cm, when);
+    case kSkates:
+      return fmt::format("skates at {:.0f} cm/s {}: the standing feet move along the floor", cm, when);
+    case kJumps:
+      return fmt::format("the whole body jumps by {:.0f} cm at {:.2f} s", cm, fault.to_s);
+    case kPops:
+      return fmt::format("{} pops by {:.0f} cm at {:.2f} s", joint, cm, fault.from_s);
+    case kFreezes:
+      return fmt::format("freezes for {:.2f} s {}", fault.size, when);
+    case kStretches:
+      return fmt::format("the limb that ends at {} changes its length by {:.0f} % {}", joint, cm, when);
+    case kBends:
+      return fmt::format("{} bends backwards by {:.0f}° {}", joint, fault.size, when);
+    case kPasses:
+      return fmt::format("{} passes through trunk or head {}, {:.0f} cm from their middle", joint, when, cm);
+    case kRate:
+      return GravitySentence(fault);
+    case kSpeed:
+      return fmt::format("the fastest joint moves at {:.1f} m/s in the median frame; is the frame time right?",
+                         fault.size);
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string_view FaultName(FaultKind kind) { return kFaultWords[static_cast<std::size_t>(kind)].name; }
+
+std::string_view FaultUnit(FaultKind kind) { return kFaultWords[static_cast<std::size_t>(kind)].unit; }
+
+MotionFaults FindMotionFaults(const BodyMotion& motion, std::optional<double> floor) {
+  constexpr std::size_t kMinFrames = 8;
+  MotionFaults found{.floor_m = floor.value_or(0)};
+  if (motion.poses.size() < kMinFrames) return found;
+  // Find the faults of each kind.
+  const Displacements displacements = FindDisplacements(motion);
+  const GroundView ground(motion, displacements, floor);
+  found.floor_m = ground.floor();
+  found.is_floor_found = ground.is_floor_found();
+  FindLevelFaults(ground, found.faults);
+  FindSkates(ground, found.faults);
+  AppendDisplacements(motion, displacements, found.faults);
+  FindLimbFaults(motion, displacements.pops, found.faults);
+  const std::size_t count = found.faults.size();
+  FindFalls(ground, found.faults);
+  if (found.faults.size() == count) AppendSpeed(motion, found.faults);
+  // Describe and sort them.
+  const double end = static_cast<double>(motion.poses.size() - 1) / motion.rate_hz;
+  for (MotionFault& fault : found.faults) fault.text = SentenceOf(fault, end);
+  std::ranges::stable_sort(found.faults, [](const MotionFault& a, const MotionFault& b) {
+    return a.kind != b.kind ? a.kind < b.kind : a.from_s < b.from_s;
+  });
+  return found;
+}
+
+std::vector<std::string> FaultSentences(const std::vector<MotionFault>& faults) {
+  constexpr int kMaxAlike = 3;
+  std::vector<std::string> sentences;
+  int left_out = 0;
+  for (const MotionFault& fault : faults) {
+    // Distances from the spine are the worse the smaller they are.
+    const auto is_worse = [&](const MotionFault& other) {
+      if (other.kind != fault.kind || &other == &fault) return false;
+      if (other.size == fault.size) return &other < &fault;
+      return (other.size > fault.size) != (fault.kind == kPasses);
+    };
+    if (std::ranges::count_if(faults, is_worse) < kMaxAlike) {
+      sentences.push_back(fault.text);
+    } else {
+      ++left_out;
+    }
+  }
+  if (left_out > 0) sentences.push_back(fmt::format("and {} more like these", left_out));
+  return sentences;
+}
+
+}  // namespace etude

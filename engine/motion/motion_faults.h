@@ -1,0 +1,67 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/motion/body.h"
+
+namespace etude {
+
+/// Ways in which a motion cannot be that of a person, or its file is read wrongly.
+enum class FaultKind {
+  kFloats,     ///< the feet rest above the floor; size: height, metres
+  kSinks,      ///< the body is below the floor; size: depth, metres
+  kSkates,     ///< standing feet move along the floor; size: their common speed, metres per second
+  kJumps,      ///< the whole body is displaced from one frame to the next; size: distance, metres
+  kPops,       ///< one joint is displaced alone; size: distance, metres
+  kFreezes,    ///< no joint moves while the body was in motion; size: seconds
+  kStretches,  ///< a limb changes its length; size: share of its median length
+  kBends,      ///< a knee bends backwards; size: degrees
+  kPasses,     ///< a forearm or a hand passes through trunk or head; size: its distance from the spine's line, metres
+  kRate,       ///< in flight the body falls by another gravity: a wrong rate or unit; size: metres per second²
+  kSpeed,      ///< most frames show a joint faster than people are; size: metres per second
+};
+
+/// Returns "floats", "sinks", "skates", "jumps", "pops", "freezes", "stretches", "bends", "passes", "rate"
+/// or "speed".
+std::string_view FaultName(FaultKind kind);
+/// Returns the unit of its size: "m", "m/s", "s", "share", "deg" or "m/s2".
+std::string_view FaultUnit(FaultKind kind);
+
+/// A fault, the time that it takes, and what it looks like.
+struct MotionFault {
+  FaultKind kind = FaultKind::kFloats;
+  double from_s = 0, to_s = 0;     ///< its first and its last frame
+  std::optional<Role> joint = {};  ///< the joint at fault; a limb is named by its far end; absent: the whole body
+  double size = 0;                 ///< unit: FaultKind
+  std::string text = {};           ///< a sentence for people: "floats 6 cm from 1.20 to 3.20 s"
+};
+
+struct MotionFaults {
+  double floor_m = 0;           ///< the height of the floor that the motion is judged by
+  bool is_floor_found = false;  ///< the motion is far from height 0, so its floor is the height where its feet rest
+  std::vector<MotionFault> faults = {};  ///< by kind, then by time
+};
+
+/// Finds the faults of a motion without a truth, in metres, Y up, at its own rate (resampling hides frames that are
+/// displaced or repeated). *(Ours.)* The floor is `floor`, else height 0; a motion whose lowest joint stays more than
+/// 60 cm from 0 has no floor at 0, and the height at which its feet rest is used. Rules:
+/// - Jumps, floats, sinks: third differences of positions in which 80 % of the joints agree are displacements of the
+///   whole body. Those along the floor (10 cm) or longer than 25 cm are jumps; vertical ones (4 cm) start or end times
+///   in which the body floats or sinks. Without such an edge, a body floats that rests 10 cm high in the whole clip or
+///   stays high without rest, and sinks where it is 6 cm below the floor.
+/// - Skates: the most frequent velocity of the low joints of the feet within 0.6 s is not near 0.
+/// - Rate: in flights, the mass centre falls with less than 4.5 or more than 21.6 m/s² (2.2 times less or more).
+/// - Speed: the fastest joint moves at more than 10 m/s in the median frame, and no flight shows the gravity.
+/// - Pops: third differences above 25 cm and six times the joint's usual (95th percentile); 45 cm at any noise.
+/// - Stretches: upper arms, forearms, thighs and shanks, by 3 %. Bends: 25° for 0.1 s, by the direction of the toes.
+/// - Passes: a forearm or a hand within 3.5 cm of the spine's line, or a forearm within that of neck and head.
+/// Fewer than eight frames show no fault. All positions must be finite.
+MotionFaults FindMotionFaults(const BodyMotion& motion, std::optional<double> floor = std::nullopt);
+
+/// Returns the sentences of the faults, of each kind the three largest; a last one counts the others.
+std::vector<std::string> FaultSentences(const std::vector<MotionFault>& faults);
+
+}  // namespace etude

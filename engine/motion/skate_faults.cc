@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "engine/base/order_statistics.h"
+#include "engine/motion/ground_faults.h"
+
+namespace etude {
+namespace {
+
+/// Returns the number of frames in `seconds`, at least `least`.
+int FramesIn(const GroundView& ground, double seconds, int least) {
+  return std::max(static_cast<int>(std::lround(seconds * ground.motion().rate_hz)), least);
+}
+
+constexpr double kStep_s = 1.0 / 15;  ///< time between the windows in which the feet are judged
+
+/// Returns the velocities along the floor of the feet's joints that may stand: low ones that do not rise or
+/// fall, while the body is on its feet.
+std::vector<glm::dvec2> FootVelocities(const GroundView& ground, const FrameRange& span, int every) {
+  constexpr double kLow = 0.04, kLevel = 0.3;
+  std::vector<glm::dvec2> velocities;
+  for (int f = span.first; f <= span.last; f += every) {
+    if (!ground.IsOnFeet(f)) continue;
+    for (const Role joint : kFootJoints) {
+      if (ground.Place(f, joint).y - ground.RestHeight(joint) >= kLow) continue;
+      const glm::dvec3 velocity = ground.Velocity(f, joint);
+      if (std::abs(velocity.y) < kLevel) velocities.emplace_back(velocity.x, velocity.z);
+    }
+  }
+  return velocities;
+}
+
+/// A velocity along the floor, of standing feet around a frame.
+struct Glide {
+  int frame = 0;
+  glm::dvec2 velocity{0};
+};
+
+/// When the feet around a frame glide: the window, and the shares of their joints that may stand.
+struct GlideRule {
+  double half_s = 0;     ///< half of the window
+  double min_share = 0;  ///< that move alike
+  double max_rest = 0;   ///< that rest
+};
+constexpr GlideRule kShort{0.3, 0.45, 0.12}, kLong{0.6, 0.4, 0.06};
+
+/// Returns the most frequent velocity of the feet around a frame if it is that of a body that is carried along: it is
+/// shared by almost half of the joints that may stand, and few of them rest.
+std::optional<Glide> GlideAround(const GroundView& ground, int frame, const GlideRule& rule) {
+  constexpr double kEvery_s = 1.0 / 30, kMinSpeed = 0.11, kRest = 0.35;
+  constexpr double kNear = 0.07, kNearShare = 0.12;
+  constexpr std::size_t kMinVelocities = 6;
+  const int half = FramesIn(ground, rule.half_s, 2), last = ground.frames() - 1;
+  const FrameRange window{std::max(frame - half, 0), std::min(frame + half, last)};
+  const auto all = FootVelocities(ground, window, FramesIn(ground, kEvery_s, 1));
+  if (all.size() < kMinVelocities) return std::nullopt;
+  // Find the velocity with the most neighbours, and their mean.
+  const auto near = [&](const glm::dvec2& v) {
+    const double radius = std::max(kNear, kNearShare * glm::length(v));
+    return [v, radius](const glm::dvec2& other) { return glm::distance(v, other) < radius; };
+  };
+  glm::dvec2 mode{0};
+  std::ptrdiff_t most = 0;
+  for (const glm::dvec2& v : all) {
+    const auto count = std::ranges::count_if(all, near(v));
+    if (count <= most) continue;
+    most = count;
+    mode = v;
+  }
+  glm::dvec2 mean{0};
+  for (const glm::dvec2& v : all) {
+    if (near(mode)(v)) mean += v / static_cast<double>(most);
+  }
+  const double speed = glm::length(mean), rest = std::max(kNear, kRest * speed);
+  const auto count = static_cast<double>(all.size());
+  const auto resting = std::ranges::count_if(all, [&](const glm::dvec2& v) { return glm::length(v) < rest; });
+  if (speed < kMinSpeed || static_cast<double>(most) < rule.min_share * count) return std::nullopt;
+  if (static_cast<double>(resting) > rule.max_rest * count) return std::nullopt;
+  return Glide{frame, mean};
+}
+
+/// Appends the skating that these glides show, if it lasts.
+void AppendSkate(const GroundView& ground, const std::vector<Glide>& glides, std::vector<MotionFault>& faults) {
+  constexpr double kMargin_s = 0.15, kMinSeconds = 0.5, kMinSpeed = 0.14, kMinShare = 0.25, kShare = 0.1;
+  // The window of the first glide reaches beyond the skating.
+  const int margin = FramesIn(ground, kMargin_s, 0), step = FramesIn(ground, kStep_s, 1), end = ground.frames() - 1;
+  const int first = glides.front().frame <= step ? 0 : std::max(glides.front().frame - margin, 0);
+  const int last = glides.back().frame >= end - step ? end : std::min(glides.back().frame + margin, end);
+  if ((last - first) / ground.motion().rate_hz < kMinSeconds) return;
+  // Start from the median glide, and narrow down to the feet's most frequent velocity.
+  std::vector<double> x, z;
+  for (const Glide& glide : glides) {
+    x.push_back(glide.velocity.x);
+    z.push_back(glide.velocity.y);
+  }
+  glm::dvec2 velocity(Median(x), Median(z));
+  const std::vector<glm::dvec2> all = FootVelocities(ground, {first, last}, 1);
+  double share = 0;
+  for (const double width : {0.2, 0.12, 0.08, 0.08, 0.08}) {
+    const double radius = std::max(width, kShare * glm::length(velocity));
+    glm::dvec2 sum{0};
+    int count = 0;
+    for (const glm::dvec2& v : all) {
+      if (glm::distance(v, velocity) >= radius) continue;
+      sum += v;
+      ++count;
+    }
+    constexpr int kMinCount = 3;
+    if (count < kMinCount) break;
+    share = count / static_cast<double>(all.size());
+    velocity = sum / static_cast<double>(count);
+  }
+  if (glm::length(velocity) < kMinSpeed || share < kMinShare) return;
+  faults.push_back(ground.FaultOf(FaultKind::kSkates, {first, last}, glm::length(velocity)));
+}
+
+}  // namespace
+
+void FindSkates(const GroundView& ground, std::vector<MotionFault>& faults) {
+  constexpr double kMaxGap_s = 1, kAlike = 0.1, kAlikeShare = 0.3;
+  const int step = FramesIn(ground, kStep_s, 1);
+  // Join glides of nearly the same velocity; feet may leave the floor between them.
+  std::vector<Glide> glides;
+  for (int f = 0; f < ground.frames(); f += step) {
+    auto glide = GlideAround(ground, f, kShort);
+    if (!glide) glide = GlideAround(ground, f, kLong);
+    if (!glide) continue;
+    const double alike = std::max(kAlike, kAlikeShare * glm::length(glide->velocity));
+    const bool goes_on = !glides.empty() && (f - glides.back().frame) / ground.motion().rate_hz < kMaxGap_s &&
+                         glm::distance(glides.back().velocity, glide->velocity) < alike;
+    if (!goes_on && !glides.empty()) {
+      AppendSkate(ground, glides, faults);
+      glides.clear();
+    }
+    glides.push_back(*glide);
+  }
+  if (!glides.empty()) AppendSkate(ground, glides, faults);
+}
+
+}  // namespace etude

@@ -1,0 +1,311 @@
+#include "engine/motion/motion_faults.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/gtc/quaternion.hpp>
+
+#include "engine/base/angles.h"
+#include "tests/engine/motion/standing_body.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double kGravity = 9.81, kFlight_s = 0.4, kStance_s = 0.5;
+
+/// The standing body with its hips at a height and its feet lifted, its knees bent as its legs need, arms at an angle.
+BodyPose Posed(double hips, double lift, double sway, double arms) {
+  constexpr double kBone = 0.4;
+  BodyPose pose = Standing();
+  for (const Role role : AllRoles()) pose[role] += glm::dvec3(sway, hips - 0.9, 0);
+  for (const auto& [hip, knee, ankle, foot] : {std::tuple{kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot},
+                                               std::tuple{kRightHip, kRightKnee, kRightAnkle, kRightFoot}}) {
+    for (const Role joint : {ankle, foot}) pose[joint] = Standing()[joint] + glm::dvec3(0, lift, 0);
+    const glm::dvec3 leg = pose[ankle] - pose[hip];
+    const double forward = std::sqrt(std::max(0.0, kBone * kBone - glm::dot(leg, leg) / 4));
+    const glm::dvec3 front = glm::normalize(glm::cross(leg, glm::dvec3(1, 0, 0)));
+    pose[knee] = pose[hip] + 0.5 * leg + forward * front;
+  }
+  for (const Role joint : {kLeftElbow, kLeftWrist, kLeftHand}) {
+    const glm::dquat turn = glm::angleAxis(arms, glm::dvec3(0, 0, 1));
+    pose[joint] = pose[kLeftShoulder] + turn * (pose[joint] - pose[kLeftShoulder]);
+    const glm::dvec3 right = pose[Mirrored(joint)] - pose[kRightShoulder];
+    pose[Mirrored(joint)] = pose[kRightShoulder] + glm::inverse(turn) * right;
+  }
+  return pose;
+}
+
+/// A person who hops on the spot: flights of 0.4 s, stances of 0.5 s in which the knees bend.
+BodyMotion Hopping(double rate_hz, double seconds = 6) {
+  constexpr double kStraight = 0.89, kCycle = kFlight_s + kStance_s, kTakeOff_m_s = kGravity * kFlight_s / 2;
+  BodyMotion motion{.rate_hz = rate_hz, .poses = {}};
+  for (int f = 0; f < seconds * rate_hz; ++f) {
+    const double t = f / rate_hz, phase = std::fmod(t + 0.1, kCycle), flown = phase - kStance_s;
+    const double lift = flown > 0 ? kTakeOff_m_s * flown - kGravity * flown * flown / 2 : 0;
+    const double dip = flown > 0 ? 0 : kTakeOff_m_s * kStance_s / kPi * std::sin(kPi * phase / kStance_s);
+    motion.poses.push_back(Posed(kStraight + lift - dip, lift, 0.02 * std::sin(2 * t), 0.5 * std::sin(3 * t)));
+  }
+  return motion;
+}
+
+/// A person who sways on both feet.
+BodyMotion Swaying(double rate_hz, double seconds = 6) {
+  BodyMotion motion{.rate_hz = rate_hz, .poses = {}};
+  for (int f = 0; f < seconds * rate_hz; ++f) {
+    const double t = f / rate_hz;
+    motion.poses.push_back(Posed(0.86 + 0.02 * std::sin(3 * t), 0, 0.03 * std::sin(2 * t), 0.6 * std::sin(4 * t)));
+  }
+  return motion;
+}
+
+/// Changes the poses of the frames from `from` to `to`, seconds, by `change(pose, seconds since from)`.
+BodyMotion WithChange(BodyMotion motion, double from, double to,
+                      const std::function<void(BodyPose& pose, double seconds)>& change) {
+  for (std::size_t f = 0; f < motion.poses.size(); ++f) {
+    const double t = static_cast<double>(f) / motion.rate_hz;
+    if (t >= from - 1e-9 && t < to - 1e-9) change(motion.poses[f], t - from);
+  }
+  return motion;
+}
+
+void MoveAll(BodyPose& pose, const glm::dvec3& by) {
+  for (glm::dvec3& joint : pose.joints) joint += by;
+}
+
+BodyMotion Lifted(BodyMotion motion, double from, double to, double height) {
+  return WithChange(std::move(motion), from, to, [&](BodyPose& pose, double) { MoveAll(pose, {0, height, 0}); });
+}
+
+/// Expects exactly one fault, and returns it.
+MotionFault OneFault(const BodyMotion& motion, FaultKind kind) {
+  const auto found = FindMotionFaults(motion).faults;
+  EXPECT_EQ(found.size(), 1u) << FaultName(kind) << ": " << ::testing::PrintToString(FaultSentences(found));
+  if (found.empty()) return {};
+  EXPECT_EQ(FaultName(found.front().kind), FaultName(kind)) << found.front().text;
+  return found.front();
+}
+
+void ExpectTime(const MotionFault& fault, double from, double to, double tolerance = 0.05) {
+  EXPECT_NEAR(fault.from_s, from, tolerance) << fault.text;
+  EXPECT_NEAR(fault.to_s, to, tolerance) << fault.text;
+}
+
+TEST(MotionFaults, AreNoneOfPeopleWhoSwayOrHopAtAnyRate) {
+  for (const double rate : {24, 30, 60, 120}) {
+    for (const BodyMotion& motion : {Swaying(rate), Hopping(rate)}) {
+      const MotionFaults found = FindMotionFaults(motion);
+      EXPECT_THAT(FaultSentences(found.faults), IsEmpty()) << rate;
+      EXPECT_EQ(found.floor_m, 0);
+      EXPECT_FALSE(found.is_floor_found);
+    }
+  }
+}
+
+TEST(MotionFaults, AreNotSoughtInLessThanEightFrames) {
+  BodyMotion motion = Swaying(30, 0.2);
+  MoveAll(motion.poses[3], {9, 9, 9});
+  EXPECT_THAT(FindMotionFaults(motion).faults, IsEmpty());
+  EXPECT_THAT(FindMotionFaults({.rate_hz = 30, .poses = {}}).faults, IsEmpty());
+}
+
+TEST(MotionFaults, OfABodyThatSinksHaveItsDepthAndTime) {
+  for (const double rate : {30, 120}) {
+    for (const BodyMotion& motion : {Swaying(rate), Hopping(rate)}) {
+      for (const double seconds : {0.4, 2.0 / 3}) {
+        const MotionFault sinks = OneFault(Lifted(motion, 2, 2 + seconds, -0.12), FaultKind::kSinks);
+        ExpectTime(sinks, 2, 2 + seconds);
+        EXPECT_NEAR(sinks.size, 0.12, 0.01);
+      }
+      const MotionFault half = OneFault(Lifted(motion, 3, 9, -0.08), FaultKind::kSinks);
+      ExpectTime(half, 3, 6);
+      EXPECT_NEAR(half.size, 0.08, 0.01);
+    }
+  }
+}
+
+TEST(MotionFaults, OfABodyThatFloatsAreMeasuredFromHeightZero) {
+  for (const BodyMotion& motion : {Swaying(30), Hopping(60)}) {
+    const MotionFault floats = OneFault(Lifted(motion, 1.5, 3.5, 0.06), FaultKind::kFloats);
+    ExpectTime(floats, 1.5, 3.5);
+    EXPECT_NEAR(floats.size, 0.06, 0.01);
+    const MotionFault always = OneFault(Lifted(motion, 0, 9, 0.15), FaultKind::kFloats);
+    ExpectTime(always, 0, 6);
+    EXPECT_NEAR(always.size, 0.15, 0.01);
+    EXPECT_THAT(always.text, HasSubstr("never touch the floor"));
+    EXPECT_THAT(FindMotionFaults(Lifted(motion, 0, 9, 0.15), 0.15).faults, IsEmpty()) << "on a floor at 15 cm";
+    EXPECT_THAT(FindMotionFaults(Lifted(motion, 0, 9, 0.04)).faults, IsEmpty()) << "joints are above the soles";
+  }
+}
+
+TEST(MotionFaults, AreJudgedOnAFloorThatIsFoundIfTheMotionIsFarFromZero) {
+  const MotionFaults found = FindMotionFaults(Lifted(Swaying(30), 0, 9, -1.1));
+  EXPECT_TRUE(found.is_floor_found);
+  EXPECT_NEAR(found.floor_m, -1.1, 0.03);
+  EXPECT_THAT(found.faults, IsEmpty());
+}
+
+TEST(MotionFaults, ANarrowRampUpwardsIsAFloatAndAStepIsNone) {
+  // Without an edge, only height tells: 30 cm for two seconds, reached smoothly.
+  const auto rise = [](double t) { return 0.3 * std::clamp(std::min(t, 3 - t) / 0.5, 0.0, 1.0); };
+  const auto floats = WithChange(Swaying(30), 1, 4, [&](BodyPose& pose, double t) {
+    MoveAll(pose, {0.6 * std::sin(4 * t), rise(t), 0});
+  });
+  bool is_told = false;
+  for (const MotionFault& fault : FindMotionFaults(floats).faults) is_told |= fault.kind == FaultKind::kFloats;
+  EXPECT_TRUE(is_told);
+  // Who stands still up there stands on something.
+  const auto stands = WithChange(Swaying(30), 1, 4, [&](BodyPose& pose, double t) { MoveAll(pose, {0, rise(t), 0}); });
+  EXPECT_THAT(FindMotionFaults(stands).faults, IsEmpty());
+}
+
+TEST(MotionFaults, OfABodyThatSkatesHaveItsSpeedWithinATenth) {
+  for (const double rate : {30, 120}) {
+    for (const BodyMotion& motion : {Swaying(rate), Hopping(rate)}) {
+      for (const double speed : {0.2, 0.4, 1.0}) {
+        BodyMotion skating = motion;
+        for (std::size_t f = 0; f < skating.poses.size(); ++f) {
+          const double t = std::clamp(static_cast<double>(f) / rate - 2, 0.0, 2.0);
+          MoveAll(skating.poses[f], {0.6 * speed * t, 0, -0.8 * speed * t});
+        }
+        const MotionFault skates = OneFault(skating, FaultKind::kSkates);
+        ExpectTime(skates, 2, 4, 0.4);
+        EXPECT_NEAR(skates.size, speed, 0.1 * speed);
+      }
+    }
+  }
+}
+
+TEST(MotionFaults, OfABodyThatJumpsAreFoundForOneFrameAndForGood) {
+  for (const glm::dvec3& by : {glm::dvec3(0.5, 0, 0), glm::dvec3(0, 0.5, 0), glm::dvec3(-0.3, 0, 0.4)}) {
+    const MotionFault once =
+        OneFault(WithChange(Hopping(30), 2, 2 + 1.0 / 30, [&](BodyPose& pose, double) { MoveAll(pose, by); }),
+                 FaultKind::kJumps);
+    ExpectTime(once, 2, 2);
+    EXPECT_NEAR(once.size, 0.5, 0.05);
+  }
+  const auto moved = WithChange(Swaying(60), 2, 9, [](BodyPose& pose, double) { MoveAll(pose, {0.4, 0, 0.3}); });
+  const MotionFault for_good = OneFault(moved, FaultKind::kJumps);
+  ExpectTime(for_good, 2, 2);
+  EXPECT_NEAR(for_good.size, 0.5, 0.02);
+}
+
+TEST(MotionFaults, OfOneJointThatPopsNameTheInnermostJoint) {
+  for (const double frames : {1, 3}) {
+    const auto motion = WithChange(Hopping(30), 2, 2 + frames / 30, [](BodyPose& pose, double) {
+      for (const Role joint : {kLeftWrist, kLeftHand}) pose[joint] += glm::dvec3(0, 0.3, 0.4);
+    });
+    const MotionFault pops = FindMotionFaults(motion).faults.front();
+    EXPECT_EQ(FaultName(pops.kind), "pops");
+    EXPECT_EQ(pops.joint, kLeftWrist);
+    EXPECT_NEAR(pops.size, 0.5, 0.05);
+    ExpectTime(pops, 2, 2, 0.15);
+  }
+}
+
+TEST(MotionFaults, ASecondInWhichNothingMovesIsAFreezeAndNotItsCatchingUp) {
+  for (const double rate : {30, 120}) {
+    BodyMotion motion = Hopping(rate);
+    const auto from = static_cast<std::size_t>(2 * rate), count = static_cast<std::size_t>(rate);
+    for (std::size_t f = from; f < from + count; ++f) motion.poses[f] = motion.poses[from];
+    const MotionFault freezes = OneFault(motion, FaultKind::kFreezes);
+    ExpectTime(freezes, 2, 3);
+  }
+  // A pose that is reached and left gently may be held.
+  BodyMotion held{.rate_hz = 30, .poses = {}};
+  for (int f = 0; f < 180; ++f) {
+    const double t = std::clamp(f / 30.0, 2.0, 4.0) == f / 30.0 ? 2 : f < 60 ? f / 30.0 : f / 30.0 - 2;
+    held.poses.push_back(Posed(0.86, 0, 0.05 * std::cos(kPi * t / 2), 0.5 * std::cos(kPi * t / 2)));
+  }
+  EXPECT_THAT(FaultSentences(FindMotionFaults(held).faults), IsEmpty());
+}
+
+TEST(MotionFaults, OfALimbThatStretchesNameItsFarEnd) {
+  const auto motion = WithChange(Swaying(30), 2, 4, [](BodyPose& pose, double) {
+    for (const Role joint : {kRightHand, kRightWrist}) {
+      pose[joint] += 0.05 * (pose[kRightWrist] - pose[kRightElbow]);
+    }
+  });
+  const MotionFault stretches = OneFault(motion, FaultKind::kStretches);
+  EXPECT_EQ(stretches.joint, kRightWrist);
+  EXPECT_NEAR(stretches.size, 0.05, 0.01);
+  ExpectTime(stretches, 2, 4);
+}
+
+TEST(MotionFaults, OfAKneeThatBendsBackwardsHaveItsAngle) {
+  // Ramps of half a second, so that no joint pops.
+  const auto bent = [](double degrees) {
+    return WithChange(Swaying(60), 1, 4, [degrees](BodyPose& pose, double t) {
+      const double part = std::clamp(std::min(t, 3 - t) / 0.5, 0.0, 1.0);
+      const glm::dvec3 thigh = glm::normalize(pose[kLeftKnee] - pose[kLeftHip]);
+      const glm::dvec3 shank = pose[kLeftAnkle] - pose[kLeftKnee], toes = pose[kLeftFoot] - pose[kLeftAnkle];
+      const double flexion = std::acos(std::clamp(glm::dot(thigh, glm::normalize(shank)), -1.0, 1.0));
+      const glm::dquat turn = glm::angleAxis(-part * (flexion + Radians(degrees)), glm::dvec3(1, 0, 0));
+      pose[kLeftAnkle] = pose[kLeftKnee] + turn * shank;
+      pose[kLeftFoot] = pose[kLeftAnkle] + turn * toes;
+    });
+  };
+  const MotionFault bends = OneFault(bent(30), FaultKind::kBends);
+  EXPECT_EQ(bends.joint, kLeftKnee);
+  EXPECT_NEAR(bends.size, 30, 1);
+  ExpectTime(bends, 1.5, 3.5, 0.15);
+  EXPECT_THAT(FaultSentences(FindMotionFaults(bent(15)).faults), IsEmpty()) << "some knees overextend";
+}
+
+TEST(MotionFaults, OfAnArmThroughChestOrHeadNameTheWrist) {
+  const auto reach = [](double y, double z) {
+    // The forearm is as long as before; the elbow gives way.
+    return WithChange(Swaying(60), 1, 5, [y, z](BodyPose& pose, double t) {
+      const double part = std::clamp(std::min(t, 4 - t), 0.0, 1.0);
+      const glm::dvec3 elbow = pose[kRightElbow], hand = pose[kRightHand] - pose[kRightWrist];
+      const glm::dvec3 target(pose[kSpine].x, y, z);
+      const glm::dvec3 wrist = glm::mix(pose[kRightWrist], target, part);
+      pose[kRightElbow] = wrist + glm::length(pose[kRightWrist] - elbow) * glm::normalize(elbow - wrist);
+      pose[kRightHand] = wrist + hand;
+      pose[kRightWrist] = wrist;
+    });
+  };
+  const auto is_told = [](const BodyMotion& motion) {
+    const auto found = FindMotionFaults(motion).faults;
+    return std::ranges::any_of(
+        found, [](const MotionFault& f) { return f.kind == FaultKind::kPasses && f.joint == kRightWrist; });
+  };
+  EXPECT_TRUE(is_told(reach(1.3, 0)));
+  EXPECT_TRUE(is_told(reach(1.5, 0))) << "through the head";
+  EXPECT_FALSE(is_told(reach(1.3, 0.12))) << "a hand on the chest";
+}
+
+TEST(MotionFaults, AWrongRateIsToldByTheGravityOfFlights) {
+  for (const double factor : {0.5, 2.0, 4.0}) {
+    BodyMotion motion = Hopping(60);
+    motion.rate_hz *= factor;
+    const MotionFault rate = OneFault(motion, FaultKind::kRate);
+    EXPECT_NEAR(rate.size, factor * factor * kGravity, 0.1 * factor * factor * kGravity);
+    EXPECT_THAT(rate.text, HasSubstr(factor > 1 ? " times too high" : "the rate 2 times too low"));
+  }
+}
+
+TEST(MotionFaults, AMotionWithoutFlightsIsToldByItsSpeed) {
+  BodyMotion motion = Swaying(60);
+  motion.rate_hz *= 40;
+  const auto found = FindMotionFaults(motion).faults;
+  EXPECT_TRUE(std::ranges::any_of(found, [](const MotionFault& fault) { return fault.kind == FaultKind::kSpeed; }));
+}
+
+TEST(MotionFaults, OfManyAlikeTheLargestAreToldAndTheOthersCounted) {
+  BodyMotion motion = Hopping(60);
+  for (int i = 1; i <= 5; ++i) motion.poses[60 * static_cast<std::size_t>(i)][kHead].y += 0.5 + 0.1 * i;
+  EXPECT_THAT(FaultSentences(FindMotionFaults(motion).faults),
+              ElementsAre(HasSubstr("head pops by 80 cm at 2.98"), HasSubstr("head pops by 90 cm at 3.98"),
+                          HasSubstr("head pops by 100 cm at 4.98"), "and 2 more like these"));
+}
+
+}  // namespace
+}  // namespace etude
