@@ -1,5 +1,5 @@
 // Shows recorded motions: bodies, errors by colour, marks on a time bar (reports/viewer). A button whose
-// data-cell is a recorded cell's identity opens it; the cards of dots and rows get such a button (event etude:cells).
+// data-cell is a recorded cell opens it; cards of dots and rows get such a button (event etude:cells).
 const JOINTS = ['hip centre', 'spine', 'shoulder centre', 'head', ...['shoulder elbow wrist hand', 'hip knee ankle foot'].flatMap((limb) =>
   ['left', 'right'].flatMap((side) => limb.split(' ').map((joint) => `${side} ${joint}`)))];
 const PARENT = [-1, 0, 1, 2, 2, 4, 5, 6, 2, 8, 9, 10, 0, 12, 13, 14, 0, 16, 17, 18];
@@ -190,7 +190,7 @@ const glbOf = (world, body) => {
 };
 const writers = {BVH: bvhOf, GLB: glbOf, CSV: csvOf};
 
-// ---- Drawing. A scene is {items: [{places, colours, ghost}], spots: [{at, radius, colour, squash}], floor, page, line}.
+// ---- Drawing. A scene: {items: [{places, colours, ghost}], spots: [{at, radius, colour, squash}], floor, page, line}.
 const cameraOf = (view, width, height) => {
   const {yaw, pitch, distance, target} = view, c = Math.cos(pitch);
   const eye = [target[0] + distance * c * Math.sin(yaw), target[1] + distance * Math.sin(pitch), target[2] + distance * c * Math.cos(yaw)];
