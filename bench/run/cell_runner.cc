@@ -187,6 +187,11 @@ tl::expected<const Payload*, CellResult> CellRunner::OpenSetting() {
   return setting_.get();
 }
 
+std::string CellRunner::WhyNotAsked(std::size_t method, const std::string& reason) const {
+  const Scenario& scenario = scenario_.scenario();
+  return fmt::format("method {} of {}: {}", scenario.methods[method].name, scenario.name, reason);
+}
+
 CellResult CellRunner::RunWithProgram(std::size_t method, CellUsage& usage) {
   const auto setting = OpenSetting();
   if (!setting) return setting.error();
@@ -194,7 +199,7 @@ CellResult CellRunner::RunWithProgram(std::size_t method, CellUsage& usage) {
   auto result = world_->RunWith(program, IndexInTask(method));
   usage.cpu_s += program.cpu_s();
   usage.peak_mb = program.peak_mb();
-  if (!program.was_asked()) why_not_run_ = program.failure()->reason;
+  if (!program.was_asked()) why_not_run_ = WhyNotAsked(method, program.failure()->reason);
   if (program.failure()) return *program.failure();
   if (!result) return CellResult::Ended(Status::kBadOutput, ToString(result.error()));
   result->digests.emplace_back("answers", program.AnswersDigest());
@@ -213,7 +218,7 @@ CellResult CellRunner::AskOutside(std::size_t method, CellUsage& usage) {
   const OutsideReply reply = outside_.at(method).Ask(SettingId(), **setting, problem_id, *problem_);
   usage.cpu_s += reply.cpu_s;
   usage.peak_mb = reply.peak_mb;
-  if (!reply.was_asked) why_not_run_ = reply.reason;
+  if (!reply.was_asked) why_not_run_ = WhyNotAsked(method, reply.reason);
   if (reply.status != Status::kOk) return CellResult::Ended(reply.status, reply.reason);
   auto judged = JudgeAnswer(*world_, *reply.answer);
   if (!judged) return CellResult::Ended(Status::kBadOutput, ToString(judged.error()));

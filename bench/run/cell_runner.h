@@ -60,6 +60,8 @@ class CellRunner {
   void Complete(int condition, Row& row) const;
   CellResult RunMethod(std::size_t method, CellUsage& usage);
   CellResult AskOutside(std::size_t method, CellUsage& usage);
+  /// Returns why an outside method was not asked, with its name.
+  std::string WhyNotAsked(std::size_t method, const std::string& reason) const;
   CellResult RunWithProgram(std::size_t method, CellUsage& usage);
   std::size_t IndexInTask(std::size_t method) const;
   /// Returns the message that precedes the first problem, or the result of the cell if it cannot be made.

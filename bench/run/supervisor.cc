@@ -102,7 +102,7 @@ class Supervisor {
       RETURN_IF_ERROR(Step());
     }
     if (not_run_ == 0) return true;
-    return FailOfMachine("{} cells were not run: {}", not_run_, why_not_run_);
+    return FailOfMachine("{}; {} cells were not run", why_not_run_, not_run_);
   }
 
  private:

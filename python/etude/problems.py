@@ -206,13 +206,13 @@ class TransitionSetting(Message):
 
     rate_hz: Frames a second, of all clips.
     joints: The twenty joints, in the order of poses.
-    parents: Per joint the one above it; null for the first.
+    parents: The joint above each; null for the first.
     clips: The library; problems name its clips by their index, from 0.
     """
     HOLDS: ClassVar[dict] = {"clips": [TransitionClip]}
     rate_hz: float
     joints: List[str]
-    parents: List[Optional[int]]
+    parents: List[Optional[str]]
     clips: List[TransitionClip]
 
 
@@ -294,10 +294,10 @@ class PoseDistanceSetting(Message):
     """The body.
 
     joints: The twenty joints, in the order of poses.
-    parents: Per joint the one above it; null for the first.
+    parents: The joint above each; null for the first.
     """
     joints: List[str]
-    parents: List[Optional[int]]
+    parents: List[Optional[str]]
 
 
 @dataclass
@@ -425,12 +425,12 @@ class DetectionSetting(Message):
     """The moves.
 
     joints: The twenty joints, in the order of poses.
-    parents: Per joint the one above it; null for the first.
+    parents: The joint above each; null for the first.
     moves: Those that may be performed.
     """
     HOLDS: ClassVar[dict] = {"moves": [Move]}
     joints: List[str]
-    parents: List[Optional[int]]
+    parents: List[Optional[str]]
     moves: List[Move]
 
 
@@ -530,7 +530,7 @@ class CaptureSetting(Message):
     image_width: Pixels.
     image_height: Pixels.
     joints: The twenty joints, in the order of poses.
-    parents: Per joint the one above it; null for the first.
+    parents: The joint above each; null for the first.
     strokes: The limbs that the annotator marks.
     discs: Joints marked with a point.
     """
@@ -539,7 +539,7 @@ class CaptureSetting(Message):
     image_width: int
     image_height: int
     joints: List[str]
-    parents: List[Optional[int]]
+    parents: List[Optional[str]]
     strokes: List[CaptureStroke]
     discs: List[str]
 
@@ -667,13 +667,13 @@ class CoachSetting(Message):
     """The moves of the dance, at the song's tempo.
 
     joints: The twenty joints, in the order of poses.
-    parents: Per joint the one above it; null for the first.
+    parents: The joint above each; null for the first.
     moves: Those of the dance, their examples at the song's tempo.
     dance: What is danced, in order.
     """
     HOLDS: ClassVar[dict] = {"moves": [Move], "dance": CoachDance}
     joints: List[str]
-    parents: List[Optional[int]]
+    parents: List[Optional[str]]
     moves: List[Move]
     dance: CoachDance
 
@@ -795,7 +795,7 @@ class CoachLearnerStep(Message):
     pose: Optional[Pose] = None
     mode: Optional[str] = None
     clip: Optional[str] = None
-    clip_frame: Optional[int] = None
+    clip_frame: Optional[float] = None
     move: Optional[str] = None
     repetition: Optional[int] = None
     say: Optional[str] = None
@@ -826,7 +826,7 @@ class MetricSetting(Message):
     task: The scenario's.
     unit: Of positions: m.
     joints: In the order of poses.
-    parents: The joint above each; null of the first.
+    parents: The joint above each; null for the first.
     """
     metric: str
     version: int

@@ -98,7 +98,9 @@ class OutsideMethods(EtudeCase):
     def test_programs_that_a_manifest_a_run_or_a_pack_names_need_leave(self):
         mark = self.folder / "started"
         program = self.folder / "method.sh"
-        program.write_text(f"#!/bin/sh\necho started >>{mark}\necho out of luck >&2\nexit 1\n")
+        program.write_text(f"#!/bin/sh\necho started >>{mark}\nread hello\n"
+                           """echo '{"type":"hello","protocol":1,"name":"n","version":"1"}'\n"""
+                           "read setting\necho out of luck >&2\nexit 1\n")
         program.chmod(0o755)
         cell = "ik/joint_noise_deg=2/000/mine"
         self.run_suite(self.write("suite.yaml", IK + f"  - {{name: mine, exec: [{program}, --fast]}}\n"), "--no-fence", code=1)
