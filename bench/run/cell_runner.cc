@@ -174,15 +174,20 @@ std::size_t CellRunner::IndexInTask(std::size_t method) const {
 }
 
 std::string CellRunner::SettingId() const {
-  return scenario_.scenario().name + "/" + CompactLabel(scenario_.scenario().conditions[condition_].swept);
+  const std::string condition =
+      scenario_.scenario().name + "/" + CompactLabel(scenario_.scenario().conditions[condition_].swept);
+  return scenario_.task(condition_).HasOwnSettings() ? fmt::format("{}/{}", condition, trial_) : condition;
 }
 
 tl::expected<const Payload*, CellResult> CellRunner::OpenSetting() {
-  if (setting_ == nullptr || condition_of_setting_ != condition_) {
-    auto setting = scenario_.task(condition_).Setting();
+  const Task& task = scenario_.task(condition_);
+  if (setting_ == nullptr || condition_of_setting_ != condition_ ||
+      (task.HasOwnSettings() && trial_of_setting_ != trial_)) {
+    auto setting = task.HasOwnSettings() ? world_->MakeSetting() : task.Setting();
     if (!setting) return tl::unexpected(CellResult::Ended(Status::kFailed, ToString(setting.error())));
     setting_ = std::make_unique<Payload>(std::move(*setting));
     condition_of_setting_ = condition_;
+    trial_of_setting_ = trial_;
   }
   return setting_.get();
 }

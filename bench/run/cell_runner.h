@@ -80,7 +80,7 @@ class CellRunner {
   CellUsage world_usage_;
   PeakMemory peak_memory_;
   std::unique_ptr<Payload> setting_, problem_;  ///< of the open world; null until needed
-  int condition_of_setting_ = -1;
+  int condition_of_setting_ = -1, trial_of_setting_ = -1;
 };
 
 }  // namespace etude

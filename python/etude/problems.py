@@ -390,48 +390,12 @@ class KeyTarget(Message):
 class KeyPose(Message):
     """What a move looks like at a beat.
 
-    beat: When the pose is reached, in beats from the move's beginning.
+    beat: When the pose is reached, in beats from the move's beginning; left out for recorded moves.
     targets: The features that count in it.
     """
     HOLDS: ClassVar[dict] = {"targets": [KeyTarget]}
-    beat: float
     targets: List[KeyTarget]
-
-
-@dataclass
-class Move(Message):
-    """A move that may be performed.
-
-    name: The move's name.
-    tempo_bpm: Beats a minute of the example.
-    beats: How many beats it lasts.
-    rate_hz: Frames a second of the example.
-    poses: Of one perfect performance.
-    file: The same as BVH.
-    key_poses: What paper A's recogniser looks for, in order.
-    """
-    HOLDS: ClassVar[dict] = {"key_poses": [KeyPose]}
-    name: str
-    tempo_bpm: float
-    beats: float
-    rate_hz: float
-    poses: List[Pose]
-    file: str
-    key_poses: List[KeyPose]
-
-
-@dataclass
-class DetectionSetting(Message):
-    """The moves.
-
-    joints: The twenty joints, in the order of poses.
-    parents: The joint above each; null for the first.
-    moves: Those that may be performed.
-    """
-    HOLDS: ClassVar[dict] = {"moves": [Move]}
-    joints: List[str]
-    parents: List[Optional[str]]
-    moves: List[Move]
+    beat: Optional[float] = None
 
 
 @dataclass
@@ -445,6 +409,64 @@ class DetectionFrame(Message):
     pose: Pose
     states: str
     body_seen: bool
+
+
+@dataclass
+class TaughtExample(Message):
+    """A performance that taught a move: recorded, of somebody who is not judged.
+
+    person: Who did it; empty if nobody knows.
+    is_right: Whether it was right.
+    fault: What was wrong, by its label; empty if it was right.
+    rate_hz: Frames a second.
+    frames: What the sensor saw.
+    """
+    HOLDS: ClassVar[dict] = {"frames": [DetectionFrame]}
+    person: str
+    is_right: bool
+    fault: str
+    rate_hz: float
+    frames: List[DetectionFrame]
+
+
+@dataclass
+class Move(Message):
+    """A move that may be performed.
+
+    name: The move's name.
+    tempo_bpm: Beats a minute of the example; left out for recorded moves.
+    beats: How many beats it lasts; left out for recorded moves.
+    span_s: For recorded moves that somebody else did: the longest duration of one.
+    rate_hz: Frames a second of the example.
+    poses: Of one perfect performance; for recorded moves of the first right example, empty if there is none.
+    file: The same as BVH; left out without poses.
+    key_poses: What paper A's recogniser looks for, in order.
+    examples: For recorded moves alone: all performances by the people who are not judged.
+    """
+    HOLDS: ClassVar[dict] = {"key_poses": [KeyPose], "examples": [TaughtExample]}
+    name: str
+    rate_hz: float
+    poses: List[Pose]
+    key_poses: List[KeyPose]
+    tempo_bpm: Optional[float] = None
+    beats: Optional[float] = None
+    span_s: Optional[float] = None
+    file: Optional[str] = None
+    examples: Optional[List[TaughtExample]] = None
+
+
+@dataclass
+class DetectionSetting(Message):
+    """The moves. Recorded people have a setting each: what all others taught.
+
+    joints: The twenty joints, in the order of poses.
+    parents: The joint above each; null for the first.
+    moves: Those that may be performed.
+    """
+    HOLDS: ClassVar[dict] = {"moves": [Move]}
+    joints: List[str]
+    parents: List[Optional[str]]
+    moves: List[Move]
 
 
 @dataclass
@@ -468,12 +490,16 @@ class DetectionProblem(Message):
     frames: What the sensor saw, frame after frame.
     events: What was asked for, in order of time.
     file: The positions as TRC.
+    person: Of a recorded person: who is judged.
+    starts: Of a recorded person: the first frames of all recordings but the first.
     """
     HOLDS: ClassVar[dict] = {"frames": [DetectionFrame], "events": [DetectionEvent]}
     rate_hz: float
     frames: List[DetectionFrame]
     events: List[DetectionEvent]
     file: str
+    person: Optional[str] = None
+    starts: Optional[List[int]] = None
 
 
 @dataclass
