@@ -13,6 +13,7 @@
 #include "bench/run/outside_programs.h"
 #include "bench/run/worker.h"
 #include "cli/commands.h"
+#include "engine/retargeting/marker_sets.h"
 #include "io/process/pinned_environment.h"
 
 namespace etude {
@@ -181,16 +182,16 @@ CLI::Option* AddSeed(CLI::App& command, std::optional<std::uint64_t>& seed, cons
 CLI::Option* AddSeedFile(CLI::App& command, std::string& file) {
   CLI::Option* option = command.add_option(
       "--seed-file", file,
-      "The key of secret worlds: a file of 64 hexadecimal digits or 32 bytes; or the digits stand in ETUDE_SEED_KEY");
+      "Key of secret worlds: a file of 64 hexadecimal digits or 32 bytes; or set ETUDE_SEED_KEY to the digits");
   if (CLI::Option* seed = command.get_option_no_throw("--seed")) option->excludes(seed);
   return option;
 }
 
 Result<std::optional<SecretKey>> TakeSecretKey(const std::string& file, bool has_seed) {
   ASSIGN_OR_RETURN(auto key, FindSecretKey(file));
-  if (key && has_seed) return Fail({kKeyVariable}, "is set, and --seed, too; leave out one of them");
+  if (key && has_seed) return Fail({kKeyVariable}, "is set together with --seed; leave out one of them");
   if (struct stat status{}; key && ::stat(key->file.c_str(), &status) == 0 && (status.st_mode & S_IROTH) != 0) {
-    Complain({{file}, "can be read by everybody here; chmod 600 keeps the key to yourself"});
+    Complain({{file}, "can be read by other users; chmod 600 protects the key"});
   }
   return key;
 }
@@ -208,7 +209,7 @@ Action WithSecretKey(CLI::App& command, const std::optional<std::uint64_t>* seed
 }
 
 void AddReuseKey(CLI::App& command, bool& reuse_key) {
-  command.add_flag("--reuse-key", reuse_key, "Take a key that was used before, whose worlds may be known")
+  command.add_flag("--reuse-key", reuse_key, "Accept a key that was used before, whose worlds may be known")
       ->needs(command.get_option("--seed-file"));
 }
 
@@ -221,7 +222,7 @@ CLI::Option* AddOverwrite(CLI::App& command, bool& overwrite, const std::string&
   return command.add_flag("--overwrite", overwrite, help);
 }
 
-std::array<CLI::Option*, 7> AddWorldOptions(CLI::App& command, std::optional<std::uint64_t>& seed,
+std::array<CLI::Option*, 9> AddWorldOptions(CLI::App& command, std::optional<std::uint64_t>& seed,
                                             std::optional<int>& trials, std::vector<std::string>& clips,
                                             std::string& joint_map, std::string& clip_facts) {
   const auto tell = [&clip_facts](const std::string& key) {
@@ -234,7 +235,7 @@ std::array<CLI::Option*, 7> AddWorldOptions(CLI::App& command, std::optional<std
           ->check(CLI::Range(1, 1000000)),
       command.add_option("--clips", clips, "Clips instead of the scenarios' own: builtin:NAME, motion files, patterns"),
       command.add_option(kJointMapOption, joint_map,
-                         "Which joints of the clips play which roles (etude clip map writes such a file)"),
+                         "Joint map: which joints of the clips play which roles (etude clip map writes one)"),
       command.add_option_function<std::string>(
           "--unit", tell("unit"), "Unit of the clips: m, cm, mm, in, ft, cmu, or metres per unit (default: found)"),
       command.add_option_function<std::string>("--up", tell("up"), "Axis of the clips that points up (default: found)")
@@ -242,18 +243,24 @@ std::array<CLI::Option*, 7> AddWorldOptions(CLI::App& command, std::optional<std
       command
           .add_option_function<std::string>("--rate", tell("rate"),
                                             "Frames per second of the clips (default: their own)")
-          ->check(NumberWithin(1, 1000, "rate in Hz"))};
+          ->check(NumberWithin(1, 1000, "rate in Hz")),
+      command.add_flag_callback("--keep-floor", [&clip_facts] { clip_facts += "keep_floor: true\n"; },
+                                "Leave bodies at the heights that their files say"),
+      command
+          .add_option_function<std::string>("--marker-set", tell("marker_set"),
+                                            "Which markers of the clips count (default: the best they hold)")
+          ->check(CLI::IsMember(MarkerSetKeys()))};
 }
 
 void AddUnsealed(CLI::App& command, Sealing& sealing) {
   command.add_flag_callback(
-      "--unsealed", [&sealing] { sealing = Sealing::kIgnored; },
-      "Read a run, or a baseline, although it was changed, and say so");
+      "--unsealed", [&sealing] { sealing = Sealing::kIgnored; }, "Read a run or baseline that was changed, and say so");
 }
 
 void AddOutsideRules(CLI::App& command, OutsideRules& rules) {
   command.add_flag("!--no-fence", rules.is_fenced, "Run methods outside without a fence, to debug them");
-  command.add_flag("--allow-exec", rules.allow_exec, "Run the programs that a manifest, a run or a pack names");
+  command.add_flag("--allow-exec", rules.allow_exec,
+                   "Allow running the programs that a manifest, a run or a pack names");
 }
 
 std::function<std::string(const std::string&)> NumberWithin(double low, double high, const std::string& kind) {
@@ -262,7 +269,7 @@ std::function<std::string(const std::string&)> NumberWithin(double low, double h
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     const bool is_number = error == std::errc() && end == text.data() + text.size();
     if (is_number && number >= low && number <= high) return "";
-    return fmt::format("'{}' is no {}; allowed: {} to {}", text, kind, low, high);
+    return fmt::format("'{}' is not a {}; allowed: {} to {}", text, kind, low, high);
   };
 }
 
@@ -317,7 +324,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineExport(app, action);
   DefineScore(app, command_line, action);
   DefineOptionTree(app, action);
-  CLI::App* worker = app.add_subcommand("worker", "What the program starts for itself");
+  CLI::App* worker = app.add_subcommand("worker", "For internal use");
   worker->group("");  // hidden
   worker->callback([&action] { action = [] { return RunWorker(std::cin, std::cout); }; });
   GroupCommands(app);

@@ -46,13 +46,13 @@ void AddReuseKey(CLI::App& command, bool& reuse_key);
 /// Adds -j, --jobs.
 CLI::Option* AddJobs(CLI::App& command, int& jobs);
 /// Adds --overwrite.
-CLI::Option* AddOverwrite(CLI::App& command, bool& overwrite, const std::string& help = "Replace a file that is there");
+CLI::Option* AddOverwrite(CLI::App& command, bool& overwrite, const std::string& help = "Replace an existing file");
 /// The names of the joint-map option, for every command that opens clips.
 constexpr const char* kJointMapOption = "--joint-map,--map";
-/// Adds --seed, --trials, --clips, --joint-map, --unit, --up and --rate, for every command that makes worlds from
-/// scenarios. The last three are written to `clip_facts` as lines of a joint-map file. The third option returned is
+/// Adds --seed, --trials, --clips, --joint-map, --unit, --up, --rate, --keep-floor and --marker-set, for every command
+/// that makes worlds from scenarios. The last five are written to `clip_facts` as lines of a joint-map file. The third option returned is
 /// --clips.
-std::array<CLI::Option*, 7> AddWorldOptions(CLI::App& command, std::optional<std::uint64_t>& seed,
+std::array<CLI::Option*, 9> AddWorldOptions(CLI::App& command, std::optional<std::uint64_t>& seed,
                                             std::optional<int>& trials, std::vector<std::string>& clips,
                                             std::string& joint_map, std::string& clip_facts);
 /// Adds --unsealed, for every command that reads a run.

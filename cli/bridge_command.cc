@@ -32,8 +32,8 @@ struct BridgeCommandOptions {
 };
 
 constexpr const char* kBridgeExamples =
-    "\nA bridge frame is a frame fit for a transition: its pose occurs in several clips, its head is quiet. Two of\n"
-    "them match when their fuzzy distance is below the threshold. Clips are named as in etude clip --help;\n"
+    "\nA bridge frame is a frame fit for a transition: its pose occurs in several clips, and its head is still. Two\n"
+    "bridge frames match when their fuzzy distance is below the threshold. Clips are named as in etude clip --help;\n"
     "docs/bridge-frames.md tells more.\n\n"
     "Try:\n"
     "  etude bridge 'builtin:*' builtin:acts -o tags.xml      the bear's moves and acts\n"
@@ -71,7 +71,7 @@ BridgeCommandOptions OptionsOf(const BridgeTags& tags, BridgeCommandOptions opti
 
 Result<int> CheckTags(const BridgeCommandOptions& options) {
   if (options.clips.empty() && !options.fuzzy.empty()) {
-    return Fail({"--fuzzy"}, "is for tagging clips again; name those that the file should fit");
+    return Fail({"--fuzzy"}, "is only used to tag clips again; name the clips that the file should fit");
   }
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(options.check));
   ASSIGN_OR_RETURN(const auto tags, ReadTagsFile(text, options.check));
@@ -121,31 +121,34 @@ void DefineBridge(CLI::App& app, Action& action) {
   command->add_option("clips", options->clips, "The clips of one library");
   CLI::Option* output = command->add_option("-o,--output", options->output, "The tags file to write (XML)");
   // --check excludes most other options, because the tags file states the rules.
-  CLI::Option* check =
-      command->add_option("--check", options->check, "A tags file to be checked, against clips if any");
+  CLI::Option* check = command->add_option("--check", options->check,
+                                           "Check this tags file, and that it fits the clips if any are named");
   check->excludes(output);
   const auto add = [&](CLI::Option* option) { check->excludes(option); };
-  add(command->add_option("--to", options->to,
-                          "Clips that every other one must lead into; they join the library (default: head_shake,\n"
-                          "wave, puzzled and slow demonstrations, where they are among the clips)"));
+  add(command->add_option(
+      "--to", options->to,
+      "Clips that every other clip must lead into; they are added to the library (default: head_shake,\n"
+      "wave, puzzled and slow demonstrations, where they are among the clips)"));
   // The rules of matching and tagging.
-  add(command->add_option("--threshold", options->threshold, "Frames nearer than this match")
+  add(command->add_option("--threshold", options->threshold, "Fuzzy distance below which two frames match")
           ->check(NumberWithin(1e-6, 6, "threshold"))
           ->capture_default_str());
   add(command->add_flag("--within-class", options->within_class, "Compare only frames with the same ten tags"));
-  add(command->add_option("--min-clips", options->min_clips, "In so many clips a bridge frame's tags occur at least")
+  add(command
+          ->add_option("--min-clips", options->min_clips,
+                       "Minimum number of clips in which a bridge frame's tags must occur")
           ->check(CLI::Range(1, 1000))
           ->capture_default_str());
   add(command
           ->add_option("--most-per-class", options->most_per_class,
-                       "Keep so many bridge frames per clip and pose, those most like other clips' (0: all)")
+                       "Maximum number of bridge frames per clip and pose, those most like other clips' (0: all)")
           ->check(CLI::Range(0, 1000000))
           ->capture_default_str());
-  add(command->add_option("--wait", options->wait_s, "How long a transition may wait, seconds")
+  add(command->add_option("--wait", options->wait_s, "Longest wait for a transition, seconds")
           ->check(NumberWithin(0, 3600, "time in seconds"))
           ->capture_default_str());
   command->add_option("--fuzzy", options->fuzzy, "Fuzzy system: builtin:NAME or a file (default: builtin:paper)");
-  add(command->add_flag("--json", options->as_json, "For programs (docs/schemas/bridge-summary.schema.json)"));
+  add(command->add_flag("--json", options->as_json, "Print JSON (docs/schemas/bridge-summary.schema.json)"));
   AddOverwrite(*command, options->overwrite);
   AddClipReading(*command, options->reading);
   command->footer(kBridgeExamples);

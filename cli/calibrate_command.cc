@@ -87,6 +87,7 @@ constexpr const char* kCalibrateExamples =
     "`etude capture` also takes calibrations of OpenCV, Pose2Sim, Anipose, FreeMoCap, Caliscope, Qualisys, EasyMocap "
     "and COLMAP.\n\n"
     "Try:\n"
+    "  etude calibrate --print board.png                                a board for A4 or Letter, squares of 34 mm\n"
     "  etude calibrate --print board.png --board 8x8x0.1                a board of 80 cm, squares of 10 cm\n"
     "  etude calibrate left/ right/ --board 8x8x0.1 -o rig.yaml         folders of PNG or JPG pictures\n"
     "  etude calibrate left.mp4 right.mp4 --board 8x8x0.1 -o rig.yaml   films that run alike\n"

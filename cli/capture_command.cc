@@ -95,7 +95,7 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
       ->capture_default_str();
   command
       ->add_option("--rig-up", options->place.up,
-                   "The rig's axis that points up: x, y, z, -x, -y, -z, floor (square to where feet rest), or auto")
+                   "The rig's axis that points up: x, y, z, -x, -y, -z, floor (as cameras and feet tell), or auto")
       ->capture_default_str();
   command
       ->add_option("--floor", options->place.floor,

@@ -75,7 +75,7 @@ int CheckMethodCommand(OutsideOptions options, const std::string& seat, const Re
     return *all_passed ? kSuccess : kNothingWorked;
   }
   fmt::print("{} of {} checks passed{}\n", passed, checks,
-             *all_passed ? "" : "; docs/outside-methods.md tells what a method has to do");
+             *all_passed ? "" : "; docs/outside-methods.md says what a method has to do");
   return *all_passed ? kSuccess : kNothingWorked;
 }
 
@@ -106,13 +106,13 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   command->add_option("--labels", options->people.labels, "Who did what when in them: a file, or a folder of tag streams")
       ->needs(streams);
   AddStreamReading(*command, options->people.reading);
-  command->add_option("--time", options->time_s, "Seconds per problem, or per step of a session")
+  command->add_option("--time", options->time_s, "Time limit per problem, or per step of a session, seconds")
       ->check(NumberWithin(0.001, 1e6, "time in seconds"))
       ->capture_default_str();
-  command->add_option("--memory", options->memory_mb, "MB of memory")
+  command->add_option("--memory", options->memory_mb, "Memory limit, MB")
       ->check(NumberWithin(1, 1e6, "size in MB"))
       ->capture_default_str();
-  command->add_option("--files", options->files, "What the fence shows it (default: its own folder)")
+  command->add_option("--files", options->files, "Files and folders that the fence shows it (default: its own folder)")
       ->allow_extra_args(false);
   command->add_flag("!--no-fence", options->is_fenced, "Run it without a fence, to debug it");
   AddJson(*command, options->as_json);

@@ -48,7 +48,7 @@ Result<int> CiteCommand(const std::string& folder, const std::string& address, b
 
 void DefineCite(CLI::App& app, Action& action) {
   auto folder = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("cite", "BibTeX, and the sentence that names a run in a paper");
+  CLI::App* command = app.add_subcommand("cite", "Print BibTeX, and a sentence that cites a run in a paper");
   command->add_option("folder", *folder, "A result folder")->required();
   auto address = std::make_shared<std::string>();
   command->add_option("--address", *address, "Where readers find the program, or this run: a URL or DOI")

@@ -74,7 +74,7 @@ struct ClipConvertOptions {
   double rate_hz = 0;  ///< 0 = the clip's own rate, or 30 Hz for bodies
   std::string trim;    ///< "1.5:4"; "" = the whole clip
   std::string character;
-  bool mirror = false, retarget = false, ground = false, overwrite = false;
+  bool mirror = false, retarget = false, ground = false, overwrite = false, as_json = false;
   ClipReading reading;
 };
 
@@ -105,8 +105,16 @@ Result<int> ClipConvertCommand(const ClipConvertOptions& given) {
   if (given.rate_hz > 0) options.rate_hz = given.rate_hz;
   ASSIGN_OR_RETURN(const auto converted, ConvertClips(std::move(clips), format, options));
   RETURN_IF_ERROR(WriteFileAtomically(given.output, converted.bytes));
-  fmt::print("{}\n", converted.note);
-  TellWritten(given.output);
+  if (given.as_json) {
+    RETURN_IF_ERROR(PrintFacts("clip convert", {{"clip", references.front()},
+                                                {"output", given.output},
+                                                {"as", converted.note},
+                                                {"changes", converted.changes}}));
+  } else {
+    fmt::print("{}\n", converted.note);
+    for (const std::string& change : converted.changes) fmt::print("  {}\n", change);
+  }
+  TellWritten(given.output, given.as_json ? stderr : stdout);
   return kSuccess;
 }
 
@@ -130,6 +138,7 @@ void DefineConvert(CLI::App& clip, Action& action) {
                    "Put on the bear or the mannequin, retargeted (GLB only); none leaves the file's meshes out")
       ->check(CLI::IsMember({"bear", "mannequin", "none"}));
   AddOverwrite(*command, options->overwrite);
+  AddJson(*command, options->as_json);
   AddClipReading(*command, options->reading, "--file-rate");
   command->footer(
       "\nWithout --ground, --retarget or --character a file keeps its own skeleton, unit and axes (GLB: metres, Y "
@@ -271,7 +280,8 @@ Result<int> ClipMapCommand(const ClipMapOptions& options) {
   as_file.recorded = reading.recorded;
   ASSIGN_OR_RETURN(const auto clips, ReadClips(options.clip, as_file));
   const Skeleton& skeleton = clips.front().clip.skeleton;
-  const auto map = FindJointMap(skeleton, options.clip, reading.roles ? &*reading.roles : nullptr);
+  const auto map = FindJointMap(skeleton, options.clip, reading.roles ? &*reading.roles : nullptr,
+                                clips.front().clip.frames);
   RETURN_IF_ERROR(WritePreview(options, clips.front().clip, map ? &*map : nullptr));
   // Roles are missing: write a file to fill in, and complain.
   if (!map) {

@@ -6,17 +6,22 @@
 #include "cli/arguments.h"
 #include "engine/base/names.h"
 #include "engine/fuzzy/open_fuzzy_system.h"
+#include "engine/retargeting/marker_sets.h"
 #include "io/clips/references.h"
 #include "io/files/files.h"
 
 namespace etude {
 
 void AddClipReading(CLI::App& command, ClipReading& reading, const std::string& rate) {
-  command.add_option(kJointMapOption, reading.joint_map, "Which joints play which roles (etude clip map writes one)");
+  command.add_option(kJointMapOption, reading.joint_map,
+                     "Joint map: which joints play which roles (etude clip map writes one)");
   command.add_option("--unit", reading.unit,
                      "Unit of the file: m, cm, mm, in, ft, cmu, or metres per unit (default: found by the stature)");
   command.add_option("--up", reading.up, "Axis of the file that points up: y or z (default: found)")
       ->check(CLI::IsMember({"y", "z"}));
+  command.add_flag("--keep-floor", reading.keep_floor, "Leave the body at the height that the file says");
+  command.add_option("--marker-set", reading.marker_set, "Which markers of a file count (default: the best it holds)")
+      ->check(CLI::IsMember(MarkerSetKeys()));
   if (rate.empty()) return;
   command.add_option(rate, reading.rate_hz, "Frames per second of the file (default: its own)")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
@@ -38,6 +43,8 @@ Result<OpenOptions> ReadOptions(const ClipReading& reading) {
     ASSIGN_OR_RETURN(const auto metres, ReadUnit(reading.unit, {"--unit"}));
     options.body.metres_per_unit = metres;
   }
+  options.body.keep_floor = reading.keep_floor;
+  options.marker_set = reading.marker_set;
   if (!reading.up.empty()) options.body.up = reading.up == "z" ? UpAxis::kZ : UpAxis::kY;
   return options;
 }

@@ -21,9 +21,11 @@ struct ClipReading {
   std::string unit;       ///< "m", "cm", … or metres per unit as a number
   std::string up;         ///< "y" or "z"
   std::optional<double> rate_hz = {};
+  bool keep_floor = false;
+  std::string marker_set = "";  ///< "" = the best that the file holds
 };
 
-/// Adds --joint-map, --unit and --up, for every command that opens clips directly, and an option with the name `rate`
+/// Adds --joint-map, --unit, --up, --keep-floor and --marker-set, for every command that opens clips directly, and an option with the name `rate`
 /// for the frame rate of files ("" = no such option).
 void AddClipReading(CLI::App& command, ClipReading& reading, const std::string& rate = "--rate");
 

@@ -52,17 +52,13 @@ struct CoachCommandOptions {
 };
 
 constexpr const char* kCoachExamples =
-    "\nA device's skeletons go in line by line, what to show comes out line by line: JSON, a head that tells the "
-    "song,\n"
-    "its moves and their key poses, then an object for each frame (docs/coach.md tells all keys). The coach waits for "
-    "a\n"
-    "clap, dances, judges every performance, and by --policy interrupts: it shakes its head, waves or is puzzled, "
-    "shows\n"
-    "the move slowly, and goes back to it. It is the program that scenarios of `task: coach` judge.\n\n"
-    "Rows are what `etude clip convert` writes as CSV, or a Kinect's (docs/streams.md). Music is yours to play: a\n"
-    "frame's \"music\" says from where, and when to stop; a line '#music 12.34' in the stream tells the coach where "
-    "it\n"
-    "really is, so that moves are slowed and hurried to stay with it.\n\n"
+    "\nReads a device's skeletons line by line, and writes what to show line by line, as JSON: first the song, its\n"
+    "moves and their key poses, then an object for each frame (docs/coach.md explains all keys). The coach waits for\n"
+    "a clap, dances, judges every performance, and interrupts as --policy says: it shakes its head, waves or is\n"
+    "puzzled, shows the move slowly, and goes back to it. It is the program that scenarios of `task: coach` judge.\n\n"
+    "Rows are what `etude clip convert` writes as CSV, or a Kinect's (docs/streams.md). You play the music: a\n"
+    "frame's \"music\" says from where, and when to stop. A line '#music 12.34' in the stream tells the coach where\n"
+    "the music is, so that it can slow down or speed up its moves.\n\n"
     "Try:\n"
     "  etude coach warm_up --stream take.csv --brief          what would the coach have said to this recording?\n"
     "  my_sensor | etude coach groove --stream - | my_stage   live\n"
@@ -91,7 +87,7 @@ Result<void> TeachMoves(const std::string& path, std::vector<TaughtMove>& taught
     if (danced == taught.end()) {
       std::string names;
       for (const TaughtMove& known : taught) names += (names.empty() ? "" : ", ") + known.name;
-      return Fail({path}, "teaches '{}', which this song does not dance; it dances: {}", move.name, names);
+      return Fail({path}, "teaches '{}', which this song does not contain; it contains: {}", move.name, names);
     }
     *danced = std::move(move);
   }
@@ -172,6 +168,7 @@ Result<int> CoachCommand(const CoachCommandOptions& options) {
   StreamReading reading{.rate_hz = options.rate_hz};
   if (!options.format.empty()) reading.format = FindStreamFormat(options.format);
   LiveStream stream(is_live ? "the stream" : options.stream, reading, {.reflects = options.reflect});
+  coach.on_remark = [&](const std::string& remark) { fmt::print(stderr, "{}\n", remark); };
   LiveCoach live(transitions, *recogniser, coach, PrintLine);
   RETURN_IF_ERROR(live.Follow(is_live ? std::cin : file, stream));
   if (options.timing) TellTiming(live.times_ms());
@@ -182,46 +179,46 @@ Result<int> CoachCommand(const CoachCommandOptions& options) {
 
 void DefineCoach(CLI::App& app, Action& action) {
   auto options = std::make_shared<CoachCommandOptions>();
-  CLI::App* command = app.add_subcommand("coach", "Coach a dance live: skeletons in, what to show out");
+  CLI::App* command = app.add_subcommand("coach", "Coach a dance live, from skeletons");
   // The song, the stream, and what is known about the music.
   command->add_option("song", options->song, "A song: a built-in one (etude list clips), or a file (.yaml)")
       ->required();
-  command->add_option("--stream", options->stream, "A file of skeleton rows; -: standard input, as they come")
-      ->required();
+  command->add_option("--stream", options->stream, "A file of skeleton rows; -: standard input, live")->required();
   command->add_option("--moves", options->moves,
-                      "A moves file (etude teach): what the song's moves look like when they are right");
-  command->add_option("--beats", options->beats, "When the music's beats sound: a text file, seconds, one a line");
-  command->add_option("--click", options->click, "Write a click for every beat, too (.wav)");
+                      "A moves file (etude teach) with right performances of the song's moves");
+  command->add_option("--beats", options->beats,
+                      "Times of the music's beats: a text file with one time in seconds per line");
+  command->add_option("--click", options->click, "Also write a click for every beat (.wav)");
   // How performances are judged, and how the coach reacts.
   command->add_option("--recogniser", options->recogniser, "How performances are recognised")
       ->check(CLI::IsMember(RecogniserNames()))
       ->capture_default_str();
   command
       ->add_option("--right-from", options->right_from,
-                   "From which evidence on a performance is right (default: the recogniser's own)")
-      ->check(NumberWithin(0.001, 1, "evidence"));
+                   "Lowest evidence of a right performance (default: the recogniser's own)")
+      ->check(NumberWithin(0.001, 1, "level of evidence"));
   command->add_option("--policy", options->policy, "When the coach interrupts")
       ->check(CLI::IsMember(LivePolicyNames()))
       ->capture_default_str();
-  command->add_option("--choice", options->choice, "Where clips are left and entered")
+  command->add_option("--choice", options->choice, "How the frames of a transition are chosen")
       ->check(CLI::IsMember(ChoiceNames()))
       ->capture_default_str();
-  command->add_option("--join", options->join, "How they are put together there")
+  command->add_option("--join", options->join, "How clips are joined there")
       ->check(CLI::IsMember(JoinNames()))
       ->capture_default_str();
-  command->add_option("--filter", options->filter, "Smooths the skeletons")
+  command->add_option("--filter", options->filter, "Filter that smooths the skeletons")
       ->check(CLI::IsMember(FilterNames()))
       ->capture_default_str();
   // How players dance, and how frames are read and printed.
-  command->add_flag("--mirror", options->mirror, "Players dance as in a mirror: the coach's left is their right");
+  command->add_flag("--mirror", options->mirror, "Players mirror the coach: its left is their right");
   command->add_flag("--now", options->now, "Dance at once, without a clap");
-  command->add_flag("--brief", options->brief, "Leave out frames in which nothing was decided, and bodies");
-  command->add_flag("--timing", options->timing, "Tell at the end how long frames took");
-  command->add_option("--format", options->format, "Of the stream (default: told by content)")
+  command->add_flag("--brief", options->brief, "Leave out frames without decisions, and bodies");
+  command->add_flag("--timing", options->timing, "Print at the end how long frames took");
+  command->add_option("--format", options->format, "Format of the stream (default: found from the content)")
       ->check(CLI::IsMember(StreamFormatNames()));
-  command->add_option("--rate", options->rate_hz, "Of a stream without a clock, Hz (default: 30)")
+  command->add_option("--rate", options->rate_hz, "Frame rate of a stream without a clock, Hz (default: 30)")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
-  command->add_flag("--reflect", options->reflect, "The stream's X axis runs the other way");
+  command->add_flag("--reflect", options->reflect, "Negate X, for a mirrored stream");
   AddOverwrite(*command, options->overwrite);
   command->footer(kCoachExamples);
   command->callback([=, &action] { action = [=] { return Finish(CoachCommand(*options)); }; });

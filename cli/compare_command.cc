@@ -33,7 +33,7 @@ std::string ScopeSentence(const FinishedRun& run) {
     const std::string_view other = OtherUnits(scenario.study.unit);
     if (std::ranges::find(others, other) == others.end()) others.push_back(other);
   }
-  return fmt::format("All on these worlds; nothing is said about {}.", fmt::join(others, ", "));
+  return fmt::format("All on these worlds; no claim is made about {}.", fmt::join(others, ", "));
 }
 
 Result<int> CompareCommand(const std::string& a, const std::string& b, Sealing sealing, bool as_json) {
@@ -55,7 +55,7 @@ Result<int> CompareCommand(const std::string& a, const std::string& b, Sealing s
   PrintMoves(comparison, "A", "B", comparison.moves.size());
   PrintList("Only in A:", comparison.only_before);
   PrintList("Only in B:", comparison.only_after);
-  PrintList("Not comparable, for the worlds are not the same:", incomparable);
+  PrintList("Not comparable because the worlds differ:", incomparable);
   PrintList("Methods with other settings:", comparison.settings_changed);
   fmt::print("{}\n", CompareSentence(comparison));
   for (const std::string& line : systems) fmt::print("{}\n", line);
@@ -70,7 +70,7 @@ Result<int> CompareCommand(const std::string& a, const std::string& b, Sealing s
 
 void DefineCompare(CLI::App& app, Action& action) {
   auto a = std::make_shared<std::string>(), b = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("compare", "What differs between two runs of the same worlds");
+  CLI::App* command = app.add_subcommand("compare", "Compare two runs of the same worlds");
   command->add_option("a", *a, "A result folder")->required();
   command->add_option("b", *b, "Another")->required();
   auto sealing = std::make_shared<Sealing>();

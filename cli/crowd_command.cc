@@ -60,7 +60,7 @@ Json Tell(const CrowdCommandOptions& options, Timings timings) {
     return timings.times_ms[1 + static_cast<std::size_t>(share * static_cast<double>(timings.times_ms.size() - 2))];
   };
   fmt::print(
-      "ms of one core a frame, of {:.1f} that there are: median {:.2f}, p99 {:.2f}, largest {:.2f}; the standing "
+      "ms of one core per frame, of the {:.1f} available: median {:.2f}, p99 {:.2f}, largest {:.2f}; the standing "
       "start {:.2f}\n",
       1000 / options.crowd.rate_hz, at(0.5), at(0.99), timings.times_ms.back(), first);
   return {{"characters", options.crowd.characters},
@@ -133,7 +133,7 @@ Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& follow
     const auto met = std::ranges::count(characters, false, &Character::stands_out);
     return stage.Draw(characters,
                       fmt::format("{} characters followed at {:g} Hz, each within its joints' limits", count, rate_hz),
-                      fmt::format("{:.2f} s: {} meet the targets of all four ends; pale: who does not",
+                      fmt::format("{:.2f} s: {} meet the targets of all four ends; pale: those that do not",
                                   frame * every / rate_hz, met));
   };
   return EncodeFedFrames(options.output, frames, std::max(1, static_cast<int>(std::lround(rate_hz / every))),
@@ -166,7 +166,7 @@ Result<int> CrowdCommand(const CrowdCommandOptions& given) {
   }
   if (!options.output.empty()) {
     if (std::filesystem::path(options.output).extension() != ".mp4") {
-      return Fail({options.output}, "is no film's name; allowed: .mp4");
+      return Fail({options.output}, "is not a film's name; allowed: .mp4");
     }
     RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   }
@@ -183,21 +183,21 @@ Result<int> CrowdCommand(const CrowdCommandOptions& given) {
 
 void DefineCrowd(CLI::App& app, Action& action) {
   auto options = std::make_shared<CrowdCommandOptions>();
-  CLI::App* command = app.add_subcommand("crowd", "Follow a crowd's motions at once, and film it");
-  command->add_option("--characters", options->crowd.characters, "How many, each after a motion of its own")
+  CLI::App* command = app.add_subcommand("crowd", "Solve the poses of a whole crowd frame by frame, and film it");
+  command->add_option("--characters", options->crowd.characters, "Number of characters, each with a motion of its own")
       ->check(CLI::Range(1, 10'000))
       ->capture_default_str();
-  command->add_option("--seconds", options->seconds, "How long")
+  command->add_option("--seconds", options->seconds, "Duration, seconds")
       ->check(NumberWithin(0.01, 60, "time in s"))
       ->capture_default_str();
   command->add_option("--rate", options->crowd.rate_hz, "Frames per second")
       ->check(NumberWithin(1, 1000, "rate in Hz"))
       ->capture_default_str();
-  command->add_option("--steps", options->steps, "Of gauss-newton, at most, for a character's frame")
+  command->add_option("--steps", options->steps, "Maximum gauss-newton steps per character and frame")
       ->check(CLI::Range(1, 10'000))
       ->capture_default_str();
-  AddSeed(*command, options->crowd.seed, "Of the motions' dice");
-  command->add_flag("--float", options->in_float, "Batches of floats, not of doubles");
+  AddSeed(*command, options->crowd.seed, "Seed of the motions");
+  command->add_flag("--float", options->in_float, "Solve in floats, not in doubles");
   command->add_option("-o,--output", options->output, "A film of the crowd (.mp4)");
   AddJobs(*command, options->jobs);
   AddOverwrite(*command, options->overwrite);

@@ -28,7 +28,7 @@ void PrintFaults(const char* what, const std::vector<std::string>& faults) {
 
 int ComplainOfFaults(const ScoreOptions& options, const PredictionFaults& faults) {
   PrintFaults("missing:", faults.missing);
-  PrintFaults("extra, answering no problem:", faults.extra);
+  PrintFaults("extra, without a problem:", faults.extra);
   PrintFaults("more than one answer to a problem:", faults.duplicate);
   PrintFaults("broken:", faults.broken);
   const bool only_missing = faults.extra.empty() && faults.duplicate.empty() && faults.broken.empty();
@@ -70,13 +70,12 @@ int ScoreCommand(const ScoreOptions& given) {
 void DefineExport(CLI::App& app, Action& action) {
   auto options = std::make_shared<ExportOptions>();
   options->program_version = ETUDE_VERSION;
-  CLI::App* command = app.add_subcommand("export", "Write the problems of scenarios as files, the truth apart");
-  command
-      ->add_option("scenarios", options->scenarios,
-                   "Scenario files, folders of them, or names of what comes with etude")
+  CLI::App* command =
+      app.add_subcommand("export", "Write the problems of scenarios as files, with the truth in a folder of its own");
+  command->add_option("scenarios", options->scenarios, "Scenario files, folders of them, or names of shipped scenarios")
       ->required();
   command->add_option("-o,--output", options->output, "Folder of the data set")->required();
-  command->add_flag("--films", options->films, "Each camera's take as an MP4, too, beside its pictures");
+  command->add_flag("--films", options->films, "Also write each camera's take as an MP4");
   AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map, options->clip_facts);
   const Action act = WithSecretKey(*command, &options->seed, options->key, [=] {
     std::ranges::for_each(WhichIsMeant(options->scenarios), Complain);
@@ -94,10 +93,10 @@ void DefineScore(CLI::App& app, const std::string& command_line, Action& action)
   command->add_option("target", options->target, "An exported data set, or its scenario files")->required();
   command->add_option("predictions", options->predictions, "Folder of answers")->required();
   command->add_option("-o,--output", options->output, "Result folder")->required();
-  command->add_option("--name", options->name, "What to call the method")->capture_default_str();
+  command->add_option("--name", options->name, "Name of the method")->capture_default_str();
   AddOutsideRules(*command, options->outside);
-  command->add_flag("--alone", options->alone, "Do not run the scenarios' own methods beside it");
-  command->add_flag("--allow-missing", options->allow_missing, "A world without answer is a failed cell");
+  command->add_flag("--alone", options->alone, "Do not run the scenarios' own methods as well");
+  command->add_flag("--allow-missing", options->allow_missing, "Count a world without answer as a failed cell");
   AddJobs(*command, options->jobs);
   AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map, options->clip_facts);
   const Action act = WithSecretKey(*command, &options->seed, options->key, [=] { return ScoreCommand(*options); });

@@ -10,7 +10,7 @@
 namespace etude {
 
 CLI::Option* AddJson(CLI::App& command, bool& as_json) {
-  return command.add_flag("--json", as_json, "For programs (docs/schemas/facts.schema.json)");
+  return command.add_flag("--json", as_json, "Print JSON (docs/schemas/facts.schema.json)");
 }
 
 Result<void> PrintFacts(const std::string& command, Json facts) {

@@ -49,7 +49,7 @@ int ExitCode(GateVerdict verdict) {
     case GateVerdict::kIncomplete:
       break;
   }
-  return kIncomplete;
+  return kIncompleteRun;
 }
 
 /// Prints each world in two lines: its difference, and the command that runs it again.
@@ -99,7 +99,7 @@ Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
   std::optional<Snapshot> baseline;
   if (!options.baseline.empty()) {
     if (std::error_code none; !fs::exists(options.baseline, none)) {
-      return Fail({options.baseline, 0, 0}, "no such file; --update makes it of this run");
+      return Fail({options.baseline, 0, 0}, "no such file; --update makes it from this run");
     }
     ASSIGN_OR_RETURN(baseline, TakeBaseline(options.baseline, options.sealing));
   }
@@ -129,11 +129,12 @@ void PrintDifference(Snapshot before, Snapshot after, const FinishedRun& run) {
 Result<int> Update(const GateOptions& options, const FinishedRun& run) {
   // An incomplete run, or one with a method without answers, makes no baseline.
   if (const auto incomplete = WhyIncomplete(run); !incomplete.empty()) {
-    PrintList("No baseline is made of an incomplete run:", incomplete);
-    return kIncomplete;
+    PrintList("No baseline is made from an incomplete run:", incomplete);
+    return kIncompleteRun;
   }
   if (const auto silent = DescribeSilentMethods(run); !silent.empty()) {
-    PrintList("No baseline is made of a run in which a method has no answer, for nothing could be worse:", silent);
+    PrintList("No baseline is made from a run in which a method has no answer, because nothing could be worse:",
+              silent);
     return kRegression;
   }
   // Check that the baseline can be read back before the old one is replaced.
@@ -160,7 +161,7 @@ std::string RateText(const Rate& rate) {
 const char* PromiseSentence(const SelfTestReport& report) {
   if (!report.Holds()) return "The gate does not keep its promise.";
   if (report.false_alarms.high > kFalseAlarmLimit) {
-    return "Nothing speaks against the gate's promise; more repetitions would show that it is kept.";
+    return "Nothing contradicts the gate's promise; more repetitions would show that it is kept.";
   }
   return "The gate keeps its promise.";
 }
@@ -217,14 +218,15 @@ void DefineGate(CLI::App& app, Action& action) {
   auto options = std::make_shared<GateOptions>();
   CLI::App* command = app.add_subcommand("gate", "Pass or fail a run, for a CI server");
   command->add_option("folder", options->target, "A result folder (with --self-test: a scenario file, or nothing)");
-  CLI::Option* baseline = command->add_option("--baseline", options->baseline, "What the run is held against");
+  CLI::Option* baseline =
+      command->add_option("--baseline", options->baseline, "The baseline that the run is compared with");
   CLI::Option* update =
-      command->add_flag("--update", options->update, "Write the baseline from this run, and show what moved");
+      command->add_flag("--update", options->update, "Write the baseline from this run, and show what changed");
   update->needs(baseline);
   CLI::Option* self_test =
       command->add_flag("--self-test", options->self_test, "Measure the gate's own false alarms and power")
           ->excludes(baseline);
-  command->add_flag("--verdicts", options->verdicts, "Self-test: of the verdicts beyond a run's worlds instead")
+  command->add_flag("--verdicts", options->verdicts, "Self-test: test the verdicts beyond a run's worlds instead")
       ->needs(self_test);
   command->add_option("--repetitions", options->repetitions, "Self-test: pairs of seeds, or samples of each design")
       ->check(CLI::Range(1, 100000))

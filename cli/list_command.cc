@@ -83,7 +83,7 @@ Result<int> ListClips() {
                move.tempo_bpm, move.slowest_bpm, move.fastest_bpm, move.motion.DurationSeconds(),
                move.key_poses.size());
   }
-  fmt::print("Acts of the coach (builtin:acts); builtin:slow_MOVE is a move shown slowly:\n");
+  fmt::print("Acts of the coach (builtin:acts); builtin:slow_MOVE shows a move slowly:\n");
   for (const std::string& name : BuiltinActNames()) {
     ASSIGN_OR_RETURN(const auto act, LoadBuiltinMove(name));
     fmt::print("  builtin:{:<14} {:.1f} s{}\n", name, act.motion.DurationSeconds(), act.loops ? "" : ", once");
@@ -244,15 +244,15 @@ void DefineList(CLI::App& app, Action& action) {
     listing->callback(
         [=, &action] { action = [=] { return Finish(*as_json ? ListAsJson(what, "") : ListCommand(what, "")); }; });
   };
-  list("methods", "Tasks, what their methods are made of, and solvers", Listing::kMethods);
+  list("methods", "Tasks, the keys of their methods, and solvers", Listing::kMethods);
   list("clips", "Built-in clips", Listing::kClips);
-  list("recordings", "The page docs/reference/recordings.md: what recordings hold beside motions",
+  list("recordings", "The page docs/reference/recordings.md: what recordings hold besides motions",
        Listing::kRecordings);
   // Metrics: text, JSON or Markdown.
   auto json = std::make_shared<bool>(false), markdown = std::make_shared<bool>(false);
   CLI::App* metrics = command->add_subcommand("metrics", "Metrics with their definitions");
   CLI::Option* as_json =
-      metrics->add_flag("--json", *json, "For programs, with the test vectors (docs/schemas/metrics.schema.json)");
+      metrics->add_flag("--json", *json, "Print JSON with the test vectors (docs/schemas/metrics.schema.json)");
   metrics->add_flag("--markdown", *markdown, "The page docs/reference/metrics.md")->excludes(as_json);
   metrics->callback([=, &action] {
     const MetricsFormat format = *json       ? MetricsFormat::kJson

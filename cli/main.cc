@@ -42,7 +42,7 @@ constexpr const char* kExamples =
     "  etude run quick                                the quick suite, into out/quick-1\n"
     "  etude run quick --clips '~/mocap/*.bvh'        on your own motion capture\n"
     "  etude report out/quick-1                       a page, tables, JUnit and a video of it\n"
-    "  etude run quick --resume                       go on after a crash, a kill, a power cut\n"
+    "  etude run quick --resume                       continue after a crash, a kill, a power cut\n"
     "  etude gate out/quick-1 --baseline FILE         pass or fail, for a CI server\n"
     "  etude run paper                                what the papers claim, in their own tables and situations\n"
     "  etude list methods                             what a scenario can name; also keys, metrics, clips\n"
@@ -90,7 +90,7 @@ int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
 void EndAfterCutFile(int) {
   constexpr std::string_view kComplaint = "etude: a file of a run was cut short while it was read\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kComplaint.data(), kComplaint.size());
-  ::_exit(kIncomplete);
+  ::_exit(kIncompleteRun);
 }
 
 /// Returns true for commands whose results need not be identical on all machines: they print existing data, or draw
@@ -136,11 +136,12 @@ bool output_was_closed = false;
 Result<void> CheckNames(std::span<char*> arguments) {
   for (std::size_t i = 1; i < arguments.size(); ++i) {
     if (CheckUtf8(arguments[i], "")) continue;
-    return Fail({fmt::format("argument {}", i)}, "is no UTF-8 text; allowed: names of UTF-8");
+    return Fail({fmt::format("argument {}", i)}, "is not UTF-8 text; allowed: names in UTF-8");
   }
   std::error_code error;
   const std::string here = std::filesystem::current_path(error).string();
-  if (!CheckUtf8(here, "")) return Fail({}, "the name of the working folder is no UTF-8 text; start in another folder");
+  if (!CheckUtf8(here, ""))
+    return Fail({}, "the name of the working folder is not UTF-8 text; start in another folder");
   return {};
 }
 

@@ -12,7 +12,4 @@ namespace etude {
 void PrintMoves(const SnapshotComparison& comparison, const std::string& before, const std::string& after,
                 std::size_t max_rows);
 
-/// Prints a title and indented lines; prints nothing if there are no lines.
-void PrintList(const std::string& title, const std::vector<std::string>& lines);
-
 }  // namespace etude

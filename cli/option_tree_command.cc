@@ -250,7 +250,7 @@ void DefineOptionTree(CLI::App& app, Action& action) {
   const CLI::App* program = &app;
   auto shell = std::make_shared<std::string>(), folder = std::make_shared<std::string>();
   auto as_page = std::make_shared<bool>(false);
-  CLI::App* completion = app.add_subcommand("completion", "Print completion for a shell, to be put where it looks");
+  CLI::App* completion = app.add_subcommand("completion", "Print the completion script of a shell");
   completion->add_option(kShellArgument, *shell, "bash, zsh or fish")->required()->check(CLI::IsMember(Shells()));
   completion->callback([=, &action] {
     action = [=] {

@@ -15,9 +15,9 @@ Result<void> CheckOutput(const std::string& path, bool overwrite) {
   if (!fs::exists(there)) return {};
   if (fs::is_directory(path, ignored)) return Fail({path, 0, 0}, "is a folder; the name of a file is needed");
   // A device or a pipe would be replaced instead of written to.
-  if (!fs::is_regular_file(there) && !fs::is_symlink(there)) return Fail({path, 0, 0}, "is there, and is no file");
+  if (!fs::is_regular_file(there) && !fs::is_symlink(there)) return Fail({path, 0, 0}, "exists and is not a file");
   if (overwrite) return {};
-  return Fail({path, 0, 0}, "is there already; --overwrite replaces it");
+  return Fail({path, 0, 0}, "already exists; --overwrite replaces it");
 }
 
 void TellWritten(const std::string& path, std::FILE* stream) { fmt::print(stream, "written: {}\n", Visible(path)); }

@@ -34,7 +34,7 @@ void ProgressBar::Show(const Progress& progress) {
   const auto cells = static_cast<double>(progress.cells);
   const double done = progress.Work();
   const std::string answered =
-      progress.cells_answered == 0 ? "" : fmt::format("{} to be measured, ", progress.cells_answered);
+      progress.cells_answered == 0 ? "" : fmt::format("{} left to measure, ", progress.cells_answered);
   Show(progress.cells == 0 ? 1 : done / cells,
        fmt::format("{}/{} cells, {} ok, {}{:.0f} s", progress.cells_done, progress.cells, progress.cells_ok, answered,
                    progress.seconds),

@@ -60,7 +60,7 @@ std::vector<BaselineValue> ValuesOf(const Snapshot& baseline, const Row& row) {
 
 void PrintBaseline(const std::string& file, const std::vector<BaselineValue>& values) {
   const auto text = [](const std::optional<double>& value) { return value ? fmt::format("{}", *value) : "no value"; };
-  if (values.empty()) fmt::print("  {} does not know this cell\n", file);
+  if (values.empty()) fmt::print("  {} does not contain this cell\n", file);
   for (const BaselineValue& value : values) {
     const bool same = value.baseline == value.now;
     fmt::print("  {}: {} in the baseline, {}\n", value.metric, text(value.baseline),
@@ -114,7 +114,7 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
   std::error_code error;
   if (!std::filesystem::is_directory(options.target, error)) {
     if (!options.cells.empty() || !options.pack_file.empty() || options.sample) {
-      return Fail({options.target}, "is no result folder; --cell, --sample and --pack need one");
+      return Fail({options.target}, "is not a result folder; --cell, --sample and --pack need one");
     }
     return ReplayFile(options.target, options.outside, key, options.as_json, interrupt);
   }
@@ -122,7 +122,7 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
   if (!options.pack_file.empty()) return Pack(options);
   std::optional<Snapshot> baseline;
   if (!options.baseline.empty()) {
-    if (options.cells.empty()) return Fail({}, "--baseline is told beside cells: name them with --cell");
+    if (options.cells.empty()) return Fail({}, "--baseline needs cells: name them with --cell");
     RETURN_IF_ERROR(LoadRunOutline(options.target, options.sealing));  // registers the metrics that the run added
     ASSIGN_OR_RETURN(baseline, TakeBaseline(options.baseline, options.sealing));
   }
@@ -160,16 +160,16 @@ void DefineReplay(CLI::App& app, Action& action) {
   auto options = std::make_shared<ReplayCommandOptions>();
   CLI::App* command = app.add_subcommand("replay", "Run cells again and compare them stage by stage");
   command->add_option("target", options->target, "A result folder, or a file that --pack has written")->required();
-  CLI::Option* cell = command->add_option("--cell", options->cells, "These cells, as cells.jsonl names them");
-  command->add_option("--sample", options->sample, "This many cells, drawn by the run's seed (default: all)")
+  CLI::Option* cell = command->add_option("--cell", options->cells, "Run these cells, named as in cells.jsonl");
+  command->add_option("--sample", options->sample, "Number of cells to run, drawn by the run's seed (default: all)")
       ->check(CLI::Range(1, 10'000'000))
       ->excludes(cell);
   AddUnsealed(*command, options->sealing);
   AddOutsideRules(*command, options->outside);
   AddSeedFile(*command, options->key_file);
-  command->add_option("--pack", options->pack_file, "Write the cell, with its scenario and clips, into this one file");
+  command->add_option("--pack", options->pack_file, "Write the cell, with its scenario and clips, into this file");
   AddOverwrite(*command, options->overwrite);
-  command->add_option("--baseline", options->baseline, "Beside each --cell, its values in this baseline file");
+  command->add_option("--baseline", options->baseline, "Also print each --cell's values in this baseline file");
   AddJson(*command, options->as_json);
   AddJobs(*command, options->jobs);
   command->callback([=, &action] { action = [=] { return Finish(ReplayCommand(*options)); }; });

@@ -68,8 +68,7 @@ void DefineReport(CLI::App& app, Action& action) {
   command->add_flag("--no-video", *no_video, "Leave the video out");
   command->add_flag("--whole-sessions", *whole_sessions, "Film coached sessions whole, not around a correction");
   auto real = std::make_shared<std::vector<std::string>>();
-  command->add_option("--real", *real,
-                      "Beside it, captures of real films: files that `etude capture --distances` wrote");
+  command->add_option("--real", *real, "Add captures of real films: files that `etude capture --distances` wrote");
   auto sealing = std::make_shared<Sealing>();
   AddUnsealed(*command, *sealing);
   auto jobs = std::make_shared<int>(0);
@@ -84,9 +83,9 @@ void DefineReport(CLI::App& app, Action& action) {
 
 void DefineRows(CLI::App& app, Action& action) {
   auto folder = std::make_shared<std::string>(), file = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("rows", "The rows of a run as lines of text, as cells.jsonl has them");
-  command->add_option("folder", *folder, "A result folder, also one of columns")->required();
-  command->add_option("-o,--output", *file, "Into this file (default: to standard output)");
+  CLI::App* command = app.add_subcommand("rows", "Print the rows of a run as in cells.jsonl");
+  command->add_option("folder", *folder, "A result folder, of rows or columns")->required();
+  command->add_option("-o,--output", *file, "Write into this file (default: standard output)");
   auto sealing = std::make_shared<Sealing>();
   AddUnsealed(*command, *sealing);
   auto overwrite = std::make_shared<bool>(false);

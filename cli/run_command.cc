@@ -161,9 +161,17 @@ namespace {
 /// Warns that no lock keeps a second run from writing into the folder.
 void TellUnlocked(const RunOutcome& outcome) {
   if (outcome.why_unlocked.empty()) return;
-  Complain(
-      {{outcome.folder.string(), 0, 0},
-       fmt::format("could not be locked ({}): that no other run writes into it is up to you", outcome.why_unlocked)});
+  Complain({{outcome.folder.string(), 0, 0},
+            fmt::format("could not be locked ({}); make sure that no other run writes into it", outcome.why_unlocked)});
+}
+
+/// Tells what was changed of what the clips' files hold: a line each, of many the first.
+void TellChanges(const std::vector<LoadedChange>& changes) {
+  constexpr std::size_t kShown = 40;
+  for (std::size_t i = 0; i < std::min(changes.size(), kShown); ++i) {
+    fmt::print("{}: {}\n", changes[i].clip, changes[i].change);
+  }
+  if (changes.size() > kShown) fmt::print("… and {} more changes of clips: manifest.json\n", changes.size() - kShown);
 }
 
 /// Prints the facts of a run for programs, and returns `code` if that works.
@@ -190,19 +198,20 @@ int RunCommand(const RunOptions& given, bool as_json) {
   if (!outcome) return Complain(outcome.error());
   // Report what was left out or damaged.
   TellUnlocked(*outcome);
+  TellChanges(outcome->changes);
   for (const RefusedClip& one : outcome->refused) Complain({{one.clip}, "left out: " + one.why});
   const std::string folder = outcome->folder.string();
   for (const int line : outcome->damaged_lines) {
     Complain(
-        {{(outcome->folder / kJournalFile).string(), line, 0}, "does not count: damaged, or the second of its cell"});
+        {{(outcome->folder / kJournalFile).string(), line, 0}, "is ignored: damaged, or a second line for its cell"});
   }
-  if (outcome->fence.starts_with("none")) Complain({{}, "methods outside ran in no fence: " + outcome->fence});
+  if (outcome->fence.starts_with("none")) Complain({{}, "methods outside ran without a fence: " + outcome->fence});
   // Stopped: the finished cells are kept for --resume.
   if (outcome->stopped) {
     const std::size_t kept = outcome->cells + outcome->cells_answered;
     return TellStopped({{},
                         kept == 0 ? "stopped before any cell ended; nothing is kept"
-                                  : fmt::format("stopped; {} cells are kept in {}, --resume goes on", kept, folder)});
+                                  : fmt::format("stopped; {} cells are kept in {}; --resume continues", kept, folder)});
   }
   // A shard has no tables; merging makes them.
   if (!options.shard.IsWhole()) {
@@ -229,7 +238,7 @@ int MergeCommand(const MergeOptions& given) {
   if (!outcome) return Complain(outcome.error());
   TellUnlocked(*outcome);
   if (!outcome->stopped) return ShowOutcome(*outcome);
-  return TellStopped({{}, "stopped; the shards are as they were, and there is no merged run"});
+  return TellStopped({{}, "stopped; the shards are unchanged, and there is no merged run"});
 }
 
 constexpr double kSampleSeconds = 0.8;
@@ -331,9 +340,9 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   options->command_line = command_line;
   CLI::App* command = app.add_subcommand("run", "Run scenarios into a result folder");
   command->add_option("scenarios", options->scenarios,
-                      "Scenario files, folders of them, or names of what comes with etude (quick, full/ik_weights)");
+                      "Scenario files, folders of them, or names of shipped scenarios (quick, full/ik_weights)");
   command->add_option("-o,--output", options->output,
-                      "Result folder (default: out/<suite>-<seed>; of secret worlds, their digest)");
+                      "Result folder (default: out/<suite>-<seed>; for secret worlds, out/<suite>-<digest>)");
   AddJobs(*command, options->jobs);
   const auto world_options = AddWorldOptions(*command, options->seed, options->trials, options->clips,
                                              options->joint_map, options->clip_facts);
@@ -342,27 +351,27 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   CLI::Option* keep = command
                           ->add_option_function<std::string>(
                               "--keep", [options](const std::string&) { options->keeps_motions = true; },
-                              "motions: record every cell's, as a scenario's key `video` does of some")
+                              "motions: record the motions of every cell (a scenario's key `video` does so for some)")
                           ->check(CLI::IsMember({"motions"}));
   auto dry_run = std::make_shared<bool>(false), as_json = std::make_shared<bool>(false);
   const Action act = WithSecretKey(*command, &options->seed, options->key,
                                    [=] { return *dry_run ? DryRunCommand(*options, *as_json) : RunCommand(*options, *as_json); });
   AddReuseKey(*command, options->reuse_key);
   // The options for parts of a run, and for continuing one.
-  command->add_option("--shard", *shard, "Run part i of n, as i/n; etude merge makes one run of all parts");
-  CLI::Option* overwrite = AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");
+  command->add_option("--shard", *shard, "Run part i of n, written i/n; etude merge makes one run of all parts");
+  CLI::Option* overwrite = AddOverwrite(*command, options->overwrite, "Replace the run that the folder holds");
   CLI::Option* resume =
-      command->add_flag("--resume", options->resume, "Go on with the run that the folder holds")->excludes(overwrite);
+      command->add_flag("--resume", options->resume, "Continue the run that the folder holds")->excludes(overwrite);
   AddOtherLibraries(*command, options->other_libraries);
   AddOutsideRules(*command, options->outside);
-  command->add_option("--sync-seconds", options->sync.seconds, "What is done is on the disk after so long at most")
+  command->add_option("--sync-seconds", options->sync.seconds, "Longest time until a finished cell is on the disk, s")
       ->check(NumberWithin(0, 3600, "time in s"))
       ->capture_default_str();
-  command->add_option("--sync-mebibytes", options->sync.mebibytes, "… and after so much at most")
+  command->add_option("--sync-mebibytes", options->sync.mebibytes, "Largest amount not yet on the disk, MiB")
       ->check(NumberWithin(0, 1024, "size in MiB"))
       ->capture_default_str();
-  CLI::Option* dry =
-      command->add_flag("--dry-run", *dry_run, "Only tell how long it would take, and what differences it could show");
+  CLI::Option* dry = command->add_flag("--dry-run", *dry_run,
+                                       "Only estimate how long it would take, and what differences it could show");
   dry->excludes(overwrite, resume);
   AddJson(*command, *as_json);
   // --from repeats a run, so it excludes everything that its manifest states.
@@ -370,13 +379,14 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   for (CLI::Option* option : world_options) from->excludes(option);
   from->excludes(skip_refused, keep);
   from->excludes(command->add_option("--library", options->libraries,
-                                     "NAME=CLIPS: a library beside the scenarios', every condition once more for it"));
+                                     "NAME=CLIPS: a further library, for which every condition is run once more"));
   CLI::Option* streams = command->add_option(
       "--streams", options->streams,
-      "Recordings of skeletons in the place of simulated people: files, patterns, folders (docs/streams.md)");
+      "Recordings of skeletons that replace simulated people: files, patterns, folders (docs/streams.md)");
   streams->excludes(from, world_options[2]);
-  from->excludes(command->add_option("--labels", options->labels,
-                                     "Who did what when in --streams or --clips: a file, or a folder of tag streams"));
+  from->excludes(command->add_option(
+      "--labels", options->labels,
+      "Labels of --streams or --clips, who did which move when: a file, or a folder of tag streams"));
   // Check combinations that CLI11 cannot express, and start.
   command->callback([=, &action] {
     action = [=] {
@@ -396,10 +406,11 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
 
 void DefineScenario(CLI::App& app, Action& action) {
   auto name = std::make_shared<std::string>(), folder = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("scenario", "Start from what comes with etude");
-  CLI::App* copy = command->add_subcommand("copy", "Copy a scenario or a suite, to change it");
+  CLI::App* command = app.add_subcommand("scenario", "Work with the scenarios that come with etude");
+  CLI::App* copy = command->add_subcommand("copy", "Copy a scenario or a suite, to edit it");
   command->require_subcommand(1);
-  copy->add_option("scenario", *name, "Its name, such as full/ik_weights or quick (etude list scenarios)")->required();
+  copy->add_option("scenario", *name, "Its name, such as full/ik_weights or quick (see etude list scenarios)")
+      ->required();
   copy->add_option("folder", *folder, "Where to")->required();
   copy->callback([=, &action] {
     action = [=] {
@@ -415,10 +426,10 @@ void DefineMerge(CLI::App& app, const std::string& command_line, Action& action)
   auto options = std::make_shared<MergeOptions>();
   options->program_version = ETUDE_VERSION;
   options->command_line = command_line;
-  CLI::App* command = app.add_subcommand("merge", "Make one run of its shards");
+  CLI::App* command = app.add_subcommand("merge", "Merge the shards of a run into one run");
   command->add_option("folders", options->folders, "The folders of all shards, in any order")->required();
   command->add_option("-o,--output", options->output, "Result folder")->required();
-  AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");
+  AddOverwrite(*command, options->overwrite, "Replace the run that the folder holds");
   AddOtherLibraries(*command, options->other_libraries);
   const Action act = WithSecretKey(*command, nullptr, options->key, [=] { return MergeCommand(*options); });
   command->callback([=, &action] { action = act; });

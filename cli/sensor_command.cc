@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/output_file.h"
+#include "engine/streams/stream_maker.h"
 #include "io/files/files.h"
 #include "sim/skeleton_sensor/options.h"
 #include "tools/sensor_fit/fit.h"
@@ -22,8 +23,8 @@ namespace {
 constexpr const char* kSensorExamples =
     "\nA recording is a Kinect v2's text (25 joints a line: x y z, or x y z and a quaternion) or joint CSV (etude "
     "clip\n"
-    "convert writes such files). A reference is the same motion by a system that can be trusted: 17 rigid targets of\n"
-    "an optical system a line, or joint CSV. docs/sensor.md tells the formats, and what each statistic is.\n\n"
+    "convert writes such files). A reference is the same motion from a trusted system: 17 rigid targets of an optical\n"
+    "system a line, or joint CSV. docs/sensor.md explains the formats and each statistic.\n\n"
     "Try:\n"
     "  etude sensor stats kinect.txt                                        what it says by itself\n"
     "  etude sensor stats kinect.txt --reference vicon.txt --simulate v2    real beside simulated\n"
@@ -37,11 +38,12 @@ struct SensorReading {
 };
 
 void AddSensorReading(CLI::App& command, SensorReading& reading) {
-  command.add_option("--rate", reading.rate_hz, "Of the recording (default: its own times, else 30 Hz)")
+  command.add_option("--rate", reading.rate_hz, "Frame rate of the recording (default: its own times, else 30 Hz)")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
   command
-      .add_option("--reference-rate", reading.reference_rate,
-                  "Of the reference (default: its own times, else the usual rate that gives the same length)")
+      .add_option(
+          "--reference-rate", reading.reference_rate,
+          "Frame rate of the reference (default: its own times, else the usual rate that gives the same length)")
       ->check(NumberWithin(1, 10000, "rate in Hz"));
 }
 
@@ -57,7 +59,7 @@ Result<RealRecording> LoadRealRecording(const std::string& path, const SensorRea
                    ReadTwinMotion(text, reading.reference, reading.reference_rate, recording.DurationSeconds()));
   auto real = MakeRealRecording(std::move(recording), std::move(twin));
   if (real) return *std::move(real);
-  return Fail({path}, "does not go together with {}: they need a second of at least three joints in common",
+  return Fail({path}, "cannot be compared with {}: they need at least three joints in common for a second",
               reading.reference);
 }
 
@@ -76,9 +78,21 @@ double MissingShare(const JointRecording& recording) {
   return all > 0 ? static_cast<double>(missing) / all : 0;
 }
 
+/// Describes how a sensor is turned or tilted that gives reason to; "" otherwise. Statistics are along its line of
+/// sight and across, so a turn about that changes none.
+std::string DescribeTurn(const JointRecording& recording) {
+  std::vector<RecordedFrame> frames(recording.frames.size());
+  for (std::size_t t = 0; t < frames.size(); ++t) frames[t].places = recording.frames[t];
+  const StreamLevel level = recording.sensor_at ? EstimateLevel(frames, recording.rate_hz) : StreamLevel{};
+  if (level.turn_deg != 0) return fmt::format("; the sensor is turned by {} degrees", level.turn_deg);
+  if (level.trunk_deg == 0) return "";
+  return fmt::format("; trunks are {:.0f} degrees from up: who lies, or a tilted sensor", level.trunk_deg);
+}
+
 std::string DescribeRecording(const JointRecording& recording) {
-  return fmt::format("{} frames at {:g} Hz, {:.1f} s; {:.1f} % of the joints missing", recording.frames.size(),
-                     recording.rate_hz, recording.DurationSeconds(), 100 * MissingShare(recording));
+  return fmt::format("{} frames at {:g} Hz, {:.1f} s; {:.1f} % of the joints missing{}", recording.frames.size(),
+                     recording.rate_hz, recording.DurationSeconds(), 100 * MissingShare(recording),
+                     DescribeTurn(recording));
 }
 
 Json FactsOf(const std::string& file, const JointRecording& recording) {
@@ -145,7 +159,7 @@ Result<Columns> PlainColumns(const SensorStatsOptions& options, Json& facts) {
 Result<Columns> ComparedColumns(const SensorStatsOptions& options, Json& facts) {
   const std::string& file = options.files.front();
   if (options.files.size() > 1) {
-    return Fail({"--reference", 0, 0}, "goes with one recording, found {}", options.files.size());
+    return Fail({"--reference", 0, 0}, "needs exactly one recording, found {}", options.files.size());
   }
   ASSIGN_OR_RETURN(const auto real, LoadRealRecording(file, options.reading));
   fmt::print("{}: {}\n", file, DescribeRecording(real.recording));
@@ -189,11 +203,11 @@ Result<int> SensorStatsCommand(const SensorStatsOptions& options) {
 
 void DefineStats(CLI::App& sensor, Action& action) {
   auto options = std::make_shared<SensorStatsOptions>();
-  CLI::App* command = sensor.add_subcommand("stats", "The statistics of a sensor's recordings");
+  CLI::App* command = sensor.add_subcommand("stats", "Statistics of a sensor's recordings");
   command->add_option("files", options->files, "Recordings")->required();
-  command->add_option("--reference", options->reading.reference, "The same motion by a system that can be trusted");
-  command->add_option("--simulate", options->simulate, "Beside it, what this sensor says: v1, v2 or a sensor file");
-  command->add_option("--worlds", options->worlds, "How many simulated recordings")
+  command->add_option("--reference", options->reading.reference, "The same motion from a trusted system");
+  command->add_option("--simulate", options->simulate, "Also simulate this sensor: v1, v2 or a sensor file");
+  command->add_option("--worlds", options->worlds, "Number of simulated recordings")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   AddSensorReading(*command, options->reading);
@@ -280,15 +294,16 @@ void DefineFit(CLI::App& sensor, Action& action) {
   auto options = std::make_shared<SensorFitCommandOptions>();
   CLI::App* command = sensor.add_subcommand("fit", "A sensor file for scenarios, fitted to a recording");
   command->add_option("file", options->file, "A recording")->required();
-  command->add_option("--reference", options->reading.reference, "The same motion by a system that can be trusted")
-      ->required();
+  command->add_option("--reference", options->reading.reference, "The same motion from a trusted system")->required();
   command->add_option("-o,--output", options->output, "The sensor file to write (YAML)")->required();
-  command->add_option("--base", options->base, "What is not fitted is as here: v1, v2 or a sensor file")
+  command
+      ->add_option("--base", options->base,
+                   "The sensor that gives all values that are not fitted: v1, v2 or a sensor file")
       ->capture_default_str();
   command->add_option("--worlds", options->worlds, "Simulated recordings per step")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  command->add_option("--steps", options->steps, "Steps of simulate, compare, correct")
+  command->add_option("--steps", options->steps, "Number of steps: simulate, compare, correct")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   AddOverwrite(*command, options->overwrite);
@@ -300,7 +315,7 @@ void DefineFit(CLI::App& sensor, Action& action) {
 }  // namespace
 
 void DefineSensor(CLI::App& app, Action& action) {
-  CLI::App* sensor = app.add_subcommand("sensor", "What sensors see, how they err, and sensors fitted to recordings");
+  CLI::App* sensor = app.add_subcommand("sensor", "Statistics of sensors, and sensors fitted to recordings");
   sensor->require_subcommand(1);
   sensor->footer(kSensorExamples);
   DefineStats(*sensor, action);

@@ -39,7 +39,7 @@ Result<void> WriteSheet(const SensorSheetOptions& options) {
 }
 
 Result<int> SensorSheetCommand(const SensorSheetOptions& options) {
-  if (!options.output.ends_with(".png")) return Fail({options.output}, "is no picture's name; allowed: .png");
+  if (!options.output.ends_with(".png")) return Fail({options.output}, "is not a picture's name; allowed: .png");
   RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   RETURN_IF_ERROR(WriteSheet(options));
   TellWritten(options.output);

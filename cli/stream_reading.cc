@@ -7,20 +7,20 @@
 namespace etude {
 
 void AddStreamReading(CLI::App& command, StreamArguments& reading) {
-  command.add_option("--format", reading.format, "Of the recordings (default: told by content)")
+  command.add_option("--format", reading.format, "Format of the recordings (default: found from the content)")
       ->check(CLI::IsMember(StreamFormatNames()));
   command
       .add_option("--rate", reading.rate_hz,
-                  "Of recordings without a clock, Hz (default: 30); of clips in the place of their own")
+                  "Frame rate of recordings without a clock, Hz (default: 30); for clips, it replaces their own")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
-  command.add_option("--body", reading.body, "Which of several bodies, by first appearance, from 0")
+  command.add_option("--body", reading.body, "Which of several bodies is read, counted by first appearance from 0")
       ->check(CLI::Range(0, 1000));
   command
       .add_option("--level", reading.level,
-                  "Where up and the floor are: estimated from the body, or as the file has it")
+                  "Up axis and floor: auto estimates them from the body, none takes the file's")
       ->check(CLI::IsMember({"auto", "none"}))
       ->capture_default_str();
-  command.add_flag("--reflect", reading.reflect, "Negate X: the recording is mirrored");
+  command.add_flag("--reflect", reading.reflect, "Negate X, for mirrored recordings");
   AddClipReading(command, reading.clips, "");
 }
 

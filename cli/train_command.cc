@@ -50,15 +50,15 @@ struct TrainOptions {
 };
 
 constexpr const char* kTrainExamples =
-    "\nPaper A's distance says that two frames match when d < 0.4. How much each of its ten features\n"
-    "counts (S), and where its membership functions bend, were chosen by hand. This command learns them: it takes\n"
-    "frames of every clip, two clips at a time, calls a pair close when its worst joint is less than 15 cm off\n"
-    "(after turning and moving one onto the other on the floor), and looks for the system by which d < 0.4 tells\n"
-    "the close pairs best. Clips held out are never learnt from: only what is known about them counts.\n\n"
-    "A scenario uses the file by `fuzzy: tuned.yaml`; docs/fuzzy-system.md tells what is in it.\n\n"
-    "With --recogniser it makes the model of the recogniser `learnt` anew (docs/detection.md): simulated people dance\n"
-    "the labelled clips, right and wrong, and the model learns to tell which. With --coached that of `coached`: they\n"
-    "dance songs along with a coach (docs/coach.md).\n\n"
+    "\nPaper A's distance says that two frames match when d < 0.4. The weights of its ten features (S) and the\n"
+    "corners of its membership functions were chosen by hand. This command learns them: it takes pairs of frames\n"
+    "from two clips at a time, calls a pair close when its worst joint is less than 15 cm off (after turning and\n"
+    "moving one onto the other on the floor), and searches for the system whose d < 0.4 finds the close pairs\n"
+    "best. It never learns from the clips held out, which judge the result.\n\n"
+    "A scenario uses the file by `fuzzy: tuned.yaml`; docs/fuzzy-system.md explains it.\n\n"
+    "With --recogniser it learns the model of the recogniser `learnt` (docs/detection.md): simulated people dance the\n"
+    "labelled clips, right and wrong, and the model learns to tell them apart. With --coached it learns that of\n"
+    "`coached`: people dance songs along with a coach (docs/coach.md).\n\n"
     "Try:\n"
     "  etude train 'builtin:*' -o tuned.yaml                           S, by a genetic algorithm\n"
     "  etude train 'builtin:*' -o tuned.yaml --memberships             the membership functions, too\n"
@@ -94,7 +94,7 @@ Result<std::vector<bool>> ChooseHeldOut(const std::vector<std::string>& names, c
     return Fail({"--hold-out", 0, 0}, "no clip is called {}; the clips: {}", Quote(options.hold_out), Join(names));
   }
   if (!(*share >= 0 && *share < 1)) {
-    return Fail({"--hold-out", 0, 0}, "{} is neither a pattern of names nor a share; allowed: 0 up to below 1",
+    return Fail({"--hold-out", 0, 0}, "{} is neither a pattern of names nor a share; allowed shares: 0 up to below 1",
                 options.hold_out);
   }
   RandomStream dice({.suite_seed = options.seed, .scenario = "training"}, "hold-out");
@@ -119,7 +119,7 @@ Result<Split> LoadSplit(const TrainOptions& options) {
     motions.push_back(std::move(clip.motion));
   }
   if (names.size() > kMaxTrainingClips) {
-    return Fail({}, "{} clips; allowed: at most {}, since their pairs grow with the square", names.size(),
+    return Fail({}, "{} clips; allowed: at most {}, because the number of pairs grows with the square", names.size(),
                 kMaxTrainingClips);
   }
   ASSIGN_OR_RETURN(const auto held_out, ChooseHeldOut(names, options));
@@ -216,11 +216,11 @@ Result<void> CheckOptions(const TrainOptions& options) {
 std::string WhyNothing(WeightFitStatus status) {
   switch (status) {
     case WeightFitStatus::kOneClassOnly:
-      return "no pair of frames of two different clips is close, or all are: there is nothing to tell apart";
+      return "no pair of frames of two different clips is close, or all pairs are: there is nothing to tell apart";
     case WeightFitStatus::kNothingCounts:
       return "no feature tells the close pairs";
     default:
-      return "the regression did not settle";
+      return "the regression did not converge";
   }
 }
 
@@ -265,7 +265,7 @@ Result<Trained> TrainLearnt(const TrainOptions& options) {
   ASSIGN_OR_RETURN(const ClipLibrary library, LoadClips(references, {}, reading, ProgressOf("clips read")));
   const Repertoire repertoire = RepertoireOf(library);
   if (repertoire.taught.size() < 2) {
-    return Fail({}, "{} labelled clips; a recogniser learns from two at least", repertoire.taught.size());
+    return Fail({}, "{} labelled clips; a recogniser learns from at least two", repertoire.taught.size());
   }
   RecogniserTraining training{.seed = options.seed, .progress = ProgressOf("sessions")};
   training.sessions = options.sessions.value_or(training.sessions);
@@ -303,21 +303,21 @@ void DefineTrain(CLI::App& app, Action& action) {
   auto options = std::make_shared<TrainOptions>();
   CLI::App* command = app.add_subcommand("train", "Learn a fuzzy system or a recogniser from clips");
   // The inputs and outputs; then the fuzzy system's options.
-  command->add_option("clips", options->clips, "Clips to learn from, and to judge by")->required();
+  command->add_option("clips", options->clips, "Clips to learn from and to judge by")->required();
   command->add_option("-o,--output", options->output, "The file to write (YAML)")->required();
-  command->add_option("--method", options->method, "How to learn")
+  command->add_option("--method", options->method, "Learning method")
       ->check(CLI::IsMember({"adaptive", "genetic"}))
       ->capture_default_str();
-  command->add_flag("--memberships", options->memberships, "Tune the membership functions, too (genetic)");
+  command->add_flag("--memberships", options->memberships, "Also tune the membership functions (genetic)");
   command
       ->add_option("--hold-out", options->hold_out,
-                   "Clips to judge by: a share of them (0: none), drawn by the seed, or a pattern of names")
+                   "Clips held out for judging: a share drawn by the seed (0: none), or a pattern of names")
       ->capture_default_str();
-  AddSeed(*command, options->seed, "Seed of all dice");
-  command->add_option("--population", options->population, "Genomes of a generation")
+  AddSeed(*command, options->seed, "Seed");
+  command->add_option("--population", options->population, "Genomes per generation")
       ->check(CLI::Range(5, 1000))
       ->capture_default_str();
-  command->add_option("--generations", options->generations, "How long the genetic algorithm searches")
+  command->add_option("--generations", options->generations, "Number of generations")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   // The options of recognisers.
@@ -325,10 +325,9 @@ void DefineTrain(CLI::App& app, Action& action) {
   command->add_flag("--coached", options->coached, "Learn the recogniser `coached`: CLIPS are built-in songs")
       ->excludes("--recogniser");
   command
-      ->add_option(
-          "--sessions", options->sessions,
-          "Of simulated people: 16 performances each (recogniser, 400), three minutes before a coach (coached, "
-          "300)")
+      ->add_option("--sessions", options->sessions,
+                   "Number of sessions of simulated people: 16 performances each (--recogniser: 400), or three minutes "
+                   "with a coach (--coached: 300)")
       ->check(CLI::Range(10, 10000));
   // Options of the fuzzy system do not apply to recognisers.
   for (const char* other : {"--method", "--memberships", "--hold-out", "--population", "--generations"}) {

@@ -51,7 +51,7 @@ std::string CheckSample(const std::string& text) {
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error == std::errc() && end == text.data() + text.size() && number <= kMaxSample) return "";
-  return fmt::format("'{}' is no sample; allowed: 0 to {}, or '{}'", text, kMaxSample, kWholeSample);
+  return fmt::format("'{}' is not a sample; allowed: 0 to {}, or '{}'", text, kMaxSample, kWholeSample);
 }
 
 /// Draws an unpredictable seed, with as many bits as every JSON reader keeps.
@@ -160,7 +160,7 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
   std::vector<std::string> not_verified;
   if (verified.choice) not_verified = NotVerified(*verified.choice);
   RETURN_IF_ERROR(AddReport(replay.folder, all, not_verified));
-  if (*interrupt.requested()) return TellStopped({{}, "stopped; nothing was found out"});
+  if (*interrupt.requested()) return TellStopped({{}, "stopped; nothing was verified"});
   // Print what agrees and what differs.
   std::size_t agree = 0;
   Json checks = Json::array();
@@ -180,7 +180,7 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
   } else {
     PrintList("Not verified:", not_verified);
     fmt::print("{}\n", choice ? SampleInWords(*choice) : "No cell was run again.");
-    fmt::print("{} of {} agree. Nobody can verify what it says of times and machines.\n", agree, all.size());
+    fmt::print("{} of {} agree. Times and machines cannot be verified.\n", agree, all.size());
   }
   // Sign the run only if everything agrees.
   if (agree < all.size()) return kNothingWorked;
@@ -194,18 +194,18 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
 
 void DefineVerify(CLI::App& app, Action& action) {
   auto options = std::make_shared<VerifyCommandOptions>();
-  CLI::App* command = app.add_subcommand("verify", "Whether a run says what its cells say, and these come out again");
+  CLI::App* command =
+      app.add_subcommand("verify", "Check that a run agrees with its cells, and that they can be reproduced");
   command->add_option("folder", options->replay.folder, "A result folder")->required();
   command
       ->add_option("--sample", options->sample,
-                   "Run so many cells again, beside all that left a recording; 0 = none, all = every one")
+                   "Number of cells to run again, besides all with a recording; 0: none, all: every cell")
       ->check(CheckSample)
       ->capture_default_str();
-  command->add_option(
-      "--sample-seed", options->replay.dice,
-      "Draw them by this seed, to repeat what was found; a forger must not know it (default: fresh dice)");
-  command->add_option("--sign", options->sign, "If all agrees, sign it with this secret key (minisign -G -W)");
-  command->add_option("--check", options->check, "Check its signature with this public key, or file of one (minisign)");
+  command->add_option("--sample-seed", options->replay.dice,
+                      "Seed that draws them, to repeat a check; a forger must not know it (default: random)");
+  command->add_option("--sign", options->sign, "Sign the run with this secret key if all agrees (minisign -G -W)");
+  command->add_option("--check", options->check, "Check its signature with this public key, or its file (minisign)");
   AddSeedFile(*command, options->key_file);
   AddOutsideRules(*command, options->replay.outside);
   AddJobs(*command, options->replay.jobs);

@@ -25,9 +25,9 @@ inline constexpr std::string_view kComparisonLegend =
     "one "
     "side of zero, and a difference that matters; no difference, an interval within what matters. Where one method "
     "alone "
-    "failed, p counts that world as its loss, and the verdict must hold with and without. Beyond these worlds the mean "
-    "over clips, people or libraries of their own mean differences decides; with fewer than 6 there is no such "
-    "verdict.";
+    "failed, p counts that world as its loss, and the verdict must hold with and without. Beyond these worlds the middle "
+    "of the mean differences of clips, people or libraries decides (their Hodges–Lehmann estimate); with fewer than 6 "
+    "there is no such verdict.";
 
 /// Counts the comparisons in the tables below: each pair of methods under one metric and condition counts once.
 std::size_t CountComparisons(const ScenarioSummary& scenario);

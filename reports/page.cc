@@ -102,11 +102,16 @@ taken world by world. In pictures a dot is a world, a thick line the median (of 
 <b>Better</b> and <b>worse</b> mean that the interval of the difference lies clear of zero and
 matters in practice; <b>no difference</b>, that it lies within what would matter; <b>inconclusive</b>, that nothing is
 settled, and never that there is no difference.</p>
+<p>An <b>answer</b> is about <b>success</b> first: which method solves, finds or recovers more, where 5 percentage points
+matter and a failure counts. Where success does not decide, the first headline metric does; where that does not either, the
+<b>tail</b>: the worlds in which a method is far better or far worse. A world is <b>lost</b> to a method if it is worse there by
+as much as matters.</p>
 <p>Each comparison has two verdicts. <b>On these worlds</b> (these clips, these people): the differences that were
 measured. <b>Beyond them</b> (for other clips, other people): there a clip counts once, however many worlds were drawn
-from it, and with fewer than six clips there is no such verdict.</p>
-<p>Status <b>ok</b> means that a cell was measured, not that it reached anything: success has shares of its own. Whatever
-failed is counted and named; a missing value is shown as —, never as zero.</p>
+from it, and with fewer than six clips there is no such verdict. It is about the <b>middle</b> of the clips (the median of the
+means of every two), which one clip that is far off does not move; the mean must have the same sign. A sign in brackets, such
+as (=), holds on these worlds only.</p>
+<p>Status <b>ok</b> means that a cell was measured, not that it reached anything: success has shares of its own. <b>Unsolved</b>: it answered, but missed its goal. Whatever failed is counted and named; a missing value is shown as —, never as zero.</p>
 )";
 
 std::string HowToRead() {

@@ -284,7 +284,7 @@ std::string AnswerHtml(const MethodFinding& finding, std::string_view begin) {
 
 /// Returns verdicts and sentence against the baseline and, if it is another method, against the strongest other one,
 /// whose sentence is folded away.
-std::string Answer(const ScenarioFindings& findings) {
+std::string AnswerBlock(const ScenarioFindings& findings) {
   const std::string html = AnswerHtml(findings.answer, VerdictBadges(findings.answer) + " ");
   if (!HasOtherRival(findings)) return html;
   return html + fmt::format("<details class=\"rival\"><summary>Strongest other, {}: {}</summary>{}</details>",
@@ -376,7 +376,7 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
                                  anchor, anchor, EscapeMarkup(RecordedCells(run, scenario)));
   html += fmt::format("<p class=\"eyebrow\">{}</p><h2 id=\"{}-title\">{}</h2>", EscapeMarkup(scenario.name), anchor,
                       EscapeMarkup(scenario.question.empty() ? scenario.name : scenario.question));
-  html += "<div class=\"lead\"><div>" + Answer(findings) + FiguresHtml(findings.figures) + "</div>";
+  html += "<div class=\"lead\"><div>" + AnswerBlock(findings) + FiguresHtml(findings.figures) + "</div>";
   const std::string picture = LeadPictureHtml(run, scenario);
   html +=
       picture.empty() ? "<p class=\"quiet\">No cell gave a value that could be drawn.</p></div>" : picture + "</div>";

@@ -47,6 +47,8 @@ struct LiveCoachOptions {
   bool plans_ahead = false;     ///< spreads planning over frames; set it for live streams
   bool brief = false;           ///< leaves out bodies, and frames without a decision
   CoachOptions coach = {};
+  std::function<void(const std::string& remark)> on_remark =
+      {};  ///< receives what the stream's level gives reason to say
 };
 
 /// Runs a coach's session on a stream of skeletons, frame by frame. The session begins with the first frame, because

@@ -86,8 +86,7 @@ class NewFolder {
     for (fs::directory_iterator entry(folder.partial_, error), end; !error && entry != end; entry.increment(error)) {
       if (IsOfExport(entry->path().filename())) continue;
       ::close(std::exchange(folder.lock_, -1));
-      return Fail({entry->path().string()},
-                  "is in the way of the export, and not of one; choose another folder with -o");
+      return Fail({entry->path().string()}, "does not belong to an export; choose another folder with -o");
     }
     for (fs::directory_iterator entry(folder.partial_, error), end; !error && entry != end; entry.increment(error)) {
       fs::remove_all(entry->path(), error);
@@ -111,7 +110,7 @@ class NewFolder {
   /// Syncs the folder's contents to disk and gives it its final name.
   Result<void> Finish() {
     RETURN_IF_ERROR(SyncTree(partial_));
-    if (!IsOurs(partial_)) return Fail({partial_.string()}, "was exchanged for something else while it was filled");
+    if (!IsOurs(partial_)) return Fail({partial_.string()}, "was replaced by something else while it was filled");
     std::error_code error;
     fs::rename(partial_, path_, error);
     if (error) return CannotWrite(path_.string(), "cannot be written", error.value());

@@ -34,9 +34,9 @@ Result<SuiteSetup> ReadTarget(const ScoreOptions& options) {
   }
   if (options.seed || options.trials || !options.clips.empty() || !options.joint_map.empty() ||
       !options.clip_facts.empty()) {
-    return Fail({manifest.string(), 0, 0},
-                "tells seed, trials and clips itself; leave out --seed, --trials, --clips, --joint-map, --unit, --up, "
-                "--rate");
+    return Fail(
+        {manifest.string(), 0, 0},
+        "already sets seed, trials and clips; leave out --seed, --trials, --clips, --joint-map, --unit, --up, --rate");
   }
   ASSIGN_OR_RETURN(auto suite, ReadManifest(manifest));
   RETURN_IF_ERROR(OpenSeeds(options.key, {manifest.string()}, suite));

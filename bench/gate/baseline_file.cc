@@ -122,14 +122,14 @@ class BaselineReader {
  private:
   Result<void> CheckSeal(const Json& json, const JsonObject& head) {
     if (!head.Has("seal")) {
-      snapshot_.unsealed = file_ + ": has no seal, for an older version wrote it; gate --update makes one";
+      snapshot_.unsealed = file_ + ": has no seal because an older version wrote it; gate --update makes one";
       if (seal_ == BaselineSeal::kMayBreak) return {};
       return Fail({}, "{}; --unsealed reads it all the same", snapshot_.unsealed);
     }
     ASSIGN_OR_RETURN(const auto told, head.Text("seal"));
     ASSIGN_OR_RETURN(const auto found, SealOf(json));
     if (told == found) return {};
-    snapshot_.unsealed = file_ + ": is not as gate --update wrote it: its seal does not fit";
+    snapshot_.unsealed = file_ + ": was changed after gate --update wrote it: its seal does not match";
     if (seal_ == BaselineSeal::kMayBreak) return {};
     return Fail({}, "{}; --unsealed reads it all the same", snapshot_.unsealed);
   }

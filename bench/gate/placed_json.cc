@@ -59,7 +59,7 @@ class Walk {
     level.key = Json::parse(text_.substr(from, at_ + 1 - from)).get<std::string>();  // "\u0061" is "a"
     const auto [first, is_new] = level.keys.emplace(level.key, line_);
     if (is_new) return {};
-    return Fail({file_, line_, 0}, "the key {} stands twice in one object, first in line {}; allowed: once",
+    return Fail({file_, line_, 0}, "the key {} appears twice in one object, first in line {}; allowed: once",
                 Quote(level.key), first->second);
   }
 

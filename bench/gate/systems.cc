@@ -103,7 +103,8 @@ std::vector<std::string> CompareSystems(const RunSystem& a, const RunSystem& b, 
   const MeasuredSystem *const of_a = FindMeasured(a), *const of_b = FindMeasured(b);
   std::vector<std::string> lines = {"A: " + Describe(a, of_a), "B: " + Describe(b, of_b)};
   if (of_a == nullptr || of_b == nullptr) {
-    lines.emplace_back("What differs may come from the system: nothing was measured between these two.");
+    lines.emplace_back(
+        "Differences may come from the systems: how much results differ between these two was not measured.");
     return lines;
   }
   const LargestDifferences measured = MeasuredBetween(*of_a, *of_b);
@@ -117,7 +118,7 @@ std::vector<std::string> CompareSystems(const RunSystem& a, const RunSystem& b, 
     const auto found = measured.find(one.first);
     return found != measured.end() && one.second <= found->second;
   });
-  if (!beyond.empty()) lines.push_back(fmt::format("Here more than measured: {}.", InWords(beyond)));
+  if (!beyond.empty()) lines.push_back(fmt::format("These differ more than measured: {}.", InWords(beyond)));
   return lines;
 }
 

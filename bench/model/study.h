@@ -73,7 +73,9 @@ struct Study {
   std::vector<std::vector<SweptValue>> conditions;  ///< at least one
   std::vector<std::string> metrics;                 ///< headline metrics, most important first
   std::vector<std::string> across;  ///< swept parameters; a verdict must be the same under all of their values
-  std::string rival;                ///< the method that all others must beat; "" = the best method is found
+  std::string success;            ///< the metric of what the task is to reach, by which answers decide first; "" = none
+  double success_matters = 0.05;  ///< the smallest difference of success that matters, as a share
+  std::string rival;              ///< the method that all others must beat; "" = the best method is found
   std::vector<Expectation> expectations;
   GateRules gate;
 };

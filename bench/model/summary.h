@@ -73,15 +73,16 @@ struct LeftOut {
 /// The result of a comparison for other units (clips, people, …) like those that its worlds were drawn from
 /// (bench/statistics/beyond.h). If every world is its own unit, it equals the result on the worlds.
 struct Beyond {
-  int units = 0;                                  ///< units that have a pair
-  int differing = 0;                              ///< units whose mean difference is not zero
-  std::optional<double> difference, low, high;    ///< mean over units of their mean difference; 95 % interval
-  std::optional<double> median_low, median_high;  ///< 95 % interval of the median of the units' mean differences
-  PairedTest test;                                ///< the test that decides
-  std::optional<double> p_holm;                   ///< corrected over the scenario's comparisons (Holm)
-  std::optional<Verdict> verdict;                 ///< nothing = too few units for a verdict
-  std::string why_open;                           ///< says why there is no verdict, or an inconclusive one
-  std::vector<LeftOut> left_out;                  ///< in the order of the units' names; empty if worlds are the units
+  int units = 0;                                ///< units that have a pair
+  int differing = 0;                            ///< units whose mean difference is not zero
+  std::optional<double> difference, low, high;  ///< pseudo-median of the units' mean differences, which the verdict is
+                                                ///< about, and its 95 % interval
+  std::optional<double> mean, mean_low, mean_high;  ///< their mean and its 95 % interval
+  PairedTest test;                                  ///< the test that decides
+  std::optional<double> p_holm;                     ///< corrected over the scenario's comparisons (Holm)
+  std::optional<Verdict> verdict;                   ///< nothing = too few units for a verdict
+  std::string why_open;                             ///< says why there is no verdict, or an inconclusive one
+  std::vector<LeftOut> left_out;                    ///< in the order of the units' names; empty if worlds are the units
 };
 
 /// `method` against `baseline` on the same worlds: the aggregate (MetricInfo: median, or mean for shares and
@@ -100,6 +101,7 @@ struct Comparison {
   PairedTest signed_rank;                           ///< Wilcoxon's; decides if the aggregate is the median
   PairedTest sign_flip;                             ///< of the aggregate; decides if it is the mean
   std::optional<double> p_holm;       ///< the deciding p, corrected over the scenario's comparisons (Holm)
+  int better = 0, worse = 0;          ///< pairs in which the method is better, or worse, by at least what matters
   double share_better = 0;            ///< share of the pairs in which the method is better; ties count half
   std::optional<double> effect_size;  ///< rank-biserial correlation, −1…1; positive favours `method`, or, without a
                                       ///< direction, larger values
@@ -107,6 +109,28 @@ struct Comparison {
   std::string why_open;                      ///< says why the verdict is inconclusive, if a reason is known
   std::vector<std::string> notes;            ///< what else a reader should know before trusting the figures
   Beyond beyond;                             ///< the same comparison for other units like these
+};
+
+/// The step of an answer that decided it: success first, then the value, then the tail.
+enum class AnswerStep { kNone, kSuccess, kValue, kTail };
+inline constexpr std::array<Named<AnswerStep>, 4> kAnswerSteps = {{{"none", AnswerStep::kNone},
+                                                                   {"success", AnswerStep::kSuccess},
+                                                                   {"value", AnswerStep::kValue},
+                                                                   {"tail", AnswerStep::kTail}}};
+
+/// How a method did against another under one condition, in one verdict (bench/statistics/answers.h). Every reader of a
+/// run speaks of this one.
+struct Answer {
+  std::string method;
+  std::string baseline = {};                 ///< the method that the scenario names, or the strongest rival
+  std::string value_metric = {};             ///< the first headline metric that is not the success; "" if there is none
+  Verdict verdict = Verdict::kInconclusive;  ///< on these worlds
+  AnswerStep decided_by = AnswerStep::kNone;
+  std::optional<Verdict> beyond = {};      ///< the deciding step's verdict for other units; nothing = too few units
+  std::optional<Comparison> success = {};  ///< of the task's success, failed cells as 0; nothing if no cell says it
+  std::optional<Comparison> both_succeed = {};  ///< of the value where both succeeded; nothing if that is every world,
+                                                ///< or none, or success is no yes or no
+  std::optional<Comparison> tail = {};          ///< share of worlds far better − share of worlds far worse
 };
 
 /// The cost of one stage: how much smaller the error is if the truth replaces the stage, mean over worlds.
@@ -129,9 +153,11 @@ struct ErrorBudget {
 struct ConditionSummary {
   std::vector<SweptValue> condition;
   std::vector<MethodSummary> methods;
-  std::vector<Comparison> comparisons;    ///< every method with its baseline, on the headline metrics
-  std::vector<Comparison> rivals;         ///< every method with the strongest other one, on the headline metrics
-  std::vector<ErrorBudget> budgets = {};  ///< of the first headline metric, for methods that differ in oracles alone
+  std::vector<Comparison> comparisons;     ///< every method with its baseline, on the headline metrics
+  std::vector<Comparison> rivals;          ///< every method with the strongest other one, on the headline metrics
+  std::vector<Answer> answers = {};        ///< every method with its baseline
+  std::vector<Answer> rival_answers = {};  ///< every method with the strongest other one
+  std::vector<ErrorBudget> budgets = {};   ///< of the first headline metric, for methods that differ in oracles alone
 };
 
 /// One comparison under every value of the parameters across which a verdict must hold (`across`). If a parameter of

@@ -152,10 +152,10 @@ class ConformanceTest {
     CheckSettings();
     CheckLongLines();
     Report("answers every question once", repeated_ == 0,
-           repeated_ == 0 ? "no answer came twice" : fmt::format("{} answers came again", repeated_));
+           repeated_ == 0 ? "no answer came twice" : fmt::format("{} answers were repeated", repeated_));
     const std::string end = method_.End(kMaxEndingMs);
     Report("ends when its input ends", end == "exit code 0",
-           end == "signal 9 (Killed)" ? fmt::format("still ran {} s later", kMaxEndingMs / 1000) : end);
+           end == "signal 9 (Killed)" ? fmt::format("was still running {} s later", kMaxEndingMs / 1000) : end);
     if (solves_nothing_ && specimens_[0].has_plain_method) CheckAgainstPlain();
     return all_passed_;
   }
@@ -251,7 +251,7 @@ class ConformanceTest {
         in_radians == 0 ? ""
                         : fmt::format("; taken for radians, its angles solve {}: degrees are asked for", in_radians);
     Report("solves what a plain method solves", false,
-           fmt::format("none of {}, of which damped-least-squares solves {}{}", first_.size(), plain, unit));
+           fmt::format("solves none of {}; damped-least-squares solves {}{}", first_.size(), plain, unit));
   }
 
   /// Compares a second attempt at problem `i` of the first setting with the first one; returns the difference, or "".
@@ -272,7 +272,7 @@ class ConformanceTest {
 
   void CheckOneProblemTwice() {
     const std::size_t last = first_.size() - 1;
-    ReportDifference("answers a problem put twice alike",
+    ReportDifference("answers a repeated problem alike",
                      Compare(Ask(specimens_[0].problems[last]), last));
   }
 
@@ -282,7 +282,7 @@ class ConformanceTest {
     for (std::size_t i = first_.size(); i-- > 0 && difference.empty();) {
       difference = Compare(Ask(specimens_[0].problems[i]), i);
     }
-    ReportDifference("answers alike when started anew and asked in another order", difference);
+    ReportDifference("answers alike after a restart and in another order", difference);
   }
 
   void CheckSettings() {
@@ -292,14 +292,14 @@ class ConformanceTest {
     }
     Report("answers under another setting", fault.empty(), fault.empty() ? "answers that can be scored" : fault);
     if (fault.empty()) {
-      ReportDifference("answers alike when it is told the first setting again",
+      ReportDifference("answers alike when the first setting returns",
                        Compare(Ask(specimens_[0].problems[0]), 0));
     }
   }
 
   void CheckLongLines() {
     const std::string id = "a \"long\" one, größer";
-    ReportDifference("takes long lines, keys it does not know, and ids of any text", Compare(AskAtLength(id), 0));
+    ReportDifference("accepts long lines, unknown keys and ids of any text", Compare(AskAtLength(id), 0));
   }
 
   /// Sends the first problem with additional keys, unknown to the program.

@@ -85,7 +85,7 @@ Result<CaptureExtras::View> ToView(const SortedJson& json) {
   }
   if (json.contains("still")) {
     view.still_jpeg_base64 = json.at("still");
-    if (!IsBase64(view.still_jpeg_base64)) return Fail({}, "a capture recording whose 'still' is no base64");
+    if (!IsBase64(view.still_jpeg_base64)) return Fail({}, "a capture recording whose 'still' is not base64");
   }
   const int width = json.at("mask_width"), height = json.at("mask_height");
   for (const SortedJson& text : json.at("masks")) {
@@ -164,11 +164,11 @@ std::string WriteCaptureExtras(const CaptureExtras& extras) {
 }
 
 Result<CaptureExtras> ReadCaptureExtras(std::string_view text) {
-  if (text.find('\0') != std::string_view::npos) return Fail({}, "no readable capture recording: a zero byte");
+  if (text.find('\0') != std::string_view::npos) return Fail({}, "not a readable capture recording: a zero byte");
   try {
     return ToExtras(SortedJson::parse(text));
   } catch (const SortedJson::exception& error) {
-    return Fail({}, "no readable capture recording: {}", error.what());
+    return Fail({}, "not a readable capture recording: {}", error.what());
   }
 }
 
@@ -199,7 +199,7 @@ Result<Mask> DecodeMask(std::string_view text, int width, int height) {
     std::size_t run = 0;
     const auto [rest, error] = std::from_chars(next, end, run);
     if (error != std::errc() || (rest != end && *rest != ' ') || run > mask.pixels.size() - at) {
-      return Fail({}, "a mask whose run lengths are no numbers or exceed {} × {} pixels", width, height);
+      return Fail({}, "a mask whose run lengths are not numbers or exceed {} × {} pixels", width, height);
     }
     std::fill_n(mask.pixels.begin() + static_cast<std::ptrdiff_t>(at), run, static_cast<std::uint8_t>(value));
     at += run;

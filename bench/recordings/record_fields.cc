@@ -20,11 +20,11 @@ constexpr JsonKind kKind = {};
 template <>
 constexpr JsonKind kKind<bool> = {&Json::is_boolean, "is neither true nor false"};
 template <>
-constexpr JsonKind kKind<double> = {&Json::is_number, "is no number"};
+constexpr JsonKind kKind<double> = {&Json::is_number, "is not a number"};
 template <>
-constexpr JsonKind kKind<std::int64_t> = {&Json::is_number_integer, "is no whole number"};
+constexpr JsonKind kKind<std::int64_t> = {&Json::is_number_integer, "is not a whole number"};
 template <>
-constexpr JsonKind kKind<std::string> = {&Json::is_string, "is no text"};
+constexpr JsonKind kKind<std::string> = {&Json::is_string, "is not a text"};
 
 template <typename Value>
 struct Codec {
@@ -44,7 +44,7 @@ struct Codec<int> {
     constexpr std::int64_t kMaxMagnitude = 1'000'000'000;  // sums of a few of these do not overflow an int
     const auto whole = json.is_number_integer() ? json.get<std::int64_t>() : kMaxMagnitude + 1;
     if (whole < -kMaxMagnitude || whole > kMaxMagnitude) {
-      return Fail({}, ": {} is no whole number; allowed: {}…{}", ShowJson(json), -kMaxMagnitude, kMaxMagnitude);
+      return Fail({}, ": {} is not a whole number; allowed: {}…{}", ShowJson(json), -kMaxMagnitude, kMaxMagnitude);
     }
     value = static_cast<int>(whole);
     return {};
@@ -91,7 +91,7 @@ struct Codec<PerFeature> {
     for (std::size_t k = 0; k < kFeatureCount; ++k) json[std::string(FeatureName(AllFeatures()[k]))] = values[k];
   }
   static Result<void> Decode(const Json& json, PerFeature& values) {
-    if (!json.is_object()) return Fail({}, ": {} is no object", ShowJson(json));
+    if (!json.is_object()) return Fail({}, ": {} is not an object", ShowJson(json));
     for (std::size_t k = 0; k < kFeatureCount; ++k) {
       const std::string name(FeatureName(AllFeatures()[k]));
       const auto found = json.find(name);
@@ -109,7 +109,7 @@ struct Codec<std::vector<Value>> {
     for (const Value& value : values) Codec<Value>::Encode(value, json.emplace_back());
   }
   static Result<void> Decode(const Json& json, std::vector<Value>& values) {
-    if (!json.is_array()) return Fail({}, ": {} is no list", ShowJson(json));
+    if (!json.is_array()) return Fail({}, ": {} is not a list", ShowJson(json));
     values.clear();
     for (const Json& entry : json) {
       Value value{};
@@ -182,8 +182,8 @@ std::string RecordFields::TextOf(const Json& json) { return json.dump(); }
 
 Result<void> RecordFields::ReadObject(const std::string& text, const std::function<void(RecordFields&)>& describe) {
   const auto json = ReadJson(text, "");
-  if (!json) return Fail({}, "no JSON object: {}", json.error().message);
-  if (!json->is_object()) return Fail({}, "no JSON object, but {}", ShowJson(*json));
+  if (!json) return Fail({}, "not a JSON object: {}", json.error().message);
+  if (!json->is_object()) return Fail({}, "not a JSON object, but {}", ShowJson(*json));
   RecordFields fields(nullptr, &*json, nullptr);
   describe(fields);
   auto done = fields.Finish();
@@ -196,7 +196,7 @@ void RecordFields::MakeList(Json& json) { json = Json::array(); }
 Json& RecordFields::Append(Json& list) { return list.emplace_back(); }
 
 Result<void> RecordFields::ReadEach(const Json& list, const std::function<Result<void>(const Json&)>& read) {
-  if (!list.is_array()) return Fail({}, ": {} is no list", ShowJson(list));
+  if (!list.is_array()) return Fail({}, ": {} is not a list", ShowJson(list));
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (const auto done = read(list[i]); !done) return Fail({}, "[{}]{}", i, done.error().message);
   }
@@ -224,7 +224,7 @@ void RecordFields::Note(const char* key, const Result<void>& read, const char* m
 }
 
 Result<void> RecordFields::Finish() {
-  if (!read_->is_object()) return Fail({}, ": {} is no object", ShowJson(*read_));
+  if (!read_->is_object()) return Fail({}, ": {} is not an object", ShowJson(*read_));
   if (error_) return tl::unexpected(*error_);
   return {};
 }

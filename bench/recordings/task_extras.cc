@@ -8,64 +8,65 @@ namespace etude {
 // of a record come before it.
 
 static void Describe(RecordFields& fields, IkExtras& extras) {
-  fields.Tolerated("iterations", extras.iterations, "the iteration that each frame shows, from 0 on, never falling");
+  fields.Tolerated("iterations", extras.iterations, "the iteration that each frame shows, from 0, never decreasing");
   fields.Tolerated("position_error_max_cm", extras.position_error_max_cm, "per frame, of the worst end effector");
   fields.Tolerated("orientation_error_max_deg", extras.orientation_error_max_deg,
                    "per frame, of the worst end effector, the mean of its axes");
   fields.Tolerated("axis_error_max_deg", extras.axis_error_max_deg, "per frame, of the worst single axis");
   fields.Tolerated("targets_m", extras.targets_m,
-                   "[x, y, z] of each end effector's target, in the tree's order; null where no position is asked for");
+                   "[x, y, z] of each end effector's target, in the tree's order; null without a target position");
 }
 
 static void Describe(RecordFields& fields, TransitionExtras::Point& point) {
-  fields.Tolerated("from", point.from, "the clip left; `in-between` is frames of the method's own");
-  fields.Tolerated("from_frame", point.from_frame, "of that clip, the last one shown");
+  fields.Tolerated("from", point.from, "the clip left; `in-between`: frames that the method made");
+  fields.Tolerated("from_frame", point.from_frame, "the last frame of that clip that is shown");
   fields.Tolerated("to", point.to, "the clip entered");
-  fields.Tolerated("to_frame", point.to_frame, "of that clip, the one that lies on `from_frame`");
+  fields.Tolerated("to_frame", point.to_frame, "the frame of that clip that is aligned with `from_frame`");
   fields.Tolerated("distance", point.distance, "fuzzy distance of the two frames");
   fields.Tolerated("partials", point.partials, "by feature, S_k Δ_k², which sum to the distance's square");
 }
 
 static void Describe(RecordFields& fields, TransitionExtras::Candidate& candidate) {
-  fields.Tolerated("point", candidate.point, "for which transition point it was looked at, from 0");
-  fields.Required("from_frame", candidate.from_frame, "of the clip left at that point");
-  fields.Required("to_frame", candidate.to_frame, "of the clip entered there");
+  fields.Tolerated("point", candidate.point, "index of the transition point that it is for, from 0");
+  fields.Required("from_frame", candidate.from_frame, "frame of the clip left at that point");
+  fields.Required("to_frame", candidate.to_frame, "frame of the clip entered there");
   fields.Required("distance", candidate.distance, "fuzzy distance of the two frames");
-  fields.Tolerated("partials", candidate.partials, "as those of a transition point");
-  fields.Tolerated("cost", candidate.cost, "what the choice ranks by; null where that is the distance");
+  fields.Tolerated("partials", candidate.partials, "like those of a transition point");
+  fields.Tolerated("cost", candidate.cost, "what the choice ranks by; null if that is the distance");
   fields.Tolerated("outcome", candidate.outcome, "`taken`, `too far`, `later` or `worse`");
 }
 
 static void Describe(RecordFields& fields, TransitionExtras& extras) {
   fields.Tolerated("transition_frame", extras.transition_frame, "the first of `transition_frames`");
   fields.ToleratedList("transition_frames", extras.transition_frames,
-                       "of the recording, the last ones before a change");
+                       "the last frames of the recording before each change of clip");
   fields.Tolerated("from", extras.from, "the clip left");
   fields.Tolerated("to", extras.to, "the clip wanted");
   fields.Tolerated("branch", extras.branch, "which way was taken: `front half`, `in-between`, …");
   fields.Tolerated("why", extras.why, "why this way won, one sentence");
-  fields.Tolerated("request_frame", extras.request_frame, "of the recording; negative: before it begins");
+  fields.Tolerated("request_frame", extras.request_frame,
+                   "frame of the request, in the recording; negative: before it begins");
   fields.Tolerated("wait_s", extras.wait_s, "from the request until the wanted clip plays");
-  fields.Tolerated("threshold", extras.threshold, "frames match whose distance is below it");
+  fields.Tolerated("threshold", extras.threshold, "frames match if their distance is below it");
   fields.Tolerated("natural_limit_cm", extras.natural_limit_cm, "the largest jump that counts as natural");
-  fields.Tolerated("distance", extras.distance, "of the worst transition point");
+  fields.Tolerated("distance", extras.distance, "distance of the worst transition point");
   fields.Tolerated("weights", extras.weights, "by feature, S_k");
-  fields.Tolerated("partials", extras.partials, "by feature, of the worst transition point");
+  fields.Tolerated("partials", extras.partials, "partial distances of the worst transition point, by feature");
   fields.Tolerated("pairs_seen", extras.pairs_seen, "pairs of frames that the budget allowed");
-  fields.Tolerated("pairs_matched", extras.pairs_matched, "those of them that match");
+  fields.Tolerated("pairs_matched", extras.pairs_matched, "those that match");
   fields.ToleratedList("transition_points", extras.points, "where the motion changed clips, in order");
-  fields.Tolerated("cost_unit", extras.cost_unit, "of the candidates' `cost`; empty when there is none");
-  fields.ToleratedList("candidates", extras.candidates, "pairs of frames: the taken, and the best of the others");
+  fields.Tolerated("cost_unit", extras.cost_unit, "unit of the candidates' `cost`; empty without costs");
+  fields.ToleratedList("candidates", extras.candidates, "pairs of frames: the pair taken, and the best others");
 }
 
 static void Describe(RecordFields& fields, DetectionExtras::Target& target) {
   fields.Required("feature", target.feature, "one of paper A's ten");
   fields.Required("degrees", target.degrees, "the angle wanted");
-  fields.Required("tolerance_deg", target.tolerance_deg, "how far from it still counts");
+  fields.Required("tolerance_deg", target.tolerance_deg, "largest deviation that still counts");
 }
 
 static void Describe(RecordFields& fields, DetectionExtras::Move& move) {
-  fields.Required("name", move.name, "of a move that was taught");
+  fields.Required("name", move.name, "name of a taught move");
   fields.List("key_poses", move.key_poses, "in their order, each a list of angles");
 }
 
@@ -73,32 +74,32 @@ static void Describe(RecordFields& fields, DetectionExtras::Event& event) {
   fields.Required("move", event.move, "the one asked for");
   fields.Required("truth", event.truth, "`right`, `grey` or `wrong`");
   fields.Required("fault", event.fault, "`none`, or names");
-  fields.Required("danced", event.danced, "the move danced; empty when that was none");
+  fields.Required("danced", event.danced, "the move danced; empty if none");
   fields.Required("begin_frame", event.begin_frame, "the first of its window");
   fields.Required("end_frame", event.end_frame, "the first after its window");
   fields.Required("called_right", event.called_right, "whether the method praised it");
-  fields.Required("score", event.score, "how right it looked to the method");
-  fields.Optional("called_frame", event.called_frame, "when it was praised; absent when it was not");
+  fields.Required("score", event.score, "the method's confidence that it was right");
+  fields.Optional("called_frame", event.called_frame, "the frame in which it was praised; absent if it was not");
 }
 
 static void Describe(RecordFields& fields, DetectionExtras::Alarm& alarm) {
-  fields.Required("move", alarm.move, "the one that was seen");
-  fields.Required("frame", alarm.frame, "when");
+  fields.Required("move", alarm.move, "the move that was detected");
+  fields.Required("frame", alarm.frame, "the frame of the detection");
 }
 
 static void Describe(RecordFields& fields, DetectionExtras& extras) {
   fields.Format("etude-detection", 1);
-  fields.Optional("threshold", extras.threshold, "of judging; absent for an answer from outside");
+  fields.Optional("threshold", extras.threshold, "threshold of judging; absent for the answer of a method outside");
   fields.List("moves", extras.moves, "those that may be asked for");
   fields.List("events", extras.events, "the performances asked for, in order of time");
-  fields.List("alarms", extras.alarms, "moves seen that nobody danced");
+  fields.List("alarms", extras.alarms, "detections of moves that nobody danced");
   fields.List("joint_states", extras.joint_states,
               "one text a frame, one letter a joint: `t` tracked, `i` inferred, `n` not tracked");
 }
 
 static void Describe(RecordFields& fields, CoachExtras::Mode& mode) {
   fields.Required("mode", mode.mode, "`dance`, `correct`, …");
-  fields.Required("begin_frame", mode.begin_frame, "it lasts until the next begins");
+  fields.Required("begin_frame", mode.begin_frame, "its first frame; it lasts until the next mode begins");
 }
 
 static void Describe(RecordFields& fields, CoachExtras::Performance& performance) {
@@ -111,14 +112,14 @@ static void Describe(RecordFields& fields, CoachExtras::Performance& performance
 }
 
 static void Describe(RecordFields& fields, CoachExtras::Words& words) {
-  fields.Required("begin_frame", words.begin_frame, "they stand until the next");
+  fields.Required("begin_frame", words.begin_frame, "their first frame; they stay until the next");
   fields.Required("say", words.say, "a short word to the learner");
   fields.Required("hint", words.hint, "what to do better");
   fields.Optional("picture", words.picture, "the key pose that the hint is about, sixty numbers; absent without one");
 }
 
 static void Describe(RecordFields& fields, CoachExtras::Decision& decision) {
-  fields.Required("frame", decision.frame, "when");
+  fields.Required("frame", decision.frame, "the frame of the decision");
   fields.Required("event", decision.event, "`right`, `wrong`, `corrects`, …");
   fields.Required("why", decision.why, "in words");
 }
@@ -128,32 +129,28 @@ static void Describe(RecordFields& fields, CoachExtras& extras) {
   fields.Required("song", extras.song, "the dance's title");
   fields.List("modes", extras.modes, "what the coach did, from the first frame on");
   fields.List("performances", extras.performances, "those that were asked for");
-  fields.List("words", extras.words, "what stands on the screen, whenever it changes");
-  fields.List("decisions", extras.decisions, "of the coach's policy");
-  fields.List("corrections", extras.corrections, "frames in which one was decided on");
+  fields.List("words", extras.words, "what the screen shows, whenever it changes");
+  fields.List("decisions", extras.decisions, "decisions of the coach's policy");
+  fields.List("corrections", extras.corrections, "frames in which a correction was decided on");
   fields.List("transitions", extras.transitions, "the last frames before the coach changes clips");
   fields.List("beats_s", extras.beats_s, "when the music's beats sounded, seconds since the first frame");
-  fields.List("joint_states", extras.joint_states, "as those of `detection`");
+  fields.List("joint_states", extras.joint_states, "like those of `detection`");
 }
 
 std::string RecordingsAsMarkdown() {
   return "# What recordings hold beside their motions\n\n"
          "Written by `etude list recordings`; a test compares the two. A file of `recordings/` names its version\n"
          "(`recording`: 2; version 1 named no joints and is refused), the `joints` in the order of a pose's numbers\n"
-         "(x, y, z of each), their `unit` and the axis that points `up`. It holds a cell's motions by name, `tracks`, "
-         "and\n"
-         "in `extras` an object by the task's kind. Frames count from the first of\n"
-         "the recording unless said otherwise. What `capture` keeps stands in\n"
-         "`bench/recordings/capture_extras.h`.\n\n"
+         "(x, y, z of each), their `unit` and the axis that points `up`. Its `tracks` hold the cell's motions by\n"
+         "name, its `extras` an object of the task. Frames count from the first of the recording unless said\n"
+         "otherwise. `bench/recordings/capture_extras.h` lists the extras of `capture`.\n\n"
          "## ik\n\nTracks `truth`, `start` and, step by step, `solution`.\n\n" +
          RecordFields::Page<IkExtras>() +
-         "\n## transition\n\nTracks `coach`: some seconds before and after the transition, and to the end of what is "
-         "judged of\n"
-         "it; `left`: the clip left in the same frames and 0.4 s on, as far as it goes; `wanted`: the clip wanted in "
-         "its place,\n"
-         "without the join, from the last of `transition_frames` on; `through`: likewise a clip on the way, from the "
-         "first\n"
-         "on. Older runs keep `coach` alone.\n\n" +
+         "\n## transition\n\n"
+         "Tracks: `coach`, from some seconds before the transition to the end of what is judged, and some seconds\n"
+         "after it; `left`, the clip left, in the same frames and up to 0.4 s longer; `wanted`, the clip wanted in\n"
+         "its place, without the join, from the last of `transition_frames` on; `through`, likewise a clip played on\n"
+         "the way, from the first of them on. Older runs keep `coach` alone.\n\n" +
          RecordFields::Page<TransitionExtras>() +
          "\n## detection\n\nTracks `truth` and `sensed`, as the recogniser saw it.\n\n" +
          RecordFields::Page<DetectionExtras>() +

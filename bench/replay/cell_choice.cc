@@ -24,7 +24,7 @@ std::vector<MethodRows> MethodsOf(const ReplayOptions& options, const PreparedRu
       if (scored && method.name == scored->name) {
         rows.why_not = "answers that were scored, not run";
       } else if (options.without_programs && asks) {
-        rows.why_not = "they ask programs (--allow-exec runs these)";
+        rows.why_not = "they run programs (--allow-exec allows it)";
       }
     }
   }

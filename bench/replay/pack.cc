@@ -37,8 +37,7 @@ Result<Json> PackClips(const ClipLibrary& library) {
       const std::size_t first = bytes.find_first_not_of(" \t\r\n");
       if (first != std::string::npos && bytes[first] == '{') {
         return Fail({reference.path, 0, 0},
-                    "a .gltf may need files beside it and is not packed; 'etude clip convert' "
-                    "makes a .glb of it");
+                    "a .gltf may need other files and is not packed; 'etude clip convert' makes a .glb of it");
       }
       files.push_back({{"name", fs::path(FileOf(reference.path)).filename().string()},
                        {"bytes", Json::binary({bytes.begin(), bytes.end()})}});
@@ -54,7 +53,7 @@ Result<std::vector<std::string>> UnpackClips(const Json& packed, const fs::path&
   for (const Json& file : packed.at("files")) {
     const auto name = file.at("name").get<std::string>();
     if (name.empty() || name == "." || name == ".." || name.find_first_of(std::string("/\0", 2)) != std::string::npos) {
-      return Fail({}, "'{}' is no name of a file", name);
+      return Fail({}, "'{}' is not a file name", name);
     }
     const auto& bytes = file.at("bytes").get_binary();
     paths.push_back((folder / std::to_string(paths.size()) / name).string());

@@ -55,7 +55,7 @@ Result<Verified> VerifySummary(const FilePath& folder, const FinishedRun& run, i
   // Numbers are written without rounding, so the parsed values can be compared.
   ASSIGN_OR_RETURN(const auto again, ReadJson(text, "the summary computed again"));
   const auto differences = CompareManifests(then, again);
-  verified.differences = {differences.empty() ? "is written otherwise" : InWords(differences)};
+  verified.differences = {differences.empty() ? "is written differently" : InWords(differences)};
   return verified;
 }
 
@@ -113,7 +113,7 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
   ASSIGN_OR_RETURN(const auto found, ReadWholeFile(folder / "manifest.json"));
   if (found != text + "\n") {
     const auto differences = CompareManifests(then, now);
-    verified.differences = {differences.empty() ? "is written otherwise" : InWords(differences)};
+    verified.differences = {differences.empty() ? "is written differently" : InWords(differences)};
   }
   for (const auto& [name, _] : suite.sources) {
     if (!IsNamed(name, suite)) verified.differences.push_back(fmt::format("sources: nothing names '{}'", name));
@@ -182,14 +182,14 @@ Result<Verified> VerifyFiles(const FilePath& folder, const FinishedRun& run) {
 }
 
 Verified VerifyRows(const FinishedRun& run) {
-  Verified verified{"rows: those that the manifest asks for, in its order", run.incomplete};
+  Verified verified{"rows: exactly those of the manifest, in its order", run.incomplete};
   if (!run.incomplete.empty()) return verified;
   std::vector<std::string> wanted;
   for (const FinishedScenario& scenario : run.scenarios)
     std::ranges::move(CellsOf(scenario.study), std::back_inserter(wanted));
   ForEachRow(run.data, [&](const Row& row, std::size_t place) {
     if (!verified.differences.empty() || row.Id() == wanted[place]) return;
-    verified.differences = {fmt::format("row {} is {}; there belongs {}", place + 1, row.Id(), wanted[place])};
+    verified.differences = {fmt::format("row {} is {}; expected {}", place + 1, row.Id(), wanted[place])};
   });
   return verified;
 }
@@ -200,7 +200,7 @@ Result<void> CompareLines(const FilePath& file, const std::function<Result<std::
   bool differs = false;
   return ForEachLine(file, [&](std::string_view line, const Place& place) -> Result<void> {
     ASSIGN_OR_RETURN(const auto wanted, line_of());
-    if (!differs && line != wanted) verified.differences.push_back(ToString(place) + " is written otherwise");
+    if (!differs && line != wanted) verified.differences.push_back(ToString(place) + " is written differently");
     differs = differs || line != wanted;
     return {};
   });
@@ -209,7 +209,7 @@ Result<void> CompareLines(const FilePath& file, const std::function<Result<std::
 /// Checks the text files for content that this program ignored, but others may use: duplicate keys, further rows or
 /// curves.
 Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
-  Verified verified{"texts: nothing in them that this program has not read", {}};
+  Verified verified{"texts: nothing that this program does not read", {}};
   // Keys must not occur twice.
   std::vector<FilePath> files = {folder / "manifest.json", folder / "host.json"};
   for (const FinishedScenario& scenario : run.scenarios) {
@@ -219,7 +219,7 @@ Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
     ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
     // Readers differ in which of two equal keys they use.
     if (const auto key = ParseJsonText(text).repeated_key)
-      verified.differences.push_back(fmt::format("{}: '{}' stands there twice", file.string(), *key));
+      verified.differences.push_back(fmt::format("{}: '{}' appears twice", file.string(), *key));
   }
   if (run.data.source) return verified;
   // Every line of the rows, then of the curves, must be as a run writes it.
@@ -275,7 +275,7 @@ Result<bool> AreSame(const FilePath& a, const FilePath& b) {
 
 /// Writes the columns again from the rows, and compares the bytes: others may use numbers that belong to no row.
 Result<Verified> VerifyColumns(const FilePath& folder, const FinishedRun& run) {
-  Verified verified{"columns: those that the rows make, by the byte", {}};
+  Verified verified{"columns: the same bytes as made from the rows", {}};
   std::size_t place = 0;
   for (const FinishedScenario& scenario : run.scenarios) {
     ASSIGN_OR_RETURN(const auto again, TemporaryFolder::Make("verify"));
@@ -299,7 +299,7 @@ Result<Verified> VerifyColumns(const FilePath& folder, const FinishedRun& run) {
 }
 
 Verified VerifyWorlds(const FinishedRun& run, const Plan& plan) {
-  Verified verified{"worlds: every row is of the clips and units that the dice chose", {}};
+  Verified verified{"worlds: every row has the clips and units that the dice chose", {}};
   ForEachRow(run.data, [&](const Row& row, std::size_t place) {
     if (!verified.differences.empty()) return;
     const Row now = plan.IdentityOf(place);
@@ -325,7 +325,7 @@ Verified VerifyCells(const ReplayOutcome& replayed) {
     const bool is_of_machine = check.stage == "status" && (IsOfMachine(check.then) || IsOfMachine(check.now));
     verified.differences.push_back(
         fmt::format("{}: {} was {} and is {}{}", check.cell, check.stage, check.then, check.now,
-                    is_of_machine ? "; the machines differ, or it was forged: nobody can tell" : ""));
+                    is_of_machine ? "; either the machines differ or it was forged: these cannot be told apart" : ""));
   }
   return verified;
 }

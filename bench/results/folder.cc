@@ -223,8 +223,8 @@ Result<RunData> ReadOutline(const fs::path& path, Sealing sealing) {
   if (!fs::is_directory(path, error)) return Fail(place, "no such folder; a run writes one (etude run)");
   if (Exists(folder / kJournalFile)) {
     return Fail(place,
-                "this run did not come to its end, is still under way, or is a shard ({} is there); "
-                "etude run --resume goes on with it, etude merge makes a run of shards",
+                "this run did not come to its end, is still under way, or is a shard ({} is there); etude run --resume "
+                "continues it, etude merge makes a run of shards",
                 kJournalFile);
   }
   if (!Exists(folder / "manifest.json")) {

@@ -19,7 +19,7 @@
 namespace etude {
 
 /// The version of the layout of a result folder (docs/results.md); raised if old readers would fail.
-constexpr int kResultSchema = 3;
+constexpr int kResultSchema = 4;
 
 /// The rows, and their times, as lines of text.
 constexpr const char *kCellsFile = "cells.jsonl", *kTimingsFile = "timings.jsonl";

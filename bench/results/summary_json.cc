@@ -58,11 +58,12 @@ constexpr std::tuple kKeys<LeftOut> = {Key("unit", &LeftOut::unit), Key("mean", 
 template <>
 constexpr std::tuple kKeys<Beyond> = {Key("units", &Beyond::units),
                                       Key("differing", &Beyond::differing),
-                                      Key("mean", &Beyond::difference),
+                                      Key("difference", &Beyond::difference),
                                       Key("ci95_low", &Beyond::low),
                                       Key("ci95_high", &Beyond::high),
-                                      Key("median_ci95_low", &Beyond::median_low),
-                                      Key("median_ci95_high", &Beyond::median_high),
+                                      Key("mean", &Beyond::mean),
+                                      Key("mean_ci95_low", &Beyond::mean_low),
+                                      Key("mean_ci95_high", &Beyond::mean_high),
                                       Key("test", &Beyond::test),
                                       Key("p_holm", &Beyond::p_holm),
                                       Key("verdict", &Beyond::verdict),
@@ -88,12 +89,21 @@ constexpr std::tuple kKeys<Comparison> = {Key("metric", &Comparison::metric),
                                           Key("signed_rank", &Comparison::signed_rank),
                                           Key("sign_flip", &Comparison::sign_flip),
                                           Key("p_holm", &Comparison::p_holm),
+                                          Key("better", &Comparison::better),
+                                          Key("worse", &Comparison::worse),
                                           Key("share_better", &Comparison::share_better),
                                           Key("effect_size", &Comparison::effect_size),
                                           Key("verdict", &Comparison::verdict),
                                           Key("why_open", &Comparison::why_open),
                                           Key("notes", &Comparison::notes),
                                           Key("beyond", &Comparison::beyond)};
+
+template <>
+constexpr std::tuple kKeys<Answer> = {Key("method", &Answer::method),   Key("baseline", &Answer::baseline),
+                                      Key("verdict", &Answer::verdict), Key("decided_by", &Answer::decided_by),
+                                      Key("beyond", &Answer::beyond),   Key("value_metric", &Answer::value_metric),
+                                      Key("success", &Answer::success), Key("both_succeed", &Answer::both_succeed),
+                                      Key("tail", &Answer::tail)};
 
 template <>
 constexpr std::tuple kKeys<BudgetShare> = {Key("stage", &BudgetShare::stage), Key("mean", &BudgetShare::mean),
@@ -107,10 +117,13 @@ constexpr std::tuple kKeys<ErrorBudget> = {
     Key("shares", &ErrorBudget::shares)};
 
 template <>
-constexpr std::tuple kKeys<ConditionSummary> = {
-    Key("condition", &ConditionSummary::condition), Key("methods", &ConditionSummary::methods),
-    Key("comparisons", &ConditionSummary::comparisons), Key("rivals", &ConditionSummary::rivals),
-    Key("error_budgets", &ConditionSummary::budgets, When::kIfAny)};
+constexpr std::tuple kKeys<ConditionSummary> = {Key("condition", &ConditionSummary::condition),
+                                                Key("methods", &ConditionSummary::methods),
+                                                Key("answers", &ConditionSummary::answers),
+                                                Key("rival_answers", &ConditionSummary::rival_answers),
+                                                Key("comparisons", &ConditionSummary::comparisons),
+                                                Key("rivals", &ConditionSummary::rivals),
+                                                Key("error_budgets", &ConditionSummary::budgets, When::kIfAny)};
 
 template <>
 constexpr std::tuple kKeys<AcrossVerdict::Each> = {Key("value", &AcrossVerdict::Each::value),
@@ -143,6 +156,7 @@ constexpr std::tuple kKeys<ScenarioSummary> = {Key("name", &ScenarioSummary::nam
                                                Key("descriptions", &ScenarioSummary::descriptions, When::kIfAny)};
 
 std::span<const Named<IntervalKind>> NamesOf(IntervalKind) { return kIntervalKinds; }
+std::span<const Named<AnswerStep>> NamesOf(AnswerStep) { return kAnswerSteps; }
 std::span<const Named<ClaimOutcome>> NamesOf(ClaimOutcome) { return kClaimOutcomes; }
 std::span<const Named<SamplingUnit>> NamesOf(SamplingUnit) { return kSamplingUnits; }
 std::span<const Named<Status>> NamesOf(Status) { return kStatuses; }

@@ -80,13 +80,13 @@ Result<std::map<std::string, KeptCost>> ReadKeptCosts() {
   ASSIGN_OR_RETURN(const Json json, ReadJsonFile(file));
   try {
     if (json.at("format") != kFormat || json.at("version") != kVersion) {
-      return Fail({file.string()}, "no table of costs of version {}", kVersion);
+      return Fail({file.string()}, "not a table of costs of version {}", kVersion);
     }
     for (const Json& one : json.at("scenarios")) {
       costs[one.at("work").get<std::string>()] = {one.at("once").get<double>(), one.at("trial").get<double>()};
     }
   } catch (const Json::exception& error) {
-    return Fail({file.string()}, "no table of costs: {}", error.what());
+    return Fail({file.string()}, "not a table of costs: {}", error.what());
   }
   return costs;
 }

@@ -57,7 +57,7 @@ Result<bool> AddCell(const CellLineHead& head, const LineInFile& line, const Pla
                      const Shard& shard, CellTable& cells) {
   const std::size_t cell = head.cell;
   if (cell >= plan.cell_count() || !plan.IsIn(shard, plan.WorldOf(cell))) {
-    return Fail(place, "cell {} is none of this run's shard {}", cell, ToString(shard));
+    return Fail(place, "cell {} does not belong to this run's shard {}", cell, ToString(shard));
   }
   if (cells.Has(cell)) return false;
   cells.Put(cell, line.file, line.offset, line.length);

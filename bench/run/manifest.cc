@@ -43,6 +43,7 @@ Json DescribeClips(const ClipLibrary& library) {
                      {"frames", clip.motion.poses.size()},
                      {"digest", digest.Hex()},
                      {"note", clip.note}});
+    if (!clip.changes.empty()) clips.back()["changes"] = clip.changes;
   }
   return clips;
 }

@@ -33,11 +33,11 @@ Result<void> CheckManifest(const fs::path& folder, const JournalHead& head, bool
   const std::vector<JsonDifference> found = CompareManifests(then, now);
   const Place place{folder.string()};
   if (found.empty()) return Fail(place, "its manifest.json is not the one that it was begun with");
-  if (!AreOfLibraries(found)) return Fail(place, "is a shard of another run than the ones before: {}", InWords(found));
+  if (!AreOfLibraries(found))
+    return Fail(place, "is a shard of another run than the shards before: {}", InWords(found));
   if (!other_libraries) {
     return Fail(place,
-                "ran under other libraries than the ones before: {}; --other-libraries merges all the same and "
-                "records it",
+                "ran with other libraries than the shards before: {}; --other-libraries merges anyway and records it",
                 InWords(found));
   }
   shards.other_libraries.insert(shards.other_libraries.end(), found.begin(), found.end());
@@ -55,7 +55,7 @@ Result<void> AddShard(const fs::path& folder, const std::string& build, bool oth
   }
   RETURN_IF_ERROR(CheckManifest(folder, head, other_libraries, shards));
   if (head.shard.count != shards.count) {
-    return Fail(place, "is shard {}, but the ones before are of {}", ToString(head.shard), shards.count);
+    return Fail(place, "is shard {}, but the shards before are of {}", ToString(head.shard), shards.count);
   }
   const auto [other, is_new] = shards.folders.emplace(head.shard.index, folder);
   if (!is_new) return Fail(place, "is shard {}, and so is {}", ToString(head.shard), other->second.string());
@@ -70,7 +70,7 @@ Result<Shards> FindShards(const std::vector<std::string>& folders, bool other_li
   Shards shards;
   for (const std::string& folder : folders) {
     ASSIGN_OR_RETURN(const auto state, LookAtFolder(folder));
-    if (state == FolderState::kFinished) return Fail({folder, 0, 0}, "is a whole run already, no shard");
+    if (state == FolderState::kFinished) return Fail({folder, 0, 0}, "is a whole run already, not a shard");
     if (state == FolderState::kFree) {
       shards.missing.push_back(folder + " holds no shard");
     } else if (auto added = AddShard(folder, build, other_libraries, shards); !added) {
@@ -132,7 +132,7 @@ Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(d
     hosts.push_back(host);
   }
   if (!shards.missing.empty()) {
-    return Fail({}, "not all {} shards are there and finished (etude run --shard i/{} --resume goes on): {}",
+    return Fail({}, "not all {} shards are there and finished (etude run --shard i/{} --resume continues one): {}",
                 shards.count, shards.count, Join(shards.missing, "; "));
   }
   // Write the whole run.

@@ -75,7 +75,7 @@ Result<void> CheckFiles(const PreparedScenario& scenario, const ScenarioProgram&
                   program.role, program.entry->name, file);
     }
     if (fs::exists(file, error)) continue;
-    return Fail({scenario.setup().file}, "'files' of {} '{}': '{}' is no file or folder", program.role,
+    return Fail({scenario.setup().file}, "'files' of {} '{}': '{}' is not a file or folder", program.role,
                 program.entry->name, file);
   }
   return {};

@@ -18,7 +18,7 @@ Result<Shard> ParseShard(const std::string& text) {
   const auto count = has_slash ? std::from_chars(index.ptr + 1, end, shard.count) : index;
   if (!has_slash || count.ec != std::errc() || count.ptr != end || shard.index < 1 || shard.count < shard.index ||
       shard.count > kMaxShards) {
-    return Fail({}, "'{}' is no shard; allowed: i/n with 1 ≤ i ≤ n ≤ {}, such as 2/8", text, kMaxShards);
+    return Fail({}, "'{}' is not a shard; allowed: i/n with 1 ≤ i ≤ n ≤ {}, such as 2/8", text, kMaxShards);
   }
   return shard;
 }

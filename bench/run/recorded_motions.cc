@@ -53,7 +53,7 @@ class ResultFolders : public RecordedMotions {
     for (const Track& track : recording.tracks) {
       if (track.motion.poses.empty()) continue;
       file.clips.push_back(RigClip(track.motion, StandingPose(), track.name));
-      file.notes.emplace_back("of a run's recording");
+      file.bodies.push_back({.changes = {"of a run's recording"}});
     }
     if (file.clips.empty()) return Fail({path}, "a recording without a motion");
     file.figure.skeleton = file.clips.front().skeleton;
@@ -75,7 +75,7 @@ class ResultFolders : public RecordedMotions {
     }
     const std::vector<FilePath> files = RecordingsOf(run, cell);
     if (files.empty()) {
-      return Fail({wanted.path}, "recorded no cell {}: a scenario's key 'video' says which are; they are in {}",
+      return Fail({wanted.path}, "recorded no cell {}; a scenario's key 'video' says which cells are recorded, into {}",
                   Quote(cell), (run / "recordings").string());
     }
     return ReferTo(files.front(), animation);

@@ -1,6 +1,7 @@
 #include "bench/run/run.h"
 
 #include <algorithm>
+#include <set>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -37,7 +38,7 @@ Result<FolderState> CheckFolder(const fs::path& folder, const RunOptions& option
   if (!state || *state == FolderState::kFree || options.resume || options.overwrite) return state;
   return Fail({folder.string(), 0, 0}, "already holds {}; {}--overwrite replaces it, -o chooses another folder",
               *state == FolderState::kFinished ? "a run" : "an unfinished run",
-              *state == FolderState::kFinished ? "" : "--resume goes on with it, ");
+              *state == FolderState::kFinished ? "" : "--resume continues it, ");
 }
 
 /// Fails unless the folder's manifest is this one. With `other_libraries`, libraries may differ, which is recorded.
@@ -49,7 +50,7 @@ Result<void> CheckManifest(const fs::path& folder, const std::string& manifest, 
   ASSIGN_OR_RETURN(const auto now, ReadJson(manifest, ""));
   const bool was_secret = then.is_object() && then.value("seed", Json()).is_string();
   if (was_secret && now.at("seed").is_number()) {
-    return Fail({path.string()}, "its worlds are secret: to go on with it takes its key again (--seed-file)");
+    return Fail({path.string()}, "its worlds are secret; to resume it, name its key again (--seed-file)");
   }
   const Json version = was_secret ? then.value("secret_worlds", Json(1)) : Json();
   if (version.is_number_integer()) RETURN_IF_ERROR(CheckSecretWorlds(version.get<int>(), {path.string()}));
@@ -58,8 +59,7 @@ Result<void> CheckManifest(const fs::path& folder, const std::string& manifest, 
     return Fail({path.string()}, "is of another run: {}; only the same run can be resumed", InWords(differences));
   }
   if (other_libraries) return RecordOtherLibraries(folder, differences);
-  return Fail({path.string()},
-              "libraries have changed since: {}; --other-libraries goes on all the same and records it",
+  return Fail({path.string()}, "libraries have changed since: {}; --other-libraries resumes anyway and records it",
               InWords(differences));
 }
 
@@ -262,7 +262,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   if (!whole) {
     Error failure = whole.error();
     const bool is_kept = progress.cells_done + progress.cells_answered > 0;
-    if (is_kept) failure.message += "; what was done is kept, --resume goes on with it";
+    if (is_kept) failure.message += "; what was done is kept; --resume continues it";
     return tl::unexpected(std::move(failure));
   }
   RunOutcome outcome{.folder = folder,
@@ -277,6 +277,15 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   for (const ScenarioSetup& setup : suite.scenarios) {
     for (const RefusedClip& one : setup.refused) {
       if (std::ranges::find(outcome.refused, one) == outcome.refused.end()) outcome.refused.push_back(one);
+    }
+  }
+  // Say what was changed of the clips' files, each change once.
+  std::set<std::pair<std::string, std::string>> told;
+  for (const PreparedScenario& scenario : scenarios) {
+    for (const LibraryClip& clip : scenario.clips().clips) {
+      for (const std::string& change : clip.changes) {
+        if (told.emplace(clip.source, change).second) outcome.changes.push_back({clip.source, change});
+      }
     }
   }
   // Write the final results.

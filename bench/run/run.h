@@ -57,6 +57,11 @@ struct Progress {
   double Work() const { return static_cast<double>(cells_done) + 0.5 * static_cast<double>(cells_answered); }
 };
 
+/// What was found in a clip's file, or changed of what it holds, for people.
+struct LoadedChange {
+  std::string clip, change;
+};
+
 struct RunOutcome {
   std::filesystem::path folder;
   std::size_t cells = 0;  ///< with a row
@@ -66,6 +71,7 @@ struct RunOutcome {
   bool stopped = false;                   ///< ended early; the journal holds the finished cells
   std::string fence = {};                 ///< description of the sandbox of outside programs; "" = there were none
   std::vector<RefusedClip> refused = {};  ///< clips and recordings left out of any scenario, each listed once
+  std::vector<LoadedChange> changes = {};  ///< what was changed of the content of clip files, each once
   std::string why_unlocked = {};          ///< why the folder could not be locked against other runs; "" = it was locked
   /// Numbers of the damaged lines of a resumed journal; their cells were run again.
   std::vector<int> damaged_lines = {};

@@ -80,7 +80,8 @@ Result<FolderState> LookAtFolder(const fs::path& path) {
   for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
     const fs::path name = entry->path().filename();
     if (!IsPartOfRun(name)) {
-      return Fail(place, "holds something that is no run ('{}'); choose another folder with -o", name.string());
+      return Fail(place, "holds something that is not part of a run ('{}'); choose another folder with -o",
+                  name.string());
     }
   }
   if (error) return CannotRead(path.string(), "cannot be read", error.value());

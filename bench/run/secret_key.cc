@@ -32,7 +32,7 @@ Result<std::optional<SecretKey>> FindSecretKey(const std::string& file) {
   if (!file.empty()) {
     ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(file));
     const auto words = ParseKey(bytes);
-    if (!words) return Fail({file}, "{} bytes that are no key; allowed: {}", bytes.size(), kAllowed);
+    if (!words) return Fail({file}, "{} bytes are not a key; allowed: {}", bytes.size(), kAllowed);
     std::error_code error;
     if (std::filesystem::hard_link_count(file, error) > 1 && !error) {
       return Fail({file}, "has another name (a hard link), by which a program could read it; allowed: a copy");

@@ -210,7 +210,7 @@ Result<std::unique_ptr<LabelledStreams>> LoadRecordings(const ScenarioSetup& set
     // A stream is sensor data, whatever its format: remove the motion, so that no simulated sensor sees it again.
     for (NamedStream& stream : streams) stream.motion.reset();
   }
-  if (streams.empty()) return Fail({setup.file, 0, 0}, "labels need 'streams' or 'clips' that they are of");
+  if (streams.empty()) return Fail({setup.file, 0, 0}, "'labels' needs the 'streams' or 'clips' that it labels");
   ASSIGN_OR_RETURN(auto labelled, LabelStreams(std::move(streams), labels));
   return std::make_unique<LabelledStreams>(std::move(labelled));
 }
@@ -297,7 +297,8 @@ Result<std::vector<PreparedScenario>> PrepareAll(const SuiteSetup& suite) {
 Result<void> AddScoredMethod(const ScoredMethod& method, Scenario& scenario) {
   if (!IsPlainName(method.name)) {
     return Fail(
-        {}, "'{}' is no name of a method; allowed: letters, digits, '_', and behind the first '-' and '.', at most 80",
+        {},
+        "'{}' is not a valid method name; allowed: letters, digits, '_' and, after the first, '-' and '.'; at most 80",
         method.name);
   }
   std::vector<MethodEntry>& methods = scenario.methods;

@@ -88,10 +88,11 @@ std::vector<Error> WhichIsMeant(const std::vector<std::string>& paths) {
     const fs::path shipped = FindShipped(path);
     std::error_code error;
     if (shipped.empty() || !fs::exists(path, error) || fs::equivalent(path, shipped, error)) continue;
-    told.push_back({{path},
-                    FindScenario(path) == shipped
-                        ? "this folder holds no scenario (*.yaml): what comes with etude under that name is meant"
-                        : "what is here is meant, not what comes with etude under that name"});
+    told.push_back(
+        {{path},
+         FindScenario(path) == shipped
+             ? "this folder holds no scenario (*.yaml); the scenario of that name that comes with etude is used"
+             : "this file or folder is used, not the scenario of that name that comes with etude"});
   }
   return told;
 }

@@ -129,7 +129,7 @@ Result<void> CheckThatUsed(const std::vector<std::string>& paths, const std::set
   for (const std::string& path : paths) {
     ASSIGN_OR_RETURN(const auto files, FindScenarioFiles({path}));
     const bool used = std::ranges::any_of(files, [&](const std::string& file) { return with_use.contains(file); });
-    if (!used) return Fail({path, 0, 0}, "has no use for {}", why);
+    if (!used) return Fail({path, 0, 0}, "cannot use {}", why);
   }
   return {};
 }
@@ -168,15 +168,15 @@ Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const s
   if (uses_clips) users.clips.insert(file);
   const bool replaced = !options.clips.empty() && uses_clips;
   if (replaced && !scenario.libraries.empty()) {
-    return Fail({file, 0, 0}, "--clips: scenario {} is about libraries; --library NAME=CLIPS adds one", scenario.name);
+    return Fail({file, 0, 0}, "--clips: scenario {} uses libraries; --library NAME=CLIPS adds one", scenario.name);
   }
   if (replaced && !scenario.streams.files.empty()) {
-    return Fail({file, 0, 0}, "--clips: scenario {} is about recordings; --streams names others", scenario.name);
+    return Fail({file, 0, 0}, "--clips: scenario {} uses recordings; --streams names others", scenario.name);
   }
   const bool uses_recordings = FindTaskKind(scenario.task)->uses_recordings;
   const bool is_recorded = uses_recordings && !options.streams.empty();
   if (is_recorded && !scenario.libraries.empty()) {
-    return Fail({file, 0, 0}, "--streams: scenario {} is about libraries", scenario.name);
+    return Fail({file, 0, 0}, "--streams: scenario {} uses libraries", scenario.name);
   }
   if (uses_recordings) users.recordings.insert(file);
   if (is_recorded) scenario.streams.files = options.streams;
@@ -273,7 +273,7 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
       if (uses_clips) AddLibraries(libraries, scenario);
       const auto [other, is_new] = file_of_name.emplace(scenario.name, file);
       if (!is_new) {
-        return Fail({file, 0, 0}, "a scenario named '{}' stands in {} already", scenario.name, other->second);
+        return Fail({file, 0, 0}, "a scenario named '{}' is already in {}", scenario.name, other->second);
       }
       const int trials = options.trials.value_or(scenario.trials);
       cells += scenario.conditions.size() * scenario.methods.size() * static_cast<std::size_t>(trials);
@@ -303,7 +303,7 @@ Result<SuiteSetup> ReadSuiteToRun(const RunOptions& options) {
   ASSIGN_OR_RETURN(auto suite, options.from.empty() ? ReadSuite(options) : ReadManifest(options.from));
   if (!options.from.empty()) RETURN_IF_ERROR(OpenSeeds(options.key, {options.from}, suite));
   if (!suite.scored) return suite;
-  return Fail({options.from, 0, 0}, "is of answers that were scored ('{}'), which cannot be run; etude score does it",
+  return Fail({options.from, 0, 0}, "describes answers that were scored ('{}'), which cannot be run; use etude score",
               suite.scored->name);
 }
 

@@ -99,8 +99,8 @@ class UsedKeys {
 
   static tl::unexpected<Error> NotWritable(const fs::path& list) {
     return Fail({list.string()},
-                "cannot be written ({}), so that nothing would tell that the key was used; allowed: a key in a folder "
-                "that you may write to, or --reuse-key",
+                "cannot be written ({}), so the use of the key could not be recorded; allowed: a key in a folder that "
+                "you may write to, or --reuse-key",
                 std::strerror(errno));
   }
 
@@ -126,7 +126,7 @@ class UsedKeys {
       ASSIGN_OR_RETURN(auto line, ReadJson(text.substr(at, end - at), place.file, place.line));
       for (const char* name : {"key", "command", "suite", "manifest", "shard", "folder"}) {
         if (line.is_object() && line.value(name, Json()).is_string()) continue;
-        return Fail(place, "is no line of used keys: '{}' is missing", name);
+        return Fail(place, "is not a line of used keys: '{}' is missing", name);
       }
       lines_.push_back(std::move(line));
     }
@@ -180,8 +180,8 @@ Result<void> NoteRepeat(const SecretKey& key, const KeyUse& use) {
   auto keys = UsedKeys::Open(list);
   if (!keys) {
     return Fail({list.string()},
-                "cannot be written, so that nothing would tell that programs of this run were asked in worlds of the "
-                "key; allowed: a key in a folder that you may write to");
+                "cannot be written, so it could not be recorded that programs of this run saw worlds of the key; "
+                "allowed: a key in a folder that you may write to");
   }
   return keys->HasKeyOf(line) ? Result<void>() : keys->Add(line);
 }

@@ -79,15 +79,17 @@ void CheckExpectation(Fields& fields, Expectation& expectation) {
   const int claims = !expectation.below.empty() + !expectation.above.empty() + expectation.at_most.has_value() +
                      expectation.at_least.has_value();
   if (claims == 1) return;
-  fields.Complain(expectation.place, fmt::format("an expectation says exactly one of: below, above (a method), "
-                                                 "at_most, at_least (a number); found {}",
-                                                 claims));
+  fields.Complain(
+      expectation.place,
+      fmt::format(
+          "an expectation needs exactly one of: below, above (a method), at_most, at_least (a number); found {}",
+          claims));
 }
 
 void CheckTimeRatio(Fields& fields, TimeRatio& ratio) {
   ratio.place = fields.node().place;
   if (ratio.of != ratio.over) return;
-  fields.Complain(ratio.place, fmt::format("the ratio of '{}' over itself says nothing", ratio.of));
+  fields.Complain(ratio.place, fmt::format("a ratio of times needs two methods, found '{}' twice", ratio.of));
 }
 
 }  // namespace
@@ -110,7 +112,7 @@ void NoteMetric(Fields& fields, const std::string& task, const std::vector<std::
   if (!Contains(known, name)) {
     fields.Complain(place, UnknownName("metric of task " + task, name, known));
   } else if (Contains(metrics, name)) {
-    fields.Complain(place, fmt::format("the metric '{}' stands here twice", name));
+    fields.Complain(place, fmt::format("the metric '{}' is listed twice", name));
   } else {
     metrics.push_back(name);
   }
@@ -119,63 +121,89 @@ void NoteMetric(Fields& fields, const std::string& task, const std::vector<std::
 FieldTable<Expectation> ExpectationFields(const Scenario& scenario, const std::vector<std::string>& metrics) {
   using Key = Field<Expectation>;
   const std::vector<std::string> methods = MethodNames(scenario);
-  const char* another = "(another claim is made)";
-  return {{KnownName("metric", &Expectation::metric, "a metric that the task reports", metrics, "What is judged."),
-           KnownName("of", &Expectation::of, "a method", methods, "Whose values are judged."),
-           KnownName("below", &Expectation::below, "a method", methods, "`of` has lower values in the same worlds.")
+  const char* another = "(not claimed)";
+  return {{KnownName("metric", &Expectation::metric, "a metric that the task reports", metrics,
+                     "The metric that is judged."),
+           KnownName("of", &Expectation::of, "a method", methods, "The method whose values are judged."),
+           KnownName("below", &Expectation::below, "a method", methods,
+                     "`of` must have lower values than this method in the same worlds.")
                .WhenAbsent(another),
-           KnownName("above", &Expectation::above, "a method", methods, "`of` has higher values in the same worlds.")
+           KnownName("above", &Expectation::above, "a method", methods,
+                     "`of` must have higher values than this method in the same worlds.")
                .WhenAbsent(another),
-           Key::Number("at_most", &Expectation::at_most, {}, "The statistic is not above it.").WhenAbsent(another),
-           Key::Number("at_least", &Expectation::at_least, {}, "The statistic is not below it.").WhenAbsent(another),
+           Key::Number("at_most", &Expectation::at_most, {}, "Upper bound of the statistic.").WhenAbsent(another),
+           Key::Number("at_least", &Expectation::at_least, {}, "Lower bound of the statistic.").WhenAbsent(another),
            Key::Name("statistic", &Expectation::statistic, {{"median", "median"}, {"mean", "mean"}, {"p95", "p95"}},
-                     "What `at_most` and `at_least` are about."),
-           Key::Number("confidence", &Expectation::confidence, {0.5, 0.999}, "How sure `below` and `above` must be."),
+                     "The statistic that `at_most` and `at_least` bound."),
+           Key::Number("confidence", &Expectation::confidence, {0.5, 0.999},
+                       "The confidence that `below` and `above` need."),
            {{"where",
              {"a mapping of swept parameters to one of their values", R"({"type":"object"})"},
              "{}",
-             "Judged in these conditions only."},
+             "The only conditions in which it is judged."},
             [&](Fields& fields, Expectation& expectation) { expectation.where = ReadWhere(fields, scenario); }}},
           CheckExpectation};
 }
 
+std::vector<std::string> SuccessMetricsOf(const TaskKind& kind, const Scenario& scenario) {
+  std::vector<std::string> shares;
+  for (const std::string& id : MetricsOf(kind, scenario)) {
+    const MetricInfo* metric = FindMetric(id);
+    if (metric != nullptr && metric->direction == Direction::kHigherIsBetter && metric->reading != Reading::kAmount) {
+      shares.push_back(id);
+    }
+  }
+  return shares;
+}
+
+FieldTable<Scenario> SuccessFields(const std::vector<std::string>& metrics) {
+  return {{KnownName("metric", &Scenario::success, "a share that the task reports, of which more is better", metrics,
+                     "A share of cells, or of each cell.")
+               .WhenAbsent("(the task's)"),
+           Field<Scenario>::Number("matters", &Scenario::success_matters, {0.001, 1},
+                                   "The smallest difference of two methods that matters, as a share.")}};
+}
+
 FieldTable<TimeRatio> TimeRatioFields(const Scenario& scenario) {
   const std::vector<std::string> methods = MethodNames(scenario);
-  return {{KnownName("of", &TimeRatio::of, "a method", methods, "Whose time is judged."),
-           KnownName("over", &TimeRatio::over, "a method", methods, "By whose time it is divided, world by world."),
+  return {{KnownName("of", &TimeRatio::of, "a method", methods, "The method whose time is judged."),
+           KnownName("over", &TimeRatio::over, "a method", methods,
+                     "The method by whose time it is divided, world by world."),
            Field<TimeRatio>::Number("at_most", &TimeRatio::at_most, {0.001, 1e6},
-                                    "What the median of these ratios may be.")},
+                                    "Upper bound of the median of these ratios.")},
           CheckTimeRatio};
 }
 
 FieldTable<TailRule> TailFields() {
   using Key = Field<TailRule>;
   constexpr Range kWorlds{0, 1e6};
-  return {{Key::Number("times", &TailRule::times, {1, 1e6},
-                       "A world is far worse when it is worse by more than so many times the practical threshold."),
-           Key::Number("worlds", &TailRule::worlds, kWorlds,
-                       "So many far worse worlds of one comparison are a regression; 0: none ever is."),
-           Key::Number("share", &TailRule::share, {0, 1},
-                       "And they must be so large a share of the worlds compared: of many, rounding alone moves some."),
-           Key::Number("lost", &TailRule::lost, kWorlds,
-                       "So many worlds of one comparison that lost their value or answer are one; 0: none ever is.")}};
+  return {
+      {Key::Number("times", &TailRule::times, {1, 1e6},
+                   "A world is far worse when it is worse by more than this many practical thresholds."),
+       Key::Number("worlds", &TailRule::worlds, kWorlds,
+                   "This many far worse worlds of one comparison are a regression; 0: never."),
+       Key::Number("share", &TailRule::share, {0, 1},
+                   "Minimum share of the compared worlds that must be far worse, too: of many worlds, rounding "
+                   "alone moves some."),
+       Key::Number("lost", &TailRule::lost, kWorlds,
+                   "This many worlds of one comparison that lost their value or answer are a regression; 0: never.")}};
 }
 
 FieldTable<GateRules> GateFields(const Scenario& scenario, const std::vector<std::string>& metrics) {
   using Key = Field<GateRules>;
   return {{{{"metrics", ListKind("a list of metrics that the task reports", TextKind("")), "(`metrics`)",
-             "What is compared."},
+             "The metrics that are compared."},
             [&scenario, metrics](Fields& gate, GateRules& rules) {
               auto named = ReadMetricList(gate, scenario.task, metrics);
               if (!named.empty()) rules.metrics = std::move(named);
             }},
            Key::Name("rule", &GateRules::exact, {{"threshold", false}, {"exact", true}},
-                     "Only a difference that matters is a regression, or every difference is."),
+                     "threshold: only a difference that matters is a regression; exact: every difference is."),
            {{"tail", MappingKind("a mapping", TailFields().Describe()), "{}",
-             "When single worlds are a regression, whatever all of them together say; not with `exact`."},
+             "When single worlds are a regression, whatever the whole comparison says; not with `exact`."},
             [](Fields& gate, GateRules& rules) { ReadNested(gate, "tail", TailFields(), rules.tail); }},
            {{"time_ratios", ListKind("a list of ratios", MappingKind("", TimeRatioFields(scenario).Describe())), "[]",
-             "How processor times may compare within the run."},
+             "Bounds on ratios of processor times within the run."},
             [&](Fields& gate, GateRules& rules) {
               rules.time_ratios = ReadListed(gate, "time_ratios", "a time ratio", TimeRatioFields(scenario));
             }}}};

@@ -11,6 +11,9 @@ std::vector<std::string> MetricsOf(const TaskKind& kind);
 /// Returns the task's metrics and those that the scenario defines itself.
 std::vector<std::string> MetricsOf(const TaskKind& kind, const Scenario& scenario);
 
+/// Returns those of them that may be a scenario's success: shares and scores of which more is better.
+std::vector<std::string> SuccessMetricsOf(const TaskKind& kind, const Scenario& scenario);
+
 /// Adds a metric to `metrics`. Complains if it is not in `known` or already in the list.
 void NoteMetric(Fields& fields, const std::string& task, const std::vector<std::string>& known, const std::string& name,
                 const Place& place, std::vector<std::string>& metrics);
@@ -18,6 +21,8 @@ void NoteMetric(Fields& fields, const std::string& task, const std::vector<std::
 // The keys of `expect`, `gate` and its `time_ratios`. They name methods and conditions of `scenario`, which must
 // outlive the tables, and `metrics` of its task.
 FieldTable<Expectation> ExpectationFields(const Scenario& scenario, const std::vector<std::string>& metrics);
+// `success` is one of `metrics`, those of SuccessMetricsOf.
+FieldTable<Scenario> SuccessFields(const std::vector<std::string>& metrics);
 FieldTable<GateRules> GateFields(const Scenario& scenario, const std::vector<std::string>& metrics);
 FieldTable<TailRule> TailFields();
 FieldTable<TimeRatio> TimeRatioFields(const Scenario& scenario);

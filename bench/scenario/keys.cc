@@ -21,9 +21,9 @@ namespace {
 /// The keys of a sweep, beside the task's parameters.
 std::vector<KeyInfo> SweepKeys() {
   return {{"together",
-           {"a mapping of parameters to as many values each, or a list of such", "{}"},
-           "(none are)",
-           "Parameters stepped through side by side, instead of in all combinations."}};
+           {"a mapping of parameters to lists of equal length, or a list of such mappings", "{}"},
+           "(none)",
+           "Parameters whose values advance together, not in all combinations."}};
 }
 
 template <typename Keys>
@@ -47,11 +47,12 @@ std::vector<KeyGroup> AllKeyGroups() {
       Group("sweep", "A sweep, beside the task's parameters", SweepKeys()),
       Group("sweep.PARAMETER", "A range of values", RangeFields(kMaxConditions).Describe()),
       Group("methods[]", "A method", OutsideMethodFields().Describe()),
-      Group("metrics[]", "A metric of one's own, of another program", OutsideMetricFields().Describe()),
+      Group("metrics[]", "A metric that your own program measures", OutsideMetricFields().Describe()),
       Group("metrics[].vectors[]", "A test vector", MetricExampleFields().Describe()),
       Group("expect[]", "An expectation", ExpectationFields(any, {}).Describe()),
-      Group("video", "What is kept for films", VideoFields(any).Describe()),
+      Group("video", "Recordings for films", VideoFields(any).Describe()),
       Group("limits", "Limits", LimitFields().Describe()),
+      Group("success", "What success is", SuccessFields({}).Describe()),
       Group("gate", "The gate", GateFields(any, {}).Describe()),
       Group("gate.tail", "The gate's tail rule", TailFields().Describe()),
       Group("gate.time_ratios[]", "A ratio of times", TimeRatioFields(any).Describe())};
@@ -66,8 +67,9 @@ std::string KeysAsMarkdown() {
   std::string page =
       "# Every key of a scenario file\n\n"
       "Written by `etude list keys --markdown`; a test compares the two. How they go together: "
-      "[scenarios.md](../scenarios.md).\nWords in (parentheses) say what happens when nothing is written; every other "
-      "default could be written as it stands.\n";
+      "[scenarios.md](../scenarios.md).\n"
+      "A default in (parentheses) says what happens without the key; every other default could be written as it "
+      "stands.\n";
   for (const KeyGroup& group : AllKeyGroups()) {
     page += fmt::format("\n## {}{}\n\n| key | allowed | default | meaning |\n|---|---|---|---|\n", group.title,
                         group.path.empty() ? "" : fmt::format(": `{}`", group.path));
@@ -222,12 +224,11 @@ std::string KeysAsSchema() {
     definitions[kind.name] = TaskSchema(kind);
     definitions[kind.name + "-method"] = MethodSchema(kind);
   }
-  Json schema{
-      {"$schema", "http://json-schema.org/draft-07/schema#"},
-      {"title", "A scenario file of Etude"},
-      {"description",
-       "Written by `etude list keys --schema`. What it accepts may still be refused: the program also knows which "
-       "methods, conditions and files there are."}};
+  Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
+              {"title", "A scenario file of Etude"},
+              {"description",
+               "Written by `etude list keys --schema`. A file that it accepts may still be refused: the program also "
+               "checks which methods, conditions and files exist."}};
   schema.update(ScenarioSchema());
   schema["definitions"] = std::move(definitions);
   return SchemaText(schema) + "\n";

@@ -111,25 +111,25 @@ ValueKind PlainNameKind() {
 const FieldTable<MethodEntry>& OutsideMethodFields() {
   using Key = Field<MethodEntry>;
   static const FieldTable<MethodEntry> table{
-      {{{"name", PlainNameKind(), "", "Its name, unique in the scenario."},
+      {{{"name", PlainNameKind(), "", "The method's name, unique in the scenario."},
         [](Fields& method, MethodEntry& entry) { entry.name = ReadPlainName(method, "name"); }},
-       {{"against", TextKind("a method"), "(the first method)", "The method it is compared with."},
+       {{"against", TextKind("a method"), "(the first method)", "The method that it is compared with."},
         [](Fields&, MethodEntry&) {}},  // read once all names are known
        {{"description", TextKind("a sentence"), "(its settings)",
-         "What it is, for those who read the results; changes nothing of them."},
+         "Describes the method to readers of the results; does not change them."},
         [](Fields&, MethodEntry&) {}},  // read for all methods in ReadMethods
        {{"exec",
          {"a list: a program and its arguments",
           R"({"type":"array","minItems":1,"items":{"type":["string","number"],"minLength":1}})"},
          "(the method is built in)",
-         "Another program that answers; such a method has none of its task's keys, unless it takes a `seat`."},
+         "The program that answers; such a method has no keys of its task, unless it takes a `seat`."},
         ReadProgram},
-       {{"options", {"a mapping; with `exec`", R"({"type":"object"})"}, "{}", "Told to that program as JSON."},
+       {{"options", {"a mapping; with `exec`", R"({"type":"object"})"}, "{}", "Passed to that program as JSON."},
         [](Fields& method, MethodEntry& entry) { entry.options_json = ReadOptions(method); }},
        Key::Texts("files", &MethodEntry::files, "a list of folders and files; with `exec`",
-                  "What a fence shows that program, read-only; the default is its own folder."),
+                  "What that program can read inside its fence; by default its own folder."),
        Key::Number("time_s", &MethodEntry::time_s, {0.001, kMaxTime_s},
-                   "How long it may take over one problem, or one step.")
+                   "Time limit for one problem, or one step, in seconds.")
            .WhenAbsent("(`limits.time_s`)")
            .And("with `exec`")}};
   return table;
@@ -140,8 +140,9 @@ std::string ReadPlainName(Fields& fields, std::string_view key) {
   if (fields.ok() && !IsPlainName(name)) {
     fields.Complain(
         fields.node().Find(key)->place,
-        fmt::format("'{}' is no {}; allowed: letters, digits, '_', and behind the first '-' and '.', at most 80", name,
-                    key));
+        fmt::format(
+            "'{}' is not a valid {}; allowed: letters, digits, '_' and, after the first, '-' and '.'; at most 80", name,
+            key));
   }
   return name;
 }

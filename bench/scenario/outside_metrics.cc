@@ -33,8 +33,8 @@ void ReadName(Fields& metric, OutsideMetric& own) {
   own.info.id = own.program.name = metric.RequiredText("name");
   if (!metric.ok() || IsMetricId(own.info.id)) return;
   metric.Complain(metric.node().Find("name")->place,
-                  fmt::format("'{}' is no name of a metric; allowed: small letters, digits and '_', at most 60, "
-                              "beginning with a letter, and no name of what rows hold already",
+                  fmt::format("'{}' is not a valid metric name; allowed: at most 60 lower-case letters, digits and "
+                              "'_', a letter first, and not a name that rows already use",
                               own.info.id));
 }
 
@@ -53,9 +53,9 @@ Result<void> SpellOut(Json& track, const Place& place) {
   const Json joints = track.value("joints_m", Json::object());
   for (const auto& [name, places] : joints.items()) {
     const auto role = FindRole(name);
-    if (!role) return Fail(place, "'joints_m' has '{}', which is none of the twenty joints", name);
+    if (!role) return Fail(place, "'joints_m' has '{}', which is not one of the twenty joints", name);
     if (!places.is_array() || places.size() != poses.size()) {
-      return Fail(place, "'{}' must be at {} places, found {}", name, poses.size(), ShowJson(places));
+      return Fail(place, "'{}' needs {} positions, found {}", name, poses.size(), ShowJson(places));
     }
     for (std::size_t f = 0; f < places.size(); ++f) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -101,19 +101,19 @@ void ReadExpected(Fields& fields, MetricExample& example) {
 const FieldTable<MetricExample>& MetricExampleFields() {
   using Key = Field<MetricExample>;
   static const FieldTable<MetricExample> table{
-      {Key::Text("title", &MetricExample::title, "a text", "What it is about.").WhenAbsent("(none)"),
+      {Key::Text("title", &MetricExample::title, "a text", "What the vector tests.").WhenAbsent("(none)"),
        {{"cell",
          {"a mapping: `tracks`, each with `name`, `rate_hz` and `poses`, or `frames` and `joints_m`; `extras`",
           R"({"type":"object","required":["tracks"]})"},
          "",
-         "What the program is given; joints that `joints_m` does not tell of are at the origin."},
+         "The program's input; joints that `joints_m` does not name are at the origin."},
         ReadCell},
        {{"expected",
          {"a number, or null where the metric has no value", R"({"type":["number","null","string"]})"},
          "null",
-         "What it must answer."},
+         "The value that it must answer."},
         ReadExpected},
-       Key::Number("tolerance", &MetricExample::tolerance, {0, 1e9}, "How far from it the answer may be.")}};
+       Key::Number("tolerance", &MetricExample::tolerance, {0, 1e9}, "Largest absolute error of the answer.")}};
   return table;
 }
 
@@ -123,29 +123,29 @@ const FieldTable<OutsideMetric>& OutsideMetricFields() {
     const auto info = [](auto member) { return Path(&OutsideMetric::info, member); };
     std::vector<Field<OutsideMetric>> fields = {
         {{"name", TextKind("a letter, then at most 59 of a…z, 0…9, '_'", kIdPattern), "",
-          "Its id in rows and tables; no metric of ours."},
+          "Its id in rows and tables; not that of a built-in metric."},
          ReadName}};
     // The keys about the program are those of an outside method, with their own meanings.
     for (auto& field : FieldsOf<OutsideMetric>(OutsideMethodFields(), &OutsideMetric::program, Keep::kThese,
                                                {"exec", "options", "files", "time_s"})) {
       if (field.info.key == "exec") {
         field.info.fallback = "";
-        field.info.meaning = "The program that measures: never one with a method's.";
+        field.info.meaning = "The program that measures; its process is never a method's.";
       }
-      if (field.info.key == "time_s") field.info.meaning = "How long it may take over one cell.";
+      if (field.info.key == "time_s") field.info.meaning = "Time limit for one cell, in seconds.";
       fields.push_back(std::move(field));
     }
     // The keys about the metric.
     Append<OutsideMetric>(
-        {Key::Text("unit", info(&MetricInfo::unit), "a text", "Of its values: `mm`, `deg`.").WhenAbsent("(none)"),
+        {Key::Text("unit", info(&MetricInfo::unit), "a text", "Unit of its values: `mm`, `deg`.").WhenAbsent("(none)"),
          Key::Name("direction", info(&MetricInfo::direction),
                    {{"lower", Direction::kLowerIsBetter},
                     {"higher", Direction::kHigherIsBetter},
                     {"neither", Direction::kNeither}},
                    "Which values are better."),
          Key::Number("version", info(&MetricInfo::version), {1, 1e6},
-                     "To be raised with every change of what it measures: two never mix."),
-         {{"practical", NumberKind({1e-12, 1e12}), "(1; without a unit .01)", "The smallest difference that matters."},
+                     "Raise it with every change of the metric: values of two versions never mix."),
+         {{"practical", NumberKind({1e-12, 1e12}), "(1; without a unit 0.01)", "The smallest difference that matters."},
           [](Fields& metric, OutsideMetric& own) {
             own.info.practical = metric.Number("practical", own.info.unit.empty() ? 0.01 : 1, {1e-12, 1e12});
           }},
@@ -156,12 +156,12 @@ const FieldTable<OutsideMetric>& OutsideMetricFields() {
                     {"yes-no", Reading::kYesNo},
                     {"share", Reading::kShare},
                     {"score", Reading::kScore}},
-                   "What kind of value it is: all but an amount are 0…1 and shown in per cent."),
-         Key::Text("label", info(&MetricInfo::label), "a text", "For people.").WhenAbsent("(`name`)"),
+                   "The kind of value: all but an amount are 0…1 and shown in per cent."),
+         Key::Text("label", info(&MetricInfo::label), "a text", "Its name for people.").WhenAbsent("(`name`)"),
          Key::Text("definition", info(&MetricInfo::definition), "a text", "What it measures, in one sentence.")
              .WhenAbsent("(none)"),
          {{"vectors", ListKind("a list of test vectors", MappingKind("", MetricExampleFields().Describe())), "[]",
-           "Cells whose value is known: the program must give it before the first cell is run."},
+           "Cells of known value; the program must reproduce it before the first cell is run."},
           [](Fields& metric, OutsideMetric& own) {
             own.vectors = ReadListed(metric, "vectors", "a test vector", MetricExampleFields());
           }}},
@@ -193,9 +193,9 @@ std::vector<std::string> ReadHeadline(Fields& fields, const TaskKind& kind, std:
     }
     if (std::ranges::find(kTasksWithoutMotion, kind.name) != std::end(kTasksWithoutMotion)) {
       fields.Complain(item.place,
-                      fmt::format("cells of task {} keep no motion that a metric could be given", kind.name));
+                      fmt::format("cells of task {} record no motion that a metric could measure", kind.name));
     }
-    auto read = ReadMapping(item, "a metric of one's own", OutsideMetricFields());
+    auto read = ReadMapping(item, "a metric of your own", OutsideMetricFields());
     if (!read) {
       fields.Complain(read.error().place, read.error().message);
       continue;

@@ -47,8 +47,9 @@ void ReadFilmedMethods(Fields& video, const Scenario& scenario, RecordingSelecti
 std::vector<NamedClips> ReadLibraries(Fields& fields, const TaskKind& kind) {
   const Node* libraries = fields.Raw("libraries");
   if (libraries == nullptr) return {};
-  if (!kind.uses_clips) fields.Complain(libraries->place, "'libraries' has no use in task " + kind.name);
-  if (fields.Raw("clips") != nullptr) fields.Complain(libraries->place, "'libraries' stands in the place of 'clips'");
+  if (!kind.uses_clips) fields.Complain(libraries->place, "'libraries' is not used in task " + kind.name);
+  if (fields.Raw("clips") != nullptr)
+    fields.Complain(libraries->place, "'libraries' replaces 'clips'; leave out one of them");
   if (libraries->kind != Node::Kind::kMapping || libraries->entries.empty()) {
     fields.Complain(libraries->place, "'libraries' must map names to lists of clips, found " + Describe(*libraries));
     return {};
@@ -56,7 +57,7 @@ std::vector<NamedClips> ReadLibraries(Fields& fields, const TaskKind& kind) {
   std::vector<NamedClips> read;
   for (const Node::Entry& entry : libraries->entries) {
     const auto clips = AsTexts(entry.value);
-    if (!IsPlainName(entry.key)) fields.Complain(entry.place, "'" + entry.key + "' is no plain name of a library");
+    if (!IsPlainName(entry.key)) fields.Complain(entry.place, "'" + entry.key + "' is not a valid name of a library");
     if (!clips) fields.Complain(clips.error().place, clips.error().message);
     read.push_back({entry.key, clips.value_or(std::vector<std::string>{})});
   }
@@ -76,13 +77,14 @@ void CheckStreams(Fields& fields, const Scenario& scenario, const TaskKind& kind
   for (const char* key : {"streams", "labels", "reading"}) {
     const Node* named = FindFilled(fields, key);
     if (named == nullptr) continue;
-    if (!kind.uses_recordings) fields.Complain(named->place, fmt::format("'{}' has no use in task {}", key, kind.name));
+    if (!kind.uses_recordings)
+      fields.Complain(named->place, fmt::format("'{}' is not used in task {}", key, kind.name));
     if (!scenario.libraries.empty())
-      fields.Complain(named->place, fmt::format("'{}' has no use with 'libraries'", key));
+      fields.Complain(named->place, fmt::format("'{}' is not used with 'libraries'", key));
   }
   const Node* streams = FindFilled(fields, "streams");
   if (streams != nullptr && FindFilled(fields, "clips") != nullptr) {
-    fields.Complain(streams->place, "'streams' stands in the place of 'clips'");
+    fields.Complain(streams->place, "'streams' replaces 'clips'; leave out one of them");
   }
 }
 
@@ -99,39 +101,39 @@ const FieldTable<StreamSource>& ReadingFields() {
   NamedValues<std::optional<StreamFormat>> formats;
   for (const std::string& name : StreamFormatNames()) formats.emplace_back(name, FindStreamFormat(name));
   static const FieldTable<StreamSource> table{
-      {Key::Name("format", Path(&StreamSource::reading, &StreamReading::format), formats, "Of the files.")
-           .WhenAbsent("(told by content)"),
+      {Key::Name("format", Path(&StreamSource::reading, &StreamReading::format), formats, "Format of the files.")
+           .WhenAbsent("(found from the content)"),
        Key::Number("rate_hz", Path(&StreamSource::reading, &StreamReading::rate_hz), {1, 1000},
-                   "Of files without a clock.")
+                   "Frame rate of files without a clock, in Hz.")
            .WhenAbsent("30"),
-       {{"body", NumberKind(kBodies, true), "(the one seen longest)", "Which of several bodies, by first appearance."},
+       {{"body", NumberKind(kBodies, true), "(the one seen longest)",
+         "Which of several bodies is read, counted by first appearance from 0."},
         [](Fields& fields, StreamSource& s) {
           if (const auto body = fields.OptionalWhole("body", kBodies)) s.reading.body = static_cast<int>(*body);
         }},
        Key::Flag("levels", Path(&StreamSource::making, &StreamOptions::levels),
-                 "Whether up and the floor are estimated; else they are the file's."),
+                 "true: estimate the up axis and the floor; false: take the file's."),
        Key::Flag("reflects", Path(&StreamSource::making, &StreamOptions::reflects),
-                 "Whether X is negated: of recordings that are mirrored.")}};
+                 "true: negate X, for mirrored recordings.")}};
   return table;
 }
 
 const FieldTable<Limits>& LimitFields() {
   using Key = Field<Limits>;
   static const FieldTable<Limits> table{
-      {Key::Number(
-           "time_s", &Limits::time_s, {0.001, 86'400},
-           "Seconds of processor time, of a world and of each method; of a program outside, seconds by the clock."),
+      {Key::Number("time_s", &Limits::time_s, {0.001, 86'400},
+                   "Processor time of a world and of each method, in seconds; for a program outside, wall-clock time."),
        Key::Number("memory_mb", &Limits::memory_mb, {16, 1'048'576},
-                   "Resident memory of the worker, and of each program it has started.")}};
+                   "Resident memory of the worker, and of each program that it has started.")}};
   return table;
 }
 
 FieldTable<RecordingSelection> VideoFields(const Scenario& scenario) {
   using Selection = RecordingSelection;
-  return {{{{"compare", ListKind("a list of methods", TextKind("")), "(all)", "Whose motions are kept."},
+  return {{{{"compare", ListKind("a list of methods", TextKind("")), "(all)", "Methods whose motions are kept."},
             [&](Fields& video, Selection& selection) { ReadFilmedMethods(video, scenario, selection); }},
            {{"trials", ListKind("a list of whole numbers below `trials`", NumberKind({0, kTrials.highest}, true)),
-             "[0]", "Of which worlds."},
+             "[0]", "Trials whose motions are kept."},
             [&](Fields& video, Selection& selection) { ReadFilmedTrials(video, scenario, selection); }}}};
 }
 
@@ -146,37 +148,34 @@ const FieldTable<Scenario>& ScenarioFields() {
   };
   static const Scenario unread;
   static const FieldTable<Scenario> table{
-      {{{"scenario", PlainNameKind(), "", "Its name, unique in a run."},
+      {{{"scenario", PlainNameKind(), "", "The scenario's name, unique in a run."},
         [](Fields& fields, Scenario& s) { s.name = ReadPlainName(fields, "scenario"); }},
-       {{"question", TextKind("a text"), "", "What is asked, in one sentence."},
+       {{"question", TextKind("a text"), "", "The scenario's question, in one sentence."},
         [](Fields& fields, Scenario& s) { s.question = fields.RequiredText("question"); }},
        Key::Text("description", &Scenario::description, "a sentence",
-                 "What its worlds are, for those who read the results; changes nothing of them.")
+                 "Describes its worlds to readers of the results; does not change them.")
            .WhenAbsent("(none)"),
-       {{"task", NameKind(NamesOf(AllTaskKinds())), "", "The kind of question."},
+       {{"task", NameKind(NamesOf(AllTaskKinds())), "", "The task that the methods solve."},
         [](Fields& fields, Scenario& s) { s.task = fields.Choice("task", NamesOf(AllTaskKinds()), ""); }},
        Key::Texts("clips", &Scenario::clips, "a list of `builtin:NAME`, `builtin:*`, motion files, patterns",
-                  "What worlds are made of; trials go through them in turn."),
+                  "The clips that worlds are made of; trials take them in turn."),
        Key::Texts(
            "streams", Path(&Scenario::streams, &StreamSource::files),
            "a list of recordings of skeletons, patterns and folders (docs/streams.md)",
-           "In place of `clips` and simulated people: the recorded ones, a trial each; `etude run --streams` names "
-           "others."),
+           "Recordings that replace `clips` and simulated people, one trial each; `etude run --streams` names others."),
        Key::Text("labels", Path(&Scenario::streams, &StreamSource::labels), "a file, or a folder of tag streams",
-                 "Who did what when in `streams`, or in `clips`, whose people are then sensed and judged in place of "
-                 "simulated "
-                 "ones.")
-           .WhenAbsent("(a recording is one performance, called by its name)"),
+                 "Who did which move when in `streams`, or in `clips`, whose people then replace simulated ones.")
+           .WhenAbsent("(a recording is one performance, named by its file)"),
        {{"reading", MappingKind("a mapping", ReadingFields().Describe()), "{}", "How `streams` are read."},
         [](Fields& fields, Scenario& s) { ReadNested(fields, "reading", ReadingFields(), s.streams); }},
        Key::Text("joint_map", &Scenario::joint_map, "a file",
-                 "Teaches which joints of the clips play which roles, where names do not tell.")
+                 "Says which joints of the clips play which roles, where names do not tell.")
            .WhenAbsent("(names tell)"),
        Key::Number("trials", &Scenario::trials, {1, kTrials.highest}, "Worlds per condition."),
-       Key::Number("seed", &Scenario::seed, {0, kMaxSeed}, "Of all worlds; `etude run --seed` wins over it.")
+       Key::Number("seed", &Scenario::seed, {0, kMaxSeed}, "Seed of all worlds; `etude run --seed` overrides it.")
            .WhenAbsent("1"),
        {{"unit", NameKind(NamesOf(kSamplingUnits)), "(the task's)",
-         "What worlds are drawn from: what a claim beyond these worlds counts."},
+         "What worlds are drawn from; claims beyond these worlds count such units."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) { s.unit = ReadUnit(fields, kind); })},
        {{"sweep",
          {"a mapping of the task's parameters to lists or ranges", R"({"type":"object"})"},
@@ -184,11 +183,10 @@ const FieldTable<Scenario>& ScenarioFields() {
          "One condition for every combination of values."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) { s.conditions = ReadSweep(fields, kind); })},
        {{"libraries",
-         {"a mapping of names to lists as of `clips`", R"({"type":"object"})"},
+         {"a mapping of names to lists like `clips`", R"({"type":"object"})"},
          "(none)",
-         "Instead of `clips`: every condition once for each, its worlds made of those clips alone; `etude run "
-         "--library` "
-         "adds some."},
+         "Libraries that replace `clips`: every condition runs once per library, on its clips alone; `etude run "
+         "--library` adds some."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
           AddLibraries(ReadLibraries(fields, kind), s);
           CheckStreams(fields, s, kind);
@@ -196,30 +194,34 @@ const FieldTable<Scenario>& ScenarioFields() {
        {{"methods",
          {"a list of 1…100 methods", R"({"type":"array","minItems":1,"maxItems":100})"},
          "",
-         "What is compared, on the same worlds."},
+         "The methods compared, on the same worlds."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) { s.methods = ReadMethods(fields, kind); })},
        {{"across", ListKind("a list of swept parameters", TextKind("")), "[]",
-         "A verdict counts only when it is the same under all of their values: for what the simulation itself "
-         "invents."},
+         "Swept assumptions of the simulation: a verdict counts only if it is the same under all their values."},
         when_right([](Fields& fields, Scenario& s, const TaskKind&) {
           std::vector<std::string> swept;
           for (const SweptValue& value : s.conditions.front().swept) swept.push_back(value.key);
           s.across = ReadNames(fields, "across", swept);
         })},
        {{"rival", TextKind("a method"), "(the best is found)",
-         "The strongest method, against which all others are judged beside their baseline."},
+         "The strongest method: all others are compared with it, too, beside their baseline."},
         when_right([](Fields& fields, Scenario& s, const TaskKind&) {
           s.rival = fields.Choice("rival", MethodNames(s), "");
         })},
        {{"metrics", HeadlineKind(), "(the task's)",
-         "The headline metrics, most important first. A mapping is a metric of one's own; where there are only such, "
-         "the "
-         "task's come first."},
+         "The headline metrics, most important first. A mapping is a metric of your own; where there are only such, "
+         "the task's come first."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
           s.metrics = ReadHeadline(fields, kind, s.outside_metrics);
         })},
+       {{"success", MappingKind("a mapping", SuccessFields({}).Describe()), "{}",
+         "What a cell is to reach. A verdict is about it first, then about the first other headline metric."},
+        when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
+          s.success = kind.success;
+          ReadNested(fields, "success", SuccessFields(SuccessMetricsOf(kind, s)), s);
+        })},
        {{"expect", ListKind("a list of expectations", MappingKind("", ExpectationFields(unread, {}).Describe())), "[]",
-         "What should come out, judged after the run."},
+         "The results that are expected, checked after the run."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
           s.expectations = ReadListed(fields, "expect", "an expectation", ExpectationFields(s, MetricsOf(kind, s)));
         })},
@@ -231,10 +233,10 @@ const FieldTable<Scenario>& ScenarioFields() {
           if (fields.Raw("video") != nullptr) s.recordings = selection;
         })},
        {{"limits", MappingKind("a mapping", LimitFields().Describe()), "{}",
-         "What a cell, or the building of a world, may take before it is ended."},
+         "What a cell, or building a world, may take before it is stopped."},
         [](Fields& fields, Scenario& s) { ReadNested(fields, "limits", LimitFields(), s.limits); }},
        {{"gate", MappingKind("a mapping", GateFields(unread, {}).Describe()), "{}",
-         "What `etude gate` holds against a baseline."},
+         "What `etude gate` compares with a baseline."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
           s.gate.metrics = s.metrics;
           ReadNested(fields, "gate", GateFields(s, MetricsOf(kind, s)), s.gate);
@@ -318,7 +320,8 @@ Result<std::vector<Scenario>> ParseAll(const std::string& file, const TextOf& te
     ASSIGN_OR_RETURN(auto scenario, ParseScenario(node, file));
     values += scenario.conditions.size() * CountValues(node);
     if (values > kMaxFileValues) {
-      return Fail(node.place, "with this scenario, the conditions of the file hold more than {} values", kMaxFileValues);
+      return Fail(node.place, "with this scenario, the conditions of the file hold more than {} values",
+                  kMaxFileValues);
     }
     for (const Scenario& other : scenarios) {
       if (other.name != scenario.name) continue;
@@ -394,6 +397,8 @@ Study StudyOf(const Scenario& scenario) {
               .conditions = {},
               .metrics = scenario.metrics,
               .across = scenario.across,
+              .success = scenario.success,
+              .success_matters = scenario.success_matters,
               .rival = scenario.rival,
               .expectations = scenario.expectations,
               .gate = scenario.gate};

@@ -110,6 +110,8 @@ struct Scenario {
   std::vector<Condition> conditions;                ///< at least one
   std::vector<MethodEntry> methods;                 ///< at least one
   std::vector<std::string> metrics;                 ///< headline metrics; the task's if the file names none
+  std::string success = {};                         ///< the task's if the file names none
+  double success_matters = 0.05;                    ///< the smallest difference of success that matters, as a share
   std::vector<OutsideMetric> outside_metrics = {};  ///< those that other programs measure; also in `metrics`
   std::vector<std::string> across;  ///< swept parameters; a verdict must be the same under all of their values
   std::string rival;                ///< "" = the best method is found

@@ -47,8 +47,8 @@ class Collector {
     const Node* list = top.Find("scenarios");
     if (list == nullptr && top.Find("defaults") != nullptr) {
       return Fail(top.place,
-                  "no scenario, only 'defaults': files that others include stand in a folder of their own, "
-                  "such as shared/, which a run of this one leaves out");
+                  "no scenario, only 'defaults'; move files that others include to a folder of their own, such as "
+                  "shared/, which a run of this folder leaves out");
     }
     ASSIGN_OR_RETURN(auto defaults, DefaultsOf(top, file));
     // A file with a single scenario.
@@ -76,7 +76,7 @@ class Collector {
     for (const Node& item : list->items) {
       for (const Node::Entry& entry : item.entries) {
         if (!IsKeyOfFiles(entry.key)) continue;
-        return Fail(entry.place, "'{}' stands at the top of a file, not in one of its scenarios", entry.key);
+        return Fail(entry.place, "'{}' belongs at the top of a file, not in one of its scenarios", entry.key);
       }
       scenarios.push_back(WithDefaults(item, defaults));
     }
@@ -106,7 +106,7 @@ class Collector {
       const auto names = AsTexts(*list);
       if (!names) return Fail(names.error().place, "'include': {}", names.error().message);
       for (std::size_t i = 0; i < names->size(); ++i) {
-        if ((*names)[i].empty()) return Fail(list->items[i].place, "an empty name where a file is named");
+        if ((*names)[i].empty()) return Fail(list->items[i].place, "the name of a file is empty");
         const auto path = std::filesystem::path(file).parent_path() / (*names)[i];
         auto included = Included(path.lexically_normal().string(), list->items[i].place);
         if (!included) return included;
@@ -159,9 +159,9 @@ std::span<const KeyInfo> FileKeys() {
       {"defaults",
        {"a mapping", R"({"type":"object"})"},
        "{}",
-       "Keys of every scenario here that does not write them itself."},
+       "Keys for every scenario of this file that does not have them itself."},
       {"include", ListKind("a list of files", TextKind("")), "[]",
-       "Files with more `defaults`, their names relative to this file; a single scenario may have it, too."}};
+       "Files with more `defaults`, named relative to this file; also allowed in a file of a single scenario."}};
   return keys;
 }
 

@@ -40,7 +40,7 @@ Result<Steps> ReadRange(const Node::Entry& swept, std::size_t most) {
   Steps steps{.from = from, .to = to, .logarithmic = is_logarithmic};
   const Place& place = swept.value.place;
   if (step.has_value() == count.has_value()) {
-    return Fail(place, "a range says either 'step' or 'count', found {}", step ? "both" : "neither");
+    return Fail(place, "a range needs either 'step' or 'count', found {}", step ? "both" : "neither");
   }
   if (steps.logarithmic && (step || steps.from <= 0 || steps.to <= 0)) {
     return Fail(place, "'scale: log' needs 'count', and 'from' and 'to' above 0");
@@ -69,16 +69,16 @@ Result<Steps> ReadRange(const Node::Entry& swept, std::size_t most) {
 
 FieldTable<RangeWords> RangeFields(std::size_t most) {
   using Key = Field<RangeWords>;
-  return {{Key::Number("from", &RangeWords::from, {}, "The first value.").WhenAbsent(""),
-           Key::Number("to", &RangeWords::to, {}, "The last value; with `step`, it is not passed.").WhenAbsent(""),
-           Key::Number("step", &RangeWords::step, {}, "From one value to the next.")
-               .And("not 0")
-               .WhenAbsent("(`count` says it)"),
-           Key::Number("count", &RangeWords::count, {2, static_cast<double>(most)},
-                       "How many values, spread from `from` to `to`.")
-               .WhenAbsent("(`step` says it)"),
-           Key::Name("scale", &RangeWords::is_logarithmic, {{"linear", false}, {"log", true}},
-                     "Equal differences, or equal ratios; log goes with `count`.")}};
+  return {
+      {Key::Number("from", &RangeWords::from, {}, "The first value.").WhenAbsent(""),
+       Key::Number("to", &RangeWords::to, {}, "The last value; with `step`, no value goes beyond it.").WhenAbsent(""),
+       Key::Number("step", &RangeWords::step, {}, "Difference between successive values.")
+           .And("not 0")
+           .WhenAbsent("(from `count`)"),
+       Key::Number("count", &RangeWords::count, {2, static_cast<double>(most)}, "Number of values from `from` to `to`.")
+           .WhenAbsent("(from `step`)"),
+       Key::Name("scale", &RangeWords::is_logarithmic, {{"linear", false}, {"log", true}},
+                 "linear: equal differences; log: equal ratios, only with `count`.")}};
 }
 
 Result<std::vector<Node>> SweptValues(const Node::Entry& swept, std::size_t most) {
@@ -109,7 +109,7 @@ Result<std::vector<Node>> SweptValues(const Node::Entry& swept, std::size_t most
       return Fail(item.place, "a swept value must be a number or a text, found {}", Describe(item));
     }
     if (item.scalar.empty() || item.scalar.find_first_of(",=/ ") != std::string::npos) {
-      return Fail(item.place, "a swept value has no ',', '=', '/' or space, found {}", Describe(item));
+      return Fail(item.place, "a swept value must not contain ',', '=', '/' or a space, found {}", Describe(item));
     }
   }
   return value.items;
@@ -153,7 +153,7 @@ Result<Axis> ReadAxis(const std::vector<Node::Entry>& parameters) {
     if (axis.empty()) axis.resize(values.size());
     if (axis.size() != values.size()) {
       return Fail(parameter.value.place,
-                  "'{}' and '{}' are stepped together; they need as many values each, found {} and {}",
+                  "'{}' and '{}' are stepped together; they need equally many values, found {} and {}",
                   parameters.front().key, parameter.key, axis.size(), values.size());
     }
     for (std::size_t i = 0; i < axis.size(); ++i) axis[i].push_back({parameter.key, parameter.place, values[i]});
@@ -165,9 +165,9 @@ Result<Axis> ReadAxis(const std::vector<Node::Entry>& parameters) {
     if (std::none_of(axis.begin(), here, repeated)) continue;
     const Point& point = axis[i];
     if (point.size() == 1) {
-      return Fail(point[0].value.place, "the value '{}' stands here twice", point[0].value.scalar);
+      return Fail(point[0].value.place, "the value '{}' is listed twice", point[0].value.scalar);
     }
-    return Fail(point[0].value.place, "the values '{}' stand here twice", ConditionLabel(At({}, point).swept));
+    return Fail(point[0].value.place, "the values '{}' are listed twice", ConditionLabel(At({}, point).swept));
   }
   return axis;
 }
@@ -179,8 +179,8 @@ Result<std::vector<Node>> ReadGroups(const Node& together) {
   for (const Node& group : groups) {
     if (group.kind == Node::Kind::kMapping && group.entries.size() >= 2) continue;
     return Fail(group.place,
-                "'together' needs at least two parameters with as many values each, such as "
-                "{{noise: [1, 2], turn_deg: [0, 60]}}, found {}",
+                "'together' needs at least two parameters with equally many values, such as {{noise: [1, 2], turn_deg: "
+                "[0, 60]}}, found {}",
                 group.kind == Node::Kind::kMapping ? "fewer" : Describe(group));
   }
   return groups;

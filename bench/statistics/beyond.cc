@@ -7,16 +7,13 @@
 #include <numeric>
 #include <tuple>
 
-#include "bench/statistics/bootstrap.h"
 #include "bench/statistics/distributions.h"
+#include "bench/statistics/interval.h"
 #include "bench/statistics/paired_tests.h"
+#include "bench/statistics/pseudo_median.h"
 
 namespace etude {
 namespace {
-
-/// With more comparisons than this the sign flips cannot decide: many units need drawn signs, and no drawn p lies below
-/// 1 / 10,000.
-constexpr int kMaxDrawnComparisons = 500;
 
 /// The sums of differences and the numbers of worlds of each unit, and the sum over all worlds.
 struct UnitSums {
@@ -57,27 +54,31 @@ double JackknifeError(std::span<const LeftOut> left_out) {
   return std::sqrt((n - 1) / n * squares);
 }
 
-/// Returns the distribution-free interval of the median of at least kMinUnits values, from order statistics.
-std::pair<double, double> MedianInterval(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const int n = static_cast<int>(values.size());
-  int rank = 1;  // of the interval's ends, counted from the outermost values
-  while (2 * FairCoinUpperTail(n - rank, n) <= kAlpha) ++rank;
-  return {values[static_cast<std::size_t>(rank - 1)], values[static_cast<std::size_t>(n - rank)]};
-}
-
-/// Returns true if sign flips can reach 5 % among these comparisons (Bonferroni), also where the signs are drawn.
-bool CanFlipSigns(int units, int comparisons) {
-  return SmallestP(units) * comparisons <= kAlpha && comparisons <= kMaxDrawnComparisons;
-}
-
 /// The t test of an estimate. A standard error of zero has no t distribution: then p is the smallest that sign flips of
 /// this many units can reach.
-PairedTest StudentTest(double estimate, double error, int units, std::string how) {
+PairedTest StudentTest(double estimate, double error, int units) {
+  std::string how = "t test of units' means";
   if (estimate == 0) return {1.0, std::move(how)};
   if (error <= 1e-12 * std::abs(estimate)) return {SmallestP(units), std::move(how)};
   return {KeepThirtyBits(StudentTwoSided(estimate / error, units - 1)), std::move(how)};
 }
+
+/// Returns the interval of the mean of values that are −1, 0 or 1.
+std::pair<double, double> ShareInterval(std::span<const double> values) {
+  const auto gained = std::ranges::count(values, 1.0), lost = std::ranges::count(values, -1.0);
+  const Interval interval =
+      PairedShareInterval(static_cast<int>(gained), static_cast<int>(lost), static_cast<int>(values.size()));
+  return {interval.low, interval.high};
+}
+
+/// Returns true if the interval lies on one side of zero. It may touch zero where the estimate does not: units without
+/// a difference make many Walsh averages zero, and the test counts them.
+bool IsOnOneSide(const Beyond& beyond) {
+  return (*beyond.low >= 0 && *beyond.difference > 0) || (*beyond.high <= 0 && *beyond.difference < 0);
+}
+
+/// Returns true if the mean has the sign of the pseudo-median, so that no few units outweigh the others.
+bool MeanAgrees(const Beyond& beyond) { return *beyond.mean * *beyond.difference > 0; }
 
 }  // namespace
 
@@ -97,9 +98,9 @@ UnitSample UnitsOf(const PairedWorlds& paired, const ConditionTable& table, cons
   return sample;
 }
 
-Beyond MeasureBeyond(const UnitSample& sample, int comparisons, std::uint64_t seed, const std::string& purpose) {
+Beyond MeasureBeyond(const UnitSample& sample, int comparisons) {
   Beyond beyond;
-  // Reduce the worlds to one mean difference per unit.
+  // The mean over units, or over worlds if a world has several units.
   const UnitSums sums = SumUnits(sample);
   const std::vector<std::size_t> order = OrderOfUnits(sample, sums);
   beyond.units = static_cast<int>(order.size());
@@ -107,50 +108,58 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons, std::uint64_t se
   std::vector<double> means;
   for (std::size_t unit : order) means.push_back(KeepThirtyBits(sums.sums[unit] / sums.worlds[unit]));
   beyond.differing = static_cast<int>(std::count_if(means.begin(), means.end(), [](double mean) { return mean != 0; }));
-  // Estimate: the mean over units, or over worlds if a world has several units.
   const bool one_way = sample.IsOneWay();
   const double n = static_cast<double>(means.size()), worlds = static_cast<double>(sample.differences.size());
   const double sum_of_means = std::accumulate(means.begin(), means.end(), 0.0);
-  const double estimate = one_way ? sum_of_means / n : sums.total / worlds;
-  // Leave out one unit at a time, with all of its worlds.
+  const double mean = one_way ? sum_of_means / n : sums.total / worlds;
+  beyond.mean = mean;
+  // The mean without one unit, with all of its worlds, for each unit.
   for (std::size_t i = 0; i < order.size(); ++i) {
     const double rest = one_way ? n - 1 : worlds - sums.worlds[order[i]];
     if (rest == 0) continue;  // all worlds share this unit: nothing is left without it
     const double sum = one_way ? sum_of_means - means[i] : sums.total - sums.sums[order[i]];
     beyond.left_out.push_back({sample.names[order[i]], sum / rest});
   }
-  beyond.difference = estimate;
+  // One value per unit, and their pseudo-median.
+  std::vector<double> values = means;
+  if (!one_way && beyond.left_out.size() == means.size()) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = KeepThirtyBits(n * mean - (n - 1) * beyond.left_out[i].difference);
+    }
+  }
+  const bool is_yes_or_no =
+      std::ranges::all_of(values, [](double value) { return std::abs(value) == 1 || value == 0; });
+  const PseudoMedian centre = PseudoMedianOf(values);
+  beyond.difference = is_yes_or_no ? mean : centre.value;
   if (beyond.units < kMinUnits || beyond.left_out.size() < means.size()) return beyond;
-  // Interval by Student's t from the jackknife's standard error.
+  std::tie(beyond.low, beyond.high) = is_yes_or_no ? ShareInterval(values) : *centre.interval;
+  // The interval of the mean, by Student's t from the jackknife's standard error.
   const double error = JackknifeError(beyond.left_out);
   const double half = StudentQuantile(1 - kAlpha / 2, beyond.units - 1) * error;
-  beyond.low = KeepThirtyBits(estimate - half);
-  beyond.high = KeepThirtyBits(estimate + half);
-  std::tie(beyond.median_low, beyond.median_high) = MedianInterval(means);
-  // Choose the test by the design and the counts, never by the result.
-  if (!one_way) {
-    beyond.test = StudentTest(estimate, error, beyond.units, "t test, clips left out in turn");
-  } else if (CanFlipSigns(beyond.units, comparisons)) {
-    beyond.test = SignFlipTest(means, Aggregate::kMean, seed, purpose + "/beyond");
-    beyond.test.how = "sign flips of units' means, " + beyond.test.how;
+  beyond.mean_low = KeepThirtyBits(mean - half);
+  beyond.mean_high = KeepThirtyBits(mean + half);
+  // Choose the test by the counts, never by the result.
+  if (SmallestP(beyond.units) * comparisons <= kAlpha) {
+    // Values of one size have equal ranks: this is the sign test.
+    beyond.test = SignedRankTest(values);
+    beyond.test.how = "signed ranks of units, " + beyond.test.how;
   } else {
-    beyond.test = StudentTest(estimate, error, beyond.units, "t test of units' means");
+    beyond.test = StudentTest(mean, error, beyond.units);
   }
   return beyond;
 }
 
 std::optional<Verdict> VerdictBeyond(const Beyond& beyond, const MetricInfo& metric) {
   if (!beyond.low || !beyond.p_holm) return std::nullopt;
-  // An interval within ± threshold is "no difference" if the median's agrees and enough units differ.
+  // An interval within ± threshold is "no difference" if the mean's agrees and enough units differ.
   const auto is_within = [&](double low, double high) { return low >= -metric.practical && high <= metric.practical; };
   if (is_within(*beyond.low, *beyond.high)) {
-    const bool holds = is_within(*beyond.median_low, *beyond.median_high) && beyond.differing >= kMinUnits;
+    const bool holds = is_within(*beyond.mean_low, *beyond.mean_high) && beyond.differing >= kMinUnits;
     return holds ? Verdict::kNoDifference : Verdict::kInconclusive;
   }
   // Otherwise a clear verdict needs the interval, the test and the threshold.
-  const bool beyond_zero = *beyond.low > 0 || *beyond.high < 0;
-  if (!beyond_zero || *beyond.p_holm > kAlpha || std::abs(*beyond.difference) < metric.practical ||
-      metric.direction == Direction::kNeither) {
+  if (!IsOnOneSide(beyond) || !MeanAgrees(beyond) || *beyond.p_holm > kAlpha ||
+      std::abs(*beyond.difference) < metric.practical || metric.direction == Direction::kNeither) {
     return Verdict::kInconclusive;
   }
   const bool lower = *beyond.difference < 0;
@@ -159,8 +168,7 @@ std::optional<Verdict> VerdictBeyond(const Beyond& beyond, const MetricInfo& met
 
 std::string WhyOpenBeyond(const Beyond& beyond, const MetricInfo& metric, SamplingUnit unit, int comparisons) {
   if (beyond.units < kMinUnits) {
-    return fmt::format("{}: no verdict beyond them; at least {} are needed", CountUnits(beyond.units, unit),
-                       kMinUnits);
+    return fmt::format("{}: no verdict beyond them; at least {} are needed", CountUnits(beyond.units, unit), kMinUnits);
   }
   if (!beyond.low) return "every world shows the same clip: no verdict beyond it";
   if (beyond.verdict != Verdict::kInconclusive) return "";
@@ -169,8 +177,10 @@ std::string WhyOpenBeyond(const Beyond& beyond, const MetricInfo& metric, Sampli
     return fmt::format("{} of {} differ: too few to exclude rare ones that do", beyond.differing,
                        CountUnits(beyond.units, unit));
   }
-  if (within) return "the mean lies within what matters, but whether the median does is open";
-  if (*beyond.low <= 0 && *beyond.high >= 0) return "the interval holds zero, and differences that matter";
+  if (within) return "the middle lies within what matters, but whether the mean does is open";
+  if (!IsOnOneSide(beyond)) return "the interval holds zero, and differences that matter";
+  if (!MeanAgrees(beyond))
+    return "the middle differs, but the mean does not differ the same way: few outweigh the others";
   if (*beyond.p_holm > kAlpha) {
     return *beyond.test.p > kAlpha
                ? "the interval excludes zero, but the test does not confirm it"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -26,24 +25,29 @@ constexpr int kMinUnits = 6;
 
 /// Estimates the difference for other units like those of the sample. The verdict is left open.
 ///
-/// *One unit per world*: the estimate is the mean of the units' mean differences; its interval is Student's over these
-/// means. The test flips the signs of the means where that can reach 5 % among `comparisons` (2^(1 − units) ×
-/// comparisons ≤ 0.05), and is the t test otherwise. The choice depends on the numbers of units and comparisons, never
-/// on the result.
+/// Each unit contributes one value. With *one unit per world* it is the mean of the unit's differences. With *several
+/// units per world* (clip left × clip entered), worlds that share a clip, in either role, are correlated; a unit's
+/// value is then the jackknife's pseudo-value n · mean − (n − 1) · mean without the unit's worlds (Tukey 1958; for
+/// nodes of a network Snijders & Borgatti 1999). With one unit per world both are the same.
 ///
-/// *Several units per world* (clip left × clip entered): worlds that share a clip, in either role, are correlated. The
-/// estimate is the mean over worlds; its standard error is the jackknife's that leaves out one clip with all its worlds
-/// (Tukey 1958; for nodes of a network Snijders & Borgatti 1999), with Student's t of clips − 1 degrees of freedom.
-/// With one unit per world this is the interval above.
+/// The estimate is the pseudo-median of these values, with its interval, because intervals of a mean over few units
+/// fail where units are skewed, or one lies far off (docs/findings/verdicts.md). The mean stands beside it, with
+/// Student's interval from the jackknife's standard error. Where every unit's value is −1, 0 or 1 (one yes-or-no world
+/// each) the estimate is the mean, with the interval of two shares: such values are symmetric if their mean is zero.
+/// The test is Wilcoxon's signed-rank test of the values where that can reach 5 % among `comparisons` (2^(1 − units) ×
+/// comparisons ≤ 0.05), and Student's t test of their mean otherwise. The choice depends on the numbers of units and
+/// comparisons, never on the result.
 ///
-/// With fewer than kMinUnits units the result holds the estimate and the leave-one-out estimates, but no interval and
+/// With fewer than kMinUnits units the result holds the estimate and the leave-one-out means, but no interval and
 /// no test.
-Beyond MeasureBeyond(const UnitSample& sample, int comparisons, std::uint64_t seed, const std::string& purpose);
+Beyond MeasureBeyond(const UnitSample& sample, int comparisons);
 
 /// Returns the verdict that the estimate and its `p_holm` allow:
 ///   nothing          fewer than kMinUnits units
-///   no difference    the intervals of mean and median over units lie within ± threshold, and at least kMinUnits differ
-///   better / worse   p_holm ≤ alpha, the interval lies on one side of zero, and |mean| is at least the threshold
+///   no difference    the intervals of pseudo-median and mean lie within ± threshold, and at least kMinUnits differ
+///   better / worse   p_holm ≤ alpha, the interval of the pseudo-median lies on one side of zero, the pseudo-median is
+///   at
+///                    least the threshold in size, and the mean has its sign
 ///   inconclusive     anything else
 std::optional<Verdict> VerdictBeyond(const Beyond& beyond, const MetricInfo& metric);
 

@@ -81,6 +81,10 @@ Comparison ComparePaired(std::span<const Pair> pairs, const MetricInfo& metric, 
   // For a metric without a direction, larger values count as better here.
   const double sign = metric.direction == Direction::kLowerIsBetter ? -1 : 1;
   result.share_better = ShareBetter(differences, sign);
+  for (double difference : differences) {
+    if (difference == 0 || std::abs(difference) < metric.practical) continue;
+    ++(sign * difference > 0 ? result.better : result.worse);
+  }
   result.effect_size = RankBiserial(differences) * sign + 0.0;
   result.p_holm = DecidingP(result, metric);
   result.verdict = VerdictOf(result, metric, confidence);

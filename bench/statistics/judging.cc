@@ -140,6 +140,9 @@ void CopyVerdictsBeyond(Comparison& comparison) {
   beyond.difference = comparison.difference;
   beyond.low = comparison.ci_low;
   beyond.high = comparison.ci_high;
+  beyond.mean = comparison.mean;
+  beyond.mean_low = comparison.mean_low;
+  beyond.mean_high = comparison.mean_high;
   const MetricInfo& metric = *FindMetric(comparison.metric);
   beyond.test = metric.aggregate == Aggregate::kMedian ? comparison.signed_rank : comparison.sign_flip;
   beyond.p_holm = comparison.p_holm;
@@ -242,8 +245,8 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
   if (!found.ci_low)
     return {ClaimOutcome::kUndecided, fmt::format("only {} worlds have both values{}", found.pairs, missing)};
   const ClaimOutcome ruling = found.verdict == Verdict::kBetter         ? ClaimOutcome::kMet
-                        : found.verdict == Verdict::kInconclusive ? ClaimOutcome::kUndecided
-                                                                  : ClaimOutcome::kUnmet;
+                              : found.verdict == Verdict::kInconclusive ? ClaimOutcome::kUndecided
+                                                                        : ClaimOutcome::kUnmet;
   // The figures behind it.
   std::string detail = fmt::format("difference {:.4g} ({:.4g} % interval {:.4g} to {:.4g}, p = {:.2g}) on {} worlds{}",
                                    *found.difference, 100 * expectation.confidence, *found.ci_low, *found.ci_high,
@@ -336,7 +339,8 @@ ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& 
     result.detail += label.empty() ? finding.detail : label + ": " + finding.detail;
     // One unmet condition makes the whole unmet; otherwise one undecided condition makes it undecided.
     if (finding.ruling == ClaimOutcome::kUnmet) result.ruling = ClaimOutcome::kUnmet;
-    if (finding.ruling == ClaimOutcome::kUndecided && result.ruling == ClaimOutcome::kMet) result.ruling = finding.ruling;
+    if (finding.ruling == ClaimOutcome::kUndecided && result.ruling == ClaimOutcome::kMet)
+      result.ruling = finding.ruling;
   }
   return result;
 }

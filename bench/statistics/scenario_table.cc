@@ -14,12 +14,6 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// Returns the half of the worlds that a trial belongs to. Worlds of one unit are in the same half.
-int HalfOf(const ConditionTable& table, int trial) {
-  const std::vector<int>& units = table.world_units[static_cast<std::size_t>(trial)];
-  return (units.size() == 1 && table.units.size() > 1 ? units.front() : trial) % 2;
-}
-
 /// Returns the worst value that any method measured, which stands for a failed cell; nothing if no value exists.
 std::optional<double> WorstOf(const ConditionTable& table, const MetricInfo& metric) {
   std::optional<double> worst;
@@ -86,6 +80,11 @@ std::string BestOther(const Study& study, const ConditionTable& table, const Com
 }
 
 }  // namespace
+
+int HalfOf(const ConditionTable& table, int trial) {
+  const std::vector<int>& units = table.world_units[static_cast<std::size_t>(trial)];
+  return (units.size() == 1 && table.units.size() > 1 ? units.front() : trial) % 2;
+}
 
 void MethodColumns::Add(const Row& row) {
   const auto trial = static_cast<std::size_t>(row.trial);

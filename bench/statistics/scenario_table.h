@@ -65,6 +65,9 @@ class ScenarioTable {
   std::size_t last_ = 0;  ///< the condition of the last row, searched first: rows of one condition come together
 };
 
+/// Returns the half of the worlds that a trial belongs to, 0 or 1. Worlds of one unit are in the same half.
+int HalfOf(const ConditionTable& table, int trial);
+
 /// The values of one metric for two methods in the worlds of a condition. Worlds skipped for both are not counted at
 /// all.
 struct PairedWorlds {

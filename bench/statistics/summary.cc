@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "bench/statistics/answers.h"
 #include "bench/statistics/beyond.h"
 #include "bench/statistics/bootstrap.h"
 #include "bench/statistics/interval.h"
@@ -86,10 +87,9 @@ struct Family {
   int size = 0;  ///< number of comparisons that are judged together
 
   /// Estimates the difference for other units; empty if every world is its own unit.
-  Beyond MeasureUnits(const PairedWorlds& worlds, const ConditionTable& table, const MetricInfo& metric,
-                      const std::string& purpose) const {
+  Beyond MeasureUnits(const PairedWorlds& worlds, const ConditionTable& table, const MetricInfo& metric) const {
     if (WorldsAreUnits(study.unit)) return {};
-    return MeasureBeyond(UnitsOf(worlds, table, metric), size, seed, purpose);
+    return MeasureBeyond(UnitsOf(worlds, table, metric), size);
   }
 
   /// Measures one comparison. Its verdict is left open, because it depends on the other comparisons.
@@ -99,10 +99,10 @@ struct Family {
     question.comparison.only_baseline = worlds.only_baseline;
     question.comparison.only_method = worlds.only_method;
     question.comparison.neither = worlds.neither;
-    question.comparison.beyond = MeasureUnits(worlds, table, metric, purpose);
+    question.comparison.beyond = MeasureUnits(worlds, table, metric);
     if (const auto all = WithFailures(worlds, metric)) {
       question.with_failures = ComparePaired(all->pairs, metric, seed, purpose + "/failures");
-      question.with_failures->beyond = MeasureUnits(*all, table, metric, purpose + "/failures");
+      question.with_failures->beyond = MeasureUnits(*all, table, metric);
     }
     return question;
   }
@@ -186,6 +186,8 @@ ConditionFindings MeasureCondition(const Study& study, const ConditionTable& tab
   if (!study.metrics.empty()) {
     findings.summary.budgets = ComputeErrorBudgets(study, table, study.metrics.front(), seed);
   }
+  findings.summary.answers = MeasureAnswersAgainstBaselines(study, table, seed);
+  findings.summary.rival_answers = MeasureAnswersAgainstRivals(study, table, seed);
   findings.against_baselines = AskAgainstBaselines(study, table, seed);
   findings.against_rivals = AskAgainstRivals(study, table, seed);
   return findings;
@@ -204,6 +206,7 @@ ScenarioSummary JudgeFindings(const Study& study, const ScenarioTable& table, st
       JudgeTogether(findings, study.unit, &ConditionFindings::against_baselines, &ConditionSummary::comparisons);
   JudgeTogether(findings, study.unit, &ConditionFindings::against_rivals, &ConditionSummary::rivals);
   for (ConditionFindings& of_condition : findings) summary.conditions.push_back(std::move(of_condition.summary));
+  JudgeAnswers(study, summary.conditions);
   summary.across = JudgeAcross(study, summary.conditions);
   for (const Expectation& expectation : study.expectations) {
     summary.expectations.push_back(JudgeExpectation(expectation, study, table, seed));

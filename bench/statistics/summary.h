@@ -16,7 +16,7 @@ int CountComparisons(const Study& study);
 /// The summary of one condition with its comparisons, before they are judged together with those of all other
 /// conditions.
 struct ConditionFindings {
-  ConditionSummary summary;  ///< without comparisons
+  ConditionSummary summary;  ///< without comparisons; its answers are not judged yet
   std::vector<Question> against_baselines, against_rivals;
 };
 /// Measures one condition. Random streams are keyed by what is compared alone, so conditions may be measured in any

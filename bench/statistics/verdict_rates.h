@@ -10,15 +10,20 @@
 
 namespace etude {
 
-/// The distribution of the worlds' differences. Without an effect each is symmetric around zero.
+/// The distribution of the differences. Without an effect the pseudo-median of the units' means is zero: the first five
+/// laws are symmetric; a unit draws from one of the others, and its worlds add normal noise.
 enum class SampleLaw {
   kNormal,
   kHeavyTailed,  ///< Student's t of 3 degrees of freedom
   kTies,         ///< normal, but six worlds of ten have a difference of zero
   kShares,       ///< difference of two 0/1 values: −1, 0 or 1
   kCensored,     ///< penalised costs (PAR-2): log-normal; three of ten exceed the limit and count as twice the limit
+  kLogNormal,    ///< of σ = 1
+  kFarOff,       ///< normal, but one unit in ten lies 5 σ off
+  kBimodal,      ///< −1 or 1, with normal noise of 0.3
 };
-inline constexpr int kSampleLaws = 5;
+inline constexpr int kSampleLaws = 8;
+inline constexpr int kWorldLaws = 5;  ///< the first laws, which worlds draw from, too
 std::string_view SampleLawName(SampleLaw law);
 
 /// The design of a random sample.
@@ -31,11 +36,11 @@ struct SampleDesign {
   double part_alike = 0;  ///< correlation of one unit's contributions in the two roles
 };
 
-/// Returns the practical threshold in the sample's own unit: a third of the worlds' standard deviation; a sixth for
+/// Returns the practical threshold in the sample's own unit: a third of the law's standard deviation; a sixth for
 /// shares and penalised costs, so that an effect of four times as much is still possible.
 double JustMatters(SampleLaw law);
 
-/// Draws a sample whose true mean difference is `effect` × JustMatters.
+/// Draws a sample whose true mean difference is `effect` × JustMatters more than without an effect.
 UnitSample DrawSample(const SampleDesign& design, double effect, RandomStream& dice);
 
 /// A share of samples in per cent, with its 95 % Wilson interval.
@@ -51,7 +56,8 @@ struct VerdictRates {
   Percentage false_alarms;
   /// The share of false alarms of a test that treats worlds as units.
   Percentage false_alarms_of_worlds;
-  /// The share of intervals that contain the true mean: without an effect, and with an effect of twice the threshold.
+  /// The share of intervals that contain the true pseudo-median: without an effect, and with one of twice the
+  /// threshold.
   double coverage_without = 0, coverage_with = 0;
   /// The share of right verdicts where the effect is 1, 2 and 4 times the threshold.
   std::array<double, 3> power{};
@@ -67,15 +73,17 @@ struct VerdictRepetitions {
 VerdictRates MeasureVerdicts(const SampleDesign& design, const VerdictRepetitions& repetitions);
 
 /// Returns the designs of docs/findings/verdicts.md: 6, 8, 12 and 30 units × 1, 3 and 10 worlds per unit × correlations
-/// of 0, 0.5 and 0.9 × every distribution; then 60 worlds drawn from two units each, of 6, 8, 12 and 30.
+/// of 0, 0.5 and 0.9 × every law of worlds; 60 worlds drawn from two units each, of 6, 8, 12 and 30; then uneven units:
+/// one world each of 6 to 60 units.
 std::vector<SampleDesign> PublishedDesigns();
 
 /// Measures each design. Calls `done` after each with the number of designs measured so far.
 std::vector<VerdictRates> MeasureAll(std::span<const SampleDesign> designs, const VerdictRepetitions& repetitions,
                                      const std::function<void(std::size_t)>& done);
 
-/// Returns true if the verdicts of a design keep the promised rates: the 95 % interval of false alarms starts at 5 % or
-/// below and ends at 6.5 % or below, and without an effect at least 93 % of the intervals contain the truth.
+/// Returns true if the verdicts of a design keep the promised rates: the 95 % interval of false alarms starts at 5.5 % or
+/// below (6 % for laws of units) and ends at 6.5 % or below, and without an effect at least 93 % of the intervals contain
+/// the truth. Of hundreds of designs with a rate of exactly 5 % some intervals start above it, hence the half per cent.
 bool KeepsPromise(const VerdictRates& rates);
 
 /// Returns the tables of docs/findings/verdicts.md.

@@ -18,7 +18,7 @@ Result<PagmoEvolve*> OpenModule() {
   void* module = ::dlopen("etude_training_pagmo.so", RTLD_NOW | RTLD_LOCAL);
   if (module == nullptr) return Fail({}, "the genetic algorithm cannot be loaded: {}", ::dlerror());
   const void* symbol = ::dlsym(module, "etude_pagmo_evolve");
-  if (symbol == nullptr) return Fail({}, "etude_training_pagmo.so is no module of this program");
+  if (symbol == nullptr) return Fail({}, "etude_training_pagmo.so is not a module of this program");
   return *static_cast<PagmoEvolve* const*>(symbol);
 }
 

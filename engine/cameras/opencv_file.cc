@@ -122,6 +122,9 @@ glm::dmat3 MatrixOfRodrigues(const glm::dvec3& vector) {
 }
 
 Result<glm::dmat3> RotationOf(std::span<const double> n, std::string_view what) {
+  if (!std::ranges::all_of(n, [](double value) { return std::isfinite(value); })) {
+    return Fail({}, "{} has a number that is not finite", what);
+  }
   if (n.size() == 3) return MatrixOfRodrigues({n[0], n[1], n[2]});
   if (n.size() != 9)
     return Fail({}, "{} has {} numbers; allowed: 3 (Rodrigues' vector) or 9 (a matrix)", what, n.size());
@@ -184,6 +187,16 @@ std::vector<double> MatrixNamed(std::string_view text, std::string_view name) {
   return NumbersOf(behind->substr(from + 5, to - from - 5)).value_or(std::vector<double>{});
 }
 
+/// Returns true if a matrix is there and holds no number.
+bool IsEmptyMatrix(std::string_view text, std::string_view name) {
+  const auto behind = Behind(text, name);
+  const std::size_t from = behind ? behind->find("data:") : std::string_view::npos;
+  if (from == std::string_view::npos) return false;
+  const std::size_t open = behind->find('[', from), close = behind->find(']', from);
+  return open < close && close != std::string_view::npos &&
+         behind->substr(open + 1, close - open - 1).find_first_not_of(" \t\r\n") == std::string_view::npos;
+}
+
 double NumberNamed(std::string_view text, std::string_view name) {
   const auto behind = Behind(text, name);
   if (!behind) return 0;
@@ -210,6 +223,15 @@ Result<Camera> ReadOpenCvCamera(std::string_view text) {
                      .camera_matrix = MatrixNamed(text, "camera_matrix"),
                      .distortion = MatrixNamed(text, "distortion_coefficients"),
                      .is_fisheye = NumberNamed(text, "fisheye") != 0};
+  // A lens that is there but cannot be read must not count as none.
+  const bool has_lens = Behind(text, "distortion_coefficients").has_value();
+  if (has_lens && p.distortion.empty() && !IsEmptyMatrix(text, "distortion_coefficients")) {
+    return Fail({}, "distortion_coefficients cannot be read; allowed: a matrix of OpenCV");
+  }
+  if (const auto flag = Behind(text, "fisheye")) {
+    const auto numbers = NumbersOf(flag->substr(0, flag->find('\n')));
+    if (!numbers || numbers->size() != 1) return Fail({}, "fisheye cannot be read; allowed: 0 or 1");
+  }
   for (const char* name : {"R", "T"}) {
     if (!Behind(text, name)) continue;
     const std::vector<double> values = MatrixNamed(text, name);

@@ -92,6 +92,9 @@ Result<NamedCamera> ReadTable(const std::string& name, const Keys& keys, int lin
   }
   const auto& t = values["translation"];
   const auto fisheye = keys.find("fisheye");
+  if (fisheye != keys.end() && fisheye->second != "true" && fisheye->second != "false") {
+    return Fail(place, "camera {}: fisheye is {}; allowed: true, false", name, fisheye->second);
+  }
   const auto R = RotationOf(values["rotation"], "rotation");
   if (!R) return Fail(place, "camera {}: {}", name, R.error().message);
   const OpenCvParameters p{.width = values["size"][0],

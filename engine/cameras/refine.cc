@@ -2,6 +2,7 @@
 
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/crs_matrix.h>
+#include <ceres/jet.h>
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
@@ -11,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "engine/cameras/angle_axis.h"
 #include "engine/cameras/camera_parameters.h"
@@ -27,11 +29,40 @@ constexpr std::array<const char*, kIntrinsicsCount> kIntrinsicsNames = {
 /// target.
 constexpr int kPoseCount = 6;
 
+/// Returns true if a lens has more than the five coefficients that are estimated.
+bool IsBeyondBrown(const Distortion& d) {
+  const Distortion brown{.k1 = d.k1, .k2 = d.k2, .p1 = d.p1, .p2 = d.p2, .k3 = d.k3};
+  return d != brown;
+}
+
+/// Distorts a ray by any lens, for Ceres: the derivatives are those of `Distort` by central differences.
+std::array<double, 2> DistortByAny(const Distortion& lens, double x, double y) {
+  const glm::dvec2 shown = Distort(lens, {x, y});
+  return {shown.x, shown.y};
+}
+template <int kCount>
+std::array<ceres::Jet<double, kCount>, 2> DistortByAny(const Distortion& lens, const ceres::Jet<double, kCount>& x,
+                                                       const ceres::Jet<double, kCount>& y) {
+  constexpr double kStep = 1e-6;
+  const glm::dvec2 ray(x.a, y.a), shown = Distort(lens, ray);
+  const auto slope = [&](const glm::dvec2& step) {
+    return (Distort(lens, ray + step) - Distort(lens, ray - step)) / (2 * kStep);
+  };
+  const glm::dvec2 by_x = slope({kStep, 0}), by_y = slope({0, kStep});
+  std::array<ceres::Jet<double, kCount>, 2> distorted;
+  for (int i = 0; i < 2; ++i) {
+    distorted[i].a = shown[i];
+    distorted[i].v = by_x[i] * x.v + by_y[i] * y.v;
+  }
+  return distorted;
+}
+
 /// The reprojection error of a point. It repeats the five-coefficient distortion of camera.h because Ceres
-/// differentiates it.
+/// differentiates it; any other lens is held fixed.
 struct ReprojectionError {
   glm::dvec3 p_TQ;
   glm::dvec2 pixel;
+  std::optional<Distortion> fixed_lens;
 
   template <typename T>
   bool operator()(const T* intrinsics, const T* camera, const T* target, T* residual) const {
@@ -45,8 +76,13 @@ struct ReprojectionError {
     const T x = in_camera[0] / in_camera[2], y = in_camera[1] / in_camera[2];
     const T r2 = x * x + y * y;
     const T gain = 1.0 + r2 * (intrinsics[kK1] + r2 * (intrinsics[kK2] + r2 * intrinsics[kK3]));
-    const T xd = x * gain + 2.0 * intrinsics[kP1] * x * y + intrinsics[kP2] * (r2 + 2.0 * x * x);
-    const T yd = y * gain + intrinsics[kP1] * (r2 + 2.0 * y * y) + 2.0 * intrinsics[kP2] * x * y;
+    T xd = x * gain + 2.0 * intrinsics[kP1] * x * y + intrinsics[kP2] * (r2 + 2.0 * x * x);
+    T yd = y * gain + intrinsics[kP1] * (r2 + 2.0 * y * y) + 2.0 * intrinsics[kP2] * x * y;
+    if (fixed_lens) {
+      const auto distorted = DistortByAny(*fixed_lens, x, y);
+      xd = distorted[0];
+      yd = distorted[1];
+    }
     residual[0] = intrinsics[kFx] * xd + intrinsics[kSkew] * yd + intrinsics[kCx] - pixel.x;
     residual[1] = intrinsics[kFy] * yd + intrinsics[kCy] - pixel.y;
     return true;
@@ -151,13 +187,16 @@ class Bundle {
         eigen.eigenvectors() * eigen.eigenvalues().cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
     const double freedom = 2.0 * static_cast<double>(points_) - static_cast<double>(parameters());
     const double sigma = freedom > 0 ? std::sqrt(2 * cost_ / freedom) : 0;
+    const Eigen::VectorXd by_views =
+        VariancesByViews(scale.cwiseInverse().asDiagonal() * inverse * scale.cwiseInverse().asDiagonal());
     std::vector<IntrinsicsDeviation> deviations(intrinsics_.size());
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       if (columns_[i].intrinsic < 0 || columns_[i].intrinsic > kCy) continue;
       IntrinsicsDeviation& of = deviations[columns_[i].camera];
       double* const members[] = {&of.fx, &of.fy, &of.cx, &of.cy};
       const auto at = static_cast<Eigen::Index>(i);
-      *members[columns_[i].intrinsic] = sigma * std::sqrt(std::max(0.0, inverse(at, at))) / scale[at];
+      const double independent = sigma * std::sqrt(std::max(0.0, inverse(at, at))) / scale[at];
+      *members[columns_[i].intrinsic] = std::max(independent, std::sqrt(by_views[at]));
     }
     return deviations;
   }
@@ -170,7 +209,9 @@ class Bundle {
       Camera& camera = rig.cameras[i];
       camera.intrinsics = {
           camera.intrinsics.width, camera.intrinsics.height, in[kFx], in[kFy], in[kCx], in[kCy], in[kSkew]};
-      camera.distortion = {.k1 = in[kK1], .k2 = in[kK2], .p1 = in[kP1], .p2 = in[kP2], .k3 = in[kK3]};
+      if (options_.lens != LensModel::kAsInCamera) {
+        camera.distortion = {.k1 = in[kK1], .k2 = in[kK2], .p1 = in[kP1], .p2 = in[kP2], .k3 = in[kK3]};
+      }
       camera.R_CW = RotationOf(cameras_[i]);
       camera.p_WC = -(glm::transpose(camera.R_CW) * glm::dvec3(cameras_[i][3], cameras_[i][4], cameras_[i][5]));
     }
@@ -190,9 +231,12 @@ class Bundle {
   };
 
   void AddView(const TargetView& view) {
+    const Distortion& lens = guess_.cameras[view.camera].distortion;
+    const bool is_fixed = options_.lens == LensModel::kAsInCamera && IsBeyondBrown(lens);
+    const std::optional<Distortion> fixed = is_fixed ? std::optional(lens) : std::nullopt;
     for (const PointPair& pair : view.pairs) {
       using Cost = ceres::AutoDiffCostFunction<ReprojectionError, 2, kIntrinsicsCount, kPoseCount, kPoseCount>;
-      problem_.AddResidualBlock(new Cost(new ReprojectionError{pair.world, pair.pixel}), nullptr,
+      problem_.AddResidualBlock(new Cost(new ReprojectionError{pair.world, pair.pixel, fixed}), nullptr,
                                 intrinsics_[view.camera].data(), cameras_[view.camera].data(),
                                 targets_[view.target].data());
     }
@@ -207,8 +251,8 @@ class Bundle {
     }
   }
 
-  // Eliminate the targets first. Intrinsics and poses are groups of their own: Ceres sorts the blocks of a group by their
-  // addresses, and only those of one array have an order that the heap does not decide.
+  // Eliminate the targets first. Intrinsics and poses are groups of their own: Ceres sorts the blocks of a group by
+  // their addresses, and only those of one array have an order that the heap does not decide.
   std::shared_ptr<ceres::ParameterBlockOrdering> TargetsFirst() {
     auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
     for (PoseBlock& target : targets_) ordering->AddElementToGroup(target.data(), 0);
@@ -219,7 +263,7 @@ class Bundle {
     return ordering;
   }
 
-  // Returns JᵀJ over the free parameters, and sets columns_ and cost_.
+  // Returns JᵀJ over the free parameters, and sets columns_, cost_, jacobian_ and residuals_.
   Eigen::MatrixXd NormalMatrix() {
     ceres::Problem::EvaluateOptions evaluate;
     columns_.clear();
@@ -239,8 +283,8 @@ class Bundle {
       columns_.insert(columns_.end(), kPoseCount, Column{intrinsics_.size() + i, -1});
     }
     // Evaluate the Jacobian and sum up its products.
-    ceres::CRSMatrix jacobian;
-    problem_.Evaluate(evaluate, &cost_, nullptr, nullptr, &jacobian);
+    problem_.Evaluate(evaluate, &cost_, &residuals_, nullptr, &jacobian_);
+    const ceres::CRSMatrix& jacobian = jacobian_;
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(jacobian.num_cols, jacobian.num_cols);
     for (int row = 0; row < jacobian.num_rows; ++row) {
       for (int a = jacobian.rows[row]; a < jacobian.rows[row + 1]; ++a) {
@@ -250,6 +294,29 @@ class Bundle {
       }
     }
     return normal;
+  }
+
+  // Returns the variances of the free parameters if the corners of one view err together (a blur, a bent board, a
+  // finder's bias): the sandwich A⁻¹ (Σ g gᵀ) A⁻¹ with the gradient g of each view, enlarged as for few groups (Cameron
+  // and Miller 2015, CR1). Zeros with fewer than four views.
+  Eigen::VectorXd VariancesByViews(const Eigen::MatrixXd& inverse) const {
+    Eigen::VectorXd variances = Eigen::VectorXd::Zero(inverse.rows());
+    constexpr std::size_t kMinViews = 4;
+    if (views_.size() < kMinViews) return variances;
+    int row = 0;
+    for (const TargetView& view : views_) {
+      Eigen::VectorXd gradient = Eigen::VectorXd::Zero(inverse.rows());
+      for (const int end = row + 2 * static_cast<int>(view.pairs.size()); row < end; ++row) {
+        for (int k = jacobian_.rows[row]; k < jacobian_.rows[row + 1]; ++k) {
+          gradient[jacobian_.cols[k]] += jacobian_.values[k] * residuals_[row];
+        }
+      }
+      variances += (inverse * gradient).cwiseAbs2();
+    }
+    const auto views = static_cast<double>(views_.size()), equations = 2.0 * static_cast<double>(points_);
+    const double few =
+        views / (views - 1) * (equations - 1) / std::max(1.0, equations - static_cast<double>(parameters()));
+    return few * variances;
   }
 
   tl::unexpected<Error> Undetermined(std::size_t column) const {
@@ -271,6 +338,8 @@ class Bundle {
   ceres::Problem problem_;
   std::vector<Column> columns_;
   double cost_ = 0;
+  ceres::CRSMatrix jacobian_;
+  std::vector<double> residuals_;
 };
 
 Result<void> CheckViews(const RigGuess& guess, std::span<const TargetView> views) {

@@ -50,7 +50,8 @@ struct RigGuess {
   std::vector<CalibrationTargetPose> targets;  ///< the first one is held fixed: it defines the world
 };
 
-/// The standard deviations of a camera's intrinsics, pixels, if the corners' errors are independent and equally large.
+/// The standard deviations of a camera's intrinsics, pixels: the larger of those of independent, equally large errors
+/// of the corners, and, with four views or more, of errors that the corners of a view share.
 struct IntrinsicsDeviation {
   double fx = 0, fy = 0, cx = 0, cy = 0;
 };

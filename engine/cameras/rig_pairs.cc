@@ -220,7 +220,9 @@ Result<RigFile> ReadColmap(std::string_view cameras, std::string_view images) {
     if (camera == inside.end()) return Fail(place, "camera {} is not in cameras.txt", line.words[8]);
     ASSIGN_OR_RETURN(const auto n, NumbersFrom(line, 1, 8));
     OpenCvParameters p = camera->second;
-    p.R = glm::mat3_cast(glm::normalize(glm::dquat(n[0], n[1], n[2], n[3])));
+    const glm::dquat turn(n[0], n[1], n[2], n[3]);
+    if (!(glm::length(turn) > 0)) return Fail(place, "a quaternion of length 0; allowed: QW QX QY QZ of a rotation");
+    p.R = glm::mat3_cast(glm::normalize(turn));
     p.T = {n[4], n[5], n[6]};
     ASSIGN_OR_RETURN(auto named, CameraIn(StemOf(line.words[9]), std::move(p), rig.R_WF, place));
     rig.cameras.push_back(std::move(named));

@@ -15,7 +15,8 @@ struct AfterOptions {
 };
 const SettingTable<AfterOptions>& AfterSettings() {
   static const SettingTable<AfterOptions> table({
-      {"mistakes", &AfterOptions::mistakes, 1, 100, "From so many mistakes in a row of a move on it is corrected."},
+      {"mistakes", &AfterOptions::mistakes, 1, 100,
+       "Number of successive mistakes in a move from which on it is corrected."},
   });
   return table;
 }
@@ -26,7 +27,7 @@ struct ConfidenceOptions {
 const SettingTable<ConfidenceOptions>& ConfidenceSettings() {
   static const SettingTable<ConfidenceOptions> table({
       {"sure_below", &ConfidenceOptions::sure_below, 0, 1,
-       "Corrects where the evidence stays below this share of what counts as right."},
+       "Corrects if the evidence stays below this share of what counts as right."},
   });
   return table;
 }
@@ -37,7 +38,7 @@ struct FadingOptions {
 const SettingTable<FadingOptions>& FadingSettings() {
   static const SettingTable<FadingOptions> table({
       {"mistakes_per_correction", &FadingOptions::mistakes_per_correction, 0, 10,
-       "So many mistakes more in a row are let pass for every correction that the move has had."},
+       "Number of further successive mistakes that pass for every correction that the move has had."},
   });
   return table;
 }
@@ -79,7 +80,7 @@ std::span<const Policy> AllPolicies() {
       {.name = "at-first-mistake", .description = "every mistake is corrected (paper A)", .decide = AtFirst},
       {.name = "never", .description = "the dance goes on whatever the player does", .decide = Never},
       {.name = "after-n",
-       .description = "after several mistakes in a row of a move",
+       .description = "after several successive mistakes in a move",
        .settings = AfterSettings().Describe(),
        .decide = AfterN},
       {.name = "confidence",
@@ -87,15 +88,15 @@ std::span<const Policy> AllPolicies() {
        .settings = ConfidenceSettings().Describe(),
        .decide = Confident},
       {.name = "fading",
-       .description = "guidance grows less: every correction of a move lets further mistakes pass",
+       .description = "guidance decreases: after every correction of a move, more mistakes pass",
        .settings = FadingSettings().Describe(),
        .decide = Fading},
       {.name = "oracle",
-       .description = "every mistake, and nothing else, is corrected: it is told the truth",
+       .description = "knows the truth: corrects every mistake, and nothing else",
        .asks_truth = true,
        .decide = AtFirst},
       {.name = "yoked",
-       .description = "corrects at the moments of another session, whatever its own player does",
+       .description = "corrects at the moments of another person's session, whatever its own player does",
        .takes_moments = true,
        .decide = AtMoments},
   };

@@ -13,15 +13,16 @@ namespace etude {
 ///
 /// Accepted:
 /// - any order and mix of channels per joint, with rotations multiplied in the order written (R = R₁R₂R₃); position
-///   channels of any joint, which replace that joint's offset; joints without channels;
+///   channels of any joint, which replace that joint's offset, or are added to it if most of them stay near 0 where
+///   their offsets do not; joints without channels;
 /// - "End Site"s, which become joints named "<parent>_End" (names that some exporters give them are ignored);
 /// - names with spaces and colons, keywords in any case, tabs, empty lines, line ends LF, CR LF or CR, a missing last
 ///   line end, a byte order mark.
 /// A name that occurs again becomes "<name>#2", so that joints can be told apart. A rate within 0.01 % of a whole
 /// number is rounded to it, because files print few digits (.0083333 means 120 Hz). One frame more than announced is
-/// dropped, because some exporters announce the number of their last frame (Boxing_Toes of assimp's models). If all
-/// OFFSETs are 0 and joints have positions, the first frame's positions become the rest pose. `remarks` receives a
-/// sentence about each of the last two cases.
+/// dropped, because some exporters announce the number of their last frame (Boxing_Toes of assimp's models). A joint
+/// below the root with an OFFSET of 0 and positions rests where the first frame has it. Positions that stay around 0 beside
+/// an OFFSET are relative to it. `remarks` receives a sentence about each of the last three cases.
 ///
 /// Returns an error with line and column for anything outside the grammar, a second ROOT, a frame that is not one line
 /// with one number per channel, a wrong number of frames, no frames, frame times outside 0.1 ms…10 s, nesting deeper
@@ -29,10 +30,12 @@ namespace etude {
 /// would take more than 1 GB (an hour of 25 joints at 120 Hz).
 Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vector<std::string>* remarks = nullptr);
 
-/// Writes a clip as BVH. The root and every joint that leaves its offset in some frame get three positions; every joint
-/// gets Z, X, Y rotations in degrees; numbers have six decimals. Every joint has the same position as in the clip, in
-/// all frames and at rest. What BVH cannot express is converted by WithoutScales, WithOneRoot and WithWorldAxesAtRest.
-/// A clip read from BVH needs no conversion and is reproduced to the printed precision. Joints are written depth first,
+/// Writes a clip as BVH. The root and every joint whose translation changes get three positions, and an OFFSET of 0:
+/// some readers replace OFFSET by positions, others add them to it. Every joint gets Z, X, Y rotations in degrees;
+/// numbers have six decimals. Every joint has the same position as in the clip, in all frames; a joint that leaves its
+/// rest pose's translation rests, read again, where the first frame has it, and the root at the origin. What BVH cannot express is converted
+/// by WithoutScales, WithOneRoot and WithWorldAxesAtRest. Frames that were read from BVH need no conversion and are
+/// reproduced to the printed precision. Joints are written depth first,
 /// regardless of their order in the clip; end sites that have children or move become joints; braces and control
 /// characters in names become '_', and duplicate names are numbered as in reading. The clip must have at least one
 /// joint and numbers within ±10⁹ (the limit of ReadBvh).

@@ -11,6 +11,7 @@
 
 #include "engine/base/angles.h"
 #include "engine/base/names.h"
+#include "engine/base/order_statistics.h"
 #include "engine/base/result.h"
 #include "engine/formats/bvh.h"
 #include "engine/formats/text_scanner.h"
@@ -292,15 +293,48 @@ std::string NameWithoutFolderAndExtension(std::string_view file) {
   return std::string(base.substr(0, base.find_last_of('.')));
 }
 
-/// Returns true if all joints below the root have offset 0, and one of them has a position in the frame.
-bool LeavesOffsetsToFrames(const Skeleton& skeleton, const LocalPose& frame) {
-  bool is_placed = false;
+/// Returns true if the positions of joints below the root are relative to their OFFSETs: most of the joints that have
+/// both stay within a fifth of the OFFSET's length around 0 in the median frame, where absolute positions are around the
+/// OFFSET.
+bool AreRelativeToOffsets(const Skeleton& skeleton, const std::vector<BvhChannel>& channels,
+                          const std::vector<LocalPose>& frames) {
+  constexpr double kNear = 0.2;
+  constexpr std::size_t kSamples = 100;
+  std::vector<int> positions(skeleton.joints.size());
+  for (const BvhChannel& channel : channels) positions[channel.joint] += channel.is_rotation ? 0 : 1;
+  int joints = 0, relative = 0;
   for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
-    if (skeleton.joints[i].parent < 0) continue;
-    if (skeleton.joints[i].rest.translation != glm::dvec3(0)) return false;
-    is_placed = is_placed || frame[i].translation != glm::dvec3(0);
+    const double offset = glm::length(skeleton.joints[i].rest.translation);
+    if (skeleton.joints[i].parent < 0 || positions[i] < 3 || offset == 0) continue;
+    std::vector<double> lengths;
+    for (std::size_t f = 0; f < frames.size(); f += 1 + frames.size() / kSamples) {
+      lengths.push_back(glm::length(frames[f][i].translation));
+    }
+    ++joints;
+    relative += LowerPercentile(std::move(lengths), 0.5) < kNear * offset ? 1 : 0;
   }
-  return is_placed;
+  return 2 * relative > joints;
+}
+
+/// Adds the OFFSETs to the positions of joints below the root.
+void AddOffsets(const std::vector<BvhChannel>& channels, Clip& clip) {
+  for (const auto& [joint, is_rotation, axis] : channels) {
+    if (is_rotation || clip.skeleton.joints[joint].parent < 0) continue;
+    const double offset = clip.skeleton.joints[joint].rest.translation[axis];
+    for (LocalPose& frame : clip.frames) frame[joint].translation[axis] += offset;
+  }
+}
+
+/// Gives joints below the root with an offset of 0 the positions of the first frame at rest. Returns their number.
+std::size_t TakeOffsetsFromFrame(const LocalPose& frame, Skeleton& skeleton) {
+  std::size_t taken = 0;
+  for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
+    LocalTransform& rest = skeleton.joints[i].rest;
+    if (skeleton.joints[i].parent < 0 || rest.translation != glm::dvec3(0)) continue;
+    rest.translation = frame[i].translation;
+    if (rest.translation != glm::dvec3(0)) ++taken;
+  }
+  return taken;
 }
 
 }  // namespace
@@ -338,13 +372,14 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
     return Fail(scanner.At(header.frames_place), "{} frames announced; the file holds {}", announced,
                 clip.frames.size());
   }
-  // If all offsets are 0, take the rest pose from the first frame.
-  if (LeavesOffsetsToFrames(clip.skeleton, clip.frames.front())) {
-    for (std::size_t i = 0; i < clip.skeleton.joints.size(); ++i) {
-      if (clip.skeleton.joints[i].parent < 0) continue;
-      clip.skeleton.joints[i].rest.translation = clip.frames.front()[i].translation;
-    }
-    remark("all OFFSETs are 0: the first frame's places are taken for the rest pose");
+  if (AreRelativeToOffsets(clip.skeleton, hierarchy.channels, clip.frames)) {
+    AddOffsets(hierarchy.channels, clip);
+    remark("the joints' positions are relative to their OFFSETs: added");
+  }
+  // Offsets of 0 beside positions tell no rest pose.
+  if (const std::size_t taken = TakeOffsetsFromFrame(clip.frames.front(), clip.skeleton); taken > 0) {
+    remark(
+        fmt::format("{} joints with positions have an OFFSET of 0: they rest where the first frame has them", taken));
   }
   return clip;
 }

@@ -81,28 +81,29 @@ class Writer {
 
   const etude::Joint& Joint(std::size_t index) const { return clip_.skeleton.joints[index]; }
 
-  /// Returns true if a joint differs visibly from its offset in any frame.
-  bool LeavesItsOffset(int joint) const {
-    const glm::dvec3 offset = Millionths(Joint(joint).rest.translation);
-    return std::ranges::any_of(clip_.frames,
-                               [&](const LocalPose& pose) { return Millionths(pose[joint].translation) != offset; });
+  /// Returns true if a joint's printed translation changes between frames.
+  bool Moves(int joint) const {
+    return std::ranges::any_of(clip_.frames, [&](const LocalPose& pose) {
+      return Millionths(pose[joint].translation) != Millionths(clip_.frames.front()[joint].translation);
+    });
   }
 
   void WriteJoint(int index, int depth) {
     const etude::Joint& joint = Joint(index);
     const std::string indent(depth, '\t');
-    const bool leaves_its_offset = LeavesItsOffset(index);
-    const bool is_end = joint.is_end_site && children_[index].empty() && !leaves_its_offset;
+    // Some readers replace OFFSET by positions, others add them to it: both see the same if one of them is 0.
+    const bool has_positions = index == root_ || Moves(index);
+    const bool is_end = joint.is_end_site && children_[index].empty() && !has_positions;
     if (is_end) {
       Print("{}End Site\n", indent);
     } else {
       Print("{}{} {}\n", indent, index == root_ ? "ROOT" : "JOINT", names_.Add(Printable(joint.name)));
     }
     Print("{}{{\n{}\tOFFSET ", indent, indent);
-    PrintNumbers(joint.rest.translation);
+    const LocalTransform& still = clip_.frames.empty() ? joint.rest : clip_.frames.front()[index];
+    PrintNumbers(has_positions ? glm::dvec3(0) : still.translation);
     text_.back() = '\n';
     if (!is_end) {
-      const bool has_positions = index == root_ || leaves_its_offset;
       columns_.push_back({index, has_positions});
       Print("{}\tCHANNELS {}Zrotation Xrotation Yrotation\n", indent,
             has_positions ? "6 Xposition Yposition Zposition " : "3 ");

@@ -1,5 +1,7 @@
 #include "engine/formats/c3d.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -159,6 +161,21 @@ std::vector<std::string> PointNames(const Parameters& parameters, std::size_t po
   return names;
 }
 
+/// Returns the widths of joints that Vicon's programs write, by their names without the group, metres.
+std::map<std::string, double> BodySizes(const Parameters& parameters) {
+  constexpr double kMin_mm = 5, kMax_mm = 400;
+  std::map<std::string, double> sizes;
+  const auto add = [&](const std::string& name) {
+    const auto value = parameters.Number("PROCESSING:" + name);
+    if (value && *value >= kMin_mm && *value <= kMax_mm) sizes[name] = *value / 1000;
+  };
+  for (const char* side : {"L", "R"}) {
+    for (const char* size : {"KNEEWIDTH", "ANKLEWIDTH", "ELBOWWIDTH", "SHOULDEROFFSET"}) add(std::string(side) + size);
+  }
+  add("MARKERDIAMETER");
+  return sizes;
+}
+
 std::size_t CountFrames(const Bytes& bytes, const Parameters& parameters) {
   const double first = bytes.Word(6), last = bytes.Word(8);
   double frames = last - first + 1;
@@ -168,8 +185,9 @@ std::size_t CountFrames(const Bytes& bytes, const Parameters& parameters) {
   };
   const auto begin = field("TRIAL:ACTUAL_START_FIELD"), end = field("TRIAL:ACTUAL_END_FIELD");
   if (begin && end && *end >= *begin) frames = *end - *begin + 1;
-  // If the number exceeds the header's words, POINT:FRAMES may hold it as a float.
+  // If the number exceeds the header's words, POINT:LONG_FRAMES holds it, or POINT:FRAMES does as a float.
   if (const auto told = parameters.Number("POINT:FRAMES"); told && last >= 65535 && *told > frames) frames = *told;
+  if (const auto told = parameters.Number("POINT:LONG_FRAMES"); told && *told > frames) frames = *told;
   return frames >= 1 && frames <= kMaxC3dFrames ? static_cast<std::size_t>(frames) : 0;
 }
 
@@ -228,8 +246,11 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   read.step_m = layout.has_floats ? 0 : layout.metres;
   if (const auto screen = parameters.Texts("POINT:Y_SCREEN"); !screen.empty() && screen.front().size() == 2) {
     const char axis = screen.front()[1];
-    if (axis == 'Y' || axis == 'Z') read.up = axis;
+    if (axis >= 'X' && axis <= 'Z') read.up = axis;
+    read.is_up_negative = screen.front()[0] == '-';
   }
+  read.markers.metres_per_unit = *metres;
+  read.markers.sizes_m = BodySizes(parameters);
 
   // Locate the frames and check that they are all there.
   const auto data_block = static_cast<std::size_t>(parameters.Number("POINT:DATA_START").value_or(all.Word(16)));
@@ -248,12 +269,20 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
       places[point] = PointAt(all, at, layout);
     }
   }
+  // Say if more data follow than the last frame and the rest of its block.
+  const std::size_t end = layout.begin + frames * layout.frame_bytes;
+  const std::size_t data_end = parameters_at >= end ? parameters_at : bytes.size();
+  const std::size_t padded = (end + kC3dBlock - 1) / kC3dBlock * kC3dBlock;
+  if (data_end >= padded + layout.frame_bytes &&
+      bytes.substr(padded, data_end - padded).find_first_not_of('\0') != std::string_view::npos) {
+    read.markers.remark = fmt::format("data of {} more frames follow the {} that its header tells: not read",
+                                      (data_end - end) / layout.frame_bytes, frames);
+  }
   return read;
 }
 
 namespace {
 
-constexpr std::size_t kBlock = 512;
 constexpr std::size_t kMaxNamesPerParameter = 255;
 
 void PutWord(std::string& bytes, std::size_t value) {
@@ -279,7 +308,7 @@ std::string Float(double value) {
   return bytes;
 }
 
-void PadToBlock(std::string& bytes) { bytes.resize((bytes.size() + kBlock - 1) / kBlock * kBlock, '\0'); }
+void PadToBlock(std::string& bytes) { bytes.resize((bytes.size() + kC3dBlock - 1) / kC3dBlock * kC3dBlock, '\0'); }
 
 /// Writes a parameter section, which holds groups and their parameters.
 class ParameterWriter {
@@ -352,7 +381,7 @@ std::string ParameterSection(const MarkerMotion& motion, std::size_t data_block)
   section += parameters.bytes();
   section += '\0';  // end of the parameters
   PadToBlock(section);
-  section[2] = static_cast<char>(section.size() / kBlock);
+  section[2] = static_cast<char>(section.size() / kC3dBlock);
   return section;
 }
 
@@ -362,7 +391,7 @@ std::string WriteC3d(const MarkerMotion& motion) {
   constexpr std::size_t kMaxWord = 65535;
   constexpr double kMillimetres = 1000;
   // Write the header block.
-  const std::size_t blocks = ParameterSection(motion, 0).size() / kBlock;
+  const std::size_t blocks = ParameterSection(motion, 0).size() / kC3dBlock;
   const std::size_t data_block = 2 + blocks;
   std::string bytes("\x02\x50", 2);
   PutWord(bytes, motion.names.size());

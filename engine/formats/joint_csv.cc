@@ -73,6 +73,7 @@ Result<JointCsvColumns> FindColumns(const NumberRows& table, const std::string& 
     const auto found = std::ranges::find(known, headings[i]);
     if (found == known.end()) return Fail({file, 1}, "{}", UnknownName("heading", headings[i], known));
     const auto number = static_cast<std::size_t>(found - known.begin());
+    if (number == 0) columns.number = i;
     if (number == 1) columns.time = i;
     if (number >= 2) columns.joints[(number - 2) / 3][(number - 2) % 3] = i;
   }
@@ -125,6 +126,7 @@ Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
   for (std::size_t t = 0; t < table.RowCount(); ++t) {
     const JointCsvRow row = RowOf(table.Row(t), csv.columns);
     csv.times_s.push_back(row.time_s);
+    if (csv.columns.number) csv.numbers.push_back(table.Row(t)[*csv.columns.number]);
     csv.frames.push_back(row.places);
   }
   return csv;

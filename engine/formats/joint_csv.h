@@ -20,7 +20,7 @@ std::string WriteJointCsv(const BodyMotion& motion);
 /// The columns of a joint CSV file, as its headings name them.
 struct JointCsvColumns {
   std::size_t count = 0;
-  std::optional<std::size_t> time = {};
+  std::optional<std::size_t> time = {}, number = {};
   /// X, y, z; empty if the file lacks the joint.
   std::array<std::array<std::optional<std::size_t>, 3>, kRoleCount> joints = {};
 };
@@ -30,6 +30,7 @@ struct JointCsv {
   JointCsvColumns columns;
   std::optional<double> rate_hz;  ///< from the median step of `time_s`; empty without this column or if the step is 0
   std::vector<double> times_s;    ///< per frame; NaN if unknown
+  std::vector<double> numbers;    ///< per frame: the column `frame`; empty without it
   std::vector<int> lines;         ///< per frame: its line in the text, from 1
   std::vector<std::array<std::optional<glm::dvec3>, kRoleCount>> frames;
 };

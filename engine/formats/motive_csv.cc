@@ -1,11 +1,15 @@
 #include "engine/formats/motive_csv.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "engine/base/names.h"
+#include "engine/formats/row_clock.h"
 
 namespace etude {
 namespace {
@@ -112,13 +116,23 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
   }
 
   // Read the frames; a position with an empty cell was not seen.
-  MarkerMotion motion{.rate_hz = *rate, .names = {}, .frames = {}};
+  MarkerRows rows{.markers = {.rate_hz = *rate, .names = {}, .frames = {}, .metres_per_unit = metres},
+                  .times_s = {},
+                  .lines = {},
+                  .rate_name = "the first line"};
+  MarkerMotion& motion = rows.markers;
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> numbers;
+  const bool has_times = CellAt(axes, 1).starts_with("Time");
   for (const PlaceColumns& place : places) motion.names.push_back(place.name);
   while (!text.empty()) {
     const std::string_view here = NextLine(text, line);
     if (here.find_first_not_of(", ") == std::string_view::npos) continue;
     const auto cells = CommaCells(here);
     auto& frame = motion.frames.emplace_back();
+    numbers.push_back(MotiveNumber(CellAt(cells, 0)).value_or(kNone));
+    rows.times_s.push_back(has_times ? MotiveNumber(CellAt(cells, 1)).value_or(kNone) : kNone);
+    rows.lines.push_back(line);
     for (const PlaceColumns& place : places) {
       glm::dvec3 at(0);
       bool is_seen = true;
@@ -132,7 +146,15 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
       frame.push_back(is_seen ? std::optional(at) : std::nullopt);
     }
   }
-  return motion;
+  const auto announced = MotiveNumber(ValueBehind(facts, "Total Exported Frames"));
+  if (announced && *announced > static_cast<double>(motion.frames.size())) {
+    motion.remark = fmt::format("{} rows where {:g} frames are announced", motion.frames.size(), *announced);
+  }
+  // Without a time in any row, the frames' numbers are the clock.
+  if (std::ranges::all_of(rows.times_s, [](double time) { return std::isnan(time); })) {
+    rows.times_s = TimesOfNumbers(numbers, *rate);
+  }
+  return LayOnClock(std::move(rows), file);
 }
 
 }  // namespace etude

@@ -6,7 +6,10 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <span>
+
+#include "engine/formats/row_clock.h"
 
 namespace etude {
 
@@ -125,18 +128,6 @@ Result<std::vector<std::optional<glm::dvec3>>> ReadFrame(std::string_view line, 
   return frame;
 }
 
-/// Replaces the rate by that of the time column, if DataRate differs from it.
-void UseTimeColumn(std::optional<double> first, std::optional<double> last, MarkerMotion& motion) {
-  constexpr double kMinDuration_s = 0.5, kTolerance = 0.05, kPrintedPrecision = 1e-3;
-  if (!first || !last || !(*last - *first >= kMinDuration_s)) return;
-  double rate = static_cast<double>(motion.frames.size() - 1) / (*last - *first);
-  if (!(rate > 0) || std::abs(rate / motion.rate_hz - 1) <= kTolerance) return;
-  if (std::abs(rate - std::round(rate)) < kPrintedPrecision * rate) rate = std::round(rate);
-  motion.remark =
-      fmt::format("DataRate says {:g} Hz, but the column Time runs at {:g} Hz, which counts", motion.rate_hz, rate);
-  motion.rate_hz = rate;
-}
-
 }  // namespace
 
 std::string WriteTrc(const BodyMotion& motion, std::string name) {
@@ -161,7 +152,7 @@ std::string WriteTrc(const MarkerMotion& motion, std::string name) {
   return text;
 }
 
-Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file) {
+Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20;
   if (text.size() > kMaxFileBytes) return Fail({file}, "{} bytes; allowed: {}", text.size(), kMaxFileBytes);
   // Read the header and the markers' names.
@@ -169,7 +160,11 @@ Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file) {
   TakeLine(text, line);  // PathFileType
   const std::string_view keys = TakeLine(text, line), values = TakeLine(text, line);
   ASSIGN_OR_RETURN(const TrcHeader header, ReadHeader(keys, values, {file, line, 0}));
-  MarkerMotion motion{.rate_hz = header.rate_hz, .names = {}, .frames = {}};
+  MarkerRows rows{.markers = {.rate_hz = header.rate_hz, .names = {}, .frames = {}, .metres_per_unit = header.metres},
+                  .times_s = {},
+                  .lines = {},
+                  .rate_name = "DataRate"};
+  MarkerMotion& motion = rows.markers;
   const auto names = Cells(TakeLine(text, line));
   for (std::size_t marker = 0; marker < header.markers; ++marker) {
     const std::size_t at = 2 + 3 * marker;
@@ -178,21 +173,32 @@ Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file) {
     motion.names.emplace_back(names[at]);
   }
   TakeLine(text, line);  // X1 Y1 Z1 …
-  // Read the frames and their times.
-  std::optional<double> first_time, last_time;
+  // Read the frames, their numbers and their times.
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> numbers;
   while (!text.empty()) {
     const std::string_view here = TakeLine(text, line);
     if (here.find_first_not_of(" \t") == std::string_view::npos) continue;
     ASSIGN_OR_RETURN(auto frame, ReadFrame(here, header, {file, line, 0}));
     motion.frames.push_back(std::move(frame));
-    last_time = NumberIn(Cells(here)[1]);
-    if (motion.frames.size() == 1) first_time = last_time;
+    const auto cells = Cells(here);
+    numbers.push_back(NumberIn(cells[0]).value_or(kNone));
+    rows.times_s.push_back(NumberIn(cells[1]).value_or(kNone));
+    rows.lines.push_back(line);
   }
   if (motion.frames.size() != header.frames) {
     return Fail({file}, "{} frames, {} announced", motion.frames.size(), header.frames);
   }
-  UseTimeColumn(first_time, last_time, motion);
-  return motion;
+  // Without a time in any row, the frames' numbers are the clock.
+  if (std::ranges::all_of(rows.times_s, [](double time) { return std::isnan(time); })) {
+    rows.times_s = TimesOfNumbers(numbers, header.rate_hz);
+  }
+  return rows;
+}
+
+Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file) {
+  ASSIGN_OR_RETURN(auto rows, ReadTrcRows(text, file));
+  return LayOnClock(std::move(rows), file);
 }
 
 }  // namespace etude

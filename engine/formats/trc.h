@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,17 +23,23 @@ struct MarkerMotion {
   std::vector<std::string> names;
   /// The markers' positions in each frame, in metres; empty if a marker was not seen.
   std::vector<std::vector<std::optional<glm::dvec3>>> frames;
-  std::string remark = "";  ///< a message of the reader for the user
+  std::string remark = "";     ///< a message of the reader for the user
+  double metres_per_unit = 1;  ///< of the file; the positions here are in metres
+  std::map<std::string, double> sizes_m = {};  ///< sizes of the body that the file states: "LKNEEWIDTH"
 };
 
 /// Writes markers as a TRC file. The cells of a marker that was not seen are empty, as OpenSim expects.
 std::string WriteTrc(const MarkerMotion& motion, std::string name);
 
+struct MarkerRows;
+
 /// Reads a TRC file in metres, millimetres or centimetres (`Units`), without changing its axes. A marker counts as not
-/// seen if a cell is empty, "nan" or beyond ±10⁶ m. If the rate of the time column differs from DataRate by more than 5
-/// % over at least half a second, the time column is used, as in OpenSim, and the remark says so. Returns an error with
-/// the line if there is no header, the number of frames or columns is wrong, a cell is not a number, or there are more
-/// than 1,000 markers or 64 MiB.
+/// seen if a cell is empty, "nan" or beyond ±10⁶ m. Rows are laid on the clock of the column Time, else Frame#, as in
+/// OpenSim (`LayOnClock`); the remark says what that changed. Returns an error with the line if there is no header, the
+/// number of frames or columns is wrong, a cell is not a number, or there are more than 1,000 markers or 64 MiB; and
+/// those of GridOfRows.
 Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file);
+/// Reads the rows alone, as they stand in the file.
+Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file);
 
 }  // namespace etude

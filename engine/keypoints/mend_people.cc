@@ -134,20 +134,21 @@ class Mender {
           ++seeing;
           const auto misfit = MisfitOf(c, frame, *person_.seen[c][frame]);
           if (!misfit || *misfit <= kOff) continue;
-          // Look for a person in the same picture that fits much better.
+          // Look for the person in the same picture that fits best, and much better.
+          const SeenPerson* best = nullptr;
+          double least = kBetter * *misfit;
           for (const SeenPerson& candidate : people_[c][frame]) {
             const auto other = MisfitOf(c, frame, candidate);
-            if (other && *other < kBetter * *misfit && (!has_better || *misfit > most)) {
-              worst = c;
-              most = *misfit;
-              instead = candidate;
-              has_better = true;
-            }
+            if (!other || *other >= least) continue;
+            least = *other;
+            best = &candidate;
           }
-          if (!has_better && *misfit > most) {
-            worst = c;
-            most = *misfit;
-          }
+          // A camera that shows a better person has priority over one that shows none.
+          if (has_better ? best == nullptr || *misfit <= most : best == nullptr && *misfit <= most) continue;
+          worst = c;
+          most = *misfit;
+          if (best != nullptr) instead = *best;
+          has_better = best != nullptr;
         }
         if (!worst || (!has_better && seeing < 3)) break;
         // Replace the keypoints, or remove them if three cameras or more see the person.

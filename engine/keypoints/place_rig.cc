@@ -9,7 +9,10 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/base/angles.h"
+#include "engine/base/directions.h"
 #include "engine/base/order_statistics.h"
+#include "engine/keypoints/find_up.h"
+#include "engine/keypoints/resting_feet.h"
 
 namespace etude {
 namespace {
@@ -70,10 +73,6 @@ glm::dmat3 Upright(const glm::dvec3& up) {
   return glm::mat3_cast(glm::angleAxis(std::atan2(sine, up.y), axis / sine));
 }
 
-double AngleBetween(const glm::dvec3& a, const glm::dvec3& b) {
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
-
 /// Returns the name of the camera whose frame is the file's world; "" if there is none.
 std::string CameraOfTheWorld(const RigFile& rig) {
   for (const NamedCamera& named : rig.cameras) {
@@ -113,97 +112,6 @@ std::optional<glm::dvec3> PersonsUp(std::span<const LandmarkPositions> points) {
   const double length = glm::length(sum);
   if (!(length > 0)) return std::nullopt;
   return sum / length;
-}
-
-/// The floor as estimated from resting feet.
-struct FeetPlane {
-  glm::dvec3 up;
-  double accuracy = 0;  ///< standard deviation in the worse direction, radians
-  double height = 0;    ///< of the floor along `up`
-};
-
-/// The landmarks of a foot, and the height of each above the sole, metres.
-constexpr std::array<std::pair<std::array<Landmark, 2>, double>, 4> kFeet = {{{{kLeftAnkle, kRightAnkle}, 0.08},
-                                                                              {{kLeftHeel, kRightHeel}, 0.03},
-                                                                              {{kLeftBigToe, kRightBigToe}, 0.02},
-                                                                              {{kLeftSmallToe, kRightSmallToe}, 0.02}}};
-
-/// Returns the positions of a foot landmark while it rests on the floor: its speed is below a fifth of the stature per
-/// second, and its height within a twentieth of the stature of the lowest tenth along `up`.
-std::vector<glm::dvec3> Resting(std::span<const LandmarkPositions> points, const std::array<Landmark, 2>& kind,
-                                const glm::dvec3& up, double rate_hz, double stature) {
-  std::vector<glm::dvec3> slow;
-  std::vector<double> heights;
-  for (const Landmark landmark : kind) {
-    for (std::size_t i = 1; i < points.size(); ++i) {
-      const auto &before = points[i - 1][Index(landmark)], &now = points[i][Index(landmark)];
-      if (!before || !now || glm::distance(*before, *now) * rate_hz > 0.2 * stature) continue;
-      slow.push_back(*now);
-      heights.push_back(glm::dot(up, *now));
-    }
-  }
-  if (slow.empty()) return slow;
-  const double lowest = LowerPercentile(heights, 0.1);
-  std::erase_if(slow, [&](const glm::dvec3& p) { return glm::dot(up, p) > lowest + 0.05 * stature; });
-  return slow;
-}
-
-/// Refines `person_up` by the feet: finds the direction n that minimises Σ (n · q)² / σ² + |n − person_up|² / 0.1². The
-/// q are the positions of one kind of landmark relative to their mean (their total weight is limited to that of
-/// twenty), and the means of the kinds, corrected for their height above the sole, relative to the mean of the means. σ
-/// is 0.6 % of the stature.
-FeetPlane PlaneOfFeet(std::span<const LandmarkPositions> points, const glm::dvec3& person_up, double rate_hz,
-                      double stature) {
-  constexpr double kPersonLeans = 0.1, kMaxCounted = 20;
-  const double sigma = 0.006 * stature;
-  const double metre = stature / 1.7;
-  FeetPlane plane{person_up, kPersonLeans};
-  constexpr int kRounds = 3;
-  for (int round = 0; round < kRounds; ++round) {
-    // Normal equations for a small tilt in the tangent plane of `up`, with the prior.
-    const glm::dvec3 side = glm::normalize(std::abs(plane.up.x) < 0.6 ? glm::cross(plane.up, glm::dvec3(1, 0, 0))
-                                                                      : glm::cross(plane.up, glm::dvec3(0, 1, 0)));
-    const glm::dmat2x3 tangent(side, glm::cross(plane.up, side));
-    const glm::dvec3 lean = person_up - plane.up;
-    glm::dmat2 information(1 / (kPersonLeans * kPersonLeans));
-    glm::dvec2 right = glm::transpose(tangent) * lean / (kPersonLeans * kPersonLeans);
-    std::vector<double> floors;
-    std::vector<std::pair<glm::dvec3, double>> means;  // of each kind, and how far it is above the sole
-    // Add the positions of each kind of landmark.
-    for (const auto& [kind, above] : kFeet) {
-      const auto resting = Resting(points, kind, plane.up, rate_hz, stature);
-      if (resting.empty()) continue;
-      glm::dvec3 mean(0);
-      for (const glm::dvec3& p : resting) mean += p / static_cast<double>(resting.size());
-      const double weight = std::min(1.0, kMaxCounted / static_cast<double>(resting.size())) / (sigma * sigma);
-      for (const glm::dvec3& p : resting) {
-        const glm::dvec2 q = glm::transpose(tangent) * (p - mean);
-        information += weight * glm::outerProduct(q, q);
-        right -= weight * glm::dot(plane.up, p - mean) * q;
-      }
-      floors.push_back(glm::dot(plane.up, mean) - above * metre);
-      means.emplace_back(mean, above * metre);
-    }
-    // Add the means of the kinds.
-    glm::dvec3 middle(0);
-    double middle_above = 0;
-    for (const auto& [mean, above] : means) {
-      middle += mean / static_cast<double>(means.size());
-      middle_above += above / static_cast<double>(means.size());
-    }
-    for (const auto& [mean, above] : means) {
-      const glm::dvec2 q = glm::transpose(tangent) * (mean - middle);
-      information += glm::outerProduct(q, q) / (sigma * sigma);
-      right -= (glm::dot(plane.up, mean - middle) - (above - middle_above)) / (sigma * sigma) * q;
-    }
-    // Tilt `up` by the solution; the smaller eigenvalue gives the accuracy.
-    plane.up = glm::normalize(plane.up + tangent * (glm::inverse(information) * right));
-    const double half = 0.5 * (information[0][0] + information[1][1]);
-    const double least = half - std::sqrt(std::max(0.0, half * half - glm::determinant(information)));
-    plane.accuracy = 1 / std::sqrt(least);
-    if (!floors.empty()) plane.height = UpperMedian(floors);
-  }
-  return plane;
 }
 
 /// Returns the unit that gives an adult's stature, or else a plausible one; null if there is none.
@@ -258,59 +166,65 @@ Result<double> UnitOf(const RigFile& rig, double file_units, const PlacementOpti
   return likely->metres;
 }
 
-double Degrees(double radians) { return radians * 180 / kPi; }
+/// The up axis in the cameras' world.
+struct ChosenUp {
+  glm::dvec3 up;
+  bool from_the_take = false;  ///< the person and the cameras determined it, not the file
+  std::string told;
+};
 
-/// Returns the up axis in the cameras' world, and true if the feet determined it.
-Result<std::pair<glm::dvec3, bool>> UpOf(const RigFile& rig, const glm::dvec3& person, const FeetPlane& plane,
-                                         const PlacementOptions& options, std::string& told) {
+Result<ChosenUp> UpOf(const RigFile& rig, const glm::dvec3& person, const FoundUp& found,
+                      const PlacementOptions& options) {
   const glm::dvec3 usual(0, 1, 0);
-  constexpr double kUpsideDown = 100, kFar = 35, kAxisItself = 4;
+  constexpr double kUpsideDown = 100, kFar = 35, kAxisItself = 4, kStillAxis = 10;
   const auto usual_name = [&] {
     for (const FileAxis& axis : kAxes) {
       if (glm::dot(rig.R_WF * axis.direction, usual) > 0.999) return std::string(axis.name);
     }
     return std::string("y");
   };
-  // A requested axis must not put the person upside down.
+  const auto lean_from = [&](const glm::dvec3& up) { return Degrees(AngleBetween(up, person)); };
+  // A requested axis must not put the pictures upside down.
   if (options.up != "auto" && options.up != "floor") {
     const glm::dvec3 up = rig.R_WF * AxisOf(options.up)->direction;
-    const double off = Degrees(AngleBetween(up, person));
+    const double off = Degrees(AngleBetween(up, found.up));
     if (off > kUpsideDown) {
-      return Fail({}, "with {} up the person hangs head down ({:.0f}° off); ankles to shoulders lead up", options.up,
-                  off);
+      return Fail({}, "with {} up all hangs head down ({:.0f}° off); up is known from {}", options.up, off, found.by);
     }
-    told = fmt::format("up is {} (as you say; the person leans {:.0f}° from it)", options.up, off);
-    return std::pair(up, false);
+    return ChosenUp{up, false,
+                    fmt::format("up is {} (as you say; the person leans {:.0f}° from it)", options.up, lean_from(up))};
   }
   const std::string camera = CameraOfTheWorld(rig);
-  const double off = Degrees(AngleBetween(usual, person));
-  const double tilt = Degrees(AngleBetween(usual, plane.up)), accuracy = Degrees(plane.accuracy);
+  const double tilt = Degrees(AngleBetween(usual, found.up)), accuracy = Degrees(found.deviation);
+  const double within = Degrees(found.within);
   constexpr double kTold = 3, kTilted = 8, kSure = 3;
   // Caliscope's axes are those of a calibration board. For formats that define an up axis, feet that are not level (on
   // a beam) are no reason to tilt the world.
   const bool is_level = rig.format != "Caliscope" || tilt < std::max(kSure * accuracy, kTilted);
-  if (options.up == "auto" && camera.empty() && rig.has_unit && off < kFar && is_level) {
-    told = fmt::format("up is {} (the person leans {:.0f}° from it)", usual_name(), off);
+  if (options.up == "auto" && camera.empty() && rig.has_unit && tilt < std::max(kFar, within) && is_level) {
+    std::string told = fmt::format("up is {} (the person leans {:.0f}° from it)", usual_name(), lean_from(usual));
     if (tilt > std::max(kSure * accuracy, kTold)) {
-      told += fmt::format(
-          ", though the floor under the feet is {:.0f}° off level; if they stood on a level floor, give --rig-up floor",
-          tilt);
+      told += fmt::format(", though {} say that it is {:.0f}° off level; if they are right, give --rig-up floor",
+                          found.by, tilt);
     }
-    return std::pair(usual, false);
+    return ChosenUp{usual, false, told};
   }
-  // Prefer an axis of the file that is close to the normal of the feet's plane.
+  // Prefer an axis of the file that is close to what was found.
   if (camera.empty() && options.up == "auto") {
     for (const FileAxis& axis : kAxes) {
       const glm::dvec3 up = rig.R_WF * axis.direction;
-      if (Degrees(AngleBetween(up, plane.up)) < std::max(kAxisItself, 2 * accuracy)) {
-        told = fmt::format("up is {} (found: feet and person)", axis.name);
-        return std::pair(up, true);
+      if (Degrees(AngleBetween(up, found.up)) < std::max(kAxisItself, std::min(kStillAxis, within))) {
+        return ChosenUp{up, true, fmt::format("up is {} (found: {})", axis.name, found.by)};
       }
     }
   }
-  told = fmt::format("up is square to the floor under the feet, to about {:.1f}°{}", Degrees(plane.accuracy),
-                     camera.empty() ? "" : fmt::format(" (the world was {}'s own frame)", camera));
-  return std::pair(plane.up, true);
+  constexpr double kMaxDoubt = 35;
+  const std::string world = camera.empty() ? "" : fmt::format(" (the world was {}'s own frame)", camera);
+  if (within > kMaxDoubt) {
+    return Fail({}, "{} tell which way is up to {:.0f}° only{}; tell the file's axis by --rig-up (level cameras: -y)",
+                found.by, within, world);
+  }
+  return ChosenUp{found.up, true, fmt::format("up is known from {}, to within {:.1f}°{}", found.by, within, world)};
 }
 
 }  // namespace
@@ -335,7 +249,7 @@ Result<void> CheckPlace(const PlacementOptions& options) {
 }
 
 Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositions> points, double rate_hz,
-                          const PlacementOptions& options) {
+                              const PlacementOptions& options) {
   RETURN_IF_ERROR(CheckPlace(options));
   const auto stature = StatureOf(points);
   const auto person = PersonsUp(points);
@@ -343,26 +257,24 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositi
     return Fail({}, "no frame shows hips, knees, ankles and shoulders: nothing tells the rig's unit and up");
   RigPlacement place;
   // Unit, then up axis.
-  std::string unit_told, up_told;
+  std::string unit_told;
   ASSIGN_OR_RETURN(const double unit, UnitOf(rig, *stature / rig.unit_m, options, unit_told));
-  const FeetPlane plane = PlaneOfFeet(points, *person, rate_hz, *stature);
-  ASSIGN_OR_RETURN(const auto up, UpOf(rig, *person, plane, options, up_told));
   place.scale = unit == rig.unit_m ? 1 : unit / rig.unit_m;
-  place.R = Upright(up.first);
+  const FoundUp found = FindUp(rig.cameras, points, rate_hz, *stature, 1 / place.scale);
+  ASSIGN_OR_RETURN(const ChosenUp chosen, UpOf(rig, *person, found, options));
+  place.R = Upright(chosen.up);
   place.stature_m = place.scale * *stature;
   // The floor.
   std::string floor_told = ", the floor as the file has it";
-  const bool at_feet = options.floor == "feet" || (options.floor == "auto" && up.second);
+  const bool at_feet = options.floor == "feet" || (options.floor == "auto" && chosen.from_the_take);
   if (const auto height = WholeNumber(options.floor)) {
     place.shift.y = -*height;
     floor_told = fmt::format(", the floor at {:g} m of it", *height);
   } else if (at_feet) {
-    // Along the chosen axis, which may differ from the normal of the feet's plane.
-    const FeetPlane level = PlaneOfFeet(points, up.first, rate_hz, *stature);
-    place.shift.y = -place.scale * level.height;
+    place.shift.y = -place.scale * FloorUnder(FeetAtRest(points, rate_hz, *stature), chosen.up, *stature);
     floor_told = ", the floor under the feet";
   }
-  place.told = unit_told + "; " + up_told + floor_told;
+  place.told = unit_told + "; " + chosen.told + floor_told;
   return place;
 }
 

@@ -17,7 +17,7 @@ namespace etude {
 struct PlacementOptions {
   /// "auto", a name of RigUnits(), or the number of metres in one unit of the file.
   std::string unit = "auto";
-  /// "auto", an axis of the file that points up ("z", "-y"), or "floor": perpendicular to the plane of the feet.
+  /// "auto", an axis of the file that points up ("z", "-y"), or "floor": what cameras and feet say, not the file.
   std::string up = "auto";
   /// The position of the floor, which becomes height 0: "auto" (at the feet if they determined the up axis, otherwise
   /// as in the file), "keep", "feet", or its height in metres.
@@ -45,14 +45,14 @@ struct RigPlacement {
 /// Finds the unit and the up axis of a rig from a person in it *(ours)*. The stature is 2.0 times the leg (hip, knee,
 /// ankle; medians over frames). The format's unit is kept if the stature is then 0.5 to 2.2 m; otherwise metres,
 /// centimetres and millimetres are tried, then inches and feet, which must give 1.2 to 2.2 m. The format's up axis is
-/// kept if it is within 35° of the person's mean direction (ankles to shoulders) and the world is not a camera's frame.
-/// Otherwise up is perpendicular to the plane of resting feet (ankles, heels and toes each in a parallel plane) as far
-/// as these determine it, and along the person where they do not; if an axis of the file is within 4° of it, that axis
-/// is taken. Fails if no unit gives a plausible stature (the message names the factor that would), if lengths have no
-/// unit, and if the person is upside down with the requested axis.
+/// kept if it is within 35° of what `FindUp` finds and the world is not a camera's frame. Otherwise an axis of the file
+/// is taken that is within 4° of that (10° if it is not known better), or else the direction found itself, told with
+/// the angle that holds the truth in 95 of 100 takes. Fails if no unit gives a plausible stature (the message names the
+/// factor that would), if lengths have no unit, if up is known to 35° only, and if a requested axis puts cameras and
+/// person upside down.
 /// @param points of the person, triangulated with the rig as in its file
 Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositions> points, double rate_hz,
-                          const PlacementOptions& options);
+                              const PlacementOptions& options);
 
 /// Places a rig without a person, by `options` and, for "auto", by the format's conventions. Fails if lengths have no
 /// unit, or if the world is a camera's frame and no up axis is given; the message names the options.

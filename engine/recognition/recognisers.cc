@@ -76,18 +76,19 @@ std::span<const RecogniserKind> AllRecognisers() {
            .description = "paper A's: the move's key poses, in their order",
            .needs_key_poses = true},
           MakeKeyPoseRecogniser,
-          {{{"tolerance_scale", &KeyPoseOptions::tolerance_scale, 0.1, 5, "Times every tolerance of the key poses."},
+          {{{"tolerance_scale", &KeyPoseOptions::tolerance_scale, 0.1, 5,
+             "Multiplies every tolerance of the key poses."},
             {"pose_share", &KeyPoseOptions::pose_share, 0.01, 1,
              "The weighted share of a key pose's angles that must be within their tolerances."},
             {"hold_frames", &KeyPoseOptions::hold_frames, 1, 30,
-             "For how many frames in a row a key pose must be met."}}}),
+             "Number of successive frames in which a key pose must be met."}}}),
       WithSettings<FuzzyRulesOptions>(
           {.name = "fuzzy-rules",
            .description = "paper A's fuzzy features: a rule for each key pose, and one for their order",
            .needs_key_poses = true},
           MakeFuzzyRulesRecogniser,
           {{{"hold_frames", &FuzzyRulesOptions::hold_frames, 1, 30,
-             "For how many frames in a row a rule must hold."}}}),
+             "Number of successive frames in which a rule must hold."}}}),
       WithSettings<DtwOptions>(
           {.name = "dtw",
            .description = "dynamic time warping of joints to the taught examples",
@@ -101,7 +102,7 @@ std::span<const RecogniserKind> AllRecognisers() {
        .teach = [](std::span<const TaughtMove> taught,
                    const RecogniserOptions& options) { return MakeNearestRecogniser(taught, options.weights); }},
       {.name = "learnt",
-       .description = "ours: limbs aligned with the taught examples, judged by what simulated people taught a model",
+       .description = "ours: limbs aligned with the taught examples, judged by a model learnt from simulated people",
        .needs_examples = true,
        .teach =
            [](std::span<const TaughtMove> taught, const RecogniserOptions& options) {
@@ -109,7 +110,7 @@ std::span<const RecogniserKind> AllRecognisers() {
            }},
       {.name = "coached",
        .description =
-           "ours: learnt, for who is asked by a clock that keeps the music's time; taught by people before a coach",
+           "ours: `learnt` for moves asked for in time with the music; its model is learnt from people with a coach",
        .needs_examples = true,
        .teach =
            [](std::span<const TaughtMove> taught, const RecogniserOptions& options) {
@@ -117,7 +118,7 @@ std::span<const RecogniserKind> AllRecognisers() {
            }},
       {.name = "whole-body",
        .description =
-           "ours, for recorded people: learnt's judgement; sides and names by the three nearest whole bodies",
+           "ours, for recorded people: judges as `learnt`; finds sides and names by the three nearest whole bodies",
        .needs_examples = true,
        .teach = [](std::span<const TaughtMove> taught, const RecogniserOptions& options) {
          return MakeWholeBodyRecogniser(taught, options.weights,

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include "engine/base/angles.h"
@@ -250,115 +249,13 @@ void JointMapDraft::Set(Role role, int joint) {
 }
 
 void JointMapDraft::Compose(Role role, int joint, const glm::dvec3& rest) {
-  map_.points[Index(role)] = {.joint = joint, .offset = tree_.InFrameOf(joint, rest)};
+  ComposeAt(role, joint, tree_.InFrameOf(joint, rest), rest);
+}
+
+void JointMapDraft::ComposeAt(Role role, int joint, const glm::dvec3& offset, const glm::dvec3& rest) {
+  map_.points[Index(role)] = {.joint = joint, .offset = offset};
   rest_[Index(role)] = rest;
   map_.composed.push_back(role);
-}
-
-namespace {
-
-using enum Role;
-
-// Lengths of the tips relative to the limb before them (an adult's, cm).
-constexpr double kHandPerForearm = 18.0 / 25.0;
-constexpr double kFootPerShank = 18.0 / 42.0;
-constexpr double kHeadPerTrunk = 25.0 / 50.0;
-
-/// The plausible range of a tip's length, relative to the proportion above.
-struct TipLength {
-  double shortest;
-  double longest;
-};
-// CMU's fingers are half as long as a hand.
-constexpr TipLength kPlausibleHand{0.4, 1.6};
-// The feet of Boxing_Toes are 1.4 times as long as paper B's, those of KayKit's toys 2.6 times as long as paper B's.
-constexpr TipLength kPlausibleFoot{0.4, 3.0};
-// A single "Head" joint lies at the skull's base, at 0.2 of the trunk.
-constexpr TipLength kPlausibleHead{0.5, 1.6};
-
-// Tips whose distances differ by less than this share are equally far: files have six decimals, even in metres.
-constexpr double kEquallyFar = 1e-4;
-
-/// Returns the finger of a joint below `top`: by its own name, or by the name of the next joint above it that names a
-/// finger. End sites have no names of their own.
-Finger FingerBelow(const SkeletonTree& tree, int joint, int top) {
-  for (; joint != top; joint = tree.ParentOf(joint)) {
-    const Finger finger = FingerOf(tree.NameOf(joint));
-    if (finger != Finger::kNotNamed) return finger;
-  }
-  return Finger::kNotNamed;
-}
-
-/// Returns the farthest descendant of `top` (or `top` itself) from `base` at a plausible distance, among those for
-/// which `may_be` is true. Among equally far ones it is that of the most suitable finger by name, else the skeleton's
-/// first; otherwise rounding could choose different ones on the left and on the right.
-template <typename MayBe>
-std::optional<int> FarthestTip(const SkeletonTree& tree, int top, const glm::dvec3& base, double proportion,
-                               const TipLength& plausible, MayBe may_be) {
-  struct Tip {
-    int joint;
-    double distance;
-  };
-  std::vector<Tip> tips;
-  double longest = 0;
-  for (int i = top; i < tree.size(); ++i) {
-    const double distance = glm::distance(tree.RestOf(i), base);
-    const bool is_plausible = distance >= plausible.shortest * proportion && distance <= plausible.longest * proportion;
-    if (!is_plausible || (i != top && !tree.DescendsFrom(i, top)) || !may_be(i)) continue;
-    tips.push_back({i, distance});
-    longest = std::max(longest, distance);
-  }
-  if (longest == 0) return std::nullopt;
-  std::erase_if(tips, [&](const Tip& tip) { return tip.distance < (1 - kEquallyFar) * longest; });
-  return std::ranges::min_element(tips, {}, [&](const Tip& tip) { return FingerBelow(tree, tip.joint, top); })->joint;
-}
-
-glm::dvec3 RestForward(const JointMapDraft& draft) {
-  return glm::cross(draft.RestOf(kLeftHip) - draft.RestOf(kRightHip),
-                    draft.RestOf(kShoulderCentre) - draft.RestOf(kHipCentre));
-}
-
-void FindLimbTip(JointMapDraft& draft, const Limb& limb) {
-  const auto [upper, middle, last] = limb.roles;
-  const glm::dvec3 end = draft.RestOf(last);
-  const glm::dvec3 last_bone = end - draft.RestOf(middle);
-  const double length = glm::length(last_bone) * (limb.is_arm ? kHandPerForearm : kFootPerShank);
-  // A joint that hangs from a separate control is not part of the body.
-  if (!IsFree(draft, last)) {
-    const TipLength& plausible = limb.is_arm ? kPlausibleHand : kPlausibleFoot;
-    const int top = draft.JointOf(last);
-    const auto is_no_thumb = [&](int joint) { return FingerBelow(draft.tree(), joint, top) != Finger::kThumb; };
-    const auto tip = FarthestTip(draft.tree(), top, end, length, plausible, is_no_thumb);
-    if (tip) return draft.Set(limb.tip, *tip);
-  }
-  const glm::dvec3 direction = limb.is_arm ? last_bone : RestForward(draft);
-  const double size = glm::length(direction);
-  draft.Compose(limb.tip, draft.JointOf(last), size > 0 ? end + direction * (length / size) : end);
-}
-
-void FindHeadTip(JointMapDraft& draft) {
-  const glm::dvec3 neck = draft.RestOf(kShoulderCentre);
-  const glm::dvec3 trunk = neck - 0.5 * (draft.RestOf(kLeftHip) + draft.RestOf(kRightHip));
-  if (!draft.Has(kHead)) return draft.Compose(kHead, draft.JointOf(kShoulderCentre), neck + trunk * kHeadPerTrunk);
-  const int head = draft.JointOf(kHead);
-  // Eyes, jaws and ears descend from the head, too, but point forward or sideways; the crown continues the trunk.
-  constexpr double kAside = Radians(30);
-  const auto is_straight_on = [&](int joint) {
-    return joint == head || AngleBetween(draft.tree().RestOf(joint) - draft.RestOf(kHead), trunk) <= kAside;
-  };
-  const auto tip =
-      FarthestTip(draft.tree(), head, neck, glm::length(trunk) * kHeadPerTrunk, kPlausibleHead, is_straight_on);
-  if (tip) return draft.Set(kHead, *tip);
-  draft.Compose(kHead, head, neck + trunk * kHeadPerTrunk);
-}
-
-}  // namespace
-
-void FindTips(JointMapDraft& draft, const std::array<bool, kRoleCount>& is_taught) {
-  for (const Limb& limb : kLimbs) {
-    if (!is_taught[Index(limb.tip)]) FindLimbTip(draft, limb);
-  }
-  if (!is_taught[Index(kHead)]) FindHeadTip(draft);
 }
 
 bool IsFree(const JointMapDraft& draft, Role end) {

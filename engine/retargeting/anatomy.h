@@ -45,19 +45,14 @@ class JointMapDraft {
   void Set(Role role, int joint);
   /// Assigns a point fixed to `joint`, at `rest` in the rest pose, to the role.
   void Compose(Role role, int joint, const glm::dvec3& rest);
+  /// Assigns a point fixed to `joint`, at `offset` in the joint's frame.
+  void ComposeAt(Role role, int joint, const glm::dvec3& offset, const glm::dvec3& rest);
 
  private:
   const SkeletonTree& tree_;
   JointMap map_;
   std::array<glm::dvec3, kRoleCount> rest_{};
 };
-
-/// Finds hands, feet and head that are not given, after all other roles are known: the farthest descendant of wrist,
-/// ankle and head at a plausible distance, or else a point composed in the proportions of paper B's body. A thumb is
-/// never the tip of a hand. Among equally far tips (within 10⁻⁴) the middle finger is taken, then index, ring and
-/// little finger, then the skeleton's first, so that both sides agree. A head joint that was found by name is first
-/// assigned to the head; it then becomes the joint that carries the tip.
-void FindTips(JointMapDraft& draft, const std::array<bool, kRoleCount>& is_taught);
 
 /// Returns true if a wrist or ankle is not part of any limb but is moved by a separate control.
 bool IsFree(const JointMapDraft& draft, Role end);

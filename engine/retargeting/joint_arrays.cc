@@ -132,14 +132,13 @@ Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional
     }
   }
   // Convert to metres.
-  const double unit = UnitOfSpread(motion);
+  const double unit = motion.metres_per_unit = UnitOfSpread(motion);
   for (auto& frame : motion.frames) {
     for (auto& place : frame) {
       if (place) *place *= unit;
     }
   }
-  note = fmt::format("layout {}, 1 unit = {:g} cm, no rate in the file: {:g} Hz are assumed", found.name, 100 * unit,
-                     kJudgedRateHz);
+  note = fmt::format("layout {}, 1 unit = {:g} cm", found.name, 100 * unit);
   return motion;
 }
 

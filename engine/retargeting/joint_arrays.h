@@ -18,7 +18,7 @@ std::vector<std::string> JointLayoutNames();
 /// Converts an array T × J × 3 (frames, joints, X Y Z; NaN: not seen) to trajectories at the judged rate, because such
 /// a file contains no rate. `layout` is one of JointLayoutNames(); without it, the layout is that with J joints. The
 /// unit is the metre unless the extent of the joints is that of a person in centimetres or millimetres; `note` states
-/// the unit and the assumed rate. Fails for other shapes, a layout with another number of joints, 17 joints without a
+/// layout and unit. Fails for other shapes, a layout with another number of joints, 17 joints without a
 /// layout, and positions beyond ±10⁹.
 Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional<std::string>& layout,
                                    const std::string& file, std::string& note);

@@ -1,6 +1,8 @@
 #include "engine/retargeting/joint_map.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -10,6 +12,7 @@
 #include "engine/retargeting/anatomy.h"
 #include "engine/retargeting/limb_finder.h"
 #include "engine/retargeting/map_file.h"
+#include "engine/retargeting/tips.h"
 
 namespace etude {
 namespace {
@@ -28,8 +31,9 @@ std::string NamesSeen(const Skeleton& skeleton) {
 
 class MapFinder {
  public:
-  MapFinder(const Skeleton& skeleton, const std::string& file)
-      : skeleton_(skeleton), file_(file), tree_(skeleton), names_(skeleton), draft_(tree_) {}
+  /// `rest` is taken for the rest pose; `moving` are poses of the clip.
+  MapFinder(const Skeleton& skeleton, const std::string& file, const LocalPose& rest, const MovingPoses& moving)
+      : skeleton_(skeleton), file_(file), tree_(skeleton, rest), names_(skeleton), draft_(tree_), moving_(moving) {}
 
   Result<JointMap> Find(const JointMapOverrides* taught) {
     if (taught != nullptr) {
@@ -41,7 +45,7 @@ class MapFinder {
     FindSpine();
     RETURN_IF_ERROR(CheckTree());
     RETURN_IF_ERROR(CheckSides());
-    FindTips(draft_, is_taught_);
+    FindTips(draft_, is_taught_, moving_);
     JointMap map = draft_.map();
     map.by_anatomy = by_anatomy_;
     map.confidence = confidence_;
@@ -176,7 +180,7 @@ class MapFinder {
       highest = height;
       head = joint;
     }
-    const bool is_end = head >= 0 && skeleton_.joints[head].is_end_site && tree_.ParentOf(head) != carrier;
+    const bool is_end = head >= 0 && tree_.IsEnd(head) && tree_.ParentOf(head) != carrier;
     return is_end ? tree_.ParentOf(head) : head;
   }
 
@@ -254,12 +258,75 @@ class MapFinder {
   double confidence_ = 1;
   std::array<bool, kRoleCount> is_taught_{};
   JointMapDraft draft_;
+  const MovingPoses& moving_;
 };
+
+/// Returns how well a pose stands: the cosine between the line from the shoulders to the hips and the thighs and shanks,
+/// for the limb that is worst. Limbs are those that names tell; nullopt if they do not.
+std::optional<double> StandingOf(const Skeleton& skeleton, const JointNames& names, const LocalPose& pose) {
+  const SkeletonTree tree(skeleton, pose);
+  std::array<glm::dvec3, kRoleCount> at{};
+  for (const Limb& limb : kLimbs) {
+    const FoundLimb found =
+        FindLimb(names, tree, limb.is_arm ? ArmSchemes() : LegSchemes(), limb.side, {-1, -1, -1});
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (found.joints[i] < 0) return std::nullopt;
+      at[Index(limb.roles[i])] = tree.RestOf(found.joints[i]);
+    }
+  }
+  const auto of = [&](Role role) { return at[Index(role)]; };
+  const glm::dvec3 down =
+      UnitOr(of(kLeftHip) + of(kRightHip) - of(kLeftShoulder) - of(kRightShoulder), glm::dvec3(0));
+  double worst = 1;
+  for (const Limb& limb : kLegs) {
+    const auto [hip, knee, ankle] = limb.roles;
+    worst = std::min({worst, glm::dot(UnitOr(of(knee) - of(hip), glm::dvec3(0)), down),
+                      glm::dot(UnitOr(of(ankle) - of(knee), glm::dvec3(0)), down)});
+  }
+  return worst;
+}
+
+/// Returns a few frames, evenly spaced.
+std::vector<const LocalPose*> SomeOf(std::span<const LocalPose> frames, const Skeleton& skeleton) {
+  constexpr std::size_t kPoses = 15;
+  std::vector<const LocalPose*> some;
+  for (std::size_t i = 0; i < std::min(kPoses, frames.size()); ++i) {
+    const LocalPose& frame = frames[i * frames.size() / std::min(kPoses, frames.size())];
+    if (frame.size() == skeleton.joints.size()) some.push_back(&frame);
+  }
+  return some;
+}
+
+/// Returns the rest pose, or the frame that stands best if the rest pose is no pose.
+LocalPose RestOrStanding(const Skeleton& skeleton, const std::vector<const LocalPose*>& frames) {
+  constexpr double kPose = 0.5;  // legs within 60° of the trunk's line
+  LocalPose rest = RestPose(skeleton);
+  if (frames.empty()) return rest;
+  const JointNames names(skeleton);
+  const auto at_rest = StandingOf(skeleton, names, rest);
+  if (!at_rest || *at_rest > kPose) return rest;
+  double best = std::max(*at_rest, kPose);
+  for (const LocalPose* frame : frames) {
+    const auto standing = StandingOf(skeleton, names, *frame);
+    if (!standing || *standing <= best) continue;
+    best = *standing;
+    rest = *frame;
+  }
+  return rest;
+}
 
 }  // namespace
 
-Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file, const JointMapOverrides* taught) {
-  return MapFinder(skeleton, file).Find(taught);
+Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file, const JointMapOverrides* taught,
+                              std::span<const LocalPose> frames) {
+  const std::vector<const LocalPose*> some = SomeOf(frames, skeleton);
+  MovingPoses moving;
+  for (const LocalPose* frame : some) ComputeGlobals(skeleton, *frame, moving.emplace_back());
+  const auto is_finite = [](const GlobalTransform& joint) {
+    return std::isfinite(glm::dot(joint.position, joint.position)) && std::isfinite(glm::determinant(joint.axes));
+  };
+  std::erase_if(moving, [&](const auto& joints) { return !std::ranges::all_of(joints, is_finite); });
+  return MapFinder(skeleton, file, RestOrStanding(skeleton, some), moving).Find(taught);
 }
 
 PartialRoles FindPartialRoles(const Skeleton& skeleton) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,9 +47,12 @@ struct JointMapOverrides;
 ///
 /// Fails for missing limbs (with a list of the file's names), hips without a common ancestor, a knee that does not
 /// descend from its hip and similar errors, and hips that are not on opposite sides of the joint that carries them.
-/// ToBodyMotion checks on the moving body that left is left. The roles in `taught` are assigned before any name is
+/// Poses of `frames` are used where the rest pose is no pose: if its legs do not point away from its trunk, the frame that
+/// stands best is taken for it, and tips that are implausible at rest are judged in motion (FindTips). ToBodyMotion checks
+/// on the moving body that left is left. The roles in `taught` are assigned before any name is
 /// searched, and checked like the others; a joint that does not exist is reported at its place in the joint-map file.
-Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file, const JointMapOverrides* taught = nullptr);
+Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file, const JointMapOverrides* taught = nullptr,
+                              std::span<const LocalPose> frames = {});
 
 /// The result of searching a skeleton in which not all roles can be found.
 struct PartialRoles {

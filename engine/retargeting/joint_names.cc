@@ -1,6 +1,7 @@
 #include "engine/retargeting/joint_names.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace etude {
@@ -195,9 +196,28 @@ Finger FingerOf(std::string_view name) {
   return Finger::kNotNamed;
 }
 
+std::vector<bool> EndSites(const Skeleton& skeleton) {
+  constexpr std::array<std::string_view, 6> kEndings = {"_End", "_end", "End", "Nub", "_Nub", "_nub"};
+  const std::size_t count = skeleton.joints.size();
+  std::vector<bool> has_children(count), ends(count);
+  for (const Joint& joint : skeleton.joints) {
+    if (joint.parent >= 0) has_children[joint.parent] = true;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const Joint& joint = skeleton.joints[i];
+    ends[i] = joint.is_end_site;
+    if (joint.parent < 0 || has_children[i] || !joint.name.starts_with(skeleton.joints[joint.parent].name)) continue;
+    std::string_view ending = std::string_view(joint.name).substr(skeleton.joints[joint.parent].name.size());
+    ending = ending.substr(0, ending.find('#'));  // the number of a second one
+    ends[i] = ends[i] || std::ranges::find(kEndings, ending) != kEndings.end();
+  }
+  return ends;
+}
+
 JointNames::JointNames(const Skeleton& skeleton) {
+  const std::vector<bool> ends = EndSites(skeleton);
   for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
-    if (!skeleton.joints[i].is_end_site) AddReadings(skeleton.joints[i], static_cast<int>(i));
+    if (!ends[i]) AddReadings(skeleton.joints[i], static_cast<int>(i));
   }
   std::ranges::stable_sort(readings_, {}, [](const Reading& reading) { return reading.joint.suffixes; });
 }

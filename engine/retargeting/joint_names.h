@@ -36,6 +36,10 @@ enum class Finger { kMiddle, kIndex, kRing, kLittle, kNotNamed, kThumb };
 /// 3ds Max' biped calls the thumb "Finger0", others begin with the index finger.
 Finger FingerOf(std::string_view name);
 
+/// Returns which joints are end sites: BVH's own, and in formats where tips are nodes the childless joints that are named
+/// after their parent: "Head_End", "Head_end", "HeadNub" below "Head". One skeleton is so read alike from both.
+std::vector<bool> EndSites(const Skeleton& skeleton);
+
 /// A joint that was found by its name.
 struct NamedJoint {
   int joint = -1;

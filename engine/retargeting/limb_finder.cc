@@ -6,8 +6,9 @@
 
 namespace etude {
 
-SkeletonTree::SkeletonTree(const Skeleton& skeleton) : skeleton_(skeleton) {
-  ComputeGlobals(skeleton, RestPose(skeleton), rest_);
+SkeletonTree::SkeletonTree(const Skeleton& skeleton, const LocalPose& rest)
+    : skeleton_(skeleton), ends_(EndSites(skeleton)) {
+  ComputeGlobals(skeleton, rest, rest_);
 }
 
 bool SkeletonTree::DescendsFrom(int joint, int ancestor) const {

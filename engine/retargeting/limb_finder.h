@@ -28,15 +28,19 @@ inline constexpr std::array<Limb, 4> kLimbs = {{
 }};
 inline constexpr std::span<const Limb, 2> kLegs = std::span(kLimbs).last<2>();
 
-/// The tree of a skeleton's joints with their positions in the rest pose. `skeleton` must outlive this object.
+/// The tree of a skeleton's joints with their positions in the rest pose, or in another pose that is taken for it.
+/// `skeleton` must outlive this object.
 class SkeletonTree {
  public:
-  explicit SkeletonTree(const Skeleton& skeleton);
+  explicit SkeletonTree(const Skeleton& skeleton) : SkeletonTree(skeleton, RestPose(skeleton)) {}
+  SkeletonTree(const Skeleton& skeleton, const LocalPose& rest);
 
   int size() const { return static_cast<int>(rest_.size()); }
   const std::string& NameOf(int joint) const { return skeleton_.joints[joint].name; }
   int ParentOf(int joint) const { return skeleton_.joints[joint].parent; }
   const glm::dvec3& RestOf(int joint) const { return rest_[joint].position; }
+  /// Returns true for end sites, also those that only their names show (EndSites).
+  bool IsEnd(int joint) const { return ends_[joint]; }
 
   /// Returns true if `joint` is a descendant of `ancestor`; a joint is not a descendant of itself.
   bool DescendsFrom(int joint, int ancestor) const;
@@ -48,6 +52,7 @@ class SkeletonTree {
  private:
   const Skeleton& skeleton_;
   std::vector<GlobalTransform> rest_;
+  std::vector<bool> ends_;
 };
 
 /// A limb found by names: its joints from the trunk outwards; −1 for a missing joint.

@@ -7,6 +7,7 @@
 #include "engine/base/names.h"
 #include "engine/document/fields.h"
 #include "engine/document/node.h"
+#include "engine/retargeting/marker_sets.h"
 
 namespace etude {
 namespace {
@@ -59,13 +60,17 @@ Result<JointMapOverrides> ReadJointMapFile(std::string_view yaml, const std::str
   constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;
   JointMapOverrides taught;
   taught.rate_hz = fields.OptionalNumber("rate", {kMinRate_hz, kMaxRate_hz});
+  taught.keep_floor = fields.Choice("keep_floor", {"true", "false"}, "false") == "true";
+  taught.marker_set = fields.Choice("marker_set", MarkerSetKeys(), "");
   RETURN_IF_ERROR(fields.Finish());
   if (!up.empty()) taught.up = up == "z" ? UpAxis::kZ : UpAxis::kY;
   if (unit != nullptr) {
     ASSIGN_OR_RETURN(taught.metres_per_unit, ReadUnit(unit->scalar, unit->place));
   }
   // Read the roles; they are optional if anything else is given.
-  if (roles == nullptr && (unit != nullptr || taught.up || taught.rate_hz)) return taught;
+  const bool tells_else = unit != nullptr || taught.up || taught.rate_hz || taught.keep_floor ||
+                          !taught.marker_set.empty();
+  if (roles == nullptr && tells_else) return taught;
   if (roles == nullptr || roles->kind != Node::Kind::kMapping || roles->entries.empty()) {
     return Fail(roles == nullptr ? document.place : roles->place,
                 "'roles' must name joints (left_elbow: LForeArm), found {}",

@@ -25,6 +25,8 @@ struct JointMapOverrides {
   std::optional<double> metres_per_unit = {};
   std::optional<UpAxis> up = {};
   std::optional<double> rate_hz = {};  ///< replaces the file's own
+  bool keep_floor = false;             ///< leave bodies at the height that the file says
+  std::string marker_set = "";         ///< of a file of markers: a key of MarkerSets
 };
 
 /// Reads a unit: m, cm, mm, in, ft, cmu (5.64 cm), or its length in metres.
@@ -37,6 +39,8 @@ Result<double> ReadUnit(std::string_view text, const Place& place);
 ///     unit: cm
 ///     up: z
 ///     rate: 120
+///     keep_floor: true
+///     marker_set: opencap
 /// Fails, with line and column, for unknown roles, values that are not names, and an empty file.
 Result<JointMapOverrides> ReadJointMapFile(std::string_view yaml, const std::string& file);
 

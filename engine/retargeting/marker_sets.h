@@ -1,6 +1,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,12 +20,44 @@ struct MarkerRule {
 /// A convention of marker names, in lower case.
 struct MarkerSet {
   std::string name;
+  std::string key;  ///< what --marker-set calls it
   std::vector<MarkerRule> rules;
   std::array<std::string, 4> pelvis = {};  ///< left and right front, left and right back; the hips follow from them
-  bool is_gait = false;                    ///< knees, ankles and shoulders have one marker each, on the skin
+  /// Knees, ankles and elbows have one marker each, on the skin; wands on thighs and shanks show their planes.
+  bool has_skin_limbs = false;
+  bool has_skin_shoulders = false;  ///< likewise shoulders, on top
+  int rank = 0;                     ///< of several sets in a file the one of the highest rank is used
 };
 
 /// Lists the supported conventions.
 const std::vector<MarkerSet>& MarkerSets();
+
+/// Lists their keys.
+std::vector<std::string> MarkerSetKeys();
+
+/// The columns of one person's markers, by their names in lower case without prefix.
+using MarkerColumns = std::map<std::string, std::size_t, std::less<>>;
+
+/// The joints without which there is no body.
+inline constexpr std::array kNeededJoints = {Role::kLeftShoulder, Role::kLeftElbow,  Role::kLeftWrist, Role::kRightShoulder,
+                                Role::kRightElbow,   Role::kRightWrist, Role::kLeftHip,   Role::kLeftKnee,
+                                Role::kLeftAnkle,    Role::kRightHip,   Role::kRightKnee, Role::kRightAnkle};
+
+/// Returns true if a person's markers hold all of these.
+bool HasAll(const MarkerColumns& columns, std::span<const std::string> markers);
+bool HasPelvis(const MarkerSet& set, const MarkerColumns& columns);
+/// Returns true if a set determines a joint by a person's markers.
+bool Determines(const MarkerSet& set, const MarkerColumns& columns, Role role);
+/// Lists the needed joints that it does not determine.
+std::vector<std::string> MissingFrom(const MarkerSet& set, const MarkerColumns& columns);
+
+/// The set used for one person, and another that the file holds, too.
+struct ChosenSet {
+  const MarkerSet* set = nullptr;
+  const MarkerSet* other = nullptr;
+};
+/// Chooses among the complete sets (the wanted one, if a key is given) by rank, then by the number of joints told. Null
+/// if there is none.
+ChosenSet ChooseSet(const MarkerColumns& columns, const std::string& wanted);
 
 }  // namespace etude

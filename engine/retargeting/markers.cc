@@ -13,19 +13,12 @@
 #include "engine/base/order_statistics.h"
 #include "engine/motion/statistics.h"
 #include "engine/retargeting/marker_sets.h"
+#include "engine/retargeting/skin_markers.h"
 
 namespace etude {
 namespace {
 
-using MarkerPosition = std::optional<glm::dvec3>;
-using JointPositions = std::array<MarkerPosition, kRoleCount>;
-
 constexpr double kMaxGap_s = 1;
-
-/// The joints without which there is no body.
-constexpr std::array kNeeded = {Role::kLeftShoulder, Role::kLeftElbow,  Role::kLeftWrist, Role::kRightShoulder,
-                                Role::kRightElbow,   Role::kRightWrist, Role::kLeftHip,   Role::kLeftKnee,
-                                Role::kLeftAnkle,    Role::kRightHip,   Role::kRightKnee, Role::kRightAnkle};
 
 std::string LowerCase(std::string_view text) {
   std::string lower(text);
@@ -55,11 +48,8 @@ int LeaveZerosOut(MarkerMotion& markers) {
   return zeros;
 }
 
-/// The columns of one person's markers, by their names in lower case without prefix.
-using Columns = std::map<std::string, std::size_t, std::less<>>;
-
-std::map<std::string, Columns> PeopleOf(const MarkerMotion& markers) {
-  std::map<std::string, Columns> people;
+std::map<std::string, MarkerColumns> PeopleOf(const MarkerMotion& markers) {
+  std::map<std::string, MarkerColumns> people;
   for (std::size_t i = 0; i < markers.names.size(); ++i) {
     const std::string& name = markers.names[i];
     const std::size_t colon = name.rfind(':');
@@ -67,28 +57,6 @@ std::map<std::string, Columns> PeopleOf(const MarkerMotion& markers) {
     people[prefix].emplace(LowerCase(name.substr(colon == std::string::npos ? 0 : colon + 1)), i);  // the first counts
   }
   return people;
-}
-
-bool HasAll(const Columns& columns, std::span<const std::string> markers) {
-  return std::ranges::all_of(markers, [&](const std::string& marker) { return columns.contains(marker); });
-}
-
-bool HasPelvis(const MarkerSet& set, const Columns& columns) {
-  return !set.pelvis.front().empty() && HasAll(columns, set.pelvis);
-}
-
-bool Determines(const MarkerSet& set, const Columns& columns, Role role) {
-  if ((role == Role::kLeftHip || role == Role::kRightHip) && HasPelvis(set, columns)) return true;
-  return std::ranges::any_of(
-      set.rules, [&](const MarkerRule& rule) { return rule.role == role && HasAll(columns, rule.markers); });
-}
-
-std::vector<std::string> MissingFrom(const MarkerSet& set, const Columns& columns) {
-  std::vector<std::string> lacks;
-  for (const Role role : kNeeded) {
-    if (!Determines(set, columns, role)) lacks.emplace_back(RoleName(role));
-  }
-  return lacks;
 }
 
 /// Interpolates linearly between two points.
@@ -126,37 +94,8 @@ void PlaceHips(const std::array<glm::dvec3, 4>& pelvis, JointPositions& places) 
   places[Index(Role::kRightHip)] = front + 1e-3 * (middle + side);
 }
 
-/// Returns the component of `across` perpendicular to the line from `from` to `to`, normalised.
-glm::dvec3 PerpendicularTo(const glm::dvec3& across, const glm::dvec3& from, const glm::dvec3& to) {
-  const glm::dvec3 along = glm::normalize(to - from);
-  return glm::normalize(across - glm::dot(across, along) * along);
-}
-
-/// Moves Plug-in Gait's markers from the skin to the joint centres.
-void MoveIntoLimbs(JointPositions& places) {
-  constexpr double kHalfKnee = 0.05, kHalfAnkle = 0.035, kShoulderDepth = 0.045;
-  // Knees and ankles: inward, perpendicular to the limb.
-  const auto at = [&](Role role) -> MarkerPosition& { return places[Index(role)]; };
-  if (at(Role::kLeftHip) && at(Role::kRightHip)) {
-    const glm::dvec3 to_right = *at(Role::kRightHip) - *at(Role::kLeftHip);
-    for (const bool is_left : {true, false}) {
-      const auto of = [&](Role role) -> MarkerPosition& { return at(is_left ? role : Mirrored(role)); };
-      const glm::dvec3 inward = is_left ? to_right : -to_right;
-      MarkerPosition &hip = of(Role::kLeftHip), &knee = of(Role::kLeftKnee), &ankle = of(Role::kLeftAnkle);
-      if (knee) *knee += kHalfKnee * PerpendicularTo(inward, *hip, *knee);
-      if (knee && ankle) *ankle += kHalfAnkle * PerpendicularTo(inward, *knee, *ankle);
-    }
-  }
-  // Shoulders: down along the trunk.
-  const MarkerPosition &neck = at(Role::kShoulderCentre), &spine = at(Role::kSpine);
-  if (!neck || !spine) return;
-  for (const Role shoulder : {Role::kLeftShoulder, Role::kRightShoulder}) {
-    if (at(shoulder)) *at(shoulder) += kShoulderDepth * glm::normalize(*spine - *neck);
-  }
-}
-
 /// Returns the joints' positions in one frame; `scale` is the length of the file's unit in metres.
-JointPositions PositionsOf(const MarkerSet& set, const Columns& columns, const std::vector<MarkerPosition>& frame,
+JointPositions PositionsOf(const MarkerSet& set, const MarkerColumns& columns, const std::vector<MarkerPosition>& frame,
                            double scale) {
   JointPositions places;
   const auto middle = [&](std::span<const std::string> markers) -> MarkerPosition {
@@ -182,11 +121,20 @@ JointPositions PositionsOf(const MarkerSet& set, const Columns& columns, const s
     }
     if (is_seen) PlaceHips(pelvis, places);
   }
-  if (set.is_gait) MoveIntoLimbs(places);
   for (MarkerPosition& place : places) {  // coinciding markers have no direction
     if (place && !std::isfinite(place->x + place->y + place->z)) place.reset();
   }
   return places;
+}
+
+/// Returns the markers of thighs and shanks in one frame.
+Wands WandsOf(const MarkerColumns& columns, const std::vector<MarkerPosition>& frame, double scale) {
+  const auto at = [&](const char* marker) -> MarkerPosition {
+    const auto found = columns.find(marker);
+    if (found == columns.end() || !frame[found->second]) return std::nullopt;
+    return scale * *frame[found->second];
+  };
+  return {.thigh = {at("lthi"), at("rthi")}, .shank = {at("ltib"), at("rtib")}};
 }
 
 /// Completes the joints without markers by rules of proportion. Y points up.
@@ -218,33 +166,18 @@ BodyPose Complete(const JointPositions& places) {
   return pose;
 }
 
-/// Returns the axis, with its sign, along which shoulders are farthest from ankles.
-glm::dvec3 FindUp(const std::vector<JointPositions>& frames) {
-  glm::dvec3 sum(0);
+/// Finds the axis that points up, by the frames with all needed joints; a foot without a marker counts as its ankle.
+UpFinding FindUpOf(const std::vector<JointPositions>& frames, double rate_hz, const UpRule& rule) {
+  std::vector<BodyPose> poses;
   for (const JointPositions& places : frames) {
-    const MarkerPosition &shoulder = places[Index(Role::kLeftShoulder)], &ankle = places[Index(Role::kLeftAnkle)];
-    if (shoulder && ankle) sum += *shoulder - *ankle;
-  }
-  glm::dvec3 up(0);
-  int axis = 1;
-  for (int i = 0; i < 3; ++i) {
-    if (std::abs(sum[i]) > std::abs(sum[axis])) axis = i;
-  }
-  up[axis] = sum[axis] < 0 ? -1 : 1;
-  return up;
-}
-
-/// Rotates positions so that `up` becomes Y.
-void TurnUpright(const glm::dvec3& up, std::vector<JointPositions>& frames) {
-  for (JointPositions& places : frames) {
-    for (MarkerPosition& place : places) {
-      if (!place) continue;
-      const glm::dvec3 p = *place;
-      if (up.z != 0) *place = {p.x, up.z * p.z, -up.z * p.y};
-      if (up.x != 0) *place = {-up.x * p.y, up.x * p.x, p.z};
-      if (up.y < 0) *place = {p.x, -p.y, -p.z};
+    if (!std::ranges::all_of(kNeededJoints, [&](Role role) { return places[Index(role)].has_value(); })) continue;
+    BodyPose& pose = poses.emplace_back(Complete(places));
+    for (const Role foot : {Role::kLeftFoot, Role::kRightFoot}) {
+      const Role ankle = foot == Role::kLeftFoot ? Role::kLeftAnkle : Role::kRightAnkle;
+      if (!places[Index(foot)]) pose[foot] = pose[ankle];
     }
   }
+  return FindUp(poses, rate_hz, rule);
 }
 
 /// Returns the longest range of frames in which every needed joint is known: its first frame and the frame after its
@@ -254,7 +187,7 @@ std::pair<std::size_t, std::size_t> LongestStretch(const std::vector<JointPositi
   std::size_t begin = 0;
   for (std::size_t t = 0; t <= frames.size(); ++t) {
     const bool is_whole = t < frames.size() &&
-                          std::ranges::all_of(kNeeded, [&](Role role) { return frames[t][Index(role)].has_value(); });
+                          std::ranges::all_of(kNeededJoints, [&](Role role) { return frames[t][Index(role)].has_value(); });
     if (is_whole) continue;
     if (t - begin > best.second - best.first) best = {begin, t};
     begin = t + 1;
@@ -262,48 +195,79 @@ std::pair<std::size_t, std::size_t> LongestStretch(const std::vector<JointPositi
   return best;
 }
 
-/// Shifts the poses so that the floor is at 0. The floor is the 5th percentile of the lowest joint's height.
-void StandOnFloor(std::vector<BodyPose>& poses) {
+/// Returns the floor's height: the 5th percentile of the lowest joint's.
+double FloorOf(const std::vector<BodyPose>& poses) {
   std::vector<double> lowest;
   for (const BodyPose& pose : poses) {
     lowest.push_back(std::ranges::min(pose.joints, {}, [](const glm::dvec3& joint) { return joint.y; }).y);
   }
   std::ranges::sort(lowest);
-  const double floor = lowest[lowest.size() / 20];
-  for (BodyPose& pose : poses) {
+  return lowest[lowest.size() / 20];
+}
+
+/// Shifts the poses so that the floor is at 0, unless it shall stay.
+void StandOnFloor(bool keeps_floor, bool is_own, MarkerBody& body) {
+  constexpr double kMaxOwn = 0.5, kMinTold = 0.001;
+  const double floor = FloorOf(body.motion.poses);
+  if (keeps_floor || (is_own && std::abs(floor) <= kMaxOwn)) return;
+  body.floor = floor;
+  for (BodyPose& pose : body.motion.poses) {
     for (glm::dvec3& joint : pose.joints) joint.y -= floor;
+  }
+  if (std::abs(floor) >= kMinTold) {
+    body.changes.push_back(fmt::format("the floor was at {:.4g} cm: moved to 0", 100 * floor));
   }
 }
 
-// Makes the body for one length of the file's unit; nullopt if no frame has all needed joints.
+bool IsOwn(const MarkerSet& set) { return &set == &MarkerSets().front(); }
+
+/// Makes the body for one length of the file's unit; nullopt if no frame has all needed joints.
 std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, const MarkerSet& set,
-                                 const Columns& columns, char up) {
-  // Compute the joints, fill short gaps, and rotate upright.
+                                 const MarkerColumns& columns, const MarkerOptions& options) {
+  // Compute the joints and their centres, and fill short gaps.
   std::vector<JointPositions> frames;
+  std::vector<Wands> wands;
   frames.reserve(markers.frames.size());
-  for (const auto& frame : markers.frames) frames.push_back(PositionsOf(set, columns, frame, scale));
+  for (const auto& frame : markers.frames) {
+    frames.push_back(PositionsOf(set, columns, frame, scale));
+    wands.push_back(WandsOf(columns, frame, scale));
+  }
+  const std::string centres = MoveToJointCentres(set, markers.sizes_m, wands, frames);
   int filled = 0;
   const auto max_gap = static_cast<std::size_t>(kMaxGap_s * markers.rate_hz);
   for (std::size_t joint = 0; joint < kRoleCount; ++joint) filled += BridgeGaps(frames, joint, max_gap);
-  TurnUpright(up == 'Z' ? glm::dvec3(0, 0, 1) : up == 'Y' ? glm::dvec3(0, 1, 0) : FindUp(frames), frames);
+  // Rotate upright. What Etude wrote has Y up.
+  UpRule rule = options.up;
+  if (IsOwn(set) && rule.evidence == UpEvidence::kPosture) {
+    rule = {.axis = {0, 1, 0}, .evidence = UpEvidence::kFile, .source = "the word of Etude's own joints"};
+  }
+  MarkerBody body{.name = "", .motion = {.rate_hz = markers.rate_hz, .poses = {}}, .up = {}, .changes = {set.name}, .note = ""};
+  body.up = FindUpOf(frames, markers.rate_hz, rule);
+  for (JointPositions& places : frames) {
+    for (MarkerPosition& place : places) {
+      if (place) place = TurnedUp(*place, body.up.axis);
+    }
+  }
   // Keep the longest complete range.
   const auto [begin, end] = LongestStretch(frames);
   if (begin == end) return std::nullopt;
-  MarkerBody body{.name = "", .motion = {.rate_hz = markers.rate_hz, .poses = {}}, .note = set.name};
   for (std::size_t t = begin; t < end; ++t) body.motion.poses.push_back(Complete(frames[t]));
-  StandOnFloor(body.motion.poses);
   // Describe the corrections.
-  if (filled > 0) body.note += fmt::format(", {} places bridged over gaps", filled);
+  if (filled > 0) body.changes.push_back(fmt::format("{} places bridged over gaps", filled));
   if (end - begin < frames.size()) {
-    body.note += fmt::format(", frames {} to {} of {} (elsewhere joints are lost for over {:g} s)", begin + 1, end,
-                             frames.size(), kMaxGap_s);
+    body.changes.push_back(fmt::format("frames {} to {} of {} (elsewhere joints are lost for over {:g} s)", begin + 1,
+                                       end, frames.size(), kMaxGap_s));
   }
+  if (!centres.empty()) body.changes.push_back(centres);
   std::vector<std::string> guessed;
   for (const Role role : AllRoles()) {
     if (!Determines(set, columns, role)) guessed.emplace_back(RoleName(role));
   }
-  if (!guessed.empty()) body.note += ", placed by rule: " + Join(guessed);
-  if (!markers.remark.empty()) body.note += "; " + markers.remark;
+  if (!guessed.empty()) body.changes.push_back("placed by rule: " + Join(guessed));
+  if (!markers.remark.empty()) body.changes.push_back(markers.remark);
+  if (std::string turn = DescribeTurn(body.up); !turn.empty()) body.changes.push_back(std::move(turn));
+  if (!body.up.doubt.empty()) body.changes.push_back(body.up.doubt);
+  StandOnFloor(options.keep_floor, IsOwn(set), body);
   return body;
 }
 
@@ -315,20 +279,29 @@ double MiddleStature(const BodyMotion& motion) {
 
 /// Makes the body in the file's unit or, if its size is implausible, in the power of ten of it that gives a person,
 /// which the note states. Fails if none does.
-Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const MarkerSet& set, const Columns& columns,
-                                         char up, const std::string& file) {
+Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const MarkerSet& set, const MarkerColumns& columns,
+                                         const MarkerOptions& options, const std::string& file) {
   constexpr double kMinStature = 0.4, kMaxStature = 4, kMinPerson = 1.2, kMaxPerson = 2.3;
-  auto body = BodyAt(1, markers, set, columns, up);
+  const double told_scale = options.metres_per_unit.value_or(markers.metres_per_unit) / markers.metres_per_unit;
+  auto body = BodyAt(told_scale, markers, set, columns, options);
   if (!body) return body;
+  if (told_scale != 1) {
+    body->changes.push_back(fmt::format("1 unit = {:.4g} cm (told), instead of the file's {:.4g} cm",
+                                        100 * *options.metres_per_unit, 100 * markers.metres_per_unit));
+  }
   const double told = MiddleStature(body->motion);
   if (told >= kMinStature && told <= kMaxStature) return body;
+  if (options.metres_per_unit) {
+    return Fail({file}, "in the unit given (1 unit = {:.4g} cm) the body is {:.3g} m tall; allowed: {:g} to {:g} m",
+                100 * *options.metres_per_unit, told, kMinStature, kMaxStature);
+  }
   for (const double scale : {1000.0, 100.0, 10.0, 0.1, 0.01, 0.001}) {
-    auto scaled = BodyAt(scale, markers, set, columns, up);
+    auto scaled = BodyAt(scale, markers, set, columns, options);
     if (!scaled) continue;
     const double stature = MiddleStature(scaled->motion);
     if (stature < kMinPerson || stature > kMaxPerson) continue;
-    scaled->note +=
-        fmt::format("; in the file's unit the body is {:.3g} m tall: taken for {:g} times that", told, scale);
+    scaled->changes.push_back(
+        fmt::format("in the file's unit the body is {:.3g} m tall: taken for {:g} times that", told, scale));
     return scaled;
   }
   return Fail({file}, "its markers show a body {:.3g} m tall; allowed: {:g} to {:g} m; is their unit another?", told,
@@ -337,34 +310,32 @@ Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const Mark
 
 }  // namespace
 
-Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std::string& file, char up) {
+Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std::string& file,
+                                                 const MarkerOptions& options) {
   if (const int zeros = LeaveZerosOut(markers); zeros > 0) {
     markers.remark += fmt::format("{}{} places at 0, 0, 0 taken for gaps", markers.remark.empty() ? "" : "; ", zeros);
   }
-  // For each person, choose the set that determines the most joints.
+  // For each person, choose a set and make the body.
   std::vector<MarkerBody> bodies;
   std::string nearest = "";
-  std::size_t fewest = kNeeded.size() + 1;
+  std::size_t fewest = kNeededJoints.size() + 1;
   for (const auto& [prefix, columns] : PeopleOf(markers)) {
-    const MarkerSet* best = nullptr;
-    std::size_t most = 0;
     for (const MarkerSet& set : MarkerSets()) {
       const auto lacks = MissingFrom(set, columns);
-      const auto told = static_cast<std::size_t>(std::ranges::count_if(
-          AllRoles(), [&, &columns = columns](Role role) { return Determines(set, columns, role); }));
-      if (lacks.empty() && told > most) {
-        best = &set;
-        most = told;
-      }
-      if (lacks.size() < fewest) {
-        fewest = lacks.size();
-        nearest = fmt::format("{} lacks {}", set.name, Join(lacks));
-      }
+      if (lacks.size() >= fewest || (!options.set.empty() && set.key != options.set)) continue;
+      fewest = lacks.size();
+      nearest = fmt::format("{} lacks {}", set.name, Join(lacks));
     }
-    if (best == nullptr) continue;
-    ASSIGN_OR_RETURN(auto body, BodyOf(markers, *best, columns, up, file));
+    const ChosenSet chosen = ChooseSet(columns, options.set);
+    if (chosen.set == nullptr) continue;
+    ASSIGN_OR_RETURN(auto body, BodyOf(markers, *chosen.set, columns, options, file));
     if (!body) continue;
     body->name = prefix;
+    if (chosen.other != nullptr) {
+      body->changes.front() += fmt::format(", not {}, which the file holds, too (--marker-set {})", chosen.other->name,
+                                           chosen.other->key);
+    }
+    body->note = Join(body->changes, "; ");
     bodies.push_back(std::move(*body));
   }
   // Explain why there is no body.

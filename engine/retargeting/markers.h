@@ -1,19 +1,33 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/base/result.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/body.h"
+#include "engine/retargeting/up_axis.h"
 
 namespace etude {
+
+/// What is told or known about a file of markers.
+struct MarkerOptions {
+  UpRule up = {};
+  bool keep_floor = false;                                ///< leave bodies at the height that the file says
+  std::optional<double> metres_per_unit = std::nullopt;  ///< told by the user, instead of the file's unit
+  std::string set = "";                                  ///< a key of MarkerSets; "" = chosen by rank
+};
 
 /// A body found in the trajectories of markers.
 struct MarkerBody {
   std::string name;   ///< the prefix of its markers ("Derrick" of "Derrick:LANK"), or ""
   BodyMotion motion;  ///< at the file's rate; metres, Y up, feet on the floor
-  std::string note;   ///< the marker set and the corrections made, for people
+  UpFinding up;       ///< the axis of the file that became Y
+  double floor = 0;   ///< the height that became 0, metres
+  /// The marker set, then every correction and change of what the file holds, each for people.
+  std::vector<std::string> changes;
+  std::string note;  ///< all of them, between semicolons
 };
 
 /// Finds the bodies of a marker recording by the markers' names. Known sets: Etude's own joints, OpenPose's BODY_25,
@@ -22,20 +36,23 @@ struct MarkerBody {
 /// given):
 /// - the mean of the markers on both sides of a joint, if a set has both;
 /// - hips from the four markers of the pelvis by the regression of Harrington et al. (2007);
-/// - for Plug-in Gait, knees and ankles 5 and 3.5 cm inward from their single marker, perpendicular to the limb;
-///   shoulders 4.5 cm below theirs, along the trunk; elbows at the marker;
+/// - for single markers on the skin, the centre by MoveToJointCentres;
 /// - joints missing from a set: hip and shoulder centre midway between the joints, the spine midway between both, the
 ///   head 0.3 trunk lengths above, hands 0.7 forearm lengths beyond the wrist, toes 16 cm ahead of the ankle and 4 cm
 ///   below.
 /// Gaps of up to a second are interpolated linearly and counted. With longer gaps, only the longest stretch without one
-/// is kept, and the note states it. Positions at 0, 0, 0 count as gaps if the marker is elsewhere in other frames. `up`
-/// is 'Y', 'Z', or 0: then it is the axis along which shoulders are farthest from ankles.
+/// is kept, and the note states it. Positions at 0, 0, 0 count as gaps if the marker is elsewhere in other frames. The
+/// axis that points up is FindUp's by `options.up`. The floor (5th percentile of the lowest joint's height) becomes 0.
+/// Etude's own joints are taken as written: Y up, and their floor where it is unless that is over half a metre from 0.
+/// Of several complete sets in a file, the one of the highest rank is used, then the one that tells most joints; the
+/// note names the other.
 ///
 /// If a body is not 0.4 to 4 m tall (median), its unit is assumed to be wrong: the power of ten that makes it 1.2 to
-/// 2.3 m tall is applied, and the note states it.
+/// 2.3 m tall is applied, and the note states it; a unit told in `options` is used as it is.
 ///
 /// Fails, naming `file`, if no set is complete in shoulders, elbows, wrists, hips, knees and ankles (the message lists
 /// what the best set lacks), or if no unit gives a plausible size.
-Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std::string& file, char up = 0);
+Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std::string& file,
+                                                 const MarkerOptions& options = {});
 
 }  // namespace etude

@@ -12,6 +12,7 @@
 
 #include "engine/base/angles.h"
 #include "engine/base/names.h"
+#include "engine/formats/row_clock.h"
 #include "engine/formats/text_scanner.h"
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/joint_limits.h"
@@ -294,25 +295,15 @@ Result<AngleTable> ReadAngleTable(std::string_view bytes, const std::string& fil
   return table;
 }
 
-/// Returns the rate of evenly spaced times.
-Result<double> RateOfRows(const std::vector<std::vector<double>>& rows, const std::string& file) {
-  if (rows.size() < 2) return kJudgedRateHz;
-  const double first = rows.front().front(), steps = static_cast<double>(rows.size() - 1);
-  const double span = rows.back().front() - first;
-  constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000, kUneven = 0.05;
-  const double rate = span > 0 ? steps / span : 0;
-  if (!(rate >= kMinRate_hz && rate <= kMaxRate_hz)) {
-    return Fail({file}, "{} rows in {:g} s; allowed: {:g} to {:g} a second", rows.size(), span, kMinRate_hz,
-                kMaxRate_hz);
-  }
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (std::abs((rows[i].front() - first) * rate - static_cast<double>(i)) > kUneven) {
-      return Fail({file}, "row {} at {:g} s; allowed: even steps, here of {:g} s", i + 1, rows[i].front(), 1 / rate);
-    }
-  }
-  // Times are rounded, so an integer rate within their precision is assumed to be exact.
-  constexpr double kLastDigit = 1e-6;
-  return std::abs(rate - std::round(rate)) <= rate * kLastDigit / span ? std::round(rate) : rate;
+/// Refuses times that are those of no recording.
+Result<void> CheckTimes(const std::vector<double>& times, const std::string& file) {
+  if (times.size() < 2) return {};
+  constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;
+  const double span = times.back() - times.front();
+  const double rate = span > 0 ? static_cast<double>(times.size() - 1) / span : 0;
+  if (rate >= kMinRate_hz && rate <= kMaxRate_hz) return {};
+  return Fail({file}, "{} rows in {:g} s; allowed: {:g} to {:g} a second", times.size(), span, kMinRate_hz,
+              kMaxRate_hz);
 }
 
 /// Converts from OpenSim's axes to Etude's; the inverse of InOpenSim.
@@ -325,12 +316,14 @@ bool HasModelOfAngles(std::string_view bytes) {
   return head.size() < bytes.size() && head.find("\npart ") != std::string_view::npos;
 }
 
-Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& file) {
+Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& file, std::string* note) {
   constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
   if (bytes.size() > kMaxBytes) return Fail({file}, "{} bytes; allowed: {}", bytes.size(), kMaxBytes);
   ASSIGN_OR_RETURN(const AngleTable table, ReadAngleTable(bytes, file));
-  BodyMotion motion{.rate_hz = 0, .poses = std::vector<BodyPose>(table.rows.size())};
-  ASSIGN_OR_RETURN(motion.rate_hz, RateOfRows(table.rows, file));
+  std::vector<double> times;
+  for (const std::vector<double>& row : table.rows) times.push_back(row.front());
+  RETURN_IF_ERROR(CheckTimes(times, file));
+  BodyMotion motion{.rate_hz = kJudgedRateHz, .poses = std::vector<BodyPose>(table.rows.size())};
   // Forward kinematics of every row.
   for (std::size_t f = 0; f < table.rows.size(); ++f) {
     const std::vector<double>& row = table.rows[f];
@@ -347,6 +340,9 @@ Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& 
       motion.poses[f][part.end] = FromOpenSim(ends[Index(part.end)]);
     }
   }
+  std::string changed;
+  ASSIGN_OR_RETURN(motion, LayOnClock(std::move(motion), times, file, changed));
+  if (note != nullptr && !changed.empty()) *note += (note->empty() ? "" : "; ") + changed;
   return motion;
 }
 

@@ -29,11 +29,11 @@ std::string WriteOpenSimMotion(const BodyMotion& motion, const BodyPose& rest, s
 /// Returns true if these bytes are a .mot file that contains the model of its angles.
 bool HasModelOfAngles(std::string_view bytes);
 
-/// Reads such a .mot file by its own model: the ends of the twenty parts, metres, Y up. The rate follows from the
-/// times, which must be evenly spaced; for a single row it is 30 Hz. Angles are degrees, or radians after
-/// "inDegrees=no". Fails, with the line, for more than 64 MB, parts that are not the twenty roles (each once, after its
-/// parent), angles or translations without a column, rows of another length, numbers beyond ±10⁹, no rows, and uneven
-/// times.
-Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& file);
+/// Reads such a .mot file by its own model: the ends of the twenty parts, metres, Y up. Rows are laid on the clock of
+/// their times (`LayOnClock`), and `note` receives what that changed; a single row has 30 Hz. Angles are degrees, or
+/// radians after "inDegrees=no". Fails, with the line, for more than 64 MB, parts that are not the twenty roles (each
+/// once, after its parent), angles or translations without a column, rows of another length, numbers beyond ±10⁹, no
+/// rows, and times that run backwards.
+Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& file, std::string* note = nullptr);
 
 }  // namespace etude

@@ -1,12 +1,14 @@
 #include "engine/retargeting/orientation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 #include <vector>
 
 #include "engine/base/angles.h"
 #include "engine/base/directions.h"
+#include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
 #include "engine/motion/statistics.h"
 
@@ -14,22 +16,6 @@ namespace etude {
 namespace {
 
 using enum Role;
-
-/// A mean or resting body axis counts as standing if its component along an axis of the file exceeds this.
-constexpr double kStanding = 0.9;
-/// Mostly upright: people bend, sit and fall.
-constexpr double kMostlyStanding = 0.5;
-
-/// Returns true if the hips travel over the plane of X and Y by half a body's length.
-bool TravelsOverXY(std::span<const BodyPose> poses) {
-  glm::dvec3 low = poses.front()[kHipCentre];
-  glm::dvec3 high = low;
-  for (const BodyPose& pose : poses) {
-    low = glm::min(low, pose[kHipCentre]);
-    high = glm::max(high, pose[kHipCentre]);
-  }
-  return std::max(high.x - low.x, high.y - low.y) > 0.5 * Stature(poses.front());
-}
 
 }  // namespace
 
@@ -54,19 +40,7 @@ glm::dvec3 MeanBodyAxis(std::span<const BodyPose> poses) {
   return sum / static_cast<double>(poses.size());
 }
 
-UpAxis FindUpAxis(const BodyPose& rest, std::span<const BodyPose> poses) {
-  const glm::dvec3 at_rest = BodyAxis(rest);
-  const glm::dvec3 moving = MeanBodyAxis(poses);
-  if (at_rest.z > kStanding) return moving.y > kStanding ? UpAxis::kY : UpAxis::kZ;
-  if (at_rest.y > kStanding) {
-    return moving.z > kStanding && TravelsOverXY(poses) ? UpAxis::kZ : UpAxis::kY;
-  }
-  return moving.z > kMostlyStanding && moving.z > std::abs(moving.y) ? UpAxis::kZ : UpAxis::kY;
-}
-
 namespace {
-
-using enum Role;
 
 glm::dvec3 Direction(const glm::dvec3& v) {
   const double length = glm::length(v);
@@ -157,6 +131,34 @@ Result<double> CheckSides(std::span<const BodyPose> poses, const JointMap& map, 
   double mean = 0;
   for (const double bend : sides.knee_bends) mean -= bend / count;
   return mean >= kMinReported ? mean : 0;
+}
+
+Result<void> CheckLimbs(std::span<const BodyPose> poses, const std::string& file) {
+  constexpr std::array<Bone, 8> kLimbBones = {{{kLeftShoulder, kLeftElbow},
+                                               {kLeftElbow, kLeftWrist},
+                                               {kRightShoulder, kRightElbow},
+                                               {kRightElbow, kRightWrist},
+                                               {kLeftHip, kLeftKnee},
+                                               {kLeftKnee, kLeftAnkle},
+                                               {kRightHip, kRightKnee},
+                                               {kRightKnee, kRightAnkle}}};
+  constexpr double kMinPerStature = 0.01;
+  const auto median = [&](const auto& measure) {
+    std::vector<double> values;
+    for (const BodyPose& pose : poses) values.push_back(measure(pose));
+    return LowerPercentile(std::move(values), 0.5);
+  };
+  const double stature = median(Stature);
+  std::vector<std::string> gone;
+  for (const Bone& bone : kLimbBones) {
+    const double length = median([&](const BodyPose& pose) { return BoneLength(pose, bone); });
+    if (length <= kMinPerStature * stature) {
+      gone.push_back(fmt::format("{} to {}", RoleName(bone.parent), RoleName(bone.child)));
+    }
+  }
+  if (gone.size() < 2) return {};
+  return Fail({file}, "{} of its 8 limbs have no length ({}); allowed: limbs as long as a person's", gone.size(),
+              Join(gone));
 }
 
 }  // namespace etude

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <iterator>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,70 +17,12 @@
 #include "engine/motion/body.h"
 #include "engine/motion/clip.h"
 #include "engine/motion/statistics.h"
+#include "engine/retargeting/body_sampler.h"
 #include "engine/retargeting/joint_map.h"
 #include "engine/retargeting/orientation.h"
 
 namespace etude {
 namespace {
-
-/// Evaluates a clip's twenty joints at any time, in the file's unit and axes. Only joints that carry a role are
-/// evaluated, and no memory is allocated for a frame. `clip` must outlive this object.
-class BodySampler {
- public:
-  BodySampler(const Clip& clip, const JointMap& map);
-
-  BodyPose Rest();
-  /// Returns the pose at a frame counted from 0, also between frames (SampleFrame); it must lie within the clip.
-  BodyPose At(double frame);
-
- private:
-  BodyPose Evaluated();
-
-  const Clip& clip_;
-  std::vector<int> joints_;  ///< indices in the clip: joints with a role and their ancestors
-  Skeleton skeleton_;        ///< of these joints only
-  JointMap map_;             ///< on that skeleton
-  LocalPose local_;
-  std::vector<GlobalTransform> globals_;
-};
-
-BodySampler::BodySampler(const Clip& clip, const JointMap& map) : clip_(clip), map_(map) {
-  const std::vector<Joint>& all = clip.skeleton.joints;
-  std::vector<bool> is_needed(all.size());
-  for (const RolePoint& point : map.points) {
-    for (int joint = point.joint; joint >= 0; joint = all[joint].parent) is_needed[joint] = true;
-  }
-  std::vector<int> index(all.size(), -1);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!is_needed[i]) continue;
-    index[i] = static_cast<int>(joints_.size());
-    joints_.push_back(static_cast<int>(i));
-    const int parent = all[i].parent;
-    skeleton_.joints.push_back({.name = "", .parent = parent < 0 ? -1 : index[parent], .rest = all[i].rest});
-  }
-  for (RolePoint& point : map_.points) point.joint = index[point.joint];
-  local_.resize(joints_.size());
-}
-
-BodyPose BodySampler::Rest() {
-  for (std::size_t i = 0; i < joints_.size(); ++i) local_[i] = skeleton_.joints[i].rest;
-  return Evaluated();
-}
-
-BodyPose BodySampler::At(double frame) {
-  const auto index = static_cast<std::size_t>(frame);
-  const double part = frame - static_cast<double>(index);
-  for (std::size_t i = 0; i < joints_.size(); ++i) {
-    const LocalTransform& here = clip_.frames[index][joints_[i]];
-    local_[i] = part == 0 ? here : Between(here, clip_.frames[index + 1][joints_[i]], part);
-  }
-  return Evaluated();
-}
-
-BodyPose BodySampler::Evaluated() {
-  ComputeGlobals(skeleton_, local_, globals_);
-  return Evaluate(map_, globals_);
-}
 
 using enum Role;
 
@@ -106,20 +49,18 @@ constexpr double kDefaultStature = 1.70;
 
 constexpr double kMaxSeconds = 3600;
 constexpr double kMaxPoses = 500'000;
+constexpr double kMinToldFloor_cm = 0.1;  // lower ones are rounding
 constexpr double kMinBody = 1e-6;  // in any unit; smaller bodies have no size
 
-std::size_t SampleStep(const Clip& clip) {
-  constexpr std::size_t kSamples = 100;
-  return 1 + clip.frames.size() / kSamples;
+/// Returns the axis that is told, else the format's, else the one found.
+UpFinding UpOf(const BodyOptions& options, const BodyPose& rest, const UpSamples& samples) {
+  if (options.up) return {.axis = AxisOf(*options.up), .evidence = UpEvidence::kTold};
+  if (options.found_up) return *options.found_up;
+  return options.up_rule ? FindUp(samples.poses, samples.rate_hz, *options.up_rule)
+                         : FindUp(rest, samples.poses, samples.rate_hz);
 }
 
-/// Samples the clip's joints at about a hundred frames, evenly spaced, in the file's axes.
-std::vector<BodyPose> SampledPoses(const Clip& clip, BodySampler& sampler) {
-  std::vector<BodyPose> poses;
-  for (std::size_t i = 0; i < clip.frames.size(); i += SampleStep(clip))
-    poses.push_back(sampler.At(static_cast<double>(i)));
-  return poses;
-}
+UpAxis AsUpAxis(const UpFinding& up) { return up.axis.z > 0 ? UpAxis::kZ : UpAxis::kY; }
 
 /// Replaces the scales of every frame by those of the rest pose.
 void ResetScales(Clip& clip) {
@@ -195,7 +136,9 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
   for (std::size_t i = 0; i < count; ++i) {
     const double frame = std::min(static_cast<double>(i) * clip.rate_hz / rate_hz, frames);
     poses.push_back(Upright(sampler.At(static_cast<double>(first) + frame), up));
-    if (!IsFinite(poses.back())) return Fail({file}, "in frame {:.0f} joints lie beyond all measure", frame);
+    if (!IsFinite(poses.back())) {
+      return Fail({file}, "in frame {:.0f} joints lie beyond all measure", static_cast<double>(first) + frame);
+    }
   }
   return poses;
 }
@@ -215,23 +158,23 @@ constexpr double kMaxRatio = 1.25;
 bool AreAlike(double ratio) { return ratio > 1 / kMaxRatio && ratio < kMaxRatio; }
 
 /// Finds the unit by the stature. The rest pose's stature, which all clips of a file share, is used unless the moving
-/// body differs: some files store all offsets in the frames only, others scale the hips in them. `remark` states it.
+/// body differs: some files store all offsets in the frames only, others scale the hips in them. `remarks` states it.
 /// Fails, naming `file`, if the given unit is implausible, and names the likely one.
 Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, const BodyOptions& options,
-                      const std::string& file, BodyConversion& done, std::string& remark) {
+                      const std::string& file, BodyConversion& done, std::vector<std::string>& remarks) {
   const std::optional<double>& given = options.metres_per_unit;
   const double at_rest = Stature(rest), own = MedianStature(poses), moving = options.stature.value_or(own);
   // Compare the frames with the rest pose, with the file's other clips, and with each other.
   const double ratio = moving / at_rest;
   const bool is_alike = AreAlike(ratio);
   if (!AreAlike(own / moving)) {
-    remark +=
-        fmt::format("; its frames show a body {:.3g} times as tall as those of all the file's clips", own / moving);
+    remarks.push_back(
+        fmt::format("its frames show a body {:.3g} times as tall as those of all the file's clips", own / moving));
   }
   const std::vector<double> statures = OverFrames(poses, Stature);
   const double least = LowerPercentile(statures, 0.05), most = LowerPercentile(statures, 0.95);
   if (!AreAlike(most / least))
-    remark += fmt::format("; its size changes: {:.2g} times from frame to frame", most / least);
+    remarks.push_back(fmt::format("its size changes: {:.2g} times from frame to frame", most / least));
   const double stature = is_alike ? at_rest : moving;
   if (stature < kMinBody) return Fail({file}, "the body's joints all lie in one point; it needs a size");
   const Unit* const unit = UnitOf(stature);
@@ -246,7 +189,7 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
                   100 * *given, told, kMinGiven, kMaxGiven, likely);
     }
     if ((told < kMinStature || told > kMaxStature) && unit != nullptr) {
-      remark += fmt::format("; {:.2f} m tall in the unit given{}", told, likely);
+      remarks.push_back(fmt::format("{:.2f} m tall in the unit given{}", told, likely));
     }
     done.unit = "given";
     done.metres_per_unit = *given;
@@ -259,11 +202,11 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
   // Only a rest pose with a size can be compared with the frames.
   if (at_rest < kMinBody || std::abs(ratio - 1) <= kSame) return {};
   const Unit* const of_rest = UnitOf(at_rest);
-  remark += fmt::format("; the frames show a body {:.3g} times as tall as the rest pose", ratio);
+  remarks.push_back(fmt::format("the frames show a body {:.3g} times as tall as the rest pose", ratio));
   if (is_alike || unit != nullptr || of_rest == nullptr) return {};
   done.unit = "scaled";
   done.metres_per_unit = of_rest->metres / ratio;
-  remark += fmt::format(": scaled back to its {:.2f} m ({})", at_rest * of_rest->metres, of_rest->name);
+  remarks.back() += fmt::format(": scaled back to its {:.2f} m ({})", at_rest * of_rest->metres, of_rest->name);
   return {};
 }
 
@@ -300,28 +243,40 @@ std::string LiesAlong(std::span<const BodyPose> poses) {
   return "";
 }
 
-std::string Note(const BodyConversion& done, const JointMap& map, const std::string& lies, const std::string& remarks) {
-  std::string note = fmt::format("1 unit = {:.4g} cm", 100 * done.metres_per_unit);
-  note += done.unit == "unknown" ? fmt::format(" (unknown unit, scaled to a stature of {:.2f} m)", kDefaultStature)
-                                 : fmt::format(" ({})", done.unit);
-  if (done.up == UpAxis::kZ) note += "; turned upright from Z up";
-  note += lies;
-  if (done.dropped_frames > 0) note += "; dropped a leading T-pose";
-  if (done.dropped_frames > 1) note += fmt::format(" of {} frames", done.dropped_frames);
+/// Lists the findings and changes, each for people.
+std::vector<std::string> ChangesOf(const BodyConversion& done, const JointMap& map, const Clip& clip,
+                                   const std::string& lies) {
+  // Unit, axis and frames.
+  std::vector<std::string> changes = {
+      fmt::format("1 unit = {:.4g} cm", 100 * done.metres_per_unit) +
+      (done.unit == "unknown" ? fmt::format(" (unknown unit, scaled to a stature of {:.2f} m)", kDefaultStature)
+                              : fmt::format(" ({})", done.unit))};
+  if (std::string turn = DescribeTurn(done.found_up); !turn.empty()) changes.push_back(std::move(turn));
+  if (!lies.empty()) changes.push_back(lies);
+  if (!done.found_up.doubt.empty() && lies.empty()) changes.push_back(done.found_up.doubt);
+  if (done.dropped_frames > 0) {
+    changes.push_back("dropped a leading T-pose" +
+                      (done.dropped_frames > 1 ? fmt::format(" of {} frames", done.dropped_frames) : ""));
+  }
+  if (clip.rate_hz != done.motion.rate_hz) {
+    changes.push_back(fmt::format("resampled from {:.6g} to {:.6g} Hz", clip.rate_hz, done.motion.rate_hz));
+  }
+  // Floor and joints.
   const double floor_cm = 100 * done.floor * done.metres_per_unit;
-  if (std::abs(floor_cm) >= 1) note += fmt::format("; the floor was at {:.0f} cm", floor_cm);
-  if (!map.composed.empty()) {
-    std::vector<std::string> names;
-    for (Role role : map.composed) names.emplace_back(RoleName(role));
-    note += "; not in the file, composed: " + Join(names);
+  if (std::abs(floor_cm) >= kMinToldFloor_cm) {
+    changes.push_back(fmt::format("the floor was at {:.4g} cm: moved to 0", floor_cm));
   }
+  const auto names_of = [](const std::vector<Role>& roles) {
+    std::vector<std::string> names;
+    for (const Role role : roles) names.emplace_back(RoleName(role));
+    return Join(names);
+  };
+  if (!map.composed.empty()) changes.push_back("not in the file, composed: " + names_of(map.composed));
   if (!map.by_anatomy.empty()) {
-    std::vector<std::string> names;
-    for (Role role : map.by_anatomy) names.emplace_back(RoleName(role));
-    note += fmt::format("; told by the skeleton's build, not by names (confidence {:.2f}): {}", map.confidence,
-                        Join(names));
+    changes.push_back(fmt::format("told by the skeleton's build, not by names (confidence {:.2f}): {}", map.confidence,
+                                  names_of(map.by_anatomy)));
   }
-  return note + remarks;
+  return changes;
 }
 
 }  // namespace
@@ -334,16 +289,20 @@ glm::dmat4 WorldFromFile(const BodyConversion& body) {
 }
 
 std::optional<Ground> FindGround(std::span<const Clip> clips, const JointMap& map, const BodyOptions& options) {
-  std::vector<BodyPose> poses, samples;
+  std::vector<BodyPose> poses;
+  UpSamples samples;
   BodyPose rest;
   for (const Clip& clip : clips) {
     BodySampler sampler(clip, map);
     rest = sampler.Rest();
     for (std::size_t f = 0; f < clip.frames.size(); ++f) poses.push_back(sampler.At(static_cast<double>(f)));
-    for (const BodyPose& pose : SampledPoses(clip, sampler)) samples.push_back(pose);
+    UpSamples own = SamplesForUp(clip, sampler);
+    samples.rate_hz = own.rate_hz;
+    std::ranges::move(own.poses, std::back_inserter(samples.poses));
   }
   if (poses.empty() || !std::ranges::all_of(poses, IsFinite)) return std::nullopt;
-  Ground ground{.up = options.up.value_or(FindUpAxis(rest, samples))};
+  Ground ground{.found_up = UpOf(options, rest, samples)};
+  ground.up = AsUpAxis(ground.found_up);
   for (BodyPose& pose : poses) pose = Upright(pose, ground.up);
   ground.floor = options.floor.value_or(FindFloor(poses));
   ground.stature = options.stature.value_or(MedianStature(poses));
@@ -373,6 +332,11 @@ std::optional<double> UndoScales(std::span<Clip> clips, const JointMap& map) {
   return ratio;
 }
 
+void AddChange(std::string change, BodyConversion& body) {
+  body.note += (body.note.empty() ? "" : "; ") + change;
+  body.changes.push_back(std::move(change));
+}
+
 bool IsTPose(const BodyPose& pose) {
   const glm::dvec3 up(0, 1, 0);
   const glm::dvec3 left = glm::cross(up, Facing(pose));
@@ -393,12 +357,13 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   BodySampler sampler(clip, map);
   BodyConversion done;
   const BodyPose rest = sampler.Rest();
-  const std::vector<BodyPose> samples = SampledPoses(clip, sampler);
-  done.up = options.up.value_or(FindUpAxis(rest, samples));
-  std::string lies = !options.up && done.up == UpAxis::kY ? LiesAlong(samples) : "";
+  const UpSamples samples = SamplesForUp(clip, sampler);
+  done.found_up = UpOf(options, rest, samples);
+  done.up = AsUpAxis(done.found_up);
+  std::string lies = !options.up && done.up == UpAxis::kY ? LiesAlong(samples.poses) : "";
   if (!lies.empty()) {
     const bool at_rest = LiesAlong(std::span(&rest, 1)) == lies;
-    lies = fmt::format("; the body lies along {}{}: Y is taken for up", lies, at_rest ? ", at rest, too" : "");
+    lies = fmt::format("the body lies along {}{}: Y is taken for up", lies, at_rest ? ", at rest, too" : "");
     if (at_rest) lies += ", and a file with another axis must be turned first";
   }
   if (options.drop_t_pose) done.dropped_frames = CountForeignTPose(clip, sampler, done.up);
@@ -406,14 +371,16 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   // Sample, check sides, find the unit and the floor, and convert.
   ASSIGN_OR_RETURN(auto poses, Resampled(clip, sampler, done.dropped_frames, options.rate_hz, done.up, file));
   ASSIGN_OR_RETURN(const double overstretch, CheckSides(poses, map, file));
-  std::string remarks;
+  RETURN_IF_ERROR(CheckLimbs(poses, file));
+  std::vector<std::string> remarks;
   RETURN_IF_ERROR(FindUnit(rest, poses, options, file, done, remarks));
   if (overstretch > 0)
-    remarks += fmt::format("; the knees overstretch by {:.0f}° on the average", Degrees(overstretch));
-  done.floor = FloorOf(poses, options.floor);
+    remarks.push_back(fmt::format("the knees overstretch by {:.0f}° on the average", Degrees(overstretch)));
+  done.floor = options.keep_floor ? 0 : FloorOf(poses, options.floor);
   PlaceOnFloor(poses, done);
-  done.note = Note(done, map, lies, remarks);
   done.motion = {.rate_hz = options.rate_hz, .poses = std::move(poses)};
+  for (std::string& change : ChangesOf(done, map, clip, lies)) AddChange(std::move(change), done);
+  for (std::string& remark : remarks) AddChange(std::move(remark), done);
   return done;
 }
 

@@ -3,12 +3,14 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "engine/base/result.h"
 #include "engine/motion/body.h"
 #include "engine/motion/clip.h"
 #include "engine/retargeting/joint_map.h"
 #include "engine/retargeting/orientation.h"
+#include "engine/retargeting/up_axis.h"
 
 namespace etude {
 
@@ -16,7 +18,10 @@ namespace etude {
 struct BodyOptions {
   double rate_hz = kJudgedRateHz;
   std::optional<double> metres_per_unit = std::nullopt;
-  std::optional<UpAxis> up = std::nullopt;
+  std::optional<UpAxis> up = std::nullopt;           ///< told by the user: it overrules all else
+  std::optional<UpRule> up_rule = std::nullopt;      ///< of the file or its format
+  std::optional<UpFinding> found_up = std::nullopt;  ///< FindGround's, for a clip of several
+  bool keep_floor = false;                           ///< leave the body at the height that the file says
   std::optional<double> floor = std::nullopt;    ///< its height along the up axis, in the file's unit
   std::optional<double> stature = std::nullopt;  ///< of the moving body, in the file's unit: Ground::stature
   bool drop_t_pose = true;                       ///< drop a leading T-pose from which the motion jumps
@@ -27,15 +32,18 @@ struct BodyConversion {
   double metres_per_unit = 0;
   std::string unit;  ///< "centimetre", "CMU", …; "unknown" (scaled to a human), "scaled", "given"
   UpAxis up = UpAxis::kY;
+  UpFinding found_up = {};         ///< the axis of the file, and what it follows from
   double floor = 0;                ///< height of the floor in the file's unit, along its up axis
   std::size_t dropped_frames = 0;  ///< number of frames of a T-pose dropped at the beginning
-  /// The findings and corrections, for people: "1 unit = 5.64 cm (CMU); dropped a leading T-pose".
-  std::string note;
+  /// The findings and every change of what the file holds, each for people: "1 unit = 5.64 cm (CMU)", "dropped a leading
+  /// T-pose".
+  std::vector<std::string> changes = {};
+  std::string note = "";  ///< all of them, between semicolons
   BodyMotion motion;
 };
 
 /// Converts a clip to a body's motion (ours where no source is given):
-/// - Z-up files are rotated upright (FindUpAxis).
+/// - Z-up files are rotated upright (FindUp).
 /// - A leading T-pose is dropped if the body jumps away from it; CMU's converted files begin with one.
 /// - The motion is resampled to `rate_hz` by interpolating rotations (SampleFrame); the first frame is unchanged.
 /// - Unit: the one of metre, foot, CMU (1/0.45 inch), inch, cm and mm that gives a stature of 1.45 m (for millimetres,
@@ -50,8 +58,8 @@ struct BodyConversion {
 ///   Horizontal position and heading stay as in the file. Clips of one file share a floor: pass them FindGround's; a
 ///   clip that stays farther from it than its legs are long has another root, and gets its own floor.
 ///
-/// Fails, naming `file`, for no frames, more than an hour, more than half a million poses, a body without size, a given
-/// unit in which it is not 0.4 to 4 m tall, a left arm on the side of the right leg, and feet that point backwards (if
+/// Fails, naming `file`, for no frames, more than an hour, more than half a million poses, a body without size, limbs
+/// of no length (two of the eight or more, in the median frame), a given unit in which it is not 0.4 to 4 m tall, a left arm on the side of the right leg, and feet that point backwards (if
 /// feet are composed: arms that do, or knees that bend backwards by more than 35° or together with the arms); left and
 /// right are then swapped, or the axes left-handed. The note states a smaller overextension of the knees.
 Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const std::string& file,
@@ -62,6 +70,7 @@ struct Ground {
   UpAxis up = UpAxis::kY;
   double floor = 0;    ///< along that axis, in the file's unit
   double stature = 0;  ///< median over the frames, in the file's unit
+  UpFinding found_up = {};
 };
 
 /// Finds the ground of all clips of one skeleton in one file, by the rules of ToBodyMotion over all of their frames: a
@@ -77,6 +86,9 @@ std::optional<double> UndoScales(std::span<Clip> clips, const JointMap& map);
 
 /// Returns the transform from the file's unit and axes to the world of ToBodyMotion's result, for the clip's meshes.
 glm::dmat4 WorldFromFile(const BodyConversion& body);
+
+/// Adds a change to a conversion's list and note.
+void AddChange(std::string change, BodyConversion& body);
 
 /// Returns true if the body stands with straight legs and both arms stretched out sideways.
 bool IsTPose(const BodyPose& pose);

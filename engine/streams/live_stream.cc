@@ -78,15 +78,18 @@ Result<void> LiveStream::Start(bool at_end, std::vector<SensedFrame>& stream) {
   }
   if (!recording.is_level) RETURN_IF_ERROR(ToMetres(recording, name_));
   // Estimate the level, then convert the lines so far.
-  StreamLevel level;
-  if (options_.levels && !recording.is_level) level = EstimateLevel(recording.frames, recording.rate_hz);
-  maker_.emplace(level, options_, name_);
+  if (options_.levels && !recording.is_level) level_ = EstimateLevel(recording.frames, recording.rate_hz);
+  maker_.emplace(level_, options_, name_);
   std::vector<RecordedFrame> frames = std::move(recording.frames);
   recording.frames.clear();
   meaning_ = std::move(recording);
   for (const RecordedFrame& frame : frames) RETURN_IF_ERROR(Add(frame, stream));
   first_lines_.clear();
   return {};
+}
+
+std::string LiveStream::RemarkOnLevel() const {
+  return level_.turn_deg != 0 || level_.trunk_deg != 0 ? Describe(level_) : "";
 }
 
 /// Adds a frame unless it has the same time as the one before.

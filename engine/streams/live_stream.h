@@ -29,6 +29,10 @@ class LiveStream {
 
   /// Returns the format, units and clock that were detected; nullopt before the first frames are returned.
   const std::optional<StreamRecording>& Meaning() const { return meaning_; }
+  /// Returns what is to be said of the level that was found: a sensor that was turned back, a trunk that is far from
+  /// up;
+  /// "" if there is nothing or nothing is known yet.
+  std::string RemarkOnLevel() const;
 
  private:
   Result<void> Start(bool at_end, std::vector<SensedFrame>& stream);
@@ -44,6 +48,7 @@ class LiveStream {
   std::size_t frames_ = 0;
   double last_s_ = 0;
   std::optional<StreamRecording> meaning_;  // without frames
+  StreamLevel level_;
   std::optional<StreamMaker> maker_;
   std::optional<JointCsvColumns> columns_;  // of CSV, from its first row after the start
 };

@@ -11,6 +11,7 @@
 #include "engine/base/order_statistics.h"
 #include "engine/formats/joint_csv.h"
 #include "engine/formats/number_rows.h"
+#include "engine/formats/row_clock.h"
 #include "engine/formats/trc.h"
 #include "engine/streams/format_readers.h"
 
@@ -222,9 +223,12 @@ Result<StreamRecording> ReadEtudeCsv(std::string_view text, const std::string& f
   StreamRecording recording{.format = StreamFormat::kEtudeCsv, .is_level = true};
   recording.records_times = csv.rate_hz.has_value() && !reading.rate_hz;
   recording.rate_hz = reading.rate_hz.value_or(csv.rate_hz.value_or(kJudgedRateHz));
+  const std::vector<double> counted = TimesOfNumbers(csv.numbers, recording.rate_hz);
   for (std::size_t t = 0; t < csv.frames.size(); ++t) {
     RecordedFrame& frame = recording.frames.emplace_back();
-    frame.time_s = recording.records_times ? csv.times_s[t] : static_cast<double>(t) / recording.rate_hz;
+    frame.time_s = static_cast<double>(t) / recording.rate_hz;
+    if (recording.records_times) frame.time_s = csv.times_s[t];
+    if (!recording.records_times && !counted.empty()) frame.time_s = counted[t];
     frame.line = csv.lines[t];
     frame.places = csv.frames[t];
     if (std::isnan(frame.time_s)) return Fail({file, frame.line}, "no time, although other rows tell one");
@@ -233,16 +237,20 @@ Result<StreamRecording> ReadEtudeCsv(std::string_view text, const std::string& f
 }
 
 Result<StreamRecording> ReadTrcStream(std::string_view text, const std::string& file) {
-  ASSIGN_OR_RETURN(const MarkerMotion markers, ReadTrc(text, file));
+  ASSIGN_OR_RETURN(const MarkerRows rows, ReadTrcRows(text, file));
+  const MarkerMotion& markers = rows.markers;
   RETURN_IF_ERROR(CheckMarkerNames(markers.names, file));
-  StreamRecording recording{
-      .format = StreamFormat::kTrc, .records_times = true, .is_level = true, .rate_hz = markers.rate_hz};
-  for (const auto& places : markers.frames) {
-    const auto t = static_cast<double>(recording.frames.size());
+  // Even rows are exactly one period apart, whatever their times are rounded to.
+  ASSIGN_OR_RETURN(const auto grid, GridOfRows(rows.times_s, rows.lines, markers.rate_hz, markers.names.size(), file));
+  StreamRecording recording{.format = StreamFormat::kTrc, .records_times = true, .is_level = true};
+  recording.rate_hz = grid ? grid->rate_hz : markers.rate_hz;
+  const bool is_even = !grid || grid->is_even;
+  for (std::size_t t = 0; t < markers.frames.size(); ++t) {
     RecordedFrame& frame = recording.frames.emplace_back();
-    frame.time_s = t / markers.rate_hz;
-    for (std::size_t marker = 0; marker < places.size(); ++marker) {
-      if (const auto role = FindRole(markers.names[marker])) frame.places[Index(*role)] = places[marker];
+    frame.time_s = is_even ? static_cast<double>(t) / recording.rate_hz : rows.times_s[t] - rows.times_s.front();
+    frame.line = rows.lines[t];
+    for (std::size_t marker = 0; marker < markers.names.size(); ++marker) {
+      if (const auto role = FindRole(markers.names[marker])) frame.places[Index(*role)] = markers.frames[t][marker];
     }
   }
   return recording;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -88,9 +89,40 @@ glm::dmat3 Swing(const glm::dvec3& from, const glm::dvec3& to) {
   return glm::dmat3(1) + cross + cross * cross / (1 + glm::dot(from, to));
 }
 
-}  // namespace
+/// Returns the rotation by quarter turns about the line of sight, Z, that takes X to Y.
+glm::dmat3 QuarterTurns(int quarters) {
+  constexpr int kCosines[] = {1, 0, -1, 0}, kSines[] = {0, 1, 0, -1};
+  const double c = kCosines[quarters], s = kSines[quarters];
+  return {c, s, 0, -s, c, 0, 0, 0, 1};
+}
 
-StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz) {
+/// Returns the quarter turns that set the bodies before a turned sensor upright; 0 if it is not turned.
+int QuartersOfSensor(std::span<const RecordedFrame> frames) {
+  constexpr double kMostFrames = 0.7, kHardlyAny = 0.05, kFaces = 0.7;
+  std::array<double, 4> upright{};
+  std::vector<double> fronts;  // how far the body faces up or down by the file
+  double all = 0;
+  for (const RecordedFrame& frame : frames) {
+    const auto &hips = frame.places[Index(kHipCentre)], &neck = frame.places[Index(kShoulderCentre)],
+               &left = frame.places[Index(kLeftShoulder)], &right = frame.places[Index(kRightShoulder)];
+    if (!hips || !neck || *hips == *neck) continue;
+    ++all;
+    for (int quarters = 0; quarters < 4; ++quarters) {
+      if (AngleBetween(QuarterTurns(quarters) * (*neck - *hips), kFileUp) <= kMaxTilt) ++upright[quarters];
+    }
+    if (!left || !right) continue;
+    const glm::dvec3 front = glm::cross(*left - *right, *neck - *hips);
+    if (glm::length(front) > 0) fronts.push_back(std::abs(front.y) / glm::length(front));
+  }
+  if (all == 0 || upright[0] > kHardlyAny * all) return 0;
+  const int most = static_cast<int>(std::ranges::max_element(upright) - upright.begin());
+  if (upright[most] < kMostFrames * all) return 0;
+  const bool is_portrait = most % 2 != 0;
+  return is_portrait && (fronts.empty() || UpperMedian(std::move(fronts)) > kFaces) ? 0 : most;
+}
+
+/// Estimates the level of a sensor that is not turned.
+StreamLevel LevelOf(std::span<const RecordedFrame> frames, double rate_hz) {
   // Choose the evidence for the up direction: feet if they agree with the trunk, otherwise the trunk.
   StreamLevel level;
   const auto trunk = UpOfTrunk(frames), feet = UpOfFeet(PlantedFeet(frames, rate_hz));
@@ -108,6 +140,7 @@ StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz)
     level.tilt_deg = Degrees(AngleBetween(*up, kFileUp));
   } else {
     level.up_by = StreamLevel::By::kNothing;
+    if (up) level.trunk_deg = Degrees(AngleBetween(*up, kFileUp));
   }
   // Estimate the floor from the lower foot.
   std::vector<double> heights;
@@ -119,11 +152,39 @@ StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz)
   return level;
 }
 
+}  // namespace
+
+StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz) {
+  // Turn back a sensor in portrait or upside down.
+  if (const int quarters = QuartersOfSensor(frames); quarters != 0) {
+    const glm::dmat3 R_TF = QuarterTurns(quarters);
+    std::vector<RecordedFrame> turned(frames.begin(), frames.end());
+    for (RecordedFrame& frame : turned) {
+      for (auto& place : frame.places) {
+        if (place) *place = R_TF * *place;
+      }
+    }
+    StreamLevel level = LevelOf(turned, rate_hz);
+    level.R_WF = level.R_WF * R_TF;
+    level.turn_deg = 90 * quarters;
+    return level;
+  }
+  return LevelOf(frames, rate_hz);
+}
+
 std::string Describe(const StreamLevel& level) {
   const char* by = level.up_by == StreamLevel::By::kFeet    ? "by the feet"
                    : level.up_by == StreamLevel::By::kTrunk ? "by the trunk"
                                                             : "as the file has it";
-  return fmt::format("up {} ({:.1f} degrees), floor {:.2f} m below the sensor", by, level.tilt_deg, -level.floor_m);
+  const std::string turn =
+      level.turn_deg == 0
+          ? ""
+          : fmt::format("sensor turned by {} degrees, turned back (--level none: as it is), ", level.turn_deg);
+  const std::string how =
+      level.trunk_deg == 0
+          ? fmt::format("{:.1f} degrees", level.tilt_deg)
+          : fmt::format("though trunks are {:.0f} degrees from it: who lies, or a tilted sensor", level.trunk_deg);
+  return fmt::format("{}up {} ({}), floor {:.2f} m below the sensor", turn, by, how, -level.floor_m);
 }
 
 namespace {

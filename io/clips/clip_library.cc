@@ -27,7 +27,7 @@ Result<void> AddFile(const std::string& reference, const OpenOptions& options, C
     RestBody body = MeasureBody(opened.source.clip, opened.map, opened.body);
     std::shared_ptr<const RecordedFigure> figure = FigureOf(opened);
     library.clips.push_back({opened.source.name, opened.source.source, std::move(opened.body.motion), std::nullopt,
-                             opened.body.note, std::move(body), std::move(figure)});
+                             opened.body.note, std::move(body), std::move(figure), opened.body.changes});
   }
   return {};
 }

@@ -68,6 +68,15 @@ Result<Clip> Edited(const Clip& clip, const ConvertOptions& options) {
   return edited;
 }
 
+/// Adds what the user asked for; `from_hz` is the clip's rate if it is resampled here.
+void AddEdits(std::optional<double> from_hz, const ConvertOptions& options, std::vector<std::string>& changes) {
+  if (options.trim) changes.emplace_back("trimmed");
+  if (from_hz && options.rate_hz && *options.rate_hz != *from_hz) {
+    changes.push_back(fmt::format("resampled from {:.6g} to {:.6g} Hz", *from_hz, *options.rate_hz));
+  }
+  if (options.mirror) changes.emplace_back("mirrored: left is right");
+}
+
 /// Finds the unit of a BVH file and the axis that points up. Without roles, `options` must give the unit.
 Result<BodyConversion> FindUnit(const SourceClip& source, const OpenOptions& options) {
   auto opened = UnderstandClip(source, options);
@@ -85,7 +94,7 @@ Result<BodyConversion> FindUnit(const SourceClip& source, const OpenOptions& opt
 
 Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFormat format,
                                       const ConvertOptions& options) {
-  Converted converted{.bytes = "", .note = "own skeleton"};
+  Converted converted{.bytes = "", .note = "own skeleton", .changes = {}};
   std::vector<Clip> clips;
   // Edit each clip; convert it to metres and Y up if GLB is made of a format without a fixed unit.
   for (const SourceClip& source : sources) {
@@ -95,13 +104,17 @@ Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFor
       ASSIGN_OR_RETURN(const auto unit, FindUnit(source, options.open));
       *edited = InMetres(std::move(*edited), unit.metres_per_unit, unit.up);
       if (clips.empty()) {
-        converted.note += fmt::format("; in metres, 1 unit = {:.4g} cm ({})", 100 * unit.metres_per_unit, unit.unit);
+        converted.changes.push_back(
+            fmt::format("in metres, 1 unit = {:.4g} cm ({})", 100 * unit.metres_per_unit, unit.unit));
+        if (std::string turn = DescribeTurn(unit.found_up); !turn.empty()) converted.changes.push_back(std::move(turn));
+        if (!unit.found_up.doubt.empty()) converted.changes.push_back(unit.found_up.doubt);
       }
     }
     clips.push_back(std::move(*edited));
   }
   // Write BVH, or GLB with the file's own meshes where they still fit the skeleton.
-  for (const std::string& remark : sources.front().remarks) converted.note += "; " + remark;
+  for (const std::string& remark : sources.front().remarks) converted.changes.push_back(remark);
+  AddEdits(sources.front().clip.rate_hz, options, converted.changes);
   if (format == MotionFormat::kBvh) {
     converted.bytes = WriteBvh(std::move(clips.front()));
     return converted;
@@ -109,7 +122,7 @@ Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFor
   const SourceClip& first = sources.front();
   const bool keeps_meshes = first.character && !options.mirror && options.performer == Performer::kFile;
   if (first.character && options.mirror) {
-    converted.note += "; without its meshes, which do not fit the mirrored skeleton";
+    converted.changes.emplace_back("without its meshes, which do not fit the mirrored skeleton");
   }
   const Character bones{first.name, clips.front().skeleton, {}, {}};
   converted.bytes = WriteGlb(keeps_meshes ? *first.character : bones, clips);
@@ -128,7 +141,6 @@ Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat fo
   open.body.rate_hz = options.rate_hz.value_or(kJudgedRateHz);
   const bool is_canonical = options.retarget || has_figure;
   Converted converted;
-  std::string note;
   std::vector<Clip> clips;
   BodyPose rest = StandingPose();
   // Trim each clip and turn it into a body motion, mirrored and retargeted as asked.
@@ -137,7 +149,11 @@ Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat fo
     if (!part) return Fail({source.source, 0, 0}, "{}", part.error().message);
     source.clip = std::move(*part);
     ASSIGN_OR_RETURN(auto opened, UnderstandClip(std::move(source), open));
-    note = opened.body.note;
+    for (std::string& change : opened.body.changes) {
+      if (std::ranges::find(converted.changes, change) == converted.changes.end()) {
+        converted.changes.push_back(std::move(change));
+      }
+    }
     BodyMotion motion = std::move(opened.body.motion);
     if (options.mirror) motion = Mirror(motion);
     if (is_canonical) motion = Retarget(motion, StandingPose());
@@ -152,7 +168,9 @@ Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat fo
     if (format == MotionFormat::kMot) converted.bytes = WriteOpenSimMotion(motion, rest, name);
     clips.push_back(RigClip(motion, rest, opened.source.clip.name));
   }
-  converted.note = clips.size() == 1 ? "as a body: " + note : fmt::format("{} clips as bodies", clips.size());
+  AddEdits(std::nullopt, options, converted.changes);
+  if (is_canonical) converted.changes.emplace_back("retargeted to the canonical proportions, 1.70 m tall");
+  converted.note = clips.size() == 1 ? "as a body" : fmt::format("{} clips as bodies", clips.size());
   // Write the formats that hold a skeleton, after all clips are known.
   if (format == MotionFormat::kBvh) converted.bytes = WriteBvh(clips.front());
   if (format == MotionFormat::kGlb) {

@@ -39,10 +39,11 @@ struct ConvertOptions {
   OpenOptions open;
 };
 
-/// The bytes of the converted file, and a note in plain words about what was done.
+/// The bytes of the converted file, and what was done, in plain words.
 struct Converted {
   std::string bytes;
-  std::string note;
+  std::string note;                  ///< "own skeleton", "as a body: Plug-in Gait", …
+  std::vector<std::string> changes;  ///< every change of what the file holds; of several clips each once
 };
 
 /// Converts the clips of one file: exactly one, or any number for GLB. A clip keeps its own skeleton (and its meshes,

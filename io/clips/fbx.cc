@@ -14,6 +14,7 @@
 #include <optional>
 #include <utility>
 
+#include "io/clips/fbx_rotations.h"
 #include "io/process/forked_copy.h"
 #include "io/process/pinned_environment.h"
 
@@ -131,6 +132,9 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
     return Fail({path}, "an FBX file of version {}; allowed: {} (of 2011 or later): export it anew, or convert it",
                 version, kMinVersion);
   }
+  std::string without_rotations;
+  const std::size_t inactive = LeaveOutInactiveRotations(bytes, without_rotations);
+  if (inactive > 0) bytes = without_rotations;
   if (!child_) {
     ASSIGN_OR_RETURN(auto started, ForkedCopy::Start(ReadFilesInChild));
     child_ = std::move(started);
@@ -142,7 +146,12 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
   // The child answered: return the GLB file, or its complaint.
   if (said && said->starts_with(kSaidGlb)) {
     const std::size_t line = said->find('\n');
-    return FbxMotion{.glb = said->substr(line + 1), .reader = said->substr(1, line - 1)};
+    FbxMotion motion{.glb = said->substr(line + 1), .reader = said->substr(1, line - 1)};
+    if (inactive > 0) {
+      motion.remark = fmt::format(
+          "RotationActive is 0 at {} joints: their pre-rotations, post-rotations and orders are left out", inactive);
+    }
+    return motion;
   }
   if (said) {
     constexpr std::size_t kMaxMessageBytes = 300;  // assimp's message may repeat the whole file

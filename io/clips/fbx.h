@@ -18,8 +18,9 @@ bool IsFbx(std::string_view bytes);
 
 /// The motion of an FBX file.
 struct FbxMotion {
-  std::string glb;     ///< a GLB file with the nodes and animations of the FBX file, in metres, Y up
-  std::string reader;  ///< the library that read it and its build ID: "libassimp.so.5 (0f3c…)"
+  std::string glb;          ///< a GLB file with the nodes and animations of the FBX file, in metres, Y up
+  std::string reader;       ///< the library that read it and its build ID: "libassimp.so.5 (0f3c…)"
+  std::string remark = "";  ///< what was left out before reading; "" if nothing was
 };
 
 /// The beginning of the complaint about a file that crashed its reader; the signal's number follows.

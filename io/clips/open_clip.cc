@@ -9,20 +9,16 @@
 #include "engine/formats/acclaim.h"
 #include "engine/formats/amass.h"
 #include "engine/formats/bvh.h"
-#include "engine/formats/c3d.h"
 #include "engine/formats/deepmimic.h"
 #include "engine/formats/gltf/gltf.h"
-#include "engine/formats/joint_csv.h"
-#include "engine/formats/motive_csv.h"
 #include "engine/formats/npz.h"
 #include "engine/formats/text_scanner.h"
-#include "engine/formats/trc.h"
 #include "engine/motion/edit.h"
 #include "engine/retargeting/joint_arrays.h"
-#include "engine/retargeting/markers.h"
 #include "engine/retargeting/opensim_motion.h"
 #include "engine/retargeting/rig.h"
 #include "io/clips/fbx.h"
+#include "io/clips/marker_files.h"
 #include "io/clips/other_files.h"
 #include "io/clips/references.h"
 #include "io/files/files.h"
@@ -81,9 +77,9 @@ ClipFile FileOfOne(ClipFormat format, Clip clip) {
 }
 
 /// Makes a clip file of a motion that is a body already; `note` says where it comes from.
-ClipFile FileOfBody(ClipFormat format, const BodyMotion& motion, const std::string& path, const char* note) {
+ClipFile FileOfBody(ClipFormat format, const BodyMotion& motion, const std::string& path, const std::string& note) {
   ClipFile file = FileOfOne(format, RigClip(motion, StandingPose(), fs::path(path).stem().string()));
-  file.notes = {note};
+  file.bodies = {{.changes = {note}}};
   return file;
 }
 
@@ -134,48 +130,6 @@ std::optional<JointMapOverrides> RolesOfBones(const std::map<std::string, int>& 
     if (skeleton.Find(name) == found->second) roles.joints[role] = {name, {}};
   }
   return roles.joints.empty() ? std::nullopt : std::optional(std::move(roles));
-}
-
-/// Turns every body that the markers show into a clip.
-Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const std::string& path, char up = 0) {
-  ASSIGN_OR_RETURN(const auto bodies, FindMarkerBodies(std::move(markers), path, up));
-  ClipFile file{.format = format, .figure = {.name = "", .skeleton = {}, .materials = {}, .meshes = {}}, .clips = {}};
-  for (const MarkerBody& body : bodies) {
-    file.clips.push_back(RigClip(body.motion, StandingPose(), body.name));
-    file.notes.push_back(body.note);
-  }
-  file.figure.skeleton = file.clips.front().skeleton;
-  return file;
-}
-
-Result<ClipFile> ReadJointTable(std::string_view text, const std::string& path) {
-  ASSIGN_OR_RETURN(const auto csv, ReadJointCsv(text, path));
-  MarkerMotion markers{.rate_hz = csv.rate_hz.value_or(kJudgedRateHz), .names = {}, .frames = {}};
-  for (const Role role : AllRoles()) markers.names.emplace_back(RoleName(role));
-  for (const auto& frame : csv.frames) markers.frames.emplace_back(frame.begin(), frame.end());
-  return FileOfMarkers(ClipFormat::kCsv, std::move(markers), path, 'Y');
-}
-
-/// Reads a file of markers; returns nullopt if the file is of another kind.
-std::optional<Result<ClipFile>> ReadMarkers(std::string_view bytes, const std::string& path) {
-  if (IsC3d(bytes)) {
-    auto read = ReadC3d(bytes, path);
-    if (!read) return tl::unexpected(read.error());
-    return FileOfMarkers(ClipFormat::kC3d, std::move(read->markers), path, read->up);
-  }
-  if (IsMotiveCsv(bytes)) {
-    auto read = ReadMotiveCsv(bytes, path);
-    if (!read) return tl::unexpected(read.error());
-    return FileOfMarkers(ClipFormat::kMotive, *std::move(read), path, 'Y');
-  }
-  const std::string_view heading = bytes.substr(0, bytes.find('\n'));
-  if (heading.starts_with("PathFileType")) {
-    auto read = ReadTrc(bytes, path);
-    if (!read) return tl::unexpected(read.error());
-    return FileOfMarkers(ClipFormat::kTrc, *std::move(read), path);
-  }
-  if (heading.find("_x_m") != std::string_view::npos) return ReadJointTable(bytes, path);
-  return std::nullopt;
 }
 
 Result<std::vector<SourceClip>> ReadBuiltin(const std::string& reference) {
@@ -233,9 +187,11 @@ void RootAtHips(Clip& clip, bool has_meshes, std::vector<std::string>& remarks) 
 /// says which are missing.
 std::optional<Ground> GroundOf(const ClipFile& file, const std::string& path, const OpenOptions& options) {
   if (file.clips.size() < 2) return std::nullopt;
-  const auto map = FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles));
+  const auto map = FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles),
+                                file.clips.front().frames);
   BodyOptions told = options.body;
-  if (options.roles && !told.up) told.up = options.roles->up;
+  told.up = ToldUp(options);
+  told.up_rule = UpRuleOf(file.format);
   return map ? FindGround(file.clips, *map, told) : std::nullopt;
 }
 
@@ -251,7 +207,8 @@ void TakeScalesOut(ClipFile& file, const std::string& path, const OpenOptions& o
     });
   };
   if (std::ranges::none_of(file.clips, has_scales)) return;
-  const auto map = FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles));
+  const auto map = FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles),
+                                file.clips.front().frames);
   if (!map) return;
   if (const auto ratio = UndoScales(file.clips, *map)) {
     file.remarks.push_back(fmt::format(
@@ -265,9 +222,29 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
   for (const Role role : AllRoles()) {
     opened.map.points[Index(role)].joint = opened.source.clip.skeleton.Find(std::string(RoleName(role)));
   }
-  std::string note = opened.source.note.empty() ? "the canonical body" : opened.source.note;
-  if (options.metres_per_unit || options.up) note += "; unit and up axis are its own, not those told";
-  opened.body = {.metres_per_unit = 1, .unit = "metre", .note = note, .motion = {}};
+  const bool is_ours = opened.source.format == ClipFormat::kBuiltin || opened.source.format == ClipFormat::kRecording;
+  opened.body = {.metres_per_unit = 1, .unit = "metre", .motion = {}};
+  if (opened.source.made) {
+    for (const std::string& change : opened.source.made->changes) AddChange(change, opened.body);
+    opened.body.found_up = opened.source.made->up;
+    opened.body.floor = opened.source.made->floor_m;
+  } else {
+    AddChange("the canonical body", opened.body);
+  }
+  // Markers were turned and scaled as told when they were read; arrays and angles of ours are turned here.
+  const bool is_turned = options.up == UpAxis::kZ && !is_ours && !IsOfMarkers(opened.source.format);
+  if (is_turned) {
+    opened.body.found_up = {.axis = AxisOf(UpAxis::kZ), .evidence = UpEvidence::kTold};
+    AddChange(DescribeTurn(opened.body.found_up), opened.body);
+  }
+  if (!IsOfMarkers(opened.source.format) && (options.metres_per_unit || (is_ours && options.up))) {
+    AddChange(is_ours ? "unit and up axis are its own, not those told" : "its unit is its own, not the one told",
+              opened.body);
+  }
+  if (opened.source.clip.rate_hz != options.rate_hz) {
+    AddChange(fmt::format("resampled from {:.6g} to {:.6g} Hz", opened.source.clip.rate_hz, options.rate_hz),
+              opened.body);
+  }
   const Clip clip = Resample(opened.source.clip, options.rate_hz);
   opened.body.motion.rate_hz = options.rate_hz;
   // Evaluate the joint positions of every frame.
@@ -279,7 +256,7 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
     if (opened.source.format != ClipFormat::kBuiltin) {
       pose[Role::kHipCentre] = globals[opened.map[Role::kHipCentre].joint].position;
     }
-    opened.body.motion.poses.push_back(pose);
+    opened.body.motion.poses.push_back(is_turned ? Upright(pose, UpAxis::kZ) : pose);
   }
   return opened;
 }
@@ -293,7 +270,7 @@ std::string_view FormatName(ClipFormat format) {
 }
 
 Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::string>& layout,
-                              const RecordedMotions* recorded) {
+                              const OpenOptions& options) {
   CappedReader reader;
   ASSIGN_OR_RETURN(const auto bytes, reader.Read(path));
   TextScanner scanner(bytes, path);
@@ -315,17 +292,19 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     ASSIGN_OR_RETURN(const auto array, ReadNpy(bytes, path));
     std::string note;
     ASSIGN_OR_RETURN(const auto joints, JointsOfArray(array, layout, path, note));
-    ASSIGN_OR_RETURN(file, FileOfMarkers(ClipFormat::kNpy, joints, path));
-    for (std::string& told : file.notes) told += "; " + note;
+    ASSIGN_OR_RETURN(file, FileOfMarkers(ClipFormat::kNpy, joints, path, options, ArrayUp()));
+    for (MadeBody& body : file.bodies) body.changes.push_back(note);
+    file.has_rate = false;
     return file;
   }
   // Markers, and recordings of runs.
-  if (auto markers = ReadMarkers(bytes, path)) return *std::move(markers);
-  if (recorded != nullptr && recorded->IsRecording(bytes)) return recorded->Read(bytes, path);
+  if (auto markers = ReadMarkers(bytes, path, options)) return *std::move(markers);
+  if (options.recorded != nullptr && options.recorded->IsRecording(bytes)) return options.recorded->Read(bytes, path);
   // Text formats of bodies: OpenSim's angles and DeepMimic's motions.
   if (first.text == "Coordinates" && HasModelOfAngles(bytes)) {
-    ASSIGN_OR_RETURN(const auto motion, ReadOpenSimMotion(bytes, path));
-    return FileOfBody(ClipFormat::kMot, motion, path, "angles of the model in the file's head");
+    std::string note = "angles of the model in the file's head";
+    ASSIGN_OR_RETURN(const auto motion, ReadOpenSimMotion(bytes, path, &note));
+    return FileOfBody(ClipFormat::kMot, motion, path, note);
   }
   if (first.text == "{" && IsDeepMimicMotion(bytes)) {
     ASSIGN_OR_RETURN(auto clip, ReadDeepMimicMotion(bytes, path));
@@ -342,11 +321,13 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     if (is_fbx) {
       ASSIGN_OR_RETURN(fbx, ReadFbx(bytes, path));
       file.remarks.push_back("read by " + fbx.reader);
+      if (!fbx.remark.empty()) file.remarks.push_back(fbx.remark);
     }
-    ASSIGN_OR_RETURN(auto content,
-                     ReadGltf(
-                         is_fbx ? fbx.glb : bytes, path,
-                         [&](const std::string& uri) { return ReadBeside(path, uri, reader); }, DecodeTexture));
+    auto read = ReadGltf(
+        is_fbx ? fbx.glb : bytes, path, [&](const std::string& uri) { return ReadBeside(path, uri, reader); },
+        DecodeTexture);
+    if (!read && is_fbx) return Fail({path}, "an FBX file whose motion is refused: {}", read.error().message);
+    ASSIGN_OR_RETURN(auto content, std::move(read));
     for (std::string& remark : content.remarks) file.remarks.push_back(std::move(remark));
     file.figure = std::move(content.character);
     file.clips = std::move(content.clips);
@@ -379,11 +360,15 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   if (options.recorded != nullptr) {
     ASSIGN_OR_RETURN(wanted, options.recorded->Find(wanted));
   }
-  ASSIGN_OR_RETURN(auto file, ReadClipFile(FileOf(wanted.path), wanted.animation, options.recorded));
+  ASSIGN_OR_RETURN(auto file, ReadClipFile(FileOf(wanted.path), wanted.animation, options));
   const std::string stem = fs::path(FileOf(wanted.path)).stem().string();
   const bool is_recording = file.format == ClipFormat::kRecording;
   if (!is_recording && options.roles && options.roles->rate_hz) {
     for (Clip& clip : file.clips) clip.rate_hz = *options.roles->rate_hz;
+  } else if (!file.has_rate) {
+    for (MadeBody& body : file.bodies) {
+      body.changes.push_back(fmt::format("no rate in the file: {:g} Hz are assumed", kJudgedRateHz));
+    }
   }
   if (is_recording && wanted.animation == "") wanted.animation = options.recorded->OwnTrack(file.clips);
   // A file of one motion: a '#' chooses nothing, except the layout of an .npy array.
@@ -398,12 +383,12 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
     const std::string source = wanted.path + (wanted.animation ? "#" + *wanted.animation : "");
     std::vector<SourceClip> only;  // moved into: an initializer list would copy the frames
     only.push_back({stem, source, file.format, std::move(file.clips.front()), nullptr, std::nullopt,
-                    file.notes.empty() ? "" : file.notes.front(), file.remarks});
+                    file.bodies.empty() ? std::nullopt : std::optional(file.bodies.front()), file.remarks});
     return only;
   }
   // A file of several clips: undo scales and find the common ground before one clip is chosen.
-  std::map<std::string, std::string> notes;
-  for (std::size_t i = 0; i < file.notes.size(); ++i) notes[file.clips[i].name] = file.notes[i];
+  std::map<std::string, MadeBody> bodies;
+  for (std::size_t i = 0; i < file.bodies.size(); ++i) bodies[file.clips[i].name] = file.bodies[i];
   TakeScalesOut(file, wanted.path, options);
   const std::optional<Ground> ground = GroundOf(file, wanted.path, options);
   RETURN_IF_ERROR(KeepWanted(wanted, file.figure, file.clips));
@@ -413,31 +398,32 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   std::vector<SourceClip> clips;
   for (Clip& clip : file.clips) {
     const std::string animation = "#" + clip.name;
-    const std::string note = notes[clip.name];
-    clips.push_back({stem + animation, wanted.path + animation, file.format, std::move(clip), figure, ground, note,
-                     file.remarks, file.roles});
+    const auto made = bodies.find(clip.name);
+    clips.push_back({stem + animation, wanted.path + animation, file.format, std::move(clip), figure, ground,
+                     made == bodies.end() ? std::nullopt : std::optional(made->second), file.remarks, file.roles});
   }
   return clips;
 }
 
 Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options) {
-  const bool is_body = source.format == ClipFormat::kBuiltin || !source.note.empty();
-  if (is_body) return UnderstandBuiltin(std::move(source), options.body);
-  RootAtHips(source.clip, source.character != nullptr, source.remarks);
-  ASSIGN_OR_RETURN(auto map, FindJointMap(source.clip.skeleton, source.source, TaughtBy(options, source.roles)));
+  const bool is_body = source.format == ClipFormat::kBuiltin || source.made.has_value();
   BodyOptions told = options.body;
-  if (options.roles) {
-    if (!told.metres_per_unit) told.metres_per_unit = options.roles->metres_per_unit;
-    if (!told.up) told.up = options.roles->up;
-  }
+  told.up = ToldUp(options);
+  told.metres_per_unit = ToldUnit(options);
+  told.keep_floor = KeepsFloor(options);
+  told.up_rule = UpRuleOf(source.format);
+  if (is_body) return UnderstandBuiltin(std::move(source), told);
+  RootAtHips(source.clip, source.character != nullptr, source.remarks);
+  ASSIGN_OR_RETURN(auto map, FindJointMap(source.clip.skeleton, source.source, TaughtBy(options, source.roles),
+                                            source.clip.frames));
   // The ground of the whole file overrides what one clip would show.
   if (source.ground) {
-    told.up = source.ground->up;
+    if (!told.up) told.found_up = source.ground->found_up;
     told.floor = source.ground->floor;
     told.stature = source.ground->stature;
   }
   ASSIGN_OR_RETURN(auto body, ToBodyMotion(source.clip, map, source.source, told));
-  for (const std::string& remark : source.remarks) body.note += "; " + remark;
+  for (const std::string& remark : source.remarks) AddChange(remark, body);
   return OpenedClip{std::move(source), std::move(map), std::move(body)};
 }
 

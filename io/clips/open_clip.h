@@ -39,15 +39,31 @@ enum class ClipFormat {
 /// "NPZ", "NPY", "Motive", "MOT", "recording" or "built-in".
 std::string_view FormatName(ClipFormat format);
 
+/// How a clip that is a body already was made.
+struct MadeBody {
+  std::vector<std::string> changes;  ///< what it was made of, and every change of what the file holds, for people
+  UpFinding up = {};                 ///< the axis of the file that became Y
+  double floor_m = 0;                ///< the height that became 0
+};
+
 /// The content of a motion file.
 struct ClipFile {
   ClipFormat format = ClipFormat::kBvh;
   Character figure;         ///< a skeleton, and meshes if the file has any
   std::vector<Clip> clips;  ///< on that skeleton; glTF may hold none, and a marker file one clip for each of several
                             ///< people
-  std::vector<std::string> notes = {};    ///< for clips that are bodies already: how each was made of markers
+  std::vector<MadeBody> bodies = {};      ///< one for each clip, if they are bodies already
   std::vector<std::string> remarks = {};  ///< repairs that were made while reading
   std::optional<JointMapOverrides> roles = {};  ///< roles that the bone table of a VRM file assigns
+  bool has_rate = true;  ///< false: the file tells no rate, and the judged one was assumed
+};
+
+/// The options with which a clip is opened.
+struct OpenOptions {
+  std::optional<JointMapOverrides> roles;  ///< the user's joint map (--joint-map)
+  BodyOptions body;
+  std::string marker_set = "";  ///< of marker files: the set to use (MarkerSetKeys); "" = the best
+  const RecordedMotions* recorded = nullptr;  ///< reads "RUN#CELL@NAME"; null = such a reference is treated as a file
 };
 
 /// The maximum size of a file, or of a .gltf with its buffers, bytes. A larger file is refused before memory is taken.
@@ -57,17 +73,10 @@ constexpr std::uintmax_t kMaxClipFileBytes = 500'000'000;
 /// motions, Acclaim's AMC, AMASS's .npz, our own .npz and .mot, arrays of joints (.npy, arranged as `layout` says:
 /// JointsOfArray), and markers in C3D, TRC, Motive's CSV or joint CSV (FindMarkerBodies). The buffers of a .gltf are
 /// read only from its own folder and below; links that lead out of it are refused. The skeleton of an AMC is the ASF
-/// file beside it: "01.asf" for "01_01.amc", else the only ASF of the folder. `recorded` reads a run's recording;
-/// without it, a recording is refused as a file without motion.
+/// file beside it: "01.asf" for "01_01.amc", else the only ASF of the folder. `options` tells what
+/// files of markers leave open; its `recorded` reads a run's recording, which else is refused as one without motion.
 Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::string>& layout = std::nullopt,
-                              const RecordedMotions* recorded = nullptr);
-
-/// The options with which a clip is opened.
-struct OpenOptions {
-  std::optional<JointMapOverrides> roles;  ///< the user's joint map (--joint-map)
-  BodyOptions body;
-  const RecordedMotions* recorded = nullptr;  ///< reads "RUN#CELL@NAME"; null = such a reference is treated as a file
-};
+                              const OpenOptions& options = {});
 
 /// A clip as its file stores it.
 struct SourceClip {
@@ -79,8 +88,7 @@ struct SourceClip {
   /// The file's own figure if it has meshes; its skeleton is the clip's. All clips of the file share it.
   std::shared_ptr<const Character> character;
   std::optional<Ground> ground = {};  ///< the ground shared by all clips of the file; only if the file holds several
-  std::string note = {};  ///< set if the clip is a body that was made of markers: it is in metres and stands on the
-                          ///< floor
+  std::optional<MadeBody> made = {};  ///< set if the clip is a body already: it is in metres, with Y up
   std::vector<std::string> remarks = {};  ///< repairs made while reading the file; UnderstandClip appends them to the
                                           ///< body's note
   std::optional<JointMapOverrides> roles = {};  ///< as in ClipFile::roles; those of OpenOptions have priority

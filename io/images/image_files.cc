@@ -30,7 +30,8 @@ constexpr int kRunLengthOnly = 3;  // zlib's Z_RLE
 /// Encodes 8-bit sRGB pixels as the bytes of a PNG file. `colour_type` is PNG_COLOR_TYPE_RGB or PNG_COLOR_TYPE_GRAY.
 /// Filtered rows of camera pictures hold noise and runs of zeros but no repeated strings: run-length coding gives the
 /// same file size as zlib's default strategy in a sixth of the time.
-std::string EncodePixels(const std::uint8_t* pixels, int width, int height, int colour_type) {
+std::string EncodePixels(const std::uint8_t* pixels, int width, int height, int colour_type,
+                         double pixels_per_metre = 0) {
   assert(width > 0 && height > 0);
   std::string bytes;
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
@@ -44,6 +45,10 @@ std::string EncodePixels(const std::uint8_t* pixels, int width, int height, int 
   png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8, colour_type,
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  if (pixels_per_metre > 0) {
+    const auto density = static_cast<png_uint_32>(pixels_per_metre + 0.5);
+    png_set_pHYs(png, info, density, density, PNG_RESOLUTION_METER);
+  }
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_ALL_FILTERS);
   png_set_compression_strategy(png, kRunLengthOnly);
   png_write_info(png, info);
@@ -111,7 +116,9 @@ void WriteExr(const View& view, const NormalImage& normals, std::span<const Dept
   }
   // Depth, labels, normals, and further depth images.
   if (!view.depth.pixels.empty()) add(kDepthChannel, Imf::FLOAT, view.depth.pixels.data(), sizeof(float));
-  if (!view.labels.pixels.empty()) add(kLabelChannel, Imf::UINT, view.labels.pixels.data(), sizeof(std::uint32_t));
+  // Labels are floats, because readers of web pages (three.js, parse-exr) misread files with whole numbers.
+  const std::vector<float> labels(view.labels.pixels.begin(), view.labels.pixels.end());
+  if (!labels.empty()) add(kLabelChannel, Imf::FLOAT, labels.data(), sizeof(float));
 
   for (int i = 0; i < 3 && !normals.pixels.empty(); ++i) {
     add(kNormalChannels[i], Imf::FLOAT, &normals.pixels.front()[i], sizeof(glm::vec3));
@@ -128,10 +135,10 @@ void WriteExr(const View& view, const NormalImage& normals, std::span<const Dept
 
 }  // namespace
 
-std::string EncodePng(const ColourImage& image) {
+std::string EncodePng(const ColourImage& image, double pixels_per_metre) {
   static_assert(sizeof(Rgb8) == 3, "a picture's bytes are its colours");
   return EncodePixels(reinterpret_cast<const std::uint8_t*>(image.pixels.data()), image.width, image.height,
-                      PNG_COLOR_TYPE_RGB);
+                      PNG_COLOR_TYPE_RGB, pixels_per_metre);
 }
 
 std::string EncodePng(const Mask& mask) {

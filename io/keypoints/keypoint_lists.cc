@@ -1,11 +1,16 @@
 #include "io/keypoints/keypoint_lists.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+
+#include "engine/base/order_statistics.h"
+#include "engine/formats/row_clock.h"
 
 namespace etude {
 namespace {
@@ -135,9 +140,10 @@ Result<std::vector<Keypoint>> PointsOfPairs(const Json& list, const Json* scores
 }
 
 Result<std::vector<Keypoint>> PointsOf(const Json& person, const Place& place) {
-  const Json* list = person.is_array()
-                         ? &person
-                         : FirstMember(person, {"keypoints", "pose_keypoints_2d", "pose_landmarks", "landmarks"});
+  const Json* list =
+      person.is_array()
+          ? &person
+          : FirstMember(person, {"keypoints", "pose_keypoints_2d", "pose_keypoints", "pose_landmarks", "landmarks"});
   if (list == nullptr || !list->is_array() || list->empty()) {
     return Fail(place, "a person without a list of keypoints: {}", ShowJson(person));
   }
@@ -222,6 +228,55 @@ Result<PeopleOfFilm> Ordered(std::map<long, std::vector<SeenPerson>> numbered, c
   return film;
 }
 
+/// Moves frames to the given indices, which ascend; `count` is the number of frames. Says if frames are missing.
+void MoveFrames(std::span<const std::size_t> indices, std::size_t count, PeopleOfFilm& film) {
+  SeenPeople frames(count);
+  for (std::size_t i = 0; i < indices.size(); ++i) frames[indices[i]] = std::move(film.frames[i]);
+  // Count the frames within the recording that have no entry.
+  const std::size_t missing = indices.back() - indices.front() + 1 - indices.size();
+  if (missing > 0) {
+    film.told += film.told.empty() ? "" : "; ";
+    film.told += fmt::format("{} of {} frames are missing, by their numbers or times: nobody there", missing, count);
+  }
+  film.frames = std::move(frames);
+}
+
+constexpr std::size_t kMaxSpread = 10;  // frames per entry
+
+/// Returns the time of a frame, in the file's unit.
+std::optional<double> TimeOf(const Json& frame) {
+  constexpr const char* kNames[] = {"timestamp", "timestamp_ms", "timestamp_us", "timestamp_ns", "timestamp_s",
+                                    "time",      "time_s",       "time_ms",      "timestampMs",  "t"};
+  for (const char* name : kNames) {
+    const Json* time = Member(frame, name);
+    if (time != nullptr && time->is_number() && std::isfinite(time->get<double>())) return time->get<double>();
+  }
+  return std::nullopt;
+}
+
+/// Lays frames on their times, which only count as ratios. Does nothing if the times do not ascend.
+void LayByTimes(const std::vector<double>& times, PeopleOfFilm& film) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    steps.push_back(times[i] - times[i - 1]);
+    if (!(steps.back() > 0)) return;
+  }
+  if (steps.empty()) return;
+  // In units of the usual step, as if the frames were those of a film at 30 Hz.
+  const double usual = UpperMedian(std::move(steps)) * kJudgedRateHz;
+  std::vector<double> scaled;
+  for (const double time : times) scaled.push_back((time - times.front()) / usual);
+  const auto grid = GridOfRows(scaled, {}, std::nullopt, 1, "");
+  if (!grid || !*grid || (*grid)->frames.size() > kMaxSpread * times.size()) return;
+  std::vector<std::size_t> indices;
+  for (const double time : scaled) {
+    const double index = std::round(time * (*grid)->rate_hz);
+    if (!indices.empty() && static_cast<std::size_t>(index) <= indices.back()) return;  // too uneven for one frame each
+    indices.push_back(static_cast<std::size_t>(index));
+  }
+  MoveFrames(indices, indices.back() + 1, film);
+}
+
 /// Returns the names in MMPose's `keypoint_id2name`, in the order of their numbers.
 std::vector<std::string> MetaNames(const Json& json) {
   const Json* meta = Member(json, "meta_info");
@@ -275,10 +330,12 @@ Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layou
   if (Member(list.front(), "image_id") != nullptr) return ReadResults(list, layout, of, place);
   const std::vector<std::string> names = MetaNames(json);
   std::map<long, std::vector<SeenPerson>> numbered;
+  std::vector<double> times;
   // Read the number and the people of every frame.
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Json& frame = list[i];
-    const Json* id = FirstMember(frame, {"frame_id", "frame"});
+    const Json* id = FirstMember(frame, {"frame_id", "frame", "frame_index"});
+    if (const auto time = id == nullptr ? TimeOf(frame) : std::nullopt) times.push_back(*time);
     const auto number = id != nullptr ? FrameNumber(*id) : std::optional(static_cast<long>(i));
     if (!number) return Fail(place, "frame {} is no number", ShowJson(*id));
     const Json* people = frame.is_object()
@@ -289,7 +346,44 @@ Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layou
     }
     ASSIGN_OR_RETURN(numbered[*number], PeopleOfList(*people, layout, names, place));
   }
-  return Ordered(std::move(numbered), of, place);
+  ASSIGN_OR_RETURN(auto film, Ordered(std::move(numbered), of, place));
+  if (times.size() == list.size() && of.frames != list.size() && film.frames.size() == list.size()) {
+    LayByTimes(times, film);
+  }
+  return film;
+}
+
+void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, PeopleOfFilm& film) {
+  if (names.size() < 2 || names.size() != film.frames.size() || of.frames == names.size()) return;
+  // Read the numbers, which must ascend behind one text.
+  const auto text_of = [](std::string name) {
+    if (const std::size_t dot = name.find_last_of('.'); dot != std::string::npos && dot > 0) name.resize(dot);
+    const std::size_t end = name.find_last_of("0123456789");
+    const std::size_t before = end == std::string::npos ? end : name.find_last_not_of("0123456789", end);
+    return name.substr(0, before == std::string::npos ? 0 : before + 1);
+  };
+  std::vector<long> numbers;
+  std::vector<double> steps;
+  for (const std::string& name : names) {
+    const auto number = FrameNumber(Json(name));
+    if (!number || text_of(name) != text_of(names.front()) || (!numbers.empty() && *number <= numbers.back())) return;
+    if (!numbers.empty()) steps.push_back(static_cast<double>(*number - numbers.back()));
+    numbers.push_back(*number);
+  }
+  // Numbers may rise by more than one from frame to frame, and count from 0, from 1 or from the first one.
+  const auto usual = static_cast<long>(LowerPercentile(std::move(steps), 0.5));
+  const auto frames = static_cast<long>(of.frames);
+  const long last = numbers.back();
+  long first = numbers.front();
+  if (usual == 1 && first > 1 && last <= frames) first = last == frames ? 1 : 0;
+  std::vector<std::size_t> indices;
+  for (const long number : numbers) {
+    if ((number - first) % usual != 0) return;
+    indices.push_back(static_cast<std::size_t>((number - first) / usual));
+  }
+  const std::size_t count = std::max(of.frames, indices.back() + 1);
+  if (indices.back() >= kMaxSpread * indices.size() + of.frames) return;
+  MoveFrames(indices, count, film);
 }
 
 }  // namespace etude

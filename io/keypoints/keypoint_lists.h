@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,8 +40,14 @@ bool IsKeypointList(const Json& json);
 /// - frames in order, as users of MediaPipe save them: objects with `pose_landmarks`, `landmarks`, `keypoints`,
 ///   `people` or `instances`, or bare lists of people or of points; null means no people.
 /// Frame numbers count from 1 if none is 0 and the film's number of frames is unknown or equals the last one; else from
-/// 0.
+/// 0. Frames without numbers are laid on their times, if all have one (`timestamp`, `timestamp_ms`, `time`, …: only
+/// ratios count) and the film does not have just as many frames; `told` says if frames are missing.
 Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layout, const FilmOfKeypoints& of,
                                       const Place& place);
+
+/// Lays a film's frames, one for each name, by the number at the end of the names, if these begin alike and the numbers
+/// ascend and the film does not have just as many frames. A number that is missing is a frame without people, which
+/// `told` says. Numbers that leave more than nine of ten frames empty are no clock.
+void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, PeopleOfFilm& film);
 
 }  // namespace etude

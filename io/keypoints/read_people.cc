@@ -100,7 +100,9 @@ Result<std::vector<SeenPerson>> ReadFrame(const fs::path& file, const std::strin
     return Fail(place, "no list 'people'; allowed: JSON as OpenPose writes it, or MMPose's list of people");
   if (people->size() > kMaxPeople) return Fail(place, "{} people; allowed: {}", people->size(), kMaxPeople);
   for (const Json& person : *people) {
-    ASSIGN_OR_RETURN(const auto points, Triples(Member(person, "pose_keypoints_2d"), place));
+    const Json* list = Member(person, "pose_keypoints_2d");
+    if (list == nullptr) list = Member(person, "pose_keypoints");  // OpenPose 1.0
+    ASSIGN_OR_RETURN(const auto points, Triples(list, place));
     if (points.empty()) continue;
     ASSIGN_OR_RETURN(const SeenPerson seen, ToPerson(points, layout, {}, place));
     if (IsAnySeen(seen)) frame.push_back(seen);
@@ -149,9 +151,10 @@ Result<std::string> LayoutOf(std::span<const fs::path> files) {
   return people >= kMinPeople && between >= kMinShare * people ? "body_25" : "";
 }
 
-Result<PeopleOfFilm> ReadFolder(const fs::path& folder, std::string layout) {
+Result<PeopleOfFilm> ReadFolder(const fs::path& folder, std::string layout, const FilmOfKeypoints& of) {
   ASSIGN_OR_RETURN(const auto files, FilesIn(folder, ".json"));
   PeopleOfFilm film;
+  std::vector<std::string> names;
   if (layout.empty()) {
     ASSIGN_OR_RETURN(layout, LayoutOf(files));
     if (!layout.empty()) film.told = "25 keypoints a person, of which one lies between the hips: body_25";
@@ -159,7 +162,9 @@ Result<PeopleOfFilm> ReadFolder(const fs::path& folder, std::string layout) {
   for (const fs::path& file : files) {
     ASSIGN_OR_RETURN(auto frame, ReadFrame(file, layout));
     film.frames.push_back(std::move(frame));
+    names.push_back(file.filename().string());
   }
+  LayByNames(names, of, film);
   return film;
 }
 
@@ -175,9 +180,12 @@ struct CocoPerson {
   std::vector<Keypoint> points;  ///< the confidence holds COCO's v
 };
 
-Result<std::map<double, std::size_t>> FramesOf(const Json& images, PeopleOfFilm& film, const Place& place) {
+Result<std::map<double, std::size_t>> FramesOf(const Json& images, PeopleOfFilm& film, std::vector<std::string>& names,
+                                               const Place& place) {
   std::map<double, std::size_t> frames;
   for (const Json& image : images) {
+    const Json* name = Member(image, "file_name");
+    names.push_back(name != nullptr && name->is_string() ? fs::path(name->get<std::string>()).filename().string() : "");
     const Json *id = Member(image, "id"), *width = Member(image, "width"), *height = Member(image, "height");
     if (id == nullptr || !id->is_number()) return Fail(place, "an image without a number 'id'");
     if (!frames.try_emplace(id->get<double>(), frames.size()).second) {
@@ -196,7 +204,8 @@ Result<std::map<double, std::size_t>> FramesOf(const Json& images, PeopleOfFilm&
   return frames;
 }
 
-Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const Place& place) {
+Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const FilmOfKeypoints& of,
+                              const Place& place) {
   const Json *images = Member(json, "images"), *annotations = Member(json, "annotations");
   if (images == nullptr || !images->is_array() || annotations == nullptr || !annotations->is_array()) {
     return Fail(
@@ -206,7 +215,8 @@ Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const
   }
   const std::vector<std::string> names = NamesOf(json);
   PeopleOfFilm film;
-  ASSIGN_OR_RETURN(const auto frames, FramesOf(*images, film, place));
+  std::vector<std::string> file_names;
+  ASSIGN_OR_RETURN(const auto frames, FramesOf(*images, film, file_names, place));
   // Collect the people of every image.
   std::vector<CocoPerson> people;
   double max_confidence = 0;
@@ -228,6 +238,7 @@ Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const
       return Fail(place, "more than {} people in a frame", kMaxPeople);
     film.frames[person.frame].push_back(seen);
   }
+  LayByNames(file_names, of, film);
   return film;
 }
 
@@ -260,20 +271,22 @@ void Denormalise(const FilmOfKeypoints& of, PeopleOfFilm& film) {
       }
     }
   }
-  film.told += fmt::format("{}keypoints within 0 to 1 taken as shares of {} x {} pixels", film.told.empty() ? "" : "; ", of.width, of.height);
+  film.told += film.told.empty() ? "" : "; ";
+  film.told += fmt::format("keypoints within 0 to 1 taken as shares of {} x {} pixels", of.width, of.height);
 }
 
 Result<PeopleOfFilm> ReadFile(const fs::path& file, const std::string& layout, const FilmOfKeypoints& of) {
   ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(file));
   ASSIGN_OR_RETURN(const Json json, ReadJson(WithNullForNan(text), file.string()));
   const Place place{file.string()};
-  return IsKeypointList(json) ? ReadKeypointList(json, layout, of, place) : ReadCoco(json, layout, place);
+  return IsKeypointList(json) ? ReadKeypointList(json, layout, of, place) : ReadCoco(json, layout, of, place);
 }
 
 }  // namespace
 
 Result<PeopleOfFilm> ReadKeypoints(const fs::path& path, const std::string& layout, const FilmOfKeypoints& of) {
-  ASSIGN_OR_RETURN(PeopleOfFilm film, fs::is_directory(path) ? ReadFolder(path, layout) : ReadFile(path, layout, of));
+  ASSIGN_OR_RETURN(PeopleOfFilm film,
+                   fs::is_directory(path) ? ReadFolder(path, layout, of) : ReadFile(path, layout, of));
   Denormalise(of, film);
   return film;
 }

@@ -84,8 +84,9 @@ void AddCameras(py::module_& module) {
   camera.def(py::init<>())
       .def_readwrite("name", &Camera::name)
       .def_property("R_CW", ArrayOf(&Camera::R_CW), SetMatrix(&Camera::R_CW, "R_CW"),
-                    "Turns the world's axes into its own.")
-      .def_property("p_WC", ArrayOf(&Camera::p_WC), SetVector(&Camera::p_WC, "p_WC"), "Its place, metres.")
+                    "Rotation from the world's axes to the camera's.")
+      .def_property("p_WC", ArrayOf(&Camera::p_WC), SetVector(&Camera::p_WC, "p_WC"),
+                    "Position of the camera in the world, metres.")
       .def_readwrite("width", &Camera::width)
       .def_readwrite("height", &Camera::height);
   for (const auto& [name, member] :
@@ -105,7 +106,7 @@ void AddCameras(py::module_& module) {
       "read_rig", &ReadRig, "text"_a, "file"_a = "rig",
       "The cameras of a rig's text: Etude, OpenCV, Pose2Sim, Anipose or Qualisys. `file`: what complaints call it.");
   module.def("project", &ProjectAll, "camera"_a, "points_m"_a,
-             "Pixels (n x 2) of points (n x 3); NaN for what it cannot show.");
+             "Pixels (n x 2) of points (n x 3); NaN for points that the camera cannot see.");
   module.def(
       "calibrate",
       [](const Array& points_m, const Array& pixels, int width, int height) {
@@ -116,14 +117,14 @@ void AddCameras(py::module_& module) {
       "(Camera of least squared reprojection error, its root mean square in pixels). Raises BadInput where the points "
       "do not "
       "determine one.");
-  module.def(
-      "triangulate", &TriangulateAll, "cameras"_a, "pixels"_a,
-      "(n x 3 metres, n residuals in pixels) of pixels: cameras x n x 2, NaN where a camera does not show a point; NaN "
-      "for what fewer than two show.");
+  module.def("triangulate", &TriangulateAll, "cameras"_a, "pixels"_a,
+             "(n x 3 metres, n residuals in pixels) of pixels: cameras x n x 2, NaN where a camera does not see a "
+             "point; the result is NaN for points that fewer than two cameras see.");
   py::class_<CapturedMotion>(module, "CapturedMotion", "A person's motion, recovered from keypoints.")
       .def_readonly("motion", &CapturedMotion::motion)
-      .def_readonly("bvh", &CapturedMotion::bvh, "The same as a BVH file, metres, of the person's own skeleton.")
-      .def_readonly("is_held", &CapturedMotion::is_held, "Frames of which nothing could be recovered.")
+      .def_readonly("bvh", &CapturedMotion::bvh, "The motion as a BVH file in metres, with the person's own skeleton.")
+      .def_readonly("is_held", &CapturedMotion::is_held,
+                    "Per frame, whether nothing could be recovered; it then shows the last pose.")
       .def_readonly("residual_px", &CapturedMotion::residual_px);
   module.def(
       "capture", &CaptureAll, "cameras"_a, "keypoints"_a, "layout"_a = CaptureOptions{}.layout,

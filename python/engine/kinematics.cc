@@ -155,7 +155,7 @@ void AddKinematics(py::module_& module) {
 
   py::class_<Solved>(module, "Solved", "Answers to many problems of inverse kinematics.")
       .def_readonly("angles", &Solved::angles, "problems x degrees of freedom, radians")
-      .def_readonly("statuses", &Solved::statuses, "a place in `STATUSES` each")
+      .def_readonly("statuses", &Solved::statuses, "an index of `STATUSES` per problem")
       .def_readonly("iterations", &Solved::iterations);
   module.attr("STATUSES") = py::make_tuple("converged", "stalled", "unreachable", "iteration_limit", "bad_input");
 
@@ -169,8 +169,7 @@ void AddKinematics(py::module_& module) {
            "position_goal_m"_a = IkOptions{}.position_goal, "axis_goal"_a = IkOptions{}.axis_goal,
            "most_change"_a = py::none(),
            "tree: adult_body() by default. A pose has converged within position_goal_m and axis_goal (radians). "
-           "most_change: "
-           "radians that no angle leaves its start by. Raises BadInput for what is no tree.")
+           "most_change: largest change of an angle from its start, radians. Raises BadInput if it is not a tree.")
       .def_property_readonly("tree", &Kinematics::tree)
       .def_property_readonly("dofs", &Kinematics::dofs)
       .def(
@@ -180,16 +179,17 @@ void AddKinematics(py::module_& module) {
             return FramesOfPoses(body, &Kinematics::Limbs, body.tree().limbs.size(), angles, places, axes);
           },
           "angles"_a, "root_positions_m"_a = py::none(), "root_axes"_a = py::none(),
-          "Where all limbs of many poses are: (poses x limbs x 3 metres, poses x limbs x 3 x 3 axes as columns). "
-          "angles: poses "
-          "x degrees of freedom, radians. The root: one for all, or one a pose; the world's frame by default.")
+          "Positions and axes of all limbs of many poses: (poses x limbs x 3 metres, poses x limbs x 3 x 3 axes as "
+          "columns). angles: poses x degrees of freedom, radians. The root: one for all, or one a pose; the world's "
+          "frame by default.")
       .def(
           "effectors",
           [](const Kinematics& body, const Array& angles, const std::optional<Array>& places,
              const std::optional<Array>& axes) {
             return FramesOfPoses(body, &Kinematics::Effectors, body.tree().effectors.size(), angles, places, axes);
           },
-          "angles"_a, "root_positions_m"_a = py::none(), "root_axes"_a = py::none(), "As `limbs`, of the effectors.")
+          "angles"_a, "root_positions_m"_a = py::none(), "root_axes"_a = py::none(),
+          "The same as `limbs`, for the effectors.")
       .def(
           "solve",
           [](const Kinematics& body, const Array& starts, const Array& targets_m,

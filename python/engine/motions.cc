@@ -46,11 +46,17 @@ Array PositionsOf(const Motion& motion) {
   return positions;
 }
 
-Motion ReadFile(const std::filesystem::path& path, double rate_hz) {
+Motion ReadFile(const std::filesystem::path& path, double rate_hz, bool keep_floor, const std::string& up,
+                double metres_per_unit, const std::string& marker_set) {
   std::ifstream file(path, std::ios::binary);
   const std::string bytes(std::istreambuf_iterator<char>(file), {});
   if (!file) throw BadInput(path.string() + ": cannot be read");
-  return ReadMotion(bytes, path.string(), rate_hz);
+  if (up.size() > 1) throw BadInput("up: '" + up + "'; allowed: y, z");
+  return ReadMotion(bytes, path.string(), rate_hz,
+                    {.keep_floor = keep_floor,
+                     .up = up.empty() ? '\0' : up.front(),
+                     .metres_per_unit = metres_per_unit,
+                     .marker_set = marker_set});
 }
 
 std::vector<std::string> RoleNames() {
@@ -75,11 +81,16 @@ void AddMotions(py::module_& module) {
            "positions_m: frames x 20 x 3, metres, Y up. Raises BadInput for another shape or what is not finite.")
       .def_readonly("rate_hz", &Motion::rate_hz)
       .def_property_readonly("positions_m", &PositionsOf, "A copy: frames x 20 x 3, metres, Y up.")
+      .def_readonly("changes", &Motion::changes,
+                    "Of a motion that was read: what was found, and every change of what the file holds.")
       .def("__len__", [](const Motion& motion) { return motion.poses.size(); });
   module.attr("ROLES") = py::tuple(py::cast(RoleNames()));
   module.def(
-      "read_motion", &ReadFile, "path"_a, "rate_hz"_a = 30.0, py::call_guard<py::gil_scoped_release>(),
-      "Reads a BVH, AMASS, C3D or TRC file as the twenty joints. Raises BadInput with the place and what was found.");
+      "read_motion", &ReadFile, "path"_a, "rate_hz"_a = 30.0, "keep_floor"_a = false, "up"_a = "",
+      "metres_per_unit"_a = 0.0, "marker_set"_a = "", py::call_guard<py::gil_scoped_release>(),
+      "Reads a BVH, AMASS, C3D, TRC, CSV or Etude's own .npz file as the twenty joints, on the floor unless keep_floor; "
+      "up ('y' or 'z'), metres_per_unit and marker_set overrule what is found. `changes` of the motion says what was "
+      "changed. Raises BadInput with the place and what was found.");
 
   module.attr("FEATURES") = py::tuple(py::cast(FeatureNames()));
   module.def(
@@ -95,7 +106,7 @@ void AddMotions(py::module_& module) {
         for (const Features& features : found) value = std::copy(features.begin(), features.end(), value);
         return array;
       },
-      "motion"_a, "The ten pose features of every frame: frames x 10, degrees but for Posture (standing = 80).");
+      "motion"_a, "The ten pose features of every frame: frames x 10, in degrees except Posture (standing = 80).");
   module.def(
       "fuzzy_distance",
       [](const Array& a, const Array& b) { return FuzzyDistance(ToFeatures("a", a), ToFeatures("b", b)); }, "a"_a,
@@ -114,7 +125,7 @@ void AddMotions(py::module_& module) {
             const std::span<const int> frames = bridges.FramesOf(clip);
             return py::array_t<int>(static_cast<py::ssize_t>(frames.size()), frames.data());
           },
-          "clip"_a, "The bridge frames of a clip, rising.")
+          "clip"_a, "The bridge frames of a clip, in ascending order.")
       .def(
           "find",
           [](const Bridges& bridges, int clip, int frame, int to, double budget_s) -> py::object {
@@ -140,16 +151,16 @@ void AddMotions(py::module_& module) {
   module.def(
       "transition_choice_settings",
       [by_key](const std::string& name) { return by_key(TransitionChoiceSettings(name)); }, "choice"_a,
-      "The numbers that a choice can be set by: {key: (fallback, lowest, largest, meaning)}.");
+      "The settings of a choice: {key: (default, lowest, largest, meaning)}.");
   module.def(
       "transition_join_settings", [by_key](const std::string& name) { return by_key(TransitionJoinSettings(name)); },
-      "join"_a, "The numbers that a join can be set by: {key: (fallback, lowest, largest, meaning)}.");
-  py::class_<Transition>(module, "Transition", "A clip that is left for another, as it is shown.")
-      .def_readonly(
-          "motion", &Transition::motion,
-          "The playing clip from its first frame, what lies between, and the wanted one to its end; no frames "
-          "where there is no way.")
-      .def_readonly("points", &Transition::points, "The last frames of `motion` before another clip plays, rising.")
+      "join"_a, "The settings of a join: {key: (default, lowest, largest, meaning)}.");
+  py::class_<Transition>(module, "Transition", "A transition from one clip into another, as shown.")
+      .def_readonly("motion", &Transition::motion,
+                    "The playing clip from its first frame, what lies between, and the wanted clip to its end; no "
+                    "frames if there is no way.")
+      .def_readonly("points", &Transition::points,
+                    "The last frames of `motion` before each change of clip, in ascending order.")
       .def_readonly("wait_s", &Transition::wait_s, "Seconds from the request until the wanted clip plays.")
       .def_readonly("branch", &Transition::branch, "The kind of way: 'front half', 'in-between', 'now', 'none', …")
       .def_readonly("why", &Transition::why, "One sentence: why this way won, or why there is none.");
@@ -159,8 +170,8 @@ void AddMotions(py::module_& module) {
         const BodyProportions body = sim::ScenarioProportions();
         return py::make_tuple(FromPose(body.pose), body.hip_height);
       },
-      "Of the body that performs a scenario's clips, for a TransitionLibrary: (a pose, 20 x 3 metres; the height of "
-      "its hips, metres).");
+      "Proportions of the body that performs a scenario's clips, for a TransitionLibrary: (a pose, 20 x 3 metres; the "
+      "height of its hips, metres).");
   py::class_<TransitionLibrary>(
       module, "TransitionLibrary",
       "Clips made ready for transitions: performed by one body, tagged, joined by in-betweens.")
@@ -171,7 +182,7 @@ void AddMotions(py::module_& module) {
              return std::make_unique<TransitionLibrary>(clips, body);
            }),
            "clips"_a, "proportions"_a = py::none(),
-           "proportions: of the body that performs the clips, (a pose, 20 x 3 metres; how high its hips shall stand, "
+           "proportions: of the body that performs the clips, (a pose, 20 x 3 metres; the standing height of its hips, "
            "metres), such as scenario_proportions(); else the first clip's. Raises BadInput for no clips, fewer than "
            "two frames, another rate than 30 Hz, a body without legs.")
       .def(
@@ -191,11 +202,10 @@ void AddMotions(py::module_& module) {
           "join"_a = TransitionOptions{}.join, "threshold"_a = TransitionOptions{}.threshold,
           "choice_settings"_a = Settings{}, "join_settings"_a = Settings{},
           "The Transition from a frame of a clip, which is the one shown when the clip `to` is asked for. budget_s: "
-          "how "
-          "long that may be waited for, 0 to 3600. choice: which frames, of TRANSITION_CHOICES; join: how they are put "
-          "together, of TRANSITION_JOINS; threshold: of the fuzzy choices, in (0, 6]; choice_settings, join_settings: "
-          "numbers by the keys of transition_choice_settings and transition_join_settings. Raises BadInput for what "
-          "there is not.");
+          "longest wait, 0 to 3600. choice: which frames, of TRANSITION_CHOICES; join: how they are put together, of "
+          "TRANSITION_JOINS; threshold: of the fuzzy choices, in (0, 6]; choice_settings, join_settings: numbers by "
+          "the keys of transition_choice_settings and transition_join_settings. Raises BadInput for unknown names, "
+          "clips, frames or settings.");
 }
 
 }  // namespace etude::engine

@@ -137,15 +137,14 @@ void AddRecogniser(py::module_& module) {
            "moves: (name, [Motion, ...]) of each, its right performances. kind: 'whole-body', 'dtw', 'nearest'. "
            "smooths: streams go through Kinect's own filter first. Raises BadInput for no moves, two of one name and "
            "moves without examples.")
-      .def("follow", &Recogniser::Follow, "rate_hz"_a = 30.0, "A stream to be followed, frame by frame.");
+      .def("follow", &Recogniser::Follow, "rate_hz"_a = 30.0, "Starts a stream to follow, frame by frame.");
   py::class_<RecogniserStream>(module, "RecogniserStream", "One stream that a recogniser follows.")
       .def("ask", &RecogniserStream::Ask, "move"_a,
-           "Asks for a move, by its number, from the next frame on; None: for none.")
+           "Asks for a move, by its number, from the next frame on; None: asks for no move.")
       .def("update", &UpdateStream, "positions_m"_a, "states"_a = "", "body_seen"_a = true,
            "Takes the next frame (20 x 3 metres, in the order of ROLES; states: a letter a joint, t tracked, i "
            "inferred, n not tracked; '': all tracked) and gives (asked, spotted): how right the move asked for is so "
-           "far, and of "
-           "every move how much this looks like the end of it, all 0 to 1.");
+           "far, and for every move how much this looks like its end, all 0 to 1.");
 }
 
 void AddCoach(py::module_& module) {
@@ -194,17 +193,18 @@ void AddCoach(py::module_& module) {
              "them. Raises BadInput for another name.");
   py::class_<CoachDecision>(module, "CoachDecision", "A decision of the coach, explained.")
       .def_readonly("event", &CoachDecision::event, "'woken', 'song begins', 'right', 'wrong', 'corrects', 'shows', …")
-      .def_readonly("frame", &CoachDecision::frame, "Since the session began.")
-      .def_readonly("move", &CoachDecision::move, "Of the dance; None where it speaks of none.")
-      .def_readonly("mistake", &CoachDecision::mistake, "'' where none is spoken of.")
-      .def_readonly("evidence", &CoachDecision::evidence, "Of 'right' and 'wrong', 0 to 1.")
+      .def_readonly("frame", &CoachDecision::frame, "The frame, counted from the session's beginning.")
+      .def_readonly("move", &CoachDecision::move,
+                    "The move's number in the dance; None if the decision is about no move.")
+      .def_readonly("mistake", &CoachDecision::mistake, "The mistake; '' if the decision is about none.")
+      .def_readonly("evidence", &CoachDecision::evidence, "The evidence, 0 to 1, for 'right' and 'wrong'.")
       .def_readonly("why", &CoachDecision::why, "One sentence with numbers.");
   py::class_<CoachFrame>(module, "CoachFrame", "What the coach shows in one frame.")
       .def_readonly("mode", &CoachFrame::mode,
                     "'standby', 'attract', 'doze', 'wake', 'dance', 'correct', 'demonstrate', 'praise'")
       .def_property_readonly(
           "positions_m", [](const CoachFrame& frame) { return FromPose(frame.body); }, "The coach: 20 x 3, metres.")
-      .def_readonly("clip", &CoachFrame::clip, "What it plays; in a transition the next.")
+      .def_readonly("clip", &CoachFrame::clip, "The clip that it plays; in a transition, the next clip.")
       .def_readonly("clip_frame", &CoachFrame::clip_frame)
       .def_readonly("in_transition", &CoachFrame::in_transition)
       .def_readonly("asked", &CoachFrame::asked,

@@ -9,7 +9,7 @@ __version__ = "0.3.0"
 
 _HOMES = {
     "etude.program": ("EtudeError", "find_program"),
-    "etude.results": ("load", "Run", "Table", "Column", "Pairs", "Verdict", "Motion", "Series"),
+    "etude.results": ("load", "Run", "Table", "Column", "Pairs", "Answer", "Verdict", "Motion", "Series"),
     "etude.catalogue": ("metrics", "joints"),
     "etude.commands": ("run", "report", "gate", "compare", "score"),
     "etude.conversation": ("method", "metric", "serve", "NoAnswer"),

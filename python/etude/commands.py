@@ -41,7 +41,7 @@ def run(scenario, *, methods=(), metrics=(), trials=None, output=None, seed=None
     next_ = re.search(r"^Next: etude report (.*)$", printed, re.MULTILINE)
     folder = output if output is not None else next_ and next_[1].strip("'\"")
     if folder is None:
-        raise EtudeError("the run does not tell its folder; name it by output=", code, printed + said)
+        raise EtudeError("the run does not name its folder; name it by output=", code, printed + said)
     found = load(folder, program=program)
     return _judged(found, code, printed, said)
 
@@ -137,7 +137,7 @@ def _with_methods(name, text, entries):
 
 def _metric(each):
     if spec_of(each).task != "metric":
-        raise TypeError(f"'{spec_of(each).name}' is no metric: write @etude.metric(…) above it")
+        raise TypeError(f"'{spec_of(each).name}' is not a metric: write @etude.metric(…) above it")
     return ship(each)
 
 
@@ -227,7 +227,7 @@ def _answer_all(target, method, answers, progress):
     from etude.messages import plain
     player, spec, inputs = Player(method), spec_of(method), target / "inputs"
     if not inputs.is_dir():
-        raise EtudeError(f"{target}: is no data set that `etude export` wrote: it has no folder 'inputs'")
+        raise EtudeError(f"{target}: is not a data set that `etude export` wrote: it has no folder 'inputs'")
     settings = [path for path in sorted(inputs.rglob("setting.json")) if _task_of(inputs, path) == spec.task]
     if not settings:
         raise EtudeError(f"{target}: has no problem of task '{spec.task}'")

@@ -102,7 +102,7 @@ def spec_of(what):
     """Returns the arguments that @method or @metric stored. Raises TypeError if neither was applied."""
     spec = getattr(what, "__etude__", None)
     if spec is None:
-        raise TypeError(f"{getattr(what, '__name__', what)!r} is no method and no metric: write "
+        raise TypeError(f"{getattr(what, '__name__', what)!r} is neither a method nor a metric: write "
                         "@etude.method(task=…) or @etude.metric(…) above it")
     return spec
 

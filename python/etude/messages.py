@@ -87,4 +87,4 @@ def plain(value):
         return value.to_json()
     if hasattr(value, "tolist"):
         return value.tolist()
-    raise TypeError(f"{type(value).__name__} is nothing that JSON knows")
+    raise TypeError(f"{type(value).__name__} is not a type of JSON")

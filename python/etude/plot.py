@@ -65,13 +65,13 @@ def _differences(axes, pairs, names, colours):
         ticks.append(1)
         labels.append("their mean" if by_mean else "their median")
         beyond = told.get("beyond") or {}
-        if names and beyond.get("mean") is not None:
+        if names and beyond.get("difference") is not None:
             for i, name in enumerate(names):
                 of_unit = [value for value, unit in zip(shown, pairs.units) if unit == name]
                 axes.scatter([2], [sum(of_unit) / len(of_unit)], s=26, color=_colour(i), zorder=2)
-            _interval(axes, 2.25, beyond["mean"], beyond["ci95_low"], beyond["ci95_high"], scale)
+            _interval(axes, 2.25, beyond["difference"], beyond["ci95_low"], beyond["ci95_high"], scale)
             ticks.append(2)
-            labels.append("mean, units")
+            labels.append("middle, units")
     axes.set_xticks(ticks, labels)
     axes.set_xlim(-0.5, ticks[-1] + 0.5)
     unit = "percentage points" if scale != 1 else pairs.unit

@@ -17,10 +17,10 @@ class IkJoint(Message):
 
     name: The joint's name.
     parent: null: it is the root.
-    offset_m: From the parent, in the parent's frame.
-    rest: How its frame lies in its parent's while all its angles are 0.
-    axes: What it turns about, in order.
-    first_angle: Of the setting's angles.
+    offset_m: The joint's position from its parent, in the parent's frame, in metres.
+    rest: The rotation from its frame into its parent's while all its angles are 0.
+    axes: The axes that it turns about, in order.
+    first_angle: The index of its first angle in the setting's angles.
     """
     name: str
     parent: Optional[int]
@@ -35,8 +35,8 @@ class IkAngle(Message):
     """One degree of freedom.
 
     name: The angle's name.
-    lower_deg: The least that it may be, in degrees.
-    upper_deg: The most that it may be, in degrees.
+    lower_deg: Its lower limit, in degrees.
+    upper_deg: Its upper limit, in degrees.
     """
     name: str
     lower_deg: float
@@ -49,7 +49,7 @@ class IkEffector(Message):
 
     name: The effector's name.
     joint: The joint it hangs on.
-    offset_m: In that joint's frame.
+    offset_m: Its position in that joint's frame, in metres.
     """
     name: str
     joint: int
@@ -58,10 +58,10 @@ class IkEffector(Message):
 
 @dataclass
 class IkRoot(Message):
-    """Where the joint without parent is; it does not move.
+    """Where the root joint is; it does not move.
 
-    position_m: Its place in the world, in metres.
-    rotation: From its frame into the world's.
+    position_m: Its position in the world, in metres.
+    rotation: The rotation from its frame into the world's.
     """
     position_m: Vector
     rotation: Rotation
@@ -69,11 +69,11 @@ class IkRoot(Message):
 
 @dataclass
 class IkTarget(Message):
-    """Where an effector shall be.
+    """The target of an effector.
 
     effector: The name of the effector that it is for.
-    position_m: Where that shall be in the world, in metres.
-    rotation: From that effector's frame into the world's.
+    position_m: Where the effector shall be in the world, in metres.
+    rotation: The rotation from the effector's frame into the world's.
     """
     effector: str
     position_m: Vector
@@ -84,8 +84,8 @@ class IkTarget(Message):
 class IkFrame(Message):
     """A frame of the motion to follow.
 
-    root: Where the joint without parent is in this frame.
-    targets: Per effector, in order.
+    root: Where the root joint is in this frame.
+    targets: One target per effector, in order.
     """
     HOLDS: ClassVar[dict] = {"root": IkRoot, "targets": [IkTarget]}
     root: IkRoot
@@ -94,12 +94,12 @@ class IkFrame(Message):
 
 @dataclass
 class IkSetting(Message):
-    """The body, and what is asked.
+    """The body, and what is asked for.
 
-    joints: Parents first.
-    angles: Per degree of freedom, in the order of answers.
+    joints: The joints, parents first.
+    angles: One per degree of freedom, in the order of answers.
     effectors: The free ends that have targets.
-    max_steps: What built-in solvers stop at, as the goals.
+    max_steps: The step limit of built-in solvers; like the goals, for information.
     position_goal_cm: How near an effector has to come to its target, in centimetres.
     orientation_goal_deg: How far each of an effector's axes may be from its target's, in degrees.
     asked: What effectors are to meet of their targets.
@@ -118,9 +118,9 @@ class IkSetting(Message):
 class IkProblem(Message):
     """One pose to be found.
 
-    root: Where the joint without parent is.
-    start_angles_deg: Where to begin, within all limits.
-    targets: Per effector, in order.
+    root: Where the root joint is.
+    start_angles_deg: The angles to start from, within all limits.
+    targets: One target per effector, in order.
     """
     HOLDS: ClassVar[dict] = {"root": IkRoot, "targets": [IkTarget]}
     root: IkRoot
@@ -134,8 +134,8 @@ class IkAnswer(Message):
 
     angles_deg: As many as the setting's angles; one that breaks its limit by more than 10⁻⁶ degrees is measured,
         and counts as unsolved.
-    iterations: The method's own steps.
-    fk_evaluations: Its passes of forward kinematics over the whole tree.
+    iterations: The number of the method's own steps.
+    fk_evaluations: The number of its forward-kinematics passes over the whole tree.
     """
     angles_deg: List[float]
     iterations: Optional[int] = None
@@ -144,10 +144,10 @@ class IkAnswer(Message):
 
 @dataclass
 class TrackingSetting(Message):
-    """How far frames are apart, and what built-in solvers stop at in each.
+    """The frame rate, and the limits of built-in solvers in each frame.
 
     rate_hz: Frames a second.
-    max_steps: What built-in solvers stop at, as the goals.
+    max_steps: The step limit of built-in solvers; like the goals, for information.
     position_goal_cm: How near an effector has to come to its target, in centimetres.
     orientation_goal_deg: How far each of an effector's axes may be from its target's, in degrees.
     """
@@ -161,11 +161,11 @@ class TrackingSetting(Message):
 class TrackingProblem(Message):
     """A motion to be followed, by a body of its own.
 
-    joints: Parents first.
-    angles: Per degree of freedom, in the order of answers.
+    joints: The joints, parents first.
+    angles: One per degree of freedom, in the order of answers.
     effectors: The free ends that have targets.
-    start_angles_deg: Where to begin in the first frame.
-    frames: The motion, a frame after the other.
+    start_angles_deg: The angles to start from in the first frame.
+    frames: The frames of the motion, in order.
     """
     HOLDS: ClassVar[dict] = {"joints": [IkJoint], "angles": [IkAngle], "effectors": [IkEffector], "frames": [IkFrame]}
     joints: List[IkJoint]
@@ -181,7 +181,7 @@ class TrackingAnswer(Message):
 
     angles_deg: Per frame as many as the problem's angles; a frame with one that breaks its limit by more than 10⁻⁶
         degrees is measured, and counts as unsolved.
-    iterations: Per frame the method's own steps.
+    iterations: Per frame, the number of the method's own steps.
     """
     angles_deg: List[List[float]]
     iterations: Optional[List[int]] = None
@@ -192,8 +192,8 @@ class TransitionClip(Message):
     """A clip of the library.
 
     name: The clip's name.
-    poses: One per frame.
-    file: The same as BVH.
+    poses: One pose per frame.
+    file: The same motion as a BVH file.
     """
     name: str
     poses: List[Pose]
@@ -206,7 +206,7 @@ class TransitionSetting(Message):
 
     rate_hz: Frames a second, of all clips.
     joints: The twenty joints, in the order of poses.
-    parents: The joint above each; null for the first.
+    parents: The name of each joint's parent; null for the first.
     clips: The library; problems name its clips by their index, from 0.
     """
     HOLDS: ClassVar[dict] = {"clips": [TransitionClip]}
@@ -218,12 +218,12 @@ class TransitionSetting(Message):
 
 @dataclass
 class TransitionProblem(Message):
-    """A request to go over into another clip.
+    """A request for a transition into another clip.
 
-    from: The clip that is shown.
-    to: The clip wanted.
-    request_frame: Of the clip shown, the frame at which it is asked for.
-    max_wait_s: How long the caller would like to wait at most.
+    from: The index of the clip that is shown.
+    to: The index of the clip wanted.
+    request_frame: The frame of the clip shown at which it is asked for.
+    max_wait_s: The longest wait that the caller would like.
     """
     from_: int
     to: int
@@ -236,7 +236,7 @@ class TransitionStop(Message):
     """A clip played on the way.
 
     clip: Its index in the library.
-    enter_frame: The first of its frames that takes the place of the one before.
+    enter_frame: The frame at which it is entered, in place of the previous clip's last frame.
     leave_frame: The last of its frames that is shown.
     """
     clip: int
@@ -248,20 +248,19 @@ class TransitionStop(Message):
 class TransitionAnswer(Message):
     """Where the one clip is left and the other entered; or why there is no way.
 
-    leave_frame: Of the clip shown, request_frame at the earliest: the last one shown.
-    enter_frame: Of the clip wanted, any but its last: takes the place of leave_frame; its next frame is the next
-        one shown, and so on to the end.
+    leave_frame: The last frame shown of the clip shown, request_frame at the earliest.
+    enter_frame: The frame of the clip wanted that takes the place of leave_frame, any but its last; its next frame
+        is shown next, and so on to the end.
     through: Clips played on the way, 16 at most.
-    join: Any built-in one (etude list methods); cut by default.
-    join_s: How many seconds minimum-jerk or planted-feet take, 0 to 5; other joins have lengths of their own.
-    fades: Only with join_s: the old clip goes on while it fades out, else what it was off from the new one dies
-        away.
-    direct: Only with join_s: each limb goes with least jerk to where the new clip has it at the end of the join.
+    join: Any built-in join (etude list methods); cut by default.
+    join_s: Blend length of minimum-jerk or planted-feet, 0 to 5 seconds; other joins have lengths of their own.
+    fades: Only with join_s: the old clip goes on while it fades out, else its offset from the new clip decays.
+    direct: Only with join_s: each limb moves with least jerk to its place in the new clip at the end of the join.
     between: Up to 300 poses of the method's own making, shown after leave_frame in its place and heading, the last
         of them in place of enter_frame; limbs may differ from the clips' by 2 cm. Not with through.
-    between_start: Only with between: the method's version of leave_frame. It is not shown: the gaps of the first
-        transition point are those to it. Without it between begins at a steady speed.
-    matched: The two frames were chosen because they are alike: then false_smooth is measured.
+    between_start: Only with between: the method's version of leave_frame. It is not shown; the gaps of the first
+        transition point are measured to it. Without it, between begins at a steady speed.
+    matched: Whether the two frames were chosen because they are alike; false_smooth is measured only then.
     unsolved: Why there is no way.
     """
     HOLDS: ClassVar[dict] = {"through": [TransitionStop]}
@@ -282,8 +281,8 @@ class TransitionAnswer(Message):
 class PoseDistancePair(Message):
     """Two poses.
 
-    a: The one pose.
-    b: The other; heading and place on the floor do not count.
+    a: The first pose.
+    b: The second pose; heading and place on the floor do not count.
     """
     a: Pose
     b: Pose
@@ -294,7 +293,7 @@ class PoseDistanceSetting(Message):
     """The body.
 
     joints: The twenty joints, in the order of poses.
-    parents: The joint above each; null for the first.
+    parents: The name of each joint's parent; null for the first.
     """
     joints: List[str]
     parents: List[Optional[str]]
@@ -314,8 +313,8 @@ class PoseDistanceProblem(Message):
 class PoseDistanceAnswer(Message):
     """How unlike each pair is.
 
-    distances: Per pair, 0 or more, larger = more unlike, on any scale.
-    alike: Per pair whether a transition would go unnoticed.
+    distances: One per pair, 0 or more, on any scale; larger: more unlike.
+    alike: Per pair, whether a transition would go unnoticed.
     """
     distances: List[float]
     alike: List[bool]
@@ -323,11 +322,11 @@ class PoseDistanceAnswer(Message):
 
 @dataclass
 class SearchTerm(Message):
-    """What a grade is of.
+    """The feature and term that a grade belongs to.
 
     feature: The feature of a pose that is graded, such as RH.
     term: The fuzzy term of that feature.
-    weight: What a difference of these grades counts for in the distance.
+    weight: The weight of a difference of these grades in the distance.
     """
     feature: str
     term: str
@@ -336,12 +335,12 @@ class SearchTerm(Message):
 
 @dataclass
 class SearchSetting(Message):
-    """The library, and what is asked of it.
+    """The library, and what is asked for.
 
     file: Frames times 24 numbers, little-endian IEEE 754 of 64 bits, frame by frame.
     frames: How many frames the library has.
     terms: Per grade, in the order of the file and of queries: 24.
-    query: What is asked: the earliest frame below the threshold, all of them, the most alike, or the ten most
+    query: What is asked for: the earliest frame below the threshold, all of them, the most alike, or the ten most
         alike.
     threshold: The distance below which two frames are alike.
     """
@@ -366,9 +365,9 @@ class SearchProblem(Message):
 class SearchAnswer(Message):
     """What was found.
 
-    found: Per query frames of the library, from 0. first: the earliest one whose distance is below threshold, or
-        none; within: all of them, by number; nearest, nearest-10: the one, or ten, of smallest distance, by
-        distance, those of equal distance by number.
+    found: Per query, frames of the library, counted from 0. first: the earliest one whose distance is below
+        threshold, or none; within: all of them, by number; nearest, nearest-10: the one, or ten, of smallest
+        distance, by distance, those of equal distance by number.
     """
     found: List[List[int]]
 
@@ -379,7 +378,7 @@ class KeyTarget(Message):
 
     feature: One of paper A's ten.
     degrees: What the feature should be, in degrees.
-    tolerance_deg: How far off it may be, in degrees.
+    tolerance_deg: Its largest deviation, in degrees.
     """
     feature: str
     degrees: float
@@ -390,7 +389,7 @@ class KeyTarget(Message):
 class KeyPose(Message):
     """What a move looks like at a beat.
 
-    beat: When the pose is reached, in beats from the move's beginning; left out for recorded moves.
+    beat: When the pose is reached, in beats from the move's beginning; absent for recorded moves.
     targets: The features that count in it.
     """
     HOLDS: ClassVar[dict] = {"targets": [KeyTarget]}
@@ -402,9 +401,9 @@ class KeyPose(Message):
 class DetectionFrame(Message):
     """What the sensor saw in a frame.
 
-    pose: Where the sensor takes the joints to be.
+    pose: The sensed positions of the joints.
     states: Per joint a letter: tracked, inferred, not tracked.
-    body_seen: False: nobody was seen, and the pose is an old one.
+    body_seen: False if nobody was seen; the pose is then an old one.
     """
     pose: Pose
     states: str
@@ -413,13 +412,13 @@ class DetectionFrame(Message):
 
 @dataclass
 class TaughtExample(Message):
-    """A performance that taught a move: recorded, of somebody who is not judged.
+    """A recorded performance that taught a move, by somebody who is not judged.
 
-    person: Who did it; empty if nobody knows.
-    is_right: Whether it was right.
-    fault: What was wrong, by its label; empty if it was right.
+    person: The name of the performer; empty if it is unknown.
+    is_right: True if the performance was right.
+    fault: The fault that the label names; empty if the performance was right.
     rate_hz: Frames a second.
-    frames: What the sensor saw.
+    frames: What the sensor saw, frame after frame.
     """
     HOLDS: ClassVar[dict] = {"frames": [DetectionFrame]}
     person: str
@@ -434,14 +433,15 @@ class Move(Message):
     """A move that may be performed.
 
     name: The move's name.
-    tempo_bpm: Beats a minute of the example; left out for recorded moves.
-    beats: How many beats it lasts; left out for recorded moves.
-    span_s: For recorded moves that somebody else did: the longest duration of one.
+    tempo_bpm: Beats a minute of the example; absent for recorded moves.
+    beats: How many beats it lasts; absent for recorded moves.
+    span_s: The longest duration of a performance; only for recorded moves.
     rate_hz: Frames a second of the example.
-    poses: Of one perfect performance; for recorded moves of the first right example, empty if there is none.
-    file: The same as BVH; left out without poses.
+    poses: The poses of one perfect performance; of a recorded move those of the first right example, none if there
+        is no such example.
+    file: The same motion as a BVH file; absent without poses.
     key_poses: What paper A's recogniser looks for, in order.
-    examples: For recorded moves alone: all performances by the people who are not judged.
+    examples: All performances by people who are not judged; only for recorded moves.
     """
     HOLDS: ClassVar[dict] = {"key_poses": [KeyPose], "examples": [TaughtExample]}
     name: str
@@ -457,11 +457,11 @@ class Move(Message):
 
 @dataclass
 class DetectionSetting(Message):
-    """The moves. Recorded people have a setting each: what all others taught.
+    """The moves. Each recorded person has a setting: what all others taught.
 
     joints: The twenty joints, in the order of poses.
-    parents: The joint above each; null for the first.
-    moves: Those that may be performed.
+    parents: The name of each joint's parent; null for the first.
+    moves: The moves that may be performed.
     """
     HOLDS: ClassVar[dict] = {"moves": [Move]}
     joints: List[str]
@@ -474,8 +474,8 @@ class DetectionEvent(Message):
     """A performance that was asked for.
 
     move: The name of the move asked for.
-    begin_frame: The first of its window.
-    end_frame: The first after it.
+    begin_frame: The first frame of its window.
+    end_frame: The first frame after its window.
     """
     move: str
     begin_frame: int
@@ -490,8 +490,8 @@ class DetectionProblem(Message):
     frames: What the sensor saw, frame after frame.
     events: What was asked for, in order of time.
     file: The positions as TRC.
-    person: Of a recorded person: who is judged.
-    starts: Of a recorded person: the first frames of all recordings but the first.
+    person: The name of the recorded person who is judged.
+    starts: The first frames of all recordings of this person but the first.
     """
     HOLDS: ClassVar[dict] = {"frames": [DetectionFrame], "events": [DetectionEvent]}
     rate_hz: float
@@ -504,10 +504,10 @@ class DetectionProblem(Message):
 
 @dataclass
 class DetectionCall(Message):
-    """What is said of an event.
+    """The judgement of an event.
 
-    right_at_frame: In its window, when it is called right; null when it is wrong.
-    score: Higher = righter, on any scale.
+    right_at_frame: The frame in its window at which it is called right; null if it is called wrong.
+    score: How right it is, on any scale; higher: more right.
     """
     right_at_frame: Optional[int]
     score: float
@@ -515,10 +515,10 @@ class DetectionCall(Message):
 
 @dataclass
 class DetectionAlarm(Message):
-    """A move taken for performed.
+    """A detection of a move.
 
     move: The name of the move.
-    frame: The frame at which it is taken for performed.
+    frame: The frame of the detection.
     """
     move: str
     frame: int
@@ -526,11 +526,11 @@ class DetectionAlarm(Message):
 
 @dataclass
 class DetectionAnswer(Message):
-    """Who danced right.
+    """Which performances were right, and when.
 
-    events: Per event, in order.
-    alarms: Every time a move is taken for performed, wherever; those where that move was asked for or performed do
-        no harm.
+    events: One per event, in order.
+    alarms: Every detection of a move, at any time; those in a window in which that move was asked for or performed
+        do no harm.
     """
     HOLDS: ClassVar[dict] = {"events": [DetectionCall], "alarms": [DetectionAlarm]}
     events: List[DetectionCall]
@@ -541,8 +541,8 @@ class DetectionAnswer(Message):
 class CaptureStroke(Message):
     """A limb that the annotator marks with a line.
 
-    from: A joint.
-    to: A joint.
+    from: The name of a joint.
+    to: The name of a joint.
     """
     from_: str
     to: str
@@ -556,9 +556,9 @@ class CaptureSetting(Message):
     image_width: Pixels.
     image_height: Pixels.
     joints: The twenty joints, in the order of poses.
-    parents: The joint above each; null for the first.
+    parents: The name of each joint's parent; null for the first.
     strokes: The limbs that the annotator marks.
-    discs: Joints marked with a point.
+    discs: The joints that the annotator marks with a disc.
     """
     HOLDS: ClassVar[dict] = {"strokes": [CaptureStroke]}
     rate_hz: float
@@ -572,7 +572,7 @@ class CaptureSetting(Message):
 
 @dataclass
 class CapturePoint(Message):
-    """A point whose place is known.
+    """A point of known position.
 
     world_m: Where it is in the world, in metres.
     pixel: u right, v down; (0.5, 0.5) is the centre of the first pixel.
@@ -587,7 +587,7 @@ class CaptureCamera(Message):
 
     calibration: Points that somebody clicked in the picture, from which the camera is calibrated.
     background: A picture of the empty room.
-    pictures: PNG, one per frame.
+    pictures: PNG files, one per frame.
     """
     HOLDS: ClassVar[dict] = {"calibration": [CapturePoint]}
     calibration: List[CapturePoint]
@@ -599,9 +599,9 @@ class CaptureCamera(Message):
 class CaptureProblem(Message):
     """A film by several cameras.
 
-    frames: How many.
-    limb_lengths_m: Of the person filmed, by name.
-    cameras: Per camera its film; they are in step.
+    frames: The number of frames.
+    limb_lengths_m: The limb lengths of the person filmed, by name.
+    cameras: The cameras and their films, which are synchronous.
     marks: By segmenter, then [camera][frame]: null, or strokes and discs in pixels.
     """
     HOLDS: ClassVar[dict] = {"cameras": [CaptureCamera]}
@@ -615,7 +615,7 @@ class CaptureProblem(Message):
 class CaptureAnswer(Message):
     """The motion.
 
-    poses: Per frame a pose, or null where there is none.
+    poses: Per frame, a pose, or null if there is none.
     """
     poses: List[Optional[Pose]]
 
@@ -625,7 +625,7 @@ class CaptureSegmenterBegin(Message):
     """A camera's film begins.
 
     seat: Always segmenter.
-    camera: From 1.
+    camera: The camera's number, from 1.
     background: A picture of the empty room, binary PPM.
     """
     camera: int
@@ -637,7 +637,7 @@ class CaptureSegmenterBegin(Message):
 class CaptureSegmenterStep(Message):
     """The next picture.
 
-    picture: Binary PPM.
+    picture: The picture, as binary PPM.
     """
     picture: str
 
@@ -693,7 +693,7 @@ class CoachSetting(Message):
     """The moves of the dance, at the song's tempo.
 
     joints: The twenty joints, in the order of poses.
-    parents: The joint above each; null for the first.
+    parents: The name of each joint's parent; null for the first.
     moves: Those of the dance, their examples at the song's tempo.
     dance: What is danced, in order.
     """
@@ -728,8 +728,8 @@ class CoachRecogniserStep(Message):
 
     pose: Where the sensor takes the learner's joints to be.
     states: Per joint a letter: tracked, inferred, not tracked.
-    body_seen: False: nobody was seen, and the pose is an old one.
-    ask: What is asked for from this frame on; left out where that goes on.
+    body_seen: False if nobody was seen; the pose is then an old one.
+    ask: What is asked for from this frame on; left out if it does not change.
     """
     HOLDS: ClassVar[dict] = {"ask": CoachAsk}
     pose: Pose
@@ -742,8 +742,8 @@ class CoachRecogniserStep(Message):
 class CoachRecogniserAnswer(Message):
     """How right it looks.
 
-    asked: 0 to 1: of the performance asked for, so far.
-    spotted: The same of every move, asked for or not.
+    asked: How right the performance asked for looks so far, 0 to 1.
+    spotted: The same for every move, asked for or not.
     """
     asked: float
     spotted: Optional[List[float]] = None
@@ -751,11 +751,11 @@ class CoachRecogniserAnswer(Message):
 
 @dataclass
 class CoachVerdict(Message):
-    """Of a window that has just closed.
+    """The verdict on a window that has just closed.
 
     move: The name of the move that was asked for.
     repetition: Which performance of the dance it was, from 0.
-    verdict: What the coach takes it for; unjudged: it saw too little.
+    verdict: The coach's verdict; unjudged: it saw too little.
     mistake: What was wrong: none, not reached, stood still or wrong side.
     evidence: How right it looked, 0 to 1.
     """
@@ -773,7 +773,7 @@ class CoachPolicyStep(Message):
     mode: What the coach does, such as dance, correct, demonstrate, praise.
     move: The name of the move that it shows; null: none.
     repetition: Which performance of the dance it is, from 0; -1: none.
-    verdicts: On the windows that have just closed; mostly none.
+    verdicts: The verdicts on the windows that have just closed; mostly none.
     """
     HOLDS: ClassVar[dict] = {"verdicts": [CoachVerdict]}
     mode: str
@@ -784,9 +784,9 @@ class CoachPolicyStep(Message):
 
 @dataclass
 class CoachPolicyAnswer(Message):
-    """What the coach shall do.
+    """What the coach does next.
 
-    correct: Interrupt the dance now, or as soon as there is one.
+    correct: Whether to interrupt the dance, now or as soon as there is one.
     """
     correct: bool
 
@@ -796,7 +796,7 @@ class CoachTest(Message):
     """After the session: whether a move is danced right.
 
     move: The name of the move to be danced.
-    after: So many performances' time later.
+    after: How much later, in performances.
     """
     move: str
     after: int
@@ -804,18 +804,18 @@ class CoachTest(Message):
 
 @dataclass
 class CoachLearnerStep(Message):
-    """What the coach shows; or, after the session, a test alone.
+    """What the coach shows; after the session, only a test.
 
-    pose: The coach's, as the learner sees it.
+    pose: The coach's pose, as the learner sees it.
     mode: What the coach does, such as dance, correct, demonstrate, praise.
-    clip: What the coach plays: dance, an act, or slow_ and a move.
+    clip: The clip that the coach plays: dance, an act, or slow_ and a move.
     clip_frame: The frame of that clip.
     move: The name of the move that the coach shows; null: none.
     repetition: Which performance of the dance it is, from 0; -1: none.
     say: A short word to the learner.
     hint: What to do better.
     events: What the coach has just decided.
-    test: In the place of all else, after the session: a move to be danced without a coach.
+    test: After the session, instead of all else: a move to be danced without a coach.
     """
     HOLDS: ClassVar[dict] = {"test": CoachTest}
     pose: Optional[Pose] = None
@@ -834,9 +834,9 @@ class CoachLearnerStep(Message):
 class CoachLearnerAnswer(Message):
     """What the learner does.
 
-    pose: Its own, a quarter of a second later.
-    right: Of the performance that it dances; null: neither.
-    given_up: True: the learner goes, and the session is over.
+    pose: The learner's pose, a quarter of a second later.
+    right: Whether the performance that it dances is right; null: neither right nor wrong.
+    given_up: Whether the learner gives up, which ends the session.
     """
     pose: Optional[Pose] = None
     right: Optional[bool] = None
@@ -847,12 +847,12 @@ class CoachLearnerAnswer(Message):
 class MetricSetting(Message):
     """What a metric is measured on: cells of one scenario.
 
-    metric: Its name in the scenario.
-    version: Its version in the scenario.
-    task: The scenario's.
-    unit: Of positions: m.
-    joints: In the order of poses.
-    parents: The joint above each; null for the first.
+    metric: The metric's name in the scenario.
+    version: The metric's version in the scenario.
+    task: The scenario's task.
+    unit: The unit of positions: m.
+    joints: The joints, in the order of poses.
+    parents: The name of each joint's parent; null for the first.
     """
     metric: str
     version: int
@@ -868,7 +868,7 @@ class MetricTrack(Message):
 
     name: Which motion it is, such as truth, solution or sensed.
     rate_hz: Frames a second.
-    poses: Per frame a pose.
+    poses: One pose per frame.
     """
     name: str
     rate_hz: float
@@ -891,7 +891,7 @@ class MetricProblem(Cell):
 class MetricAnswer(Message):
     """The metric's value.
 
-    value: Null where there is none.
+    value: The value; null if there is none.
     reason: Why there is none.
     """
     value: Optional[float]

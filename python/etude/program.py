@@ -42,7 +42,7 @@ def find_program(program=None):
             found = shutil.which(os.fspath(given))
             if found:
                 return os.path.abspath(found)
-            raise EtudeError(f"{origin}: '{given}' is no program")
+            raise EtudeError(f"{origin}: '{given}' is not a program")
     package = pathlib.Path(__file__).resolve().parent
     beside = [package.parents[3] / "bin" / "etude"] if len(package.parents) > 3 else []
     beside += [package.parents[1] / "build" / build / "etude" for build in BUILDS]

@@ -10,7 +10,7 @@ from etude import catalogue
 from etude.program import EtudeError, call, nearest, needed
 from etude.tables import Column, Table, condition_text, numpy_or_none, read_npy, table_of_columns, tables_of_rows
 
-__all__ = ["load", "Run", "Table", "Column", "Pairs", "Verdict", "Motion", "Series"]
+__all__ = ["load", "Run", "Table", "Column", "Pairs", "Answer", "Verdict", "Motion", "Series"]
 
 
 def load(folder, *, unsealed=False, program=None):
@@ -21,9 +21,9 @@ def load(folder, *, unsealed=False, program=None):
     """
     folder = pathlib.Path(folder)
     if not (folder / "manifest.json").is_file():
-        raise EtudeError(f"{folder}: is no result folder: it has no manifest.json", 2)
+        raise EtudeError(f"{folder}: is not a result folder: it has no manifest.json", 2)
     if not (folder / "summary.json").is_file():
-        raise EtudeError(f"{folder}: did not come to its end; etude.run(…, resume=True) goes on with it", 3)
+        raise EtudeError(f"{folder}: did not come to its end; etude.run(…, resume=True) continues it", 3)
     if not unsealed:
         call("cite", folder, program=program)
     return Run(folder, catalogue.metrics(program), catalogue.joints(program))
@@ -52,6 +52,25 @@ class Verdict:
     why_open: str
     beyond: Optional[str]
     beyond_why_open: str
+    details: dict = field(repr=False, compare=False, hash=False)
+
+
+@dataclass(frozen=True)
+class Answer:
+    """How a method did against another under one condition, in the one verdict of the page: success first, then the first
+    headline metric, then the tail.
+
+    verdict: on these worlds; beyond: for others like them, None where there are too few units. against: "baseline" or
+    "rival". decided_by: "success", "value", "tail" or "none". details: all that the summary says of it.
+    """
+    scenario: str
+    condition: str
+    baseline: str
+    method: str
+    against: str
+    verdict: str
+    decided_by: str
+    beyond: Optional[str]
     details: dict = field(repr=False, compare=False, hash=False)
 
 
@@ -157,6 +176,17 @@ class Run:
 
     def methods(self, scenario=None):
         return list(self._scenarios[self._named(scenario)]["methods"])
+
+    def answers(self, scenario=None):
+        """Returns every answer: of each method against its baseline, then against its strongest rival."""
+        if scenario is not None:
+            self._named(scenario)
+        return [Answer(name, condition_text(condition["condition"]), each["baseline"], each["method"], against,
+                       each["verdict"], each["decided_by"], each["beyond"], each)
+                for name, summary in self._scenarios.items() if scenario in (None, name)
+                for condition in summary["conditions"]
+                for against, key in (("baseline", "answers"), ("rival", "rival_answers"))
+                for each in condition[key]]
 
     def verdicts(self, scenario=None, metric=None):
         """Returns every comparison on the page, in its order: against baselines, then against the strongest rivals."""

@@ -165,7 +165,7 @@ def tables_of_rows(file, metrics):
                 row = json.loads(line)
                 rows_of.setdefault((row["scenario"], row["task"]), []).append(row)
             except (ValueError, KeyError, TypeError) as error:
-                raise EtudeError(f"{file}:{number}:1: is no row of a run: {error}") from None
+                raise EtudeError(f"{file}:{number}:1: is not a row of a run: {error}") from None
     return {scenario: _table_of_rows(scenario, task, rows, metrics) for (scenario, task), rows in rows_of.items()}
 
 
@@ -208,7 +208,7 @@ def read_npy(path):
         head = file.read(length).decode("latin-1")
         kind = re.search(r"'descr': '([^']+)'", head)
         if not length or kind is None or kind[1] not in _TYPES:
-            raise EtudeError(f"{path}: is no column of numbers")
+            raise EtudeError(f"{path}: is not a column of numbers")
         numpy = numpy_or_none()
         if numpy:
             return numpy.memmap(path, dtype=kind[1], mode="r", offset=10 + length)

@@ -110,7 +110,7 @@ class Plot {
   }
   bool ShowsUnits() const { return !pairs_.units.empty(); }
   std::string_view UnitsWords() const {
-    return scenario_.unit == SamplingUnit::kLibrary ? "mean, libraries" : "mean, clips";
+    return scenario_.unit == SamplingUnit::kLibrary ? "middle, libraries" : "middle, clips";
   }
 
   std::vector<double> Column(const Axis& axis, double PairedWorld::*value) const {
@@ -192,7 +192,7 @@ constexpr double kStripHeight = 58, kStripTop = 6, kStripBottom = 36;
 /// Returns the unit that matters most: if the difference matters, the one without which least of it is left, else the
 /// one without which it would be largest.
 const LeftOut& Extreme(const Beyond& beyond, double practical) {
-  const double all = *beyond.difference;
+  const double all = *beyond.mean;
   const bool matters = std::abs(all) >= practical;
   return *std::ranges::min_element(beyond.left_out, {}, [&](const LeftOut& left) {
     return matters ? std::copysign(1.0, all) * left.difference : -std::abs(left.difference);
@@ -206,7 +206,7 @@ std::string Amount(double difference, const MetricWords& words) {
 }
 
 std::string WhatItDoes(const Beyond& beyond, const LeftOut& extreme, double practical, SamplingUnit unit) {
-  const double all = *beyond.difference;
+  const double all = *beyond.mean;
   const bool matters = std::abs(all) >= practical;
   const bool still = std::abs(extreme.difference) >= practical && (extreme.difference < 0) == (all < 0);
   if (matters && !still) return fmt::format("then it no longer matters: this {} carries it", OneOf(unit));
@@ -300,7 +300,7 @@ std::string UnitLegendHtml(const PairedDots& pairs) {
 
 std::string WithoutEachUnit(const Comparison& c, SamplingUnit unit) {
   const Beyond& beyond = c.beyond;
-  if (beyond.left_out.empty() || !beyond.difference) return "";
+  if (beyond.left_out.empty() || !beyond.mean) return "";
   const MetricWords words = WordsFor(c.metric);
   const auto [low, high] = std::ranges::minmax_element(beyond.left_out, {}, &LeftOut::difference);
   const LeftOut& extreme = Extreme(beyond, PracticalOf(c));
@@ -315,7 +315,7 @@ std::string LeftOutStripHtml(const Comparison& c, SamplingUnit unit) {
   if (text.empty()) return "";
   const MetricWords words = WordsFor(c.metric);
   const double practical = PracticalOf(c) * words.scale;
-  std::vector<double> values{practical, -practical, *c.beyond.difference * words.scale};
+  std::vector<double> values{practical, -practical, *c.beyond.mean * words.scale};
   for (const LeftOut& left : c.beyond.left_out) values.push_back(left.difference * words.scale);
   Axis axis = AxisAroundZero(values);
   axis.from = 12, axis.to = kPanelRight;
@@ -333,7 +333,7 @@ std::string LeftOutStripHtml(const Comparison& c, SamplingUnit unit) {
                        EscapeMarkup(fmt::format("without {}: {}", left.unit, Amount(left.difference, words))));
   }
   svg += fmt::format("<circle class=\"estimate\" cx=\"{:.1f}\" cy=\"{}\" r=\"4.5\"/></svg>",
-                     axis.At(*c.beyond.difference * words.scale), (kStripTop + kStripBottom) / 2);
+                     axis.At(*c.beyond.mean * words.scale), (kStripTop + kStripBottom) / 2);
   return fmt::format("<figure class=\"left-out\">{}<figcaption>{}</figcaption></figure>", svg, EscapeMarkup(text));
 }
 

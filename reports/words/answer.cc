@@ -14,15 +14,6 @@ std::string Amount(double difference, const MetricWords& words) {
   return FormatNumber(difference * words.scale) + (words.is_share ? " pp" : words.difference_suffix);
 }
 
-// Returns "58 of 60 worlds", or a share if ties, which count half, leave no whole number.
-std::string WorldsWon(double share, int pairs) {
-  const double won = share * pairs;
-  if (std::abs(won - std::round(won)) < 1e-6) {
-    return fmt::format("{} of {}", FormatCount(std::llround(won)), Plural(pairs, "world"));
-  }
-  return fmt::format("{:.0f} % of {}", 100 * share, Plural(pairs, "world"));
-}
-
 std::string_view VerbFor(double difference, const MetricWords& words) {
   if (words.direction == Direction::kNeither) return "changes";
   return difference < 0 ? "lowers" : "raises";
@@ -31,19 +22,16 @@ std::string_view VerbFor(double difference, const MetricWords& words) {
 std::string ClearSentence(const Comparison& c, const std::string& other, const MetricWords& words) {
   const double difference = *c.difference;
   const bool worse = c.verdict == Verdict::kWorse;
-  const std::string worlds = WorldsWon(worse ? 1 - c.share_better : c.share_better, c.pairs);
-  if (difference == 0) {
-    return fmt::format("“{}” has the {} {} than {} on {}, with equal halves on the others", c.method,
-                       worse ? "worse" : "better", words.label, other, worlds);
-  }
+  const std::string worlds = fmt::format("{} of {}", FormatCount(worse ? c.worse : c.better), Plural(c.pairs, "world"));
   // "Lowers by 12.3 (10.1–14.0)": the verb states the sign, so the interval is negated.
   std::optional<double> low = c.ci_low, high = c.ci_high;
   if (difference < 0 && low && high) {
     low = -*c.ci_high;
     high = -*c.ci_low;
   }
-  return fmt::format("“{}” {} the {} by {} (95 % CI {}) against {}, on {}", c.method, VerbFor(difference, words),
-                     words.label, Amount(std::abs(difference), words), FormatInterval(low, high, words), other, worlds);
+  return fmt::format("“{}” {} the {} by {} (95 % CI {}) against {}, by as much as matters in {}", c.method,
+                     VerbFor(difference, words), words.label, Amount(std::abs(difference), words),
+                     FormatInterval(low, high, words), other, worlds);
 }
 
 /// Returns true if the mean lies outside the interval of the median.
@@ -105,6 +93,10 @@ std::string RangeOfChanges(const std::vector<Judged>& judged, const MetricWords&
 
 std::string SentenceOverConditions(const std::vector<Judged>& judged, const MetricWords& words) {
   const Comparison& first = *judged.front().comparison;
+  if (!HaveOneMetric(judged)) {
+    return fmt::format("“{}” against {} is {}", first.method, OthersOf(judged),
+                       CountVerdicts(VerdictsOf(judged), judged.size()));
+  }
   const std::string others = OthersOf(judged), range = RangeOfChanges(judged, words);
   // The range names both of two conditions.
   const std::string under = judged.size() > 2 ? " under " + AllConditions(judged.size()) : "";
@@ -159,6 +151,11 @@ std::string RatioText(const CostRatio& ratio) {
   return least == most ? least : fmt::format("{}–{}", least, most);
 }
 
+/// Returns true if a question about this metric is the scenario's: its answer is about success first.
+bool IsAnswer(const ScenarioSummary& scenario, const std::string& metric) {
+  return !scenario.headline_metrics.empty() && scenario.headline_metrics.front() == metric;
+}
+
 /// Returns the verb of a cost: a method needs steps, but has an error.
 std::string_view VerbOf(const Comparison& c) {
   const MetricInfo* info = FindMetric(c.metric);
@@ -190,6 +187,7 @@ std::string VerdictPhrase(const std::vector<Judged>& judged) {
 
 /// Returns the smallest to the largest difference over conditions: " (−0.949 mm)"; "" if there is none.
 std::string ChangeOf(const std::vector<Judged>& judged, std::string_view what) {
+  if (!HaveOneMetric(judged)) return "";
   std::optional<double> low, high;
   for (const Judged& j : judged) {
     const auto& difference = j.comparison->difference;
@@ -208,7 +206,8 @@ std::string ChangeOf(const std::vector<Judged>& judged, std::string_view what) {
 }
 
 std::string PhraseOf(const std::vector<Judged>& judged, std::string_view what = "") {
-  const auto ratio = CommonVerdict(judged) == Verdict::kWorse ? CostRatioOf(judged) : std::nullopt;
+  const bool is_worse = CommonVerdict(judged) == Verdict::kWorse && HaveOneMetric(judged);
+  const auto ratio = is_worse ? CostRatioOf(judged) : std::nullopt;
   return ratio ? fmt::format("{} of {}", CostPhrase(judged, *ratio), OthersOf(judged))
                : VerdictPhrase(judged) + ChangeOf(judged, what);
 }
@@ -233,25 +232,48 @@ std::string CostElsewhere(const ScenarioSummary& scenario, const std::string& me
 
 std::string AgainstRival(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                          const std::string& baseline, const std::optional<Verdict>& of_baseline) {
-  const std::vector<Judged> judged = JudgedOf(scenario, method, metric, Against::kRival);
+  const std::vector<Judged> judged = AnswersOf(scenario, method, Against::kRival);
   if (judged.empty()) return "";
+  // The metric stands there where it is another one than against the baseline.
+  const std::string& decides = judged.front().comparison->metric;
+  const std::string what = decides == metric ? "" : WordsFor(decides).label + " ";
   const std::string rival = OthersOf(judged);
-  const std::string elsewhere = CostElsewhere(scenario, method, metric, rival);
+  const std::string elsewhere = CostElsewhere(scenario, method, decides, rival);
   // If the baseline is the strongest other method, the first half has compared the two already.
   if (rival == baseline) return elsewhere.empty() ? ", the strongest other method" : ", but " + elsewhere;
   const auto verdict = CommonVerdict(judged);
   const bool twice_better = verdict == Verdict::kBetter && of_baseline == Verdict::kBetter;
-  const std::string phrase =
-      twice_better ? "better than the strongest other one too, " + rival + ChangeOf(judged, "") : PhraseOf(judged);
+  const std::string phrase = twice_better ? "better than the strongest other one too, " + rival + ChangeOf(judged, what)
+                                          : PhraseOf(judged, what);
   const bool is_led = verdict == Verdict::kWorse;
   return "; " + (elsewhere.empty() ? phrase : is_led ? phrase + " and " + elsewhere : phrase + ", but " + elsewhere);
 }
 
-/// Returns the mean that decides beyond these worlds: " Mean of 8 clips 2.39 cm (−6.3 to 11.0)."; "" if worlds do.
-std::string MeanOfUnits(const Comparison& c, const MetricWords& words, SamplingUnit unit) {
+/// Returns the figure that decides beyond these worlds: " Middle of 8 clips 2.39 cm (−6.3 to 11.0)."; "" if worlds do.
+std::string MiddleOfUnits(const Comparison& c, const MetricWords& words, SamplingUnit unit) {
   if (WorldsAreUnits(unit) || !c.beyond.low || !c.beyond.difference) return "";
-  return fmt::format(" Mean of {} {} ({}).", CountUnits(c.beyond.units, unit), Amount(*c.beyond.difference, words),
+  return fmt::format(" Middle of {} {} ({}).", CountUnits(c.beyond.units, unit), Amount(*c.beyond.difference, words),
                      FormatInterval(c.beyond.low, c.beyond.high, words));
+}
+
+/// Returns what else an answer rests on: the value where both succeeded, and the tail if it decides.
+std::string FurtherSteps(const Judged& judged) {
+  const Answer* answer = judged.answer;
+  if (answer == nullptr) return "";
+  std::string text;
+  if (const auto& both = answer->both_succeed; both && both->difference) {
+    const MetricWords words = WordsFor(both->metric);
+    const std::string interval =
+        both->ci_low ? fmt::format(" ({})", FormatInterval(both->ci_low, both->ci_high, words)) : "";
+    text = fmt::format(" Where both succeed ({}): {} {}{}.", Plural(both->pairs, "world"), words.label,
+                       Amount(*both->difference, words), interval);
+  }
+  if (answer->decided_by == AnswerStep::kTail) {
+    const Comparison& tail = *answer->tail;
+    text += fmt::format(" The tail decides: far better in {}, far worse in {} of {}.", tail.better, tail.worse,
+                        Plural(tail.pairs, "world"));
+  }
+  return text;
 }
 
 /// Returns a sentence on how a method did against another over all its conditions, with the figures behind its
@@ -264,7 +286,8 @@ std::string SentenceOf(const std::vector<Judged>& judged, SamplingUnit unit) {
   if (!WorldsAreUnits(unit) && first.beyond.units > 0) {
     sentence += fmt::format(" of {}", CountUnits(first.beyond.units, unit));
   }
-  return fmt::format("{}.{}{}", sentence, swept ? "" : MeanOfUnits(first, words, unit), UnpairedWords(judged));
+  return fmt::format("{}.{}{}{}", sentence, swept ? "" : MiddleOfUnits(first, words, unit),
+                     swept ? "" : FurtherSteps(judged.front()), UnpairedWords(judged));
 }
 
 }  // namespace
@@ -289,18 +312,22 @@ std::optional<CostRatio> CostRatioOf(const std::vector<Judged>& judged) {
 }
 
 std::string HeadlineOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric) {
-  const std::vector<Judged> judged = JudgedOf(scenario, method, metric, Against::kBaseline);
+  const bool is_answer = IsAnswer(scenario, metric);
+  const std::vector<Judged> judged = is_answer ? AnswersOf(scenario, method, Against::kBaseline)
+                                               : JudgedOf(scenario, method, metric, Against::kBaseline);
   if (judged.empty()) return "";
-  const std::string what = WordsFor(metric).label + " ";
+  const std::string& decides = judged.front().comparison->metric;
+  const std::string what = WordsFor(decides).label + " ";
   std::string text = fmt::format("“{}”: {}{}", method, PhraseOf(judged, what),
-                                 AgainstRival(scenario, method, metric, OthersOf(judged), CommonVerdict(judged)));
+                                 AgainstRival(scenario, method, decides, OthersOf(judged), CommonVerdict(judged)));
   if (BeyondInWords(judged, scenario.unit).on_these_only) text += fmt::format(", on {}", TheseUnits(scenario.unit));
   return text;
 }
 
 MethodFinding CompareInWords(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                              Against against) {
-  const std::vector<Judged> judged = JudgedOf(scenario, method, metric, against);
+  const std::vector<Judged> judged =
+      IsAnswer(scenario, metric) ? AnswersOf(scenario, method, against) : JudgedOf(scenario, method, metric, against);
   if (judged.empty()) {
     MethodFinding finding{.method = method, .baseline = scenario.methods.front(), .unit = scenario.unit};
     finding.verdict = Verdict::kInconclusive;

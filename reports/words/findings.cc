@@ -39,7 +39,8 @@ std::string MeasuredSentence(const RunFindings& f) {
   std::string text = measured == f.cells
                          ? fmt::format(" All {} were measured", Plural(f.cells, "cell"))
                          : fmt::format(" {} of {} were measured", FormatCount(measured), Plural(f.cells, "cell"));
-  if (f.unsolved > 0) text += fmt::format(", {} of them stopped short of their goal", FormatCount(f.unsolved));
+  if (f.unsolved > 0)
+    text += fmt::format(", {} of them unsolved (the method answered, but missed its goal)", FormatCount(f.unsolved));
   if (f.skipped > 0) text += fmt::format(", {} did not apply", FormatCount(f.skipped));
   if (f.broken > 0) text += fmt::format(", {} broke", FormatCount(f.broken));
   return text + ".";
@@ -150,17 +151,17 @@ std::vector<std::string> OthersBeside(const ScenarioSummary& scenario, const std
   return names;
 }
 
-/// Returns in how many worlds another method loses to `asked`, over all conditions; ties count half.
+/// Returns in how many worlds another method loses to `asked` by as much as matters, over all conditions.
 std::string WorldsLostTo(const ScenarioSummary& scenario, const std::string& asked, const std::string& other,
                          const std::string& metric) {
   for (const Against against : {Against::kBaseline, Against::kRival}) {
-    double lost = 0, pairs = 0;
+    int lost = 0, pairs = 0;
     for (const Judged& judged : JudgedOf(scenario, asked, metric, against)) {
       if (judged.comparison->baseline != other) continue;
-      lost += judged.comparison->share_better * judged.comparison->pairs;
+      lost += judged.comparison->better;
       pairs += judged.comparison->pairs;
     }
-    if (pairs > 0) return fmt::format("{:g}/{}", std::round(2 * lost) / 2, std::llround(pairs));
+    if (pairs > 0) return fmt::format("{}/{}", FormatCount(lost), FormatCount(pairs));
   }
   return "";  // one of two rivals that half of the worlds each chose
 }
@@ -183,7 +184,7 @@ KeyFigures KeyFiguresOf(const ScenarioSummary& scenario, const std::string& aske
   if (times.MedianOf(asked)) {
     add("processor time", [&](const std::string& method) { return TimeText(times.MedianOf(method)); });
   }
-  add("worlds lost",
+  add(fmt::format("worlds lost to “{}”", asked),
       [&](const std::string& method) { return method == asked ? "" : WorldsLostTo(scenario, asked, method, metric); });
   return figures;
 }

@@ -43,7 +43,7 @@ struct KeyFigures {
     std::string name;
     std::vector<std::string> values;  ///< one per label, with its unit; "" if it has no meaning
   };
-  std::vector<std::string> labels;  ///< headline metric, success, processor time, worlds lost; only known ones
+  std::vector<std::string> labels;  ///< headline metric, success, processor time, worlds lost to it; only known ones
   std::vector<Method> methods;      ///< the one in question first; empty if nothing is compared
 };
 

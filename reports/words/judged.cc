@@ -18,10 +18,10 @@ constexpr std::array<std::array<std::string_view, 2>, kSamplingUnits.size()> kUn
      {"these clips", "other clips"},
      {"these libraries", "other libraries"}}};
 
-/// Returns the figures: "mean over 12 clips −4.50 mm, 95 % CI −6.00 to −3.00".
+/// Returns the figures: "middle of 12 clips −4.50 mm, 95 % CI −6.00 to −3.00".
 std::string FiguresOf(const Beyond& beyond, const MetricWords& words, SamplingUnit unit) {
   if (!beyond.difference) return CountUnits(beyond.units, unit);
-  std::string text = fmt::format("mean over {} {}{}", CountUnits(beyond.units, unit),
+  std::string text = fmt::format("middle of {} {}{}", CountUnits(beyond.units, unit),
                                  FormatNumber(*beyond.difference * words.scale), words.difference_suffix);
   if (beyond.low) text += ", 95 % CI " + FormatInterval(beyond.low, beyond.high, words);
   return text;
@@ -40,7 +40,7 @@ std::string WhyNone(const std::vector<Judged>& judged, SamplingUnit unit) {
 std::vector<Verdict> BeyondVerdictsOf(const std::vector<Judged>& judged) {
   std::vector<Verdict> verdicts;
   for (const Judged& j : judged) {
-    if (j.comparison->beyond.verdict) verdicts.push_back(*j.comparison->beyond.verdict);
+    if (const auto verdict = j.Elsewhere()) verdicts.push_back(*verdict);
   }
   return verdicts;
 }
@@ -54,8 +54,8 @@ std::string VerdictsInWords(const std::vector<Judged>& judged, const std::vector
   }
   const Beyond& beyond = judged.front().comparison->beyond;
   const std::string why =
-      beyond.verdict == Verdict::kInconclusive && !beyond.why_open.empty() ? ": " + beyond.why_open : std::string();
-  return fmt::format("{} ({}){}", VerdictName(*beyond.verdict),
+      verdicts.front() == Verdict::kInconclusive && !beyond.why_open.empty() ? ": " + beyond.why_open : std::string();
+  return fmt::format("{} ({}){}", VerdictName(verdicts.front()),
                      FiguresOf(beyond, WordsFor(judged.front().comparison->metric), unit), why);
 }
 
@@ -70,6 +70,30 @@ std::vector<Judged> JudgedOf(const ScenarioSummary& scenario, const std::string&
     }
   }
   return found;
+}
+
+std::vector<Judged> AnswersOf(const ScenarioSummary& scenario, const std::string& method, Against against) {
+  std::vector<Judged> found;
+  for (const ConditionSummary& condition : scenario.conditions) {
+    const bool is_rival = against == Against::kRival;
+    for (const Answer& answer : is_rival ? condition.rival_answers : condition.answers) {
+      if (answer.method != method) continue;
+      const std::vector<Comparison>& values = is_rival ? condition.rivals : condition.comparisons;
+      const auto value = std::ranges::find_if(
+          values, [&](const Comparison& c) { return c.method == method && c.metric == answer.value_metric; });
+      const bool by_success = answer.success && (answer.decided_by == AnswerStep::kSuccess || value == values.end());
+      if (by_success || value != values.end()) {
+        found.push_back({by_success ? &*answer.success : &*value, &condition, &answer});
+      }
+    }
+  }
+  if (!found.empty() || scenario.headline_metrics.empty()) return found;
+  return JudgedOf(scenario, method, scenario.headline_metrics.front(), against);
+}
+
+bool HaveOneMetric(const std::vector<Judged>& judged) {
+  return std::ranges::all_of(
+      judged, [&](const Judged& j) { return j.comparison->metric == judged.front().comparison->metric; });
 }
 
 std::vector<std::string> BaselinesOf(const Judged& judged) {
@@ -100,8 +124,8 @@ std::string OthersOf(const std::vector<Judged>& judged) {
 }
 
 std::optional<Verdict> CommonVerdict(const std::vector<Judged>& judged) {
-  const Verdict first = judged.front().comparison->verdict;
-  const bool agree = std::ranges::all_of(judged, [&](const Judged& j) { return j.comparison->verdict == first; });
+  const Verdict first = judged.front().Here();
+  const bool agree = std::ranges::all_of(judged, [&](const Judged& j) { return j.Here() == first; });
   return agree ? std::optional(first) : std::nullopt;
 }
 
@@ -123,7 +147,7 @@ std::string CountVerdicts(const std::vector<Verdict>& verdicts, std::size_t cond
 
 std::vector<Verdict> VerdictsOf(const std::vector<Judged>& judged) {
   std::vector<Verdict> verdicts;
-  for (const Judged& j : judged) verdicts.push_back(j.comparison->verdict);
+  for (const Judged& j : judged) verdicts.push_back(j.Here());
   return verdicts;
 }
 

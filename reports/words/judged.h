@@ -15,12 +15,24 @@ enum class Against { kBaseline, kRival };
 struct Judged {
   const Comparison* comparison;
   const ConditionSummary* condition;
+  const Answer* answer = nullptr;  ///< the answer that the comparison decides or is part of; null: it stands for itself
+
+  /// Returns the verdict on these worlds, and for others like them.
+  Verdict Here() const { return answer == nullptr ? comparison->verdict : answer->verdict; }
+  std::optional<Verdict> Elsewhere() const { return answer == nullptr ? comparison->beyond.verdict : answer->beyond; }
 };
 
 /// Returns the comparisons of `method` by `metric`, one per condition, in their order. Summaries of old versions have
 /// no comparisons with a rival.
 std::vector<Judged> JudgedOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                              Against against);
+
+/// Returns the answers on a method, one per condition, each with the comparison that decides it: that of success, else
+/// that of the value. For a summary without answers: the comparisons by the first headline metric.
+std::vector<Judged> AnswersOf(const ScenarioSummary& scenario, const std::string& method, Against against);
+
+/// Returns true if all comparisons are by the same metric.
+bool HaveOneMetric(const std::vector<Judged>& judged);
 
 /// Returns the methods that a comparison's baseline names: one, or both of a rival "a or b"
 /// (bench/statistics/scenario_table.h).

@@ -201,7 +201,7 @@ Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& 
     // Read its time, and check it against the beat before.
     const auto moment = NumberAtFront(line);
     if (!moment) return Fail({file, number, 1}, "a beat is a number of seconds, found {}", Quote(line.substr(0, 40)));
-    if (*moment < 0) return Fail({file, number, 1}, "a beat at {} s; must not be before 0", *moment);
+    if (*moment < 0) return Fail({file, number, 1}, "a beat at {} s; allowed: 0 or later", *moment);
     const double step = beats.empty() ? kMinBeatSeconds : *moment - beats.back();
     if (step < kMinBeatSeconds - 1e-9 || step > kMaxBeatSeconds) {
       return Fail({file, number, 1}, "a beat at {} s, {:.3f} s after the one before; allowed: {} to {}", *moment, step,

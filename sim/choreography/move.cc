@@ -82,7 +82,8 @@ double ReadBeat(Fields& pose, double beats) {
   const auto beat = pose.OptionalNumber("beat", {0, beats});
   if (!beat && pose.ok()) pose.Complain(pose.node().place, "a pose needs a 'beat'");
   if (beat && *beat >= beats) {
-    pose.Complain(pose.node().place, fmt::format("beat {} is the next loop's; allowed: 0 to below {}", *beat, beats));
+    pose.Complain(pose.node().place,
+                  fmt::format("beat {} belongs to the next loop; allowed: 0 to below {}", *beat, beats));
   }
   return beat.value_or(0);
 }

@@ -116,7 +116,7 @@ bool IsSwitch(std::size_t control) {
 }
 
 /// The share of each term in an offset's standard deviation: the constant, then the cosine and sine of three harmonics.
-/// The squares sum to one, and the constant has about half of the variance.
+/// The squares sum to .978, and the constant has nearly half of the variance.
 constexpr std::array<double, 7> kTermShares = {0.66, 0.38, 0.38, 0.28, 0.28, 0.22, 0.22};
 
 /// Draws standard normal numbers, each times its term's share.

@@ -52,7 +52,7 @@ Result<Seed> ParseSeed(std::string_view text) {
   std::uint64_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error == std::errc() && end == text.data() + text.size()) return Seed(number);
-  return Fail({}, "'{}' is no seed; allowed: a whole number, or 'secret' and a digest", text);
+  return Fail({}, "'{}' is not a seed; allowed: a whole number, or 'secret' and a digest", text);
 }
 
 Result<Words256> ParseWords256(std::string_view digits) {

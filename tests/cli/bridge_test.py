@@ -116,10 +116,10 @@ class Bridge(EtudeCase):
         self.refuses(*FEW, "-o", self.tags, "--fuzzy", "builtin:none", says=["none"])
         self.refuses(*FEW, "-o", self.tags, "--check", self.tags, says=["check"])
         self.refuses("--check", self.tags, says=["tags.xml"])
-        self.refuses("--check", self.tags, "--fuzzy", "builtin:paper", says=["--fuzzy", "name those"])
+        self.refuses("--check", self.tags, "--fuzzy", "builtin:paper", says=["--fuzzy", "name the clips"])
         self.assertFalse(self.tags.exists())
         self.tags.write_text("mine")
-        self.refuses(*FEW, "-o", self.tags, says=["is there already"])
+        self.refuses(*FEW, "-o", self.tags, says=["already exists"])
         self.assertEqual(self.tags.read_text(), "mine")
 
 

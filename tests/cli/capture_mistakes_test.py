@@ -585,7 +585,7 @@ class Mistakes(EtudeCase):
         self.assertRegex(text, r"<td>shank</td><td class=\"n\">4[23]\.")
         typed = shlex.split(html.unescape(re.search(r"<dt>Command</dt><dd>(etude capture [^<]*)</dd>", text)[1]))
         self.assertIn(str(page), typed)
-        self.assertIn("there already", self.etude(*typed[1:]).stderr, "it can be pasted")
+        self.assertIn("already exists", self.etude(*typed[1:]).stderr, "it can be pasted")
 
     @unittest.skipUnless(HEAVY, "heavy")
     def test_the_page_of_outlines(self):

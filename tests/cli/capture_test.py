@@ -3,6 +3,7 @@ import json
 import math
 import re
 import shutil
+import struct
 import subprocess
 import unittest
 
@@ -139,6 +140,23 @@ class Capture(EtudeCase):
         result = self.etude("calibrate", "--print", board, "--board", "5x4x0.1")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(board.read_bytes()[:4], b"\x89PNG")
+        self.assertIn("500 x 400 mm: needs A2 paper", result.stdout)
+        # As guided it fits on paper, and the file says how large it is.
+        result = self.etude("calibrate", "--print", board, "--overwrite")
+        self.assertIn("170 x 238 mm: fits on A4 or Letter", result.stdout)
+        head = board.read_bytes()
+        width, height = struct.unpack(">II", head[16:24])
+        at = head.index(b"pHYs") + 4
+        across, down, unit = struct.unpack(">IIB", head[at:at + 9])
+        self.assertEqual(unit, 1)
+        self.assertAlmostEqual(width / across, .187, places=4)
+        self.assertAlmostEqual(height / down, .255, places=4)
+
+    def test_a_film_without_the_board_that_was_meant_names_the_option(self):
+        told = self.refusal("calibrate", *self.films, "-o", self.folder / "new.yaml")
+        self.assertIn("left.mp4: no picture of ", told)
+        self.assertIn("shows the board 5x7x0.034; tell which it is by --board: ", told)
+        self.assertIn("a ChArUco board as charuco:5x7x0.04", told)
 
     def test_captures_a_motion_into_every_format(self):
         trc = self.folder / "points.trc"

@@ -155,7 +155,7 @@ class Convert(Clips):
         self.refuses("convert", WALK, part, "--trim", "1:2000", "--overwrite", says=["01_03.bvh: "])
         self.refuses("convert", WALK, part, "--trim", "soon", "--overwrite", says=["--trim: 'soon' is no span of time"])
         for rate in ("nan", "inf", "0", "1001", "fast"):
-            self.refuses("convert", WALK, part, "--rate", rate, "--overwrite", says=[f"--rate: '{rate}' is no rate"])
+            self.refuses("convert", WALK, part, "--rate", rate, "--overwrite", says=[f"--rate: '{rate}' is not a rate"])
 
     def test_everybody_dances_on_the_bear(self):
         bear = self.folder / "bear.glb"
@@ -169,13 +169,13 @@ class Convert(Clips):
     def test_nothing_is_replaced_or_half_written(self):
         path = self.folder / "there.bvh"
         path.write_text("mine")
-        self.refuses("convert", WALK, path, says=["there.bvh: is there already; --overwrite replaces it"])
+        self.refuses("convert", WALK, path, says=["there.bvh: already exists; --overwrite replaces it"])
         self.assertEqual(path.read_text(), "mine")
         self.refuses("convert", WALK, self.folder, says=["is a folder"])
         for name, make in (("pipe.bvh", os.mkfifo), ("link.bvh", lambda link: os.symlink("nowhere.bvh", link))):
             make(self.folder / name)
-        self.refuses("convert", WALK, self.folder / "pipe.bvh", "--overwrite", says=["is there, and is no file"])
-        self.refuses("convert", WALK, self.folder / "link.bvh", says=["is there already"])
+        self.refuses("convert", WALK, self.folder / "pipe.bvh", "--overwrite", says=["exists and is not a file"])
+        self.refuses("convert", WALK, self.folder / "link.bvh", says=["already exists"])
         for name in ("pipe.bvh", "link.bvh"):
             (self.folder / name).unlink()
         fresh = self.folder / "new.bvh"

@@ -157,7 +157,7 @@ class DataSets(EtudeCase):
     def test_a_method_needs_a_name_of_its_own(self):
         data, answers = self.exported()
         self.assertIn("has a method named 'fixed' already", self.score(data, answers, "--name", "fixed", code=2))
-        self.assertIn("'a/b' is no name", self.score(data, answers, "--name", "a/b", code=2))
+        self.assertIn("'a/b' is not a valid method name", self.score(data, answers, "--name", "a/b", code=2))
 
     def test_a_missing_answer_may_be_a_failure_instead(self):
         data, answers = self.exported()

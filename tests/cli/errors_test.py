@@ -127,7 +127,7 @@ class Errors(EtudeCase):
         os.mkdir(odd)
         named = subprocess.run([ETUDE, "run", self.write("s.yaml", IK), "-o", odd], capture_output=True, text=True)
         inside = subprocess.run([ETUDE, "list", "metrics"], cwd=odd, capture_output=True, text=True)
-        for result, complaint in ((named, "argument 4: is no UTF-8 text"), (inside, "the working folder is no UTF-8")):
+        for result, complaint in ((named, "argument 4: is not UTF-8 text"), (inside, "the working folder is not UTF-8")):
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn(complaint, result.stderr)
         self.assertEqual(os.listdir(odd), [])
@@ -191,7 +191,7 @@ class Errors(EtudeCase):
         self.write("precious.txt", "mine")
         result = self.etude("run", path, "-o", self.folder, "--overwrite")
         self.assertEqual(result.returncode, 2)
-        self.assertIn("holds something that is no run", result.stderr)
+        self.assertIn("holds something that is not part of a run", result.stderr)
         self.assertEqual((self.folder / "precious.txt").read_text(), "mine")
 
 

@@ -43,22 +43,26 @@ class Fbx(MotionFileCase):
                ("Leg", "UpLeg", 1, (0, -43, 0), lambda t: (20 * t, 0, 0), (0, 0, 0)),
                ("Foot", "Leg", 1, (0, -42, 0), None, (0, 0, 0)), ("ToeBase", "Foot", 1, (0, -5, 14), None, (0, 0, 0)))}}
 
-    def fbx(self, name, unit_cm, up, frames=31, rate=30):
-        """An FBX file in text, and the places of its joints by frame in metres, Y up, by forward kinematics of our own."""
+    def fbx(self, name, unit_cm, up, frames=31, rate=30, late_ticks=0, inactive=()):
+        """An FBX file in text, and the places of its joints by frame in metres, Y up, by forward kinematics of our own.
+
+        Keys about Y come late_ticks later. At joints of `inactive` RotationActive is 0, beside a PreRotation and an order."""
         def euler(degrees):  # about x first, then y, then z
             x, y, z = (turn(numpy.radians(a) * axis) for a, axis in zip(degrees, numpy.eye(3)))
             return z @ y @ x
         stand = numpy.eye(3) if up == "y" else numpy.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]])  # Y up to Z up
         objects, links = [], []
         ids = {joint: 1000 + i for i, joint in enumerate(self.FBX_BODY)}
-        times = ",".join(str(t * 46186158000 // rate) for t in range(frames))
+        times = lambda k: ",".join(str(t * 46186158000 // rate + (late_ticks if k == 1 else 0)) for t in range(frames))
         triple = lambda label, kind, v: f'P: "{label}", "{kind}", "", "A",{",".join(repr(float(c)) for c in v)}\n'
         for joint, (parent, place, turns, pre) in self.FBX_BODY.items():
             if parent is None:
                 place, pre = stand @ place, (90 if up == "z" else 0, 0, 0)
             objects.append(f'Model: {ids[joint]}, "Model::{joint}", "LimbNode" {{\nVersion: 232\nProperties70: {{\n'
                            + triple("Lcl Translation", "Lcl Translation", numpy.array(place) / unit_cm)
-                           + 'P: "RotationActive", "bool", "", "",1\n' + triple("PreRotation", "Vector3D", pre) + "}\n}\n")
+                           + f'P: "RotationActive", "bool", "", "",{int(joint not in inactive)}\n'
+                           + ('P: "RotationOrder", "enum", "", "",5\n' if joint in inactive else "")
+                           + triple("PreRotation", "Vector3D", (0, 90, 0) if joint in inactive else pre) + "}\n}\n")
             links.append(f'C: "OO",{ids[joint]},{ids.get(parent, 0)}\n')
             if turns is None:
                 continue
@@ -69,7 +73,7 @@ class Fbx(MotionFileCase):
                 curve = 10 * node + k
                 values = ",".join(repr(float(turns(t / rate)[k])) for t in range(frames))
                 objects.append(f'AnimationCurve: {curve}, "AnimCurve::", "" {{\nDefault: 0\nKeyVer: 4008\n'
-                               f"KeyTime: *{frames} {{\na: {times}\n}}\nKeyValueFloat: *{frames} {{\na: {values}\n}}\n"
+                               f"KeyTime: *{frames} {{\na: {times(k)}\n}}\nKeyValueFloat: *{frames} {{\na: {values}\n}}\n"
                                f"KeyAttrFlags: *1 {{\na: 24836\n}}\nKeyAttrDataFloat: *4 {{\na: 0,0,0,0\n}}\n"
                                f"KeyAttrRefCount: *1 {{\na: {frames}\n}}\n}}\n")
                 links.append(f'C: "OP",{curve},{node}, "d|{axis}"\n')
@@ -93,7 +97,7 @@ class Fbx(MotionFileCase):
         for t in range(frames):
             turned, placed = {}, {}
             for joint, (parent, place, turns, pre) in self.FBX_BODY.items():
-                own = euler(pre) @ (euler(turns(t / rate)) if turns else numpy.eye(3))
+                own = euler((0, 0, 0) if joint in inactive else pre) @ (euler(turns(t / rate)) if turns else numpy.eye(3))
                 turned[joint] = turned[parent] @ own if parent else own
                 placed[joint] = placed[parent] + turned[parent] @ place if parent else numpy.array(place, float)
             places.append({joint: place / 100 for joint, place in placed.items()})
@@ -110,6 +114,41 @@ class Fbx(MotionFileCase):
                                     ("right_knee", "RightLeg"), ("left_shoulder", "LeftArm")):
                     apart = frame[role] - frame["hip_centre"] - truth[joint] + (truth["LeftUpLeg"] + truth["RightUpLeg"]) / 2
                     self.assertLess(numpy.linalg.norm(apart), 1e-4, (up, role))
+
+    def apart_from_truth(self, path, places):
+        """How far wrists, elbows, ankles and knees are from where they should be, beside the hips, metres."""
+        worst = 0
+        joints = self.joints(path, "--rate", 30)
+        self.assertEqual(len(joints), len(places))
+        for frame, truth in zip(joints, places):
+            for role, joint in (("left_wrist", "LeftHand"), ("right_elbow", "RightForeArm"), ("left_ankle", "LeftFoot"),
+                                ("right_wrist", "RightHand"), ("right_knee", "RightLeg")):
+                apart = frame[role] - frame["hip_centre"] - truth[joint] + (truth["LeftUpLeg"] + truth["RightUpLeg"]) / 2
+                worst = max(worst, numpy.linalg.norm(apart))
+        return worst
+
+    def test_fbx_keys_of_three_axes_that_are_not_at_one_time(self):
+        for late_ticks in (0, 1, 80, 1000, 46186):  # up to a microsecond
+            path, places = self.fbx("late.fbx", 1, "y", late_ticks=late_ticks)
+            self.assertIn("FBX, 31 frames at 30 Hz", self.etude("clip", "info", path).stdout, late_ticks)
+            self.assertLess(self.apart_from_truth(path, places), 1e-4, late_ticks)
+
+    def test_fbx_pre_rotations_and_orders_count_where_rotation_is_active(self):
+        path, places = self.fbx("inactive.fbx", 1, "y", inactive=("LeftArm", "RightForeArm"))
+        self.assertLess(self.apart_from_truth(path, places), 1e-4)
+        note = json.loads(self.etude("clip", "info", path, "--json").stdout)["clips"][0]["body"]["note"]
+        self.assertIn("RotationActive is 0 at 2 joints: their pre-rotations, post-rotations and orders are left out", note)
+        path, _ = self.fbx("active.fbx", 1, "y")
+        self.assertNotIn("RotationActive", self.etude("clip", "info", path, "--json").stdout)
+
+    def test_fbx_without_an_animation_is_told_so(self):
+        path, _ = self.fbx("rest.fbx", 1, "y")
+        text = path.read_text()
+        start, end = text.index("\tAnimationCurveNode"), text.index("Connections:")
+        models = [part for part in re.split(r"(?m)^(?=\t\w+: \d+)", text[:end]) if not part.startswith("\tAnimation")]
+        path.write_text("".join(models) + ("" if models[-1].rstrip().endswith("}\n}") else "}\n") + text[end:])
+        self.assertLess(start, end)
+        self.refused(path, "rest.fbx: holds no animation, only a figure (joints: ")
 
     @unittest.skipUnless(THREE, "ETUDE_THREE names no folder of npm's package three")
     def test_fbx_lies_where_three_js_puts_it(self):

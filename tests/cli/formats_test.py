@@ -187,12 +187,61 @@ class Formats(MotionFileCase):
         self.assertEqual(self.info(path)["clips"][0]["format"], "NPZ")
         self.assert_read_back(path, places, 1e-9)
 
+    def test_both_readings_of_bvh_see_the_same_whatever_wrote_it(self):
+        for source in ("builtin:clap", self.amass("h.npz", 156, "mocap_framerate", False)):
+            for options in ((), ("--ground",), ("--retarget",), ("--ground", "--mirror"), ("--rate", "24")):
+                path = self.folder / "out.bvh"
+                result = self.etude("clip", "convert", source, path, "--overwrite", *options)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                replaced, added = second_readers.read_bvh(path), second_readers.read_bvh(path, adds=True)
+                self.assertGreater(len(replaced), 15)
+                for joint, places in replaced.items():
+                    numpy.testing.assert_allclose(places, added[joint], atol=1e-9, err_msg=f"{source} {options} {joint}")
+
+    def test_rows_that_are_missing_are_gaps_of_their_length(self):
+        whole = self.joints("builtin:sway")[:60]
+        names = list(whole[0])
+        kept = [k for k in range(60) if not 20 <= k < 35]
+        cells = lambda k, scale: [scale * v for name in names for v in whole[k][name]]
+        (self.folder / "time.csv").write_text(
+            "time_s," + ",".join(f"{name}_{axis}_m" for name in names for axis in "xyz") + "\n"
+            + "".join(f"{k / 30}," + ",".join(map(repr, cells(k, 1.0))) + "\n" for k in kept))
+        (self.folder / "frame.csv").write_text(
+            "frame," + ",".join(f"{name}_{axis}_m" for name in names for axis in "xyz") + "\n"
+            + "".join(f"{k}," + ",".join(map(repr, cells(k, 1.0))) + "\n" for k in kept))
+        (self.folder / "a.trc").write_text(
+            "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n"
+            f"30\t30\t{len(kept)}\t{len(names)}\tmm\nFrame#\tTime\t" + "\t\t\t".join(names) + "\n\t\tX1\n\n"
+            + "".join(f"{k + 1}\t{k / 30:.3f}\t" + "\t".join(map(repr, cells(k, 1000.0))) + "\n" for k in kept))
+        for name in ("time.csv", "frame.csv", "a.trc"):
+            told = self.info(self.folder / name)["clips"][0]
+            self.assertEqual((told["frames"], told["rate_hz"]), (60, 30), name)
+            self.assertIn("by their times 15 of 60 frames are missing, in 1 gap of at most 0.533 s", told["body"]["note"])
+            read = self.joints(self.folder / name)
+            self.assertEqual(len(read), 60)
+            floor = read[0]["head"][1] - whole[0]["head"][1]
+            for k in kept:
+                for joint in names:
+                    apart = numpy.linalg.norm(read[k][joint] - whole[k][joint] - [0, floor, 0])
+                    self.assertLess(apart, 1e-4, (name, k, joint))
+
+    def test_a_rate_that_is_told_is_not_assumed(self):
+        _, places = self.body("builtin:sway")
+        numpy.save(self.folder / "poses.npy", places)
+        head = ",".join(f"{name}_{axis}_m" for name in self.body("builtin:sway")[0] for axis in "xyz")
+        numpy.savetxt(self.folder / "bare.csv", places.reshape(len(places), -1), delimiter=",", header=head, comments="")
+        for name in ("poses.npy", "bare.csv"):
+            self.assertIn("no rate in the file: 30 Hz are assumed", self.etude("clip", "info", self.folder / name).stdout)
+            told = self.etude("clip", "info", self.folder / name, "--rate", 20).stdout
+            self.assertIn("at 20 Hz", told)
+            self.assertNotIn("assumed", told)
+
     def test_arrays_of_joints_in_a_named_layout(self):
         names, places = self.body("builtin:sway")
         path = self.folder / "poses.npy"
         numpy.save(path, (1000 * places).astype("f4"))
         told = self.info(path)["clips"][0]
-        self.assertIn("layout etude, 1 unit = 0.1 cm, no rate in the file: 30 Hz are assumed", told["body"]["note"])
+        self.assertIn("layout etude, 1 unit = 0.1 cm; no rate in the file: 30 Hz are assumed", told["body"]["note"])
         self.assert_read_back(path, places)
         order = ["hip_centre", "right_hip", "right_knee", "right_ankle", "left_hip", "left_knee", "left_ankle", "spine",
                  "shoulder_centre", "head", "head", "left_shoulder", "left_elbow", "left_wrist", "right_shoulder",

@@ -132,14 +132,14 @@ class Gate(EtudeCase):
             self.assertNotEqual(edited, whole)
             self.baseline.write_text(edited)
             told = self.gate(self.out, "--baseline", self.baseline, expect=2)
-            self.assertIn(f"{self.baseline}: is not as gate --update wrote it: its seal does not fit", told)
+            self.assertIn(f"{self.baseline}: was changed after gate --update wrote it: its seal does not match", told)
             told = self.gate(self.out, "--baseline", self.baseline, "--unsealed", expect=0)
             self.assertIn("etude: read unsealed: ", told)
         # Its seal taken away, it is no baseline; called one of an older version, it is read only with --unsealed. --update makes a new one.
         self.baseline.write_text(re.sub(r',\n"seal":"\w+"', "", whole))
         self.assertIn("a baseline of schema 2 lacks its 'seal'", self.gate(self.out, "--baseline", self.baseline, expect=2))
         self.baseline.write_text(re.sub(r',\n"seal":"\w+"', "", whole).replace('"schema":2', '"schema":1'))
-        self.assertIn("has no seal, for an older version wrote it", self.gate(self.out, "--baseline", self.baseline, expect=2))
+        self.assertIn("has no seal because an older version wrote it", self.gate(self.out, "--baseline", self.baseline, expect=2))
         self.gate(self.out, "--baseline", self.baseline, "--unsealed", expect=0)
         self.gate(self.out, "--baseline", self.baseline, "--update", expect=0)
         self.assertEqual(self.baseline.read_text(), whole)
@@ -174,7 +174,7 @@ class Gate(EtudeCase):
         self.assertIn("none of the 24", (self.now / "report" / "gate.md").read_text())
         self.assertIn("none of the 24", (self.now / "report" / "gate.xml").read_text())
         text = self.gate(self.now, "--baseline", self.baseline, "--update", expect=1)
-        self.assertIn("No baseline is made of a run in which a method has no answer", text)
+        self.assertIn("No baseline is made from a run in which a method has no answer", text)
         self.assertFalse(self.baseline.exists())
 
     def test_a_method_that_never_replies_is_a_fault_of_the_set_up_and_no_regression(self):
@@ -235,7 +235,7 @@ class Gate(EtudeCase):
         self.assertIn("no such folder", self.gate(self.folder / "none", expect=2))
         self.make_baseline()
         whole = self.baseline.read_text()
-        self.assertIn("no such file; --update makes it of this run", self.gate(self.out, "--baseline", self.folder / "none.json", expect=2))
+        self.assertIn("no such file; --update makes it from this run", self.gate(self.out, "--baseline", self.folder / "none.json", expect=2))
         for broken in "", "{}", whole[:len(whole) // 2], whole.replace('"schema":2', '"schema":7'), \
                 whole.replace('"seed":1', '"seed":1,"seed":1'), whole.replace('"trials":12', '"trials":null'), \
                 re.sub('"cells":"[a-z]+"', '"cells":"' + 12 * "f" + '"', whole), \
@@ -255,7 +255,7 @@ class Gate(EtudeCase):
         self.run_now(SCENARIO.replace("[2, 5]", "[2, 7]"))
         same = self.etude("compare", self.out, self.out)
         self.assertEqual(same.returncode, 0, same.stderr)
-        self.assertRegex(same.stdout, r"^\d+ comparisons: \d+ same\nAll on these worlds; nothing is said about other worlds.\n$")
+        self.assertRegex(same.stdout, r"^\d+ comparisons: \d+ same\nAll on these worlds; no claim is made about other worlds.\n$")
         result = self.etude("compare", self.out, self.now)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("Only in A:\n  ik, joint_noise_deg=5, fixed\n  ik, joint_noise_deg=5, least-squares", result.stdout)

@@ -45,11 +45,11 @@ class Installed(EtudeCase):
         (empty / "quick" / "notes.txt").touch()
         told = run("run", "quick", "--dry-run")
         self.assertEqual(told.returncode, 0, told.stderr)
-        self.assertEqual("etude: quick: this folder holds no scenario (*.yaml): what comes with etude under that name is meant\n",
+        self.assertEqual("etude: quick: this folder holds no scenario (*.yaml); the scenario of that name that comes with etude is used\n",
                          told.stderr)
         self.assertEqual(run("scenario", "copy", SUITE, "quick").returncode, 0)
         wins = run("run", "quick", "--trials", 6, "-o", "mine")
-        self.assertIn("quick: what is here is meant, not what comes with etude under that name", wins.stderr)
+        self.assertIn("quick: this file or folder is used, not the scenario of that name that comes with etude", wins.stderr)
         twice = run("scenario", "copy", SUITE, "quick")
         self.assertEqual(twice.returncode, 2)
         self.assertIn("is there already; nothing was copied", twice.stderr)

@@ -11,7 +11,7 @@ import unittest
 from etude_case import ETUDE, IK, EtudeCase, heavy
 
 WALK = "/usr/share/assimp/models/BVH/01_01.bvh"
-AT_ONCE = "etude: stopped; nothing half done is kept\n"
+AT_ONCE = "etude: stopped; no partial result is kept\n"
 
 
 # One world whose pictures take minutes.

@@ -287,14 +287,14 @@ class OwnMetrics(EtudeCase):
     def test_what_cannot_be_is_refused_with_its_place(self):
         program = "exec: [python3, m.py]"
         for metrics, says in ((f"[{{name: iterations, {program}}}]", "a metric 'iterations' of its own"),
-                              (f"[{{name: cell, {program}}}]", "'cell' is no name of a metric"),
-                              (f"[{{name: a, {program}}}, {{name: a, {program}}}]", "stands here twice"),
+                              (f"[{{name: cell, {program}}}]", "'cell' is not a valid metric name"),
+                              (f"[{{name: a, {program}}}, {{name: a, {program}}}]", "is listed twice"),
                               ("[{name: a}]", "'exec'"), (f"[{{name: a, {program}, colour: red}}]", "'colour'"),
                               (f"[{{name: a, {program}, vectors: [{{cell: {{}}}}]}}]", "a list 'tracks'"),
                               (f"[{{name: a, {program}, files: [nowhere]}}]", "'files' of metric 'a': 'nowhere'")):
             self.refused(HEAD + f"metrics: {metrics}\n", says, "refused.yaml")
         self.refused(f"scenario: s\nquestion: why\ntask: search\nmethods: [{{name: a}}]\nmetrics: [{{name: a, {program}}}]\n",
-                     "cells of task search keep no motion")
+                     "cells of task search record no motion")
         self.refused("defaults: {task: ik, methods: [{name: a}]}\nscenarios:\n"
                      f"  - {{scenario: x, question: why, metrics: [{{name: twice, {program}}}]}}\n"
                      f"  - {{scenario: y, question: why, metrics: [{{name: twice, {program}, unit: mm}}]}}\n",

@@ -165,7 +165,7 @@ class Motions(MotionFileCase):
         for before, after, says in (("part right_knee after right_hip", "part right_knee after right_foot", "one that stands above"),
                                     ("part head ", "part crown ", "part 'crown'"), ("\tknee_angle_r", "\tknee", "'knee_angle_r'"),
                                     ("turns +Z ", "turns +Q ", "turn '+Q'"), ("0.000000\t", "0.000000\tnan\t", "nan"),
-                                    ("0.033333\t", "0.050000\t", "even steps")):
+                                    ("0.066667\t", "0.010000\t", "does not run backwards")):
             self.assertIn(before, text)
             self.assertIn(says, self.refuses("clip", "info", self.write("bad.mot", text.replace(before, after, 1))))
         foreign = self.write("theirs.mot", re.sub(r"(?m)^part .*\n", "", text))

@@ -101,7 +101,7 @@ class OutsideMethods(EtudeCase):
             run = subprocess.run([ETUDE, "run", suite, "-o", self.out, "--overwrite"], capture_output=True, text=True,
                                  env=os.environ | {"PATH": str(nothing)})
             self.assertEqual(run.returncode, 0, run.stderr)
-            self.assertIn(f"methods outside ran in no fence: none ({words})", run.stderr)
+            self.assertIn(f"methods outside ran without a fence: none ({words})", run.stderr)
             self.assertEqual(json.loads((self.out / "host.json").read_text())["fence"], f"none ({words})")
 
     def test_programs_that_a_manifest_a_run_or_a_pack_names_need_leave(self):
@@ -161,7 +161,7 @@ class OutsideMethods(EtudeCase):
         for command, code, words in [
                 ([EXAMPLES / "ik_dls.py"], 0, "9 of 9 checks passed"),
                 ([HOSTILE, "crashes"], 1, "FAILED  gives answers that can be scored: crashed: ended with signal 11"),
-                ([self.radians()], 1, "FAILED  solves what a plain method solves: none of 3, of which damped-least-squares "
+                ([self.radians()], 1, "FAILED  solves what a plain method solves: solves none of 3; damped-least-squares "
                  "solves 3; taken for radians, its angles solve 3: degrees are asked for"),
                 ([HOSTILE, "answers_twice", json.dumps({"angles_deg": [0] * 29})], 1, "FAILED  answers every question once")]:
             result = self.etude("check-method", "--task", "ik", "--", "python3", *command)

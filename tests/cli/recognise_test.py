@@ -8,6 +8,14 @@ from etude_case import ETUDE, EtudeCase
 from kinect_rows import arms, kinect
 
 
+def turned(rows, turn):
+    """Rows of a Kinect that is turned about its line of sight."""
+    def of(row):
+        v = [float(word) for word in row.split()]
+        return " ".join(f"{c:.6f}" for i in range(0, len(v), 3) for c in (*turn(v[i], v[i + 1]), v[i + 2]))
+    return "\n".join(of(row) for row in rows.splitlines()) + "\n"
+
+
 class Recognise(EtudeCase):
     def teach(self, *arguments):
         result = self.etude("teach", *arguments, "-o", self.folder / "moves.yaml", "--overwrite")
@@ -76,6 +84,27 @@ class Recognise(EtudeCase):
         self.assertIn("nothing to learn from", self.refusal("teach", raised, "--without", "raise", "-o", self.folder / "no.yaml"))
         self.assertFalse((self.folder / "no.yaml").exists())
 
+    def test_a_sensor_in_portrait_or_upside_down_is_turned_back_and_that_is_said(self):
+        moves = self.two_moves()
+        upright = kinect(arms(95) + arms(100, both=False))
+        wanted = self.events(self.write("take.txt", upright), "--moves", moves)
+        self.assertEqual(len(wanted), 2)
+        for name, turn in {"portrait": lambda x, y: (-y, x), "other way": lambda x, y: (y, -x), "below": lambda x, y: (-x, -y)}.items():
+            text = turned(upright, turn)
+            file = self.write(f"{name}.txt", text)
+            for arguments, stdin in (([file], None), (["-"], text)):
+                result = subprocess.run([ETUDE, "recognise", *arguments, "--moves", moves], capture_output=True, text=True,
+                                        timeout=120, input=stdin)
+                found = [json.loads(line) for line in result.stdout.splitlines()]
+                self.assertEqual([(e["move"], e["frame"]) for e in found], [(e["move"], e["frame"]) for e in wanted], name)
+                self.assertRegex(result.stderr, r"sensor turned by (90|180|270) degrees, turned back \(--level none: as it is\)")
+            self.assertNotIn("turned", self.etude("recognise", file, "--moves", moves, "--level", "none").stderr)
+            taught = self.etude("teach", file, "-o", self.folder / "again.yaml", "--overwrite")
+            self.assertIn("turned back", taught.stderr)
+            v2 = [row.split() for row in text.splitlines()]
+            sheet = self.write("v2.txt", "\n".join(" ".join(row + row[6:9] + 4 * row[21:24]) for row in v2) + "\n")
+            self.assertRegex(self.etude("sensor", "stats", sheet).stdout, r"; the sensor is turned by (90|180|270) degrees")
+
     def test_labels_tell_moves_apart_within_a_recording_and_score(self):
         poses = arms(100) + arms(100, both=False) + arms(100) + arms(30)
         take = self.write("take.txt", kinect(poses))
@@ -106,7 +135,7 @@ class Recognise(EtudeCase):
         self.assertEqual((scores["people"], scores["performances"]), (3, 6))
         self.assertEqual((scores["accuracy"], scores["nearest_accuracy"]), (1, 1))
         unnamed = self.write("unnamed.csv", labels.replace(",person\n", "\n").replace(",anna\n", "\n"))
-        self.assertIn("nobody says who anna is", self.refusal("recognise", folder, "--labels", unnamed,
+        self.assertIn("the person of anna is unknown", self.refusal("recognise", folder, "--labels", unnamed,
                                                               "--leave-one-person-out"))
 
     def test_odd_recordings_give_a_result_or_one_line(self):

@@ -150,7 +150,7 @@ methods: [{name: hue}]
             file.write_text("mine")
             refused = self.etude(*words)
             self.assertEqual(refused.returncode, 2)
-            self.assertIn("is there already; --overwrite replaces it", refused.stderr)
+            self.assertIn("already exists; --overwrite replaces it", refused.stderr)
             self.assertEqual(file.read_text(), "mine")
             replaced = self.etude(*words, "--overwrite")
             self.assertEqual(replaced.returncode, 0, replaced.stderr)

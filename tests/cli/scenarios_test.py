@@ -108,7 +108,7 @@ class Scenarios(EtudeCase):
             refused = self.folder / "refused"
             result = self.etude("run", *paths, *clips, "-o", refused)
             self.assertEqual(result.returncode, 2, result.stdout)
-            self.assertEqual(result.stderr, f"etude: {ik}: has no use for --clips or --library: no task of its "
+            self.assertEqual(result.stderr, f"etude: {ik}: cannot use --clips or --library: no task of its "
                                             "scenarios makes its worlds of clips\n")
             self.assertFalse(refused.exists())
 

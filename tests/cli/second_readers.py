@@ -28,7 +28,8 @@ def of_quaternions(q):
         (2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)))], 1)
 
 
-def read_bvh(path):
+def read_bvh(path, adds=False):
+    """`adds`: position channels are added to OFFSET, as three.js and PyMO do; else they replace it, as Blender does."""
     tokens = path.read_text(errors="replace").split()
     joints, stack, i = [], [], 1  # a joint: name, parent, offset, channels
     while tokens[i] != "MOTION":
@@ -62,9 +63,9 @@ def read_bvh(path):
         for channel in channels:
             axis, numbers = "XYZ".index(channel[0].upper()), values[:, column]
             if channel[1:].lower() == "position":
-                place = place if moved else numpy.zeros_like(place)
+                place = place if moved or adds else numpy.zeros_like(place)
                 moved = True
-                place[:, axis] = numbers
+                place[:, axis] += numbers
             else:
                 own = own @ about(numpy.eye(3)[axis], numpy.radians(numbers))
             column += 1

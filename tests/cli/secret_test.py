@@ -62,7 +62,7 @@ class SecretWorlds(EtudeCase):
         raw.write_bytes(b"".join(bytes.fromhex(KEY)[at:at + 8][::-1] for at in range(0, 32, 8)))
         raw.chmod(0o644)
         again = self.etude("run", self.scenario, "-o", self.out, "--seed-file", raw, "--jobs", 1)
-        self.assertIn("can be read by everybody", again.stderr)
+        self.assertIn("can be read by other users", again.stderr)
         self.assert_same_results(self.run_folder, self.out)
         self.run_suite(self.scenario, "--seed-file", self.other, "--reuse-key", out=self.folder / "other")
         self.assertNotEqual((self.folder / "other/cells.jsonl").read_bytes(), (self.out / "cells.jsonl").read_bytes())
@@ -87,7 +87,7 @@ class SecretWorlds(EtudeCase):
         refused = subprocess.run([ETUDE, "run", scenario, "--seed", "3", "-o", self.folder / "no"], capture_output=True,
                                  text=True, env={**os.environ, "ETUDE_SEED_KEY": KEY})
         self.assertEqual(refused.returncode, 2)
-        self.assertIn("ETUDE_SEED_KEY: is set, and --seed, too", refused.stderr)
+        self.assertIn("ETUDE_SEED_KEY: is set together with --seed", refused.stderr)
 
     def test_the_folder_is_named_by_the_digest(self):
         run = subprocess.run([ETUDE, "run", self.scenario, "--trials", "1", "--seed-file", self.key, "--reuse-key"],
@@ -99,7 +99,7 @@ class SecretWorlds(EtudeCase):
         for content in ("secret-words", KEY[:-1], KEY + "0", "x" * 64, ""):
             bad = self.write("bad", content)
             stderr = self.refuse("run", self.scenario, "-o", self.out, "--seed-file", bad)
-            self.assertIn("that are no key; allowed: 64 hexadecimal digits, or 32 bytes as they are", stderr)
+            self.assertIn("are not a key; allowed: 64 hexadecimal digits, or 32 bytes as they are", stderr)
             if content:
                 self.assertNotIn(content, stderr)
         self.refuse("run", self.scenario, "-o", self.out, "--seed-file", self.folder / "none")
@@ -111,7 +111,7 @@ class SecretWorlds(EtudeCase):
         (self.folder / "plain").mkdir()
         self.run_suite(self.scenario, out=self.folder / "plain")
         resume = ["run", self.scenario, "-o", self.out, "--resume"]
-        self.assertIn("takes its key again (--seed-file)", self.refuse(*resume))
+        self.assertIn("name its key again (--seed-file)", self.refuse(*resume))
         self.assertIn('seed was "secret ' + self.digest[:8], self.refuse(*resume, "--seed-file", self.other))
         self.assertEqual(self.etude(*resume, "--seed-file", self.key).returncode, 0)
         for command in (["replay", self.out], ["run", "--from", self.out / "manifest.json", "-o", self.folder / "from"]):
@@ -336,7 +336,7 @@ class SecretWorlds(EtudeCase):
             self.assertIn(f"method 'mine' would be shown '{self.folder}', which holds the scenario of secret worlds", stderr)
         self.assertFalse((self.shared / "out").exists())
         scenario.write_text(ik_scenario(trials=1) + MINE.replace("]}", "], files: [no-such-folder]}"))
-        self.assertIn("'no-such-folder' is no file or folder", self.refuse("run", scenario, "-o", self.shared / "out"))
+        self.assertIn("'no-such-folder' is not a file or folder", self.refuse("run", scenario, "-o", self.shared / "out"))
 
 
 if __name__ == "__main__":

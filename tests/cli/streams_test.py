@@ -166,12 +166,12 @@ class Streams(EtudeCase):
         self.assertIn("no task of its scenarios makes its worlds of recordings",
                       refused(self.write("ik.yaml", IK), "--streams", takes))
         noisy = self.write("noisy.yaml", SCENARIO + "noise: 2\n")
-        self.assertIn("'noise' has no use here", refused(noisy, "--streams", takes, "--labels", labels))
+        self.assertIn("'noise' is not used here", refused(noisy, "--streams", takes, "--labels", labels))
         alone = self.write("alone.csv", "clip,from_s,to_s,move,truth,person\nanna,0,3,raise,right,anna\n")
-        self.assertIn("anna alone; leaving one person out needs two people",
+        self.assertIn("only anna was recorded; leaving one person out needs two people",
                       refused(scenario, "--streams", takes / "anna.txt", "--labels", alone))
         both = self.write("both.yaml", SCENARIO + f"streams: ['{takes}']\nclips: ['builtin:*']\n")
-        self.assertIn("'streams' stands in the place of 'clips'", refused(both))
+        self.assertIn("'streams' replaces 'clips'", refused(both))
         fewer = takes / "fewer.txt"
         fewer.write_text("\n".join(" ".join(row.split()[:-3]) for row in (takes / "bo.txt").read_text().splitlines()))
         self.assertIn("57 numbers in its first row", refused(scenario, "--streams", fewer, "--labels", labels))
@@ -204,7 +204,7 @@ class Streams(EtudeCase):
         self.assertEqual([row["move_named"] for row in rows if row["method"] == "dtw"], [1, 1])
         # As streams they are what a sensor saw, and no simulated one sees them once more.
         self.out = self.folder / "as-streams"
-        self.assertIn("'noise' has no use here", self.refusal("run", scenario, "--streams", *clips, "--labels", path,
+        self.assertIn("'noise' is not used here", self.refusal("run", scenario, "--streams", *clips, "--labels", path,
                                                               "-o", self.out))
 
 

@@ -104,7 +104,7 @@ class Survival(EtudeCase):
             self.assertIn(complaint, result.stderr)
         unasked = self.etude("run", self.scenario, "-o", self.out)
         self.assertEqual(unasked.returncode, 2)
-        self.assertIn("already holds an unfinished run; --resume goes on with it", unasked.stderr)
+        self.assertIn("already holds an unfinished run; --resume continues it", unasked.stderr)
         self.resume()
         self.assert_same_results(self.whole, self.out)
 
@@ -131,7 +131,7 @@ class Survival(EtudeCase):
         name = self.change_a_library(folders[1])
         refused = self.etude("merge", *folders, "-o", self.out)
         self.assertEqual(refused.returncode, 2, refused.stderr)
-        self.assertRegex(refused.stderr, rf'ran under other libraries than the ones before: libraries\.{name} was "\w+" '
+        self.assertRegex(refused.stderr, rf'ran with other libraries than the shards before: libraries\.{name} was "\w+" '
                                          r'and is "0123456789abcdef0123"; --other-libraries merges')
         self.assertFalse(self.out.exists())
         merged = self.etude("merge", *folders, "-o", self.out, "--other-libraries")
@@ -206,7 +206,7 @@ class Survival(EtudeCase):
         merge.send_signal(signal.SIGINT)
         said = merge.communicate(timeout=60)[1]
         self.assertEqual(merge.returncode, 130, said)
-        self.assertIn("stopped; the shards are as they were", said)
+        self.assertIn("stopped; the shards are unchanged", said)
         self.assertFalse(self.out.exists())
         whole = self.etude("merge", *shards, "-o", self.out)
         self.assertEqual(whole.returncode, 0, whole.stderr)
@@ -233,7 +233,7 @@ class Survival(EtudeCase):
         folders = self.shards()
         other = self.folder / "other"
         self.etude("run", self.scenario, "-o", other, "--shard", "3/3", "--seed", "2")
-        for shards, complaint in ((folders[:2], "not all 3 shards are there and finished (etude run --shard i/3 --resume goes on): 3/3"),
+        for shards, complaint in ((folders[:2], "not all 3 shards are there and finished (etude run --shard i/3 --resume continues one): 3/3"),
                                   ([*folders[:2], folders[1]], "is shard 2/3, and so is"),
                                   ([*folders[:2], other], "is a shard of another run than"),
                                   ([*folders, self.whole], "is a whole run already"),
@@ -336,7 +336,7 @@ methods:
                                  capture_output=True, text=True, timeout=60)
         self.assertEqual(limited.returncode, 3)
         self.assertEqual(len([line for line in limited.stderr.splitlines() if line.startswith("etude: ")]), 1)
-        self.assertIn("--resume goes on with it", limited.stderr)
+        self.assertIn("--resume continues it", limited.stderr)
         self.resume()
         self.assert_same_results(self.whole, self.out)
 

@@ -56,15 +56,40 @@ def holm(p_values):
     return corrected
 
 
-def flips(means):
-    reached = abs(sum(means)) - 1e-12
-    flipped = [abs(sum(s * m for s, m in zip(signs, means))) >= reached
-               for signs in itertools.product((1, -1), repeat=len(means))]
-    return sum(flipped) / len(flipped)
+def signed_ranks(values):
+    """The two-sided p of Wilcoxon's test over all signs: mean ranks of ties, zeros ranked and left out (Pratt)."""
+    sizes = sorted(round(abs(value), 12) for value in values)
+    rank = {size: sizes.index(size) + (sizes.count(size) + 1) / 2 for size in sizes}
+    ranks = [rank[round(abs(value), 12)] for value in values if value != 0]
+    reached = abs(sum(math.copysign(rank[round(abs(value), 12)], value) for value in values if value != 0)) - 1e-9
+    sums = [abs(sum(sign * each for sign, each in zip(signs, ranks)))
+            for signs in itertools.product((1, -1), repeat=len(ranks))]
+    return sum(each >= reached for each in sums) / len(sums)
+
+
+def pseudo_median(values):
+    """The median of the Walsh averages and the 95 % interval of the signed-rank test, which counts subsets of ranks."""
+    n = len(values)
+    averages = sorted((values[i] + values[j]) / 2 for i in range(n) for j in range(i, n))
+    sums = collections.Counter(sum(rank for rank, is_in in zip(range(1, n + 1), subset) if is_in)
+                               for subset in itertools.product((0, 1), repeat=n))
+    below, end = 0, 0
+    while (below + sums[end]) / 2 ** n <= 0.025:
+        below, end = below + sums[end], end + 1
+    count = len(averages)
+    return (averages[(count - 1) // 2] + averages[count // 2]) / 2, averages[end - 1], averages[count - end]
+
+
+def share_interval(values):
+    """Bonett and Price's interval of the mean of values that are −1, 0 or 1."""
+    n, gained, lost = len(values), values.count(1), values.count(-1)
+    p, q = (gained + 1) / (n + 2), (lost + 1) / (n + 2)
+    half = 1.959963985 * math.sqrt((p + q - (p - q) ** 2) / (n + 2))
+    return p - q - half, p - q + half
 
 
 def beyond(differences, units, comparisons):
-    """The mean over units, its interval and p: differences and units by world."""
+    """The middle of the units, its interval and p: differences and units by world."""
     names = sorted({name for of_world in units for name in of_world})
     sums, counts = collections.Counter(), collections.Counter()
     for difference, of_world in zip(differences, units):
@@ -83,22 +108,30 @@ def beyond(differences, units, comparisons):
     middle = sum(left_out) / n
     error = math.sqrt((n - 1) / n * sum((value - middle) ** 2 for value in left_out))
     half = student_quantile(0.975, n - 1) * error
-    if one_way and 2 ** (1 - n) * comparisons <= 0.05:
-        p = flips(means)
+    # A unit's value: its mean, or with several units a world the jackknife's pseudo-value.
+    values = means if one_way else [n * estimate - (n - 1) * without for without in left_out]
+    if 2 ** (1 - n) * comparisons <= 0.05:
+        p = signed_ranks(values)
     else:
         p = 1.0 if estimate == 0 else 2 * (1 - student_cdf(abs(estimate / error), n - 1))
-    return {"mean": estimate, "ci95_low": estimate - half, "ci95_high": estimate + half, "p": p, "left_out": left_out,
-            "differing": sum(mean != 0 for mean in means), "means": sorted(means), "units": n}
+    centre, low, high = pseudo_median(values)
+    if all(value in (-1, 0, 1) for value in values):
+        centre, (low, high) = estimate, share_interval(values)
+    return {"difference": centre, "ci95_low": low, "ci95_high": high, "mean": estimate, "mean_ci95_low": estimate - half,
+            "mean_ci95_high": estimate + half, "p": p, "left_out": left_out,
+            "differing": sum(mean != 0 for mean in means), "units": n}
 
 
 def verdict(found, p_holm, matters, lower_is_better):
     low, high = found["ci95_low"], found["ci95_high"]
     if -matters <= low and high <= matters:
-        inside = -matters <= found["means"][0] and found["means"][-1] <= matters  # of 6 to 8 units all lie within
+        inside = -matters <= found["mean_ci95_low"] and found["mean_ci95_high"] <= matters
         return "no difference" if inside and found["differing"] >= 6 else "inconclusive"
-    if low <= 0 <= high or p_holm > 0.05 or abs(found["mean"]) < matters:
+    middle = found["difference"]
+    one_side = (low >= 0 and middle > 0) or (high <= 0 and middle < 0)
+    if not one_side or middle * found["mean"] <= 0 or p_holm > 0.05 or abs(middle) < matters:
         return "inconclusive"
-    return "better" if (found["mean"] < 0) == lower_is_better else "worse"
+    return "better" if (middle < 0) == lower_is_better else "worse"
 
 
 class Verdicts(EtudeCase):
@@ -126,7 +159,7 @@ class Verdicts(EtudeCase):
             said = comparison["beyond"]
             self.assertEqual(said["units"], one["units"])
             scale = max(abs(one["ci95_low"]), abs(one["ci95_high"]), 1e-9)
-            for key in ("mean", "ci95_low", "ci95_high"):
+            for key in ("difference", "ci95_low", "ci95_high", "mean", "mean_ci95_low", "mean_ci95_high"):
                 self.assertAlmostEqual(said[key] / scale, one[key] / scale, 6, (comparison["metric"], key))
             for left, expected in zip(said["left_out"], one["left_out"]):
                 self.assertAlmostEqual(left["mean"] / scale, expected / scale, 6)

@@ -59,7 +59,7 @@ class Verify(EtudeCase):
 
     def test_a_run_that_nobody_touched_agrees_line_by_line(self):
         text = self.verify(expect=0)
-        for said in ("seal.json", "rows: those that", "files: those that", "texts: nothing", "manifest.json: what", "worlds: every row",
+        for said in ("seal.json", "rows: exactly those", "files: those that", "texts: nothing", "manifest.json: what", "worlds: every row",
                      "summary.json: computed again from 24 rows", "20 of 20 cells and 4 that left a recording, run again",
                      "report: "):
             self.assertRegex(text, f"(?m)^agrees   .*{re.escape(said)}")
@@ -102,7 +102,7 @@ class Verify(EtudeCase):
                 forge(manifest, '"schema":', '"suite":"x","schema":'),
                 forge(self.out / "cells.jsonl", '"trial":0', '"our_error":0,"trial":0'),
                 curves.write_text(curves.read_text() + curves.read_text().splitlines()[0] + "\n")], "texts",
-             "'suite' stands there twice.*cells.jsonl:1 is written otherwise.*ik.jsonl:25 is written otherwise"),
+             "'suite' appears twice.*cells.jsonl:1 is written differently.*ik.jsonl:25 is written differently"),
             ("a page", lambda: forge(self.out / "report" / "index.html", "Is it true?", "Is it so?"), "report", "index.html"),
             ("a style", lambda: forge(self.out / "report" / "index.html", "</body>", "<style>main{display:none}</style></body>"), "report",
              "index.html is not what the run says"),
@@ -146,7 +146,7 @@ class Verify(EtudeCase):
         self.assertIn("65 % of those who forge 5 % of the 20 cells (1), 1 in 12 of those who forge half of ik/fixed (5)", said)
         self.assertIn("--sample-seed 5 draws this one again", said)
         self.assertEqual(self.facts("verify", self.out, "--sample", "all")["sample"]["missed"], [])
-        self.assertIn("'some' is no sample; allowed: 0 to 10000000, or 'all'", self.verify("--sample", "some", expect=2))
+        self.assertIn("'some' is not a sample; allowed: 0 to 10000000, or 'all'", self.verify("--sample", "some", expect=2))
 
     def keys(self, name, *arguments):
         secret, public = self.folder / f"{name}.key", self.folder / f"{name}.pub"
@@ -191,7 +191,7 @@ class Verify(EtudeCase):
         shutil.rmtree(self.out)
         text = ik_scenario(trials=2) + "  - {name: mine, exec: ['false']}\n"
         self.run_suite(self.write("ik.yaml", text), code=1)
-        self.assertIn("ik/mine: all 4 cells: they ask programs (--allow-exec runs these)", self.verify(expect=0))
+        self.assertIn("ik/mine: all 4 cells: they run programs (--allow-exec allows it)", self.verify(expect=0))
         told = self.facts("verify", self.out)
         self.assertEqual((told["sample"]["cells"], len(told["not_verified"])), (8, 1))
         self.assertNotIn("Not verified", self.verify("--allow-exec", expect=0))
@@ -288,7 +288,7 @@ class Forgers(EtudeCase):
         reseal(self.out)
         found = self.etude("verify", self.out, "-j", 1, "--sample", "all")
         self.assertEqual(found.returncode, 1, found.stdout)
-        self.assertIn("row 1 is ik/joint_noise_deg=2/000/least-squares; there belongs ik/joint_noise_deg=2/000/fixed", found.stdout)
+        self.assertIn("row 1 is ik/joint_noise_deg=2/000/least-squares; expected ik/joint_noise_deg=2/000/fixed", found.stdout)
         replayed = self.etude("replay", self.out)
         self.assertEqual(replayed.returncode, 1)
         self.assertIn("0 of 16 cells came out the same", replayed.stdout)

@@ -201,7 +201,7 @@ class Metrics(PythonCase):
         with self.assertRaisesRegex(ValueError, "metric 'sums' uses 'kept', an open list"):
             shipping.ship(sums)
         self.assertNotEqual(shipping.ship(first_m)["exec"][1].split("/")[-3], "methods")
-        with self.assertRaisesRegex(TypeError, "is no metric"):
+        with self.assertRaisesRegex(TypeError, "is not a metric"):
             etude.run(SCENARIO, metrics=[make([], 1.0)[2]], output=self.folder / "run")
 
 
@@ -261,7 +261,7 @@ class Runs(PythonCase):
             etude.run(SCENARIO, output=self.run_.folder, progress=False)
         with self.assertRaisesRegex(etude.EtudeError, "the scenario has ik"):
             etude.run(SCENARIO, methods=[etude.method(task="search")(_later)], output=self.folder / "out")
-        with self.assertRaisesRegex(etude.EtudeError, "is no program"):
+        with self.assertRaisesRegex(etude.EtudeError, "is not a program"):
             etude.find_program(self.folder / "none")
 
     def test_an_interrupt_ends_a_run_resumably(self):

@@ -86,6 +86,27 @@ class Results(PythonCase):
             for mine, theirs in ((each.difference, "difference"), (each.ci95_low, "ci95_low"), (each.p_holm, "p_holm")):
                 self.assertEqual(mine, number(row[theirs]))
 
+    def test_answers_are_about_success_first(self):
+        told = self.run_.answers()
+        self.assertEqual({each.against for each in told}, {"baseline", "rival"})
+        moody = [each for each in told if each.method == "moody" and each.against == "baseline"]
+        self.assertTrue(moody)
+        for each in told:
+            success = each.details["success"]
+            self.assertEqual(success["metric"], "solved_practical")
+            if success["verdict"] in ("better", "worse"):
+                self.assertEqual((each.decided_by, each.verdict), ("success", success["verdict"]))
+            else:
+                self.assertNotEqual(each.decided_by, "success")
+        # The difference of success, from the rows: a cell that failed counts 0.
+        solved = {(row["method"], row["joint_noise_deg"], row["trial"]): row.get("solved_practical") or 0
+                  for row in self.rows}
+        for each in moody:
+            level = int(each.condition.split("=")[1])
+            differences = [solved["moody", level, trial] - solved[each.baseline, level, trial] for trial in range(6)]
+            self.assertAlmostEqual(each.details["success"]["difference"], statistics.mean(differences), places=7)
+        self.assertEqual([each for each in told if each.scenario == "ik"], self.run_.answers("ik"))
+
     def test_pairs_are_the_worlds_behind_a_verdict(self):
         for condition in ("joint_noise_deg=5", "joint_noise_deg=15"):
             pairs = self.run_.pairs("adaptive", "fixed", condition=condition)
@@ -126,7 +147,7 @@ class Results(PythonCase):
                           (lambda: self.run_.pairs("adaptive", "fixed", condition="x=1"), "there are joint_noise_deg=5"),
                           (lambda: self.run_.motion("ik/joint_noise_deg=15/001/fixed"), "the scenario's key `video`"),
                           (lambda: list(self.run_.series("mpjpe_mm")), "no curve 'mpjpe_mm'"),
-                          (lambda: etude.load(self.folder), "is no result folder")):
+                          (lambda: etude.load(self.folder), "is not a result folder")):
             with self.assertRaises(etude.EtudeError) as raised:
                 ask()
             self.assertIn(says, str(raised.exception))

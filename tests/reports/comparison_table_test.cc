@@ -21,7 +21,7 @@ ScenarioSummary ComparedTransition() { return ExampleRun().scenarios[0]; }
 
 TEST(ComparisonTable, ShowsPairsDifferencePEffectVerdictAndWhatToMind) {
   const std::string html = ComparisonTableHtml(ComparedTransition());
-  EXPECT_THAT(html, HasSubstr(">jump at the seam (lower is better, 1 cm matters)</th>"));
+  EXPECT_THAT(html, HasSubstr(">jump at the transition point (lower is better, 1 cm matters)</th>"));
   EXPECT_THAT(html, HasSubstr("<td>fuzzy-bridge − now</td><td class=\"n\" data-v=\"-19.1\">−19.1 cm</td>"
                               "<td class=\"n\" data-v=\"-30.1\">−30.1 to −8.1</td>"));
   EXPECT_THAT(html, HasSubstr("\">10 of 12</td><td class=\"n more\" data-v=\"0.0117\">0.012</td>"

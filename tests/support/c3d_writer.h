@@ -22,6 +22,8 @@ class C3dWriter {
   std::string unit = "mm";
   std::size_t second_labels_from = 0;  ///< points from here on are named by LABELS2; 0 = none
   std::size_t analogue = 0;            ///< values a frame
+  std::size_t header_frames = 0;       ///< what the header tells; 0 = the truth
+  double long_frames = 0;              ///< POINT:LONG_FRAMES; 0 = none
 
   /// Point p of frame f, in the file's unit; points of frame 1 are lost where p is odd.
   static glm::dvec3 PlaceOf(std::size_t f, std::size_t p) {
@@ -36,6 +38,7 @@ class C3dWriter {
     Parameter(parameters, 1, "USED", 2, {}, Word(points));
     Parameter(parameters, 1, "SCALE", 4, {}, Float(floats_ ? -scale : scale));
     Parameter(parameters, 1, "RATE", 4, {}, Float(100));
+    if (long_frames > 0) Parameter(parameters, 1, "LONG_FRAMES", 4, {}, Float(long_frames));
     Parameter(parameters, 1, "UNITS", -1, {unit.size()}, unit);
     Parameter(parameters, 1, "Y_SCREEN", -1, {2}, "+Z");
     const std::size_t first = second_labels_from == 0 ? points : second_labels_from;
@@ -51,7 +54,7 @@ class C3dWriter {
     put(2, Word(points));
     put(4, Word(analogue));
     put(6, Word(1));
-    put(8, Word(frames));
+    put(8, Word(header_frames > 0 ? header_frames : frames));
     put(12, Float(floats_ ? -scale : scale));
     put(16, Word(2 + kBlocks));
     put(20, Float(100));

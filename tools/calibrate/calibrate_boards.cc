@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
 #include "engine/boards/board_views.h"
 #include "engine/boards/film_delays.h"
@@ -104,7 +105,7 @@ Result<void> AddFilm(std::size_t camera, const fs::path& film, const CalibrateOp
   constexpr int kUsual = 30, kPictures = 200;
   const bool is_printed = ReadPrintedBoard(options.boards.front()).has_value();
   seen.every = options.every > 0 ? options.every
-               : is_printed      ? std::max(1, static_cast<int>(facts.frames) / kPictures)
+               : is_printed      ? std::max(1, (static_cast<int>(facts.frames) + kPictures - 1) / kPictures)
                                  : kUsual;
   seen.period_s = seen.every / (facts.rate_hz > 0 ? facts.rate_hz : 1.0);
   const OnProgress progress = options.listener.progress(fmt::format("frames of {}", seen.name));
@@ -383,6 +384,13 @@ Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options) {
                own.with_board, own.corners));
   }
   if (!search.Told().empty()) options.listener.print(fmt::format("the board: {}\n", search.Told()));
+  for (std::size_t camera = 0; camera < seen.size(); ++camera) {
+    if (seen[camera].corners > 0) continue;
+    return Fail({options.inputs[camera]},
+                "no picture of {} shows the board {}; tell which it is by --board: Etude's own as 5x7x0.034, a ChArUco "
+                "board as charuco:5x7x0.04, a chessboard as chess:9x6x0.025",
+                seen[camera].looked, Join(options.boards));
+  }
   // Synchronise the films, calibrate, and report the residuals.
   ASSIGN_OR_RETURN(std::vector<TargetView> views, SynchroniseFilms(options, search, seen));
   ASSIGN_OR_RETURN(RefinedRig refined, CalibrateWithoutOutliers(search, options, views));

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -117,6 +118,7 @@ Result<Calibrated> FromPairs(const CalibrateOptions& options) {
 }
 
 std::string TextOf(const Calibrated& rig) {
+  constexpr double kOfNinetyFive = 2;  // half the interval that holds the truth in 95 of 100, of the deviation
   std::string text;
   // Reprojection error, intrinsics, lens, position, and paper B's parameters of each camera.
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
@@ -128,10 +130,11 @@ std::string TextOf(const Calibrated& rig) {
                rig.points[i]);
     const auto& s = rig.deviations[i];
     const auto with = [&](double value, double deviation) {
-      return s ? fmt::format("{:.2f} ± {:.2f}", value, deviation) : fmt::format("{:.2f}", value);
+      return s ? fmt::format("{:.2f} ± {:.2f}", value, kOfNinetyFive * deviation) : fmt::format("{:.2f}", value);
     };
-    text += fmt::format("  focal lengths    {}, {} px   principal point {}, {} px\n", with(in.fx, s ? s->fx : 0),
-               with(in.fy, s ? s->fy : 0), with(in.cx, s ? s->cx : 0), with(in.cy, s ? s->cy : 0));
+    text += fmt::format("  focal lengths    {}, {} px   principal point {}, {} px{}\n", with(in.fx, s ? s->fx : 0),
+                        with(in.fy, s ? s->fy : 0), with(in.cx, s ? s->cx : 0), with(in.cy, s ? s->cy : 0),
+                        s ? "   (± for 95 of 100)" : "");
     if (!d.IsNone())
       text += fmt::format("  lens             k1 {:.5f}  k2 {:.5f}  p1 {:.6f}  p2 {:.6f}  k3 {:.5f}\n", d.k1, d.k2, d.p1, d.p2,
                  d.k3);
@@ -144,12 +147,31 @@ std::string TextOf(const Calibrated& rig) {
   return text;
 }
 
+/// Names the smallest paper that holds the board within a printer's margins of 10 mm.
+std::string PaperFor(const Board& board) {
+  struct Paper {
+    const char* name;
+    double narrow_mm, wide_mm;
+  };
+  constexpr Paper kPapers[] = {{"fits on A4 or Letter", 210, 279},  // what both hold
+                               {"needs A3 paper", 297, 420},
+                               {"needs A2 paper", 420, 594},
+                               {"needs A1 paper", 594, 841},
+                               {"needs A0 paper", 841, 1189}};
+  const auto [narrow, wide] = std::minmax({1000 * board.columns * board.square, 1000 * board.rows * board.square});
+  constexpr double kMargins = 20;
+  for (const Paper& paper : kPapers) {
+    if (narrow + kMargins <= paper.narrow_mm && wide + kMargins <= paper.wide_mm) return paper.name;
+  }
+  return "larger than A0 paper, for a poster printer; a smaller one is --board 5x7x0.034";
+}
+
 }  // namespace
 
 Result<void> PrintBoard(const CalibrateOptions& options) {
   ASSIGN_OR_RETURN(const Board board, ReadCodedBoard(options.boards.front()));
   constexpr int kPixelsPerModule = 16;
-  constexpr int kSide = kPixelsPerModule * kModules, kMargin = kSide / 2;
+  constexpr int kSide = kPixelsPerModule * kModules, kMargin = kSide / 4;
   ColourImage picture(board.columns * kSide + 2 * kMargin, board.rows * kSide + 2 * kMargin, Rgb8{255, 255, 255});
   for (int y = 0; y < board.rows * kSide; ++y) {
     for (int x = 0; x < board.columns * kSide; ++x) {
@@ -157,10 +179,14 @@ Result<void> PrintBoard(const CalibrateOptions& options) {
       if (IsBlackAt(board, place)) picture.At(x + kMargin, y + kMargin) = {0, 0, 0};
     }
   }
-  RETURN_IF_ERROR(WriteFileAtomically(options.print, EncodePng(picture)));
+  RETURN_IF_ERROR(WriteFileAtomically(options.print, EncodePng(picture, kSide / board.square)));
   TellWritten(options.listener, options.print);
-  options.listener.print(fmt::format("{} x {} squares; print it so that one is {:g} mm, glue it flat, measure it again\n", board.columns,
-             board.rows, 1000 * board.square));
+  constexpr double kMm = 1000;
+  options.listener.print(fmt::format(
+      "{} x {} squares, {:.0f} x {:.0f} mm: {}; print it at 100 %, so that a square is {:g} mm, glue it flat, measure "
+      "it again\n",
+      board.columns, board.rows, kMm * board.columns * board.square, kMm * board.rows * board.square, PaperFor(board),
+      kMm * board.square));
   return {};
 }
 

@@ -15,7 +15,7 @@ namespace etude {
 struct CalibrateOptions {
   std::vector<std::string> inputs;  ///< one file of point pairs, or a folder of pictures or a film for each camera
   std::string output;
-  std::vector<std::string> boards = {"8x8x0.2"};  ///< COLUMNSxROWSxSQUARE[@FIRST_CODE]
+  std::vector<std::string> boards = {"5x7x0.034"};  ///< COLUMNSxROWSxSQUARE[@FIRST_CODE]
   std::string method = "refined";                 ///< for point pairs: a name of CalibrationNames()
   std::string lens = "radial2";                   ///< none, radial2, radial3
   bool skew = false;
@@ -50,7 +50,8 @@ Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options);
 /// what it found. Every complaint names the file or the option.
 Result<Calibrated> CalibrateRig(const CalibrateOptions& options);
 
-/// Draws the first of `boards` for printing, at 16 pixels per module, and writes it to `print`.
+/// Draws the first of `boards` for printing, at 16 pixels per module with its size in the file, writes it to `print`,
+/// and says what paper it needs.
 Result<void> PrintBoard(const CalibrateOptions& options);
 
 }  // namespace etude

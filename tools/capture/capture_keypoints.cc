@@ -230,6 +230,10 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   ASSIGN_OR_RETURN(SeenFilms films, SeeFilms(options, recover, session));
   ASSIGN_OR_RETURN(RecoveredPerson located, LocatePerson(films.cameras, films.people, recover));
   // Move the rig and the points into the world: metres, Y up, the floor as the options say.
+  for (const FilmedView& view : views) {  // as they were mended
+    const auto same = std::ranges::find(session.rig.cameras, view.camera.name, &NamedCamera::name);
+    if (same != session.rig.cameras.end()) same->camera = view.camera.camera;
+  }
   const auto place = PlaceRig(session.rig, located.landmarks, recover.rate_hz, options.place);
   if (!place) return Fail({options.rig}, "{}", place.error().message);
   films.told.Tell(fmt::format("rig, {}: {}", session.rig.format, place->told));

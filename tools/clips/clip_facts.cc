@@ -150,9 +150,10 @@ BodyFacts FactsOfBody(const OpenedClip& clip) {
                   .composed = clip.map.composed,
                   .unit = body.unit,
                   .metres_per_unit = body.metres_per_unit,
-                  .up = body.up,
+                  .up = body.found_up,
                   .floor = body.floor,
                   .dropped_t_pose = body.dropped_frames > 0,
+                  .changes = body.changes,
                   .note = body.note,
                   .motion = ComputeStatistics(body.motion),
                   .remarks = {}};
@@ -170,7 +171,7 @@ ClipFacts FactsWithoutClip(const std::string& reference, const OpenOptions& opti
   ClipFacts facts;
   facts.name = facts.source = reference;
   facts.complaint = std::move(complaint);
-  const auto file = ReadClipFile(reference, std::nullopt, options.recorded);
+  const auto file = ReadClipFile(reference, std::nullopt, options);
   if (!file) return facts;
   facts.format = file->format;
   CountJoints(file->figure.skeleton, facts);
@@ -179,6 +180,12 @@ ClipFacts FactsWithoutClip(const std::string& reference, const OpenOptions& opti
 }
 
 Json OrNull(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+/// Returns "y", "-z", …
+std::string AxisLetter(const glm::dvec3& axis) {
+  const bool is_negative = axis.x + axis.y + axis.z < 0;
+  return std::string(is_negative ? "-" : "") + (axis.x != 0 ? "x" : axis.y != 0 ? "y" : "z");
+}
 
 Json JsonOf(const BodyFacts& body) {
   Json roles = Json::object();
@@ -190,9 +197,12 @@ Json JsonOf(const BodyFacts& body) {
   const FootSlide& slide = motion.foot_slide;
   return {{"unit", body.unit},
           {"metres_per_unit", body.metres_per_unit},
-          {"up", body.up == UpAxis::kY ? "y" : "z"},
+          {"up", AxisLetter(body.up.axis)},
+          {"up_evidence", UpEvidenceName(body.up.evidence)},
+          {"up_doubt", body.up.doubt.empty() ? Json() : Json(body.up.doubt)},
           {"floor_units", body.floor},
           {"dropped_t_pose", body.dropped_t_pose},
+          {"changes", body.changes},
           {"note", body.note},
           {"stature_m", motion.stature_m},
           {"travelled_m", motion.travelled_m},
@@ -269,6 +279,10 @@ std::string CmPerSecond(const std::optional<double>& speed_m_s) {
   return speed_m_s ? fmt::format("{:.1f} cm/s", 100 * *speed_m_s) : std::string(kNoValue);
 }
 
+std::string DescribeEvidence(const UpFinding& up) {
+  return up.evidence == UpEvidence::kTold ? "told" : up.source.empty() ? "by itself" : up.source;
+}
+
 std::string BodyLines(const BodyFacts& body) {
   const MotionStatistics& motion = body.motion;
   const FootSlide& slide = motion.foot_slide;
@@ -281,8 +295,12 @@ std::string BodyLines(const BodyFacts& body) {
   }
   std::string remarks;
   for (const std::string& remark : body.remarks) remarks += Line("remark", remark);
-  return Line("body",
-              fmt::format("{:.2f} m tall; {}; {} up", motion.stature_m, body.note, body.up == UpAxis::kY ? "Y" : "Z")) +
+  // The unit or the marker set stands beside the stature; every change has a line.
+  std::string changes;
+  for (std::size_t i = 1; i < body.changes.size(); ++i) changes += Line("changed", body.changes[i]);
+  return Line("body", fmt::format("{:.2f} m tall; {}; {} up ({})", motion.stature_m, body.changes.front(),
+                                  AxisName(body.up.axis), DescribeEvidence(body.up))) +
+         changes +
          Line("motion",
               fmt::format("travels {:.1f} m; fastest joint: median {:.2f}, 95 % {:.2f}, peak {:.2f} m/s ({}); {}",
                           motion.travelled_m, motion.speed_median_m_s, motion.speed_p95_m_s, motion.speed_peak_m_s,

@@ -39,9 +39,10 @@ struct BodyFacts {
   std::vector<Role> composed;                  ///< roles that have no joint of their own and follow that joint rigidly
   std::string unit;
   double metres_per_unit = 0;
-  UpAxis up = UpAxis::kY;
-  double floor = 0;  ///< height in the file's unit
+  UpFinding up = {};  ///< the file's axis, and what it follows from
+  double floor = 0;   ///< height in the file's unit
   bool dropped_t_pose = false;
+  std::vector<std::string> changes;  ///< BodyConversion::changes
   std::string note;
   MotionStatistics motion;
   std::vector<std::string> remarks;  ///< the result of RemarksOn and RemarkOnSliding

@@ -9,7 +9,7 @@ bool IsFuzzyFile(std::string_view reference) { return !reference.starts_with(kBu
 
 KeyInfo FuzzyKey() {
   return {kFuzzyKey, FileKind("`builtin:paper`, `builtin:gaussian`, a file", IsFuzzyFile), "builtin:paper",
-          "The fuzzy system that poses are graded by: membership functions, weights, rules."};
+          "The fuzzy system that grades poses: membership functions, weights, rules."};
 }
 
 Result<FuzzySystem> FuzzySystemOf(const TaskInput& input) {

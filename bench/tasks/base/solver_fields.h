@@ -25,10 +25,10 @@ std::vector<Field<Method>> IkSolverFields(const IkSolver* Method::*solver, IkOpt
   using Key = Field<Method>;
   std::vector<Key> rows = {Key::Name("solver", solver, IkSolverNames(), FindIkSolver, "How the angles are found."),
                            Key::Name("weights", Path(options, &IkOptions::weights), WeightRuleNames(), FindWeightRule,
-                                     "How an effector's position counts against its axes.")
+                                     "How an effector's position is weighed against its axes.")
                                .With("solver", WeighingSolvers()),
                            Key::Name("refresh", Path(options, &IkOptions::refresh), WeightRefreshNames(),
-                                     FindWeightRefresh, "When errors are measured anew for weights that follow them.")
+                                     FindWeightRefresh, "When weights that depend on errors are updated.")
                                .With("solver", WeighingSolvers())};
   rows.front().read = [read = rows.front().read](Fields& fields, Method& method) {
     RefuseFormerName(fields);

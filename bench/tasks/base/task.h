@@ -112,6 +112,7 @@ struct TaskKind {
   std::string name;
   std::string question;                      ///< one line, for `etude list`
   std::vector<std::string> default_metrics;  ///< the headline metrics of a report, most important first
+  std::string success;                       ///< the metric of what a cell is to reach: solved, recovered, clean, …
   std::vector<std::string> metrics;          ///< all metrics that its cells report, by a value or a reason
   Result<std::unique_ptr<Task>> (*make)(TaskInput& input);
   std::vector<KeyInfo> condition_keys;  ///< its keys in a scenario

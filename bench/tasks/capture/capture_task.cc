@@ -133,6 +133,7 @@ TaskKind MakeCaptureTaskKind() {
           .question = "How close does the skeleton that two cameras see come to the true one?",
           .default_metrics = {"mpjpe_mm", "mpjpe_before_ik_mm", "pa_mpjpe_mm", "pck_50mm", "position_error_cm",
                               "frames_recovered"},
+          .success = "frames_recovered",
           .metrics = CaptureMetrics(),
           .make = MakeCaptureTask,
           .condition_keys = CaptureConditionFields().Describe(),

@@ -134,7 +134,7 @@ Result<std::unique_ptr<Task>> MakeCoachTask(TaskInput& input) {
   }
   if (shared.condition.sight.has_cameras && shared.condition.operating_point) {
     return Fail(input.condition.node().place,
-                "'operating_point' goes with the skeleton sensor: cameras show every method something else; say "
+                "'operating_point' needs the skeleton sensor, because cameras show every method something else; use "
                 "'threshold'");
   }
   ASSIGN_OR_RETURN(shared.stage, SharedStage(shared.condition.song));
@@ -151,6 +151,7 @@ TaskKind MakeCoachTaskKind() {
   return {.name = "coach",
           .question = "Does the learner end up better for having been coached?",
           .default_metrics = {"retention", "answered_share", "corrections_unneeded_per_min"},
+          .success = "retention",
           .metrics = CoachMetrics(),
           .make = MakeCoachTask,
           .condition_keys = CoachConditionFields().Describe(),

@@ -15,18 +15,18 @@ const FieldTable<CoachOperatingPoint>& OperatingPointFieldsOfCoach() {
   using Key = Field<CoachOperatingPoint>;
   static const FieldTable<CoachOperatingPoint> table{
       {Key::Number("needless_per_min", &CoachOperatingPoint::needless_per_min, {0, 60},
-                   "How many right performances a minute may be taken for mistakes."),
+                   "Allowed number of right performances per minute that are taken for mistakes."),
        Key::Number("sessions", &CoachOperatingPoint::sessions, {1, 1000},
-                   "On how many sessions of other people the thresholds are set.")}};
+                   "Number of sessions of other people on which the thresholds are set.")}};
   return table;
 }
 
 std::vector<Field<Method>> CoachFields() {
   using Key = Field<Method>;
   return {Key::Number("most_corrections", Path(&Method::coach, &CoachOptions::most_corrections), {0, 100},
-                      "How often at most one performance is corrected before the dance goes on."),
+                      "Maximum number of corrections of one performance before the dance goes on."),
           Key::Flag("follows_tags", Path(&Method::coach, &CoachOptions::follows_tags),
-                    "Whether music-time tags slow and hurry the dance.")};
+                    "Whether music-time tags slow down and speed up the dance.")};
 }
 
 /// `policy`, its settings, and what goes with them.
@@ -36,7 +36,7 @@ std::vector<Field<Method>> PolicyFields() {
                                        FindPolicy, "When the coach interrupts.")};
   Append(SettingFields<Method>("policy", AllPolicies(), Path(&Method::policy, &Coach::PolicyChoice::settings)), fields);
   fields.push_back(Key::Name("partner", &Method::partner, PolicyNames(), FindPolicy,
-                             "Whose moments it corrects at: this policy's, in another person's session.")
+                             "The policy at whose moments, in another person's session, it corrects.")
                        .With("policy", {"yoked"}));
   return fields;
 }
@@ -45,18 +45,16 @@ void CheckMethod(Fields& fields, Method& method) {
   const Node& node = fields.node();
   if (method.knows_truth != method.policy.policy->asks_truth) {
     const Node* named = node.Find(method.knows_truth ? "oracle" : "policy");
-    fields.Complain(named->place,
-                    "policy 'oracle' and 'oracle: [judgement]' go together: what is told the truth "
-                    "competes with none");
+    fields.Complain(named->place, "policy 'oracle' and 'oracle: [judgement]' need each other");
   }
   if (method.partner->takes_moments) {
     fields.Complain(node.Find("partner")->place, "a yoked session cannot be another's partner");
   }
   if (method.seat == Seat::kPolicy && node.Find("policy") != nullptr) {
-    fields.Complain(node.Find("policy")->place, "'policy' is what the program in that seat does");
+    fields.Complain(node.Find("policy")->place, "the program in this seat replaces 'policy'");
   }
   if (method.seat == Seat::kRecogniser && node.Find("recogniser") != nullptr) {
-    fields.Complain(node.Find("recogniser")->place, "'recogniser' is what the program in that seat does");
+    fields.Complain(node.Find("recogniser")->place, "the program in this seat replaces 'recogniser'");
   }
 }
 
@@ -73,38 +71,38 @@ const FieldTable<CoachCondition>& CoachConditionFields() {
     std::vector<std::pair<std::string, std::string>> songs;
     for (const std::string& song : BuiltinSongNames()) songs.emplace_back(song, song);
     std::vector<Key> fields = {
-        Key::Name("song", &Condition::song, songs, "What is danced; it begins anew when it is over."),
-        Key::Number("session_s", &Condition::session_s, {10, 1800}, "How long a session lasts.").Unit("seconds"),
+        Key::Name("song", &Condition::song, songs, "The song that is danced; it is repeated until the session ends."),
+        Key::Number("session_s", &Condition::session_s, {10, 1800}, "Length of a session.").Unit("seconds"),
         Key::Name("learning", Path(&Condition::learner, &LearnerOptions::law), LearningLawNames(), FindLearningLaw,
                   "The law by which the learner learns and forgets."),
-        Key::Number(
-            "guidance", Path(&Condition::learner, &LearnerOptions::guidance), kShare,
-            "How much frequent feedback costs: 0 nothing; at 1 what is taught after every performance does not last."),
-        Key::Number("skill", Path(&Condition::learner, &LearnerOptions::skill), kShare, "Where every skill starts.")
+        Key::Number("guidance", Path(&Condition::learner, &LearnerOptions::guidance), kShare,
+                    "Cost of frequent feedback: 0: none; 1: what is taught after every performance does not last."),
+        Key::Number("skill", Path(&Condition::learner, &LearnerOptions::skill), kShare, "Initial value of every skill.")
             .WhenAbsent("(by the kind of people)"),
         Key::Number("severity", Path(&Condition::learner, &LearnerOptions::severity), kShare,
-                    "How bad every fault is that happens: 1 is a full mistake, as bad as that fault gets.")
-            .WhenAbsent("(thrown evenly from 0.35 to 1 for each)"),
+                    "Severity of every fault that happens: 1 is the worst of its kind.")
+            .WhenAbsent("(drawn uniformly from 0.35 to 1 for each)"),
         Key::Flag("gives_up", Path(&Condition::learner, &LearnerOptions::gives_up),
-                  "Whether the learner's patience ends."),
+                  "Whether the learner can lose patience and give up."),
         Key::Number("music_drift", Path(&Condition::music, &MusicClockOptions::drift), {-0.2, 0.2},
-                    "The music plays so much faster than its clock: 0.02 is 2 %."),
+                    "Share by which the music plays faster than its clock: 0.02 is 2 %."),
         Key::Number("stutters_per_min", Path(&Condition::music, &MusicClockOptions::stutters_per_min), {0, 60},
-                    "How often the music stands still."),
-        Key::Number("stutter_s", Path(&Condition::music, &MusicClockOptions::stutter_s), {0, 5}, "For how long.")
+                    "How often the music stops, per minute."),
+        Key::Number("stutter_s", Path(&Condition::music, &MusicClockOptions::stutter_s), {0, 5},
+                    "Duration of each stop.")
             .Unit("seconds")};
     std::vector<std::string> sight = {"people",     "noise",           "turn_deg", "sensor",
                                       "distance_m", "sensor_height_m", "occluder", "threshold"};
     for (const auto& field : CameraSensingFields().fields) sight.push_back(field.info.key);
     Append(FieldsOf<Condition>(DetectionConditionFields(), &Condition::sight, Keep::kThese, sight), fields);
-    fields.push_back(Key{
-        {"operating_point", MappingKind("a mapping", OperatingPointFieldsOfCoach().Describe()), "(none)",
-         "Sets from which evidence on a performance is right on other people, whom nobody interrupts, so that so many "
-         "right performances a minute are taken for mistakes."},
-        [](Fields& condition, Condition& c) {
-          if (condition.Raw("operating_point") == nullptr) return;
-          ReadNested(condition, "operating_point", OperatingPointFieldsOfCoach(), c.operating_point.emplace());
-        }});
+    fields.push_back(
+        Key{{"operating_point", MappingKind("a mapping", OperatingPointFieldsOfCoach().Describe()), "(none)",
+             "Sets the threshold of evidence for a right performance on uninterrupted sessions of other people, so "
+             "that a given number of right performances a minute are taken for mistakes."},
+            [](Fields& condition, Condition& c) {
+              if (condition.Raw("operating_point") == nullptr) return;
+              ReadNested(condition, "operating_point", OperatingPointFieldsOfCoach(), c.operating_point.emplace());
+            }});
     return FieldTable<Condition>{std::move(fields), [](Fields& condition, Condition& c) {
                                    CheckSensorKeys(condition, c.sight);
                                    if (!c.sight.threshold || !c.operating_point) return;
@@ -123,8 +121,8 @@ const FieldTable<CoachMethod>& CoachMethodFields() {
         FieldsOf<Method>(DetectionMethodFields(), &Method::sight, Keep::kOthers, {"refractory_s", "oracle"});
     fields.push_back(Key::Flags(
         "oracle", {{"stream", Path(&Method::sight, &DetectionMethod::sees_truth)}, {"judgement", &Method::knows_truth}},
-        "What is replaced by the truth: the skeletons as danced instead of as sensed, or what is "
-        "said of every performance (policy `oracle`)."));
+        "What is replaced by the truth: the sensed skeletons, or the judgement of every performance (policy "
+        "`oracle`)."));
     Append(PolicyFields(), fields);
     Append(FieldsOf<Method>(TransitionMethodFields(), &Method::transition, Keep::kOthers,
                             {"weights", "wait_s", "threshold"}),
@@ -134,9 +132,10 @@ const FieldTable<CoachMethod>& CoachMethodFields() {
     for (std::size_t i = 0; i < SeatNames().size(); ++i) {
       seats.emplace_back(SeatNames()[i], static_cast<Seat>(static_cast<int>(Seat::kRecogniser) + static_cast<int>(i)));
     }
-    fields.push_back(Key::Name("seat", &Method::seat, seats, "What the program of `exec` does in the loop.")
-                         .WhenAbsent("(the coach is built in)")
-                         .And("with `exec`"));
+    fields.push_back(
+        Key::Name("seat", &Method::seat, seats, "The part of the loop that the program of `exec` replaces.")
+            .WhenAbsent("(the coach is built in)")
+            .And("with `exec`"));
     return FieldTable<Method>{std::move(fields), CheckMethod};
   }();
   return table;

@@ -104,6 +104,7 @@ TaskKind MakeDetectionTaskKind() {
   return {.name = "detection",
           .question = "Does the coach notice which moves were performed right, and how soon?",
           .default_metrics = metrics,
+          .success = "f1",
           .metrics = metrics,
           .make = MakeDetectionTask,
           .condition_keys = DetectionConditionFields().Describe(),

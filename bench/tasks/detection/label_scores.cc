@@ -152,7 +152,8 @@ Result<LeaveOneOut> LeaveOnePersonOut(const std::vector<NamedStream>& streams, c
   std::set<std::string> people;
   for (const LabelledPart& part : parts) {
     if (part.person.empty()) {
-      return Fail({file, part.line}, "nobody says who {} is; needed: a column 'person', or a known set's file names",
+      return Fail({file, part.line},
+                  "the person of {} is unknown; needed: a column 'person', or a known data set's file names",
                   streams[part.stream].name);
     }
     people.insert(part.person);

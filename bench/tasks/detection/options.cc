@@ -26,18 +26,21 @@ std::vector<MethodKey> FilterFields() {
     const auto value = Path(&Method::filter, &FilterOptions::one_euro, member);
     return MethodKey::Number(key, value, range, meaning).With("filter", {"one-euro"});
   };
-  return {holt("smoothing", &HoltOptions::smoothing, kShare, "0 follows the raw data; more is calmer and later."),
-          holt("correction", &HoltOptions::correction, kShare, "How fast the trend follows."),
-          holt("prediction_frames", &HoltOptions::prediction_frames, {0, 10},
-               "How many frames ahead the output is, which makes up for the lag of smoothing."),
-          holt("jitter_radius_m", &HoltOptions::jitter_radius_m, kLengths, "A step inside this radius is damped."),
-          holt("max_deviation_radius_m", &HoltOptions::max_deviation_radius_m, kLengths,
-               "The output stays this close to the raw position."),
-          one_euro("min_cutoff_hz", &OneEuroOptions::min_cutoff_hz, {0.01, 100},
-                   "The cut-off at rest: lower is calmer, and later in slow motion."),
-          one_euro("beta_per_m", &OneEuroOptions::beta_per_m, {0, 1000}, "The cut-off gained per metre a second."),
-          one_euro("derivative_cutoff_hz", &OneEuroOptions::derivative_cutoff_hz, {0.01, 100},
-                   "The cut-off of the speed that this goes by.")};
+  return {
+      holt("smoothing", &HoltOptions::smoothing, kShare,
+           "0 follows the raw data; larger values are smoother and lag more."),
+      holt("correction", &HoltOptions::correction, kShare, "How fast the trend follows: larger values react faster."),
+      holt("prediction_frames", &HoltOptions::prediction_frames, {0, 10},
+           "Number of frames that the output is predicted ahead, to compensate for the lag of smoothing."),
+      holt("jitter_radius_m", &HoltOptions::jitter_radius_m, kLengths, "A step inside this radius is damped."),
+      holt("max_deviation_radius_m", &HoltOptions::max_deviation_radius_m, kLengths,
+           "The output stays this close to the raw position."),
+      one_euro("min_cutoff_hz", &OneEuroOptions::min_cutoff_hz, {0.01, 100},
+               "Cut-off frequency at rest: lower values are smoother, and lag more in slow motion."),
+      one_euro("beta_per_m", &OneEuroOptions::beta_per_m, {0, 1000},
+               "Increase of the cut-off frequency per metre a second."),
+      one_euro("derivative_cutoff_hz", &OneEuroOptions::derivative_cutoff_hz, {0.01, 100},
+               "Cut-off frequency of the filter of that speed.")};
 }
 
 }  // namespace
@@ -57,11 +60,11 @@ const FieldTable<OperatingPoint>& OperatingPointFields() {
   using Key = Field<OperatingPoint>;
   static const FieldTable<OperatingPoint> table{
       {Key::Number("false_alarms_per_min", &OperatingPoint::false_alarms_per_min, {0.01, 60},
-                   "How many false alarms a minute are borne in spotting moves that nobody need have asked for."),
+                   "Allowed number of false alarms a minute when moves are spotted without being asked for."),
        Key::Number("recall", &OperatingPoint::recall, {0.01, 1},
-                   "Which share of right performances that were asked for is to be called right."),
+                   "Share of the right performances asked for that shall be called right."),
        Key::Number("sessions", &OperatingPoint::sessions, {1, 1000},
-                   "On how many sessions of other people the thresholds are set.")}};
+                   "Number of sessions of other people on which the thresholds are set.")}};
   return table;
 }
 
@@ -71,41 +74,45 @@ FieldTable<DetectionOptions> MakeConditionFields() {
   using Options = DetectionOptions;
   using Key = Field<Options>;
   FieldTable<Options> made{
-      {Key{{kMovesKey, FileKind("a file that `etude teach` wrote"), "(each person is judged by what the others teach)",
-            "What recognisers are taught, where people were recorded."},
+      {Key{{kMovesKey, FileKind("a file that `etude teach` wrote"),
+            "(each person is judged by what the other people teach)",
+            "The moves that recognisers are taught, for recorded people."},
            [](Fields& condition, Options& o) { o.moves = condition.Text(kMovesKey, ""); }},
        Key::Number("events", Path(&Options::session, &SessionOptions::events), {1, 200},
-                   "How many performances a session holds."),
+                   "Number of performances in a session."),
        Key::Number("fault_share", Path(&Options::session, &SessionOptions::fault_share), kShare,
-                   "Which share of them has a fault; whether it is wrong is up to how bad the fault is."),
+                   "Share of them with a fault; whether such a performance is wrong depends on the fault's severity."),
        Key::Number("severity", Path(&Options::session, &SessionOptions::severity), kShare,
-                   "How bad every fault is: 0 changes nothing, 1 is as bad as it gets.")
-           .WhenAbsent("(thrown evenly for each)"),
+                   "Severity of every fault: 0 changes nothing, 1 is the worst of its kind.")
+           .WhenAbsent("(drawn uniformly for each)"),
        Key{{"faults", ListKind("a list of: " + NameKind(FaultNameList()).allowed, NameKind(FaultNameList())), "[]",
-            "The faults that may happen; none named: all. Of recordings: those that are made of each right performance "
-            "and stand beside it (`amplitude`, `wrong_side`, `wrong_move`); none named: none."},
+            "The faults that may happen; an empty list: all. For recordings: the faulty copies made of each right "
+            "performance (`amplitude`, `wrong_side`, `wrong_move`); an empty list: none."},
            [](Fields& condition, Options& o) {
              for (const std::string& name : ReadNames(condition, "faults", FaultNameList())) {
                if (const auto fault = FindFault(name)) o.session.faults.push_back(*fault);
              }
            }},
        Key::Number("two_faults", Path(&Options::session, &SessionOptions::two_faults), kShare,
-                   "The chance that a performance with a fault has a second one."),
+                   "Probability that a performance with a fault has a second one."),
        Key::Name("people", Path(&Options::session, &SessionOptions::people), PeopleNames(), FindPeople,
-                 "Who dances, another person in every trial; `mixed`: toddlers, school children, adults and experts."),
-       Key::Number("noise", &Options::noise, {0, 10}, "Times the measured errors of a Kinect-like sensor."),
-       Key::Number("turn_deg", &Options::turn_deg, {-180, 180}, "How far the performer is turned away from the sensor.")
+                 "The kind of people who dance, another person in every trial; `mixed`: toddlers, school children, "
+                 "adults and experts."),
+       Key::Number("noise", &Options::noise, {0, 10}, "Multiplies the measured errors of a Kinect-like sensor."),
+       Key::Number("turn_deg", &Options::turn_deg, {-180, 180},
+                   "Angle by which the performer is turned away from the sensor.")
            .Unit("degrees"),
        Key{{kSensorKey, FileKind("`v1`, `v2`, a sensor file, `cameras`", IsSensorFile), "v2",
-            "Who sees the skeletons: Kinect v1 as published, v2 as recorded, one of `etude sensor fit`, or cameras, "
-            "with the keys of `task: capture` and each method's own `capture`."},
+            "The source of skeletons: Kinect v1 as published, v2 as recorded, a file of `etude sensor fit`, or "
+            "cameras, with the keys of `task: capture` and each method's `capture`."},
            [](Fields& condition, Options& o) {
              const Node* named = condition.Raw(kSensorKey);
              o.has_cameras = named != nullptr && named->scalar == kCameraSensor;
            }},
-       Key::Number("distance_m", &Options::distance_m, {1, 8}, "From the sensor to the performer, on the floor.")
-           .WhenAbsent("(2.5 to 3, thrown in each trial)"),
-       Key::Number("sensor_height_m", &Options::sensor_height_m, {0.1, 3}, "Of the sensor above the floor."),
+       Key::Number("distance_m", &Options::distance_m, {1, 8},
+                   "Distance from the sensor to the performer, along the floor.")
+           .WhenAbsent("(2.5 to 3, drawn in each trial)"),
+       Key::Number("sensor_height_m", &Options::sensor_height_m, {0.1, 3}, "Height of the sensor above the floor."),
        Key::Name("occluder", &Options::occluder,
                  {{"none", OccluderKind::kNone},
                   {"table", OccluderKind::kTable},
@@ -113,11 +120,11 @@ FieldTable<DetectionOptions> MakeConditionFields() {
                   {"person", OccluderKind::kPerson}},
                  "What stands between the sensor and the performer."),
        Key::Number("threshold", &Options::threshold, kThresholds,
-                   "The evidence from which on a move counts as performed; for all methods.")
+                   "Lowest evidence at which a move counts as performed; for all methods.")
            .WhenAbsent("(each recogniser's own)"),
        Key{{"operating_point", MappingKind("a mapping", OperatingPointFields().Describe()), "(none)",
-            "Sets each method's thresholds on other people: to spot moves at so many false alarms a minute, to judge "
-            "what was asked for at a recall."},
+            "Sets each method's thresholds on other people: for spotting, at a rate of false alarms; for judging what "
+            "was asked for, at a recall."},
            [](Fields& condition, Options& o) {
              if (condition.Raw("operating_point") == nullptr) return;
              ReadNested(condition, "operating_point", OperatingPointFields(), o.operating_point.emplace());
@@ -140,7 +147,7 @@ void CheckSensorKeys(Fields& condition, DetectionOptions& options) {
   for (const char* key : {"noise", "turn_deg", "distance_m", "sensor_height_m", "occluder"}) {
     if (const Node* written = condition.Raw(key)) {
       condition.Complain(written->place,
-                         fmt::format("'{}' is of skeleton sensors; cameras have keys of their own", key));
+                         fmt::format("'{}' belongs to skeleton sensors; cameras have their own keys", key));
     }
   }
   CameraSensingFields().check(condition, options.cameras.studio);
@@ -168,28 +175,28 @@ const FieldTable<DetectionMethod>& DetectionMethodFields() {
                                                      FilterNames(), FilterOf,
                                                      "How the sensed joints are smoothed first.")};
     Append(FilterFields(), fields);
-    fields.push_back(MethodKey::Flags("oracle", {{"stream", &Method::sees_truth}},
-                                      "What is replaced by the truth: the skeletons as performed instead of as sensed, "
-                                      "so what the sensor costs."));
+    fields.push_back(
+        MethodKey::Flags("oracle", {{"stream", &Method::sees_truth}},
+                         "What is replaced by the truth: the sensed skeletons, which shows what the sensor costs."));
     fields.push_back(CaptureField<Method>(&Method::capture));
     fields.push_back(MethodKey::Name("recogniser", Path(&Method::recogniser, &RecogniserOptions::kind),
                                      RecogniserNames(), FindRecogniser, "How a move is recognised."));
     const auto settings = Path(&Method::recogniser, &RecogniserOptions::settings);
     Append(SettingFields<Method>("recogniser", AllRecognisers(), settings), fields);
-    fields.push_back(MethodKey::Name("weights",
-                                     Path(&Method::recogniser, &RecogniserOptions::weights, &TrackingWeights::weighting),
-                                     {{"fixed", Weighting::kFixed}, {"adaptive", Weighting::kAdaptive}},
-                                     "How much what is seen counts: all alike, or by how well its joints are seen."));
+    fields.push_back(
+        MethodKey::Name("weights", Path(&Method::recogniser, &RecogniserOptions::weights, &TrackingWeights::weighting),
+                        {{"fixed", Weighting::kFixed}, {"adaptive", Weighting::kAdaptive}},
+                        "Weights of what is seen: all equal, or by how well its joints are seen."));
     fields.push_back(
         MethodKey::Number("inferred_weight",
                           Path(&Method::recogniser, &RecogniserOptions::weights, &TrackingWeights::inferred_weight),
-                          kShare, "What counts that needs an inferred joint; a tracked one is 1.")
+                          kShare, "Weight of what needs an inferred joint; that of tracked joints is 1.")
             .With("weights", {"adaptive"}));
     fields.push_back(MethodKey::Number("threshold", &Method::threshold, kThresholds,
-                                       "The evidence from which on a move counts as performed.")
+                                       "Lowest evidence at which a move counts as performed.")
                          .WhenAbsent("(the scenario's, else the recogniser's own)"));
     fields.push_back(MethodKey::Number("refractory_s", &Method::refractory_s, {0, 60},
-                                       "For how long a move that was spotted is not spotted again."));
+                                       "Time after a detection in which the same move is not spotted again."));
     return FieldTable<Method>{std::move(fields)};
   }();
   return table;

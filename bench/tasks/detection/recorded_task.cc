@@ -232,13 +232,11 @@ DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person,
 Result<void> CheckRecordings(const LabelledStreams& set, bool are_taught) {
   if (!are_taught && !set.nobody.empty()) {
     return Fail({set.file},
-                "nobody says who {} is; needed: a column 'person', a known set's file names, or 'moves', "
-                "what recognisers are taught",
+                "the person of {} is unknown; needed: a column 'person', a known data set's file names, or 'moves'",
                 set.nobody);
   }
   if (!are_taught && set.people.size() < 2) {
-    return Fail({set.file},
-                "{} alone; leaving one person out needs two people, or 'moves', what recognisers are taught",
+    return Fail({set.file}, "only {} was recorded; leaving one person out needs two people, or 'moves'",
                 set.people.front().name);
   }
   const LabelledPart* before = nullptr;
@@ -389,7 +387,7 @@ Result<void> CheckFaults(const Node& condition, std::span<const Fault> faults, c
                 fmt::join(allowed, ", "));
   }
   if (std::ranges::any_of(set.parts, &LabelledPart::is_action_point)) {
-    return Fail(named.place, "faults are made of performances, and {} tells moments; needed: from_s and to_s",
+    return Fail(named.place, "faults are made of performances, but {} has action points; needed: from_s and to_s",
                 set.file);
   }
   if (set.moves.size() > 1 || std::ranges::find(faults, Fault::kWrongMove) == faults.end()) return {};
@@ -400,7 +398,7 @@ Result<void> CheckFaults(const Node& condition, std::span<const Fault> faults, c
 Result<void> RefuseKeys(const Node& condition, std::span<const std::string_view> keys, std::string_view why) {
   for (const std::string_view key : keys) {
     const Node* named = condition.Find(key);
-    if (named != nullptr) return Fail(named->place, "'{}' has no use here: {}", key, why);
+    if (named != nullptr) return Fail(named->place, "'{}' is not used here: {}", key, why);
   }
   return {};
 }
@@ -420,7 +418,7 @@ Result<std::unique_ptr<Task>> MakeRecordedTask(TaskInput& input, const Detection
   }
   for (const DetectionMethod& method : methods) {
     if (!method.sees_truth || are_sensed) continue;
-    return Fail(condition.place, "method {}: 'oracle: [stream]' has no use here: what was danced nobody knows",
+    return Fail(condition.place, "method {}: 'oracle: [stream]' is not allowed here: the true dance is unknown",
                 method.name);
   }
   RETURN_IF_ERROR(CheckFaults(condition, options.session.faults, set));
@@ -433,8 +431,8 @@ Result<std::unique_ptr<Task>> MakeRecordedTask(TaskInput& input, const Detection
   const std::size_t needed = taught ? 2 : 3;  // one judged, one for the thresholds, one who teaches
   if (options.operating_point && set.people.size() < needed) {
     return Fail(condition.Find("operating_point")->place,
-                "thresholds are set on people who neither teach nor are judged; recorded: {}, needed: {}",
-                set.people.size(), needed);
+                "thresholds need people who neither teach nor are judged; recorded: {}, needed: {}", set.people.size(),
+                needed);
   }
   // Check once before the run that every method can be taught.
   if (auto all = MakeFold(set, taught, {}, methods); !all) return tl::unexpected(all.error());

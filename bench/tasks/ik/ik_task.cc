@@ -78,6 +78,7 @@ TaskKind MakeIkTaskKind() {
           .question = "How near do the end effectors come to their targets, and how far do the hidden angles stray?",
           .default_metrics = {"orientation_error_deg", "position_error_cm", "hidden_angle_error_deg",
                               "solved_practical", "iterations"},
+          .success = "solved_practical",
           .metrics = IkMetrics(),
           .make = MakeIkTask,
           .condition_keys = IkConditionFields().Describe(),

@@ -10,12 +10,12 @@ constexpr Range kShare{0, 1};
 // "poses: {uniform: 0.5}", or "poses: 0.5" for short, which a sweep can write.
 KeyInfo PosesKey() {
   const ValueKind share = NumberKind(kShare);
-  const ValueKind mapping =
-      MappingKind("", std::vector<KeyInfo>{{"uniform", share, "0.5", "Of every joint's range, about its middle."}});
+  const ValueKind mapping = MappingKind(
+      "", std::vector<KeyInfo>{{"uniform", share, "0.5", "Share of every joint's range, about its middle."}});
   return {"poses",
           {"{uniform: 0…1}, or 0…1 alone", fmt::format(R"({{"anyOf":[{},{}]}})", share.schema, mapping.schema)},
           "{uniform: 0.5}",
-          "The true pose is drawn from this share of every joint's range, about its middle.",
+          "The share of every joint's range, about its middle, from which the true pose is drawn.",
           {"start", {"disturbed", "middle"}}};
 }
 
@@ -54,15 +54,14 @@ const FieldTable<IkCondition>& IkConditionFields() {
   using Key = Field<IkCondition>;
   static const FieldTable<IkCondition> table{
       {Key::Name("limit_set", Path(&IkCondition::trial, &IkTrialOptions::limit_set), LimitSetNames(), FindLimitSet,
-                 "How far joints may turn: Etude's adult, or paper B's table 3.1."),
+                 "The joint limits: Etude's adult, or a source of paper B's table 3.1."),
        Key{PosesKey(), ReadPoses},
-       Key::Name(
-           "start", Path(&IkCondition::trial, &IkTrialOptions::start),
-           {{"disturbed", IkStart::kDisturbed}, {"middle", IkStart::kMiddle}, {"stretched", IkStart::kStretched}},
-           "Solvers begin at the disturbed truth, in the middle of every joint's range, or standing with stretched "
-           "arms that the hands' targets lie along (paper B, figure 3.8)."),
+       Key::Name("start", Path(&IkCondition::trial, &IkTrialOptions::start),
+                 {{"disturbed", IkStart::kDisturbed}, {"middle", IkStart::kMiddle}, {"stretched", IkStart::kStretched}},
+                 "Where solvers start: at the disturbed truth, in the middle of every joint's range, or standing with "
+                 "arms stretched along the line to the hands' targets (paper B, figure 3.8)."),
        Key::Number("joint_noise_deg", Path(&IkCondition::trial, &IkTrialOptions::joint_noise_deg), {0, 180},
-                   "How far every angle of the start is from the truth.")
+                   "Deviation of every angle of the start from the truth.")
            .Unit("degrees")
            .With("start", {"disturbed"}),
        Key::Name("noise", Path(&IkCondition::trial, &IkTrialOptions::noise),
@@ -71,25 +70,25 @@ const FieldTable<IkCondition>& IkConditionFields() {
            .With("start", {"disturbed"}),
        Key::Number("target_noise_cm",
                    Path(&IkCondition::trial, &IkTrialOptions::target_noise, &TargetNoise::position_cm), {0, 100},
-                   "Standard deviation of every target's place, along each axis.")
+                   "Standard deviation of every target's position, along each axis.")
            .With("start", {"disturbed", "middle"}),
        Key::Number("target_noise_deg",
                    Path(&IkCondition::trial, &IkTrialOptions::target_noise, &TargetNoise::orientation_deg), {0, 180},
                    "Standard deviation of every target's rotation vector.")
            .With("start", {"disturbed", "middle"}),
        Key::Number("unreachable_cm", Path(&IkCondition::trial, &IkTrialOptions::unreachable_cm), {0, 1000},
-                   "One target is pulled away from the root, this far beyond where all limbs together are too short.")
+                   "Moves one target away from the root, this far beyond the reach of all limbs together.")
            .With("start", {"disturbed", "middle"}),
        Key{{"targets", NameKind(std::vector<std::string>{"both", "position", "orientation"}), "both",
-            "What effectors are to meet of their targets; a world is solved when they meet that."},
+            "What effectors must meet of their targets for a world to be solved."},
            ReadTargets},
        Key::Flags("record",
                   {{"effector_errors", Path(&IkCondition::records, &IkRecords::effector_errors)},
                    {"angle_changes", Path(&IkCondition::records, &IkRecords::angle_changes)},
                    {"effector_curves", Path(&IkCondition::records, &IkRecords::effector_curves)}},
-                  "Which series a cell keeps for the report: every effector's errors, every angle's change, curves of "
-                  "every effector."),
-       SweepsField(&IkCondition::common, "The limit of a solver's steps."), GoalsField(&IkCondition::common)},
+                  "Series that a cell keeps for the report: every effector's errors, every angle's change, every "
+                  "effector's curves."),
+       SweepsField(&IkCondition::common, "Maximum number of solver steps."), GoalsField(&IkCondition::common)},
       CheckCondition};
   return table;
 }
@@ -100,9 +99,9 @@ const FieldTable<IkMethod>& IkMethodFields() {
     FieldTable<IkMethod> made{IkSolverFields(&IkMethod::solver, &IkMethod::options), CheckMethod};
     std::vector<Key> own = {
         Key::Flag("limits", Path(&IkMethod::options, &IkOptions::limits), "Whether joint limits are kept."),
-        ToleranceField(&IkMethod::options, "How far an angle may leave its start."),
+        ToleranceField(&IkMethod::options, "Largest change of an angle from its start."),
         Key::Number("tolerance_times_noise", &IkMethod::tolerance_times_noise, {0, 100},
-                    "The same in multiples of joint_noise_deg; paper B's reading: 1.2.")
+                    "The same as a multiple of joint_noise_deg; 1.2 is read from paper B.")
             .WhenAbsent("(no bound)")};
     Append(std::move(own), made.fields);
     return made;

@@ -20,11 +20,11 @@ const FieldTable<PairOptions>& PoseDistanceConditionFields() {
   static const FieldTable<PairOptions> table{
       {Key::Name("pairs", &PairOptions::source,
                  {{"blindspots", PairSource::kBlindSpots}, {"frames", PairSource::kFrames}},
-                 "What is compared: the eight pairs of poses that paper A's distance takes for alike, one a trial, or "
-                 "any frames of two different clips."),
+                 "What is compared: the eight pairs of poses that paper A's distance confuses, one per trial, or any "
+                 "frames of two different clips."),
        FuzzyField<PairOptions>(),
        Key::Number("pairs_per_world", &PairOptions::pairs_per_world, {1, 10000},
-                   "How many pairs of frames are drawn in a trial.")
+                   "Number of pairs of frames drawn in a trial.")
            .With("pairs", {"frames"})}};
   return table;
 }
@@ -34,11 +34,11 @@ const FieldTable<PoseDistanceMethod>& PoseDistanceMethodFields() {
   using Key = Field<Method>;
   static const FieldTable<Method> table{
       {Key::Name("distance", &Method::distance, PoseDistanceNames(), FindPoseDistance,
-                 "How unlike two poses are: paper A's d, Kovar's point clouds (of one frame), or the joints' mean "
-                 "distance once heading and hips agree."),
+                 "The distance of two poses: paper A's d, Kovar's point clouds (of one frame), or the mean distance of "
+                 "joints after heading and hips are aligned."),
        Key::Name("weights", &Method::weights, WeightSourceNames(), FindWeightSource,
-                 "How much each fuzzy feature counts: as paper A says, or as learnt on all clips but the two judged, "
-                 "by a logistic regression or a genetic algorithm.")
+                 "Weights of the fuzzy features: paper A's, or learnt on all clips but the two judged, by logistic "
+                 "regression or a genetic algorithm.")
            .With("distance", {"fuzzy"}),
        // Grades lie in [0, 1] and S sums to 8, so no distance exceeds sqrt(8 · 4).
        Key::Number("threshold", &Method::threshold, {0, 6}, "Poses are called alike when d is below it.")

@@ -93,6 +93,7 @@ TaskKind MakePoseDistanceTaskKind() {
           .question = "How well does a distance know that two poses look alike?",
           .default_metrics = {"called_alike", "fuzzy_distance", "joint_distance_cm", "pose_gap_cm", "close_auc",
                               "close_f1"},
+          .success = "close_f1",
           .metrics = PoseDistanceMetrics(),
           .make = MakePoseDistanceTask,
           .condition_keys = PoseDistanceConditionFields().Describe(),

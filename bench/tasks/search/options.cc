@@ -35,12 +35,11 @@ const FieldTable<SearchOptions>& SearchConditionFields() {
   using Key = Field<Options>;
   static const FieldTable<Options> table{
       {Key::Number("frames", &Options::frames, {10, kMaxLibraryFrames},
-                   "How many frames are searched: the clips, performed again and again with other tempo and "
-                   "amplitude."),
+                   "Number of frames searched: the clips, repeated with other tempos and amplitudes."),
        Key::Number("queries", &Options::queries, {1, 10'000},
-                   "How many frames are asked about in a world; none is in the library."),
+                   "Number of query frames in a world; none is in the library."),
        Key::Number("threshold", &Options::threshold, {0, 6},
-                   "Frames of a smaller fuzzy distance match: what `first` and `within` ask for."),
+                   "Frames match if their fuzzy distance is smaller; for `first` and `within`."),
        Key::Name("query", &Options::question, Questions(),
                  "The first matching frame, all of them, or the one or ten of smallest distance; for all methods."),
        FuzzyField<Options>()}};
@@ -51,8 +50,8 @@ const FieldTable<SearchMethod>& SearchMethodFields() {
   using Key = Field<SearchMethod>;
   static const FieldTable<SearchMethod> table{
       {Key::Name("search", &SearchMethod::way, {{"index", SearchWay::kIndex}, {"brute-force", SearchWay::kBruteForce}},
-                 "Through the exact index, or by looking at every frame."),
-       Key::Name("query", &SearchMethod::question, Questions(), "What is asked about every frame.")
+                 "Use the exact index, or compare every frame."),
+       Key::Name("query", &SearchMethod::question, Questions(), "What is asked for every query frame.")
            .WhenAbsent("(the scenario's)")}};
   return table;
 }

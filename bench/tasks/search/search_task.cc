@@ -116,6 +116,7 @@ TaskKind MakeSearchTaskKind() {
   return {.name = "search",
           .question = "How does finding matching frames grow with the library?",
           .default_metrics = {"distances_per_query", "search_agreement", "boxes_per_query", "matches_per_query"},
+          .success = "search_agreement",
           .metrics = SearchMetrics(),
           .make = MakeSearchTask,
           .condition_keys = SearchConditionFields().Describe(),

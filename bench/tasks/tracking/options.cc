@@ -22,17 +22,16 @@ const FieldTable<TrackingOptions>& TrackingConditionFields() {
   static const FieldTable<Options> table{
       {Key::Number("duration_s", &Options::duration_s, {0.1, 60}, "Length of the window of the clip that is followed."),
        Key::Number("rate_hz", &Options::rate_hz, {1, kJudgedRateHz},
-                   "Frames a second: the fewer, the farther from one to the next."),
+                   "Frames a second: fewer frames are farther apart."),
        Key::Number("target_noise_cm", Path(&Options::target_noise, &TargetNoise::position_cm), {0, 100},
-                   "How far targets are from the body's ends: standard deviation per axis, anew in every frame."),
-       Key::Number(
-           "target_noise_deg", Path(&Options::target_noise, &TargetNoise::orientation_deg), {0, 180},
-           "How far their axes are turned: standard deviation of the rotation vector per axis, anew in every frame."),
+                   "Standard deviation of every target's position, along each axis, drawn anew in every frame."),
+       Key::Number("target_noise_deg", Path(&Options::target_noise, &TargetNoise::orientation_deg), {0, 180},
+                   "Standard deviation of every target's rotation vector, along each axis, drawn anew in every frame."),
        Key::Number("joint_noise_deg", &Options::joint_noise_deg, {0, 180},
-                   "How far from the truth every angle is that the first frame starts with: standard deviation.")
+                   "Standard deviation of the angles from which the first frame starts, about the truth.")
            .Unit("degrees")
            .WhenAbsent("(the standing pose)"),
-       SweepsField(&Options::common, "The limit of a solver's steps per frame."), GoalsField(&Options::common)},
+       SweepsField(&Options::common, "Maximum number of solver steps per frame."), GoalsField(&Options::common)},
       CheckFrames};
   return table;
 }
@@ -42,8 +41,9 @@ const FieldTable<TrackingMethod>& TrackingMethodFields() {
     FieldTable<TrackingMethod> made{IkSolverFields(&TrackingMethod::solver, &TrackingMethod::options)};
     made.fields.push_back(Field<TrackingMethod>::Name(
         "start", &TrackingMethod::start, {{"warm", FrameStart::kWarm}, {"cold", FrameStart::kCold}},
-        "A frame starts from the answer to the one before, or from where the first one started."));
-    made.fields.push_back(ToleranceField(&TrackingMethod::options, "How far an angle may leave its frame's start."));
+        "Whether a frame starts from the answer to the previous frame, or where the first frame started."));
+    made.fields.push_back(
+        ToleranceField(&TrackingMethod::options, "Largest change of an angle from its frame's start."));
     return made;
   }();
   return table;

@@ -93,6 +93,7 @@ TaskKind MakeTrackingTaskKind() {
           .question = "Does a solver keep up with a motion, frame by frame?",
           .default_metrics = {"frames_solved", "mpjpe_mm", "orientation_error_deg", "position_error_cm",
                               "angle_jerk_ratio", "iterations_per_frame"},
+          .success = "frames_solved",
           .metrics = TrackingMetrics(),
           .make = MakeTrackingTask,
           .condition_keys = TrackingConditionFields().Describe(),

@@ -32,32 +32,29 @@ const FieldTable<TransitionCondition>& TransitionConditionFields() {
   using Key = Field<Options>;
   static const FieldTable<Options> table{
       {Key::Number("threshold", &Options::threshold, kThresholds,
-                   "Two bridge frames match when their fuzzy distance is below it; for all methods."),
-       Key::Number("wait_s", &Options::wait_s, kWaits_s,
-                   "How long after the request a transition may come; for all methods, those outside are told it as "
-                   "max_wait_s.")
-           .Unit("seconds"),
-       Key::Flag(
-           "explain", &Options::explain,
-           "Whether every cell keeps the ten partial distances of its transition points and its candidates, as series; "
-           "filmed cells are explained in the report anyway."),
-       Key::Name(
-           "asked_for", Path(&Options::stage, &StageRules::asks_for_acts), {{"any", false}, {"acts", true}},
-           "Which clips are asked for: any other one, or, while the other clips play, the coach's acts, where there "
-           "are any."),
-       Key::Number("min_clips", Path(&Options::stage, &StageRules::min_clips), {1, 1000},
-                   "In how many clips a bridge frame's ten tags occur together at least."),
+                   "Fuzzy distance below which two bridge frames match; for all methods."),
        Key::Number(
-           "most_per_class", Path(&Options::stage, &StageRules::most_per_class), {0, 100000},
-           "Of each clip's frames with the same ten tags, only so many are bridge frames: those most alike to other "
-           "clips'; 0: all."),
+           "wait_s", &Options::wait_s, kWaits_s,
+           "Maximum time from the request to the transition; for all methods (methods outside get it as max_wait_s).")
+           .Unit("seconds"),
+       Key::Flag("explain", &Options::explain,
+                 "Whether every cell keeps the ten partial distances of its transition points and candidates as "
+                 "series; filmed cells are explained in the report in any case."),
+       Key::Name("asked_for", Path(&Options::stage, &StageRules::asks_for_acts), {{"any", false}, {"acts", true}},
+                 "Which clips are asked for: any other clip, or, while other clips play, one of the coach's acts if "
+                 "there are any."),
+       Key::Number("min_clips", Path(&Options::stage, &StageRules::min_clips), {1, 1000},
+                   "Minimum number of clips in which a bridge frame's ten tags must occur together."),
+       Key::Number("most_per_class", Path(&Options::stage, &StageRules::most_per_class), {0, 100000},
+                   "Maximum number of bridge frames per clip and set of ten tags, those most like other clips' frames; "
+                   "0: all."),
        Key::Angle("head_bend_deg", Path(&Options::stage, &StageRules::head, &HeadRule::max_bend), {0, 180},
-                  "A bridge frame's neck is bent by no more."),
+                  "Largest bend of the neck in a bridge frame."),
        Key::Angle("head_turn_dps", Path(&Options::stage, &StageRules::head, &HeadRule::max_turn_speed), {0, 10000},
-                  "A bridge frame's neck turns no faster.")
+                  "Fastest turn of the neck in a bridge frame.")
            .Unit("degrees per second"),
        Key::Number("tween_s", Path(&Options::stage, &StageRules::tween, &TweenRules::shortest_s), {0, 10},
-                   "An in-between takes at least this, however little there is to do.")
+                   "Minimum length of an in-between.")
            .Unit("seconds"),
        FuzzyField<Options>()}};
   return table;
@@ -67,15 +64,13 @@ const FieldTable<TransitionMethod>& TransitionMethodFields() {
   using Key = Field<TransitionMethod>;
   static const FieldTable<TransitionMethod> table = [] {
     FieldTable<TransitionMethod> made{
-        {Key::Name(
-             "choice", Path(&TransitionMethod::way, &TransitionWay::choice), ChoiceNames(), FindChoice,
-             "Which frames a transition takes, and when: paper A's bridge frames, or what one would use otherwise."),
-         Key::Name(
-             "join", Path(&TransitionMethod::way, &TransitionWay::join), JoinNames(), FindJoin,
-             "How the clips are put together: the next frame is the new clip's, or what was off dies away smoothly."),
+        {Key::Name("choice", Path(&TransitionMethod::way, &TransitionWay::choice), ChoiceNames(), FindChoice,
+                   "Which frames a transition takes, and when: paper A's bridge frames, or an alternative."),
+         Key::Name("join", Path(&TransitionMethod::way, &TransitionWay::join), JoinNames(), FindJoin,
+                   "How the clips are joined: by a cut, or by a smooth change from the old motion to the new one."),
          Key::Name("weights", &TransitionMethod::weights, WeightSourceNames(), FindWeightSource,
-                   "How much each fuzzy feature counts: as the fuzzy system says, or learnt on all clips but the two "
-                   "judged, by a logistic regression or a genetic algorithm."),
+                   "Weights of the fuzzy features: the fuzzy system's, or learnt on all clips but the two judged, by "
+                   "logistic regression or a genetic algorithm."),
          Key::Number("threshold", Path(&TransitionMethod::way, &TransitionWay::rules, &MatchRules::threshold),
                      kThresholds, "The distance below which two frames match.")
              .WhenAbsent("(the scenario's)")
@@ -87,7 +82,7 @@ const FieldTable<TransitionMethod>& TransitionMethodFields() {
                    {{"first", Pick::kFirst}, {"smallest", Pick::kSmallest}},
                    "Which of several matching pairs is taken.")
              .With("choice", {"fuzzy-bridge"}),
-         Key::Number("wait_s", &TransitionMethod::wait_s, kWaits_s, "How long after the request a transition may come.")
+         Key::Number("wait_s", &TransitionMethod::wait_s, kWaits_s, "Maximum time from the request to the transition.")
              .Unit("seconds")
              .WhenAbsent("(the scenario's)")}};
     for (const Key& key : SettingFields<TransitionMethod>(

@@ -67,6 +67,7 @@ TaskKind MakeTransitionTaskKind() {
   return {.name = "transition",
           .question = "How smoothly does a body get from one clip into another when called?",
           .default_metrics = {"jump_cm", "natural_share", "pose_gap_cm", "false_smooth", "foot_slide_cmps", "wait_s"},
+          .success = "clean_share",
           .metrics = TransitionMetrics(),
           .make = MakeTransitionTask,
           .condition_keys = TransitionConditionFields().Describe(),

@@ -26,12 +26,15 @@ class GltfCurve {
  public:
   using Value = std::array<double, 4>;
 
-  /// Reads a sampler; `width` is 3, or 4 for rotations. Returns the errors of accessors, and an error for an unknown
-  /// interpolation, times that do not ascend, a number of values that does not fit the times, or a rotation of length
+  /// Reads a sampler; `width` is 3, or 4 for rotations. Times may be equal, because keys that are nanoseconds apart
+  /// coincide in single precision. Returns the errors of accessors, and an error for an unknown interpolation, times
+  /// that descend, a number of values that does not fit the times, or a rotation of length
   /// 0.
   static Result<GltfCurve> Read(GltfFile& file, int animation, int sampler, std::size_t width);
 
   const std::vector<double>& times() const { return times_; }
+  /// Returns the number of times without those that follow another within microseconds, as keys of three axes do.
+  std::size_t CountTimes() const;
   GltfInterpolation interpolation() const { return interpolation_; }
   /// Returns true if any key differs from the first by more than the rounding of floats.
   bool Moves() const;
@@ -71,12 +74,12 @@ Result<GltfCurve> GltfCurve::Read(GltfFile& file, int animation, int sampler, st
     return file.Refuse(where + ".interpolation", "found {}; allowed: LINEAR, STEP, CUBICSPLINE",
                        Quote(source.interpolation));
   }
-  // Read the times and check that they ascend.
+  // Read the times and check that they do not descend.
   ASSIGN_OR_RETURN(auto times, file.Read(source.input, 1, GltfComponents::kFloat, where + ".input"));
   curve.times_ = std::move(times.values);
   for (std::size_t i = 1; i < curve.times_.size(); ++i) {
-    if (!(curve.times_[i - 1] < curve.times_[i])) {
-      return file.Refuse(where + ".input", "found {} s after {} s; allowed: times that ascend", curve.times_[i],
+    if (!(curve.times_[i - 1] <= curve.times_[i])) {
+      return file.Refuse(where + ".input", "found {} s after {} s; allowed: times that do not descend", curve.times_[i],
                          curve.times_[i - 1]);
     }
   }
@@ -104,6 +107,15 @@ Result<GltfCurve> GltfCurve::Read(GltfFile& file, int animation, int sampler, st
 
 const double* GltfCurve::Key(std::size_t key) const {
   return interpolation_ == GltfInterpolation::kCubicSpline ? values_[3 * key + 1] : values_[key];
+}
+
+std::size_t GltfCurve::CountTimes() const {
+  constexpr double kSame_s = 2e-5;
+  std::size_t count = times_.empty() ? 0 : 1;
+  for (std::size_t i = 1; i < times_.size(); ++i) {
+    if (times_[i] - times_[i - 1] > kSame_s) ++count;
+  }
+  return count;
 }
 
 bool GltfCurve::Moves() const {
@@ -228,11 +240,12 @@ double RateOf(const std::vector<Channel>& channels, double start) {
   for (const Channel& channel : channels) {
     if (!counts(channel)) continue;
     if (any_moves && channel.curve.interpolation() != GltfInterpolation::kLinear) return kDefaultRateHz;
-    if (!densest || channel.curve.times().size() > densest->times().size()) densest = &channel.curve;
+    if (!densest || channel.curve.CountTimes() > densest->CountTimes()) densest = &channel.curve;
   }
   const std::vector<double>& times = densest->times();
-  if (times.size() < 2) return kDefaultRateHz;
-  const double rate = RoundedRate(static_cast<double>(times.size() - 1) / (times.back() - times.front()));
+  const std::size_t count = densest->CountTimes();
+  if (count < 2) return kDefaultRateHz;
+  const double rate = RoundedRate(static_cast<double>(count - 1) / (times.back() - times.front()));
   if (rate < kMinRateHz || rate > kMaxRateHz) return kDefaultRateHz;
   for (const Channel& channel : channels) {
     if (counts(channel) && !LiesOnGrid(channel.curve.times(), start, rate)) return kDefaultRateHz;

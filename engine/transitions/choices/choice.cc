@@ -207,17 +207,19 @@ std::span<const Choice> Table() {
              .allowed = BridgeFrames,
              .plan = PlanBy<PlanFuzzyBridge>},
       Ranked<PlanFuzzyKovar, PointCloudSettings>(
-          "fuzzy-kovar", "of all frames that match, those with the least point-cloud distance (Kovar 2002)", true),
+          "fuzzy-kovar", "among all frames that match, those with the least point-cloud distance (Kovar 2002)", true),
       Ranked<PlanFuzzyWindow, FuzzyWindowSettings>(
-          "fuzzy-window", "of all frames that match, those with the least mean fuzzy distance around them", true),
+          "fuzzy-window", "among all frames that match, those with the least mean fuzzy distance around them", true),
       Ranked<PlanPointCloud, PointCloudSettings>("point-cloud",
                                                  "the frames with the least point-cloud distance (Kovar 2002)", false),
       Ranked<PlanMotionMatching, MotionMatchingSettings>(
-          "motion-matching", "the frames where hands, feet and hips are and move most alike (Clavet 2016)", false),
-      Choice{.name = "played",
-             .description = "the frames and length whose transition, played, costs least time and acceleration",
-             .settings = PlayedSettings().Describe(),
-             .plan = PlanWith<PlanPlayed, PlayedSettings>},
+          "motion-matching",
+          "the frames with the most similar positions and velocities of hands, feet and hips (Clavet 2016)", false),
+      Choice{
+          .name = "played",
+          .description = "the frames and blend length whose transition, when played, costs least time and acceleration",
+          .settings = PlayedSettings().Describe(),
+          .plan = PlanWith<PlanPlayed, PlayedSettings>},
       Choice{.name = "through-standing",
              .description = "at once, by a standing pose into the clip's first frame",
              .plan = PlanBy<PlanThroughStanding>},
@@ -226,7 +228,7 @@ std::span<const Choice> Table() {
              .description = "after the playing clip's last frame, into the clip's first",
              .plan = PlanBy<PlanWaitForEnd>},
       Choice{.name = "unbroken",
-             .description = "no transition: the playing clip goes on, as a yardstick",
+             .description = "no transition: the playing clip goes on, for comparison",
              .plan = PlanBy<PlanUnbroken>},
   };
   return kChoices;

@@ -134,7 +134,7 @@ TransitionRecord PlanByPointCloud(const MotionLibrary& library, const Transition
 template <typename Options>
 typename SettingTable<Options>::Row LeastPlay() {
   return {"least_play_s", &Options::least_play_s, 0, 60,
-          "Seconds of the wanted clip that must be left to play; its front half may always be entered."};
+          "Minimum time of the wanted clip that must be left to play; its front half may always be entered."};
 }
 
 }  // namespace

@@ -245,13 +245,13 @@ TransitionRecord PlanThroughClip(const MotionLibrary& library, const TransitionR
 const SettingTable<PlayedOptions>& PlayedSettings() {
   static const SettingTable<PlayedOptions> kSettings(
       {{"excess_per_s", &PlayedOptions::excess_per_s, 0.01, 1000,
-        "How much acceleration beyond the clips' own, in centimetres per frame², weighs as much as a second of time."},
+        "Acceleration beyond the clips' own, in centimetres per frame², that costs as much as one second."},
        {"invented_per_s", &PlayedOptions::invented_per_s, 0.01, 1'000'000,
-        "How far from both clips, in centimetres over a second, weighs as much as a second of time."},
+        "Distance from both clips, in centimetres over a second, that costs as much as one second."},
        {"most_skipped_s", &PlayedOptions::most_skipped_s, 0, 60,
-        "How much of the wanted clip may be skipped, in seconds; never more than its first third."},
+        "Maximum time of the wanted clip that may be skipped, in seconds; never more than its first third."},
        {"most_through_s", &PlayedOptions::most_through_s, 0, 60,
-        "How much of a clip that stands up or lies down may be shown on the way, in seconds, after the wait."}});
+        "Maximum time, in seconds, of a clip that stands up or lies down to show on the way, after the wait."}});
   return kSettings;
 }
 

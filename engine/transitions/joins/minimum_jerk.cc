@@ -11,15 +11,13 @@
 namespace etude {
 
 const SettingTable<MinimumJerkOptions>& MinimumJerkSettings() {
-  static const SettingTable<MinimumJerkOptions> kSettings({{"blend_s", &MinimumJerkOptions::blend_s, 0, 5,
-                                                            "Seconds after the transition point until the new motion "
-                                                            "is shown alone, where the choice does not say."},
-                                                           {"fades", &MinimumJerkOptions::fades, 0, 1,
-                                                            "1: the old motion goes on and fades out; 0: what it was "
-                                                            "off from the new one dies away."},
-                                                           {"direct", &MinimumJerkOptions::direct, 0, 1,
-                                                            "1: each limb goes with least jerk to where the new motion "
-                                                            "has it at the end; 0: as `fades` says."}});
+  static const SettingTable<MinimumJerkOptions> kSettings(
+      {{"blend_s", &MinimumJerkOptions::blend_s, 0, 5,
+        "Seconds after the transition point until the new motion is shown alone, unless the choice sets it."},
+       {"fades", &MinimumJerkOptions::fades, 0, 1,
+        "1: the old motion goes on and fades out; 0: its offset from the new motion decays."},
+       {"direct", &MinimumJerkOptions::direct, 0, 1,
+        "1: each limb moves with least jerk to its place in the new motion at the end; 0: as `fades` says."}});
   return kSettings;
 }
 

@@ -55,13 +55,15 @@ class MotionGlb {
     std::string json = document.dump(-1, ' ', false, Json::error_handler_t::replace);
     json.resize((json.size() + 3) / 4 * 4, ' ');
     std::string bytes = "glTF";
-    constexpr std::uint32_t kVersion = 2, kJson = 0x4E4F534A, kBinary = 0x004E4942, kHeads = 12 + 8 + 8;
-    // The header, the JSON chunk, and the binary chunk.
+    constexpr std::uint32_t kVersion = 2, kJson = 0x4E4F534A, kBinary = 0x004E4942, kHeads = 12 + 8, kHead = 8;
+    // The header, the JSON chunk, and the binary chunk, which a file without animation lacks.
+    const std::size_t binary = numbers_.empty() ? 0 : kHead + numbers_.size();
     for (const std::size_t number :
-         {std::size_t{kVersion}, kHeads + json.size() + numbers_.size(), json.size(), std::size_t{kJson}}) {
+         {std::size_t{kVersion}, kHeads + json.size() + binary, json.size(), std::size_t{kJson}}) {
       Append(bytes, static_cast<std::uint32_t>(number));
     }
     bytes += json;
+    if (binary == 0) return bytes;
     Append(bytes, static_cast<std::uint32_t>(numbers_.size()));
     Append(bytes, kBinary);
     return bytes + numbers_;

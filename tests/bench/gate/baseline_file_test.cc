@@ -89,10 +89,11 @@ TEST(Baseline, IsRefusedWhenItsSealDoesNotFitAndReadWhereThatIsAskedFor) {
   const std::string edited = Replaced(Text(), "[10.0,", "[10.5,");
   const auto refused = ReadBaseline(edited, "b.json");
   ASSERT_FALSE(refused);
-  EXPECT_THAT(ToString(refused.error()), HasSubstr("b.json: is not as gate --update wrote it: its seal does not fit"));
+  EXPECT_THAT(ToString(refused.error()),
+              HasSubstr("b.json: was changed after gate --update wrote it: its seal does not match"));
   const auto read = ReadBaseline(edited, "b.json", BaselineSeal::kMayBreak);
   ASSERT_TRUE(read);
-  EXPECT_THAT(read->unsealed, HasSubstr("its seal does not fit"));
+  EXPECT_THAT(read->unsealed, HasSubstr("its seal does not match"));
   EXPECT_EQ(ReadBaseline(Text(), "b.json")->unsealed, "");
   // One of an older version has no seal.
   std::string older = Replaced(Text(), "\"schema\":2", "\"schema\":1");
@@ -111,11 +112,11 @@ TEST(Baseline, IsRefusedWhenAKeyStandsTwice) {
   const std::string text = Text();
   // Each of these a JSON library reads, keeping one of the two.
   EXPECT_THAT(ComplaintAbout(Replaced(text, "\"seed\":5", "\"seed\":5,\"seed\":5")),
-              HasSubstr("b.json:3: the key 'seed' stands twice in one object, first in line 3; allowed: once"));
+              HasSubstr("b.json:3: the key 'seed' appears twice in one object, first in line 3; allowed: once"));
   EXPECT_THAT(ComplaintAbout(Replaced(text, "\"values\":[\n", "\"statuses\":[],\n\"values\":[\n")),
-              HasSubstr("b.json:11: the key 'statuses' stands twice in one object, first in line 5"));
+              HasSubstr("b.json:11: the key 'statuses' appears twice in one object, first in line 5"));
   EXPECT_THAT(ComplaintAbout(Replaced(text, "\"cells\"", "\"cells\":\"oooo\",\n\"cells\"")),
-              HasSubstr("b.json:7: the key 'cells' stands twice in one object, first in line 6"));
+              HasSubstr("b.json:7: the key 'cells' appears twice in one object, first in line 6"));
   // Written with an escape, it is the same key.
   EXPECT_THAT(ComplaintAbout(Replaced(text, "\"seed\":5", "\"seed\":5,\"s\\u0065ed\":7")),
               HasSubstr("the key 'seed' stands twice"));

@@ -40,7 +40,7 @@ TEST(CompareSystems, FindsASystemThatDrewNothingByTheRest) {
 TEST(CompareSystems, TellsWhatIsMoreThanMeasured) {
   const auto lines = CompareSystems(kDebian12, kDebian13, ThreeWorlds({1, 2, 3}), ThreeWorlds({1, 1.75, 3.125}));
   ASSERT_EQ(lines.size(), 4u);
-  EXPECT_EQ(lines[3], "Here more than measured: jump_cm by 0.25.");
+  EXPECT_EQ(lines[3], "These differ more than measured: jump_cm by 0.25.");
 }
 
 TEST(CompareSystems, SaysThatNothingIsKnownOfOtherSystems) {
@@ -50,7 +50,7 @@ TEST(CompareSystems, SaysThatNothingIsKnownOfOtherSystems) {
     const auto lines = CompareSystems(kDebian12, other, {}, {});
     ASSERT_EQ(lines.size(), 3u);
     EXPECT_THAT(lines[1], HasSubstr("(not measured)"));
-    EXPECT_THAT(lines[2], HasSubstr("nothing was measured between these two"));
+    EXPECT_THAT(lines[2], HasSubstr("how much results differ between these two was not measured"));
   }
 }
 

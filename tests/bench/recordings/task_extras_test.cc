@@ -70,19 +70,21 @@ TEST(DetectionExtras, AreRefusedNamingThePlaceWhatWasFoundAndWhatItMeans) {
     return ComplaintOfExtras(ReadDetectionExtras, text);
   };
   EXPECT_EQ(with("0.25", "0.25"), "none") << "a control";
-  EXPECT_EQ(with("0.25", R"("high")"), R"(events[1].score: "high" is no number (how right it looked to the method))");
+  EXPECT_EQ(with("0.25", R"("high")"),
+            R"(events[1].score: "high" is not a number (the method's confidence that it was right))");
   EXPECT_EQ(with("20.5", "null"),
-            "moves[0].key_poses[0][0].tolerance_deg: null is no number (how far from it still counts)");
+            "moves[0].key_poses[0][0].tolerance_deg: null is not a number (largest deviation that still counts)");
   EXPECT_THAT(with(R"("end_frame":9)", R"("end":9)"), HasSubstr("events[1].end_frame: it is missing (the first after"));
-  EXPECT_THAT(with(R"("end_frame":9)", R"("end_frame":9.5)"), HasSubstr("events[1].end_frame: 9.5 is no whole number"));
+  EXPECT_THAT(with(R"("end_frame":9)", R"("end_frame":9.5)"),
+              HasSubstr("events[1].end_frame: 9.5 is not a whole number"));
   EXPECT_THAT(with(R"("end_frame":9)", R"("end_frame":9e12)"), HasSubstr("allowed: -1000000000…1000000000"));
-  EXPECT_EQ(with(R"(["tin"])", "7"), "joint_states: 7 is no list");
-  EXPECT_EQ(with(R"({"move":"sway","frame":4})", "7"), "alarms[0]: 7 is no object");
+  EXPECT_EQ(with(R"(["tin"])", "7"), "joint_states: 7 is not a list");
+  EXPECT_EQ(with(R"({"move":"sway","frame":4})", "7"), "alarms[0]: 7 is not an object");
   EXPECT_THAT(with(R"("version":1)", R"("version":2)"), HasSubstr("version: 2; allowed: 1"));
   EXPECT_THAT(with("etude-detection", "etude-coach"),
               HasSubstr(R"(format: "etude-coach"; allowed: "etude-detection")"));
-  EXPECT_EQ(ComplaintOfExtras(ReadDetectionExtras, "[1]"), "no JSON object, but a list of 1");
-  EXPECT_THAT(ComplaintOfExtras(ReadDetectionExtras, "{"), HasSubstr("no JSON object: not valid JSON"));
+  EXPECT_EQ(ComplaintOfExtras(ReadDetectionExtras, "[1]"), "not a JSON object, but a list of 1");
+  EXPECT_THAT(ComplaintOfExtras(ReadDetectionExtras, "{"), HasSubstr("not a JSON object: not valid JSON"));
 }
 
 TEST(CoachExtras, SurviveWritingAndReading) {
@@ -123,7 +125,7 @@ TEST(IkExtras, LeaveEmptyWhateverIsNotWhatItShouldBe) {
   ASSERT_TRUE(read) << ToString(read.error());
   EXPECT_TRUE(read->iterations.empty() && read->targets_m.empty());
   EXPECT_THAT(read->axis_error_max_deg, ElementsAre(1, 2));
-  EXPECT_THAT(ComplaintOfExtras(ReadIkExtras, "3"), HasSubstr("no JSON object"));
+  EXPECT_THAT(ComplaintOfExtras(ReadIkExtras, "3"), HasSubstr("not a JSON object"));
 }
 
 TEST(TransitionExtras, SurviveWritingAndReading) {
@@ -150,7 +152,7 @@ TEST(TaskExtras, AreTheOnesThatThePageTellsOf) {
   const auto page = ReadWholeFile("docs/reference/recordings.md");
   ASSERT_TRUE(page) << ToString(page.error());
   EXPECT_EQ(*page, RecordingsAsMarkdown()) << "write it anew: etude list recordings > docs/reference/recordings.md";
-  EXPECT_THAT(*page, HasSubstr("- `moves`: those that may be asked for\n  - `name`: of a move that was taught\n"));
+  EXPECT_THAT(*page, HasSubstr("- `moves`: those that may be asked for\n  - `name`: name of a taught move\n"));
   EXPECT_THAT(*page, HasSubstr("- `version`: always 1\n"));
 }
 

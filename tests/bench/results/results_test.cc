@@ -119,6 +119,8 @@ Comparison SampleComparison() {
   comparison.signed_rank = {0.01, "exact"};
   comparison.sign_flip = {0.02, "9,999 draws"};
   comparison.p_holm = 0.04;
+  comparison.better = 6;
+  comparison.worse = 2;
   comparison.share_better = 0.9;
   comparison.effect_size = 0.8;
   comparison.verdict = Verdict::kBetter;
@@ -130,8 +132,9 @@ Comparison SampleComparison() {
   beyond.difference = -1.2;
   beyond.low = -2.2;
   beyond.high = -0.7;
-  beyond.median_low = -2.3;
-  beyond.median_high = -0.8;
+  beyond.mean = -1.25;
+  beyond.mean_low = -2.3;
+  beyond.mean_high = -0.8;
   beyond.test = {0.03, "t test"};
   beyond.p_holm = 0.05;
   beyond.verdict = Verdict::kNoDifference;
@@ -145,11 +148,18 @@ TEST(Summary, SurvivesTheWayToAFileAndBack) {
   Comparison empty;
   empty.metric = "position_error_cm";
   scenario.conditions.push_back({{{"x", "1"}}, {SampleMethod()}, {SampleComparison(), empty}, {empty}});
+  Answer& answer = scenario.conditions[0].answers.emplace_back();
+  answer = {.method = "b", .baseline = "a", .value_metric = "position_error_cm", .verdict = Verdict::kWorse};
+  answer.decided_by = AnswerStep::kSuccess;
+  answer.success = SampleComparison();
   scenario.expectations.push_back({"b below a", ClaimOutcome::kUndecided, "few"});
   const auto text = WriteJson(EncodeSummaries({scenario}));
   const auto back = DecodeSummaries(*ReadJson(*text, "x"), kPlace);
   ASSERT_TRUE(back) << ToString(back.error());
   EXPECT_EQ(*WriteJson(EncodeSummaries(*back)), *text);
+  EXPECT_EQ((*back)[0].conditions[0].answers[0].decided_by, AnswerStep::kSuccess);
+  EXPECT_EQ((*back)[0].conditions[0].answers[0].success->worse, 2);
+  EXPECT_FALSE((*back)[0].conditions[0].answers[0].tail);
   const Comparison& comparison = (*back)[0].conditions[0].comparisons[0];
   EXPECT_EQ(comparison.verdict, Verdict::kBetter);
   EXPECT_EQ(comparison.interval, IntervalKind::kAdjustedWald);
@@ -158,7 +168,7 @@ TEST(Summary, SurvivesTheWayToAFileAndBack) {
   EXPECT_EQ(*comparison.p_holm, 0.04);
   const Beyond &beyond = comparison.beyond, sample = SampleComparison().beyond;
   EXPECT_EQ(beyond.differing, sample.differing);
-  EXPECT_EQ(beyond.median_low, sample.median_low);
+  EXPECT_EQ(beyond.mean_low, sample.mean_low);
   EXPECT_EQ(beyond.verdict, sample.verdict);
   EXPECT_EQ(beyond.left_out[1].unit, "boxing");
   EXPECT_FALSE((*back)[0].conditions[0].rivals[0].beyond.verdict);

@@ -203,7 +203,7 @@ TEST_F(JournalTest, RefusesACellOfAnotherShard) {
   ASSERT_TRUE(journal->Append(LineOf(0, 1)));  // world 0 is the first shard's
   EXPECT_EQ(Complaint(), "");
   ASSERT_TRUE(journal->Append(LineOf(2, 1)));  // world 1 is not
-  EXPECT_THAT(Complaint(), HasSubstr("is none of this run's shard 1/2"));
+  EXPECT_THAT(Complaint(), HasSubstr("does not belong to this run's shard 1/2"));
 }
 
 TEST_F(JournalTest, RefusesACellThatThePlanHasNot) {
@@ -211,7 +211,7 @@ TEST_F(JournalTest, RefusesACellThatThePlanHasNot) {
   auto journal = Journal::Continue(folder());
   ASSERT_TRUE(journal);
   ASSERT_TRUE(journal->Append(EncodeCellLine(plan_.cell_count(), FinishedCell())));
-  EXPECT_THAT(Complaint(), HasSubstr("journal.jsonl:5: cell 12 is none of this run's shard 1/1"));
+  EXPECT_THAT(Complaint(), HasSubstr("journal.jsonl:5: cell 12 does not belong to this run's shard 1/1"));
 }
 
 TEST_F(JournalTest, GivesCellsBackInAnyOrderHoweverLargeItIs) {

@@ -143,7 +143,7 @@ TEST_F(UsedKeysTest, ARepeatedRunIsNotedUnlessTheKeyIsKnownAsUsed) {
 
 TEST_F(UsedKeysTest, AListThatCannotBeWrittenIsRefused) {
   std::filesystem::create_directory(List());
-  EXPECT_THAT(Complaint(Key(), Use()), HasSubstr("cannot be written (Is a directory), so that nothing would tell"));
+  EXPECT_THAT(Complaint(Key(), Use()), HasSubstr("cannot be written (Is a directory), so the use of the key"));
   EXPECT_TRUE(NoteUse(Key(), Use(), true));
   std::filesystem::remove(List());
   std::filesystem::create_symlink(folder_->path() / "elsewhere", List());

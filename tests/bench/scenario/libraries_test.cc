@@ -38,9 +38,9 @@ TEST(Libraries, AreRefusedWhereTheyMakeNoSense) {
   EXPECT_THAT(Complaint(kOfLibraries + "libraries: [a.bvh]\n"), HasSubstr("'libraries' must map names"));
   EXPECT_THAT(Complaint(kOfLibraries + "libraries: {}\n"), HasSubstr("'libraries' must map names"));
   EXPECT_THAT(Complaint(kOfLibraries + "clips: [a.bvh]\nlibraries: {mine: [a.bvh]}\n"),
-              HasSubstr("stands in the place of 'clips'"));
-  EXPECT_THAT(Complaint(kOfLibraries + "libraries: {'my own': [a.bvh]}\n"), HasSubstr("no plain name"));
-  EXPECT_THAT(Complaint(kHead + kMethods + "libraries: {mine: [a.bvh]}\n"), HasSubstr("has no use in task ik"));
+              HasSubstr("replaces 'clips'; leave out one of them"));
+  EXPECT_THAT(Complaint(kOfLibraries + "libraries: {'my own': [a.bvh]}\n"), HasSubstr("not a valid name"));
+  EXPECT_THAT(Complaint(kHead + kMethods + "libraries: {mine: [a.bvh]}\n"), HasSubstr("is not used in task ik"));
 }
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include "bench/metrics/catalogue.h"
+#include "bench/tasks/registry.h"
 #include "tests/bench/scenario/parse.h"
 
 namespace etude {
@@ -21,7 +23,7 @@ TEST(Scenario, ComparesEachMethodWithTheFirstOrTheOneItNames) {
 
 TEST(Scenario, TellsWhatIsWrongAndWhere) {
   EXPECT_THAT(Complaint("question: q?\ntask: ik\n" + kMethods), HasSubstr("a scenario needs 'scenario'"));
-  EXPECT_THAT(Complaint("scenario: ../x\n" + kMethods), HasSubstr("s.yaml:1:11: '../x' is no scenario"));
+  EXPECT_THAT(Complaint("scenario: ../x\n" + kMethods), HasSubstr("s.yaml:1:11: '../x' is not a valid scenario"));
   EXPECT_THAT(
       Complaint("scenario: s\nquestion: q?\ntask: ikk\n" + kMethods),
       HasSubstr(
@@ -36,7 +38,7 @@ TEST(Scenario, TellsWhatIsWrongAndWhere) {
       Complaint(kHead + kMethods + "metrics: [position_eror_cm]\n"),
       HasSubstr("s.yaml:5:11: unknown metric of task ik 'position_eror_cm'; did you mean 'position_error_cm'?"));
   EXPECT_THAT(Complaint(kHead + kMethods + "metrics: [iterations, iterations]\n"),
-              HasSubstr("s.yaml:5:23: the metric 'iterations' stands here twice"));
+              HasSubstr("s.yaml:5:23: the metric 'iterations' is listed twice"));
   EXPECT_THAT(Complaint(kHead + kMethods + "max_swaps: 5\n"),
               HasSubstr("s.yaml:5:1: unknown key of a scenario 'max_swaps'; did you mean 'max_sweeps'?"));
 }
@@ -128,9 +130,36 @@ TEST(Scenario, TellsWhatIsWrongWithLimitsAndTheGate) {
   EXPECT_THAT(complaint("gate: {metrics: [iteration]}"), HasSubstr("s.yaml:5:18: unknown metric of task ik"));
   EXPECT_THAT(complaint("gate: {time_ratios: {of: a}}"), HasSubstr("'time_ratios' must be a list, found a mapping"));
   EXPECT_THAT(complaint("gate: {time_ratios: [{of: a}]}"), HasSubstr("s.yaml:5:22: a time ratio needs 'over'"));
-  EXPECT_THAT(complaint("gate: {time_ratios: [{of: a, over: a}]}"), HasSubstr("over itself says nothing"));
+  EXPECT_THAT(complaint("gate: {time_ratios: [{of: a, over: a}]}"), HasSubstr("needs two methods"));
   EXPECT_THAT(complaint("gate: {time_ratios: [{of: a, over: c}]}"), HasSubstr("s.yaml:5:36: unknown over 'c'"));
   EXPECT_THAT(complaint("gate: {time_ratios: [{of: a, over: b, at_most: 0}]}"), HasSubstr("'at_most': 0 is out of"));
+}
+
+TEST(Scenario, NamesWhatSuccessIsOrTakesTheTasks) {
+  const Scenario plain = ParseOne(kHead + kMethods);
+  EXPECT_EQ(plain.success, "solved_practical");
+  EXPECT_EQ(plain.success_matters, 0.05);
+  const Study study = StudyOf(ParseOne(kHead + kMethods + "success: {metric: solved_tight, matters: 0.1}\n"));
+  EXPECT_EQ(study.success, "solved_tight");
+  EXPECT_EQ(study.success_matters, 0.1);
+  EXPECT_EQ(ParseOne(kHead + kMethods + "success: {matters: 0.02}\n").success, "solved_practical");
+  const auto complaint = [](const std::string& line) { return Complaint(kHead + kMethods + line + "\n"); };
+  EXPECT_THAT(complaint("success: {metric: iterations}"), HasSubstr("s.yaml:5:19: unknown metric 'iterations'"));
+  EXPECT_THAT(complaint("success: {metric: solved_tigt}"), HasSubstr("did you mean 'solved_tight'?"));
+  EXPECT_THAT(complaint("success: {matters: 5}"), HasSubstr("s.yaml:5:20: 'matters': 5 is out of range"));
+  EXPECT_THAT(complaint("success: solved_tight"), HasSubstr("s.yaml:5:10: 'success' must be a mapping"));
+}
+
+TEST(Scenario, OfEveryTaskHasASuccessThatItsCellsReport) {
+  for (const TaskKind& kind : AllTaskKinds()) {
+    const MetricInfo* success = FindMetric(kind.success);
+    ASSERT_NE(success, nullptr) << kind.name;
+    EXPECT_TRUE(success->is_success) << kind.name;
+    EXPECT_EQ(success->direction, Direction::kHigherIsBetter) << kind.name;
+    EXPECT_EQ(success->aggregate, Aggregate::kMean) << kind.name;
+    const bool reported = kind.metrics.empty() || std::ranges::find(kind.metrics, kind.success) != kind.metrics.end();
+    EXPECT_TRUE(reported) << kind.name;
+  }
 }
 
 TEST(Scenario, TellsWhatIsWrongWithAnExpectation) {

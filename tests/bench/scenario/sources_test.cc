@@ -65,7 +65,7 @@ TEST(Sources, TellsWhatIsWrongWithAFileOfSeveralScenarios) {
   EXPECT_THAT(Complaint("scenarios: []\n"), HasSubstr("s.yaml:1:12: 'scenarios' must be a list of at least one"));
   EXPECT_THAT(Complaint("scenarios: 1\n"), HasSubstr("found '1'"));
   EXPECT_THAT(Complaint("scenarios: [1]\n"), HasSubstr("s.yaml:1:13: a scenario must be a mapping"));
-  EXPECT_THAT(Complaint("scenarios: [{include: [a]}]\n"), HasSubstr("'include' stands at the top of a file"));
+  EXPECT_THAT(Complaint("scenarios: [{include: [a]}]\n"), HasSubstr("'include' belongs at the top of a file"));
   EXPECT_THAT(Complaint("default: {trials: 1}\nscenarios: [{}]\n"),
               HasSubstr("s.yaml:1:1: unknown key of a file of several scenarios 'default'; did you mean 'defaults'?"));
   EXPECT_THAT(Complaint("scenario: s\nscenarios: [{}]\n"), HasSubstr("unknown key of a file of several scenarios"));
@@ -85,7 +85,7 @@ TEST(Sources, TellsWhatIsWrongWithAnInclude) {
   };
   EXPECT_THAT(complaint("a.yaml", {}), HasSubstr("s.yaml:1:10: 'include': expected a list, found 'a.yaml'"));
   EXPECT_THAT(complaint("[a.yaml]", {}), HasSubstr("s.yaml:1:11: the text of 'a.yaml' is missing"));
-  EXPECT_THAT(complaint("['']", {}), HasSubstr("s.yaml:1:11: an empty name where a file is named"));
+  EXPECT_THAT(complaint("['']", {}), HasSubstr("s.yaml:1:11: the name of a file is empty"));
   EXPECT_THAT(complaint("[s.yaml]", {}), HasSubstr("s.yaml:1:11: 's.yaml' includes itself"));
   EXPECT_THAT(complaint("[a.yaml]", {{"a.yaml", "include: [./x/../s.yaml]\n"}}),
               HasSubstr("a.yaml:1:11: 's.yaml' includes itself"));

@@ -80,8 +80,8 @@ TEST(Sweep, TellsWhatIsWrongWithAList) {
               HasSubstr("s.yaml:5:9: unknown parameter of task ik 'joint_nose_deg'; did you mean 'joint_noise_deg'?"));
   EXPECT_THAT(SweepComplaint("{poses: []}"), HasSubstr("s.yaml:5:16: 'poses' needs a list of values to sweep over"));
   EXPECT_THAT(SweepComplaint("{poses: 1}"), HasSubstr("or a range such as {from: 5, to: 20, step: 5}, found '1'"));
-  EXPECT_THAT(SweepComplaint("{poses: [1, 1]}"), HasSubstr("s.yaml:5:20: the value '1' stands here twice"));
-  EXPECT_THAT(SweepComplaint("{poses: [1, 1.0]}"), HasSubstr("s.yaml:5:20: the value '1.0' stands here twice"));
+  EXPECT_THAT(SweepComplaint("{poses: [1, 1]}"), HasSubstr("s.yaml:5:20: the value '1' is listed twice"));
+  EXPECT_THAT(SweepComplaint("{poses: [1, 1.0]}"), HasSubstr("s.yaml:5:20: the value '1.0' is listed twice"));
   EXPECT_THAT(SweepComplaint("{poses: [a/b]}"), HasSubstr("found 'a/b'"));
   EXPECT_THAT(SweepComplaint("{poses: [[1]]}"), HasSubstr("must be a number or a text, found a list"));
 }
@@ -104,21 +104,21 @@ TEST(Sweep, TellsWhatIsWrongWithARange) {
   EXPECT_THAT(complaint("{from: 0, to: 1, count: 2000}"), HasSubstr("allowed: 2 to 1000"));
   EXPECT_THAT(complaint("{from: 0, to: 1, count: 5, scale: log}"), HasSubstr("'from' and 'to' above 0"));
   EXPECT_THAT(complaint("{from: 1, to: 2, step: 1, scale: log}"), HasSubstr("'scale: log' needs 'count'"));
-  EXPECT_THAT(complaint("{from: 1, to: 1, count: 2}"), HasSubstr("the value '1' stands here twice"));
+  EXPECT_THAT(complaint("{from: 1, to: 1, count: 2}"), HasSubstr("the value '1' is listed twice"));
 }
 
 TEST(Sweep, TellsWhatIsWrongWithParametersSteppedTogether) {
   EXPECT_THAT(
       SweepComplaint("{together: {poses: [1, 0.5], max_sweeps: [1, 2, 3]}}"),
       HasSubstr(
-          "s.yaml:5:49: 'poses' and 'max_sweeps' are stepped together; they need as many values each, found 2 and 3"));
+          "s.yaml:5:49: 'poses' and 'max_sweeps' are stepped together; they need equally many values, found 2 and 3"));
   EXPECT_THAT(SweepComplaint("{together: {poses: [1]}}"), HasSubstr("s.yaml:5:19: 'together' needs at least two"));
   EXPECT_THAT(SweepComplaint("{together: [1, 2]}"), HasSubstr("found '1'"));
   EXPECT_THAT(SweepComplaint("{together: []}"), HasSubstr("'together' needs at least two"));
   EXPECT_THAT(SweepComplaint("{poses: [1], together: {poses: [1], max_sweeps: [2]}}"),
               HasSubstr("'poses' is swept twice"));
   EXPECT_THAT(SweepComplaint("{together: {poses: [1, 0.5, 1], max_sweeps: [1, 2, 1]}}"),
-              HasSubstr("s.yaml:5:36: the values 'poses=1, max_sweeps=1' stand here twice"));
+              HasSubstr("s.yaml:5:36: the values 'poses=1, max_sweeps=1' are listed twice"));
   EXPECT_THAT(SweepComplaint("{together: {poses: [1, 2], max_swaps: [1, 2]}}"), HasSubstr("did you mean 'max_sweeps'"));
 }
 

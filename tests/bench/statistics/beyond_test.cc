@@ -28,22 +28,23 @@ UnitSample OneWay(const std::vector<double>& means, int worlds_each = 3) {
 }
 
 Beyond Judged(const UnitSample& sample, int comparisons = 1) {
-  Beyond beyond = MeasureBeyond(sample, comparisons, 1, "x");
+  Beyond beyond = MeasureBeyond(sample, comparisons);
   beyond.p_holm = beyond.test.p;
   beyond.verdict = VerdictBeyond(beyond, Metric());
   beyond.why_open = WhyOpenBeyond(beyond, Metric(), SamplingUnit::kClip, comparisons);
   return beyond;
 }
 
-TEST(MeasureBeyond, IsStudentsIntervalOfTheUnitsMeans) {
+TEST(MeasureBeyond, IsThePseudoMedianOfTheUnitsMeansAndShowsStudentsIntervalOfTheirMean) {
   // scipy.stats.ttest_1samp([-4, -6, -5, -9, -3, -7, -8], 0).confidence_interval(): −7.9979, −4.0021
   const Beyond beyond = Judged(OneWay({-4, -6, -5, -9, -3, -7, -8}));
   EXPECT_EQ(beyond.units, 7);
   EXPECT_DOUBLE_EQ(*beyond.difference, -6);
-  EXPECT_NEAR(*beyond.low, -7.997895, 1e-6);
-  EXPECT_NEAR(*beyond.high, -4.002105, 1e-6);
-  EXPECT_EQ(*beyond.median_low, -9);
-  EXPECT_EQ(*beyond.median_high, -3);
+  EXPECT_DOUBLE_EQ(*beyond.low, -8);  // R: wilcox.test(-3:-9, conf.int = TRUE)
+  EXPECT_DOUBLE_EQ(*beyond.high, -4);
+  EXPECT_DOUBLE_EQ(*beyond.mean, -6);
+  EXPECT_NEAR(*beyond.mean_low, -7.997895, 1e-6);
+  EXPECT_NEAR(*beyond.mean_high, -4.002105, 1e-6);
   EXPECT_DOUBLE_EQ(*beyond.test.p, 2.0 / 128) << "all seven signs agree";
   EXPECT_EQ(beyond.verdict, Verdict::kBetter);
 }
@@ -52,7 +53,7 @@ TEST(MeasureBeyond, CountsUnitsAndNotWorlds) {
   const Beyond few = Judged(OneWay({-4, -6, -5, -9}, 300));
   EXPECT_EQ(few.units, 4);
   EXPECT_FALSE(few.verdict);
-  EXPECT_DOUBLE_EQ(*few.difference, -6);
+  EXPECT_DOUBLE_EQ(*few.mean, -6);
   EXPECT_FALSE(few.low);
   EXPECT_FALSE(few.test.p);
   EXPECT_EQ(few.left_out.size(), 4u) << "does one clip carry it?";
@@ -62,7 +63,7 @@ TEST(MeasureBeyond, CountsUnitsAndNotWorlds) {
 
 TEST(MeasureBeyond, TakesTheTTestWhereSignsCannotReachFivePercent) {
   const std::vector<double> means = {-4, -6, -5, -9, -3, -7};
-  EXPECT_THAT(Judged(OneWay(means)).test.how, HasSubstr("sign flips"));
+  EXPECT_THAT(Judged(OneWay(means)).test.how, HasSubstr("signed ranks"));
   const Beyond among_two = Judged(OneWay(means), 2);  // 2⁻⁵ × 2 > 0.05
   EXPECT_EQ(among_two.test.how, "t test of units' means");
   EXPECT_NEAR(*among_two.test.p, 0.0013559, 1e-6);  // scipy.stats.ttest_1samp
@@ -75,6 +76,19 @@ TEST(MeasureBeyond, ShowsWhichUnitCarriesTheDifference) {
   EXPECT_EQ(beyond.left_out[5].unit, "clip-f");
   EXPECT_DOUBLE_EQ(beyond.left_out[5].difference, 0);
   EXPECT_EQ(beyond.verdict, Verdict::kInconclusive);
+}
+
+TEST(MeasureBeyond, ClaimsNothingThatTheMeanContradicts) {
+  std::vector<double> means;
+  for (int i = 0; i < 20; ++i) means.push_back(-1.5 - 0.02 * i);
+  EXPECT_EQ(Judged(OneWay(means)).verdict, Verdict::kBetter);
+  means.push_back(60);  // one clip is far worse, and outweighs the twenty
+  const Beyond beyond = Judged(OneWay(means));
+  EXPECT_LT(*beyond.high, -1);
+  EXPECT_LE(*beyond.test.p, 0.01);
+  EXPECT_GT(*beyond.mean, 0);
+  EXPECT_EQ(beyond.verdict, Verdict::kInconclusive);
+  EXPECT_THAT(beyond.why_open, HasSubstr("few outweigh the others"));
 }
 
 TEST(MeasureBeyond, SaysNoDifferenceOnlyOfUnitsThatDiffer) {
@@ -110,8 +124,11 @@ TEST(MeasureBeyond, LeavesOutAClipInWhateverPart) {
     squares += (without - 2 * sum / 6) * (without - 2 * sum / 6);
   }
   const double half = 2.570582 * std::sqrt(5.0 / 6 * squares);  // t of 5 degrees of freedom
-  EXPECT_NEAR(*beyond.high, 2 * sum / 6 + half, 1e-5);
-  EXPECT_EQ(beyond.test.how, "t test, clips left out in turn");
+  EXPECT_NEAR(*beyond.mean_high, 2 * sum / 6 + half, 1e-5);
+  // A clip's value is twice its effect: it is left, and it is entered.
+  EXPECT_DOUBLE_EQ(*beyond.low, -10);
+  EXPECT_DOUBLE_EQ(*beyond.high, -2);
+  EXPECT_EQ(beyond.test.how, "signed ranks of units, exact");
   EXPECT_EQ(beyond.verdict, Verdict::kBetter);
 }
 
@@ -152,7 +169,7 @@ int AlarmsBeyond(bool two_way, bool as_worlds) {
         sample.units[world] = {static_cast<int>(world)};
       }
     }
-    Beyond beyond = MeasureBeyond(sample, 1, 1, "x");
+    Beyond beyond = MeasureBeyond(sample, 1);
     beyond.p_holm = beyond.test.p;
     const auto verdict = VerdictBeyond(beyond, metric);
     alarms += verdict == Verdict::kBetter || verdict == Verdict::kWorse;

@@ -9,6 +9,7 @@
 #include "engine/cameras/rig_file.h"
 #include "engine/coaching/session.h"
 #include "engine/formats/bvh.h"
+#include "engine/formats/joint_csv.h"
 #include "engine/formats/trc.h"
 #include "engine/fuzzy/features.h"
 #include "engine/keypoints/recover_person.h"
@@ -146,19 +147,43 @@ TEST(ApiMotion, ReadsWhatTheEngineWrote) {
   const Motion read = ReadMotion(WriteTrc(flap, "flap"), "flap.trc");
   ASSERT_EQ(read.poses.size(), 30u);
   EXPECT_EQ(read.rate_hz, 30);
-  double lowest = 1;
   for (std::size_t k = 0; k < 30; ++k) {
     for (std::size_t i = 0; i < kRoleCount; ++i) {
-      const auto from_hips = [&](const auto& joints) { return joints[i] - joints[0]; };
-      EXPECT_LT(glm::distance(from_hips(read.poses[k].joints), from_hips(flap.poses[k].joints)), 1e-4) << k << " " << i;
-      lowest = std::min(lowest, read.poses[k].joints[i].y);
+      EXPECT_LT(glm::distance(read.poses[k].joints[i], flap.poses[k].joints[i]), 1e-4) << k << " " << i;
     }
   }
-  EXPECT_NEAR(lowest, 0, 1e-9) << "feet on the floor";
   EXPECT_EQ(ReadMotion(WriteTrc(flap, "flap"), "flap.trc", 60).poses.size(), 59u);
   EXPECT_THAT(Complaint([&] { ReadMotion(WriteTrc(flap, "flap"), "flap.trc", 0.5); }), HasSubstr("a rate of 0.5 Hz"));
   EXPECT_EQ(RoleName(Role::kLeftElbow), "left_elbow");
   EXPECT_NE(Complaint([] { RoleName(static_cast<Role>(20)); }), "");
+}
+
+TEST(ApiMotion, ReadsEtudesOwnTablesAsWrittenAndSaysEveryChange) {
+  BodyMotion raised = Flap(30, 60);
+  for (BodyPose& pose : raised.poses) {
+    for (glm::dvec3& joint : pose.joints) joint.y += 0.175;
+  }
+  const auto farthest = [&](const Motion& read, double above) {
+    double off = 0;
+    for (std::size_t k = 0; k < read.poses.size(); ++k) {
+      for (std::size_t i = 0; i < kRoleCount; ++i) {
+        off = std::max(off, glm::distance(read.poses[k].joints[i], raised.poses[k].joints[i] - glm::dvec3(0, above, 0)));
+      }
+    }
+    return off;
+  };
+  for (const std::string& bytes : {WriteJointCsv(raised), WriteTrc(raised, "raised")}) {
+    const Motion read = ReadMotion(bytes, "raised");
+    ASSERT_EQ(read.poses.size(), 30u);
+    EXPECT_LT(farthest(read, 0), 1e-4);
+    EXPECT_THAT(read.changes, ::testing::ElementsAre("Etude's joints"));
+  }
+  const Motion turned = ReadMotion(WriteJointCsv(raised), "a.csv", 60, {.keep_floor = true, .up = 'z'});
+  EXPECT_THAT(turned.changes, ::testing::ElementsAre("Etude's joints", "turned upright from Z up (told)",
+                                                     "resampled from 30 to 60 Hz"));
+  EXPECT_THAT(Complaint([&] { ReadMotion(WriteJointCsv(raised), "a.csv", 30, {.up = 'w'}); }), HasSubstr("allowed: y, z"));
+  EXPECT_THAT(Complaint([&] { ReadMotion(WriteJointCsv(raised), "a.csv", 30, {.marker_set = "opencup"}); }),
+              HasSubstr("opencap"));
 }
 
 TEST(ApiFuzzy, FeaturesAndDistancesAreTheEngines) {

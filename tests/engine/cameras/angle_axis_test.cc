@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kHalfTurn = 3.14159265358979323846;
 
 double Distance(const glm::dmat3& a, const glm::dmat3& b) {
   double most = 0;
@@ -24,10 +24,10 @@ double Distance(const glm::dmat3& a, const glm::dmat3& b) {
 /// Vectors of all lengths up to π, the smallest below what has a first order alone.
 std::vector<glm::dvec3> Turns() {
   testing::Dice dice(1);
-  std::vector<glm::dvec3> turns = {{0, 0, 0}, {kPi, 0, 0}, {0, 0, -kPi}};
+  std::vector<glm::dvec3> turns = {{0, 0, 0}, {kHalfTurn, 0, 0}, {0, 0, -kHalfTurn}};
   for (int i = 0; i < 200; ++i) {
     const glm::dvec3 axis = glm::normalize(dice.Vector());
-    turns.push_back(std::pow(10.0, -(i % 12)) * kPi * (0.1 + 0.8999 * (i % 7) / 6.0) * axis);
+    turns.push_back(std::pow(10.0, -(i % 12)) * kHalfTurn * (0.1 + 0.8999 * (i % 7) / 6.0) * axis);
   }
   return turns;
 }
@@ -50,7 +50,7 @@ TEST(AngleAxis, ComesBackFromItsRotation) {
     // By π, both directions of the axis are the same rotation.
     const double off = std::min(glm::distance(back, v), glm::length(v) > 3.14 ? glm::distance(-back, v) : 9.0);
     EXPECT_LT(off, 1e-14) << v.x << " " << v.y << " " << v.z;
-    EXPECT_LE(glm::length(back), kPi + 1e-15);
+    EXPECT_LE(glm::length(back), kHalfTurn + 1e-15);
   }
 }
 

@@ -70,7 +70,8 @@ TEST(Planes, APoseComesBackFromItsHomography) {
   const std::vector<Camera> pinhole{LookAt({}, {0.4, 1.2, 2.5}, {0, 1, 0})};
   RandomStream dice(WorldKey{.suite_seed = 1, .scenario = "planes", .trial = 1}, "boards");
   const CalibrationTargetPose pose = AnyPose(dice);
-  const CalibrationTargetPose found = PoseOfPlane(pinhole[0].intrinsics, *HomographyOf(Views(pinhole, 1, 0).front().pairs));
+  const CalibrationTargetPose found =
+      PoseOfPlane(pinhole[0].intrinsics, *HomographyOf(Views(pinhole, 1, 0).front().pairs));
   const glm::dmat3 R_CT = pinhole[0].R_CW * pose.R_WT;
   for (int i = 0; i < 3; ++i) EXPECT_LT(glm::distance(found.R_WT[i], R_CT[i]), 1e-8);
   EXPECT_LT(glm::distance(found.p_WT, pinhole[0].R_CW * (pose.p_WT - pinhole[0].p_WC)), 1e-8);
@@ -122,6 +123,23 @@ TEST(Planes, TellAnyFocalLengthOfUpToFiftyPictureWidths) {
     EXPECT_NEAR(found->fx, 640 * widths, 1e-6 * widths);
     EXPECT_NEAR(found->fy, 600 * widths, 1e-6 * widths);
     EXPECT_EQ(glm::dvec2(found->cx, found->cy), glm::dvec2(320, 240));
+  }
+}
+
+TEST(Planes, BoardsAreLocatedThroughAnyLens) {
+  const std::vector<Distortion> lenses = {
+      {.k1 = -0.1, .k2 = 0.03, .p1 = 0.001, .p2 = -0.001},
+      {.k1 = 0.08, .k2 = -0.02, .k3 = 0.01, .k4 = 0.006, .is_fisheye = true},
+      {.k1 = 0.2, .k2 = 0.05, .p1 = 0.002, .p2 = -0.007, .k3 = 0.02, .k4 = 0.1, .k5 = -0.03, .k6 = 0.01},
+      {.k1 = -0.25, .k2 = 0.06, .s1 = 0.01, .s2 = -0.006, .s3 = 0.02, .s4 = 0.004},
+      {.k1 = 0.15, .tau_x = 0.06, .tau_y = -0.09}};
+  for (const Distortion& lens : lenses) {
+    std::vector<Camera> cameras = TrueCameras();
+    for (Camera& camera : cameras) camera.distortion = lens;
+    const auto located = LocateBoards(cameras, Views(cameras, 6, 0));
+    ASSERT_TRUE(located) << ToString(located.error());
+    EXPECT_LT(located->rms_px, 1e-5) << lens.k1;
+    EXPECT_EQ(located->cameras[1].distortion, lens) << "cameras are held";
   }
 }
 

@@ -129,6 +129,45 @@ TEST(RigFile, RefusedWithPlaceAndReason) {
   EXPECT_THAT(reason(std::string(2u << 20, ' ')), HasSubstr("allowed: 1048576"));
 }
 
+TEST(RigFile, RefusesWhateverNumberIsNotFinite) {
+  // Every number of every camera in turn; the control is read.
+  const auto spoilt = [](const std::string& good, const std::string& nan, std::string_view begins) {
+    EXPECT_TRUE(ReadRig(good, "rig"));
+    int read = 0, refused = 0;
+    for (std::size_t at = good.find(begins); at < good.size(); at = good.find_first_of("0123456789", at)) {
+      const std::size_t from = at = good.find_first_of("0123456789", at);
+      if (from == std::string::npos) break;
+      at = good.find_first_not_of("0123456789.e-+", from);
+      const char before = good[from - 1];
+      if (before != ' ' && before != '-' && before != '[') continue;  // of a name
+      const std::string bad = good.substr(0, from) + nan + good.substr(std::min(at, good.size()));
+      const auto rig = ReadRig(bad, "rig");
+      EXPECT_FALSE(rig) << bad.substr(from < 60 ? 0 : from - 60, 90);
+      (rig ? read : refused) += 1;
+    }
+    EXPECT_EQ(read, 0);
+    EXPECT_GT(refused, 20);
+  };
+  const NamedCamera camera{"left", TwoCameras().front().camera};
+  std::string toml = WritePose2SimCalibration(std::span(&camera, 1));
+  toml.resize(toml.find("[metadata]"));
+  spoilt(toml, "nan", "size");
+  spoilt(toml, "inf", "size");
+  std::string yaml = WriteOpenCvCamera(camera.camera);
+  for (std::size_t at = 0; (at = yaml.find("   rows:", at)) != std::string::npos;) {
+    yaml.erase(at, yaml.find("   data:", at) - at);  // sizes of matrices are not read
+  }
+  spoilt(yaml, "nan", "image_width");
+  spoilt(yaml, ".nan", "image_width");
+}
+
+TEST(RigFile, RefusesALensThatItCannotRead) {
+  const std::string toml = WritePose2SimCalibration(TwoCameras());
+  const auto camera = ReadRig(Changed(toml, "fisheye = false", "fisheye = yes"), "rig");
+  ASSERT_FALSE(camera);
+  EXPECT_THAT(camera.error().message, HasSubstr("fisheye is yes; allowed: true, false"));
+}
+
 /// A matrix as cv::FileStorage writes it.
 std::string OpenCvMatrix(const std::string& name, std::size_t rows, const std::vector<double>& values) {
   return fmt::format("{}: !!opencv-matrix\n   rows: {}\n   cols: {}\n   dt: d\n   data: [ {:.17g} ]\n", name, rows,

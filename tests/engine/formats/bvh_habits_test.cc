@@ -140,6 +140,26 @@ TEST(BvhHabits, IncludePlacesInTheChannelsAlone) {
   ASSERT_TRUE(clip) << ToString(clip.error());
   EXPECT_EQ(clip->skeleton.joints[1].rest.translation, glm::dvec3(0, 10, 1));
   EXPECT_EQ(clip->frames[1][1].translation, glm::dvec3(0, 11, 1));
+  EXPECT_EQ(remarks, (std::vector<std::string>{
+                         "1 joints with positions have an OFFSET of 0: they rest where the first frame has them"}));
+}
+
+TEST(BvhHabits, IncludePlacesRelativeToTheOffset) {
+  const std::string head = "HIERARCHY\nROOT a\n{\nOFFSET 0 9 0\nCHANNELS 3 Xposition Yposition Zposition\nJOINT b\n{\n"
+                           "OFFSET 0 10 0\nCHANNELS 3 Xposition Yposition Zposition\nJOINT c\n{\nOFFSET 5 0 0\nCHANNELS 3 "
+                           "Xposition Yposition Zposition\n}\n}\n}\nMOTION\nFrames: 2\nFrame Time: .1\n";
+  std::vector<std::string> remarks;
+  const auto relative = ReadBvh(head + "1 2 3 0 0 0 0 0 0\n1 2 3 0 .5 0 0 0 .1\n", "relative.bvh", &remarks);
+  ASSERT_TRUE(relative) << ToString(relative.error());
+  EXPECT_EQ(relative->frames[1][0].translation, glm::dvec3(1, 2, 3)) << "the root's places are the world's";
+  EXPECT_EQ(relative->frames[1][1].translation, glm::dvec3(0, 10.5, 0));
+  EXPECT_EQ(relative->frames[1][2].translation, glm::dvec3(5, 0, .1));
+  EXPECT_EQ(remarks, (std::vector<std::string>{"the joints' places are relative to their OFFSETs: added"}));
+  // The control: absolute places replace the OFFSETs, also those of a joint that moves a little.
+  const auto absolute = ReadBvh(head + "1 2 3 0 10 0 5 0 0\n1 2 3 0 10.5 0 5 0 .1\n", "absolute.bvh", &remarks);
+  ASSERT_TRUE(absolute);
+  EXPECT_EQ(absolute->frames[1][1].translation, glm::dvec3(0, 10.5, 0));
+  EXPECT_EQ(absolute->frames[1][2].translation, glm::dvec3(5, 0, .1));
   EXPECT_EQ(remarks.size(), 1u);
 }
 

@@ -65,6 +65,35 @@ TEST(C3d, ReadsMoreThan255PointsAndThoseWithoutNames) {
   EXPECT_NEAR(read->markers.frames[2][30]->x, 3.0, 1e-9);
 }
 
+TEST(C3d, HasAsManyFramesAsLongFramesTells) {
+  for (const int machine : {kIntel, kDec, kMips}) {
+    for (const std::size_t header_frames : {std::size_t{65535}, std::size_t{66000 % 65536}}) {
+      C3dWriter writer(machine, false);
+      writer.frames = 66'000;
+      writer.header_frames = header_frames;
+      writer.long_frames = 66'000;
+      const auto read = ReadC3d(writer.Write(), "a.c3d");
+      ASSERT_TRUE(read) << ToString(read.error());
+      EXPECT_EQ(read->markers.frames.size(), 66'000u);
+      EXPECT_EQ(read->markers.remark, "");
+    }
+  }
+}
+
+TEST(C3d, TellsOfDataBeyondTheLastFrame) {
+  C3dWriter writer(kIntel, true);
+  writer.frames = 100;
+  writer.header_frames = 40;
+  const auto read = ReadC3d(writer.Write(), "a.c3d");
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_EQ(read->markers.frames.size(), 40u);
+  EXPECT_EQ(read->markers.remark, "data of 60 more frames follow the 40 that its header tells: not read");
+  writer.header_frames = 100;
+  std::string padded = writer.Write();
+  padded.resize(padded.size() + 2000, '\0');
+  EXPECT_EQ(ReadC3d(padded, "a.c3d")->markers.remark, "") << "zeros are no data";
+}
+
 TEST(C3d, TakesWhatIsNoNumberForAGap) {
   std::string bytes = C3dWriter(kIntel, true).Write();
   const float nan = std::numeric_limits<float>::quiet_NaN();

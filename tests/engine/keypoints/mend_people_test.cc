@@ -154,6 +154,22 @@ TEST(MendPerson, FindsThePersonAgainWhereSomebodyElsesKeypointsStoodForIt) {
   }
 }
 
+TEST(MendPerson, OfSeveralWhoFitMuchBetterTheBestIsTaken) {
+  for (const bool is_first : {true, false}) {
+    MendedTake take(4);
+    for (std::size_t k = 10; k < 20; ++k) {
+      // A second detection of the walker, some pixels off.
+      auto& people = take.people[1][k];
+      SeenPerson blurred = people[1];
+      for (Keypoint& keypoint : blurred.keypoints) keypoint.pixel += glm::dvec2(4, 4);
+      take.person.seen[1][k] = people[0];
+      people.insert(is_first ? people.begin() : people.end(), blurred);
+    }
+    take.Run();
+    EXPECT_EQ(take.Wrong(), 0u) << is_first;
+  }
+}
+
 TEST(MendPerson, TakesNobodyWhereAThirdCameraContradictsAndNobodyFits) {
   for (const std::size_t cameras : {2u, 4u}) {
     MendedTake take(cameras);

@@ -110,7 +110,7 @@ TEST(PlaceRig, FindsTheAxisThatIsUpAndTheFloorUnderTheFeet) {
     const auto place =
         PlaceRig(SomeRig(), Stander([&](glm::dvec3 p) { return R * (p + glm::dvec3(0, 0.5, 0)); }, 6), kPlaceRate, {});
     ASSERT_TRUE(place) << name;
-    EXPECT_THAT(place->told, HasSubstr(std::string("up is ") + name + " (found: feet and person)"));
+    EXPECT_THAT(place->told, HasSubstr(std::string("up is ") + name + " (found: resting feet)"));
     EXPECT_THAT(place->told, HasSubstr("the floor under the feet"));
     const glm::dvec3 floor = (*place)(R * glm::dvec3(0.3, 0.5, 0.2)), above = (*place)(R * glm::dvec3(0.3, 1.5, 0.2));
     EXPECT_NEAR(floor.y, 0, 1e-9) << name;
@@ -126,7 +126,7 @@ TEST(PlaceRig, PutsAWorldThatIsACamerasFrameSquareToTheFloorOfTheFeet) {
   for (const double lean_deg : {0.0, 8.0}) {
     const auto place = PlaceRig(rig, Stander(to_camera, lean_deg), kPlaceRate, {});
     ASSERT_TRUE(place) << ToString(place.error());
-    EXPECT_THAT(place->told, HasSubstr("up is square to the floor under the feet"));
+    EXPECT_THAT(place->told, HasSubstr("up is known from resting feet, to within 1."));
     EXPECT_THAT(place->told, HasSubstr("(the world was cam1's own frame)"));
     for (const glm::dvec3 p : {glm::dvec3(0), glm::dvec3(0.8, 0, 0.6), glm::dvec3(0, 1.7, 0)}) {
       EXPECT_NEAR((*place)(to_camera(p)).y, p.y, 0.003) << lean_deg;
@@ -139,7 +139,8 @@ TEST(PlaceRig, TellsOfAFloorThatIsOffLevelAndLevelsItWhenAsked) {
   const auto kept = PlaceRig(SomeRig(), tilted, kPlaceRate, {});
   ASSERT_TRUE(kept) << ToString(kept.error());
   EXPECT_TRUE(kept->IsNone());
-  EXPECT_THAT(kept->told, HasSubstr("12° off level; if they stood on a level floor, give --rig-up floor"));
+  EXPECT_THAT(kept->told,
+              HasSubstr("though resting feet say that it is 12° off level; if they are right, give --rig-up floor"));
   const auto level = PlaceRig(SomeRig(), tilted, kPlaceRate, {.up = "floor"});
   ASSERT_TRUE(level) << ToString(level.error());
   const glm::dvec3 up = level->R * TurnAboutX(12) * glm::dvec3(0, 1, 0);
@@ -153,7 +154,7 @@ TEST(PlaceRig, RefusesAPersonUpsideDownAndFramesWithoutOne) {
   const auto points = Stander([](glm::dvec3 p) { return p; });
   const auto down = PlaceRig(SomeRig(), points, kPlaceRate, {.up = "-y"});
   ASSERT_FALSE(down);
-  EXPECT_THAT(down.error().message, HasSubstr("with -y up the person hangs head down (180° off)"));
+  EXPECT_THAT(down.error().message, HasSubstr("with -y up all hangs head down (180° off); up is known from "));
   const auto side = PlaceRig(SomeRig(), points, kPlaceRate, {.up = "x"});
   ASSERT_TRUE(side) << "lying is allowed";
   EXPECT_LT(glm::distance(side->R * glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)), 1e-12);

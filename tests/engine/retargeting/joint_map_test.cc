@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -208,6 +209,90 @@ TEST(JointMap, TakesNoEyeForTheCrownOfTheHead) {
   // The control: straight on from the trunk it is the crown.
   daz.joints[crown].rest.translation = {0, 15, 0};
   EXPECT_EQ((*FindJointMap(daz, "daz.bvh"))[Role::kHead].joint, crown);
+}
+
+/// A person whose head and left foot rest turned away, and are turned back in every frame.
+Clip TurnedAtRest(const glm::dquat& head, const glm::dquat& foot) {
+  Clip clip = testing::AtRest(testing::PersonSkeleton(), 4);
+  for (const auto& [joint, tip, turn] : {std::tuple("Head", "Head_End", head), {"LeftFoot", "LeftToeBase", foot}}) {
+    LocalTransform& rest = clip.skeleton.joints[clip.skeleton.Find(tip)].rest;
+    rest.translation = turn * rest.translation;
+    for (std::size_t f = 0; f < clip.frames.size(); ++f) {
+      testing::At(clip, f, tip).translation = rest.translation;
+      testing::At(clip, f, joint).rotation = glm::conjugate(turn);
+    }
+  }
+  return clip;
+}
+
+BodyPose BodyInMotion(const Clip& clip, const JointMap& map) {
+  std::vector<GlobalTransform> globals;
+  ComputeGlobals(clip.skeleton, clip.frames.front(), globals);
+  return Evaluate(map, globals);
+}
+
+TEST(JointMap, JudgesTipsInMotionWhereTheRestPoseIsNone) {
+  const glm::dquat back = testing::Turn(-1.6, {1, 0, 0}), up = testing::Turn(-2.2, {1, 0, 0});
+  const Clip clip = TurnedAtRest(back, up);
+  const auto map = FindJointMap(clip.skeleton, "turned.bvh", nullptr, clip.frames);
+  ASSERT_TRUE(map) << ToString(map.error());
+  EXPECT_THAT(map->composed, ElementsAre());
+  testing::ExpectThePersonsPlaces(BodyInMotion(clip, *map), 1, 1e-9);
+  // The control: by the rest pose alone the head is composed, and lies elsewhere in motion.
+  const auto at_rest = FindJointMap(clip.skeleton, "turned.bvh");
+  ASSERT_TRUE(at_rest);
+  EXPECT_GT(glm::distance(BodyInMotion(clip, *at_rest)[kHead], {0, 165, 0}), 20);
+}
+
+TEST(JointMap, ComposesInMotionWhatTheRestPosePointsElsewhere) {
+  Clip clip = TurnedAtRest(testing::Turn(-1.6, {1, 0, 0}), glm::dquat(1, 0, 0, 0));
+  const int crown = clip.skeleton.Find("Head_End");
+  clip.skeleton = Without(clip.skeleton, "Head_End");
+  for (LocalPose& frame : clip.frames) frame.erase(frame.begin() + crown);
+  const auto map = FindJointMap(clip.skeleton, "turned.bvh", nullptr, clip.frames);
+  ASSERT_TRUE(map) << ToString(map.error());
+  EXPECT_THAT(map->composed, ElementsAre(kHead));
+  ExpectNear(BodyInMotion(clip, *map)[kHead], {0, 165, 0}, 1e-9);
+}
+
+TEST(JointMap, IsOneForASkeletonWhoseTipsAreEndSitesOrNodes) {
+  // As CMU's converters have it: the neck lies at the chest, and nothing is called a head.
+  Skeleton sites = testing::PersonSkeleton();
+  sites.joints[sites.Find("Head_End")].name = "Neck1_End";
+  sites.joints[sites.Find("Head")].name = "Neck1";
+  sites.joints[sites.Find("Neck")].rest.translation = {0, 0, 0};
+  sites.joints[sites.Find("Neck1")].rest.translation = {0, 12, 2};
+  for (const char* collar : {"LeftShoulder", "RightShoulder"}) sites.joints[sites.Find(collar)].rest.translation.y = 0;
+  Skeleton nodes = sites;
+  for (Joint& joint : nodes.joints) joint.is_end_site = false;
+  const auto of_sites = FindJointMap(sites, "a.bvh"), of_nodes = FindJointMap(nodes, "a.glb");
+  ASSERT_TRUE(of_sites) << ToString(of_sites.error());
+  ASSERT_TRUE(of_nodes) << ToString(of_nodes.error());
+  EXPECT_EQ(of_sites->composed, of_nodes->composed);
+  for (const Role role : AllRoles()) {
+    EXPECT_EQ((*of_sites)[role].joint, (*of_nodes)[role].joint) << RoleName(role);
+    EXPECT_EQ((*of_sites)[role].offset, (*of_nodes)[role].offset) << RoleName(role);
+  }
+}
+
+TEST(JointMap, TakesAStandingFrameForARestPoseThatIsNone) {
+  // At rest all limbs are folded up beside the trunk; every frame unfolds them.
+  Clip clip = testing::AtRest(testing::PersonSkeleton(), 3);
+  for (const char* name : {"LeftUpLeg", "RightUpLeg"}) {
+    for (const char* below : {"Leg"}) {
+      const std::string leg = std::string(name).substr(0, name[0] == 'L' ? 4 : 5) + below;
+      Joint& joint = clip.skeleton.joints[clip.skeleton.Find(leg)];
+      joint.rest.translation = {0, 43, 0};
+      for (std::size_t f = 0; f < 3; ++f) {
+        testing::At(clip, f, leg).translation = {0, 43, 0};
+        testing::At(clip, f, name).rotation = testing::Turn(3.141592653589793, {1, 0, 0});
+        testing::At(clip, f, leg).rotation = testing::Turn(3.141592653589793, {1, 0, 0});
+      }
+    }
+  }
+  const auto map = FindJointMap(clip.skeleton, "folded.bvh", nullptr, clip.frames);
+  ASSERT_TRUE(map) << ToString(map.error());
+  testing::ExpectThePersonsPlaces(BodyInMotion(clip, *map), 1, 1e-6);
 }
 
 TEST(JointMap, ComposesFeetForwardAndASpineHalfWayWhenThereAreNone) {

@@ -55,40 +55,255 @@ MarkerMotion OwnJoints() {
               [](const BodyPose& pose) { return std::vector<glm::dvec3>(pose.joints.begin(), pose.joints.end()); });
 }
 
-double FurthestJoint(const BodyMotion& motion, std::size_t first = 0) {
+double FurthestJoint(const BodyMotion& motion, double floor = 0) {
   double furthest = 0;
   for (std::size_t t = 0; t < motion.poses.size(); ++t) {
-    BodyPose wanted = StandingAt(first + t);
-    for (glm::dvec3& joint : wanted.joints) joint.y -= 0.02;  // the floor is under the toes
+    BodyPose wanted = StandingAt(t);
+    for (glm::dvec3& joint : wanted.joints) joint.y -= floor;
     for (const Role role : AllRoles())
       furthest = std::max(furthest, glm::distance(motion.poses[t][role], wanted[role]));
   }
   return furthest;
 }
 
-TEST(Markers, OfOurOwnNamesAreTheJoints) {
+TEST(Markers, OfOurOwnNamesAreTheJointsAsTheyWereWritten) {
   const auto bodies = FindMarkerBodies(OwnJoints(), "a.trc");
   ASSERT_TRUE(bodies) << ToString(bodies.error());
   ASSERT_EQ(bodies->size(), 1u);
   EXPECT_EQ(bodies->front().motion.rate_hz, 50);
   EXPECT_EQ(bodies->front().motion.poses.size(), kTakeFrames);
-  EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12);
+  EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12) << "the floor included";
   EXPECT_EQ(bodies->front().note, "Etude's joints");
+  // Half a metre off the floor and more is moved, and said; --keep-floor leaves it.
+  MarkerMotion take = OwnJoints();
+  for (auto& frame : take.frames) {
+    for (auto& place : frame) place->y += 0.7;
+  }
+  const auto moved = FindMarkerBodies(take, "a.trc"), kept = FindMarkerBodies(take, "a.trc", {.keep_floor = true});
+  EXPECT_EQ(moved->front().note, "Etude's joints; the floor was at 72 cm: moved to 0");
+  EXPECT_EQ(kept->front().note, "Etude's joints");
+  EXPECT_NEAR(kept->front().motion.poses[0][Role::kHipCentre].y, 1.6, 1e-12);
 }
 
-TEST(Markers, AreTurnedUprightWhicheverAxisPointsUp) {
-  for (const auto& turn :
-       std::vector<std::function<glm::dvec3(glm::dvec3)>>{[](glm::dvec3 p) { return glm::dvec3(p.x, -p.z, p.y); },
-                                                          [](glm::dvec3 p) { return glm::dvec3(p.y, -p.x, p.z); },
-                                                          [](glm::dvec3 p) { return glm::dvec3(p.x, -p.y, -p.z); }}) {
-    MarkerMotion take = OwnJoints();
-    for (auto& frame : take.frames) {
-      for (auto& place : frame) place = turn(*place);
-    }
-    const auto bodies = FindMarkerBodies(take, "a.trc");
-    ASSERT_TRUE(bodies);
-    EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12);
+/// The markers of a pose estimator for a motion; `turn` brings Y up to the file's axis.
+MarkerMotion Keypoints(const std::vector<BodyPose>& poses,
+                       const std::function<glm::dvec3(glm::dvec3)>& turn = [](glm::dvec3 p) { return p; }) {
+  using enum Role;
+  const std::vector<std::pair<Role, std::string>> names = {
+      {kHipCentre, "MidHip"},    {kShoulderCentre, "Neck"}, {kHead, "LEar"},          {kHead, "REar"},
+      {kLeftShoulder, "LShoulder"}, {kLeftElbow, "LElbow"},    {kLeftWrist, "LWrist"},   {kRightShoulder, "RShoulder"},
+      {kRightElbow, "RElbow"},   {kRightWrist, "RWrist"},   {kLeftHip, "LHip"},       {kLeftKnee, "LKnee"},
+      {kLeftAnkle, "LAnkle"},    {kLeftFoot, "LBigToe"},    {kRightHip, "RHip"},      {kRightKnee, "RKnee"},
+      {kRightAnkle, "RAnkle"},   {kRightFoot, "RBigToe"}};
+  MarkerMotion take{.rate_hz = 50, .names = {}, .frames = {}};
+  for (const auto& [role, name] : names) take.names.push_back(name);
+  for (const BodyPose& pose : poses) {
+    auto& frame = take.frames.emplace_back();
+    for (const auto& [role, name] : names) frame.emplace_back(turn(pose[role]));
   }
+  return take;
+}
+
+/// Moves joints about a little, as people who rest do.
+BodyPose Stirred(BodyPose pose, std::size_t frame) {
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    pose.joints[i].x += 0.01 * std::sin(0.2 * static_cast<double>(frame) + static_cast<double>(i));
+  }
+  return pose;
+}
+
+/// On the back, the head along −Z, the heels on the floor and the knees a little bent.
+BodyPose Lying(std::size_t frame) {
+  BodyPose pose = StandingAt(0);
+  for (glm::dvec3& joint : pose.joints) joint = {joint.x, 0.1 + joint.z, -joint.y};
+  pose[Role::kLeftKnee].y = pose[Role::kRightKnee].y = 0.25;
+  pose[Role::kLeftFoot] += glm::dvec3(0, -0.05, 0.07);
+  pose[Role::kRightFoot] += glm::dvec3(0, -0.05, 0.07);
+  pose[Role::kHead].y += 0.15;
+  return Stirred(pose, frame);
+}
+
+/// On hands and knees, along +Z.
+BodyPose Crawling(std::size_t frame) {
+  using enum Role;
+  BodyPose pose;
+  const double step = 0.02 * static_cast<double>(frame), swing = 0.1 * std::sin(0.3 * static_cast<double>(frame));
+  const auto put = [&](Role role, double x, double y, double z) { pose[role] = {x, y, z + step}; };
+  put(kHipCentre, 0, .47, 0);
+  put(kSpine, 0, .5, .25);
+  put(kShoulderCentre, 0, .5, .5);
+  put(kHead, 0, .6, .68);
+  for (const double side : {1.0, -1.0}) {
+    const auto of = [&](Role role) { return side > 0 ? role : Mirrored(role); };
+    put(of(kLeftShoulder), side * .18, .5, .48);
+    put(of(kLeftElbow), side * .18, .28, .5 + side * swing);
+    put(of(kLeftWrist), side * .18, .06, .55 + side * swing);
+    put(of(kLeftHand), side * .18, .02, .7 + side * swing);
+    put(of(kLeftHip), side * .09, .47, 0);
+    put(of(kLeftKnee), side * .09, .05, 0 - side * swing);
+    put(of(kLeftAnkle), side * .09, .06, -.42 - side * swing);
+    put(of(kLeftFoot), side * .09, .02, -.55 - side * swing);
+  }
+  return pose;
+}
+
+/// Upside down on stretched arms.
+BodyPose OnHands(std::size_t frame) {
+  BodyPose pose = StandingAt(0);
+  for (const Role elbow : {Role::kLeftElbow, Role::kRightElbow}) {
+    const Role wrist = elbow == Role::kLeftElbow ? Role::kLeftWrist : Role::kRightWrist;
+    const Role hand = elbow == Role::kLeftElbow ? Role::kLeftHand : Role::kRightHand;
+    pose[elbow].y = 1.7, pose[wrist].y = 1.95, pose[hand].y = 2.05;
+  }
+  for (glm::dvec3& joint : pose.joints) joint = {-joint.x, 2.1 - joint.y, joint.z};
+  return Stirred(pose, frame);
+}
+
+/// Walks along X: the feet take turns to stand.
+BodyPose Walking(std::size_t frame) {
+  BodyPose pose = StandingAt(0);
+  const double t = 0.05 * static_cast<double>(frame);  // steps
+  for (glm::dvec3& joint : pose.joints) joint = {joint.z, joint.y, -joint.x};
+  for (glm::dvec3& joint : pose.joints) joint.x += 0.6 * t;
+  for (const bool is_left : {true, false}) {
+    const double phase = std::fmod(t + (is_left ? 0 : 1), 2), stands = phase < 1 ? 0 : phase - 1;
+    const double at = 1.2 * (std::floor((t + (is_left ? 0 : 1)) / 2) + stands) + (is_left ? 0.3 : -0.3);
+    const auto of = [&](Role role) { return is_left ? role : Mirrored(role); };
+    pose[of(Role::kLeftAnkle)].x = at;
+    pose[of(Role::kLeftFoot)].x = at + 0.17;
+    pose[of(Role::kLeftKnee)].x = 0.5 * (at + pose[of(Role::kLeftHip)].x);
+    pose[of(Role::kLeftAnkle)].y += phase < 1 ? 0 : 0.1 * std::sin(3.14159 * stands);
+  }
+  return pose;
+}
+
+std::vector<BodyPose> Frames(BodyPose (*posture)(std::size_t), std::size_t count = 60) {
+  std::vector<BodyPose> poses;
+  for (std::size_t t = 0; t < count; ++t) poses.push_back(posture(t));
+  return poses;
+}
+
+glm::dvec3 ZUp(glm::dvec3 p) { return {p.x, -p.z, p.y}; }
+glm::dvec3 YUp(glm::dvec3 p) { return p; }
+
+/// The farthest that hips and head are off, heights above the lowest joint.
+double OffUp(const MarkerBody& body, const std::vector<BodyPose>& wanted) {
+  double off = 0;
+  for (std::size_t t = 0; t < wanted.size(); ++t) {
+    const auto span = [](const BodyPose& pose) { return pose[Role::kHead] - pose[Role::kHipCentre]; };
+    off = std::max(off, glm::distance(span(body.motion.poses[t]), span(wanted[t])));
+  }
+  return off;
+}
+
+TEST(MarkersUp, OfPeopleWhoLieCrawlOrStandOnTheirHandsIsTheFormatsAxis) {
+  for (const auto& [name, posture] : {std::pair("lying", Lying), {"crawling", Crawling}, {"on hands", OnHands}}) {
+    for (int quarter = 0; quarter < 4; ++quarter) {
+      std::vector<BodyPose> poses = Frames(posture);
+      for (BodyPose& pose : poses) {
+        for (glm::dvec3& p : pose.joints) {
+          for (int i = 0; i < quarter; ++i) p = {p.z, p.y, -p.x};
+        }
+      }
+      SCOPED_TRACE(fmt::format("{}, turned by {} quarters", name, quarter));
+      const auto trc = FindMarkerBodies(Keypoints(poses), "a.trc", {.up = TrcUp()});
+      const auto c3d = FindMarkerBodies(Keypoints(poses, ZUp), "a.c3d", {.up = C3dUp(0, false)});
+      ASSERT_TRUE(trc && c3d);
+      EXPECT_LT(OffUp(trc->front(), poses), 1e-9) << trc->front().note;
+      EXPECT_LT(OffUp(c3d->front(), poses), 1e-9) << c3d->front().note;
+      EXPECT_THAT(trc->front().up.doubt, HasSubstr("Y is the usual axis of TRC files, and taken for up; --up overrules"));
+    }
+  }
+}
+
+TEST(MarkersUp, OfPeopleWhoLieAndThenStandIsTheAxisThatKeepsTheFloor) {
+  std::vector<BodyPose> poses = Frames(Lying, 80);
+  for (std::size_t t = 0; t < 20; ++t) poses.push_back(StandingAt(0));
+  const auto trc = FindMarkerBodies(Keypoints(poses), "a.trc", {.up = TrcUp()});
+  const auto zup = FindMarkerBodies(Keypoints(poses, ZUp), "a.trc", {.up = TrcUp()});
+  ASSERT_TRUE(trc && zup);
+  EXPECT_LT(OffUp(trc->front(), poses), 1e-9) << trc->front().note;
+  EXPECT_EQ(trc->front().up.doubt, "");
+  EXPECT_LT(OffUp(zup->front(), poses), 1e-9) << zup->front().note;
+}
+
+TEST(MarkersUp, OfPeopleWhoStandOrWalkIsTheirAxisAndItsDoubtIsSaid) {
+  for (const auto& posture : {Walking, StandingAt}) {
+    const std::vector<BodyPose> poses = Frames(posture);
+    const auto zup = FindMarkerBodies(Keypoints(poses, ZUp), "a.trc", {.up = TrcUp()});
+    const auto yup = FindMarkerBodies(Keypoints(poses), "a.c3d", {.up = C3dUp(0, false)});
+    ASSERT_TRUE(zup && yup);
+    EXPECT_LT(OffUp(zup->front(), poses), 1e-9) << zup->front().note;
+    EXPECT_LT(OffUp(yup->front(), poses), 1e-9) << yup->front().note;
+    EXPECT_EQ(zup->front().up.evidence, UpEvidence::kPosture);
+    EXPECT_EQ(zup->front().up.doubt,
+              "Z is taken for up by posture alone: Y is the usual axis of TRC files; --up overrules that");
+    EXPECT_THAT(zup->front().note, HasSubstr("turned upright from Z up (its posture)"));
+  }
+}
+
+TEST(MarkersUp, IsRankedByTheUserTheFileTheFormatAndThenPosture) {
+  const std::vector<BodyPose> poses = Frames(StandingAt);
+  const auto axis = [&](UpRule rule) {
+    const auto bodies = FindMarkerBodies(Keypoints(poses, YUp), "a.c3d", {.up = std::move(rule)});
+    return AxisName(bodies->front().up.axis) + " " + std::string(UpEvidenceName(bodies->front().up.evidence)) +
+           (bodies->front().up.doubt.empty() ? "" : " in doubt");
+  };
+  EXPECT_EQ(axis({.axis = {0, 0, 1}, .evidence = UpEvidence::kTold}), "Z told");
+  EXPECT_EQ(axis(C3dUp('Z', false)), "Z file in doubt");
+  EXPECT_EQ(axis(C3dUp('Y', true)), "−Y file in doubt");
+  EXPECT_EQ(axis(MotiveUp()), "Y format");
+  EXPECT_EQ(axis(TrcUp()), "Y posture");
+  EXPECT_EQ(axis(C3dUp(0, false)), "Y posture in doubt");
+}
+
+TEST(Markers, OfTwoSetsTheBetterCountAndTheOtherCanBeChosen) {
+  const std::vector<BodyPose> poses = Frames(StandingAt);
+  MarkerMotion take = Keypoints(poses, [](glm::dvec3 p) { return p + glm::dvec3(0.06, 0, 0); });
+  using enum Role;
+  for (const auto& [role, name] : {std::pair(kLeftShoulder, "L_shoulder_study"), {kRightShoulder, "r_shoulder_study"},
+                                   {kLeftElbow, "L_lelbow_study"},   {kLeftElbow, "L_melbow_study"},
+                                   {kRightElbow, "r_lelbow_study"},  {kRightElbow, "r_melbow_study"},
+                                   {kLeftWrist, "L_lwrist_study"},   {kLeftWrist, "L_mwrist_study"},
+                                   {kRightWrist, "r_lwrist_study"},  {kRightWrist, "r_mwrist_study"},
+                                   {kLeftHip, "LHJC_study"},         {kRightHip, "RHJC_study"},
+                                   {kLeftKnee, "L_knee_study"},      {kLeftKnee, "L_mknee_study"},
+                                   {kRightKnee, "r_knee_study"},     {kRightKnee, "r_mknee_study"},
+                                   {kLeftAnkle, "L_ankle_study"},    {kLeftAnkle, "L_mankle_study"},
+                                   {kRightAnkle, "r_ankle_study"},   {kRightAnkle, "r_mankle_study"},
+                                   {kLeftFoot, "L_toe_study"},       {kRightFoot, "r_toe_study"}}) {
+    take.names.emplace_back(name);
+    // The shoulders' markers sit 16 % of an upper arm above them.
+    const bool is_shoulder = role == kLeftShoulder || role == kRightShoulder;
+    const double above = is_shoulder ? 0.16 * std::sqrt(0.02 * 0.02 + 0.348 * 0.348) : 0;
+    for (std::size_t t = 0; t < poses.size(); ++t) take.frames[t].emplace_back(poses[t][role] + glm::dvec3(0, above, 0));
+  }
+  const auto best = FindMarkerBodies(take, "a.trc");
+  ASSERT_TRUE(best) << ToString(best.error());
+  EXPECT_THAT(best->front().note,
+              HasSubstr("OpenCap's augmented markers, not OpenPose BODY_25, which the file holds, too (--marker-set body_25)"));
+  EXPECT_THAT(best->front().note, HasSubstr("joint centres under the skin, cm from their markers: shoulders"));
+  for (const Role role : {kLeftShoulder, kLeftElbow, kRightWrist, kLeftKnee, kRightAnkle}) {
+    EXPECT_LT(glm::distance(best->front().motion.poses[3][role], poses[3][role] - glm::dvec3(0, 0.02, 0)), 0.002)
+        << RoleName(role);
+  }
+  const auto other = FindMarkerBodies(take, "a.trc", {.set = "body_25"});
+  ASSERT_TRUE(other);
+  EXPECT_THAT(other->front().note, HasSubstr("OpenPose BODY_25, not OpenCap's augmented markers"));
+  const auto refused = FindMarkerBodies(take, "a.trc", {.set = "plug-in-gait"});
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(ToString(refused.error()), HasSubstr("Plug-in Gait lacks left_shoulder"));
+}
+
+TEST(Markers, TakeTheUnitThatIsTold) {
+  MarkerMotion take = Keypoints(Frames(StandingAt), [](glm::dvec3 p) { return 0.5 * p; });
+  take.metres_per_unit = 0.001;
+  const auto told = FindMarkerBodies(take, "a.trc", {.metres_per_unit = 0.002});
+  ASSERT_TRUE(told);
+  EXPECT_NEAR(told->front().motion.poses[0][Role::kHipCentre].y, 0.88, 1e-9);
+  EXPECT_THAT(told->front().note, HasSubstr("1 unit = 0.2 cm (told), instead of the file's 0.1 cm"));
+  EXPECT_THAT(ToString(FindMarkerBodies(take, "a.trc", {.metres_per_unit = 1}).error()),
+              HasSubstr("a.trc: in the unit given (1 unit = 100 cm) the body is"));
 }
 
 TEST(Markers, AtZeroAreGapsUnlessTheyAreAlwaysThere) {
@@ -97,7 +312,7 @@ TEST(Markers, AtZeroAreGapsUnlessTheyAreAlwaysThere) {
   const auto bridged = FindMarkerBodies(take, "a.trc");
   ASSERT_TRUE(bridged) << ToString(bridged.error());
   EXPECT_LT(FurthestJoint(bridged->front().motion), 1e-12);
-  EXPECT_EQ(bridged->front().note, "Etude's joints, 4 places bridged over gaps; 4 places at 0, 0, 0 taken for gaps");
+  EXPECT_EQ(bridged->front().note, "Etude's joints; 4 places bridged over gaps; 4 places at 0, 0, 0 taken for gaps");
   MarkerMotion rooted = OwnJoints();
   for (auto& frame : rooted.frames) {
     const glm::dvec3 root = *frame[Index(Role::kHipCentre)];
@@ -146,8 +361,8 @@ TEST(Markers, OfPlugInGaitGiveJointsInsideTheLimbs) {
                                        around(Role::kSpine, 0, 0, 0.1),
                                        around(Role::kLeftShoulder, 0, 0.045, 0),
                                        around(Role::kRightShoulder, 0, 0.045, 0),
-                                       pose[Role::kLeftElbow],
-                                       pose[Role::kRightElbow],
+                                       around(Role::kLeftElbow, 0.048, 0, 0),
+                                       around(Role::kRightElbow, -0.048, 0, 0),
                                        around(Role::kLeftWrist, 0, 0, 0.03),
                                        around(Role::kRightWrist, 0, 0, 0.03),
                                        around(Role::kLeftWrist, 0, 0, -0.03),
@@ -170,7 +385,9 @@ TEST(Markers, OfPlugInGaitGiveJointsInsideTheLimbs) {
   ASSERT_TRUE(bodies) << ToString(bodies.error());
   const MarkerBody& body = bodies->front();
   EXPECT_EQ(body.name, "Me");
-  EXPECT_EQ(body.note, "Plug-in Gait, placed by rule: hip_centre");
+  EXPECT_EQ(body.note,
+            "Plug-in Gait; joint centres under the skin, cm from their markers: knees 5.0, ankles 3.5, elbows 4.8, "
+            "shoulders 4.8 by the lengths of the limbs; placed by rule: hip_centre; the floor was at 2 cm: moved to 0");
   const BodyPose& pose = body.motion.poses.front();
   const double depth = 2 * f, width = 2 * a;
   const glm::dvec3 hip = pose[Role::kLeftHip];
@@ -211,8 +428,8 @@ TEST(Markers, OfPoseEstimatorsAreTakenAndWhatTheyLackIsPlacedByRule) {
   });
   const auto bodies = FindMarkerBodies(take, "a.trc");
   ASSERT_TRUE(bodies) << ToString(bodies.error());
-  EXPECT_EQ(bodies->front().note, "OpenPose BODY_25, placed by rule: spine, left_hand, right_hand");
-  EXPECT_LT(FurthestJoint(bodies->front().motion), 0.03);
+  EXPECT_THAT(bodies->front().note, HasSubstr("OpenPose BODY_25; placed by rule: spine, left_hand, right_hand"));
+  EXPECT_LT(FurthestJoint(bodies->front().motion, 0.02), 0.03);
 }
 
 TEST(Markers, GapsAreBridgedAndLongOnesCutOff) {
@@ -227,7 +444,7 @@ TEST(Markers, GapsAreBridgedAndLongOnesCutOff) {
   EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12) << "the sway is straight";
   EXPECT_EQ(
       bodies->front().note,
-      "Etude's joints, 4 places bridged over gaps, frames 1 to 25 of 40 (elsewhere joints are lost for over 1 s)");
+      "Etude's joints; 4 places bridged over gaps; frames 1 to 25 of 40 (elsewhere joints are lost for over 1 s)");
 }
 
 TEST(Markers, OfTwoPeopleAreTwoBodies) {

@@ -185,7 +185,7 @@ TEST(ToBodyMotion, TurnsZUpFilesUprightAndKeepsWhoFacesWhereAndWhatIsLeft) {
   ASSERT_TRUE(expected && body) << ToString(body.error());
   EXPECT_EQ(body->up, UpAxis::kZ);
   EXPECT_EQ(expected->up, UpAxis::kY);
-  EXPECT_EQ(body->note, "1 unit = 1 cm (centimetre); turned upright from Z up");
+  EXPECT_EQ(body->note, "1 unit = 1 cm (centimetre); turned upright from Z up (the axis along which it stands at rest)");
   for (const Role role : AllRoles()) {
     EXPECT_LT(glm::distance(body->motion.poses[2][role], expected->motion.poses[2][role]), 1e-12) << RoleName(role);
   }
@@ -226,7 +226,12 @@ TEST(ToBodyMotion, TellsWhereItFoundTheFloor) {
   const auto body = Convert(clip);
   ASSERT_TRUE(body);
   EXPECT_NEAR(body->floor, 40, 1e-12);
-  EXPECT_EQ(body->note, "1 unit = 1 cm (centimetre); the floor was at 40 cm");
+  EXPECT_EQ(body->note, "1 unit = 1 cm (centimetre); the floor was at 40 cm: moved to 0");
+  const auto kept = Convert(clip, {.keep_floor = true});
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->floor, 0);
+  EXPECT_NEAR(kept->motion.poses[0][kLeftFoot].y, 0.4, 1e-12);
+  EXPECT_EQ(kept->note, "1 unit = 1 cm (centimetre)");
 }
 
 TEST(FindGround, IsThatOfAllClipsOfAFile) {
@@ -420,6 +425,45 @@ TEST(ToBodyMotion, TellsThatABodyLiesWhoseUpAxisNobodyKnows) {
   }
 }
 
+TEST(ToBodyMotion, RefusesASkeletonThatCollapsesInMotion) {
+  Clip clip = AtRest(testing::PersonSkeleton(), 3);
+  for (std::size_t f = 0; f < 3; ++f) {
+    for (const char* joint : {"LeftForeArm", "RightForeArm", "LeftLeg", "RightLeg"}) At(clip, f, joint).translation = {};
+  }
+  const auto refused = Convert(clip);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("4 of its 8 limbs have no length (left_shoulder to left_elbow"));
+  // The control: one limb may be lost.
+  At(clip, 0, "LeftForeArm").translation = At(clip, 1, "LeftForeArm").translation = {29, 0, 0};
+  for (std::size_t f = 0; f < 3; ++f) {
+    At(clip, f, "LeftLeg").translation = At(clip, f, "RightLeg").translation = {0, -43, 0};
+  }
+  EXPECT_TRUE(Convert(clip)) << ToString(Convert(clip).error());
+}
+
+TEST(ToBodyMotion, SaysEveryChangeByItself) {
+  Clip clip = AtRest(testing::PersonSkeleton(), 120, 60);
+  for (LocalPose& frame : clip.frames) frame[0].translation.y += 17.5;
+  const auto body = Convert(clip);
+  ASSERT_TRUE(body);
+  EXPECT_THAT(body->changes, ::testing::ElementsAre("1 unit = 1 cm (centimetre)", "resampled from 60 to 30 Hz",
+                                                    "the floor was at 17.5 cm: moved to 0"));
+}
+
+TEST(ToBodyMotion, TakesTheFormatsAxisBeforePostureAndTheUsersBeforeBoth) {
+  // Somebody of a format with Z up who lies along Y, on the back: posture alone has it stand.
+  Clip lying = AtRest(testing::PersonSkeleton(), 5);
+  const auto of_format = Convert(lying, {.up_rule = AmassUp()});
+  ASSERT_TRUE(of_format) << ToString(of_format.error());
+  EXPECT_EQ(of_format->found_up.evidence, UpEvidence::kFormat);
+  EXPECT_LT(of_format->motion.poses[0][kHead].y, 0.3);
+  EXPECT_THAT(of_format->note, HasSubstr("the body stands along Y, but Z is the rule of AMASS; --up overrules that"));
+  const auto told = Convert(lying, {.up = UpAxis::kY, .up_rule = AmassUp()});
+  ASSERT_TRUE(told);
+  EXPECT_EQ(told->found_up.evidence, UpEvidence::kTold);
+  EXPECT_GT(told->motion.poses[0][kHead].y, 1.6);
+}
+
 TEST(ToBodyMotion, RefusesWhatGivesNoMotion) {
   const auto empty = Convert(AtRest(testing::PersonSkeleton(), 0));
   ASSERT_FALSE(empty);
@@ -438,6 +482,12 @@ TEST(ToBodyMotion, RefusesWhatGivesNoMotion) {
   const auto gone = Convert(flying);
   ASSERT_FALSE(gone);
   EXPECT_THAT(gone.error().message, HasSubstr("beyond all measure"));
+  Clip later = AtRest(testing::PersonSkeleton(), 9, 30);
+  for (std::size_t i = 3; i < 9; ++i) LowerArms(later, i);
+  At(later, 7, "Hips").translation.x = 1e300;
+  const auto counted = Convert(later);
+  ASSERT_FALSE(counted);
+  EXPECT_EQ(counted.error().message, "in frame 7 joints lie beyond all measure") << "the T-pose's frames count";
 
   const auto endless = Convert(AtRest(testing::PersonSkeleton(), 400, 0.1));
   ASSERT_FALSE(endless);

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/angles.h"
-#include "engine/retargeting/orientation.h"
+#include "engine/retargeting/up_axis.h"
 #include "tests/support/body_of_person.h"
 
 namespace etude {
@@ -22,6 +22,10 @@ BodyPose StandingAlongZ(const glm::dvec3& shift = {}) { return Turned(Standing()
 
 /// A folded rest pose: neither along Y nor Z.
 BodyPose Folded() { return Turned(Standing(), kPi / 2, {0, 0, 1}); }
+
+UpAxis FindUpAxis(const BodyPose& rest, std::span<const BodyPose> poses) {
+  return FindUp(rest, poses, 30).axis.z > 0 ? UpAxis::kZ : UpAxis::kY;
+}
 
 TEST(UpAxis, IsWhatTheRestPoseStandsAlongUnlessTheBodyMovesOtherwise) {
   const std::vector<BodyPose> still_y = {Standing(), Standing()};

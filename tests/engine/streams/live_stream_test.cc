@@ -62,6 +62,27 @@ TEST(LiveStream, HearsWhatARecordingSays) {
   ExpectAsRecorded(WithClock(KinectV1Text(WavingMotion(90), "1", 0.1), 44155936, 1e6 / 30));
 }
 
+TEST(LiveStream, ASensorUpsideDownIsTurnedBackAndSaid) {
+  std::string text;
+  for (int t = 0; t < 40; ++t) {
+    for (const glm::dvec3& joint : testing::StandingPose(0.01 * t).joints) {
+      const glm::dvec3 p = testing::KinectSpace(joint);
+      text += fmt::format("{} {} {} ", -p.x, -p.y, p.z);
+    }
+    text += '\n';
+  }
+  const Heard turned = Listen(text);
+  ASSERT_EQ(turned.frames.size(), 40u);
+  EXPECT_NEAR(turned.frames[0][Role::kHead].position.y, 1.65, 1e-5);
+  LiveStream live("-", {}, {});
+  std::vector<SensedFrame> frames;
+  EXPECT_EQ(live.RemarkOnLevel(), "");
+  for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1) {
+    ASSERT_TRUE(live.Take(std::string_view(text).substr(at, text.find('\n', at) - at), frames));
+  }
+  EXPECT_EQ(live.RemarkOnLevel().find("sensor turned by 180 degrees, turned back"), 0u);
+}
+
 TEST(LiveStream, EachLineOfCsvGivesItsFrameAtOnce) {
   const Heard heard = Listen(WriteJointCsv(WavingMotion(10)));
   EXPECT_EQ(heard.known, (std::vector<std::size_t>{0, 0, 2, 3, 4, 5, 6, 7, 8, 9, 10}));

@@ -79,6 +79,62 @@ TEST(StreamMaker, ATiltedSensorIsLevelledByTheTrunkAndTheFloorByTheFeet) {
   }
 }
 
+/// The recording as a sensor sees it that is turned by quarter turns about its line of sight.
+StreamRecording TurnedAbout(StreamRecording recording, int quarters) {
+  for (RecordedFrame& frame : recording.frames) {
+    for (auto& place : frame.places) {
+      for (int i = 0; place && i < quarters; ++i) *place = {-place->y, place->x, place->z};
+    }
+  }
+  return recording;
+}
+
+StreamRecording WavingBeforeKinect(double tilt_deg = 0) {
+  return ReadStreamRecording(KinectV1Text(WavingMotion(), "", Radians(tilt_deg)), "s").value();
+}
+
+TEST(StreamMaker, ASensorInPortraitOrUpsideDownIsTurnedBackAndThatIsSaid) {
+  for (const double tilt_deg : {0.0, 12.0}) {
+    const StreamRecording upright = WavingBeforeKinect(tilt_deg);
+    const auto expected = MakeStream(upright, "s").value();
+    EXPECT_EQ(Describe(expected.level).find("turned"), std::string::npos) << "the control";
+    for (int quarters = 1; quarters < 4; ++quarters) {
+      const auto made = MakeStream(TurnedAbout(upright, quarters), "s").value();
+      EXPECT_EQ(made.level.turn_deg, 360 - 90 * quarters);
+      EXPECT_EQ(Describe(made.level).find(fmt::format("sensor turned by {} degrees, turned back", 360 - 90 * quarters)),
+                0u);
+      EXPECT_NEAR(made.level.tilt_deg, tilt_deg, 1e-6);
+      for (const Role role : AllRoles()) {
+        EXPECT_LT(glm::distance(made.stream.frames[20][role].position, expected.stream.frames[20][role].position), 1e-9)
+            << quarters << " " << RoleName(role);
+      }
+      // Who asks for the file's own up gets it.
+      const auto kept = MakeStream(TurnedAbout(upright, quarters), "s", {.levels = false}).value();
+      EXPECT_EQ(kept.level.turn_deg, 0);
+    }
+  }
+}
+
+TEST(StreamMaker, WhoLiesOrFallsBeforeALevelSensorIsNotTurnedButSaidToBeFarFromUp) {
+  // Supine, the head to the sensor's left or right; the face is up.
+  for (const double side : {-1.0, 1.0}) {
+    StreamRecording lying = WavingBeforeKinect();
+    for (RecordedFrame& frame : lying.frames) {
+      for (auto& place : frame.places) *place = {side * place->y, place->z + 3, side * place->x - 3};
+    }
+    const StreamLevel level = EstimateLevel(lying.frames, 30);
+    EXPECT_EQ(level.turn_deg, 0);
+    EXPECT_EQ(level.R_WF, glm::dmat3(1));
+    EXPECT_NEAR(level.trunk_deg, 90, 1e-6);
+    EXPECT_EQ(Describe(level).find("up as the file has it (though trunks are 90 degrees from it: "), 0u);
+  }
+  // Somebody who stood before, and now lies on a side.
+  StreamRecording falling = WavingBeforeKinect();
+  const StreamRecording down = TurnedAbout(falling, 1);
+  for (std::size_t t = 10; t < falling.frames.size(); ++t) falling.frames[t].places = down.frames[t].places;
+  EXPECT_EQ(EstimateLevel(falling.frames, 30).turn_deg, 0);
+}
+
 TEST(StreamMaker, FeetThatStoodInSeveralPlacesTellTheFloorBetterThanALeaningTrunk) {
   BodyMotion motion;
   for (int place = 0; place < 4; ++place) {

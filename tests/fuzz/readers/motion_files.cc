@@ -132,7 +132,7 @@ std::string DeepMimicText() {
 
 void C3dFile(std::string_view bytes) {
   const auto read = ReadC3d(bytes, kFile);
-  if (read) FindMarkerBodies(read->markers, kFile, read->up);
+  if (read) FindMarkerBodies(read->markers, kFile, {.up = C3dUp(read->up, read->is_up_negative)});
 }
 
 std::vector<std::string> C3dSeeds() {
@@ -214,7 +214,7 @@ std::string NpySeed() {
 
 void MotiveFile(std::string_view bytes) {
   const auto markers = ReadMotiveCsv(bytes, kFile);
-  if (markers) (void)FindMarkerBodies(*markers, kFile, 'Y');
+  if (markers) (void)FindMarkerBodies(*markers, kFile, {.up = MotiveUp()});
 }
 
 constexpr const char* kMotiveTake =

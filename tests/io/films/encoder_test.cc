@@ -1,8 +1,10 @@
 #include "io/films/encoder.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "engine/formats/wav.h"
@@ -47,6 +49,42 @@ TEST(Encoder, GivesTheSameBytesForTheSamePictures) {
   EXPECT_THAT(clicking, HasSubstr("fLaC"));
   EXPECT_EQ(clicking, encode(clicks));
   fs::remove(clicks);
+}
+
+/// A program that is ffmpeg, but lets x264 use only some of the processor's instructions.
+std::string FfmpegWith(const std::string& instructions) {
+  const fs::path program = fs::path(::testing::TempDir()) / ("etude_ffmpeg_" + instructions);
+  EXPECT_TRUE(WriteFileAtomically(program, fmt::format("#!/bin/bash\nexec ffmpeg \"${{@/cpu-independent=1/"
+                                                       "cpu-independent=1:asm={}}}\"\n",
+                                                       instructions)));
+  fs::permissions(program, fs::perms::owner_all);
+  return program;
+}
+
+TEST(Encoder, GivesTheSameBytesOnEveryProcessor) {
+  // A texture that moves by parts of pixels: x264 then searches, filters and chooses among many ways.
+  const auto encode = [](const std::string& program) {
+    const fs::path path = FilmPath();
+    auto encoder = Encoder::Start(path, 192, 144, 30, {}, Encoder::Form::kRgb, program);
+    EXPECT_TRUE(encoder.has_value()) << ToString(encoder.error());
+    for (int i = 0; i < 12; ++i) {
+      ColourImage picture(192, 144);
+      for (std::size_t p = 0; p < picture.pixels.size(); ++p) {
+        const double x = static_cast<double>(p % 192), y = static_cast<double>(p / 192), t = i;
+        const double wave = 60 * std::sin(0.21 * x + 0.3 * t) + 50 * std::sin(0.13 * y * (1 + 0.01 * x) - 0.4 * t);
+        const auto value = static_cast<std::uint8_t>(127 + wave);
+        picture.pixels[p] = {value, static_cast<std::uint8_t>(p * 7 % 31 + 90), static_cast<std::uint8_t>(255 - value)};
+      }
+      EXPECT_TRUE(encoder->Add(picture).has_value());
+    }
+    EXPECT_TRUE(encoder->Finish().has_value());
+    return ReadWholeFile(path).value_or("");
+  };
+  const std::string own = encode("ffmpeg");
+  EXPECT_GT(own.size(), 5000u);
+  for (const char* instructions : {"AVX2", "SSE4.2", "SSE2", "0"}) {
+    EXPECT_TRUE(encode(FfmpegWith(instructions)) == own) << instructions;
+  }
 }
 
 TEST(Encoder, SaysThatTheProgramIsMissing) {

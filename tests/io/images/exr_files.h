@@ -5,6 +5,7 @@
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -20,7 +21,12 @@ class ExrFile {
  public:
   explicit ExrFile(const std::string& path) : file_(path.c_str(), 0), window_(file_.header().dataWindow()) {}
 
-  LabelImage Labels() { return Read<std::uint32_t>(Imf::UINT, "label"); }
+  LabelImage Labels() {
+    const DepthImage label = Depth("label");
+    LabelImage labels(label.width, label.height);
+    std::ranges::transform(label.pixels, labels.pixels.begin(), [](float l) { return static_cast<std::uint32_t>(l); });
+    return labels;
+  }
   DepthImage Depth(const std::string& channel = "Z") { return Read<float>(Imf::FLOAT, channel); }
   NormalImage Normals() {
     const DepthImage x = Depth("N.X"), y = Depth("N.Y"), z = Depth("N.Z");

@@ -40,7 +40,7 @@ View SomeView() {
     const std::uint64_t bits = random.Bits();
     view.colour.pixels[i] = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(bits),
                              static_cast<std::uint8_t>(bits >> 8)};
-    view.labels.pixels[i] = static_cast<std::uint32_t>(bits >> 32);
+    view.labels.pixels[i] = static_cast<std::uint32_t>(bits >> 40);  // below 2²⁴
     view.depth.pixels[i] = static_cast<float>(random.Uniform(0.1, 20));
   }
   view.depth.pixels[5] = std::numeric_limits<float>::infinity();
@@ -82,6 +82,18 @@ TEST_F(ImageFiles, AnExrHoldsAWholeViewBitForBit) {
   EXPECT_EQ(file.Depth().width, 61);
   EXPECT_TRUE(file.Normals().pixels.empty());
   EXPECT_EQ(*EncodeExr(view), *bytes);
+}
+
+// three.js and parse-exr count no bytes for channels of whole numbers, and read all others at wrong places.
+TEST_F(ImageFiles, AnExrHasNoChannelOfWholeNumbers) {
+  Write(At("v.exr"), *EncodeExr(SomeView()));
+  const Imf::InputFile file(At("v.exr").c_str(), 0);
+  int channels = 0;
+  for (auto channel = file.header().channels().begin(); channel != file.header().channels().end(); ++channel) {
+    EXPECT_NE(channel.channel().type, Imf::UINT) << channel.name();
+    ++channels;
+  }
+  EXPECT_EQ(channels, 5);
 }
 
 TEST_F(ImageFiles, AnExrHoldsOnlyThePicturesThatThereAre) {

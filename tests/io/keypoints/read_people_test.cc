@@ -49,6 +49,77 @@ TEST_F(ReadPeople, TakesOpenPosesFramesInTheOrderOfTheirNumbers) {
   EXPECT_TRUE(film->frames[2].empty());
 }
 
+TEST_F(ReadPeople, FramesWithoutAFileAreFramesWithoutPeople) {
+  for (int k = 0; k < 60; ++k) {
+    if (k >= 20 && k < 35) continue;
+    Write(fmt::format("a/cam1_{:012}_keypoints.json", k), OpenPose(18, fmt::format("{}, 20, 0.5", k)));
+    Write(fmt::format("b/{}.json", 5 * k + 300), OpenPose(18, fmt::format("{}, 20, 0.5", k)));
+  }
+  for (const char* folder : {"a", "b"}) {
+    const auto film = ReadKeypoints(folder_.path() / folder, "");
+    ASSERT_TRUE(film) << ToString(film.error());
+    ASSERT_EQ(film->frames.size(), 60u) << folder;
+    for (std::size_t k = 0; k < 60; ++k) {
+      ASSERT_EQ(film->frames[k].size(), k < 20 || k >= 35 ? 1u : 0u) << folder << k;
+      if (!film->frames[k].empty()) {
+        EXPECT_EQ(film->frames[k][0][Landmark::kNose].pixel.x, static_cast<double>(k) + 0.5);
+      }
+    }
+    EXPECT_EQ(film->told, "15 of 60 frames are missing, by their numbers or times: nobody there");
+  }
+  // Of a film with as many frames as files, each file is a frame; of one with 60, the numbers tell which.
+  EXPECT_EQ(ReadKeypoints(folder_.path() / "a", "", {.frames = 45})->frames.size(), 45u);
+  EXPECT_EQ(ReadKeypoints(folder_.path() / "a", "", {.frames = 64})->frames.size(), 64u);
+}
+
+TEST_F(ReadPeople, FramesAreLaidOnTheirTimes) {
+  const auto list = [&](const char* key, double unit) {
+    std::string text;
+    for (int k = 0; k < 60; ++k) {
+      if (k >= 20 && k < 35) continue;
+      text += fmt::format("{}{{\"{}\": {:.0f}, \"people\": [{{\"keypoints\": [{}]}}]}}", text.empty() ? "" : ",", key,
+                          1e3 + unit * k / 30, Triples(17, fmt::format("{}, 20, 0.5", k)));
+    }
+    return Write("list.json", "[" + text + "]");
+  };
+  for (const auto& [key, unit] :
+       {std::pair("timestamp_ms", 1e3), std::pair("timestamp", 1e6), std::pair("time", 1e9)}) {
+    const auto film = ReadKeypoints(list(key, unit), "");
+    ASSERT_TRUE(film) << ToString(film.error());
+    ASSERT_EQ(film->frames.size(), 60u) << key;
+    EXPECT_TRUE(film->frames[27].empty());
+    EXPECT_EQ(film->frames[35][0][Landmark::kNose].pixel.x, 35.5);
+    EXPECT_EQ(film->told, "15 of 60 frames are missing, by their numbers or times: nobody there");
+    EXPECT_EQ(ReadKeypoints(list(key, unit), "", {.frames = 45})->frames.size(), 45u);
+  }
+}
+
+TEST_F(ReadPeople, PicturesOfCocoAreLaidOnTheNumbersOfTheirNames) {
+  std::string images, annotations;
+  for (int k = 0; k < 30; ++k) {
+    if (k >= 10 && k < 14) continue;
+    images += fmt::format("{}{{\"id\": {}, \"file_name\": \"film/frame_{:06}.PNG\"}}", images.empty() ? "" : ",",
+                          100 + images.size(), k);
+    annotations += fmt::format(
+        "{}{{\"image_id\": {}, \"keypoints\": [{}]}}", annotations.empty() ? "" : ",",
+        images.substr(images.rfind("\"id\": ") + 6, images.rfind(", \"file") - images.rfind("\"id\": ") - 6),
+        Triples(17, fmt::format("{}, 20, 2", k)));
+  }
+  const auto film =
+      ReadKeypoints(Write("coco.json", "{\"images\": [" + images + "], \"annotations\": [" + annotations + "]}"), "");
+  ASSERT_TRUE(film) << ToString(film.error());
+  ASSERT_EQ(film->frames.size(), 30u);
+  EXPECT_TRUE(film->frames[12].empty());
+  EXPECT_EQ(film->frames[20][0][Landmark::kNose].pixel.x, 20.5);
+}
+
+TEST_F(ReadPeople, TakesOpenPosesFirstFormat) {
+  Write("a/0.json", R"({"version": 1.0, "people": [{"pose_keypoints": [)" + Triples(18) + "]}]}");
+  const auto film = ReadKeypoints(folder_.path() / "a", "");
+  ASSERT_TRUE(film) << ToString(film.error());
+  EXPECT_EQ(film->frames[0][0][Landmark::kNose].pixel, glm::dvec2(10.5, 20.5));
+}
+
 TEST_F(ReadPeople, TakesWhatPythonWritesOfKeypointsThatWereNotSeen) {
   Write("a/f_0.json", OpenPose(26, "NaN, NaN, NaN, 30, 40, 0.7"));
   Write("a/f_1.json",

@@ -124,7 +124,7 @@ TEST(IkRace, RefusesRecordingsThatDoNotSayWhatTheyShow) {
   const std::string errors = R"(, "position_error_max_cm": [3, 2, 1], "axis_error_max_deg": [3, 2, 1]})";
   EXPECT_EQ(complaint(R"({"iterations": [0, 1, 2])" + errors), "there is one");
   EXPECT_THAT(complaint("{}"), HasSubstr("race/-/000/b: its extras' iterations is no list of 3 numbers"));
-  EXPECT_THAT(complaint("[]"), HasSubstr("no JSON object"));
+  EXPECT_THAT(complaint("[]"), HasSubstr("not a JSON object"));
   EXPECT_THAT(complaint(R"({"iterations": [0, 1])" + errors), HasSubstr("iterations is no list of 3"));
   EXPECT_THAT(complaint(R"({"iterations": [0, 1, "2"])" + errors), HasSubstr("iterations is no list of 3"));
   for (const char* wrong : {"[0, 2, 1]", "[1, 2, 3]", "[0, 1, 1.5]", "[0, 1, 1e12]"}) {

@@ -127,6 +127,15 @@ TEST(JudgedScene, ShowsAJudgementOnlyOnceItWasMade) {
   EXPECT_GT(CountInRow(after, kRightPaint, kFirstJudge), 100);
 }
 
+TEST(JudgedScene, ADamagedRecordingsEventWithoutAFrameIsDrawn) {
+  const RecordedWorld world;
+  JudgedSessionFacts facts = *ReadJudgedSession(world.run, world.Cell(0));
+  facts.evidence.assign(300, 0.5);
+  facts.performances[0].begin_frame = facts.performances[0].end_frame = 0;
+  JudgedScene scene(std::move(facts), "test", 100000);
+  EXPECT_GT(scene.Draw(10).Pixels().width, 0);
+}
+
 TEST(JudgedScene, IsCutToWhatComesBeforeTheFirstMistake) {
   const RecordedWorld world;
   JudgedScene scene(*ReadJudgedSession(world.run, world.Cell(1)), "test", 120);

@@ -151,7 +151,7 @@ Comparison Differing(double all, std::vector<double> without) {
   c.metric = "mpjpe_mm";
   c.method = "adaptive";
   c.baseline = "fixed";
-  c.beyond.difference = all;
+  c.beyond.mean = all;
   const char* names[] = {"a", "b", "<c>"};
   for (std::size_t i = 0; i < without.size(); ++i) c.beyond.left_out.push_back({names[i], without[i]});
   return c;

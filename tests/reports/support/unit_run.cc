@@ -31,7 +31,7 @@ const MethodSummary& StrongestOther(const ConditionSummary& condition, const std
 
 void AddBeyond(Comparison& c, SamplingUnit unit, int clips) {
   Beyond& beyond = c.beyond;
-  beyond.difference = c.mean;
+  beyond.difference = beyond.mean = c.mean;
   beyond.low = *c.mean_low - 1;
   beyond.high = *c.mean_high + 1;
   if (WorldsAreUnits(unit)) {

@@ -58,6 +58,67 @@ TEST(Headline, AnswersAgainstTheBaselineAndAgainstTheBestOther) {
             "(+1.00°), but needs 140 × the solver steps");
 }
 
+/// Adds answers to the solvers: against gauss-newton success decides, 58 points worse.
+ScenarioSummary AnsweredSummary() {
+  ScenarioSummary scenario = SolverSummary();
+  ConditionSummary& condition = scenario.conditions[0];
+  Answer of_baseline{.method = "adaptive", .baseline = "fixed", .value_metric = "orientation_error_deg"};
+  of_baseline.verdict = Verdict::kBetter;
+  of_baseline.beyond = Verdict::kBetter;
+  of_baseline.decided_by = AnswerStep::kValue;
+  Answer of_rival = of_baseline;
+  of_rival.baseline = "gauss-newton";
+  of_rival.verdict = Verdict::kWorse;
+  of_rival.beyond = Verdict::kWorse;
+  of_rival.decided_by = AnswerStep::kSuccess;
+  of_rival.success = Compared("solved_practical", "gauss-newton", Verdict::kWorse);
+  of_rival.success->difference = -0.58;
+  of_rival.success->ci_low = -0.70;
+  of_rival.success->ci_high = -0.44;
+  of_rival.success->worse = 12;
+  of_rival.both_succeed = Compared("orientation_error_deg", "gauss-newton", Verdict::kInconclusive);
+  of_rival.both_succeed->pairs = 8;
+  condition.answers = {of_baseline};
+  condition.rival_answers = {of_rival};
+  return scenario;
+}
+
+TEST(Headline, IsAboutSuccessWhereThatDecides) {
+  EXPECT_EQ(HeadlineOfSolvers(AnsweredSummary()),
+            "“adaptive”: better than “fixed” (effector orientation error −1.00°); worse than “gauss-newton” (share "
+            "“solved (0.1 cm, 0.1°)” −58.0 pp) and needs 140 × the solver steps");
+  const MethodFinding found = CompareInWords(AnsweredSummary(), "adaptive", "orientation_error_deg", Against::kRival);
+  EXPECT_EQ(found.verdict, Verdict::kWorse);
+  EXPECT_THAT(found.sentence, HasSubstr("by as much as matters in 12 of 20 worlds"));
+  EXPECT_THAT(found.sentence, HasSubstr("Where both succeed (8 worlds): effector orientation error 1.00°."));
+  // The control: by another metric than the question's a comparison stands for itself.
+  EXPECT_EQ(CompareInWords(AnsweredSummary(), "adaptive", "iterations", Against::kBaseline).verdict,
+            Verdict::kNoDifference);
+}
+
+TEST(Headline, TellsOfATailThatDecides) {
+  ScenarioSummary scenario = AnsweredSummary();
+  Answer& answer = scenario.conditions[0].answers[0];
+  scenario.conditions[0].comparisons[0].verdict = Verdict::kNoDifference;
+  answer.verdict = Verdict::kWorse;
+  answer.decided_by = AnswerStep::kTail;
+  answer.tail = Compared("orientation_error_deg", "fixed", Verdict::kWorse);
+  answer.tail->better = 1;
+  answer.tail->worse = 7;
+  const MethodFinding found = CompareInWords(scenario, "adaptive", "orientation_error_deg", Against::kBaseline);
+  EXPECT_EQ(found.verdict, Verdict::kWorse);
+  EXPECT_THAT(found.sentence, HasSubstr("The tail decides: far better in 1, far worse in 7 of 20 worlds."));
+}
+
+TEST(Headline, ThatSuccessAndValueDecideUnderDifferentConditionsHasNoFigure) {
+  ScenarioSummary scenario = AnsweredSummary();
+  scenario.conditions.push_back(scenario.conditions.front());
+  scenario.conditions[1].rival_answers[0].decided_by = AnswerStep::kValue;
+  scenario.conditions[1].rival_answers[0].verdict = Verdict::kBetter;
+  EXPECT_THAT(HeadlineOfSolvers(scenario),
+              HasSubstr("against “gauss-newton” it depends: better under 1 of 2, worse under 1 of 2"));
+}
+
 TEST(Headline, NamesTheRatioWhereTheRivalIsBetterByTheQuestionsMetric) {
   ScenarioSummary scenario = SolverSummary();
   scenario.conditions[0].rivals = {Compared("iterations", "gauss-newton", Verdict::kWorse)};

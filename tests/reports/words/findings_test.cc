@@ -146,7 +146,7 @@ TEST(Findings, NeverCallWhatWasMeasuredReached) {
   for (Row& row : run.rows) row.result.status = Status::kOk;
   EXPECT_THAT(FindingsOf(run).sentence, HasSubstr(" cells were measured."));
   run.rows.front().result.status = Status::kUnsolved;
-  EXPECT_THAT(FindingsOf(run).sentence, HasSubstr(" cells were measured, 1 of them stopped short of their goal."));
+  EXPECT_THAT(FindingsOf(run).sentence, HasSubstr(" cells were measured, 1 of them unsolved (the method answered, but missed its goal)."));
 }
 
 TEST(Findings, GiveSuccessItsOwnShareWhateverTheStatus) {
@@ -162,15 +162,15 @@ TEST(Findings, GiveSuccessItsOwnShareWhateverTheStatus) {
   const auto successes = FindingsOf(run, scenario).successes;
   ASSERT_EQ(successes.size(), 1u);
   EXPECT_EQ(SuccessSentence(successes.front()),
-            "Reached (share “as smooth as nature”): now 0 %, wait-for-end 0 %, fuzzy-bridge 0 %, fuzzy-bridge-adaptive "
-            "0 %, gate-inertialised 75.0 %.");
+            "Reached (share “as smooth as unbroken motion”): now 0 %, wait-for-end 0 %, fuzzy-bridge 0 %, "
+            "fuzzy-bridge-adaptive 0 %, gate-inertialised 75.0 %.");
 }
 
 TEST(Findings, OfManyMethodsNameTheLeastAndTheMostSuccessful) {
   SuccessFinding finding{"natural_share", {}};
   for (int i = 0; i < 40; ++i) finding.shares.emplace_back("method-" + std::to_string(i), i / 40.0);
   EXPECT_EQ(SuccessSentence(finding),
-            "Reached (share “as smooth as nature”): from method-0 0 % to method-39 97.5 %, of 40 methods.");
+            "Reached (share “as smooth as unbroken motion”): from method-0 0 % to method-39 97.5 %, of 40 methods.");
 }
 
 TEST(Findings, GiveAFewFiguresOfTheMethodItsBaselineAndTheStrongestOther) {
@@ -182,7 +182,7 @@ TEST(Findings, GiveAFewFiguresOfTheMethodItsBaselineAndTheStrongestOther) {
   EXPECT_EQ(figures.methods[1].name, "now");
   EXPECT_EQ(figures.methods[2].name, "gate-inertialised");
   EXPECT_EQ(figures.labels,
-            (std::vector<std::string>{"jump at the seam", "ended ok", "processor time", "worlds lost"}));
+            (std::vector<std::string>{"jump at the transition point", "ended ok", "processor time", "worlds lost to “wait-for-end”"}));
   EXPECT_EQ(figures.methods[2].values[0], "6.40 cm");
   EXPECT_EQ(figures.methods[1].values[2], "250 ms");
   EXPECT_EQ(figures.methods[2].values[2], "2.00 s");
@@ -201,7 +201,7 @@ TEST(Findings, AnswerTwiceAndSayWhatTheVerdictIsAbout) {
   const ScenarioFindings transition = FindingsOf(run, run.scenarios[0]);
   EXPECT_EQ(transition.answer.baseline, "now");
   EXPECT_EQ(transition.rival.baseline, "gate-inertialised");
-  EXPECT_THAT(transition.headline, HasSubstr("; has 7.83 × the jump at the seam of “gate-inertialised”"));
+  EXPECT_THAT(transition.headline, HasSubstr("; has 7.83 × the jump at the transition point of “gate-inertialised”"));
   EXPECT_THAT(FindingsOf(run, run.scenarios[2]).answer.BothVerdicts(), ::testing::EndsWith(" for other worlds"));
 }
 

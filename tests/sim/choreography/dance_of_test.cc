@@ -47,7 +47,7 @@ TEST(ReadBeats, TellsWhereAndWhatIsWrong) {
   EXPECT_THAT(complaint("1\n9\n"), HasSubstr("allowed: 0.2 to 3"));
   EXPECT_THAT(complaint("1\n1.5\n"), HasSubstr("2 beats; at least 8"));
   EXPECT_THAT(complaint("nan\n"), HasSubstr("my.txt:1:1"));
-  EXPECT_THAT(complaint("-1\n"), HasSubstr("before 0"));
+  EXPECT_THAT(complaint("-1\n"), HasSubstr("allowed: 0 or later"));
   EXPECT_THAT(complaint(""), HasSubstr("0 beats"));
 }
 

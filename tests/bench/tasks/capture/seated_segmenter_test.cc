@@ -175,9 +175,9 @@ TEST(SeatedSegmenter, DoesWhatTheMethodMustThereforeNotSay) {
     return task ? std::string("taken") : ToString(task.error());
   };
   EXPECT_EQ(complaint("{name: a, seat: segmenter, segmenter: hue}"),
-            "m.yaml:1:40: 'segmenter' is what the program in that seat does");
+            "m.yaml:1:40: the program in this seat replaces 'segmenter'");
   EXPECT_EQ(complaint("{name: a, seat: segmenter, oracle: [segmentation]}"),
-            "m.yaml:1:37: segmentation is what the program in that seat does");
+            "m.yaml:1:37: the program in this seat replaces segmentation");
   EXPECT_EQ(complaint("{name: a, seat: segmenter, oracle: [marks]}"), "taken");
 }
 

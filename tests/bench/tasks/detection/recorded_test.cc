@@ -194,12 +194,13 @@ TEST_F(RecordedPeopleTest, RefusesWhatHasNoUseOrCannotBeJudged) {
   EXPECT_EQ(ComplaintAbout(method, set), "no complaint");
   EXPECT_THAT(ComplaintAbout("people: adult\n" + method, set), HasSubstr("nobody is simulated"));
   EXPECT_THAT(ComplaintAbout("noise: 2\n" + method, set), HasSubstr("what its sensor saw"));
-  EXPECT_THAT(ComplaintAbout("methods: [{name: a, oracle: [stream]}]\n", set), HasSubstr("nobody knows"));
+  EXPECT_THAT(ComplaintAbout("methods: [{name: a, oracle: [stream]}]\n", set), HasSubstr("is unknown"));
   LabelledStreams alone = SetOf(Record(1, kDanced, 5));
-  EXPECT_THAT(ComplaintAbout(method, alone), HasSubstr("person-0 alone; leaving one person out needs two people"));
+  EXPECT_THAT(ComplaintAbout(method, alone),
+              HasSubstr("only person-0 was recorded; leaving one person out needs two people"));
   LabelledStreams unnamed = set;
   unnamed.nobody = "take";
-  EXPECT_THAT(ComplaintAbout(method, unnamed), HasSubstr("nobody says who take is"));
+  EXPECT_THAT(ComplaintAbout(method, unnamed), HasSubstr("the person of take is unknown"));
   set.parts[1].begin = set.parts[0].begin;
   set.parts[1].line = 7;
   EXPECT_THAT(ComplaintAbout(method, set), HasSubstr("labels.csv:7: two performances of person-0 begin at once"));

@@ -87,6 +87,31 @@ TEST(GltfAnimation, KeepsEvenlySpacedLinearKeysAsFrames) {
   EXPECT_EQ(frames[2].translation, glm::dvec3(4, 4, 4));
 }
 
+// Keys of three axes that are some nanoseconds apart: in single precision their times are equal, or neighbours.
+TEST(GltfAnimation, KeysThatCoincideAreOneFrame) {
+  for (const float apart : {0.f, 1e-9f, 2e-8f, 1e-6f, 1e-5f}) {
+    Curve curve{"translation", "LINEAR", {}, {}};
+    for (int k = 0; k < 12; ++k) {
+      const float time = static_cast<float>(k) / 30, x = static_cast<float>(k * k);
+      for (const float here : {time, time + apart}) {
+        curve.times.push_back(here);
+        curve.values.insert(curve.values.end(), {x, -x, 1});
+      }
+    }
+    const Clip clip = OnlyClip(Animated({curve}));
+    EXPECT_EQ(clip.rate_hz, 30) << apart;
+    ASSERT_EQ(clip.frames.size(), 12u) << apart;
+    for (int k = 0; k < 12; ++k) ExpectSampled(Frames(clip)[k].translation, {k * k, -k * k, 1}, 0.01);
+  }
+}
+
+TEST(GltfAnimation, JumpsWhereTwoKeysHaveOneTime) {
+  const auto frames =
+      Frames(OnlyClip(Animated({{"translation", "LINEAR", {0, 0.5f, 0.5f, 1}, {0, 0, 0, 1, 0, 0, 5, 0, 0, 6, 0, 0}}})));
+  ASSERT_EQ(frames.size(), 3u);
+  EXPECT_EQ(frames[1].translation, glm::dvec3(5, 0, 0)) << "the last of both";
+}
+
 TEST(GltfAnimation, SamplesUnevenKeysAt60HzAlongStraightLines) {
   const Clip clip = OnlyClip(Animated({{"translation", "LINEAR", {0, 0.5f, 2}, {0, 0, 0, 1, 0, 0, 1, 3, 0}}}));
   EXPECT_EQ(clip.rate_hz, 60);

@@ -1,0 +1,277 @@
+#include "bench/statistics/answers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "bench/statistics/beyond.h"
+#include "bench/statistics/bootstrap.h"
+#include "bench/statistics/compare.h"
+#include "bench/statistics/distributions.h"
+#include "bench/statistics/judging.h"
+#include "engine/base/order_statistics.h"
+
+namespace etude {
+namespace {
+
+bool IsDecided(Verdict verdict) { return verdict == Verdict::kBetter || verdict == Verdict::kWorse; }
+
+/// Returns the metric whose values an answer compares after success; "" if success is the only headline metric.
+std::string ValueMetricOf(const Study& study) {
+  const auto found = std::ranges::find_if(study.metrics, [&](const std::string& id) { return id != study.success; });
+  return found == study.metrics.end() ? "" : *found;
+}
+
+/// The definition of a share of worlds by which a step of an answer is judged.
+MetricInfo ShareMetric(const Study& study, const std::string& id) {
+  MetricInfo metric = *FindMetric(id);
+  metric.direction = Direction::kHigherIsBetter;
+  metric.aggregate = Aggregate::kMean;
+  metric.practical = study.success_matters;
+  return metric;
+}
+
+/// Returns a cell's success: its value, or 0 if it failed without one. Nothing if it was skipped, or answered and has
+/// no value.
+std::optional<double> SuccessAt(const MethodColumns& method, const std::string& success, int trial) {
+  const Status status = method.StatusAt(trial).value_or(Status::kSkipped);
+  if (status == Status::kSkipped) return std::nullopt;
+  if (const auto value = method.ValueAt(success, trial)) return value;
+  return status == Status::kOk ? std::nullopt : std::optional(0.0);
+}
+
+/// One pair of methods; of a rival that differs between the halves of the worlds, the one of each world.
+struct Pairing {
+  const MethodColumns* method;
+  std::vector<const MethodColumns*> other;  ///< by trial
+};
+
+PairedWorlds SuccessesOf(const Pairing& pairing, const std::string& success) {
+  PairedWorlds worlds;
+  for (std::size_t i = 0; i < pairing.other.size(); ++i) {
+    const int trial = static_cast<int>(i);
+    const auto theirs = SuccessAt(*pairing.other[i], success, trial), mine = SuccessAt(*pairing.method, success, trial);
+    if (!theirs || !mine) continue;
+    worlds.pairs.push_back({*theirs, *mine});
+    worlds.trials.push_back(trial);
+  }
+  return worlds;
+}
+
+/// Returns −1, 0 or 1 as pairs: the worlds in which the method's value is far worse or far better.
+PairedWorlds FarOff(const PairedWorlds& values, const MetricInfo& metric, double times) {
+  PairedWorlds far = values;
+  const double sign = metric.direction == Direction::kLowerIsBetter ? -1 : 1;
+  for (Pair& pair : far.pairs) {
+    const double gain = sign * (pair.method - pair.baseline), limit = times * metric.practical;
+    pair = {gain < -limit ? 1.0 : 0.0, gain > limit ? 1.0 : 0.0};
+  }
+  return far;
+}
+
+/// Measures the answers of one condition.
+class Measurer {
+ public:
+  Measurer(const Study& study, const ConditionTable& table, std::uint64_t seed)
+      : study_(study), table_(table), seed_(seed) {}
+
+  /// `other` is the name of the other side, `key` what keys the random streams.
+  Answer Measure(const Pairing& pairing, const PairedWorlds& values, const std::string& other,
+                 const std::string& key) const {
+    Answer answer = MeasureSteps(pairing, values, key);
+    answer.baseline = other;
+    for (std::optional<Comparison>* step : {&answer.success, &answer.both_succeed, &answer.tail}) {
+      if (!*step) continue;
+      (*step)->method = answer.method;
+      (*step)->baseline = other;
+    }
+    return answer;
+  }
+
+ private:
+  Comparison Compare(const PairedWorlds& worlds, const MetricInfo& metric, const std::string& purpose) const {
+    Comparison found = ComparePaired(worlds.pairs, metric, seed_, purpose);
+    if (!worlds.pairs.empty() && metric.aggregate == Aggregate::kMean && AreShares(worlds.pairs)) {
+      const auto count = [&](double sign) {
+        return static_cast<int>(std::ranges::count_if(
+            worlds.pairs, [&](const Pair& pair) { return sign * (pair.method - pair.baseline) > 0; }));
+      };
+      found.sign_flip = {McNemarMidP(count(1), count(-1)), "McNemar's mid-p"};
+    }
+    if (!WorldsAreUnits(study_.unit)) found.beyond = MeasureBeyond(UnitsOf(worlds, table_, metric), CountAnswers());
+    return found;
+  }
+
+  Answer MeasureSteps(const Pairing& pairing, const PairedWorlds& values, const std::string& key) const {
+    const std::string method = pairing.method->name(), value = ValueMetricOf(study_);
+    const auto purpose = [&](const std::string& step) {
+      return PurposeOf(study_.scenario, table_.condition, step, key, method);
+    };
+    Answer answer{.method = method, .value_metric = value};
+    // Success, counting failures.
+    const PairedWorlds successes = study_.success.empty() ? PairedWorlds() : SuccessesOf(pairing, study_.success);
+    if (!successes.pairs.empty()) {
+      answer.success = Compare(successes, ShareMetric(study_, study_.success), purpose("success"));
+    }
+    if (value.empty()) return answer;
+    // The value where both succeed.
+    if (!successes.pairs.empty() && AreShares(successes.pairs)) {
+      PairedWorlds both;
+      for (std::size_t i = 0; i < values.pairs.size(); ++i) {
+        const auto at = std::ranges::lower_bound(successes.trials, values.trials[i]);
+        if (at == successes.trials.end() || *at != values.trials[i]) continue;
+        const Pair& succeeded = successes.pairs[static_cast<std::size_t>(at - successes.trials.begin())];
+        if (succeeded.baseline == 0 || succeeded.method == 0) continue;
+        both.pairs.push_back(values.pairs[i]);
+        both.trials.push_back(values.trials[i]);
+      }
+      if (!both.pairs.empty() && both.pairs.size() < values.pairs.size()) {
+        answer.both_succeed = Compare(both, *FindMetric(value), purpose("both succeed"));
+      }
+    }
+    // The tail; of a share every difference would be one.
+    const MetricInfo& metric = *FindMetric(value);
+    if (!values.pairs.empty() && metric.direction != Direction::kNeither && metric.reading == Reading::kAmount) {
+      const PairedWorlds far = FarOff(values, metric, study_.gate.tail.times);
+      answer.tail = Compare(far, ShareMetric(study_, value), purpose("tail"));
+    }
+    return answer;
+  }
+
+  /// Returns how many answers against baselines are judged together; of those against rivals there are about as many.
+  int CountAnswers() const {
+    const auto compared = std::ranges::count_if(
+        study_.methods, [](const ComparedMethod& method) { return method.name != method.against; });
+    return static_cast<int>(compared) * static_cast<int>(study_.conditions.size());
+  }
+
+  const Study& study_;
+  const ConditionTable& table_;
+  const std::uint64_t seed_;
+};
+
+/// Corrects one step's p-values over a family of answers, and judges it. `metric_of` gives the definition by which an
+/// answer's step is judged.
+template <typename MetricOf>
+void JudgeStep(const std::vector<Answer*>& family, std::optional<Comparison> Answer::*step, SamplingUnit unit,
+               const MetricOf& metric_of) {
+  std::vector<std::optional<double>> p_here, p_beyond;
+  std::vector<Comparison*> judged;
+  for (Answer* answer : family) {
+    if (!(answer->*step)) continue;
+    judged.push_back(&*(answer->*step));
+    p_here.push_back(DecidingP(*judged.back(), metric_of(*answer)));
+    p_beyond.push_back(judged.back()->beyond.test.p);
+  }
+  const auto here = HolmCorrected(p_here), beyond = HolmCorrected(p_beyond);
+  std::size_t i = 0;
+  for (Answer* answer : family) {
+    if (!(answer->*step)) continue;
+    const MetricInfo metric = metric_of(*answer);
+    Comparison& comparison = *judged[i];
+    comparison.p_holm = here[i];
+    comparison.verdict = VerdictOf(comparison, metric);
+    comparison.beyond.p_holm = beyond[i++];
+    comparison.beyond.verdict =
+        WorldsAreUnits(unit) ? std::optional(comparison.verdict) : VerdictBeyond(comparison.beyond, metric);
+  }
+}
+
+/// Decides an answer from its judged steps and the value's comparison over all worlds, null if there is none.
+void Decide(Answer& answer, const Comparison* value) {
+  const auto decide = [&](AnswerStep step, Verdict verdict, std::optional<Verdict> beyond) {
+    answer.decided_by = step;
+    answer.verdict = verdict;
+    answer.beyond = beyond;
+  };
+  if (answer.success && IsDecided(answer.success->verdict)) {
+    return decide(AnswerStep::kSuccess, answer.success->verdict, answer.success->beyond.verdict);
+  }
+  const bool contradicts = value != nullptr && answer.both_succeed && IsDecided(answer.both_succeed->verdict) &&
+                           answer.both_succeed->verdict != value->verdict;
+  if (value != nullptr && IsDecided(value->verdict) && !contradicts) {
+    return decide(AnswerStep::kValue, value->verdict, value->beyond.verdict);
+  }
+  if (answer.tail && IsDecided(answer.tail->verdict)) {
+    return decide(AnswerStep::kTail, answer.tail->verdict, answer.tail->beyond.verdict);
+  }
+  // Nothing decides. "No difference" needs that of every step that could differ.
+  const auto is_open = [](const std::optional<Comparison>& step) {
+    return step && step->verdict == Verdict::kInconclusive;
+  };
+  const Verdict of_value = value != nullptr ? value->verdict
+                           : answer.success ? answer.success->verdict
+                                            : Verdict::kInconclusive;
+  const bool open = contradicts || is_open(answer.success) || of_value != Verdict::kNoDifference;
+  decide(AnswerStep::kNone, open ? Verdict::kInconclusive : Verdict::kNoDifference,
+         value != nullptr ? value->beyond.verdict : std::nullopt);
+  if (answer.beyond && IsDecided(*answer.beyond)) answer.beyond = Verdict::kInconclusive;
+}
+
+/// Judges the answers of all conditions against one kind of other methods.
+void JudgeFamilyOfAnswers(const Study& study, std::vector<ConditionSummary>& conditions,
+                          std::vector<Answer> ConditionSummary::*answers,
+                          std::vector<Comparison> ConditionSummary::*comparisons) {
+  std::vector<Answer*> family;
+  for (ConditionSummary& condition : conditions) {
+    for (Answer& answer : condition.*answers) family.push_back(&answer);
+  }
+  JudgeStep(family, &Answer::success, study.unit, [&](const Answer&) { return ShareMetric(study, study.success); });
+  JudgeStep(family, &Answer::both_succeed, study.unit, [](const Answer& a) { return *FindMetric(a.value_metric); });
+  JudgeStep(family, &Answer::tail, study.unit, [&](const Answer& a) { return ShareMetric(study, a.value_metric); });
+  for (ConditionSummary& condition : conditions) {
+    for (Answer& answer : condition.*answers) {
+      const auto value = std::ranges::find_if(condition.*comparisons, [&](const Comparison& c) {
+        return c.method == answer.method && c.metric == answer.value_metric;
+      });
+      Decide(answer, value == (condition.*comparisons).end() ? nullptr : &*value);
+    }
+  }
+}
+
+}  // namespace
+
+double McNemarMidP(int gained, int lost) {
+  const int all = gained + lost, more = std::max(gained, lost);
+  if (all == 0) return 1;
+  const double above = more == all ? 0 : FairCoinUpperTail(more + 1, all);
+  return std::min(1.0, KeepThirtyBits(FairCoinUpperTail(more, all) + above));
+}
+
+std::vector<Answer> MeasureAnswersAgainstBaselines(const Study& study, const ConditionTable& table,
+                                                   std::uint64_t seed) {
+  const Measurer measurer(study, table, seed);
+  const std::string value = ValueMetricOf(study);
+  std::vector<Answer> answers;
+  for (const ComparedMethod& entry : study.methods) {
+    if (entry.name == entry.against) continue;
+    const std::vector<const MethodColumns*> other(static_cast<std::size_t>(table.trials()), &table.Of(entry.against));
+    const PairedWorlds values = value.empty() ? PairedWorlds() : PairsOf(table, entry.against, entry.name, value);
+    answers.push_back(measurer.Measure({&table.Of(entry.name), other}, values, entry.against, entry.against));
+  }
+  return answers;
+}
+
+std::vector<Answer> MeasureAnswersAgainstRivals(const Study& study, const ConditionTable& table, std::uint64_t seed) {
+  const Measurer measurer(study, table, seed);
+  const std::string value = ValueMetricOf(study);
+  std::vector<Answer> answers;
+  for (const ComparedMethod& entry : study.methods) {
+    const auto rival = FindRival(study, table, entry);
+    if (!rival) continue;
+    std::vector<const MethodColumns*> other;
+    for (int trial = 0; trial < table.trials(); ++trial) {
+      other.push_back(&table.Of(rival->of_half[static_cast<std::size_t>(HalfOf(table, trial))]));
+    }
+    const PairedWorlds values = value.empty() ? PairedWorlds() : WorldsAgainst(*rival, table, entry.name, value);
+    answers.push_back(measurer.Measure({&table.Of(entry.name), other}, values, rival->Name(), "rival"));
+  }
+  return answers;
+}
+
+void JudgeAnswers(const Study& study, std::vector<ConditionSummary>& conditions) {
+  JudgeFamilyOfAnswers(study, conditions, &ConditionSummary::answers, &ConditionSummary::comparisons);
+  JudgeFamilyOfAnswers(study, conditions, &ConditionSummary::rival_answers, &ConditionSummary::rivals);
+}
+
+}  // namespace etude

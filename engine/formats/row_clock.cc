@@ -1,0 +1,251 @@
+#include "engine/formats/row_clock.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "engine/base/names.h"
+#include "engine/base/order_statistics.h"
+
+namespace etude {
+namespace {
+
+constexpr double kMaxStep_s = 600, kMaxBridged_s = 1, kMinSpan_s = 0.5;
+constexpr double kBriefTolerance = 0.05;
+constexpr double kEven = 0.1, kMaxEven = 0.45, kExact = 1e-4;  // of a frame
+constexpr double kMaxAddedValues = 1e7;
+
+/// Returns the power of ten, at most 0.1, of which all times are multiples because they were printed with so many
+/// decimals; 0 if they have more than six.
+double PrintedStep(std::span<const double> times) {
+  constexpr double kRounding = 1e-6;
+  for (double scale = 10; scale < 2e6; scale *= 10) {
+    const auto is_multiple = [&](double time) { return std::abs(time * scale - std::round(time * scale)) < kRounding; };
+    if (std::ranges::all_of(times, is_multiple)) return 1 / scale;
+  }
+  return 0;
+}
+
+/// Returns the rate that fits steps of one to three frames best, starting from that of the median step.
+/// Unclear steps, such as those beside a row at a wrong time, are about half-way between whole numbers of frames.
+double FittedRate(const std::vector<double>& steps, bool only_clear_steps) {
+  constexpr double kUnclear = 0.4;  // of a frame
+  constexpr int kRounds = 4;
+  constexpr double kMaxFrames = 3;
+  double rate = 1 / LowerPercentile(steps, 0.5);
+  for (int round = 0; round < kRounds; ++round) {
+    double frames = 0, seconds = 0;
+    for (const double step : steps) {
+      const double count = std::round(step * rate);
+      const bool is_left_out = only_clear_steps && std::abs(step * rate - count) > kUnclear;
+      if (count > kMaxFrames || is_left_out) continue;
+      frames += count;
+      seconds += step;
+    }
+    if (frames > 0) rate = frames / seconds;
+  }
+  return rate;
+}
+
+/// Returns the indices of the rows that count: of those with equal times, the last. Fails for a clock that is none.
+Result<std::vector<std::size_t>> CountingRows(std::span<const double> times, std::span<const int> lines,
+                                              const std::string& file) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const Place place{file, lines.empty() ? 0 : lines[i]};
+    if (std::isnan(times[i])) return Fail(place, "no time, although other rows tell one");
+    if (rows.empty()) {
+      rows.push_back(i);
+      continue;
+    }
+    const double before = times[rows.back()];
+    if (times[i] < before) {
+      return Fail(place, "time {:.6g} s after {:.6g} s; allowed: a clock that does not run backwards", times[i],
+                  before);
+    }
+    if (times[i] - before > kMaxStep_s) {
+      return Fail(place, "time {:.6g} s after {:.6g} s; allowed: a clock that goes on, at most {} s at once", times[i],
+                  before, kMaxStep_s);
+    }
+    if (times[i] == before) rows.pop_back();
+    rows.push_back(i);
+  }
+  return rows;
+}
+
+/// Says what is not even: frames without a row, frames between rows, and rows that do not count.
+std::string DescribeGrid(const RowGrid& grid, std::size_t twice) {
+  std::size_t holes = 0, places = 0, longest = 0, run = 0, between = 0;
+  for (const GridFrame& frame : grid.frames) {
+    if (!frame.is_hole && frame.part > 0) ++between;
+    run = frame.is_hole ? run + 1 : 0;
+    if (frame.is_hole) ++holes;
+    if (run == 1) ++places;
+    longest = std::max(longest, run);
+  }
+  std::vector<std::string> said;
+  if (holes > 0) {
+    said.push_back(fmt::format("by their times {} of {} frames are missing, in {} {} of at most {:.3g} s", holes,
+                               grid.frames.size(), places, places == 1 ? "gap" : "gaps",
+                               static_cast<double>(longest + 1) / grid.rate_hz));
+  }
+  if (between > 0) {
+    said.push_back(
+        fmt::format("uneven times: {} frames are interpolated at even steps of {:.4g} s", between, 1 / grid.rate_hz));
+  }
+  if (twice > 0) said.push_back(fmt::format("{} rows under the time of another, of which the last counts", twice));
+  return Join(said, "; ");
+}
+
+void AddRemark(std::string& remark, const std::string& text) {
+  if (!text.empty()) remark += (remark.empty() ? "" : "; ") + text;
+}
+
+}  // namespace
+
+Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::span<const int> lines,
+                                          std::optional<double> told_hz, std::size_t width, const std::string& file) {
+  if (std::ranges::all_of(times_s, [](double time) { return std::isnan(time); })) return std::nullopt;
+  ASSIGN_OR_RETURN(const auto rows, CountingRows(times_s, lines, file));
+  if (rows.size() < 2) return std::nullopt;
+
+  // Fit the rate to the steps.
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < rows.size(); ++i) steps.push_back(times_s[rows[i]] - times_s[rows[i - 1]]);
+  const double start = times_s[rows.front()], span = times_s[rows.back()] - start;
+  const double printed = 1.05 * PrintedStep(times_s), fitted = FittedRate(steps, false);
+  const auto tolerance = [&](double rate) { return std::clamp(printed * rate, kEven, kMaxEven); };
+  const auto fits = [&](double rate, double slack) {
+    constexpr double kMost = 0.9;  // of the rows
+    const auto lies_on_frame = [&](std::size_t row) {
+      const double place = (times_s[row] - start) * rate;
+      return std::abs(place - std::round(place)) <= slack;
+    };
+    const auto count = static_cast<double>(std::ranges::count_if(rows, lies_on_frame));
+    return rate > 0 && count >= kMost * static_cast<double>(rows.size());
+  };
+  const bool is_brief = told_hz && span < kMinSpan_s;
+  if (is_brief && std::abs(fitted / *told_hz - 1) > kBriefTolerance) return std::nullopt;
+  // Of these rates, the first at which nearly all rows lie on frames: told, whole, one at which the last row lies on a
+  // frame.
+  RowGrid grid{.rate_hz = fitted, .frames = {}, .remark = {}};
+  for (const double near : {fitted, FittedRate(steps, true)}) {
+    const double whole = std::round(near), to_last = std::round(span * near) / span;
+    const auto is_near = [&](double rate) { return std::abs(near - rate) * span <= kMaxEven; };
+    if (is_brief || (told_hz && is_near(*told_hz) && fits(*told_hz, tolerance(*told_hz)))) {
+      grid.rate_hz = *told_hz;
+    } else if (is_near(whole) && fits(whole, std::clamp(printed * whole, kExact, kMaxEven))) {
+      grid.rate_hz = whole;
+    } else if (fits(to_last, tolerance(to_last))) {
+      grid.rate_hz = to_last;
+    } else {
+      continue;
+    }
+    break;
+  }
+
+  // Refuse holes that would take too much memory.
+  const double slack = tolerance(grid.rate_hz), count = std::floor(span * grid.rate_hz + slack) + 1;
+  const double added = (count - static_cast<double>(rows.size())) * static_cast<double>(width);
+  if (!(added <= kMaxAddedValues)) {
+    return Fail({file}, "{} rows in {:.6g} s, mostly {:.3g} s apart; allowed: holes of {:g} values in all, {} a frame",
+                rows.size(), span, 1 / grid.rate_hz, kMaxAddedValues, width);
+  }
+  // Lay every frame on a row, between two rows, or in a hole.
+  std::size_t at = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+    const auto frame = static_cast<double>(k);
+    const auto place_of = [&](std::size_t i) { return (times_s[rows[i]] - start) * grid.rate_hz; };
+    while (at + 1 < rows.size() && place_of(at + 1) <= frame + slack) ++at;
+    const std::size_t next = std::min(at + 1, rows.size() - 1);
+    GridFrame& made = grid.frames.emplace_back(GridFrame{rows[at], rows[at]});
+    if (next == at || std::abs(frame - place_of(at)) <= slack) continue;
+    constexpr double kMissing = 1.5;  // frames from row to row
+    const double step = place_of(next) - place_of(at);
+    made = {rows[at], rows[next], (frame - place_of(at)) / step, step >= kMissing};
+  }
+  grid.is_even = grid.frames.size() == times_s.size();
+  for (std::size_t k = 0; grid.is_even && k < grid.frames.size(); ++k) {
+    grid.is_even = grid.frames[k].row == k && grid.frames[k].part == 0;
+  }
+  grid.remark = DescribeGrid(grid, times_s.size() - rows.size());
+  return grid;
+}
+
+std::vector<double> TimesOfNumbers(std::span<const double> numbers, double rate_hz) {
+  std::vector<double> steps, times;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (!(numbers[i] == std::floor(numbers[i])) || (i > 0 && !(numbers[i] > numbers[i - 1]))) return {};
+    if (i > 0) steps.push_back(numbers[i] - numbers[i - 1]);
+  }
+  if (steps.empty()) return {};
+  const double usual = LowerPercentile(std::move(steps), 0.5);
+  for (const double number : numbers) times.push_back((number - numbers.front()) / usual / rate_hz);
+  return times;
+}
+
+Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
+  MarkerMotion& markers = rows.markers;
+  const std::optional<double> told = rows.rate_name.empty() ? std::nullopt : std::optional(markers.rate_hz);
+  ASSIGN_OR_RETURN(const auto grid, GridOfRows(rows.times_s, rows.lines, told, markers.names.size(), file));
+  if (!grid) return std::move(markers);
+  if (told && grid->rate_hz != *told) {
+    AddRemark(markers.remark, fmt::format("{} says {:g} Hz, but the column Time runs at {:g} Hz, which counts",
+                                          rows.rate_name, *told, grid->rate_hz));
+  }
+  markers.rate_hz = grid->rate_hz;
+  AddRemark(markers.remark, grid->remark);
+  if (grid->is_even) return std::move(markers);
+  // Interpolate each marker that both rows show; zeros, which some programs write for a gap, only beside zeros.
+  std::vector<std::vector<std::optional<glm::dvec3>>> frames;
+  frames.reserve(grid->frames.size());
+  for (const GridFrame& at : grid->frames) {
+    const auto &row = markers.frames[at.row], &next = markers.frames[at.next];
+    auto& frame = frames.emplace_back(markers.names.size());
+    for (std::size_t i = 0; i < frame.size() && !at.is_hole; ++i) {
+      if (at.part == 0) frame[i] = row[i];
+      if (at.part == 0 || !row[i] || !next[i]) continue;
+      if ((*row[i] == glm::dvec3(0)) == (*next[i] == glm::dvec3(0))) frame[i] = glm::mix(*row[i], *next[i], at.part);
+    }
+  }
+  markers.frames = std::move(frames);
+  return std::move(markers);
+}
+
+Result<BodyMotion> LayOnClock(BodyMotion rows, std::span<const double> times_s, const std::string& file,
+                              std::string& remark) {
+  ASSIGN_OR_RETURN(const auto grid, GridOfRows(times_s, {}, std::nullopt, kRoleCount, file));
+  if (!grid) return rows;
+  AddRemark(remark, grid->remark);
+  rows.rate_hz = grid->rate_hz;
+  if (grid->is_even) return rows;
+  // Find the longest stretch without a hole of more than a second.
+  const auto is_lost = [&](const GridFrame& frame) {
+    return frame.is_hole && times_s[frame.next] - times_s[frame.row] > kMaxBridged_s;
+  };
+  std::size_t begin = 0, best_begin = 0, best_end = 0;
+  for (std::size_t k = 0; k <= grid->frames.size(); ++k) {
+    if (k < grid->frames.size() && !is_lost(grid->frames[k])) continue;
+    if (k - begin > best_end - best_begin) std::tie(best_begin, best_end) = std::pair(begin, k);
+    begin = k + 1;
+  }
+  if (best_end - best_begin < grid->frames.size()) {
+    AddRemark(remark, fmt::format("frames {} to {} of {} are kept (gaps of over {:g} s)", best_begin + 1, best_end,
+                                  grid->frames.size(), kMaxBridged_s));
+  }
+  // Interpolate every joint.
+  BodyMotion laid{.rate_hz = rows.rate_hz, .poses = {}};
+  for (std::size_t k = best_begin; k < best_end; ++k) {
+    const GridFrame& at = grid->frames[k];
+    BodyPose& pose = laid.poses.emplace_back(rows.poses[at.row]);
+    for (std::size_t i = 0; i < kRoleCount && at.part > 0; ++i) {
+      pose.joints[i] = glm::mix(pose.joints[i], rows.poses[at.next].joints[i], at.part);
+    }
+  }
+  return laid;
+}
+
+}  // namespace etude

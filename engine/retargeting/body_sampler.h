@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "engine/motion/body.h"
+#include "engine/motion/clip.h"
+#include "engine/retargeting/joint_map.h"
+
+namespace etude {
+
+/// Evaluates a clip's twenty joints at any time, in the file's unit and axes. Only joints that carry a role are
+/// evaluated, and no memory is allocated for a frame. `clip` must outlive this object.
+class BodySampler {
+ public:
+  BodySampler(const Clip& clip, const JointMap& map);
+
+  BodyPose Rest();
+  /// Returns the pose at a frame counted from 0, also between frames (SampleFrame); it must lie within the clip.
+  BodyPose At(double frame);
+
+ private:
+  BodyPose Evaluated();
+
+  const Clip& clip_;
+  std::vector<int> joints_;  ///< indices in the clip: joints with a role and their ancestors
+  Skeleton skeleton_;        ///< of these joints only
+  JointMap map_;             ///< on that skeleton
+  LocalPose local_;
+  std::vector<GlobalTransform> globals_;
+};
+
+/// Returns the step at which about a hundred frames of a clip are sampled.
+std::size_t SampleStep(const Clip& clip);
+/// Samples the clip's joints at about a hundred frames, evenly spaced, in the file's axes.
+std::vector<BodyPose> SampledPoses(const Clip& clip, BodySampler& sampler);
+
+/// Samples for FindUp: close enough to see steps, and few in long clips.
+struct UpSamples {
+  std::vector<BodyPose> poses;
+  double rate_hz = 0;
+};
+UpSamples SamplesForUp(const Clip& clip, BodySampler& sampler);
+
+}  // namespace etude

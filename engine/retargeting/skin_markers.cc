@@ -1,0 +1,220 @@
+#include "engine/retargeting/skin_markers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/base/directions.h"
+#include "engine/base/names.h"
+#include "engine/base/order_statistics.h"
+#include "engine/base/smoothstep.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+
+/// A kind of joint whose markers lie on the skin.
+struct SkinJoint {
+  Role left, before;       ///< the joint of the left side, and the one at the limb's other end
+  std::string_view size;   ///< the name of its width in files, without the side
+  double share;            ///< distance from marker to centre over the limb's length
+  std::string_view where;  ///< for people: "knees {:.1f} cm inside"
+};
+constexpr std::array<SkinJoint, 4> kSkinJoints = {{{kLeftKnee, kLeftHip, "KNEEWIDTH", 0.12, "knees"},
+                                                   {kLeftAnkle, kLeftKnee, "ANKLEWIDTH", 0.085, "ankles"},
+                                                   {kLeftElbow, kLeftShoulder, "ELBOWWIDTH", 0.16, "elbows"},
+                                                   {kLeftShoulder, kLeftElbow, "SHOULDEROFFSET", 0.16, "shoulders"}}};
+
+/// The distances from markers to centres, metres, by role.
+struct SkinDepths {
+  std::array<double, kRoleCount> metres{};
+  std::vector<std::string> of_file, of_limb;  ///< which kinds of joints have them from where
+};
+
+/// One side of a body in one frame.
+class SideOf {
+ public:
+  SideOf(JointPositions& places, bool is_left) : places_(places), is_left_(is_left) {}
+
+  bool is_left() const { return is_left_; }
+  Role On(Role left) const { return is_left_ ? left : Mirrored(left); }
+  MarkerPosition& operator[](Role left) const { return places_[Index(On(left))]; }
+  bool Has(std::initializer_list<Role> roles) const {
+    return std::ranges::all_of(roles, [&](Role role) { return (*this)[role].has_value(); });
+  }
+
+ private:
+  JointPositions& places_;
+  bool is_left_;
+};
+
+glm::dvec3 Across(const glm::dvec3& v, const glm::dvec3& along) {
+  const glm::dvec3 unit = UnitOr(along, glm::dvec3(0));
+  return v - glm::dot(v, unit) * unit;
+}
+
+/// Returns the centre that is `depth` from `marker`, on the side of `inward`, where the lines to the marker and to the
+/// limb's other end are at a right angle.
+glm::dvec3 Chord(const glm::dvec3& other_end, const glm::dvec3& marker, const glm::dvec3& inward, double depth) {
+  const glm::dvec3 limb = marker - other_end;
+  const double length = glm::length(limb);
+  const glm::dvec3 aside = UnitOr(Across(inward, limb), glm::dvec3(0));
+  if (depth >= length || aside == glm::dvec3(0)) return marker;
+  const double share = depth / length;
+  return marker - depth * share * limb / length + depth * std::sqrt(1 - share * share) * aside;
+}
+
+/// Blends from `rough`, which always tells, to the normal of a bend, which tells the more it bends.
+glm::dvec3 Inward(const glm::dvec3& rough, const glm::dvec3& upper, const glm::dvec3& lower, double sign) {
+  constexpr double kLowSine = 0.15, kHighSine = 0.5;
+  const glm::dvec3 normal = sign * glm::cross(upper, lower);
+  const double sine = glm::length(normal) / std::max(glm::length(upper) * glm::length(lower), 1e-12);
+  const glm::dvec3 side = UnitOr(Across(rough, upper), glm::dvec3(0));
+  return glm::mix(side, UnitOr(normal, side), Smoothstep(kLowSine, kHighSine, sine));
+}
+
+SkinDepths DepthsOf(const MarkerSet& set, const std::map<std::string, double>& sizes_m,
+                    std::vector<JointPositions>& frames) {
+  constexpr double kUsualMarker = 0.014;
+  SkinDepths depths;
+  const auto size = [&](const std::string& name) {
+    const auto found = sizes_m.find(name);
+    return found == sizes_m.end() ? std::nullopt : std::optional(found->second);
+  };
+  for (const SkinJoint& joint : kSkinJoints) {
+    if (joint.left == kLeftShoulder ? !set.has_skin_shoulders : !set.has_skin_limbs) continue;
+    std::vector<double> lengths;
+    bool is_of_file = true;
+    for (const bool is_left : {true, false}) {
+      // The file's own width, else a share of the limb.
+      const auto width = size((is_left ? "L" : "R") + std::string(joint.size));
+      const bool is_offset = joint.left == kLeftShoulder;
+      const double radius = 0.5 * size("MARKERDIAMETER").value_or(kUsualMarker);
+      if (width) depths.metres[Index(is_left ? joint.left : Mirrored(joint.left))] = (is_offset ? *width : *width / 2) + radius;
+      is_of_file = is_of_file && width.has_value();
+      for (JointPositions& places : frames) {
+        const SideOf side(places, is_left);
+        if (side.Has({joint.left, joint.before})) lengths.push_back(glm::distance(*side[joint.left], *side[joint.before]));
+      }
+    }
+    const double share = lengths.empty() ? 0 : joint.share * LowerPercentile(std::move(lengths), 0.5);
+    for (const Role role : {joint.left, Mirrored(joint.left)}) {
+      if (depths.metres[Index(role)] == 0) depths.metres[Index(role)] = share;
+    }
+    const double mean = 50 * (depths.metres[Index(joint.left)] + depths.metres[Index(Mirrored(joint.left))]);
+    (is_of_file ? depths.of_file : depths.of_limb).push_back(fmt::format("{} {:.1f}", joint.where, mean));
+  }
+  return depths;
+}
+
+void LowerShoulders(JointPositions& places, const SkinDepths& depths) {
+  const auto at = [&](Role role) -> MarkerPosition& { return places[Index(role)]; };
+  // Down along the trunk, by its own markers, else from shoulders to hips.
+  glm::dvec3 down(0);
+  if (at(kShoulderCentre) && at(kSpine)) {
+    down = *at(kSpine) - *at(kShoulderCentre);
+  } else if (at(kLeftShoulder) && at(kRightShoulder) && at(kLeftHip) && at(kRightHip)) {
+    down = *at(kLeftHip) + *at(kRightHip) - *at(kLeftShoulder) - *at(kRightShoulder);
+  }
+  for (const Role role : {kLeftShoulder, kRightShoulder}) {
+    if (at(role)) *at(role) += depths.metres[Index(role)] * UnitOr(down, glm::dvec3(0));
+  }
+}
+
+/// Returns the direction inward by a wand; `otherwise` without one, or if it stands before or behind the limb.
+glm::dvec3 ByWand(const MarkerPosition& wand, const glm::dvec3& other_end, const glm::dvec3& marker,
+                  const glm::dvec3& otherwise) {
+  constexpr double kAside = 0.3;
+  if (!wand) return otherwise;
+  const glm::dvec3 inward = UnitOr(-Across(*wand - other_end, marker - other_end), glm::dvec3(0));
+  return glm::dot(inward, UnitOr(Across(otherwise, marker - other_end), glm::dvec3(0))) > kAside ? inward : otherwise;
+}
+
+void MoveLeg(const SideOf& side, const Wands& wands, const SkinDepths& depths) {
+  if (!side.Has({kLeftHip, kLeftKnee, kLeftAnkle, kRightHip})) return;
+  const std::size_t index = side.is_left() ? 0 : 1;
+  const glm::dvec3 hip = *side[kLeftHip], skin = *side[kLeftKnee], ankle = *side[kLeftAnkle];
+  // Knee: inward is to the other hip; a bent knee turns about its axis.
+  const glm::dvec3 bent = Inward(*side[kRightHip] - hip, skin - hip, ankle - skin, side.is_left() ? -1 : 1);
+  const glm::dvec3 knee =
+      Chord(hip, skin, ByWand(wands.thigh[index], hip, skin, bent), depths.metres[Index(side.On(kLeftKnee))]);
+  side[kLeftKnee] = knee;
+  // Ankle: parallel to the knee, unless its wand shows otherwise.
+  const glm::dvec3 inward = ByWand(wands.shank[index], knee, ankle, knee - skin);
+  side[kLeftAnkle] = Chord(knee, ankle, inward, depths.metres[Index(side.On(kLeftAnkle))]);
+}
+
+/// Returns the elbow's centre for a marker on its outside.
+glm::dvec3 BesideElbow(const SideOf& side, double depth) {
+  const glm::dvec3 shoulder = *side[kLeftShoulder], skin = *side[kLeftElbow], wrist = *side[kLeftWrist];
+  glm::dvec3 rough = *side[kRightShoulder] - shoulder;
+  if (side.Has({kLeftHip}) && glm::length(Across(rough, skin - shoulder)) < 0.5 * glm::length(rough)) {
+    rough = *side[kLeftHip] - shoulder;  // an arm held out
+  }
+  return Chord(shoulder, skin, Inward(rough, skin - shoulder, wrist - skin, side.is_left() ? 1 : -1), depth);
+}
+
+/// Returns the elbow's centre for a marker on its point.
+glm::dvec3 BeforeElbow(const SideOf& side, double depth) {
+  const glm::dvec3 wrist = *side[kLeftWrist], skin = *side[kLeftElbow];
+  return Chord(wrist, skin, *side[kLeftShoulder] - skin, depth);
+}
+
+/// Returns true if the elbows' markers sit on their points: upper arms then keep their length far better.
+bool AreOnElbowPoints(std::vector<JointPositions>& frames, const SkinDepths& depths) {
+  constexpr std::size_t kMinFrames = 5;
+  constexpr double kBetter = 0.5, kVisible = 0.0005;
+  std::array<double, 2> deviations{};
+  for (const bool is_left : {true, false}) {
+    std::array<std::vector<double>, 2> lengths;
+    for (JointPositions& places : frames) {
+      const SideOf side(places, is_left);
+      if (!side.Has({kLeftShoulder, kRightShoulder, kLeftElbow, kLeftWrist})) continue;
+      const double depth = depths.metres[Index(side.On(kLeftElbow))];
+      lengths[0].push_back(glm::distance(BesideElbow(side, depth), *side[kLeftShoulder]));
+      lengths[1].push_back(glm::distance(BeforeElbow(side, depth), *side[kLeftShoulder]));
+    }
+    if (lengths[0].size() < kMinFrames) return false;
+    for (std::size_t way = 0; way < 2; ++way) {
+      double mean = 0, square = 0;
+      for (const double length : lengths[way]) mean += length / static_cast<double>(lengths[way].size());
+      for (const double length : lengths[way]) square += (length - mean) * (length - mean);
+      deviations[way] += std::sqrt(square / static_cast<double>(lengths[way].size()));
+    }
+  }
+  return deviations[1] < kBetter * deviations[0] && deviations[0] - deviations[1] > kVisible;
+}
+
+}  // namespace
+
+std::string MoveToJointCentres(const MarkerSet& set, const std::map<std::string, double>& sizes_m,
+                               const std::vector<Wands>& wands, std::vector<JointPositions>& frames) {
+  if (!set.has_skin_limbs && !set.has_skin_shoulders) return "";
+  const SkinDepths depths = DepthsOf(set, sizes_m, frames);
+  // Shoulders first: elbows hang from them.
+  if (set.has_skin_shoulders) {
+    for (JointPositions& places : frames) LowerShoulders(places, depths);
+  }
+  const bool is_on_point = set.has_skin_limbs && AreOnElbowPoints(frames, depths);
+  for (std::size_t t = 0; t < frames.size() && set.has_skin_limbs; ++t) {
+    for (const bool is_left : {true, false}) {
+      const SideOf side(frames[t], is_left);
+      MoveLeg(side, wands[t], depths);
+      if (!side.Has({kLeftShoulder, kRightShoulder, kLeftElbow, kLeftWrist})) continue;
+      const double depth = depths.metres[Index(side.On(kLeftElbow))];
+      side[kLeftElbow] = is_on_point ? BeforeElbow(side, depth) : BesideElbow(side, depth);
+    }
+  }
+  // Say what was moved, and by which rule.
+  std::string said = "joint centres under the skin, cm from their markers: ";
+  if (!depths.of_file.empty()) said += Join(depths.of_file) + " by the file's widths";
+  if (!depths.of_file.empty() && !depths.of_limb.empty()) said += "; ";
+  if (!depths.of_limb.empty()) said += Join(depths.of_limb) + " by the lengths of the limbs";
+  if (is_on_point) said += "; elbow markers sit on the elbow's point, so upper arms keep their length";
+  return said;
+}
+
+}  // namespace etude

@@ -1,0 +1,248 @@
+#include "engine/retargeting/up_axis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <vector>
+
+#include "engine/base/order_statistics.h"
+#include "engine/motion/statistics.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+
+/// What a motion shows if one axis points up. Lengths are in statures.
+struct Stance {
+  double upright = 0;   ///< share of the frames with the trunk upright, the hips above the feet, and the head on top
+  double balanced = 0;  ///< share of the frames with the weight over the feet
+  double floor = 0;     ///< how far the lowest joint's height varies (5th to 95th percentile)
+  double way = 0;       ///< how far the hips travel across the axis
+  double steps = 0;     ///< share of that travelling during which one ankle stands
+  double on_hands = 0;  ///< share of the frames with a wrist beyond the head, as upside down on the hands
+};
+
+/// A share of the frames that is next to none.
+constexpr double kHardlyEver = 0.05;
+
+double LegLength(const BodyPose& pose) {
+  return 0.5 * (glm::distance(pose[kLeftHip], pose[kLeftKnee]) + glm::distance(pose[kLeftKnee], pose[kLeftAnkle]) +
+                glm::distance(pose[kRightHip], pose[kRightKnee]) + glm::distance(pose[kRightKnee], pose[kRightAnkle]));
+}
+
+glm::dvec3 MeanAnkle(const BodyPose& pose) { return 0.5 * (pose[kLeftAnkle] + pose[kRightAnkle]); }
+
+bool IsUpright(const BodyPose& pose, const glm::dvec3& up) {
+  constexpr double kSteep = 0.7, kAboveFeet = 0.25;
+  const glm::dvec3 trunk = pose[kShoulderCentre] - pose[kHipCentre];
+  return glm::dot(trunk, up) > kSteep * glm::length(trunk) &&
+         glm::dot(pose[kHipCentre] - MeanAnkle(pose), up) > kAboveFeet * LegLength(pose) &&
+         glm::dot(pose[kHead] - pose[kShoulderCentre], up) > 0;
+}
+
+/// Returns true if the body's weight lies over the box around ankles and toes, widened by a heel.
+bool IsBalanced(const BodyPose& pose, const glm::dvec3& up, double stature) {
+  constexpr double kHeel = 0.035, kFootless = 0.09, kAboveFeet = 0.4, kMinFoot = 0.02;
+  if (glm::dot(pose[kHipCentre] - MeanAnkle(pose), up) < kAboveFeet * LegLength(pose)) return false;
+  const auto flat = [&](const glm::dvec3& v) { return v - glm::dot(v, up) * up; };
+  const glm::dvec3 feet = flat(0.5 * (pose[kLeftFoot] + pose[kRightFoot]) - MeanAnkle(pose));
+  const double length = glm::length(feet);
+  const glm::dvec3 some(up.y, up.z, up.x);  // another axis
+  const glm::dvec3 ahead = length > kMinFoot * stature ? feet / length : some, aside = glm::cross(up, ahead);
+  const double margin = (length > kMinFoot * stature ? kHeel : kFootless) * stature;
+  const glm::dvec3 weight = 0.5 * pose[kHipCentre] + 0.35 * pose[kShoulderCentre] + 0.15 * pose[kHead];
+  return std::ranges::all_of(std::array{ahead, aside}, [&](const glm::dvec3& axis) {
+    const auto [low, high] = std::minmax({glm::dot(pose[kLeftAnkle], axis), glm::dot(pose[kRightAnkle], axis),
+                                          glm::dot(pose[kLeftFoot], axis), glm::dot(pose[kRightFoot], axis)});
+    const double at = glm::dot(weight, axis);
+    return at > low - margin && at < high + margin;
+  });
+}
+
+double Lowest(const BodyPose& pose, const glm::dvec3& up) {
+  double lowest = glm::dot(pose[kHipCentre], up);
+  for (const Role role : AllRoles()) lowest = std::min(lowest, glm::dot(pose[role], up));
+  return lowest;
+}
+
+/// Frames to measure: the poses at a stride, each with one about a twentieth of a second later.
+struct Frames {
+  std::span<const BodyPose> poses;
+  std::size_t stride = 1, later = 1;
+  double seconds = 1;  ///< between a frame and the later one
+  double stature = 1;
+};
+
+Frames FramesOf(std::span<const BodyPose> poses, double rate_hz) {
+  constexpr std::size_t kMaxFrames = 4000;
+  constexpr double kLater_s = 0.05;
+  std::vector<double> statures;
+  Frames frames{.poses = poses, .stride = 1 + poses.size() / kMaxFrames};
+  for (std::size_t i = 0; i < poses.size(); i += frames.stride) statures.push_back(Stature(poses[i]));
+  frames.stature = std::max(LowerPercentile(std::move(statures), 0.5), 1e-12);
+  frames.later = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kLater_s * rate_hz)));
+  frames.seconds = static_cast<double>(frames.later) / rate_hz;
+  return frames;
+}
+
+Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
+  constexpr double kTravelling = 0.15, kStands = 0.4;  // statures a second; of the hips' speed
+  Stance stance;
+  std::vector<double> lowest;
+  double count = 0, travelling = 0;
+  glm::dvec3 low = frames.poses.front()[kHipCentre], high = low;
+  const auto flat = [&](const glm::dvec3& v) { return v - glm::dot(v, up) * up; };
+  for (std::size_t i = 0; i < frames.poses.size(); i += frames.stride) {
+    // Postures and the lowest joint.
+    const BodyPose& pose = frames.poses[i];
+    count += 1;
+    stance.upright += IsUpright(pose, up) ? 1 : 0;
+    stance.balanced += IsBalanced(pose, up, frames.stature) ? 1 : 0;
+    const double wrist = std::max(glm::dot(pose[kLeftWrist], up), glm::dot(pose[kRightWrist], up));
+    stance.on_hands += wrist > glm::dot(pose[kHead], up) ? 1 : 0;
+    lowest.push_back(Lowest(pose, up));
+    low = glm::min(low, pose[kHipCentre]);
+    high = glm::max(high, pose[kHipCentre]);
+    // Steps: one ankle stands while the hips travel.
+    if (i + frames.later >= frames.poses.size()) continue;
+    const BodyPose& later = frames.poses[i + frames.later];
+    const auto moved = [&](Role role) { return glm::length(flat(later[role] - pose[role])); };
+    const double hips = moved(kHipCentre);
+    if (hips < kTravelling * frames.stature * frames.seconds) continue;
+    travelling += 1;
+    stance.steps += std::min(moved(kLeftAnkle), moved(kRightAnkle)) < kStands * hips ? 1 : 0;
+  }
+  stance.upright /= count;
+  stance.balanced /= count;
+  stance.on_hands /= count;
+  stance.steps = travelling > 0 ? stance.steps / travelling : 0;
+  stance.floor = (LowerPercentile(lowest, 0.95) - LowerPercentile(lowest, 0.05)) / frames.stature;
+  const glm::dvec3 box = flat(high - low);
+  stance.way = std::max({std::abs(box.x), std::abs(box.y), std::abs(box.z)}) / frames.stature;
+  return stance;
+}
+
+/// Returns true if a motion speaks for `other` as the axis that points up, against the usual one.
+bool Overrules(const Stance& other, const Stance& usual, bool is_opposite, const UpRule& rule) {
+  constexpr double kMostly = 0.8, kStillFloor = 0.05;
+  // Upside down on the hands: arms stretched beyond the head. A camera's axes point down, but arms then hang.
+  if (is_opposite && other.on_hands > 0.5) return false;
+  // The floor is still along the other axis only.
+  constexpr double kNow = 0.1, kFloorless = 0.15;
+  if (other.upright >= kNow && other.floor < kStillFloor && usual.floor > std::max(kFloorless, 3 * other.floor)) {
+    return true;
+  }
+  if (other.upright < kMostly || usual.upright >= kHardlyEver) return false;
+  // It walks.
+  if (other.way > 0.5 && other.steps > 0.4) return true;
+  if (rule.is_of_rest) return false;
+  // It stands on its feet, and moves or is quite still.
+  if (other.balanced > 0.75 && other.floor < kStillFloor && usual.floor > std::max(0.06, 2 * other.floor)) return true;
+  return other.upright > 0.9 && other.balanced > 0.9 && other.floor < 0.02;
+}
+
+constexpr std::array<glm::dvec3, 6> kAxes = {
+    {{0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, -1}}};
+
+}  // namespace
+
+std::string_view UpEvidenceName(UpEvidence evidence) {
+  constexpr std::array<std::string_view, 4> kNames = {"told", "file", "format", "posture"};
+  return kNames[static_cast<std::size_t>(evidence)];
+}
+
+UpFinding FindUp(std::span<const BodyPose> all, double rate_hz, const UpRule& rule) {
+  UpFinding found{.axis = rule.axis, .evidence = rule.evidence, .source = rule.source};
+  if (rule.evidence == UpEvidence::kTold) return found;
+  std::vector<BodyPose> poses;
+  std::ranges::copy_if(all, std::back_inserter(poses), [](const BodyPose& pose) {
+    return std::ranges::all_of(pose.joints, [](const glm::dvec3& p) { return std::isfinite(glm::dot(p, p)); });
+  });
+  if (poses.empty()) return found;
+  // Find the axis that the motion speaks for: among several, the one along which the body is upright most.
+  const Frames frames = FramesOf(poses, rate_hz);
+  const Stance usual = MeasureStance(frames, rule.axis);
+  const glm::dvec3* best = nullptr;
+  double most = 0;
+  for (const glm::dvec3& axis : kAxes) {
+    if (axis == rule.axis || (rule.is_y_or_z && axis.y + axis.z < 1)) continue;
+    const Stance stance = MeasureStance(frames, axis);
+    if (stance.upright <= most || !Overrules(stance, usual, axis == -rule.axis, rule)) continue;
+    most = stance.upright;
+    best = &axis;
+  }
+  // Posture is the last evidence.
+  const std::string usually = fmt::format("{} is {}", AxisName(rule.axis), rule.source);
+  if (best != nullptr && rule.evidence == UpEvidence::kPosture) {
+    found.axis = *best;
+    found.source = "its posture";
+    found.doubt = fmt::format("{} is taken for up by posture alone: {}", AxisName(*best), usually);
+  } else if (best != nullptr) {
+    found.doubt = fmt::format("the body stands along {}, but {}", AxisName(*best), usually);
+  } else if (rule.evidence == UpEvidence::kPosture && usual.upright < kHardlyEver) {
+    found.doubt = fmt::format("the body never stands for sure: {}, and taken for up", usually);
+  }
+  if (!found.doubt.empty()) found.doubt += "; --up overrules that";
+  return found;
+}
+
+UpFinding FindUp(const BodyPose& rest, std::span<const BodyPose> poses, double rate_hz) {
+  constexpr double kStanding = 0.9;
+  const glm::dvec3 at_rest = BodyAxis(rest);
+  UpRule rule{.is_y_or_z = true};
+  if (std::max(at_rest.y, at_rest.z) > kStanding) rule.source = "the axis along which it stands at rest";
+  rule.is_of_rest = at_rest.y > kStanding;
+  // Some exporters write a rest pose along Z and motions along Y, so a rest pose along Z gives way to a still stance.
+  if (at_rest.z > kStanding) rule.axis = {0, 0, 1};
+  return FindUp(poses, rate_hz, rule);
+}
+
+UpRule TrcUp() { return {.source = "the usual axis of TRC files"}; }
+
+UpRule C3dUp(char axis, bool is_negative) {
+  if (axis == 0) return {.axis = {0, 0, 1}, .source = "the usual axis of C3D files"};
+  UpRule rule{.axis = glm::dvec3(0), .evidence = UpEvidence::kFile, .source = "the word of its Y_SCREEN"};
+  rule.axis[axis - 'X'] = is_negative ? -1 : 1;
+  return rule;
+}
+
+UpRule ArrayUp() { return {.source = "the usual axis of arrays of joints"}; }
+
+UpRule JointCsvUp() { return {.evidence = UpEvidence::kFormat, .source = "the rule of joint CSV"}; }
+
+UpRule MotiveUp() { return {.evidence = UpEvidence::kFormat, .source = "the rule of Motive's exports"}; }
+
+UpRule AmassUp() {
+  return {.axis = {0, 0, 1}, .evidence = UpEvidence::kFormat, .source = "the rule of AMASS", .is_y_or_z = true};
+}
+
+UpRule GltfUp() { return {.evidence = UpEvidence::kFormat, .source = "the rule of glTF", .is_y_or_z = true}; }
+
+UpRule DeepMimicUp() { return {.evidence = UpEvidence::kFormat, .source = "the rule of DeepMimic", .is_y_or_z = true}; }
+
+std::string AxisName(const glm::dvec3& axis) {
+  for (int i = 0; i < 3; ++i) {
+    if (axis[i] != 0) return std::string(axis[i] < 0 ? "−" : "") + "XYZ"[i];
+  }
+  return "no axis";
+}
+
+glm::dvec3 AxisOf(UpAxis up) { return up == UpAxis::kZ ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0); }
+
+std::string DescribeTurn(const UpFinding& up) {
+  if (up.axis == glm::dvec3(0, 1, 0)) return "";
+  return fmt::format("turned upright from {} up ({})", AxisName(up.axis),
+                     up.evidence == UpEvidence::kTold ? "told" : up.source);
+}
+
+glm::dvec3 TurnedUp(const glm::dvec3& p, const glm::dvec3& up) {
+  if (up.z != 0) return {p.x, up.z * p.z, -up.z * p.y};
+  if (up.x != 0) return {-up.x * p.y, up.x * p.x, p.z};
+  return up.y < 0 ? glm::dvec3(p.x, -p.y, -p.z) : p;
+}
+
+}  // namespace etude

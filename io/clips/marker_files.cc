@@ -1,0 +1,111 @@
+#include "io/clips/marker_files.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "engine/formats/c3d.h"
+#include "engine/formats/joint_csv.h"
+#include "engine/formats/motive_csv.h"
+#include "engine/formats/row_clock.h"
+#include "engine/retargeting/markers.h"
+#include "engine/retargeting/rig.h"
+#include "sim/choreography/canonical_body.h"
+
+namespace etude {
+
+std::optional<UpAxis> ToldUp(const OpenOptions& options) {
+  return options.body.up || !options.roles ? options.body.up : options.roles->up;
+}
+std::optional<double> ToldUnit(const OpenOptions& options) {
+  return options.body.metres_per_unit || !options.roles ? options.body.metres_per_unit : options.roles->metres_per_unit;
+}
+bool KeepsFloor(const OpenOptions& options) {
+  return options.body.keep_floor || (options.roles && options.roles->keep_floor);
+}
+
+Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const std::string& path,
+                               const OpenOptions& options, UpRule rule) {
+  if (const auto up = ToldUp(options)) rule = {.axis = AxisOf(*up), .evidence = UpEvidence::kTold, .source = "told"};
+  const MarkerOptions told{.up = std::move(rule),
+                           .keep_floor = KeepsFloor(options),
+                           .metres_per_unit = ToldUnit(options),
+                           .set = options.roles && options.marker_set.empty() ? options.roles->marker_set : options.marker_set};
+  ASSIGN_OR_RETURN(const auto bodies, FindMarkerBodies(std::move(markers), path, told));
+  ClipFile file{.format = format, .figure = {.name = "", .skeleton = {}, .materials = {}, .meshes = {}}, .clips = {}};
+  for (const MarkerBody& body : bodies) {
+    file.clips.push_back(RigClip(body.motion, StandingPose(), body.name));
+    file.bodies.push_back({body.changes, body.up, body.floor});
+  }
+  file.figure.skeleton = file.clips.front().skeleton;
+  return file;
+}
+
+namespace {
+
+Result<ClipFile> ReadJointTable(std::string_view text, const std::string& path, const OpenOptions& options) {
+  ASSIGN_OR_RETURN(const auto csv, ReadJointCsv(text, path));
+  MarkerRows rows{.markers = {.names = {}, .frames = {}}, .times_s = csv.times_s, .lines = csv.lines};
+  for (const Role role : AllRoles()) rows.markers.names.emplace_back(RoleName(role));
+  for (const auto& frame : csv.frames) rows.markers.frames.emplace_back(frame.begin(), frame.end());
+  // Without times, the frames' numbers are the clock, at an assumed rate.
+  const bool has_rate = csv.rate_hz.has_value();
+  if (!has_rate) rows.times_s = TimesOfNumbers(csv.numbers, kJudgedRateHz);
+  ASSIGN_OR_RETURN(auto markers, LayOnClock(std::move(rows), path));
+  ASSIGN_OR_RETURN(auto file, FileOfMarkers(ClipFormat::kCsv, std::move(markers), path, options, JointCsvUp()));
+  file.has_rate = has_rate;
+  return file;
+}
+
+}  // namespace
+
+std::optional<Result<ClipFile>> ReadMarkers(std::string_view bytes, const std::string& path,
+                                            const OpenOptions& options) {
+  if (IsC3d(bytes)) {
+    auto read = ReadC3d(bytes, path);
+    if (!read) return tl::unexpected(read.error());
+    const UpRule rule = C3dUp(read->up, read->is_up_negative);
+    return FileOfMarkers(ClipFormat::kC3d, std::move(read->markers), path, options, rule);
+  }
+  if (IsMotiveCsv(bytes)) {
+    auto read = ReadMotiveCsv(bytes, path);
+    if (!read) return tl::unexpected(read.error());
+    return FileOfMarkers(ClipFormat::kMotive, *std::move(read), path, options, MotiveUp());
+  }
+  const std::string_view heading = bytes.substr(0, bytes.find('\n'));
+  if (heading.starts_with("PathFileType")) {
+    auto read = ReadTrc(bytes, path);
+    if (!read) return tl::unexpected(read.error());
+    return FileOfMarkers(ClipFormat::kTrc, *std::move(read), path, options, TrcUp());
+  }
+  if (heading.find("_x_m") != std::string_view::npos) return ReadJointTable(bytes, path, options);
+  return std::nullopt;
+}
+
+std::optional<UpRule> UpRuleOf(ClipFormat format) {
+  switch (format) {
+    case ClipFormat::kGltf:
+    case ClipFormat::kGlb:
+      return GltfUp();
+    case ClipFormat::kFbx: {
+      UpRule of_file = GltfUp();  // its settings have turned it
+      of_file.evidence = UpEvidence::kFile;
+      of_file.source = "the word of its settings";
+      return of_file;
+    }
+    case ClipFormat::kDeepMimic:
+      return DeepMimicUp();
+    case ClipFormat::kAmass:
+      return AmassUp();
+    default:
+      return std::nullopt;
+  }
+}
+
+bool IsOfMarkers(ClipFormat format) {
+  constexpr std::array kFormats = {ClipFormat::kC3d, ClipFormat::kTrc, ClipFormat::kCsv, ClipFormat::kNpy,
+                                   ClipFormat::kMotive};
+  return std::ranges::find(kFormats, format) != kFormats.end();
+}
+
+}  // namespace etude

@@ -1,0 +1,162 @@
+#include "bench/statistics/answers.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "bench/metrics/catalogue.h"
+#include "bench/statistics/summary.h"
+
+namespace etude {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// One cell: whether it solved its world, and its error; without an error it has crashed.
+struct CellValues {
+  double solved = 1, error_cm = 1;
+};
+
+/// The values of methods a (the baseline), b and c in one world.
+using WorldOf = std::function<std::array<CellValues, 3>(int trial)>;
+
+Study IkStudy(int trials) {
+  Study study;
+  study.scenario = "s";
+  study.task = "ik";
+  study.trials = trials;
+  study.methods = {{"a", "a"}, {"b", "a"}, {"c", "a"}};
+  study.conditions = {{}};
+  study.metrics = {"position_error_cm"};
+  study.success = "solved_practical";
+  return study;
+}
+
+ScenarioSummary SummaryOf(const Study& study, const WorldOf& world) {
+  ScenarioTable table(study);
+  for (int trial = 0; trial < study.trials; ++trial) {
+    const std::array<CellValues, 3> cells = world(trial);
+    for (std::size_t m = 0; m < cells.size(); ++m) {
+      Row row{"s", "ik", {}, trial, "", {}, study.methods[m].name, {}};
+      if (std::isnan(cells[m].error_cm)) {
+        row.result = CellResult::Ended(Status::kCrashed, "its worker ended");
+        row.result.Missing("position_error_cm", "crashed");
+      } else {
+        row.result.status = cells[m].solved == 1 ? Status::kOk : Status::kUnsolved;
+        row.result.Measure("position_error_cm", cells[m].error_cm);
+        row.result.Measure("solved_practical", cells[m].solved);
+      }
+      table.Add(row);
+    }
+  }
+  return Summarise(study, table, 1);
+}
+
+/// The answer on b against a.
+Answer AnswerOf(const Study& study, const WorldOf& world) {
+  return SummaryOf(study, world).conditions.front().answers.front();
+}
+
+TEST(McNemarMidP, AgreesWithFagerlandLydersenAndLaake) {
+  // Fagerland, Lydersen & Laake (2013), table 1: 1 and 7 discordant pairs, mid-p 0.039.
+  EXPECT_NEAR(McNemarMidP(7, 1), 0.0390625, 1e-9);
+  EXPECT_NEAR(McNemarMidP(1, 7), 0.0390625, 1e-9);
+  EXPECT_EQ(McNemarMidP(0, 0), 1);
+  EXPECT_EQ(McNemarMidP(4, 4), 1);
+  EXPECT_DOUBLE_EQ(McNemarMidP(5, 0), 1.0 / 32);
+}
+
+TEST(Answer, IsAboutSuccessBeforeAnyValue) {
+  // b has the smaller error where it succeeds, but solves 42 % against 100 %.
+  const Answer answer = AnswerOf(IkStudy(60), [](int trial) -> std::array<CellValues, 3> {
+    const bool solved = trial % 12 < 5;
+    return {{{1, 3.0 + 0.01 * trial}, {solved ? 1.0 : 0.0, 1}, {1, 3}}};
+  });
+  EXPECT_EQ(answer.verdict, Verdict::kWorse);
+  EXPECT_EQ(answer.decided_by, AnswerStep::kSuccess);
+  EXPECT_EQ(answer.success->metric, "solved_practical");
+  EXPECT_NEAR(*answer.success->difference, -35.0 / 60, 1e-12);
+  EXPECT_EQ(answer.success->sign_flip.how, "McNemar's mid-p");
+  ASSERT_TRUE(answer.both_succeed);
+  EXPECT_EQ(answer.both_succeed->pairs, 25);
+  EXPECT_EQ(answer.both_succeed->verdict, Verdict::kBetter);
+}
+
+TEST(Answer, CountsACrashAsNoSuccess) {
+  const Answer answer = AnswerOf(IkStudy(60), [](int trial) -> std::array<CellValues, 3> {
+    return {{{1, 3}, {1, trial % 2 == 0 ? kNone : 1.0}, {1, 3}}};
+  });
+  EXPECT_EQ(answer.success->pairs, 60);
+  EXPECT_EQ(answer.decided_by, AnswerStep::kSuccess);
+  EXPECT_EQ(answer.verdict, Verdict::kWorse);
+}
+
+TEST(Answer, IsAboutTheValueWhereSuccessIsTheSame) {
+  const auto world = [](int trial) -> std::array<CellValues, 3> { return {{{1, 3}, {1, 1 + 0.01 * trial}, {1, 3}}}; };
+  const Answer answer = AnswerOf(IkStudy(100), world);
+  EXPECT_EQ(answer.success->verdict, Verdict::kNoDifference);
+  EXPECT_EQ(answer.verdict, Verdict::kBetter);
+  EXPECT_EQ(answer.decided_by, AnswerStep::kValue);
+  EXPECT_FALSE(answer.both_succeed) << "that is every world";
+  // The control: where success alone is a headline metric, no value decides.
+  Study alone = IkStudy(100);
+  alone.metrics = {"solved_practical"};
+  EXPECT_EQ(AnswerOf(alone, world).verdict, Verdict::kNoDifference);
+}
+
+TEST(Answer, IgnoresADifferenceOfSuccessThatDoesNotMatter) {
+  // 12 of 400 worlds lost: 3 points, p = 0.0002.
+  const auto world = [](int trial) -> std::array<CellValues, 3> {
+    return {{{1, 3}, {trial < 12 ? 0.0 : 1.0, trial < 12 ? 3.5 : 1}, {1, 3}}};
+  };
+  Study study = IkStudy(400);
+  EXPECT_EQ(AnswerOf(study, world).decided_by, AnswerStep::kValue);
+  study.success_matters = 0.02;
+  EXPECT_EQ(AnswerOf(study, world).decided_by, AnswerStep::kSuccess);
+}
+
+TEST(Answer, IsOpenWhereTheValueIsOppositeAmongThoseThatSucceed) {
+  // a and b fail in different worlds, where their errors are large; where both succeed b is worse.
+  const ScenarioSummary summary = SummaryOf(IkStudy(90), [](int trial) -> std::array<CellValues, 3> {
+    if (trial < 54) return {{{trial % 2 == 0 ? 0.0 : 1.0, 9}, {trial % 2 == 0 ? 1.0 : 0.0, 2}, {1, 3}}};
+    return {{{1, 1}, {1, 3 + 0.01 * trial}, {1, 3}}};
+  });
+  const ConditionSummary& condition = summary.conditions.front();
+  EXPECT_EQ(condition.comparisons.front().verdict, Verdict::kBetter);
+  const Answer& answer = condition.answers.front();
+  EXPECT_EQ(answer.success->verdict, Verdict::kInconclusive);
+  EXPECT_EQ(answer.both_succeed->verdict, Verdict::kWorse);
+  EXPECT_EQ(answer.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(answer.decided_by, AnswerStep::kNone);
+}
+
+TEST(Answer, LooksAtTheTailLast) {
+  // In 10 of 100 worlds b is off by a metre; median and success do not show it.
+  const auto world = [](int trial) -> std::array<CellValues, 3> {
+    return {{{1, 1}, {1, trial % 10 == 0 ? 100 : 1 + 0.001 * (trial % 3)}, {1, 1}}};
+  };
+  const Answer answer = AnswerOf(IkStudy(100), world);
+  EXPECT_EQ(answer.decided_by, AnswerStep::kTail);
+  EXPECT_EQ(answer.verdict, Verdict::kWorse);
+  EXPECT_NEAR(*answer.tail->difference, -0.1, 1e-12);
+  // The control: c does the same as a.
+  const ScenarioSummary summary = SummaryOf(IkStudy(100), world);
+  EXPECT_EQ(summary.conditions.front().answers[1].verdict, Verdict::kNoDifference);
+}
+
+TEST(Answer, AgainstTheStrongestRivalIsJudgedAlike) {
+  const ScenarioSummary summary = SummaryOf(IkStudy(60), [](int trial) -> std::array<CellValues, 3> {
+    return {{{1, 5}, {trial % 2 == 0 ? 1.0 : 0.0, 2}, {1, 3}}};
+  });
+  const std::vector<Answer>& answers = summary.conditions.front().rival_answers;
+  const auto of_b = std::ranges::find(answers, "b", &Answer::method);
+  ASSERT_NE(of_b, answers.end());
+  EXPECT_EQ(of_b->baseline, "c");
+  EXPECT_EQ(of_b->verdict, Verdict::kWorse);
+  EXPECT_EQ(of_b->decided_by, AnswerStep::kSuccess);
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,237 @@
+#include "engine/formats/row_clock.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/formats/motive_csv.h"
+
+namespace etude {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Where the only marker is at a time, on a curve.
+glm::dvec3 CurveAt(double time_s) { return {0.3 * std::sin(2 * time_s), 1 + 0.1 * std::cos(3 * time_s), time_s}; }
+
+/// Rows at these times, printed to multiples of `printed` if it is above 0.
+MarkerRows RowsAt(const std::vector<double>& times, double told_hz = 0, double printed = 0) {
+  MarkerRows rows{.markers = {.rate_hz = 30, .names = {"A"}, .frames = {}}, .times_s = {}, .lines = {}};
+  if (told_hz > 0) {
+    rows.markers.rate_hz = told_hz;
+    rows.rate_name = "DataRate";
+  }
+  for (const double time : times) {
+    rows.times_s.push_back(printed > 0 ? std::round(time / printed) * printed : time);
+    rows.lines.push_back(static_cast<int>(rows.lines.size()) + 2);
+    rows.markers.frames.push_back({CurveAt(time)});
+  }
+  return rows;
+}
+
+/// `count` times at a rate, without those from `lost` to before `found`.
+std::vector<double> TimesAt(double rate_hz, int count, int lost = 0, int found = 0) {
+  std::vector<double> times;
+  for (int k = 0; k < count; ++k) {
+    if (k < lost || k >= found) times.push_back(k / rate_hz);
+  }
+  return times;
+}
+
+double FarthestFromCurve(const MarkerMotion& motion, double start_s = 0) {
+  double worst = 0;
+  for (std::size_t k = 0; k < motion.frames.size(); ++k) {
+    const double time = start_s + static_cast<double>(k) / motion.rate_hz;
+    if (motion.frames[k][0]) worst = std::max(worst, glm::distance(*motion.frames[k][0], CurveAt(time)));
+  }
+  return worst;
+}
+
+TEST(RowClock, EvenRowsStayAsTheyAre) {
+  for (const double rate : {1.0, 24.0, 29.97, 30.0, 59.94, 100.0, 119.88, 120.0, 1000.0}) {
+    const auto laid = LayOnClock(RowsAt(TimesAt(rate, 90)), "a");
+    ASSERT_TRUE(laid) << ToString(laid.error());
+    EXPECT_NEAR(laid->rate_hz, rate, 1e-9 * rate);
+    EXPECT_EQ(laid->frames.size(), 90u);
+    EXPECT_EQ(laid->remark, "");
+    EXPECT_LT(FarthestFromCurve(*laid), 1e-9);
+  }
+}
+
+TEST(RowClock, MissingRowsAreGapsOfTheirLength) {
+  for (const double rate : {15.0, 29.97, 30.0, 120.0}) {
+    for (const auto& [lost, found] : {std::pair(20, 35), std::pair(1, 2), std::pair(57, 59)}) {
+      const auto laid = LayOnClock(RowsAt(TimesAt(rate, 60, lost, found)), "a");
+      ASSERT_TRUE(laid) << ToString(laid.error());
+      ASSERT_EQ(laid->frames.size(), 60u) << rate << " " << lost;
+      EXPECT_NEAR(laid->rate_hz, rate, 1e-9 * rate);
+      for (int k = 0; k < 60; ++k) {
+        EXPECT_EQ(laid->frames[static_cast<std::size_t>(k)][0].has_value(), k < lost || k >= found) << k;
+      }
+      EXPECT_LT(FarthestFromCurve(*laid), 1e-9);
+      EXPECT_THAT(laid->remark, HasSubstr(fmt::format("{} of 60 frames are missing, in 1 gap", found - lost)));
+    }
+  }
+}
+
+TEST(RowClock, TimesMayBePrintedWithFewDecimals) {
+  for (const double rate : {24.0, 30.0, 50.0, 100.0}) {
+    const auto laid = LayOnClock(RowsAt(TimesAt(rate, 60, 20, 35), rate, 0.01), "a");
+    ASSERT_TRUE(laid) << ToString(laid.error());
+    EXPECT_EQ(laid->rate_hz, rate);
+    EXPECT_EQ(laid->frames.size(), 60u) << rate;
+    EXPECT_LT(FarthestFromCurve(*laid), 1e-9) << "rows are used as they are";
+  }
+  const auto untold = LayOnClock(RowsAt(TimesAt(120, 500, 200, 230), 0, 0.001), "a");
+  ASSERT_TRUE(untold);
+  EXPECT_EQ(untold->rate_hz, 120);
+  EXPECT_EQ(untold->frames.size(), 500u);
+  EXPECT_LT(FarthestFromCurve(*untold), 1e-9);
+}
+
+TEST(RowClock, ARowAtAWrongTimeChangesNoRate) {
+  std::vector<double> times = TimesAt(30, 70);
+  times[40] -= 0.45 / 30;
+  const auto laid = LayOnClock(RowsAt(times), "a");
+  ASSERT_TRUE(laid) << ToString(laid.error());
+  EXPECT_EQ(laid->rate_hz, 30);
+  EXPECT_EQ(laid->frames.size(), 70u);
+  EXPECT_LT(FarthestFromCurve(*laid), 0.002);
+}
+
+TEST(RowClock, UnevenTimesAreInterpolatedAndTold) {
+  // A camera whose period changes by up to a third, and whose clock is right.
+  std::vector<double> times;
+  for (int k = 0; k < 90; ++k) times.push_back(k / 30.0 + 0.01 * std::sin(1.7 * k) + 0.01);
+  const auto laid = LayOnClock(RowsAt(times), "a");
+  ASSERT_TRUE(laid) << ToString(laid.error());
+  EXPECT_NEAR(laid->rate_hz, 30, 0.1);
+  EXPECT_THAT(laid->remark, HasSubstr("uneven times: "));
+  for (const auto& frame : laid->frames) EXPECT_TRUE(frame[0]);
+  EXPECT_LT(FarthestFromCurve(*laid, times.front()), 0.005) << "as even rows they are 12 mm off";
+}
+
+TEST(RowClock, TheRateThatAHeaderTellsYieldsToTheTimes) {
+  const auto other = LayOnClock(RowsAt(TimesAt(29.97, 300), 30), "a");
+  ASSERT_TRUE(other);
+  EXPECT_NEAR(other->rate_hz, 29.97, 1e-9);
+  EXPECT_EQ(other->remark, "DataRate says 30 Hz, but the column Time runs at 29.97 Hz, which counts");
+  EXPECT_LT(FarthestFromCurve(*other), 1e-9);
+  const auto missing = LayOnClock(RowsAt(TimesAt(30, 60, 20, 35), 30), "a");
+  ASSERT_TRUE(missing);
+  EXPECT_EQ(missing->rate_hz, 30) << "a mean rate would be 22.4 Hz";
+}
+
+TEST(RowClock, OfEqualTimesTheLastCounts) {
+  std::vector<double> times = TimesAt(30, 40);
+  times.insert(times.begin() + 11, times[10]);
+  auto rows = RowsAt(times);
+  rows.markers.frames[10][0] = glm::dvec3(9);
+  const auto laid = LayOnClock(std::move(rows), "a");
+  ASSERT_TRUE(laid) << ToString(laid.error());
+  EXPECT_EQ(laid->frames.size(), 40u);
+  EXPECT_LT(FarthestFromCurve(*laid), 1e-9);
+  EXPECT_EQ(laid->remark, "1 rows under the time of another, of which the last counts");
+}
+
+TEST(RowClock, RefusesWhatIsNoClock) {
+  const auto reason = [](const std::vector<double>& times, std::size_t markers = 1) {
+    auto rows = RowsAt(times);
+    for (auto& frame : rows.markers.frames) frame.resize(markers);
+    rows.markers.names.resize(markers, "B");
+    const auto laid = LayOnClock(std::move(rows), "a");
+    return laid ? std::string("no complaint") : ToString(laid.error());
+  };
+  const double nan = std::nan("");
+  EXPECT_EQ(reason({0, 0.1, 0.05}), "a:4: time 0.05 s after 0.1 s; allowed: a clock that does not run backwards");
+  EXPECT_EQ(reason({0, nan, 0.1}), "a:3: no time, although other rows tell one");
+  EXPECT_EQ(reason({0, 0.1, 700}), "a:4: time 700 s after 0.1 s; allowed: a clock that goes on, at most 600 s at once");
+  EXPECT_THAT(reason({0, 1e-4, 2e-4, 500}, 3), HasSubstr("allowed: holes of 1e+07 values in all, 3 a frame"));
+  EXPECT_EQ(reason({nan, nan, nan}), "no complaint");
+  EXPECT_EQ(reason({4, 4, 4}), "no complaint") << "a column that tells nothing";
+}
+
+TEST(RowClock, FrameNumbersAreAClock) {
+  using Numbers = std::vector<double>;
+  const auto expect = [](const Numbers& numbers, const Numbers& times) {
+    const auto told = TimesOfNumbers(numbers, 10);
+    ASSERT_EQ(told.size(), times.size());
+    for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(told[i], times[i], 1e-12);
+  };
+  expect({7, 8, 9, 12}, {0, 0.1, 0.2, 0.5});
+  expect({0, 5, 10, 20}, {0, 0.1, 0.2, 0.4});
+  expect({0, 1, 1}, {});
+  expect({0, 0.5}, {});
+}
+
+/// A take of Motive's with one marker at 120 Hz and 30 rows lost.
+std::string MotiveTake(bool has_times) {
+  std::string text =
+      "Format Version,1.23,Export Frame Rate,120.000000,Total Exported Frames,240,Length Units,Meters,Coordinate "
+      "Space,Global\n\n"
+      ",Type,Marker,Marker,Marker\n,Name,A,A,A\n,ID,1,1,1\n,,Position,Position,Position\n";
+  text += has_times ? "Frame,Time (Seconds),X,Y,Z\n" : "Frame,Label,X,Y,Z\n";
+  for (int k = 0; k < 240; ++k) {
+    if (k >= 100 && k < 130) continue;
+    const glm::dvec3 at = CurveAt(k / 120.0);
+    text += fmt::format("{},{},{:.6f},{:.6f},{:.6f}\n", k, has_times ? fmt::format("{:.6f}", k / 120.0) : "", at.x,
+                        at.y, at.z);
+  }
+  return text;
+}
+
+TEST(RowClock, OfMotiveIsItsColumnTimeElseItsFrameNumbers) {
+  for (const bool has_times : {true, false}) {
+    const auto take = ReadMotiveCsv(MotiveTake(has_times), "a.csv");
+    ASSERT_TRUE(take) << ToString(take.error());
+    EXPECT_EQ(take->rate_hz, 120);
+    ASSERT_EQ(take->frames.size(), 240u) << has_times;
+    EXPECT_FALSE(take->frames[110][0]);
+    EXPECT_LT(FarthestFromCurve(*take), 2e-6);
+    EXPECT_THAT(take->remark, HasSubstr("210 rows where 240 frames are announced; by their times 30 of 240 frames"));
+  }
+}
+
+TEST(RowClock, OfTrcIsItsColumnTimeElseItsFrameNumbers) {
+  for (const bool has_times : {true, false}) {
+    std::string text =
+        "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tNumFrames\tNumMarkers\tUnits\n30\t45\t1\tm\n"
+        "Frame#\tTime\tA\n\n";
+    for (int k = 0; k < 60; ++k) {
+      if (k >= 20 && k < 35) continue;
+      const glm::dvec3 at = CurveAt(k / 30.0);
+      text += fmt::format("{}\t{}\t{:.7f}\t{:.7f}\t{:.7f}\n", k + 1, has_times ? fmt::format("{:.3f}", k / 30.0) : "",
+                          at.x, at.y, at.z);
+    }
+    const auto read = ReadTrc(text, "a.trc");
+    ASSERT_TRUE(read) << ToString(read.error());
+    EXPECT_EQ(read->rate_hz, 30);
+    ASSERT_EQ(read->frames.size(), 60u) << has_times;
+    EXPECT_LT(FarthestFromCurve(*read), 1e-6);
+  }
+}
+
+TEST(RowClock, OfABodyIsBridgedForASecondAndCutBeyond) {
+  const auto lay = [](const std::vector<double>& times, std::string& remark) {
+    BodyMotion rows{.poses = {}};
+    for (const double time : times) rows.poses.emplace_back()[Role::kHead] = CurveAt(time);
+    const auto motion = LayOnClock(std::move(rows), times, "a", remark);
+    EXPECT_TRUE(motion);
+    return motion.value_or(BodyMotion{});
+  };
+  std::string remark;
+  const BodyMotion bridged = lay(TimesAt(30, 60, 20, 35), remark);
+  ASSERT_EQ(bridged.poses.size(), 60u);
+  EXPECT_LT(glm::distance(bridged.poses[27][Role::kHead], 0.5 * (CurveAt(19 / 30.0) + CurveAt(35 / 30.0))), 1e-9);
+  EXPECT_THAT(remark, HasSubstr("15 of 60 frames are missing"));
+  remark.clear();
+  const BodyMotion cut = lay(TimesAt(30, 100, 20, 60), remark);
+  ASSERT_EQ(cut.poses.size(), 40u);
+  EXPECT_LT(glm::distance(cut.poses[0][Role::kHead], CurveAt(2)), 1e-9);
+  EXPECT_THAT(remark, HasSubstr("frames 61 to 100 of 100 are kept"));
+}
+
+}  // namespace
+}  // namespace etude
