@@ -28,6 +28,7 @@ class Facts(EtudeCase):
         calls = {
             "check-method": ["--task", "ik", "--no-fence", "--json", "--", "python3", OUTSIDE],
             "cite": [run, "--address", "https://example.org/etude"],
+            "clip convert": ["builtin:clap", self.folder / "clap.bvh"],
             "clip grades": ["builtin:clap", "builtin:sway"],
             "clip map": ["builtin:clap"],
             "compare": [run, run],

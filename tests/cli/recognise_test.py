@@ -96,7 +96,7 @@ class Recognise(EtudeCase):
             text = turned(upright, turn)
             file = self.write(f"{name}.txt", text)
             for arguments, stdin in (([file], None), (["-"], text)):
-                result = subprocess.run([ETUDE, "recognise", *arguments, "--moves", moves], capture_output=True, text=True,
+                result = subprocess.run([ETUDE, "recognise", *arguments, "--moves", moves, "--recogniser", "key-pose"], capture_output=True, text=True,
                                         timeout=120, input=stdin)
                 found = [json.loads(line) for line in result.stdout.splitlines()]
                 self.assertEqual([(e["move"], e["frame"]) for e in found], [(e["move"], e["frame"]) for e in wanted], name)
