@@ -37,15 +37,16 @@ bool IsTooWide(const fs::path& folder) {
   return above == "/" || above == "/home" || folder == "/" || Fence::HoldsScratch(folder);
 }
 
-/// Returns the folder of the installation that an unseen path belongs to: what it has in common with the program, else
-/// the folder above its `bin`, else its own folder.
+/// Returns the folder of the installation that an unseen path belongs to: the program's folder or the one above, if the
+/// path is below it; else the folder above its `bin`; else its own folder.
 fs::path InstallationOf(const fs::path& path, const fs::path& program) {
   fs::path common;
   for (auto [a, b] = std::pair(path.begin(), program.begin()); a != path.end() && b != program.end() && *a == *b;) {
     common /= *a++;
     ++b;
   }
-  if (!common.empty() && !IsTooWide(common)) return common;
+  const fs::path own = program.parent_path();
+  if ((common == own || common == own.parent_path()) && !IsTooWide(common)) return common;
   std::error_code error;
   const fs::path folder = fs::is_directory(path, error) ? path : path.parent_path();
   const fs::path above = folder.parent_path();
