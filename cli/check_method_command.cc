@@ -30,8 +30,7 @@ struct RecordedPeople {
 Result<std::unique_ptr<LabelledStreams>> LoadPeople(const RecordedPeople& people) {
   if (people.streams.empty()) return nullptr;
   ASSIGN_OR_RETURN(const auto clips, people.reading.ClipOptions());
-  ASSIGN_OR_RETURN(auto loaded,
-                   LoadStreams(people.streams, people.reading.Reading(), people.reading.Options(), clips));
+  ASSIGN_OR_RETURN(auto loaded, LoadStreams(people.streams, people.reading.Reading(), people.reading.Options(), clips));
   LabelTexts labels;
   if (!people.labels.empty()) {
     ASSIGN_OR_RETURN(const auto files, LabelFiles(people.labels));
@@ -56,14 +55,17 @@ int CheckMethodCommand(OutsideOptions options, const std::string& seat, const Re
   Json checks_made = Json::array();
   int checks = 0, passed = 0;
   // Run the checks; print each one when it ends.
-  const auto all_passed = CheckConformance(options, seat, [&](const ConformanceCheck& check) {
-    ++checks;
-    passed += check.passed ? 1 : 0;
-    checks_made.push_back({{"check", check.name}, {"passed", check.passed}, {"found", check.found}});
-    if (as_json) return;
-    fmt::print("{}  {}: {}\n", check.passed ? "passed" : "FAILED", check.name, check.found);
-    std::fflush(stdout);
-  }, recordings->get());
+  const auto all_passed = CheckConformance(
+      options, seat,
+      [&](const ConformanceCheck& check) {
+        ++checks;
+        passed += check.passed ? 1 : 0;
+        checks_made.push_back({{"check", check.name}, {"passed", check.passed}, {"found", check.found}});
+        if (as_json) return;
+        fmt::print("{}  {}: {}\n", check.passed ? "passed" : "FAILED", check.name, check.found);
+        std::fflush(stdout);
+      },
+      recordings->get());
   // Print the result.
   if (!all_passed) return Complain(all_passed.error());
   if (as_json) {
@@ -100,10 +102,11 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   }
   command->add_option("--task", options->task, "One of: " + Join(tasks))->required();
   command->add_option("--seat", options->seat, "The program's place in a loop: " + Join(seats, "; "));
-  CLI::Option* streams = command->add_option(
-      "--streams", options->people.streams, "Recordings of people to be asked about, as in `etude run --streams`");
+  CLI::Option* streams = command->add_option("--streams", options->people.streams,
+                                             "Recordings of people to be asked about, as in `etude run --streams`");
   streams->allow_extra_args(false);
-  command->add_option("--labels", options->people.labels, "Who did what when in them: a file, or a folder of tag streams")
+  command
+      ->add_option("--labels", options->people.labels, "Who did what when in them: a file, or a folder of tag streams")
       ->needs(streams);
   AddStreamReading(*command, options->people.reading);
   command->add_option("--time", options->time_s, "Time limit per problem, or per step of a session, seconds")

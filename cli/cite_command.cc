@@ -20,12 +20,11 @@ Result<int> CiteCommand(const std::string& folder, const std::string& address, b
   ASSIGN_OR_RETURN(const auto manifest, ReadWholeFile(Inside(folder) / "manifest.json"));
   const std::string digest = Digest().Add(std::string_view(manifest)).Hex();
   if (as_json) {
-    RETURN_IF_ERROR(PrintFacts(
-        "cite", {{"suite", run.suite},
-                 {"made_by", run.program_version},
-                 {"seed", run.seed},
-                 {"manifest", digest},
-                 {"address", address.empty() ? Json(nullptr) : Json(address)}}));
+    RETURN_IF_ERROR(PrintFacts("cite", {{"suite", run.suite},
+                                        {"made_by", run.program_version},
+                                        {"seed", run.seed},
+                                        {"manifest", digest},
+                                        {"address", address.empty() ? Json(nullptr) : Json(address)}}));
     return kSuccess;
   }
   fmt::print(
@@ -35,7 +34,8 @@ Result<int> CiteCommand(const std::string& folder, const std::string& address, b
       "  version = {{{}}},\n"
       "  year    = {{2026}}{}\n"
       "}}\n\n"
-      "For a methods section: We ran the suite \"{}\" of Etude {}{} (seed {}, manifest {}); the same manifest gives the "
+      "For a methods section: We ran the suite \"{}\" of Etude {}{} (seed {}, manifest {}); the same manifest gives "
+      "the "
       "same "
       "cells to the last bit.\n",
       run.program_version, address.empty() ? "" : fmt::format(",\n  url     = {{{}}}", address), run.suite,

@@ -83,7 +83,8 @@ Result<WatchOptions> OptionsOf(const RecogniseCommandOptions& options, const Rec
   WatchOptions watch;
   watch.recogniser.kind = options.recogniser.empty() ? &recommended : FindRecogniser(options.recogniser);
   if (options.recogniser.empty()) {
-    fmt::print(stderr, "recogniser {}, recommended for what was taught; --recogniser takes another\n", recommended.name);
+    fmt::print(stderr, "recogniser {}, recommended for what was taught; --recogniser takes another\n",
+               recommended.name);
   }
   ASSIGN_OR_RETURN(watch.recogniser.settings, ReadSettings(*watch.recogniser.kind, options.settings));
   if (options.weights == "adaptive") watch.recogniser.weights.weighting = Weighting::kAdaptive;
@@ -276,7 +277,9 @@ void DefineRecognise(CLI::App& app, Action& action) {
                  "Teach from the labels of all other people, person by person")
       ->excludes(moves);
   // The recogniser and its settings.
-  command->add_option("--recogniser", options->recogniser, "How (default: learnt; key-pose if a move has no example; whole-body if one person is left out)")
+  command
+      ->add_option("--recogniser", options->recogniser,
+                   "How (default: learnt; key-pose if a move has no example; whole-body if one person is left out)")
       ->check(CLI::IsMember(RecogniserNames()));
   command->add_option("--filter", options->filter, "How joints are smoothed first")
       ->check(CLI::IsMember(FilterNames()))

@@ -315,9 +315,11 @@ int DryRunCommand(const RunOptions& options, bool as_json) {
     all += one.conditions * one.worlds * one.methods;
     if (!one.is_kept) guessed.push_back(one.name);
   }
-  if (!options.shard.IsWhole()) fmt::print("Shard {}: {} of {} cells.\n", ToString(options.shard), forecast->cells, all);
+  if (!options.shard.IsWhole())
+    fmt::print("Shard {}: {} of {} cells.\n", ToString(options.shard), forecast->cells, all);
   fmt::print("{} cells, about {} on {}. Differences that are found with a chance of 80 %. Nothing was written.\n",
-             forecast->cells, Duration(forecast->seconds), CountOf(static_cast<std::size_t>(forecast->workers), "worker"));
+             forecast->cells, Duration(forecast->seconds),
+             CountOf(static_cast<std::size_t>(forecast->workers), "worker"));
   if (!guessed.empty()) {
     fmt::print("The time is a guess: no costs are kept of {}, whose first worlds were measured just now.\n",
                Join(guessed, ", "));
@@ -354,8 +356,9 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
                               "motions: record the motions of every cell (a scenario's key `video` does so for some)")
                           ->check(CLI::IsMember({"motions"}));
   auto dry_run = std::make_shared<bool>(false), as_json = std::make_shared<bool>(false);
-  const Action act = WithSecretKey(*command, &options->seed, options->key,
-                                   [=] { return *dry_run ? DryRunCommand(*options, *as_json) : RunCommand(*options, *as_json); });
+  const Action act = WithSecretKey(*command, &options->seed, options->key, [=] {
+    return *dry_run ? DryRunCommand(*options, *as_json) : RunCommand(*options, *as_json);
+  });
   AddReuseKey(*command, options->reuse_key);
   // The options for parts of a run, and for continuing one.
   command->add_option("--shard", *shard, "Run part i of n, written i/n; etude merge makes one run of all parts");

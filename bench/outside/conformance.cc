@@ -57,7 +57,8 @@ Result<Specimen> MakeSpecimen(const TaskKind& kind, const Recipe& recipe, std::s
                               const LabelledStreams* recordings) {
   Specimen specimen;
   const std::string condition = recipe.conditions[index];
-  const std::string setting_id = fmt::format("{} {}{}", kind.name, condition, index == 0 || condition != "{}" ? "" : " again");
+  const std::string setting_id =
+      fmt::format("{} {}{}", kind.name, condition, index == 0 || condition != "{}" ? "" : " again");
   // Make the task from its clips, its condition and one method.
   ASSIGN_OR_RETURN(auto clips, LoadClips(recipe.clips, {}));
   specimen.clips = std::make_unique<ClipLibrary>(std::move(clips));
@@ -272,8 +273,7 @@ class ConformanceTest {
 
   void CheckOneProblemTwice() {
     const std::size_t last = first_.size() - 1;
-    ReportDifference("answers a repeated problem alike",
-                     Compare(Ask(specimens_[0].problems[last]), last));
+    ReportDifference("answers a repeated problem alike", Compare(Ask(specimens_[0].problems[last]), last));
   }
 
   void CheckOrder() {
@@ -292,8 +292,7 @@ class ConformanceTest {
     }
     Report("answers under another setting", fault.empty(), fault.empty() ? "answers that can be scored" : fault);
     if (fault.empty()) {
-      ReportDifference("answers alike when the first setting returns",
-                       Compare(Ask(specimens_[0].problems[0]), 0));
+      ReportDifference("answers alike when the first setting returns", Compare(Ask(specimens_[0].problems[0]), 0));
     }
   }
 

@@ -127,7 +127,8 @@ std::vector<fs::path> FindUnseen(const ProgramView& view, std::string_view words
     named.push_back(target);
   }
   // What a script and the last words name.
-  for (const std::string& text : {TextOfScript(target), std::string(words)}) std::ranges::move(PathsIn(text), std::back_inserter(named));
+  for (const std::string& text : {TextOfScript(target), std::string(words)})
+    std::ranges::move(PathsIn(text), std::back_inserter(named));
   std::vector<fs::path> unseen;
   for (const fs::path& path : named) {
     if (!fs::exists(path, error) || IsSeen(path, view) || IsTooWide(path)) continue;

@@ -61,9 +61,8 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
   for (const FilmedView& view : session.views) {
     seen.push_back({{"film", view.path.string()}, {"camera", view.camera.name}});
   }
-  Json told = {{"films", std::move(seen)}, {"frames", facts.frames}, {"rate_hz", facts.rate_hz},
-               {"keypoints", nullptr},     {"silhouettes", nullptr}, {"doubt", nullptr},
-               {"output", options.output}};
+  Json told = {{"films", std::move(seen)}, {"frames", facts.frames}, {"rate_hz", facts.rate_hz}, {"keypoints", nullptr},
+               {"silhouettes", nullptr},   {"doubt", nullptr},       {"output", options.output}};
   bool is_whole = false;
   // With silhouettes alone, the rig must be placed in the world before the person is found.
   if (options.silhouettes && options.keypoints.empty()) {

@@ -285,9 +285,9 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   }
   // Compare with the reference, if there is one.
   if (reference) {
-    const std::string what = fmt::format("Distance of the {} to {}, median, mm.",
-                                         both || !HasLandmarks(*reference) ? "joints" : "triangulated keypoints",
-                                         options.reference);
+    const std::string what =
+        fmt::format("Distance of the {} to {}, median, mm.",
+                    both || !HasLandmarks(*reference) ? "joints" : "triangulated keypoints", options.reference);
     const MarkerMotion in_time =
         SynchroniseWith(ComparedOf(person, *reference, recover.rate_hz), *reference, films.told);
     std::vector<ComparedColumn> columns;

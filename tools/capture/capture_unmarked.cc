@@ -192,7 +192,7 @@ constexpr double kPercent = 100;
 /// Reports the findings and the doubts, one line each. Returns why the motion is taken for wrong, "" if it is not: in
 /// most frames of a camera body and outline share less than half, or most frames hold the last pose.
 std::string TellUnmarked(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
-                  const UnmarkedMotion& person, MessageLog& told) {
+                         const UnmarkedMotion& person, MessageLog& told) {
   told.Tell(fmt::format("stature: {:.2f} m{}; outlines cost {:.0f} a picture", person.stature_m,
                          options.stature_m > 0 ? "" : ", found from the outlines", person.cost));
   if (person.held > 0) {

@@ -82,7 +82,10 @@ Payload TaughtPayload(std::span<const std::string> names, std::span<const Taught
   Payload setting = PayloadOf(DescribeBody());
   Json& told = (*setting.json)["moves"] = Json::array();
   for (const std::string& name : names) {
-    Json move = {{"name", name}, {"rate_hz", kJudgedRateHz}, {"poses", Json::array()}, {"key_poses", Json::array()},
+    Json move = {{"name", name},
+                 {"rate_hz", kJudgedRateHz},
+                 {"poses", Json::array()},
+                 {"key_poses", Json::array()},
                  {"examples", Json::array()}};
     if (const TaughtMove* known = FindByName(taught, name)) {
       move["span_s"] = known->span_s;

@@ -324,8 +324,7 @@ class RecordedTask final : public Task {
     const auto by_others = [&](const LabelledPart& part) { return part.person != NameOf(person); };
     std::vector<ToldExample> examples;
     for (const LabelledPart& part : PerformancesToLearn(set_.streams, set_.parts, by_others, false)) {
-      examples.push_back(
-          {part.move, part.person, part.fault, &set_.streams[part.stream].stream, part.begin, part.end});
+      examples.push_back({part.move, part.person, part.fault, &set_.streams[part.stream].stream, part.begin, part.end});
     }
     const Repertoire& repertoire = FoldOf(person)->repertoire;
     return TaughtPayload(repertoire.names, repertoire.taught, examples);

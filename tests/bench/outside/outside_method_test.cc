@@ -226,9 +226,10 @@ TEST(OutsideMethod, AStartThatFailsAfterItOnceSucceededIsTheProgramsOwnFailure) 
   const std::string started = ::testing::TempDir() + "started-once";
   std::filesystem::remove(started);
   OutsideOptions options = Behaving("is_good");
-  options.command = {"sh", "-c",
-                     "[ -e " + started + " ] && exit 4; touch " + started +
-                         "; read hello; echo '{\"type\":\"hello\",\"protocol\":1,\"name\":\"n\",\"version\":\"1\"}'; exit 5"};
+  options.command = {
+      "sh", "-c",
+      "[ -e " + started + " ] && exit 4; touch " + started +
+          "; read hello; echo '{\"type\":\"hello\",\"protocol\":1,\"name\":\"n\",\"version\":\"1\"}'; exit 5"};
   OutsideMethod method(options);
   EXPECT_THAT(Ask(method).reason, HasSubstr("ended with exit code 5"));
   const OutsideReply again = Ask(method);

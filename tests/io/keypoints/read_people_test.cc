@@ -148,7 +148,13 @@ TEST_F(ReadPeople, KnowsTheOrderOfOpenPosesBody25ByItsMidHip) {
   const auto people = [](bool has_mid_hip) {
     std::string list;
     for (std::size_t i = 0; i < 25; ++i) {
-      const double x = i == 9 ? 90 : i == 12 ? 110 : 100, y = i == 0 ? 0 : i == 24 ? 200 : has_mid_hip ? 100 : 60 + 8 * i;
+      const double x = i == 9    ? 90
+                       : i == 12 ? 110
+                                 : 100,
+                   y = i == 0        ? 0
+                       : i == 24     ? 200
+                       : has_mid_hip ? 100
+                                     : 60 + 8 * i;
       list += fmt::format("{}{}, {}, 0.9", i == 0 ? "" : ", ", x, i == 8 && !has_mid_hip ? 40 : y);
     }
     return R"({"people": [{"pose_keypoints_2d": [)" + list + "]}]}";
