@@ -66,10 +66,13 @@ Result<int> CaptureCommand(const CaptureCommandOptions& options) {
     if (!path->empty()) RETURN_IF_ERROR(CheckOutput(*path, options.overwrite));
   }
   ASSIGN_OR_RETURN(const CapturedFilms captured, CaptureFilms(capture));
+  const bool is_refused = !captured.doubt.empty() && !capture.accepts_doubtful;
   if (!captured.is_whole) return TellStopped({{capture.film}, "stopped; there is no film"});
   aside.End();
   if (options.as_json) RETURN_IF_ERROR(PrintFacts("capture", *captured.facts));
-  return kSuccess;
+  if (!is_refused) return kSuccess;
+  Complain({{}, captured.doubt + "; nothing was written (--accept-doubtful writes it all the same)"});
+  return kNothingWorked;
 }
 
 }  // namespace
@@ -112,6 +115,10 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
                      "--keypoints, which then tell front from back and the limbs' lengths")
           ->excludes(marks);
   command->add_option("--rooms", options->rooms, "A folder with a picture of the empty room for each film")
+      ->needs(silhouettes);
+  command
+      ->add_flag("--accept-doubtful", options->accepts_doubtful,
+                 "Write a motion, too, that the outlines contradict in most frames (else: exit code 1)")
       ->needs(silhouettes);
   command->add_option("--stature", options->stature_m, "How tall the person is, m (0: found from the outlines)")
       ->needs(silhouettes)

@@ -9,14 +9,45 @@
 #include "bench/tasks/registry.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
+#include "cli/stream_reading.h"
 #include "engine/base/names.h"
+#include "engine/teaching/labelled_streams.h"
+#include "io/files/files.h"
 #include "io/process/child_process.h"
+#include "io/streams/load.h"
 
 namespace etude {
 namespace {
 
-int CheckMethodCommand(OutsideOptions options, const std::string& seat, bool is_fenced, bool as_json) {
+/// The recordings of people in place of simulated ones.
+struct RecordedPeople {
+  std::vector<std::string> streams;
+  std::string labels;  ///< "" = each recording is one move
+  StreamArguments reading;
+};
+
+/// Loads recordings and labels; returns null if there are none.
+Result<std::unique_ptr<LabelledStreams>> LoadPeople(const RecordedPeople& people) {
+  if (people.streams.empty()) return nullptr;
+  ASSIGN_OR_RETURN(const auto clips, people.reading.ClipOptions());
+  ASSIGN_OR_RETURN(auto loaded, LoadStreams(people.streams, people.reading.Reading(), people.reading.Options(), clips));
+  LabelTexts labels;
+  if (!people.labels.empty()) {
+    ASSIGN_OR_RETURN(const auto files, LabelFiles(people.labels));
+    for (const std::string& file : files) {
+      ASSIGN_OR_RETURN(labels[file], ReadWholeFile(file));
+    }
+  }
+  for (NamedStream& stream : loaded.streams) stream.motion.reset();  // as in a run: what a sensor saw
+  ASSIGN_OR_RETURN(auto labelled, LabelStreams(std::move(loaded.streams), labels));
+  return std::make_unique<LabelledStreams>(std::move(labelled));
+}
+
+int CheckMethodCommand(OutsideOptions options, const std::string& seat, const RecordedPeople& people, bool is_fenced,
+                       bool as_json) {
   AdoptOrphans();
+  const auto recordings = LoadPeople(people);
+  if (!recordings) return Complain(recordings.error());
   if (is_fenced) options.fence = Fence::Find();
   if (!as_json) {
     fmt::print("fence: {}\nmemory: {}\n", options.fence.description(), options.fence.MemoryDescription());
@@ -24,14 +55,17 @@ int CheckMethodCommand(OutsideOptions options, const std::string& seat, bool is_
   Json checks_made = Json::array();
   int checks = 0, passed = 0;
   // Run the checks; print each one when it ends.
-  const auto all_passed = CheckConformance(options, seat, [&](const ConformanceCheck& check) {
-    ++checks;
-    passed += check.passed ? 1 : 0;
-    checks_made.push_back({{"check", check.name}, {"passed", check.passed}, {"found", check.found}});
-    if (as_json) return;
-    fmt::print("{}  {}: {}\n", check.passed ? "passed" : "FAILED", check.name, check.found);
-    std::fflush(stdout);
-  });
+  const auto all_passed = CheckConformance(
+      options, seat,
+      [&](const ConformanceCheck& check) {
+        ++checks;
+        passed += check.passed ? 1 : 0;
+        checks_made.push_back({{"check", check.name}, {"passed", check.passed}, {"found", check.found}});
+        if (as_json) return;
+        fmt::print("{}  {}: {}\n", check.passed ? "passed" : "FAILED", check.name, check.found);
+        std::fflush(stdout);
+      },
+      recordings->get());
   // Print the result.
   if (!all_passed) return Complain(all_passed.error());
   if (as_json) {
@@ -53,6 +87,7 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   struct Options {
     std::vector<std::string> command, files;
     std::string task, seat;
+    RecordedPeople people;
     double time_s = 10, memory_mb = 4096;
     bool is_fenced = true, as_json = false;
   };
@@ -67,6 +102,13 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   }
   command->add_option("--task", options->task, "One of: " + Join(tasks))->required();
   command->add_option("--seat", options->seat, "The program's place in a loop: " + Join(seats, "; "));
+  CLI::Option* streams = command->add_option("--streams", options->people.streams,
+                                             "Recordings of people to be asked about, as in `etude run --streams`");
+  streams->allow_extra_args(false);
+  command
+      ->add_option("--labels", options->people.labels, "Who did what when in them: a file, or a folder of tag streams")
+      ->needs(streams);
+  AddStreamReading(*command, options->people.reading);
   command->add_option("--time", options->time_s, "Time limit per problem, or per step of a session, seconds")
       ->check(NumberWithin(0.001, 1e6, "time in seconds"))
       ->capture_default_str();
@@ -84,7 +126,7 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
                                  .time_s = options->time_s,
                                  .memory_mb = options->memory_mb,
                                  .files = options->files},
-                                options->seat, options->is_fenced, options->as_json);
+                                options->seat, options->people, options->is_fenced, options->as_json);
     };
   });
 }

@@ -1,8 +1,10 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "bench/results/folder.h"
 #include "cli/commands.h"
@@ -13,13 +15,16 @@
 namespace etude {
 namespace {
 
-Result<int> CiteCommand(const std::string& folder, bool as_json) {
+Result<int> CiteCommand(const std::string& folder, const std::string& address, bool as_json) {
   ASSIGN_OR_RETURN(const auto run, LoadRunOutline(folder));
   ASSIGN_OR_RETURN(const auto manifest, ReadWholeFile(Inside(folder) / "manifest.json"));
   const std::string digest = Digest().Add(std::string_view(manifest)).Hex();
   if (as_json) {
-    RETURN_IF_ERROR(PrintFacts(
-        "cite", {{"suite", run.suite}, {"made_by", run.program_version}, {"seed", run.seed}, {"manifest", digest}}));
+    RETURN_IF_ERROR(PrintFacts("cite", {{"suite", run.suite},
+                                        {"made_by", run.program_version},
+                                        {"seed", run.seed},
+                                        {"manifest", digest},
+                                        {"address", address.empty() ? Json(nullptr) : Json(address)}}));
     return kSuccess;
   }
   fmt::print(
@@ -27,12 +32,15 @@ Result<int> CiteCommand(const std::string& folder, bool as_json) {
       "  title   = {{Etude: a deterministic benchmark for interactive human motion}},\n"
       "  author  = {{{{The Etude authors}}}},\n"
       "  version = {{{}}},\n"
-      "  year    = {{2026}}\n"
+      "  year    = {{2026}}{}\n"
       "}}\n\n"
-      "For a methods section: We ran the suite \"{}\" of Etude {} (seed {}, manifest {}); the same manifest gives the "
+      "For a methods section: We ran the suite \"{}\" of Etude {}{} (seed {}, manifest {}); the same manifest gives "
+      "the "
       "same "
       "cells to the last bit.\n",
-      run.program_version, run.suite, run.program_version, run.seed, digest);
+      run.program_version, address.empty() ? "" : fmt::format(",\n  url     = {{{}}}", address), run.suite,
+      run.program_version, address.empty() ? "" : fmt::format(", {},", address), run.seed, digest);
+  if (address.empty()) fmt::print(stderr, "no address: --address says where your readers find Etude, or this run\n");
   return kSuccess;
 }
 
@@ -42,9 +50,17 @@ void DefineCite(CLI::App& app, Action& action) {
   auto folder = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("cite", "Print BibTeX, and a sentence that cites a run in a paper");
   command->add_option("folder", *folder, "A result folder")->required();
+  auto address = std::make_shared<std::string>();
+  command->add_option("--address", *address, "Where readers find the program, or this run: a URL or DOI")
+      ->check([](const std::string& text) {
+        const bool is_plain = !text.empty() && std::ranges::all_of(text, [](char c) {
+          return c > ' ' && c <= '~' && std::string_view("{}\\\"%").find(c) == std::string_view::npos;
+        });
+        return is_plain ? "" : "an address without spaces, braces, quotes, '%' and '\\'";
+      });
   auto as_json = std::make_shared<bool>(false);
   AddJson(*command, *as_json);
-  command->callback([=, &action] { action = [=] { return Finish(CiteCommand(*folder, *as_json)); }; });
+  command->callback([=, &action] { action = [=] { return Finish(CiteCommand(*folder, *address, *as_json)); }; });
 }
 
 }  // namespace etude

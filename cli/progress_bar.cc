@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace etude {
@@ -47,10 +48,18 @@ void ProgressBar::Show(double share, const std::string& what, const std::string&
     const int filled = static_cast<int>(share * kBarWidth);
     const std::string bar = std::string(filled, '#') + std::string(kBarWidth - filled, '.');
     Print(fmt::format("\r\033[K[{}] {}{}{}", bar, what, remaining, share >= 1 ? "\n" : ""));
-  } else if (const int tenths = static_cast<int>(share * 10); tenths > tenths_shown_) {
-    tenths_shown_ = tenths;
-    Print(fmt::format("{:3d} %  {}{}\n", tenths * 10, what, remaining));
+    return;
   }
+  const int tenths = static_cast<int>(share * 10);
+  const bool is_due = SecondsSince(began_) >= next_s_;
+  if (tenths <= tenths_shown_ && !is_due) return;
+  if (is_due) {
+    constexpr double kMaxPauseS = 60;
+    next_s_ = SecondsSince(began_) + pause_s_;
+    pause_s_ = std::min(2 * pause_s_, kMaxPauseS);
+  }
+  tenths_shown_ = tenths;
+  Print(fmt::format("{:3d} %  {}{}\n", static_cast<int>(share * 100), what, remaining));
 }
 
 OnProgress ProgressOf(std::string what) {

@@ -11,7 +11,7 @@
 namespace etude {
 
 /// Shows the progress of a run or other work on standard error: redrawn in place on a terminal, else printed at every
-/// tenth.
+/// tenth, and after 2 s, 4 s, 8 s, … up to every minute.
 class ProgressBar {
  public:
   enum class Begins {
@@ -31,6 +31,7 @@ class ProgressBar {
   Clock::time_point began_ = Clock::now();
   bool is_shown_ = false;
   int tenths_shown_ = -1;
+  double next_s_ = 2, pause_s_ = 2;  ///< for logs: when the next line is due without another tenth; the pause after it
 };
 
 /// Returns a callback that shows the progress of some work and the estimated remaining time ("12/300 clips, about 40 s

@@ -28,7 +28,7 @@ struct RecogniseCommandOptions {
   std::vector<std::string> streams;  ///< a single "-" = standard input, live
   std::string moves;
   std::string labels;
-  std::string recogniser;  ///< "" = key-pose
+  std::string recogniser;  ///< "" = the recommended one
   std::string filter = "none", weights = "fixed";
   std::optional<double> threshold;
   std::vector<std::string> settings;  ///< "tolerance_scale=1.2"
@@ -78,9 +78,14 @@ Result<std::vector<double>> ReadSettings(const RecogniserKind& kind, const std::
   return values;
 }
 
-Result<WatchOptions> OptionsOf(const RecogniseCommandOptions& options) {
+/// Returns how to watch: with the recogniser that was asked for, else with `recommended`, which is told.
+Result<WatchOptions> OptionsOf(const RecogniseCommandOptions& options, const RecogniserKind& recommended) {
   WatchOptions watch;
-  if (!options.recogniser.empty()) watch.recogniser.kind = FindRecogniser(options.recogniser);
+  watch.recogniser.kind = options.recogniser.empty() ? &recommended : FindRecogniser(options.recogniser);
+  if (options.recogniser.empty()) {
+    fmt::print(stderr, "recogniser {}, recommended for what was taught; --recogniser takes another\n",
+               recommended.name);
+  }
   ASSIGN_OR_RETURN(watch.recogniser.settings, ReadSettings(*watch.recogniser.kind, options.settings));
   if (options.weights == "adaptive") watch.recogniser.weights.weighting = Weighting::kAdaptive;
   watch.filter.kind = FilterOf(options.filter);
@@ -88,18 +93,20 @@ Result<WatchOptions> OptionsOf(const RecogniseCommandOptions& options) {
   return watch;
 }
 
-/// The taught moves, and a recogniser for them.
+/// The taught moves, a recogniser for them, and how it watches.
 struct Taught {
   std::vector<TaughtMove> moves;
+  WatchOptions watch;
   std::unique_ptr<Recogniser> recogniser;
 };
 
-Result<Taught> LoadTaught(const std::string& path, const WatchOptions& watch) {
-  ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(path));
+Result<Taught> LoadTaught(const RecogniseCommandOptions& options) {
+  ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(options.moves));
   Taught taught;
-  ASSIGN_OR_RETURN(taught.moves, ReadMoves(text, path));
-  auto made = MakeRecogniser(watch.recogniser, taught.moves);
-  if (!made) return Fail({path}, "{}", made.error().message);
+  ASSIGN_OR_RETURN(taught.moves, ReadMoves(text, options.moves));
+  ASSIGN_OR_RETURN(taught.watch, OptionsOf(options, RecommendedRecogniser(taught.moves)));
+  auto made = MakeRecogniser(taught.watch.recogniser, taught.moves);
+  if (!made) return Fail({options.moves}, "{}", made.error().message);
   taught.recogniser = *std::move(made);
   return taught;
 }
@@ -110,10 +117,10 @@ void PrintSpotting(const Spotting& spotting, const Taught& taught, double rate_h
 }
 
 /// Recognises moves in standard input, line by line, until it ends.
-Result<int> RecogniseLive(const RecogniseCommandOptions& options, const Taught& taught, const WatchOptions& watch) {
+Result<int> RecogniseLive(const RecogniseCommandOptions& options, const Taught& taught) {
   const StreamOptions making = options.reading.Options();
   LiveStream live("standard input", options.reading.Reading(), making);
-  StreamWatcher watcher(*taught.recogniser, taught.moves.size(), watch, making.rate_hz);
+  StreamWatcher watcher(*taught.recogniser, taught.moves.size(), taught.watch, making.rate_hz);
   bool has_begun = false;
   const auto take = [&](const std::vector<SensedFrame>& frames) {
     if (!has_begun && !frames.empty()) {
@@ -179,16 +186,16 @@ Result<std::vector<LabelledPart>> PartsOf(const RecogniseCommandOptions& options
   return MatchLabels(labels, options.labels, loaded.streams);
 }
 
-Result<int> RecogniseFiles(const RecogniseCommandOptions& options, const Taught& taught, const WatchOptions& watch) {
+Result<int> RecogniseFiles(const RecogniseCommandOptions& options, const Taught& taught) {
   ASSIGN_OR_RETURN(const LoadedStreams loaded, Load(options));
   std::vector<LabelledPart> parts;
   if (!options.labels.empty()) {
     ASSIGN_OR_RETURN(parts, PartsOf(options, loaded));
   }
-  LabelScores scores(taught.moves, *taught.recogniser, watch);
+  LabelScores scores(taught.moves, *taught.recogniser, taught.watch);
   for (std::size_t s = 0; s < loaded.streams.size(); ++s) {
     const NamedStream& stream = loaded.streams[s];
-    const auto spottings = Watch(stream.stream, *taught.recogniser, taught.moves.size(), watch);
+    const auto spottings = Watch(stream.stream, *taught.recogniser, taught.moves.size(), taught.watch);
     for (const Spotting& spotting : spottings) {
       PrintSpotting(spotting, taught, stream.stream.rate_hz, loaded.streams.size() > 1 ? stream.name : "");
     }
@@ -215,7 +222,9 @@ void PrintMistakes(std::span<const Classified> verdicts) {
   }
 }
 
-Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options, const WatchOptions& watch) {
+Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options) {
+  // Several people teach each move: whole-body is recommended.
+  ASSIGN_OR_RETURN(const WatchOptions watch, OptionsOf(options, *FindRecogniser("whole-body")));
   // Load the recordings, and classify each person's with what the others taught.
   ASSIGN_OR_RETURN(const LoadedStreams loaded, Load(options));
   ASSIGN_OR_RETURN(const auto parts, PartsOf(options, loaded));
@@ -243,15 +252,14 @@ Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options, const
 }
 
 Result<int> RecogniseCommand(const RecogniseCommandOptions& options) {
-  ASSIGN_OR_RETURN(const auto watch, OptionsOf(options));
-  if (options.leave_one_person_out) return RecogniseLeavingOneOut(options, watch);
+  if (options.leave_one_person_out) return RecogniseLeavingOneOut(options);
   if (options.moves.empty()) return Fail({"--moves"}, "needed: a moves file (etude teach writes one)");
-  ASSIGN_OR_RETURN(const auto taught, LoadTaught(options.moves, watch));
+  ASSIGN_OR_RETURN(const auto taught, LoadTaught(options));
   const bool is_live = std::ranges::find(options.streams, "-") != options.streams.end();
   if (is_live && (options.streams.size() > 1 || !options.labels.empty())) {
     return Fail({"-"}, "standard input goes alone, and without labels");
   }
-  return is_live ? RecogniseLive(options, taught, watch) : RecogniseFiles(options, taught, watch);
+  return is_live ? RecogniseLive(options, taught) : RecogniseFiles(options, taught);
 }
 
 }  // namespace
@@ -269,7 +277,9 @@ void DefineRecognise(CLI::App& app, Action& action) {
                  "Teach from the labels of all other people, person by person")
       ->excludes(moves);
   // The recogniser and its settings.
-  command->add_option("--recogniser", options->recogniser, "How (default: key-pose)")
+  command
+      ->add_option("--recogniser", options->recogniser,
+                   "How (default: learnt; key-pose if a move has no example; whole-body if one person is left out)")
       ->check(CLI::IsMember(RecogniserNames()));
   command->add_option("--filter", options->filter, "How joints are smoothed first")
       ->check(CLI::IsMember(FilterNames()))

@@ -88,9 +88,10 @@ void PrintSummary(const RunData& run) {
   }
 }
 
-/// Returns true if a method of this scenario has attempted cells but no answer among them; ok and unsolved are answers.
-bool HasSilentMethod(const ScenarioSummary& scenario) {
-  return std::ranges::any_of(scenario.methods, [&](const std::string& name) {
+/// Returns the methods of a scenario that have attempted cells but no answer among them; ok and unsolved are answers.
+std::vector<std::string> SilentMethods(const ScenarioSummary& scenario) {
+  std::vector<std::string> silent;
+  for (const std::string& name : scenario.methods) {
     int attempted = 0, answers = 0;
     for (const ConditionSummary& condition : scenario.conditions) {
       const auto method = std::ranges::find(condition.methods, name, &MethodSummary::method);
@@ -100,8 +101,37 @@ bool HasSilentMethod(const ScenarioSummary& scenario) {
         answers += status == Status::kOk || status == Status::kUnsolved ? count : 0;
       }
     }
-    return attempted > 0 && answers == 0;
-  });
+    if (attempted > 0 && answers == 0) silent.push_back(name);
+  }
+  return silent;
+}
+
+bool HasSilentMethod(const ScenarioSummary& scenario) { return !SilentMethods(scenario).empty(); }
+
+}  // namespace
+
+namespace {
+
+/// Returns what `run --json` tells; `run` is null for a shard.
+Json FactsOf(const RunOutcome& outcome, const Shard& shard, const RunData* run) {
+  Json scenarios = Json::array(), silent = Json::array();
+  for (const ScenarioSummary& scenario : run == nullptr ? std::span<const ScenarioSummary>() : run->scenarios) {
+    Json expectations = Json::array();
+    for (const ExpectationResult& one : scenario.expectations) {
+      expectations.push_back(
+          {{"expected", one.text}, {"outcome", ClaimOutcomeName(one.ruling)}, {"found", one.detail}});
+    }
+    scenarios.push_back(
+        {{"scenario", scenario.name}, {"task", scenario.task}, {"expectations", std::move(expectations)}});
+    for (const std::string& method : SilentMethods(scenario)) silent.push_back(scenario.name + "/" + method);
+  }
+  return {{"output", outcome.folder.string()},
+          {"shard", shard.IsWhole() ? Json(nullptr) : Json(ToString(shard))},
+          {"cells", outcome.cells},
+          {"cells_ok", outcome.cells_ok},
+          {"run_s", outcome.seconds},
+          {"scenarios", std::move(scenarios)},
+          {"without_answer", std::move(silent)}};
 }
 
 }  // namespace
@@ -144,8 +174,21 @@ void TellChanges(const std::vector<LoadedChange>& changes) {
   if (changes.size() > kShown) fmt::print("… and {} more changes of clips: manifest.json\n", changes.size() - kShown);
 }
 
-int RunCommand(const RunOptions& given) {
+/// Prints the facts of a run for programs, and returns `code` if that works.
+int PrintOutcome(const RunOutcome& outcome, const Shard& shard, int code) {
+  std::optional<RunData> run;
+  if (shard.IsWhole()) {
+    auto outline = LoadRunOutline(outcome.folder);
+    if (!outline) return Complain(outline.error());
+    run = *std::move(outline);
+  }
+  const auto printed = PrintFacts("run", FactsOf(outcome, shard, run ? &*run : nullptr));
+  return printed ? code : Complain(printed.error());
+}
+
+int RunCommand(const RunOptions& given, bool as_json) {
   RunOptions options = given;
+  StdoutToStderr aside(as_json);
   // Run, with Ctrl-C as a request to stop.
   std::optional<Interrupt> interrupt(std::in_place);
   options.stop = interrupt->requested();
@@ -174,9 +217,13 @@ int RunCommand(const RunOptions& given) {
   if (!options.shard.IsWhole()) {
     fmt::print("Shard {}: {} of {} cells ok in {:.1f} s: {}\nNext, when all shards are done: etude merge DIR… -o DIR\n",
                ToString(options.shard), outcome->cells_ok, outcome->cells, outcome->seconds, folder);
-    return outcome->cells_ok > 0 || outcome->cells == 0 ? kSuccess : kNothingWorked;
+    aside.End();
+    const int code = outcome->cells_ok > 0 || outcome->cells == 0 ? kSuccess : kNothingWorked;
+    return as_json ? PrintOutcome(*outcome, options.shard, code) : code;
   }
-  return ShowOutcome(*outcome);
+  const int code = ShowOutcome(*outcome);
+  aside.End();
+  return as_json && (code == kSuccess || code == kNothingWorked) ? PrintOutcome(*outcome, {}, code) : code;
 }
 
 int MergeCommand(const MergeOptions& given) {
@@ -232,7 +279,7 @@ void Print(const ScenarioForecast& one) {
              MinDetectableDifference(one.units, one.comparisons), CountUnits(one.units, one.unit));
 }
 
-Json FactsOf(const Forecast& forecast) {
+Json FactsOf(const Forecast& forecast, const Shard& shard) {
   Json scenarios = Json::array();
   for (const ScenarioForecast& one : forecast.scenarios) {
     scenarios.push_back({{"scenario", one.name},
@@ -246,7 +293,9 @@ Json FactsOf(const Forecast& forecast) {
                          {"kept", one.is_kept},
                          {"world_s", one.seconds_per_world}});
   }
-  return {{"run_s", forecast.seconds},
+  return {{"shard", shard.IsWhole() ? Json(nullptr) : Json(ToString(shard))},
+          {"cells", forecast.cells},
+          {"run_s", forecast.seconds},
           {"workers", forecast.workers},
           {"yardstick_ms", forecast.pace.yardstick_ms},
           {"scenarios", std::move(scenarios)}};
@@ -256,18 +305,21 @@ int DryRunCommand(const RunOptions& options, bool as_json) {
   const auto forecast = DryRun(options, kSampleSeconds);
   if (!forecast) return Complain(forecast.error());
   if (as_json) {
-    const auto printed = PrintFacts("run --dry-run", FactsOf(*forecast));
+    const auto printed = PrintFacts("run --dry-run", FactsOf(*forecast, options.shard));
     return printed ? kSuccess : Complain(printed.error());
   }
-  std::size_t cells = 0;
+  std::size_t all = 0;
   std::vector<std::string> guessed;
   for (const ScenarioForecast& one : forecast->scenarios) {
     Print(one);
-    cells += one.conditions * one.worlds * one.methods;
+    all += one.conditions * one.worlds * one.methods;
     if (!one.is_kept) guessed.push_back(one.name);
   }
+  if (!options.shard.IsWhole())
+    fmt::print("Shard {}: {} of {} cells.\n", ToString(options.shard), forecast->cells, all);
   fmt::print("{} cells, about {} on {}. Differences that are found with a chance of 80 %. Nothing was written.\n",
-             cells, Duration(forecast->seconds), CountOf(static_cast<std::size_t>(forecast->workers), "worker"));
+             forecast->cells, Duration(forecast->seconds),
+             CountOf(static_cast<std::size_t>(forecast->workers), "worker"));
   if (!guessed.empty()) {
     fmt::print("The time is a guess: no costs are kept of {}, whose first worlds were measured just now.\n",
                Join(guessed, ", "));
@@ -304,12 +356,12 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
                               "motions: record the motions of every cell (a scenario's key `video` does so for some)")
                           ->check(CLI::IsMember({"motions"}));
   auto dry_run = std::make_shared<bool>(false), as_json = std::make_shared<bool>(false);
-  const Action act = WithSecretKey(*command, &options->seed, options->key,
-                                   [=] { return *dry_run ? DryRunCommand(*options, *as_json) : RunCommand(*options); });
+  const Action act = WithSecretKey(*command, &options->seed, options->key, [=] {
+    return *dry_run ? DryRunCommand(*options, *as_json) : RunCommand(*options, *as_json);
+  });
   AddReuseKey(*command, options->reuse_key);
   // The options for parts of a run, and for continuing one.
-  CLI::Option* shard_option =
-      command->add_option("--shard", *shard, "Run part i of n, written i/n; etude merge makes one run of all parts");
+  command->add_option("--shard", *shard, "Run part i of n, written i/n; etude merge makes one run of all parts");
   CLI::Option* overwrite = AddOverwrite(*command, options->overwrite, "Replace the run that the folder holds");
   CLI::Option* resume =
       command->add_flag("--resume", options->resume, "Continue the run that the folder holds")->excludes(overwrite);
@@ -323,8 +375,8 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
       ->capture_default_str();
   CLI::Option* dry = command->add_flag("--dry-run", *dry_run,
                                        "Only estimate how long it would take, and what differences it could show");
-  dry->excludes(shard_option, overwrite, resume);
-  AddJson(*command, *as_json)->needs(dry);
+  dry->excludes(overwrite, resume);
+  AddJson(*command, *as_json);
   // --from repeats a run, so it excludes everything that its manifest states.
   CLI::Option* from = command->add_option("--from", options->from, "Repeat the run that this manifest.json describes");
   for (CLI::Option* option : world_options) from->excludes(option);

@@ -1,8 +1,10 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "cli/commands.h"
 #include "cli/facts.h"
@@ -18,7 +20,8 @@ namespace {
 
 struct TeachCommandOptions {
   std::vector<std::string> streams;
-  std::string labels;  ///< "" = each file is one move
+  std::string labels;                ///< "" = each file is one move
+  std::vector<std::string> without;  ///< moves to leave out
   std::string output;
   bool overwrite = false, as_json = false;
   StreamArguments reading;
@@ -46,8 +49,17 @@ Result<std::vector<TaughtMove>> Teach(const TeachCommandOptions& options) {
     ASSIGN_OR_RETURN(const auto labels, LoadLabels(options.labels));
     ASSIGN_OR_RETURN(parts, MatchLabels(labels, options.labels, loaded.streams));
   }
-  return TeachMoves(
-      loaded.streams, parts, [](const LabelledPart&) { return true; }, true);
+  // Leave out the moves that were not wanted; each must be there.
+  std::set<std::string> moves;
+  for (const LabelledPart& part : parts) moves.insert(part.move);
+  const std::vector<std::string> names(moves.begin(), moves.end());
+  for (const std::string& name : options.without) {
+    if (!moves.contains(name)) return Fail({"--without"}, "{}", UnknownName("move", name, names));
+  }
+  const auto takes = [&](const LabelledPart& part) {
+    return std::ranges::find(options.without, part.move) == options.without.end();
+  };
+  return TeachMoves(loaded.streams, parts, takes, true);
 }
 
 std::string TargetsText(const TaughtPose& pose) {
@@ -107,6 +119,7 @@ void DefineTeach(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("teach", "Learn moves from recordings and clips");
   command->add_option("streams", options->streams, "Recordings, clips, patterns, folders")->required();
   command->add_option("--labels", options->labels, "Who did what when: a file, or a folder of tag streams");
+  command->add_option("--without", options->without, "Leave this move out")->allow_extra_args(false);
   command->add_option("-o,--output", options->output, "The moves file to write (YAML)")->required();
   AddOverwrite(*command, options->overwrite);
   AddJson(*command, options->as_json);

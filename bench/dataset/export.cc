@@ -35,7 +35,8 @@ constexpr const char* kReadme =
 - `truth/` is what its answers are judged by: keep it. (`manifest.json`, too: whoever has Etude can make the truth of it.)
 
 `inputs/index.csv` lists the problems. A problem is `SCENARIO/CONDITION/TRIAL/problem.json` with its files beside it; what
-the problems of a condition share is `SCENARIO/CONDITION/setting.json`. What they hold, and what an answer looks like,
+the problems of a condition share is `SCENARIO/CONDITION/setting.json` (of recorded people, whom others taught, one
+beside each problem). What they hold, and what an answer looks like,
 stands in Etude's `docs/outside-methods.md`, task by task. A method's predictions are a folder of answers, one JSON
 object per problem, under the same names: `SCENARIO/CONDITION/TRIAL.json`. Judge them with
 
@@ -147,7 +148,9 @@ class Exporter {
   Exporter(const PreparedScenario& scenario, FilePath folder, bool films)
       : scenario_(scenario), folder_(std::move(folder)), films_(films) {}
 
+  /// Writes the setting of a condition, if its worlds have none of their own.
   Result<void> SaveSetting(int condition, const std::string& place) {
+    if (scenario_.task(condition).HasOwnSettings()) return {};
     const auto setting = scenario_.task(condition).Setting();
     if (!setting) return About(place, setting.error());
     return SavePayload(*setting, folder_ / "inputs" / place, "setting.json");
@@ -177,6 +180,11 @@ class Exporter {
       if (!problem) return About(path, problem.error());
       on_part(1);
       RETURN_IF_ERROR(SavePayload(*problem, folder_ / "inputs" / path, "problem.json"));
+      if (scenario_.task(condition).HasOwnSettings()) {
+        const auto setting = world->MakeSetting();
+        if (!setting) return About(path, setting.error());
+        RETURN_IF_ERROR(SavePayload(*setting, folder_ / "inputs" / path, "setting.json"));
+      }
       if (films_) RETURN_IF_ERROR(SaveFilms(*problem, condition, path));
       on_part(2);
     }

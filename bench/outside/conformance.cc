@@ -13,6 +13,7 @@
 #include "engine/base/named.h"
 #include "engine/base/names.h"
 #include "engine/document/node.h"
+#include "engine/teaching/labelled_streams.h"
 #include "io/clips/clip_library.h"
 #include "io/process/clock.h"
 
@@ -49,35 +50,54 @@ const std::vector<Recipe>& Recipes() {
   return recipes;
 }
 
-Result<Specimen> MakeSpecimen(const TaskKind& kind, const Recipe& recipe, const std::string& condition,
-                              const std::string& seat) {
+/// Returns the recipe for recorded people, who take the place of clips and simulated people.
+Recipe OfRecordings(const Recipe& recipe) { return {recipe.task, {}, {"{}", "{}"}}; }
+
+Result<Specimen> MakeSpecimen(const TaskKind& kind, const Recipe& recipe, std::size_t index, const std::string& seat,
+                              const LabelledStreams* recordings) {
   Specimen specimen;
-  specimen.setting_id = kind.name + " " + condition;
+  const std::string condition = recipe.conditions[index];
+  const std::string setting_id =
+      fmt::format("{} {}{}", kind.name, condition, index == 0 || condition != "{}" ? "" : " again");
   // Make the task from its clips, its condition and one method.
   ASSIGN_OR_RETURN(auto clips, LoadClips(recipe.clips, {}));
   specimen.clips = std::make_unique<ClipLibrary>(std::move(clips));
-  ASSIGN_OR_RETURN(const auto node, ParseYaml(condition, specimen.setting_id));
+  ASSIGN_OR_RETURN(const auto node, ParseYaml(condition, setting_id));
   Fields fields(node, "a specimen of task " + kind.name);
   std::vector<Node> methods;
   const std::string method = seat.empty() ? recipe.plain_method : "{name: specimen, seat: " + seat + "}";
   if (!method.empty()) {
-    ASSIGN_OR_RETURN(methods.emplace_back(), ParseYaml(method, specimen.setting_id));
+    ASSIGN_OR_RETURN(methods.emplace_back(), ParseYaml(method, setting_id));
   }
   specimen.has_plain_method = seat.empty() && !method.empty();
   TaskInput input{fields, methods, *specimen.clips};
+  input.recordings = recordings;
   ASSIGN_OR_RETURN(auto task, kind.make(input));
   specimen.task = std::move(task);
-  ASSIGN_OR_RETURN(auto setting, specimen.task->Setting());
-  specimen.setting = std::move(setting);
+  std::shared_ptr<const Payload> shared;
+  if (!specimen.task->HasOwnSettings()) {
+    ASSIGN_OR_RETURN(auto setting, specimen.task->Setting());
+    shared = std::make_shared<const Payload>(std::move(setting));
+  }
   // Make the problems.
-  for (int trial = 0; trial < kProblems; ++trial) {
-    auto world = specimen.task->MakeWorld({1, "check-method", trial}, false);
-    Payload problem;
-    if (seat.empty()) {
-      ASSIGN_OR_RETURN(problem, world->MakeProblem());
+  const int problems =
+      recordings == nullptr ? kProblems : std::min(kProblems, static_cast<int>(recordings->people.size()));
+  for (int trial = 0; trial < problems; ++trial) {
+    SpecimenProblem problem{.id = fmt::format("{} {}", setting_id, trial),
+                            .setting_id = setting_id,
+                            .setting = shared,
+                            .world = specimen.task->MakeWorld({1, "check-method", trial}, false),
+                            .problem = {}};
+    if (const auto why = problem.world->WhySkipped()) return Fail({}, "{}", *why);
+    if (shared == nullptr) {
+      ASSIGN_OR_RETURN(auto own, problem.world->MakeSetting());
+      problem.setting = std::make_shared<const Payload>(std::move(own));
+      problem.setting_id = problem.id;
     }
-    specimen.problems.push_back(
-        {fmt::format("{} {}", specimen.setting_id, trial), std::move(world), std::move(problem)});
+    if (seat.empty()) {
+      ASSIGN_OR_RETURN(problem.problem, problem.world->MakeProblem());
+    }
+    specimen.problems.push_back(std::move(problem));
   }
   return specimen;
 }
@@ -147,14 +167,14 @@ class ConformanceTest {
     report_({name, passed, found});
   }
 
-  Attempt Ask(const Specimen& specimen, const SpecimenProblem& problem) {
-    if (takes_seat_) return Play<SeatedProgram>(specimen, problem, problem.id);
-    return Ask(specimen, problem, problem.id, problem.problem);
+  Attempt Ask(const SpecimenProblem& problem) {
+    if (takes_seat_) return Play<SeatedProgram>(problem, problem.id);
+    return Ask(problem, problem.id, problem.problem);
   }
 
-  Attempt Ask(const Specimen& specimen, const SpecimenProblem& problem, const std::string& id, const Payload& shown) {
+  Attempt Ask(const SpecimenProblem& problem, const std::string& id, const Payload& shown) {
     const auto start = Clock::now();
-    const OutsideReply reply = method_.Ask(specimen.setting_id, specimen.setting, id, shown);
+    const OutsideReply reply = method_.Ask(problem.setting_id, *problem.setting, id, shown);
     slowest_s_ = std::max(slowest_s_, SecondsSince(start));
     peak_mb_ = std::max(peak_mb_, reply.peak_mb);
     repeated_ += reply.repeated;
@@ -172,9 +192,9 @@ class ConformanceTest {
 
   /// Runs a whole session with the program in its seat; the result holds the digest of its answers.
   template <typename Program>
-  Attempt Play(const Specimen& specimen, const SpecimenProblem& problem, const std::string& id) {
+  Attempt Play(const SpecimenProblem& problem, const std::string& id) {
     const auto start = Clock::now();
-    Program program(method_, specimen.setting_id, specimen.setting, id);
+    Program program(method_, problem.setting_id, *problem.setting, id);
     const auto result = problem.world->RunWith(program, 0);
     slowest_s_ = std::max(slowest_s_, SecondsSince(start));
     peak_mb_ = std::max(peak_mb_, program.peak_mb());
@@ -194,7 +214,7 @@ class ConformanceTest {
   Result<void> CheckAnswers() {
     int solved = 0;
     for (const SpecimenProblem& problem : specimens_[0].problems) {
-      first_.push_back(Ask(specimens_[0], problem));
+      first_.push_back(Ask(problem));
       const Attempt& attempt = first_.back();
       if (first_.size() == 1) {
         if (!attempt.was_put) return Fail({}, "{}", attempt.said);
@@ -253,15 +273,14 @@ class ConformanceTest {
 
   void CheckOneProblemTwice() {
     const std::size_t last = first_.size() - 1;
-    ReportDifference("answers a repeated problem alike",
-                     Compare(Ask(specimens_[0], specimens_[0].problems[last]), last));
+    ReportDifference("answers a repeated problem alike", Compare(Ask(specimens_[0].problems[last]), last));
   }
 
   void CheckOrder() {
     method_.End(kMaxEndingMs);
     std::string difference;
     for (std::size_t i = first_.size(); i-- > 0 && difference.empty();) {
-      difference = Compare(Ask(specimens_[0], specimens_[0].problems[i]), i);
+      difference = Compare(Ask(specimens_[0].problems[i]), i);
     }
     ReportDifference("answers alike after a restart and in another order", difference);
   }
@@ -269,12 +288,11 @@ class ConformanceTest {
   void CheckSettings() {
     std::string fault;
     for (const SpecimenProblem& problem : specimens_[1].problems) {
-      if (fault.empty()) fault = Ask(specimens_[1], problem).fault;
+      if (fault.empty()) fault = Ask(problem).fault;
     }
     Report("answers under another setting", fault.empty(), fault.empty() ? "answers that can be scored" : fault);
     if (fault.empty()) {
-      ReportDifference("answers alike when the first setting returns",
-                       Compare(Ask(specimens_[0], specimens_[0].problems[0]), 0));
+      ReportDifference("answers alike when the first setting returns", Compare(Ask(specimens_[0].problems[0]), 0));
     }
   }
 
@@ -286,10 +304,10 @@ class ConformanceTest {
   /// Sends the first problem with additional keys, unknown to the program.
   Attempt AskAtLength(const std::string& id) {
     const SpecimenProblem& problem = specimens_[0].problems[0];
-    if (takes_seat_) return Play<ProgramWithUnknownKeys>(specimens_[0], problem, id);
+    if (takes_seat_) return Play<ProgramWithUnknownKeys>(problem, id);
     Payload shown = PayloadOf(*problem.problem.json, problem.problem.files);
     (*shown.json)["of_a_later_version"] = std::string(2'000'000, 'x');
-    return Ask(specimens_[0], problem, id, shown);
+    return Ask(problem, id, shown);
   }
 
   OutsideMethod method_;
@@ -305,7 +323,8 @@ class ConformanceTest {
 
 }  // namespace
 
-Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::string& seat) {
+Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::string& seat,
+                                            const LabelledStreams* recordings) {
   const TaskKind* kind = FindTaskKind(task);
   if (kind == nullptr) return Fail({}, "{}", UnknownName("task", task, NamesOf(Recipes(), &Recipe::task)));
   if (kind->seats.empty() && !seat.empty()) return Fail({}, "task {} has no seats", task);
@@ -315,11 +334,13 @@ Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::
   if (!seat.empty() && std::ranges::find(kind->seats, seat) == kind->seats.end()) {
     return Fail({}, "{}", UnknownName("seat", seat, kind->seats));
   }
+  if (recordings != nullptr && !kind->uses_recordings) return Fail({}, "task {} takes no recordings", task);
   std::vector<Specimen> specimens;
-  for (const Recipe& recipe : Recipes()) {
-    if (recipe.task != task) continue;
-    for (const char* condition : recipe.conditions) {
-      ASSIGN_OR_RETURN(auto specimen, MakeSpecimen(*kind, recipe, condition, seat));
+  for (const Recipe& plain : Recipes()) {
+    if (plain.task != task) continue;
+    const Recipe recipe = recordings == nullptr ? plain : OfRecordings(plain);
+    for (std::size_t i = 0; i < recipe.conditions.size(); ++i) {
+      ASSIGN_OR_RETURN(auto specimen, MakeSpecimen(*kind, recipe, i, seat, recordings));
       specimens.push_back(std::move(specimen));
     }
   }
@@ -327,8 +348,9 @@ Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::
 }
 
 Result<bool> CheckConformance(const OutsideOptions& options, const std::string& seat,
-                              const std::function<void(const ConformanceCheck&)>& report) {
-  ASSIGN_OR_RETURN(const auto specimens, MakeSpecimens(options.task, seat));
+                              const std::function<void(const ConformanceCheck&)>& report,
+                              const LabelledStreams* recordings) {
+  ASSIGN_OR_RETURN(const auto specimens, MakeSpecimens(options.task, seat, recordings));
   return ConformanceTest(options, !seat.empty(), specimens, report).Run();
 }
 

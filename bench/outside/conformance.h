@@ -13,22 +13,25 @@ namespace etude {
 /// A small world of a task, for testing an outside method.
 struct SpecimenProblem {
   std::string id;
+  std::string setting_id;
+  std::shared_ptr<const Payload> setting;  ///< the specimen's, or this world's own
   std::unique_ptr<TaskWorld> world;
   Payload problem;  ///< empty for tasks with seats
 };
 
 struct Specimen {
-  std::string setting_id;
   std::unique_ptr<ClipLibrary> clips;  ///< outlive the task
   std::unique_ptr<Task> task;
-  Payload setting;
   std::vector<SpecimenProblem> problems;
   bool has_plain_method = false;  ///< method 0 of its worlds is a built-in method that solves them
 };
 
 /// Makes two settings of a task with three problems each, the same in every call. Fails if there is no such task, if
 /// its worlds cannot be made on this machine (no renderer), or if `seat` is not one of its seats ("" if it has none).
-Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::string& seat);
+/// With `recordings`, which must outlive them, the worlds are the recorded people, and there is a problem for each of
+/// the first three of them; only task detection has such worlds.
+Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::string& seat,
+                                            const LabelledStreams* recordings = nullptr);
 
 /// One requirement for an outside method, and its result.
 struct ConformanceCheck {
@@ -43,6 +46,7 @@ struct ConformanceCheck {
 /// angles seem to be radians). Stops after a failed handshake or an answer that cannot be scored. Returns true if all
 /// checks passed. Fails as MakeSpecimens does, and if the program cannot be found.
 Result<bool> CheckConformance(const OutsideOptions& options, const std::string& seat,
-                              const std::function<void(const ConformanceCheck&)>& report);
+                              const std::function<void(const ConformanceCheck&)>& report,
+                              const LabelledStreams* recordings = nullptr);
 
 }  // namespace etude

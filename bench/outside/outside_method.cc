@@ -28,7 +28,6 @@ constexpr double kMaxLimit_s = 1e9;  // longer than any run; within the clock's 
 /// The error of a reply that came before its question was read.
 Error TooEarly() { return {{}, "answered before it was asked"}; }
 
-/// The hint is the same with and without a sandbox, so that a program fails with the same message everywhere.
 constexpr const char* kHint = " (a fence shows it the system and what its key 'files' lists)";
 
 tl::unexpected<OutsideFailure> Failed(Status status, std::string reason) {
@@ -182,8 +181,12 @@ Outcome<void> OutsideMethod::State::Start() {
   const bool ended = !reply && (reply.error().status == Status::kCrashed || reply.error().status == Status::kFailed);
   if (ended) {  // the sandbox may be the cause
     if (auto tried = options.fence.Try(); !tried) return NotAsked(tried.error());
-    reply.error().reason += kHint;
+    const std::string cure = program.CureOfStart();
+    reply.error().reason += cure.empty() ? kHint : cure;
   }
+  // A program that never said anything has not been asked: this set-up is the cause, and its cells get no rows.
+  const bool is_silent = ended || (!reply && reply.error().status == Status::kTimeout);
+  if (is_silent && program_name.empty()) reply.error().was_asked = false;
   if (!reply) return tl::unexpected(std::move(reply).error());
   program_name = reply->name + " " + reply->version;
   return {};

@@ -39,7 +39,9 @@ double MaxAskSeconds(double time_s);
 struct OutsideReply {
   Status status = Status::kFailed;  ///< kOk: `answer` is valid; else `reason` says why there is none
   std::string reason;
-  bool was_asked = true;  ///< false: this machine is the cause, as `reason` says; the program was not asked
+  /// False: this machine or the set-up is the cause, as `reason` says; the program was not asked, or never replied to
+  /// its first handshake.
+  bool was_asked = true;
   JsonPtr answer;         ///< an object with finite numbers
   double cpu_s = 0;       ///< used by the program since its last reply; 0 if it ended before the first sample
   double peak_mb = 0;     ///< its largest memory during this problem, sampled 50 times a second

@@ -1,6 +1,9 @@
 #include "bench/outside/program_view.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <fstream>
 
 #include "io/process/fence.h"
 
@@ -9,11 +12,75 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::streamsize kMaxScriptBytes = 4096;
+constexpr int kMaxLinks = 40;
+
 /// Returns the absolute path without a slash at its end.
 fs::path Whole(const fs::path& path) {
   std::error_code error;
   const fs::path whole = fs::absolute(path, error).lexically_normal();
   return whole.has_filename() ? whole : whole.parent_path();
+}
+
+bool IsWithin(const fs::path& path, const fs::path& folder) {
+  return std::ranges::mismatch(folder, path).in1 == folder.end();
+}
+
+bool IsSeen(const fs::path& path, const ProgramView& view) {
+  return Fence::IsOfSystem(path) ||
+         std::ranges::any_of(view.shown, [&](const fs::path& one) { return IsWithin(path, one); });
+}
+
+/// Returns true for a folder that nobody should show whole: the root, a home, a scratch folder and what contains one.
+bool IsTooWide(const fs::path& folder) {
+  const fs::path above = folder.parent_path();
+  return above == "/" || above == "/home" || folder == "/" || Fence::HoldsScratch(folder);
+}
+
+/// Returns the folder of the installation that an unseen path belongs to: the program's folder or the one above, if the
+/// path is below it; else the folder above its `bin`; else its own folder.
+fs::path InstallationOf(const fs::path& path, const fs::path& program) {
+  fs::path common;
+  for (auto [a, b] = std::pair(path.begin(), program.begin()); a != path.end() && b != program.end() && *a == *b;) {
+    common /= *a++;
+    ++b;
+  }
+  const fs::path own = program.parent_path();
+  if ((common == own || common == own.parent_path()) && !IsTooWide(common)) return common;
+  std::error_code error;
+  const fs::path folder = fs::is_directory(path, error) ? path : path.parent_path();
+  const fs::path above = folder.parent_path();
+  if (folder.filename() == "bin" && !IsTooWide(above)) return above;
+  return IsTooWide(folder) ? path : folder;
+}
+
+/// Adds a path, and removes what it contains; adds nothing if it is contained.
+void AddWidest(const fs::path& path, std::vector<fs::path>& paths) {
+  if (std::ranges::any_of(paths, [&](const fs::path& known) { return IsWithin(path, known); })) return;
+  std::erase_if(paths, [&](const fs::path& known) { return IsWithin(known, path); });
+  paths.push_back(path);
+}
+
+/// Returns the absolute paths that a text names.
+std::vector<fs::path> PathsIn(std::string_view text) {
+  constexpr std::string_view kEnds = " \t\r\n\"'`:;,=()[]{}<>|&$";
+  std::vector<fs::path> found;
+  for (std::size_t at = 0; (at = text.find('/', at)) != std::string_view::npos;) {
+    const std::size_t end = std::min(text.find_first_of(kEnds, at), text.size());
+    const bool is_start = at == 0 || text[at - 1] == '!' || kEnds.find(text[at - 1]) != std::string_view::npos;
+    if (is_start && end - at > 1) found.push_back(Whole(std::string(text.substr(at, end - at))));
+    at = end;
+  }
+  return found;
+}
+
+/// Returns the beginning of a script, "" for any other file.
+std::string TextOfScript(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text(kMaxScriptBytes, '\0');
+  file.read(text.data(), kMaxScriptBytes);
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text.starts_with("#!") ? text : "";
 }
 
 }  // namespace
@@ -44,6 +111,43 @@ ProgramView ViewOf(const std::vector<std::string>& command, const std::vector<st
     if (view.start.empty() && fs::is_directory(path, error)) view.start = path;
   }
   return view;
+}
+
+std::vector<fs::path> FindUnseen(const ProgramView& view, std::string_view words) {
+  if (view.command.empty()) return {};
+  std::error_code error;
+  const fs::path program = view.command.front();
+  std::vector<fs::path> named;
+  // The Python of a virtual environment is a link out of it, and needs the settings beside its folder.
+  const fs::path environment = program.parent_path().parent_path();
+  if (fs::exists(environment / "pyvenv.cfg", error)) named.push_back(environment / "pyvenv.cfg");
+  fs::path target = program;
+  for (int links = 0; links < kMaxLinks && fs::is_symlink(target, error); ++links) {
+    target = Whole(target.parent_path() / fs::read_symlink(target, error));
+    named.push_back(target);
+  }
+  // What a script and the last words name.
+  for (const std::string& text : {TextOfScript(target), std::string(words)})
+    std::ranges::move(PathsIn(text), std::back_inserter(named));
+  std::vector<fs::path> unseen;
+  for (const fs::path& path : named) {
+    if (!fs::exists(path, error) || IsSeen(path, view) || IsTooWide(path)) continue;
+    AddWidest(InstallationOf(path, program), unseen);
+  }
+  return unseen;
+}
+
+std::string FilesThatShow(const std::vector<fs::path>& unseen, const ProgramView& view) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const fs::path& path : view.shown) {
+    const fs::path folder = fs::is_directory(path, error) ? path : path.parent_path();
+    AddWidest(IsTooWide(folder) ? path : folder, files);
+  }
+  for (const fs::path& path : unseen) AddWidest(path, files);
+  std::string text;
+  for (const fs::path& path : files) text += (text.empty() ? "" : ", ") + path.string();
+  return fmt::format("files: [{}]", text);
 }
 
 fs::path PythonFolder() {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace etude {
@@ -17,6 +18,14 @@ struct ProgramView {
 /// and the files that its command names. Without `files` it is shown the folder of its executable or, if that belongs
 /// to the system, of its script (the first file among the arguments). Its working folder is the first shown folder.
 ProgramView ViewOf(const std::vector<std::string>& command, const std::vector<std::string>& files);
+
+/// Returns what a program that did not start in a fence may lack: the files and folders of this machine that its link
+/// leads to, that its text names if it is a script, or that `words`, its last ones, name, and that a fence does not
+/// show it. Each is told by the folder of the installation that it lies in, which is shown whole. Empty = none known.
+std::vector<std::filesystem::path> FindUnseen(const ProgramView& view, std::string_view words);
+
+/// Returns the key `files` that shows a program `unseen` beside what it sees: "files: [mine, /home/me/venv]".
+std::string FilesThatShow(const std::vector<std::filesystem::path>& unseen, const ProgramView& view);
 
 /// Returns the folder of Etude's Python package, which every program is shown and which is in its PYTHONPATH:
 /// `share/etude/python` beside an installed program, else `python` in a folder above it; "" if there is none.

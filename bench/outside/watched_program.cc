@@ -17,7 +17,6 @@
 
 #include "bench/outside/attachment_folder.h"
 #include "bench/outside/messages.h"
-#include "bench/outside/program_view.h"
 #include "engine/base/machine.h"
 
 namespace etude {
@@ -132,7 +131,8 @@ OutsideOutcome<void> WatchedProgram::Start() {
   auto program = FindProgram(command.front());
   if (!program) return NotStarted(program.error());
   command.front() = std::move(*program);
-  ProgramView view = ViewOf(command, options_.files);
+  view_ = ViewOf(command, options_.files);
+  ProgramView view = view_;
   view.shown.emplace_back(attachment_root_->path());
   std::vector<std::string> environment;
   if (const std::filesystem::path python = PythonFolder(); !python.empty()) {
@@ -165,6 +165,15 @@ std::string WatchedProgram::Stop(int patience_ms) {
   child_.reset();
   group_ = {};
   return end;
+}
+
+std::string WatchedProgram::CureOfStart() const {
+  if (!options_.fence.IsUp()) return "";
+  const auto unseen = FindUnseen(view_, errors_.LastLine());
+  if (unseen.empty()) return "";
+  std::string names;
+  for (const auto& path : unseen) names += (names.empty() ? "" : " and ") + path.string();
+  return fmt::format("; its fence does not show it {}: give it {}", names, FilesThatShow(unseen, view_));
 }
 
 void WatchedProgram::Receive() { child_->Receive(kMaxReplyBytes); }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bench/outside/outside_method.h"
+#include "bench/outside/program_view.h"
 #include "io/files/temporary_folder.h"
 #include "io/process/child_process.h"
 #include "io/process/clock.h"
@@ -92,6 +93,8 @@ class WatchedProgram {
   /// The largest memory measured since ForgetPeak, MB.
   double peak_mb() const { return peak_mb_; }
   void ForgetPeak() { peak_mb_ = 0; }
+  /// Returns how to show the program what it seems to lack in its fence; "" if nothing is known to be missing.
+  std::string CureOfStart() const;
   /// Saves its standard error.
   void SaveErrors() { errors_.Save(); }
 
@@ -105,6 +108,7 @@ class WatchedProgram {
   const OutsideOptions& options_;
   ErrorLog errors_;
   std::optional<TemporaryFolder> attachment_root_;
+  ProgramView view_;    ///< of the child, without attachments and package
   ControlGroup group_;  ///< of the child; none if this machine provides none: then the meter measures its memory
   std::optional<ChildProcess> child_;
   std::optional<TreeMeter> meter_;  ///< of the child

@@ -174,17 +174,27 @@ std::size_t CellRunner::IndexInTask(std::size_t method) const {
 }
 
 std::string CellRunner::SettingId() const {
-  return scenario_.scenario().name + "/" + CompactLabel(scenario_.scenario().conditions[condition_].swept);
+  const std::string condition =
+      scenario_.scenario().name + "/" + CompactLabel(scenario_.scenario().conditions[condition_].swept);
+  return scenario_.task(condition_).HasOwnSettings() ? fmt::format("{}/{}", condition, trial_) : condition;
 }
 
 tl::expected<const Payload*, CellResult> CellRunner::OpenSetting() {
-  if (setting_ == nullptr || condition_of_setting_ != condition_) {
-    auto setting = scenario_.task(condition_).Setting();
+  const Task& task = scenario_.task(condition_);
+  if (setting_ == nullptr || condition_of_setting_ != condition_ ||
+      (task.HasOwnSettings() && trial_of_setting_ != trial_)) {
+    auto setting = task.HasOwnSettings() ? world_->MakeSetting() : task.Setting();
     if (!setting) return tl::unexpected(CellResult::Ended(Status::kFailed, ToString(setting.error())));
     setting_ = std::make_unique<Payload>(std::move(*setting));
     condition_of_setting_ = condition_;
+    trial_of_setting_ = trial_;
   }
   return setting_.get();
+}
+
+std::string CellRunner::WhyNotAsked(std::size_t method, const std::string& reason) const {
+  const Scenario& scenario = scenario_.scenario();
+  return fmt::format("method {} of {}: {}", scenario.methods[method].name, scenario.name, reason);
 }
 
 CellResult CellRunner::RunWithProgram(std::size_t method, CellUsage& usage) {
@@ -194,7 +204,7 @@ CellResult CellRunner::RunWithProgram(std::size_t method, CellUsage& usage) {
   auto result = world_->RunWith(program, IndexInTask(method));
   usage.cpu_s += program.cpu_s();
   usage.peak_mb = program.peak_mb();
-  if (!program.was_asked()) why_not_run_ = program.failure()->reason;
+  if (!program.was_asked()) why_not_run_ = WhyNotAsked(method, program.failure()->reason);
   if (program.failure()) return *program.failure();
   if (!result) return CellResult::Ended(Status::kBadOutput, ToString(result.error()));
   result->digests.emplace_back("answers", program.AnswersDigest());
@@ -213,7 +223,7 @@ CellResult CellRunner::AskOutside(std::size_t method, CellUsage& usage) {
   const OutsideReply reply = outside_.at(method).Ask(SettingId(), **setting, problem_id, *problem_);
   usage.cpu_s += reply.cpu_s;
   usage.peak_mb = reply.peak_mb;
-  if (!reply.was_asked) why_not_run_ = reply.reason;
+  if (!reply.was_asked) why_not_run_ = WhyNotAsked(method, reply.reason);
   if (reply.status != Status::kOk) return CellResult::Ended(reply.status, reply.reason);
   auto judged = JudgeAnswer(*world_, *reply.answer);
   if (!judged) return CellResult::Ended(Status::kBadOutput, ToString(judged.error()));

@@ -60,6 +60,8 @@ class CellRunner {
   void Complete(int condition, Row& row) const;
   CellResult RunMethod(std::size_t method, CellUsage& usage);
   CellResult AskOutside(std::size_t method, CellUsage& usage);
+  /// Returns why an outside method was not asked, with its name.
+  std::string WhyNotAsked(std::size_t method, const std::string& reason) const;
   CellResult RunWithProgram(std::size_t method, CellUsage& usage);
   std::size_t IndexInTask(std::size_t method) const;
   /// Returns the message that precedes the first problem, or the result of the cell if it cannot be made.
@@ -78,7 +80,7 @@ class CellRunner {
   CellUsage world_usage_;
   PeakMemory peak_memory_;
   std::unique_ptr<Payload> setting_, problem_;  ///< of the open world; null until needed
-  int condition_of_setting_ = -1;
+  int condition_of_setting_ = -1, trial_of_setting_ = -1;
 };
 
 }  // namespace etude

@@ -6,6 +6,7 @@
 
 #include "bench/run/cell_runner.h"
 #include "bench/run/costs.h"
+#include "bench/run/plan.h"
 #include "bench/run/suite.h"
 #include "bench/run/supervisor.h"
 #include "bench/scenario/scenario.h"
@@ -84,6 +85,14 @@ Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
   ASSIGN_OR_RETURN(forecast.pace, MeasurePace(forecast.workers));
   const double seconds_per_yardstick = forecast.workers / forecast.pace.yardsticks_per_s;  // of one worker
   const auto start = Clock::now();
+  // The worlds of the shard, by scenario.
+  const Plan plan(scenarios);
+  std::vector<std::size_t> worlds_of(scenarios.size());
+  for (std::size_t world = 0; world < plan.world_count(); ++world) {
+    if (!plan.IsIn(options.shard, world)) continue;
+    ++worlds_of[static_cast<std::size_t>(plan.world(world).scenario)];
+    forecast.cells += plan.MethodCount(world);
+  }
   double total = 0;
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
     const Scenario& scenario = scenarios[i].scenario();
@@ -96,11 +105,11 @@ Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
                          .unit = scenario.unit,
                          .units = CountUnitsOf(scenarios[i])};
     // The cost per world: kept, or measured.
-    const double worlds = static_cast<double>(one.worlds * one.conditions);
+    const auto worlds = static_cast<double>(worlds_of[i]);
     const auto cost = kept.find(one.work);
     one.is_kept = cost != kept.end() && IsAsShipped(options);
     if (one.is_kept) {
-      total += seconds_per_yardstick * cost->second.once;
+      if (worlds > 0) total += seconds_per_yardstick * cost->second.once;
       one.seconds_per_world = seconds_per_yardstick * cost->second.trial / static_cast<double>(one.conditions);
     } else {
       const double until = sample_seconds * static_cast<double>(i + 1) / static_cast<double>(scenarios.size());

@@ -25,7 +25,8 @@ struct ScenarioForecast {
 
 struct Forecast {
   std::vector<ScenarioForecast> scenarios;
-  double seconds = 0;  ///< wall clock, on `workers`
+  std::size_t cells = 0;  ///< of the shard, or of the whole run
+  double seconds = 0;     ///< wall clock of these cells, on `workers`
   int workers = 1;
   Pace pace;
 };

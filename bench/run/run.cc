@@ -114,6 +114,14 @@ class JournalRecorder {
     return {};
   }
 
+  /// Reports, each second, that the same cells are still safe and time has passed.
+  void Wait() {
+    const double now = SecondsSince(start_);
+    if (now - progress_.seconds < 1) return;
+    progress_.seconds = now;
+    on_progress_(progress_);
+  }
+
   const Progress& progress() const { return progress_; }
 
  private:
@@ -241,6 +249,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
                                 .jobs = options.jobs,
                                 .stop = options.stop,
                                 .answered = answered,
+                                .on_wait = [&] { recorder.Wait(); },
                                 .on_all_answered = [&] { return recorder.Sync(); }},
                                [&](const DeliveredCell& cell) {
                                  auto kept = recorder.Add(cell);

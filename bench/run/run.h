@@ -44,7 +44,7 @@ struct RunOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// The progress of a run, reported before the first cell and whenever more cells are safe on the disk.
+/// The progress of a run, reported before the first cell, whenever more cells are safe on the disk, and each second.
 struct Progress {
   std::size_t cells = 0;  ///< all cells of this run or shard
   std::size_t cells_done = 0;

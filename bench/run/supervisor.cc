@@ -100,9 +100,10 @@ class Supervisor {
     while (!workers_.empty()) {
       if (options_.stop != nullptr && *options_.stop) return false;
       RETURN_IF_ERROR(Step());
+      if (options_.on_wait) options_.on_wait();
     }
     if (not_run_ == 0) return true;
-    return FailOfMachine("{} cells were not run: {}", not_run_, why_not_run_);
+    return FailOfMachine("{}; {} cells were not run", why_not_run_, not_run_);
   }
 
  private:

@@ -23,6 +23,8 @@ struct SupervisorOptions {
   /// The cells that are answered but not yet measured: those of an earlier attempt, and those that Deliver adds. Null =
   /// they are kept in a temporary file, and Deliver receives measured cells only.
   CellTable* answered = nullptr;
+  /// Called again and again while workers work, many times a second.
+  std::function<void()> on_wait = {};
   /// Called when all methods have answered, before the first measuring program starts.
   std::function<Result<void>()> on_all_answered = {};
 };

@@ -131,6 +131,12 @@ std::vector<std::string> RecogniserNames() { return NamesOf(AllRecognisers()); }
 
 const RecogniserKind* FindRecogniser(std::string_view name) { return FindByName(AllRecognisers(), name); }
 
+const RecogniserKind& RecommendedRecogniser(std::span<const TaughtMove> taught) {
+  const bool has_examples =
+      std::ranges::all_of(taught, [](const TaughtMove& move) { return CheckExamples(move).has_value(); });
+  return *FindRecogniser(has_examples ? "learnt" : "key-pose");
+}
+
 Result<std::unique_ptr<Recogniser>> MakeRecogniser(const RecogniserOptions& options,
                                                    std::span<const TaughtMove> taught) {
   RETURN_IF_ERROR(Check(*options.kind, taught));

@@ -35,6 +35,10 @@ std::vector<std::string> RecogniserNames();
 /// Returns the recogniser called `name`, or null if there is none.
 const RecogniserKind* FindRecogniser(std::string_view name);
 
+/// Returns the recogniser recommended for these moves (docs/detection.md): `learnt` if every move has an example that
+/// shows a body, else `key-pose`.
+const RecogniserKind& RecommendedRecogniser(std::span<const TaughtMove> taught);
+
 struct RecogniserOptions {
   const RecogniserKind* kind = &AllRecognisers().front();  ///< default: key-pose, paper A's recogniser
   TrackingWeights weights = {};

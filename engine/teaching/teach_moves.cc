@@ -39,18 +39,27 @@ std::vector<LabelledPart> PerformancesOf(const std::vector<LabelledPart>& parts,
   return performances;
 }
 
-Result<std::vector<TaughtMove>> TeachMoves(const std::vector<NamedStream>& streams,
-                                           const std::vector<LabelledPart>& parts,
-                                           const std::function<bool(const LabelledPart&)>& takes, bool is_strict) {
-  std::map<std::string, Performances> by_move;
+std::vector<LabelledPart> PerformancesToLearn(const std::vector<NamedStream>& streams,
+                                              const std::vector<LabelledPart>& parts,
+                                              const std::function<bool(const LabelledPart&)>& takes, bool is_strict) {
+  std::vector<LabelledPart> learnt;
   const std::vector<LabelledPart> performances = PerformancesOf(parts, streams);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const LabelledPart& part = performances[i];
     if (!takes(parts[i])) continue;
-    SkeletonStream cut = PartOf(streams[part.stream].stream, part.begin, part.end);
-    if (!is_strict && !CanBeLearntFrom(cut)) continue;
+    if (!is_strict && !CanBeLearntFrom(PartOf(streams[part.stream].stream, part.begin, part.end))) continue;
+    learnt.push_back(part);
+  }
+  return learnt;
+}
+
+Result<std::vector<TaughtMove>> TeachMoves(const std::vector<NamedStream>& streams,
+                                           const std::vector<LabelledPart>& parts,
+                                           const std::function<bool(const LabelledPart&)>& takes, bool is_strict) {
+  std::map<std::string, Performances> by_move;
+  for (const LabelledPart& part : PerformancesToLearn(streams, parts, takes, is_strict)) {
     Performances& move = by_move[part.move];
-    (part.IsRight() ? move.right : move.wrong).push_back(std::move(cut));
+    (part.IsRight() ? move.right : move.wrong).push_back(PartOf(streams[part.stream].stream, part.begin, part.end));
   }
   std::vector<TaughtMove> taught;
   for (auto& [name, performance] : by_move) {

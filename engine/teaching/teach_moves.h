@@ -17,6 +17,11 @@ Result<std::vector<TaughtMove>> TeachMoves(const std::vector<NamedStream>& strea
                                            const std::vector<LabelledPart>& parts,
                                            const std::function<bool(const LabelledPart&)>& takes, bool is_strict);
 
+/// Returns the performances that TeachMoves learns from, in the order of the parts, as PerformancesOf cuts them.
+std::vector<LabelledPart> PerformancesToLearn(const std::vector<NamedStream>& streams,
+                                              const std::vector<LabelledPart>& parts,
+                                              const std::function<bool(const LabelledPart&)>& takes, bool is_strict);
+
 /// Returns the parts with action points turned into performances as above; the others stay as they are.
 std::vector<LabelledPart> PerformancesOf(const std::vector<LabelledPart>& parts,
                                          const std::vector<NamedStream>& streams);

@@ -275,7 +275,10 @@ class Recovery {
     result.motion.rate_hz = take_.rate_hz;
     result.stature_m = stature_;
     const auto first = std::ranges::find_if(track.frames, [](const auto& fit) { return fit.has_value(); });
-    if (first == track.frames.end()) return Fail({}, "in no frame do two films show anybody who moves");
+    if (first == track.frames.end()) {
+      return Fail({}, "in no frame do two films show anybody who moves{}",
+                  take_.rooms.empty() ? "; the room cannot be told from a person who never moves" : "");
+    }
     // Poses and cost; untracked frames repeat the last pose.
     BodyPose last = ToBodyPose(track.body, (*first)->state);
     for (const auto& fit : track.frames) {

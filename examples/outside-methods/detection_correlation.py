@@ -42,6 +42,8 @@ class Correlation:
     def __init__(self, setting):
         self.joints, self.moves = setting.joints, {}
         for move in setting.moves:
+            if not move.poses:  # nobody else did it: nothing is known of it
+                continue
             step = STRIDE * move.rate_hz / 30
             count = int(len(move.poses) / step)
             self.moves[move.name] = normalised([angles_of(move.poses[int(i * step)], self.joints) for i in range(count)])
@@ -57,7 +59,7 @@ class Correlation:
         events, alarms = [], []
         for event in problem.events:
             window = range(event.begin_frame, event.end_frame)
-            seen = {end: value for end, value in alike[event.move].items() if end in window}
+            seen = {end: value for end, value in alike.get(event.move, {}).items() if end in window}
             right = [end for end, value in sorted(seen.items()) if value >= ENOUGH]
             events.append({"right_at_frame": right[0] if right else None, "score": max(seen.values(), default=-1.0)})
         for move, found in alike.items():

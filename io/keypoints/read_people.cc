@@ -1,11 +1,13 @@
 #include "io/keypoints/read_people.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <vector>
 
 #include "engine/keypoints/people.h"
@@ -108,10 +110,55 @@ Result<std::vector<SeenPerson>> ReadFrame(const fs::path& file, const std::strin
   return frame;
 }
 
-Result<PeopleOfFilm> ReadFolder(const fs::path& folder, const std::string& layout, const FilmOfKeypoints& of) {
+/// Counts the people of a file whose ninth of 25 keypoints lies between the tenth and the thirteenth, and those whose
+/// does not. In `body_25` these are mid-hip and hips; in `body_25b` the right elbow, the left wrist and the right hip.
+void CountMidHips(const Json& json, const Place& place, int& between, int& elsewhere) {
+  constexpr std::size_t kCount = 25, kMidHip = 8, kRightHip = 9, kLeftHip = 12;
+  constexpr double kMaxShare = 0.03;  // of the person's height
+  const Json* people = json.is_object() ? Member(json, "people") : nullptr;
+  if (people == nullptr || !people->is_array()) return;
+  for (const Json& person : *people) {
+    const auto points = Triples(Member(person, "pose_keypoints_2d"), place);
+    if (!points || points->size() != kCount) continue;
+    const auto& list = *points;
+    double low = kMaxPixel, high = -kMaxPixel;
+    for (const Keypoint& point : list) {
+      if (point.confidence <= 0) continue;
+      low = std::min(low, point.pixel.y);
+      high = std::max(high, point.pixel.y);
+    }
+    const bool is_told = std::ranges::all_of(std::array{kMidHip, kRightHip, kLeftHip},
+                                             [&](std::size_t i) { return list[i].confidence > 0; });
+    if (!is_told || high <= low) continue;
+    const glm::dvec2 middle = 0.5 * (list[kRightHip].pixel + list[kLeftHip].pixel);
+    ++(glm::distance(list[kMidHip].pixel, middle) <= kMaxShare * (high - low) ? between : elsewhere);
+  }
+}
+
+/// Returns "body_25" if the first people of these files have 25 keypoints in that order, as their mid-hips tell; else
+/// "".
+Result<std::string> LayoutOf(std::span<const fs::path> files) {
+  constexpr int kEnoughPeople = 50, kMinPeople = 3;
+  constexpr double kMinShare = 0.9;
+  int between = 0, elsewhere = 0;
+  for (const fs::path& file : files) {
+    ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(file));
+    ASSIGN_OR_RETURN(const Json json, ReadJson(WithNullForNan(text), file.string()));
+    CountMidHips(json, {file.string()}, between, elsewhere);
+    if (between + elsewhere >= kEnoughPeople) break;
+  }
+  const int people = between + elsewhere;
+  return people >= kMinPeople && between >= kMinShare * people ? "body_25" : "";
+}
+
+Result<PeopleOfFilm> ReadFolder(const fs::path& folder, std::string layout, const FilmOfKeypoints& of) {
   ASSIGN_OR_RETURN(const auto files, FilesIn(folder, ".json"));
   PeopleOfFilm film;
   std::vector<std::string> names;
+  if (layout.empty()) {
+    ASSIGN_OR_RETURN(layout, LayoutOf(files));
+    if (!layout.empty()) film.told = "25 keypoints a person, of which one lies between the hips: body_25";
+  }
   for (const fs::path& file : files) {
     ASSIGN_OR_RETURN(auto frame, ReadFrame(file, layout));
     film.frames.push_back(std::move(frame));

@@ -233,11 +233,12 @@ def _answer_all(target, method, answers, progress):
         raise EtudeError(f"{target}: has no problem of task '{spec.task}'")
     for done, path in enumerate(settings):
         player.set(json.loads(path.read_text()), spec.options, str(path.parent))
-        files = sorted(path.parent.glob("*/problem.json"))
+        own = path.parent / "problem.json"  # recorded people have a setting each
+        files = [own] if own.exists() else sorted(path.parent.glob("*/problem.json"))
         found = player.answers([json.loads(file.read_text()) for file in files], [str(file.parent) for file in files])
         for file, answer in zip(files, found):
             if not isinstance(answer, NoAnswer):
-                kept = answers / path.parent.relative_to(inputs) / f"{file.parent.name}.json"
+                kept = answers / file.parent.parent.relative_to(inputs) / f"{file.parent.name}.json"
                 kept.parent.mkdir(parents=True, exist_ok=True)
                 kept.write_text(json.dumps(answer, allow_nan=False, default=plain))
         if callable(progress):

@@ -206,13 +206,13 @@ class TransitionSetting(Message):
 
     rate_hz: Frames a second, of all clips.
     joints: The twenty joints, in the order of poses.
-    parents: The parent of each joint; null for the first.
+    parents: The name of each joint's parent; null for the first.
     clips: The library; problems name its clips by their index, from 0.
     """
     HOLDS: ClassVar[dict] = {"clips": [TransitionClip]}
     rate_hz: float
     joints: List[str]
-    parents: List[Optional[int]]
+    parents: List[Optional[str]]
     clips: List[TransitionClip]
 
 
@@ -293,10 +293,10 @@ class PoseDistanceSetting(Message):
     """The body.
 
     joints: The twenty joints, in the order of poses.
-    parents: The parent of each joint; null for the first.
+    parents: The name of each joint's parent; null for the first.
     """
     joints: List[str]
-    parents: List[Optional[int]]
+    parents: List[Optional[str]]
 
 
 @dataclass
@@ -389,48 +389,12 @@ class KeyTarget(Message):
 class KeyPose(Message):
     """What a move looks like at a beat.
 
-    beat: When the pose is reached, in beats from the move's beginning.
+    beat: When the pose is reached, in beats from the move's beginning; absent for recorded moves.
     targets: The features that count in it.
     """
     HOLDS: ClassVar[dict] = {"targets": [KeyTarget]}
-    beat: float
     targets: List[KeyTarget]
-
-
-@dataclass
-class Move(Message):
-    """A move that may be performed.
-
-    name: The move's name.
-    tempo_bpm: Beats a minute of the example.
-    beats: How many beats it lasts.
-    rate_hz: Frames a second of the example.
-    poses: The poses of one perfect performance.
-    file: The same motion as a BVH file.
-    key_poses: What paper A's recogniser looks for, in order.
-    """
-    HOLDS: ClassVar[dict] = {"key_poses": [KeyPose]}
-    name: str
-    tempo_bpm: float
-    beats: float
-    rate_hz: float
-    poses: List[Pose]
-    file: str
-    key_poses: List[KeyPose]
-
-
-@dataclass
-class DetectionSetting(Message):
-    """The moves.
-
-    joints: The twenty joints, in the order of poses.
-    parents: The parent of each joint; null for the first.
-    moves: The moves that may be performed.
-    """
-    HOLDS: ClassVar[dict] = {"moves": [Move]}
-    joints: List[str]
-    parents: List[Optional[int]]
-    moves: List[Move]
+    beat: Optional[float] = None
 
 
 @dataclass
@@ -444,6 +408,65 @@ class DetectionFrame(Message):
     pose: Pose
     states: str
     body_seen: bool
+
+
+@dataclass
+class TaughtExample(Message):
+    """A recorded performance that taught a move, by somebody who is not judged.
+
+    person: The name of the performer; empty if it is unknown.
+    is_right: True if the performance was right.
+    fault: The fault that the label names; empty if the performance was right.
+    rate_hz: Frames a second.
+    frames: What the sensor saw, frame after frame.
+    """
+    HOLDS: ClassVar[dict] = {"frames": [DetectionFrame]}
+    person: str
+    is_right: bool
+    fault: str
+    rate_hz: float
+    frames: List[DetectionFrame]
+
+
+@dataclass
+class Move(Message):
+    """A move that may be performed.
+
+    name: The move's name.
+    tempo_bpm: Beats a minute of the example; absent for recorded moves.
+    beats: How many beats it lasts; absent for recorded moves.
+    span_s: The longest duration of a performance; only for recorded moves.
+    rate_hz: Frames a second of the example.
+    poses: The poses of one perfect performance; of a recorded move those of the first right example, none if there
+        is no such example.
+    file: The same motion as a BVH file; absent without poses.
+    key_poses: What paper A's recogniser looks for, in order.
+    examples: All performances by people who are not judged; only for recorded moves.
+    """
+    HOLDS: ClassVar[dict] = {"key_poses": [KeyPose], "examples": [TaughtExample]}
+    name: str
+    rate_hz: float
+    poses: List[Pose]
+    key_poses: List[KeyPose]
+    tempo_bpm: Optional[float] = None
+    beats: Optional[float] = None
+    span_s: Optional[float] = None
+    file: Optional[str] = None
+    examples: Optional[List[TaughtExample]] = None
+
+
+@dataclass
+class DetectionSetting(Message):
+    """The moves. Each recorded person has a setting: what all others taught.
+
+    joints: The twenty joints, in the order of poses.
+    parents: The name of each joint's parent; null for the first.
+    moves: The moves that may be performed.
+    """
+    HOLDS: ClassVar[dict] = {"moves": [Move]}
+    joints: List[str]
+    parents: List[Optional[str]]
+    moves: List[Move]
 
 
 @dataclass
@@ -467,12 +490,16 @@ class DetectionProblem(Message):
     frames: What the sensor saw, frame after frame.
     events: What was asked for, in order of time.
     file: The positions as TRC.
+    person: The name of the recorded person who is judged.
+    starts: The first frames of all recordings of this person but the first.
     """
     HOLDS: ClassVar[dict] = {"frames": [DetectionFrame], "events": [DetectionEvent]}
     rate_hz: float
     frames: List[DetectionFrame]
     events: List[DetectionEvent]
     file: str
+    person: Optional[str] = None
+    starts: Optional[List[int]] = None
 
 
 @dataclass
@@ -529,7 +556,7 @@ class CaptureSetting(Message):
     image_width: Pixels.
     image_height: Pixels.
     joints: The twenty joints, in the order of poses.
-    parents: The parent of each joint; null for the first.
+    parents: The name of each joint's parent; null for the first.
     strokes: The limbs that the annotator marks.
     discs: The joints that the annotator marks with a disc.
     """
@@ -538,7 +565,7 @@ class CaptureSetting(Message):
     image_width: int
     image_height: int
     joints: List[str]
-    parents: List[Optional[int]]
+    parents: List[Optional[str]]
     strokes: List[CaptureStroke]
     discs: List[str]
 
@@ -666,13 +693,13 @@ class CoachSetting(Message):
     """The moves of the dance, at the song's tempo.
 
     joints: The twenty joints, in the order of poses.
-    parents: The parent of each joint; null for the first.
+    parents: The name of each joint's parent; null for the first.
     moves: Those of the dance, their examples at the song's tempo.
     dance: What is danced, in order.
     """
     HOLDS: ClassVar[dict] = {"moves": [Move], "dance": CoachDance}
     joints: List[str]
-    parents: List[Optional[int]]
+    parents: List[Optional[str]]
     moves: List[Move]
     dance: CoachDance
 
@@ -794,7 +821,7 @@ class CoachLearnerStep(Message):
     pose: Optional[Pose] = None
     mode: Optional[str] = None
     clip: Optional[str] = None
-    clip_frame: Optional[int] = None
+    clip_frame: Optional[float] = None
     move: Optional[str] = None
     repetition: Optional[int] = None
     say: Optional[str] = None
@@ -825,7 +852,7 @@ class MetricSetting(Message):
     task: The scenario's task.
     unit: The unit of positions: m.
     joints: The joints, in the order of poses.
-    parents: The parent of each joint; null for the first.
+    parents: The name of each joint's parent; null for the first.
     """
     metric: str
     version: int

@@ -618,6 +618,21 @@ class Mistakes(EtudeCase):
         self.assertNotIn("Keypoints left out", text)
         self.assertRegex(text, r"nothing is doubtful\.")
 
+        # A body of half the size cannot be theirs: nothing is written unless it is accepted.
+        small = ["capture", "--rig", self.folder / named, *(self.folder / f"{name}.mp4" for name in cams), "--silhouettes", "--rooms", rooms,
+                 "--stature", "0.7", "-o", self.folder / "small.csv", *arguments]
+        refused = self.etude(*small, "--json")
+        self.assertEqual(refused.returncode, 1, refused.stderr)
+        self.assertRegex(refused.stderr, r"etude: in \d+ % of \w+'s frames body and outline share less than half; nothing was written "
+                                         r"\(--accept-doubtful writes it all the same\)\n$")
+        facts = json.loads(refused.stdout)
+        self.assertIsNone(facts["output"])
+        self.assertIn("share less than half", facts["doubt"])
+        self.assertFalse((self.folder / "small.csv").exists())
+        accepted = self.etude(*small, "--accept-doubtful")
+        self.assertEqual(accepted.returncode, 0, accepted.stderr)
+        self.assertTrue((self.folder / "small.csv").exists())
+
         # The same, with keypoints beside the outlines.
         moving = lambda t: figure(0.5 + t)
         write_keypoints(self.folder / "keypoints", "OpenPose, 26", {

@@ -184,6 +184,14 @@ class Capture(EtudeCase):
         beside = self.etude(*self.capture("-o", self.folder / "n.csv", "--reference", trc, "--distances", distances)).stdout
         self.assertRegex(beside, r"LWrist +0\.0 +0\.0 +0\.0 +0\.0\n")
         self.assertIn("agreement, not error", beside)
+        # A reference of joints, as Etude writes them, is compared with the skeleton's; one of other markers is refused.
+        joints = self.etude(*self.capture("-o", self.folder / "j.csv", "--reference", self.folder / "m.trc")).stdout
+        self.assertRegex(joints, r"left_wrist +0\.0 +")
+        strange = self.folder / "strange.trc"
+        strange.write_text(re.sub(r"\b(left|right|hip|shoulder|head|spine)\w*\b", "marker", (self.folder / "m.trc").read_text()))
+        self.assertIn("is a keypoint or a joint; allowed: LShoulder, … and left_shoulder, …",
+                      self.refusal(*self.capture("-o", self.folder / "s.csv", "--reference", strange)))
+        self.assertFalse((self.folder / "s.csv").exists())
         told = json.loads(distances.read_text())
         self.assertEqual((told["name"], told["recovery"], told["reference"], told["frames"]),
                          ("n", "keypoints", "points.trc", FRAMES))

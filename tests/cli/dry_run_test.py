@@ -37,6 +37,14 @@ class DryRun(EtudeCase):
         self.assertIn("1 comparison shows a mean difference from 1.15 standard deviations", told)
         self.assertIn("from 1.42 standard deviations of the mean differences of 6 clips", told)
 
+    def test_of_a_shard_tells_its_own_cells_and_time(self):
+        whole = self.facts("quick/ik", "--trials", 8)
+        parts = [self.facts("quick/ik", "--trials", 8, "--shard", f"{i}/3") for i in (1, 2, 3)]
+        self.assertEqual((whole["shard"], [part["shard"] for part in parts]), (None, ["1/3", "2/3", "3/3"]))
+        self.assertEqual(sum(part["cells"] for part in parts), whole["cells"])
+        said = self.etude("run", "quick/ik", "--trials", 8, "--dry-run", "--shard", "2/3").stdout
+        self.assertIn(f"Shard 2/3: {parts[1]['cells']} of {whole['cells']} cells.\n{parts[1]['cells']} cells, about ", said)
+
     def test_says_that_two_clips_carry_nothing(self):
         self.assertIn("no verdict: 2 clips; at least 6 are needed", self.tell(["builtin:clap", "builtin:boxing"]))
 

@@ -27,7 +27,7 @@ class Facts(EtudeCase):
         cell = "ik/joint_noise_deg=2/000/fixed"
         calls = {
             "check-method": ["--task", "ik", "--no-fence", "--json", "--", "python3", OUTSIDE],
-            "cite": [run],
+            "cite": [run, "--address", "https://example.org/etude"],
             "clip convert": ["builtin:clap", self.folder / "clap.bvh"],
             "clip grades": ["builtin:clap", "builtin:sway"],
             "clip map": ["builtin:clap"],
@@ -37,7 +37,8 @@ class Facts(EtudeCase):
             "list methods": [],
             "list scenarios": [ROOT / "scenarios" / "quick"],
             "replay": [run, "--cell", cell, "--baseline", baseline, "--unsealed"],
-            "run --dry-run": [self.scenario],
+            "run": [self.scenario, "-o", self.folder / "told"],
+            "run --dry-run": [self.scenario, "--shard", "1/4"],
             "verify": [run, "--sample", 2],
         }
         elsewhere = {name for name in COMMANDS if any(f'facts("{name}"' in test for test in OTHER_TESTS)}
@@ -49,6 +50,11 @@ class Facts(EtudeCase):
         now, = [now for then, now in [told["replay"]["cells"][0]["baseline"]["position_error_cm"]] if then == now + 1]
         self.assertGreaterEqual(now, 0)
         self.assertEqual(told["run --dry-run"]["scenarios"][0]["worlds"], 4)
+        self.assertEqual((told["run --dry-run"]["shard"], told["run --dry-run"]["cells"]), ("1/4", 4))
+        self.assertEqual((told["run"]["cells"], told["run"]["without_answer"]), (16, []))
+        self.assertEqual(told["run"]["cells_ok"], (self.folder / "told/cells.jsonl").read_text().count('"status":"ok"'))
+        self.assertEqual(told["run"]["output"], str(self.folder / "told"))
+        self.assertEqual(told["cite"]["address"], "https://example.org/etude")
         self.assertEqual(len(told["clip grades"]["similarities"]), 1)
 
     def test_are_told_by_no_command_without_a_schema(self):

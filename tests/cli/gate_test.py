@@ -163,18 +163,28 @@ class Gate(EtudeCase):
         return self.etude("run", self.write("own.yaml", SCENARIO + own), "-o", self.now)
 
     def test_a_method_without_an_answer_fails_and_makes_no_baseline(self):
-        ran = self.run_program("raise ValueError('math domain error')\n")
+        ran = self.run_program("import etude\n\n@etude.method(task='ik')\ndef own(problem):\n"
+                               "    raise ValueError('math domain error')\n\netude.serve(own)\n")
         self.assertEqual(ran.returncode, 1, ran.stderr)
-        self.assertIn("24 × failed: in its start: ended with exit code 1; its last words: 'ValueError", ran.stdout)
+        self.assertIn("24 × failed: ended with exit code 1; its last words: 'ValueError", ran.stdout)
         text = self.gate(self.now, expect=1)
         self.assertIn("ik: none of the 24 cells of own is ok or unsolved; the first is ik/joint_noise_deg=2/000/own; 24 × "
-                      "failed: in its start: ended with exit code 1; its last words: 'ValueError: math domain error'", text)
+                      "failed: ended with exit code 1; its last words: 'ValueError: math domain error'", text)
         self.assertIn("Gate: regression", text)
         self.assertIn("none of the 24", (self.now / "report" / "gate.md").read_text())
         self.assertIn("none of the 24", (self.now / "report" / "gate.xml").read_text())
         text = self.gate(self.now, "--baseline", self.baseline, "--update", expect=1)
         self.assertIn("No baseline is made from a run in which a method has no answer", text)
         self.assertFalse(self.baseline.exists())
+
+    def test_a_method_that_never_replies_is_a_fault_of_the_set_up_and_no_regression(self):
+        ran = self.run_program("raise ModuleNotFoundError('no numpy here')\n")
+        self.assertEqual(ran.returncode, 3, ran.stderr)
+        self.assertIn("this machine: method own of ik: in its start: ended with exit code 1; its last words: "
+                      "'ModuleNotFoundError: no numpy here'", ran.stderr)
+        self.assertIn("; 24 cells were not run; ", ran.stderr)
+        self.assertFalse((self.now / "cells.jsonl").exists())
+        self.assertNotIn("regression", self.gate(self.now, expect=3))
 
     def test_a_method_s_own_exception_is_its_failure_and_not_the_machine_s(self):
         solver = (EXAMPLES / "ik_dls.py").read_text()

@@ -60,6 +60,15 @@ class OutsideMethods(EtudeCase):
         self.assertEqual([row for row in among if row["method"] not in REASONS], alone)
         self.assertEqual({row["status"] for row in alone if row["method"] == "good"}, {"ok"})
 
+    def test_a_log_of_a_long_first_cell_is_not_silent(self):
+        sleeps = self.write("sleeps.py", "import time, etude\n@etude.method(task='ik')\ndef sleeps(problem):\n"
+                                         "    time.sleep(5)\n    return problem.start_angles_deg\netude.serve(sleeps)\n")
+        one = IK.replace("trials: 4\nsweep: {joint_noise_deg: [2, 5]}", "trials: 1").replace(
+            "  - {name: fixed, solver: ccd, weights: fixed}\n  - {name: least-squares, solver: damped-least-squares}\n", "")
+        told = self.etude("run", self.write("long.yaml", one + outside("sleeps", sleeps)), "-o", self.out)
+        self.assertEqual(told.returncode, 1, "no cell is ok: " + told.stderr)
+        self.assertRegex(told.stderr, r"  0 %  0/1 cells, 0 ok, 0 s\n  0 %  0/1 cells, 0 ok, [1-9] s\n")
+
     def test_answers_of_the_wrong_shape_say_where(self):
         wrong = {"short": ('{"angles_deg": [1, 2]}', "angles_deg: "), "other": ('{"angle": 3}', "angle")}
         methods = "".join(outside(name, HOSTILE, "is_good", answer) for name, (answer, _) in wrong.items())
@@ -98,7 +107,9 @@ class OutsideMethods(EtudeCase):
     def test_programs_that_a_manifest_a_run_or_a_pack_names_need_leave(self):
         mark = self.folder / "started"
         program = self.folder / "method.sh"
-        program.write_text(f"#!/bin/sh\necho started >>{mark}\necho out of luck >&2\nexit 1\n")
+        program.write_text(f"#!/bin/sh\necho started >>{mark}\nread hello\n"
+                           """echo '{"type":"hello","protocol":1,"name":"n","version":"1"}'\n"""
+                           "read setting\necho out of luck >&2\nexit 1\n")
         program.chmod(0o755)
         cell = "ik/joint_noise_deg=2/000/mine"
         self.run_suite(self.write("suite.yaml", IK + f"  - {{name: mine, exec: [{program}, --fast]}}\n"), "--no-fence", code=1)

@@ -1,5 +1,6 @@
 """etude teach, etude recognise: moves out of recordings, found again in others, live and recorded."""
 import json
+import re
 import subprocess
 import unittest
 
@@ -22,6 +23,9 @@ class Recognise(EtudeCase):
         return self.folder / "moves.yaml"
 
     def events(self, *arguments, stdin=None):
+        """What is spotted; by key poses unless said otherwise: the others are made for people, not for sticks."""
+        if "--recogniser" not in arguments:
+            arguments += ("--recogniser", "key-pose")
         result = subprocess.run([ETUDE, "recognise", *map(str, arguments)], capture_output=True, text=True, timeout=120,
                                 input=stdin)
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -52,9 +56,36 @@ class Recognise(EtudeCase):
     def test_live_says_the_same_as_recorded(self):
         moves = self.two_moves()
         text = kinect(arms(95) + arms(100, both=False))
-        recorded = self.events(self.write("take.txt", text), "--moves", moves)
-        self.assertEqual(self.events("-", "--moves", moves, stdin=text), recorded)
-        self.assertEqual(len(recorded), 2)
+        for recogniser, count in ((["--recogniser", "learnt"], 3), (["--recogniser", "key-pose"], 2)):
+            recorded = self.events(self.write("take.txt", text), "--moves", moves, *recogniser)
+            self.assertEqual(self.events("-", "--moves", moves, *recogniser, stdin=text), recorded)
+            self.assertEqual(len(recorded), count)
+
+    def test_the_default_is_the_recogniser_recommended_for_what_was_taught(self):
+        moves = self.two_moves()
+        take = self.write("take.txt", kinect(arms(95) + arms(100, both=False)))
+        def told(*arguments):
+            return self.etude("recognise", take, "--moves", *arguments)
+        default, learnt = told(moves), told(moves, "--recogniser", "learnt")
+        self.assertEqual((default.returncode, default.stdout), (0, learnt.stdout))
+        self.assertIn("recogniser learnt, recommended for what was taught; --recogniser takes another\n", default.stderr)
+        self.assertNotIn("recommended", learnt.stderr)
+        # Moves that are key poses alone have nothing to learn from.
+        poses = re.sub(r"(?m)^    right:\n(      .*\n|        .*\n)*", "    right: []\n", moves.read_text())
+        written = self.write("poses.yaml", poses)
+        default, paper = told(written), told(written, "--recogniser", "key-pose")
+        self.assertEqual((default.returncode, default.stdout), (0, paper.stdout), default.stderr)
+        self.assertIn("recogniser key-pose, recommended", default.stderr)
+
+    def test_a_move_may_be_left_out(self):
+        raised, left = self.write("raise.txt", kinect(arms(100))), self.write("left.txt", kinect(arms(100, both=False)))
+        moves = self.teach(raised, left, "--without", "left")
+        self.assertNotIn("'left'", moves.read_text())
+        self.assertIn("name: 'raise'", moves.read_text())
+        self.assertIn("etude: --without: unknown move 'lift'; did you mean 'left'? Allowed: left, raise", self.refusal("teach", raised, left, "--without", "lift", "-o",
+                                                                     self.folder / "no.yaml"))
+        self.assertIn("nothing to learn from", self.refusal("teach", raised, "--without", "raise", "-o", self.folder / "no.yaml"))
+        self.assertFalse((self.folder / "no.yaml").exists())
 
     def test_a_sensor_in_portrait_or_upside_down_is_turned_back_and_that_is_said(self):
         moves = self.two_moves()
@@ -65,7 +96,7 @@ class Recognise(EtudeCase):
             text = turned(upright, turn)
             file = self.write(f"{name}.txt", text)
             for arguments, stdin in (([file], None), (["-"], text)):
-                result = subprocess.run([ETUDE, "recognise", *arguments, "--moves", moves], capture_output=True, text=True,
+                result = subprocess.run([ETUDE, "recognise", *arguments, "--moves", moves, "--recogniser", "key-pose"], capture_output=True, text=True,
                                         timeout=120, input=stdin)
                 found = [json.loads(line) for line in result.stdout.splitlines()]
                 self.assertEqual([(e["move"], e["frame"]) for e in found], [(e["move"], e["frame"]) for e in wanted], name)

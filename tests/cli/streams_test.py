@@ -1,10 +1,12 @@
 """etude run on recordings of people, in place of simulated ones."""
 import json
+import pathlib
 import unittest
 
 from etude_case import IK, SHARED, EtudeCase
 from kinect_rows import arms, kinect
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENARIO = """scenario: recorded
 question: Who is recognised by what the others did?
 task: detection
@@ -39,6 +41,36 @@ class Streams(EtudeCase):
         self.assertEqual(len(complaint), 1, result.stderr)
         self.assertFalse(self.out.exists())
         return complaint[0]
+
+    def test_a_program_is_taught_by_the_others_as_built_in_recognisers_are(self):
+        takes, labels = self.record()
+        example, probe = ROOT / "examples/outside-methods/detection_correlation.py", ROOT / "tests/support/wire_probe.py"
+        command = ["/usr/bin/python3", probe, "detection", "-", "/usr/bin/python3", example]
+        told = self.etude("check-method", "--no-fence", "--task", "detection", "--streams", takes, "--labels", labels, "--", *command)
+        self.assertEqual(told.returncode, 0, told.stdout + told.stderr)
+        self.assertIn("9 of 9 checks passed", told.stdout)
+        keeper = self.write("keeper.py", "import json, os, sys, etude\n\n@etude.method(task='detection')\nclass Keeper:\n"
+                                         "    def __init__(self, setting):\n        self.moves = setting.moves\n\n"
+                                         "    def answer(self, problem):\n"
+                                         "        print(json.dumps({'judged': problem.person, 'taught': {move.name: [\n"
+                                         "            [one.person, one.is_right, one.fault, len(one.frames)] for one in move.examples]\n"
+                                         "            for move in self.moves}}), file=sys.stderr)\n"
+                                         "        raise etude.NoAnswer('only looks')\n\netude.serve(Keeper)\n")
+        method = "  - {{name: {}, exec: [/usr/bin/python3, {}]}}\n"
+        scenario = self.write("own.yaml", SCENARIO.replace("metrics:", method.format("own", example) + method.format("keeper", keeper) + "metrics:"))
+        rows = self.run_suite(scenario, "--streams", takes, "--labels", labels, "--jobs", 2)
+        own = [row for row in rows if row["method"] == "own"]
+        self.assertEqual([row["status"] for row in own], ["ok"] * 4, own)
+        self.assertGreater(sum(row["recall"] for row in own) / 4, 0.5, "what the others did looks like it")
+        seen = [json.loads(line) for line in (self.out / "stderr" / "recorded~keeper.txt").read_text().splitlines()]
+        self.assertEqual(sorted(one["judged"] for one in seen), list(PEOPLE))
+        for one in seen:
+            others = [person for person in PEOPLE if person != one["judged"]]
+            self.assertEqual([example[:3] for example in one["taught"]["raise"]],
+                             [[person, right, fault] for person in others for right, fault in ((True, ""), (False, "half"))])
+            self.assertEqual([example[0] for example in one["taught"]["left"]], others)
+        self.assertIn("task ik takes no recordings",
+                      self.etude("check-method", "--task", "ik", "--streams", takes, "--", "true").stderr)
 
     def test_recorded_people_are_worlds_judged_as_recognise_judges_them(self):
         takes, labels = self.record()

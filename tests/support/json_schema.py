@@ -19,8 +19,8 @@ TYPES = {
     "number": lambda value: isinstance(value, (int, float)) and not isinstance(value, bool),
     "null": lambda value: value is None,
 }
-KNOWN = {"$schema", "$defs", "$ref", "title", "description", "type", "const", "enum", "pattern", "minimum", "minItems",
-         "required", "properties", "patternProperties", "additionalProperties", "items"}
+KNOWN = {"$schema", "$defs", "$ref", "title", "description", "type", "const", "enum", "pattern", "minimum", "minItems", "maxItems",
+         "required", "properties", "patternProperties", "additionalProperties", "items", "anyOf"}
 
 
 def load_schema(name):
@@ -47,6 +47,8 @@ def _walk(value, schema, root, path):
         for step in schema["$ref"].removeprefix("#/").split("/"):
             target = target[step]
         yield from _walk(value, target, root, path)
+    if "anyOf" in schema and all(any(True for _ in _walk(value, one, root, path)) for one in schema["anyOf"]):
+        yield f"{path}: {value!r} is none of {schema['anyOf']}"
     types = [schema["type"]] if isinstance(schema.get("type"), str) else schema.get("type", [])
     if types and not any(TYPES[name](value) for name in types):
         yield f"{path}: {value!r} is not of type {types}"
@@ -62,6 +64,8 @@ def _walk(value, schema, root, path):
     if isinstance(value, list):
         if len(value) < schema.get("minItems", 0):
             yield f"{path}: has {len(value)} entries, fewer than {schema['minItems']}"
+        if len(value) > schema.get("maxItems", len(value)):
+            yield f"{path}: has {len(value)} entries, more than {schema['maxItems']}"
         for index, entry in enumerate(value):
             yield from _walk(entry, schema.get("items", {}), root, f"{path}/{index}")
     if isinstance(value, dict):

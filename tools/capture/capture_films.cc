@@ -2,15 +2,33 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 
+#include "engine/base/names.h"
 #include "engine/formats/trc.h"
+#include "engine/keypoints/people.h"
 #include "io/files/files.h"
 #include "tools/capture/capture_parts.h"
 
 namespace etude {
+namespace {
+
+/// Refuses a reference of which no marker has the name of a keypoint or of a joint: nothing could be compared.
+Result<void> CheckReference(const MarkerMotion& reference, const std::string& file) {
+  const auto is_known = [](const std::string& name) { return FindLandmark(name) || FindRole(name); };
+  if (std::ranges::any_of(reference.names, is_known)) return {};
+  constexpr std::size_t kShown = 4;
+  const std::span<const std::string> shown(reference.names.data(), std::min(kShown, reference.names.size()));
+  return Fail({file}, "none of its {} markers ({}{}) is a keypoint or a joint; allowed: {}, … and {}, …",
+              reference.names.size(), Join(shown), reference.names.size() > kShown ? ", …" : "",
+              LandmarkName(Landmark::kLeftShoulder), RoleName(Role::kLeftShoulder));
+}
+
+}  // namespace
 
 Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
   // Check the options that exclude each other, and read the reference.
@@ -22,6 +40,7 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
   if (!options.reference.empty()) {
     ASSIGN_OR_RETURN(const auto text, ReadWholeFile(options.reference));
     ASSIGN_OR_RETURN(reference, ReadTrc(text, options.reference));
+    RETURN_IF_ERROR(CheckReference(*reference, options.reference));
   }
   if (options.silhouettes && options.sync_s > 0) return Fail({}, "--sync: outlines tell no clock; cut the films alike");
   if (options.silhouettes && !options.keypoints.empty() && options.stature_m > 0) {
@@ -42,8 +61,8 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
   for (const FilmedView& view : session.views) {
     seen.push_back({{"film", view.path.string()}, {"camera", view.camera.name}});
   }
-  Json told = {{"films", std::move(seen)}, {"frames", facts.frames}, {"rate_hz", facts.rate_hz},
-               {"keypoints", nullptr},     {"silhouettes", nullptr}, {"output", options.output}};
+  Json told = {{"films", std::move(seen)}, {"frames", facts.frames}, {"rate_hz", facts.rate_hz}, {"keypoints", nullptr},
+               {"silhouettes", nullptr},   {"doubt", nullptr},       {"output", options.output}};
   bool is_whole = false;
   // With silhouettes alone, the rig must be placed in the world before the person is found.
   if (options.silhouettes && options.keypoints.empty()) {
@@ -59,7 +78,9 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
   } else {
     ASSIGN_OR_RETURN(is_whole, CaptureKeypoints(options, std::move(session), reference, told));
   }
-  return CapturedFilms{is_whole, std::make_unique<Json>(std::move(told))};
+  const std::string doubt = told["doubt"].is_null() ? "" : told["doubt"].get<std::string>();
+  if (!doubt.empty() && !options.accepts_doubtful) told["output"] = nullptr;
+  return CapturedFilms{is_whole, doubt, std::make_unique<Json>(std::move(told))};
 }
 
 }  // namespace etude

@@ -152,12 +152,22 @@ Result<std::vector<ComparedColumn>> CompareWithOutlines(const MarkerMotion& refe
   return columns;
 }
 
+/// Returns true if a reference has an estimator's landmarks; otherwise it has joints.
+bool HasLandmarks(const MarkerMotion& reference) {
+  return std::ranges::any_of(reference.names, [](const std::string& name) { return FindLandmark(name).has_value(); });
+}
+
+/// Returns what a reference is compared with: the triangulated keypoints, or the skeleton's joints.
+MarkerMotion ComparedOf(const RecoveredPerson& person, const MarkerMotion& reference, double rate_hz) {
+  return HasLandmarks(reference) ? ToMarkers(person.landmarks, rate_hz) : JointMarkers(person.motion);
+}
+
 /// Compares the person with a reference, for all cameras and for each pair alone. For a pair, the person is recovered
 /// again from the keypoints of these two films.
 std::vector<ComparedColumn> CompareWithReference(const MarkerMotion& reference, const RecoveredPerson& person,
                                                  const SeenFilms& films, const RecoverPersonOptions& options) {
   const auto column = [&](std::string heading, const RecoveredPerson& of) {
-    return CompareColumn(std::move(heading), ToMarkers(of.landmarks, options.rate_hz), reference);
+    return CompareColumn(std::move(heading), ComparedOf(of, reference, options.rate_hz), reference);
   };
   std::vector<ComparedColumn> columns{column("all", person)};
   for (const CameraPair& pair : PairsOf(films.cameras.size())) {
@@ -275,9 +285,11 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   }
   // Compare with the reference, if there is one.
   if (reference) {
-    const std::string what = fmt::format("Distance of the {} to {}, median, mm.",
-                                         both ? "joints" : "triangulated keypoints", options.reference);
-    const MarkerMotion in_time = SynchroniseWith(ToMarkers(person.landmarks, recover.rate_hz), *reference, films.told);
+    const std::string what =
+        fmt::format("Distance of the {} to {}, median, mm.",
+                    both || !HasLandmarks(*reference) ? "joints" : "triangulated keypoints", options.reference);
+    const MarkerMotion in_time =
+        SynchroniseWith(ComparedOf(person, *reference, recover.rate_hz), *reference, films.told);
     std::vector<ComparedColumn> columns;
     if (both) {
       ASSIGN_OR_RETURN(columns, CompareWithOutlines(in_time, person.motion, films, take, recover, options));

@@ -187,15 +187,22 @@ std::vector<double> KnownOf(const std::vector<std::optional<double>>& values) {
   return known;
 }
 
-/// Reports the findings and the doubts, one line each.
-void TellUnmarked(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
-                  const UnmarkedMotion& person, MessageLog& told) {
+constexpr double kPercent = 100;
+
+/// Reports the findings and the doubts, one line each. Returns why the motion is taken for wrong, "" if it is not: in
+/// most frames of a camera body and outline share less than half, or most frames hold the last pose.
+std::string TellUnmarked(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
+                         const UnmarkedMotion& person, MessageLog& told) {
   told.Tell(fmt::format("stature: {:.2f} m{}; outlines cost {:.0f} a picture", person.stature_m,
                          options.stature_m > 0 ? "" : ", found from the outlines", person.cost));
   if (person.held > 0) {
     told.Tell(fmt::format("doubtful: {} frames show nobody to two cameras and hold the last pose", person.held));
   }
-  constexpr double kMaxApart = 0.5, kDoubtfulShare = 0.1, kPercent = 100;
+  constexpr double kMaxApart = 0.5, kDoubtfulShare = 0.1, kWrongShare = 0.5;
+  std::string wrong;
+  if (static_cast<double>(person.held) > kWrongShare * static_cast<double>(person.motion.poses.size())) {
+    wrong = fmt::format("{} of {} frames show nobody to two cameras", person.held, person.motion.poses.size());
+  }
   for (std::size_t i = 0; i < views.size(); ++i) {
     const std::vector<double> apart = KnownOf(person.apart[i]);
     const auto far = std::ranges::count_if(apart, [](double share) { return share > kMaxApart; });
@@ -203,7 +210,12 @@ void TellUnmarked(const CaptureFilmsOptions& options, const std::vector<FilmedVi
     if (share <= kDoubtfulShare) continue;
     told.Tell(fmt::format("doubtful: {}: in {:.0f} % of its frames body and outline share less than half",
                            views[i].camera.name, kPercent * share));
+    if (share <= kWrongShare || !wrong.empty()) continue;
+    wrong = fmt::format("in {:.0f} % of {}'s frames body and outline share less than half", kPercent * share,
+                        views[i].camera.name);
   }
+  if (wrong.empty() || !options.rooms.empty()) return wrong;
+  return wrong + "; the room cannot be told from a person who stays in one place: film each room empty (--rooms)";
 }
 
 Result<bool> WriteUnmarkedReport(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
@@ -231,8 +243,12 @@ Result<bool> CaptureUnmarked(const CaptureFilmsOptions& options, const FilmedSes
   const std::vector<FilmClock> clocks = ClocksByRates(views, told);
   ASSIGN_OR_RETURN(const ReducedTake take, ReadTake(options, views, clocks));
   ASSIGN_OR_RETURN(const UnmarkedMotion person, RecoverByOutlines(take, options, views.front().facts.rate_hz));
-  TellUnmarked(options, views, person, told);
+  const std::string doubt = TellUnmarked(options, views, person, told);
   facts["silhouettes"] = {{"stature_m", person.stature_m}, {"cost", person.cost}, {"held_frames", person.held}};
+  if (!doubt.empty()) {
+    facts["doubt"] = doubt;
+    if (!options.accepts_doubtful) return true;
+  }
   // Write the motion, the film, the comparison and the page.
   RETURN_IF_ERROR(WriteMotion(options, person.clip, person.motion));
   if (!options.film.empty()) {

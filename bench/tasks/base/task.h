@@ -52,7 +52,10 @@ class TaskWorld {
     return Fail({}, "worlds of this task have no loop");
   }
 
-  /// Returns the problem that outside methods are given in this world, in addition to Task::Setting.
+  /// Returns the setting of this world alone, which outside methods get in place of Task::Setting if the task
+  /// HasOwnSettings.
+  virtual Result<Payload> MakeSetting() { return Fail({}, "worlds of this task share a setting"); }
+  /// Returns the problem that outside methods are given in this world, in addition to the setting.
   virtual Result<Payload> MakeProblem() = 0;
   /// Returns the truth of this world, which `etude export` writes separately from the problem.
   virtual Result<Payload> MakeTruth() = 0;
@@ -80,6 +83,9 @@ class Task {
   /// Returns the data that all problems of this condition share (the body's tree, the library of clips, …). Outside
   /// methods receive it once, before their first problem.
   virtual Result<Payload> Setting() const = 0;
+
+  /// Returns true if every world has a setting of its own (TaskWorld::MakeSetting).
+  virtual bool HasOwnSettings() const { return false; }
 
   /// Returns the value of a metric for a method without an answer, if the metric defines one: 0 for a solved share,
   /// twice the limit for a penalised cost (PAR-2). Returns nothing for all other metrics: their value is missing.

@@ -10,6 +10,7 @@
 #include "engine/formats/bvh.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/clip.h"
+#include "engine/teaching/labelled_streams.h"
 
 namespace etude {
 namespace {
@@ -23,6 +24,32 @@ Json DescribeKeyPose(const KeyPose& key_pose) {
         {{"feature", target.feature}, {"degrees", target.degrees}, {"tolerance_deg", target.tolerance_deg}});
   }
   return {{"beat", key_pose.beat}, {"targets", std::move(targets)}};
+}
+
+Json DescribeTaughtPose(const TaughtPose& pose) {
+  Json targets = Json::array();
+  for (const PoseTarget& target : pose.targets) {
+    targets.push_back({{"feature", FeatureName(target.feature)},
+                       {"degrees", target.degrees},
+                       {"tolerance_deg", target.tolerance_deg}});
+  }
+  return {{"targets", std::move(targets)}};
+}
+
+Json DescribeFrame(const SensedFrame& frame) {
+  return {{"pose", EncodePose(PoseOf(frame))}, {"states", StateLetters(frame)}, {"body_seen", frame.body_seen}};
+}
+
+Json DescribeExample(const ToldExample& example) {
+  Json frames = Json::array();
+  for (int i = example.begin; i < example.end; ++i) {
+    frames.push_back(DescribeFrame(example.stream->frames[static_cast<std::size_t>(i)]));
+  }
+  return {{"person", example.person},
+          {"is_right", example.fault.empty()},
+          {"fault", example.fault},
+          {"rate_hz", example.stream->rate_hz},
+          {"frames", std::move(frames)}};
 }
 
 std::string FileOf(const Move& move) { return move.name + ".bvh"; }
@@ -50,11 +77,48 @@ Judgement ReadEvent(AnswerFields& fields, const FrameInterval& window) {
 
 }  // namespace
 
-Payload NamesPayload(std::span<const std::string> names) {
+Payload TaughtPayload(std::span<const std::string> names, std::span<const TaughtMove> taught,
+                      std::span<const ToldExample> examples) {
   Payload setting = PayloadOf(DescribeBody());
   Json& told = (*setting.json)["moves"] = Json::array();
-  for (const std::string& name : names) told.push_back({{"name", name}});
+  for (const std::string& name : names) {
+    Json move = {{"name", name},
+                 {"rate_hz", kJudgedRateHz},
+                 {"poses", Json::array()},
+                 {"key_poses", Json::array()},
+                 {"examples", Json::array()}};
+    if (const TaughtMove* known = FindByName(taught, name)) {
+      move["span_s"] = known->span_s;
+      for (const TaughtPose& pose : known->poses) move["key_poses"].push_back(DescribeTaughtPose(pose));
+      const ToldExample* first_right = nullptr;
+      for (const ToldExample& example : examples) {
+        if (example.move != name) continue;
+        move["examples"].push_back(DescribeExample(example));
+        if (first_right == nullptr && example.fault.empty()) first_right = &example;
+      }
+      if (first_right != nullptr) {
+        const BodyMotion motion = MotionOf(PartOf(*first_right->stream, first_right->begin, first_right->end));
+        move["rate_hz"] = motion.rate_hz;
+        move["poses"] = EncodePoses(motion.poses);
+        move["file"] = fmt::format("{}.bvh", told.size());  // a label may be no file's name
+        setting.files.push_back({move["file"].get<std::string>(), WriteBvh(ToClip(motion, name))});
+      }
+    }
+    told.push_back(std::move(move));
+  }
   return setting;
+}
+
+std::vector<ToldExample> ExamplesOf(std::span<const TaughtMove> taught) {
+  std::vector<ToldExample> examples;
+  for (const TaughtMove& move : taught) {
+    for (const auto& [streams, fault] : {std::pair(&move.examples, ""), {&move.counter_examples, "wrong"}}) {
+      for (const SkeletonStream& stream : *streams) {
+        examples.push_back({move.name, "", fault, &stream, 0, static_cast<int>(stream.frames.size())});
+      }
+    }
+  }
+  return examples;
 }
 
 Payload MovesPayload(std::span<const Move> moves) {
@@ -69,10 +133,7 @@ Payload MovesPayload(std::span<const Move> moves) {
 
 Payload SessionPayload(const DetectionWorld& world) {
   Json frames = Json::array(), events = Json::array();
-  for (const SensedFrame& frame : world.stream.frames) {
-    frames.push_back(
-        {{"pose", EncodePose(PoseOf(frame))}, {"states", StateLetters(frame)}, {"body_seen", frame.body_seen}});
-  }
+  for (const SensedFrame& frame : world.stream.frames) frames.push_back(DescribeFrame(frame));
   for (const DetectionEvent& event : world.events) {
     const FrameInterval& window = event.window;
     events.push_back({{"move", event.move}, {"begin_frame", window.begin}, {"end_frame", window.end}});

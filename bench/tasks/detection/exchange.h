@@ -20,9 +20,29 @@ namespace etude {
 /// (features: paper A's ten, engine/fuzzy).
 Payload MovesPayload(std::span<const Move> moves);
 
-/// Describes the moves by their names alone, for recordings without authored moves. An outside method must know from
-/// elsewhere what they look like.
-Payload NamesPayload(std::span<const std::string> names);
+/// A performance that teaches a move, with its label.
+struct ToldExample {
+  std::string move, person, fault;  ///< no fault: right; person "" = unknown
+  const SkeletonStream* stream = nullptr;
+  int begin = 0, end = 0;  ///< frames [begin, end) of the stream
+};
+
+/// Describes moves that recordings teach: what built-in recognisers are taught of them, and whose performances these
+/// are. `names` are all moves that may be asked for; one that nobody teaches has no poses and no examples.
+///
+///     {"joints": […], "parents": […],
+///      "moves": [{"name": "clap", "span_s": 3.1, "rate_hz": 30, "poses": [[x, y, z, …], …],
+///                 "key_poses": [{"targets": [{"feature": "RH", "degrees": 90, "tolerance_deg": 20}]}],
+///                 "file": "clap.bvh",
+///                 "examples": [{"person": "ann", "is_right": true, "fault": "", "rate_hz": 30,
+///                               "frames": [{"pose": […], "states": "ttt…", "body_seen": true}, …]}, …]}, …]}
+///
+/// `poses` and the file are the first right example.
+Payload TaughtPayload(std::span<const std::string> names, std::span<const TaughtMove> taught,
+                      std::span<const ToldExample> examples);
+
+/// Returns the examples of taught moves whose people are unknown.
+std::vector<ToldExample> ExamplesOf(std::span<const TaughtMove> taught);
 
 /// Encodes the problem of a session: what the sensor saw, and what the coach asked for and when. A performance is
 /// judged in its window [begin_frame, end_frame). `states` has one letter per joint: tracked, inferred, not tracked.

@@ -293,7 +293,8 @@ class RecordedTask final : public Task {
         [this, key, scenario = std::string(key.scenario)]() -> const std::vector<MethodDecision>& {
           return DecisionsFor({key.suite_seed, scenario, key.trial});
         },
-        fold->repertoire, MakeRecordedWorld(set_, person, options_, key), keeps_motion);
+        fold->repertoire, MakeRecordedWorld(set_, person, options_, key), keeps_motion,
+        HasOwnSettings() ? SessionWorld::Set([this, person] { return SettingOf(person); }) : SessionWorld::Set());
   }
 
   std::vector<std::string> ClipsOf(const WorldKey& key) const override {
@@ -302,7 +303,14 @@ class RecordedTask final : public Task {
     return {set_.people[person].name};
   }
 
-  Result<Payload> Setting() const override { return NamesPayload(set_.moves); }
+  bool HasOwnSettings() const override { return !taught_; }
+
+  Result<Payload> Setting() const override {
+    const std::vector<TaughtMove> taught = taught_.value_or(std::vector<TaughtMove>{});
+    std::set<std::string> names(set_.moves.begin(), set_.moves.end());
+    for (const TaughtMove& move : taught) names.insert(move.name);
+    return TaughtPayload(std::vector<std::string>(names.begin(), names.end()), taught, ExamplesOf(taught));
+  }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override {
     return DetectionFailureValue(metric, std::ranges::any_of(set_.parts, &LabelledPart::IsRight));
@@ -310,6 +318,17 @@ class RecordedTask final : public Task {
 
  private:
   const std::string& NameOf(std::size_t person) const { return set_.people[person].name; }
+
+  /// Describes what all others taught, to an outside method that judges this person. `FoldOf(person)` must exist.
+  Payload SettingOf(std::size_t person) const {
+    const auto by_others = [&](const LabelledPart& part) { return part.person != NameOf(person); };
+    std::vector<ToldExample> examples;
+    for (const LabelledPart& part : PerformancesToLearn(set_.streams, set_.parts, by_others, false)) {
+      examples.push_back({part.move, part.person, part.fault, &set_.streams[part.stream].stream, part.begin, part.end});
+    }
+    const Repertoire& repertoire = FoldOf(person)->repertoire;
+    return TaughtPayload(repertoire.names, repertoire.taught, examples);
+  }
 
   /// Returns the fold in which this person is judged: what all others taught.
   const Result<Fold>& FoldOf(std::size_t person) const {

@@ -9,12 +9,13 @@
 namespace etude {
 
 SessionWorld::SessionWorld(const std::vector<ReadyMethod>& methods, Decide decide, const Repertoire& repertoire,
-                           DetectionWorld world, bool keeps_motion)
+                           DetectionWorld world, bool keeps_motion, Set set)
     : methods_(methods),
       decide_(std::move(decide)),
       repertoire_(repertoire),
       world_(std::move(world)),
-      keeps_motion_(keeps_motion) {}
+      keeps_motion_(keeps_motion),
+      set_(std::move(set)) {}
 
 void SessionWorld::PrepareShared() {
   decide_();
@@ -29,6 +30,8 @@ CellResult SessionWorld::Run(std::size_t index) {
   }
   return Score(JudgeSession(world_, SeenBy(method), repertoire_, *recogniser, decide_()[index]));
 }
+
+Result<Payload> SessionWorld::MakeSetting() { return set_ ? set_() : TaskWorld::MakeSetting(); }
 
 Result<Payload> SessionWorld::MakeProblem() {
   if (world_.cameras == nullptr) return SessionPayload(world_);

@@ -18,14 +18,18 @@ class SessionWorld final : public TaskWorld {
   /// Returns the thresholds of the methods; the first call may be expensive.
   using Decide = std::function<const std::vector<MethodDecision>&()>;
 
-  /// Methods and repertoire must outlive this.
+  /// Returns the setting of this world alone.
+  using Set = std::function<Payload()>;
+
+  /// Methods and repertoire must outlive this. `set` is empty if the task's worlds share a setting.
   SessionWorld(const std::vector<ReadyMethod>& methods, Decide decide, const Repertoire& repertoire,
-               DetectionWorld world, bool keeps_motion);
+               DetectionWorld world, bool keeps_motion, Set set = {});
 
   /// Computes the thresholds, which worlds share, and films the pictures.
   void PrepareShared() override;
 
   CellResult Run(std::size_t method) override;
+  Result<Payload> MakeSetting() override;
   Result<Payload> MakeProblem() override;
   Result<Payload> MakeTruth() override;
   Result<CellResult> Judge(const Json& answer) override;
@@ -47,6 +51,7 @@ class SessionWorld final : public TaskWorld {
   const DetectionWorld world_;
   const StageDigests world_digests_ = WorldDigests(world_);
   const bool keeps_motion_;
+  const Set set_;
   std::deque<SeenByMethods> seen_;  ///< one for all methods with the same filter, oracle and capture
 };
 

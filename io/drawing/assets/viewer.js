@@ -214,7 +214,7 @@ const limbsOf = (scene, ghosts) => [...scene.items.filter((item) => item.ghost =
   return [...jointOf(p, from), wide * ends[0], ...jointOf(p, to), wide * ends[1], ...jointOf(c, from), ghosts ? .1 : 1, ...jointOf(c, to), 1];
 })), ...ghosts ? [] : scene.spots.map(({at, radius, colour, squash}) => [...at, radius, ...at, radius, ...colour, 1, ...colour, squash])];
 const glRenderer = (canvas, onLost) => {
-  // Antialiases only on a graphics card.
+  // Antialiases on graphics cards.
   const options = {stencil: true, alpha: false};
   const gl = canvas.getContext('webgl2', {...options, antialias: true, failIfMajorPerformanceCaveat: true}) ??
       canvas.getContext('webgl2', {...options, antialias: false});

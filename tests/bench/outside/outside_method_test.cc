@@ -194,6 +194,7 @@ TEST(OutsideMethod, WhoNeverReadsIsNotWaitedForLongerThanAllowed) {
   const OutsideReply reply = method.Ask("s", Show({{"text", std::string(5000000, 'x')}}), "p", Show({{"question", 2}}));
   EXPECT_EQ(reply.status, Status::kTimeout);
   EXPECT_EQ(reply.reason, "in its start: took longer than 0.1 s");
+  EXPECT_FALSE(reply.was_asked);
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(500)) << "it would sleep for 1000";
 }
 
@@ -213,11 +214,57 @@ TEST(OutsideMethod, AStartThatFailsThreeTimesIsNotTriedAgain) {
   for (int i = 0; i < 6; ++i) {
     const OutsideReply reply = Ask(method);
     EXPECT_EQ(reply.status, Status::kFailed);
+    EXPECT_FALSE(reply.was_asked) << "it never replied to its handshake: the set-up is the cause";
     EXPECT_EQ(reply.reason,
               "in its start: ended with exit code 1; its last words: 'no licence found' "
               "(a fence shows it the system and what its key 'files' lists)");
   }
   EXPECT_EQ(ReadText(starts), "started\nstarted\nstarted\n");
+}
+
+TEST(OutsideMethod, AStartThatFailsAfterItOnceSucceededIsTheProgramsOwnFailure) {
+  const std::string started = ::testing::TempDir() + "started-once";
+  std::filesystem::remove(started);
+  OutsideOptions options = Behaving("is_good");
+  options.command = {
+      "sh", "-c",
+      "[ -e " + started + " ] && exit 4; touch " + started +
+          "; read hello; echo '{\"type\":\"hello\",\"protocol\":1,\"name\":\"n\",\"version\":\"1\"}'; exit 5"};
+  OutsideMethod method(options);
+  EXPECT_THAT(Ask(method).reason, HasSubstr("ended with exit code 5"));
+  const OutsideReply again = Ask(method);
+  EXPECT_THAT(again.reason, StartsWith("in its start: ended with exit code 4"));
+  EXPECT_TRUE(again.was_asked);
+}
+
+TEST(OutsideMethod, AStartThatTheFencePreventsIsToldWithItsCure) {
+  if (!FenceOfMethods().IsUp()) GTEST_SKIP() << FenceOfMethods().description();
+  namespace fs = std::filesystem;
+  // An interpreter manager: its shim runs a program of another folder, which the fence does not show.
+  const fs::path home = fs::path(::testing::TempDir()) / "managed";
+  fs::remove_all(home);
+  for (const char* folder : {"manager/shims", "manager/libexec", "mine"}) fs::create_directories(home / folder);
+  const auto write = [&](const char* name, const std::string& text) {
+    std::ofstream(home / name) << text;
+    fs::permissions(home / name, fs::perms::owner_all);
+    return (home / name).string();
+  };
+  const std::string manager = write("manager/libexec/run", "#!/bin/sh\nexec /usr/bin/python3 \"$@\"\n");
+  const std::string shim = write("manager/shims/python3", "#!/bin/sh\nexec '" + manager + "' \"$@\"\n");
+  fs::copy("tests/bench/outside/hostile.py", home / "mine/hostile.py");
+  OutsideOptions options = Behaving("is_good", FenceOfMethods());
+  options.command = {shim, (home / "mine/hostile.py").string(), "is_good"};
+  const OutsideReply reply = OutsideMethod(options).Ask("s", Show({{"size", 1}}), "p", Show({{"question", 2}}));
+  EXPECT_FALSE(reply.was_asked);
+  EXPECT_THAT(reply.reason, StartsWith("in its start: ended with exit code 127"));
+  const std::string whole = (home / "manager").string(), mine = (home / "mine").string();
+  EXPECT_THAT(reply.reason, HasSubstr("; its fence does not show it " + whole + ": give it files: ["));
+  EXPECT_THAT(reply.reason, HasSubstr(mine));
+  // The cure works.
+  options.files = {mine, whole};
+  const OutsideReply cured = OutsideMethod(options).Ask("s", Show({{"size", 1}}), "p", Show({{"question", 2}}));
+  EXPECT_EQ(cured.status, Status::kOk) << cured.reason;
+  fs::remove_all(home);
 }
 
 TEST(OutsideMethod, ASettingThatKillsItSparesTheOthers) {

@@ -53,6 +53,31 @@ TEST_F(ProgramViewTest, ShowsALinkWithTheFolderThatItLiesInAndNotOnceMore) {
               ElementsAre(In("mine"), In("other/weights.bin")));
 }
 
+TEST_F(ProgramViewTest, FindsWhatAFenceDoesNotShowAProgramThatDidNotStart) {
+  const auto write = [&](const char* name, const std::string& text) {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << text;
+  };
+  // A script names what it runs; what does not exist, or is seen, lacks nobody.
+  write("manager/libexec/run", "#!/bin/sh\n");
+  write("manager/shims/python", "#!/usr/bin/env bash\nexec \"" + In("manager/libexec/run") + "\" /no/such/file\n");
+  const ProgramView shim = ViewOf({In("manager/shims/python"), In("mine/solver.py")}, {});
+  EXPECT_THAT(FindUnseen(shim, ""), ElementsAre(In("manager")));
+  EXPECT_EQ(FilesThatShow({In("manager")}, shim), "files: [" + In("mine") + ", " + In("manager") + "]");
+  // The last words do.
+  const ProgramView plain = ViewOf({"/bin/sh", In("mine/solver.py")}, {});
+  EXPECT_THAT(FindUnseen(plain, ""), ElementsAre());
+  EXPECT_THAT(FindUnseen(plain, "No such file: '" + In("other/weights.bin") + "'"), ElementsAre(In("other")));
+  EXPECT_THAT(FindUnseen(plain, "cannot read " + In("mine/own.bin") + ", /usr/bin/env, / and /tmp"), ElementsAre());
+  // The Python of a virtual environment is a link out of it.
+  write("python3.11/bin/python3", "");
+  write("venv/pyvenv.cfg", "");
+  fs::create_directories(folder_ / "venv/bin");
+  fs::create_symlink(In("python3.11/bin/python3"), In("venv/bin/python"));
+  EXPECT_THAT(FindUnseen(ViewOf({In("venv/bin/python"), In("mine/solver.py")}, {}), ""),
+              ElementsAre(In("venv"), In("python3.11")));
+}
+
 TEST_F(ProgramViewTest, FindsThePythonPackageOfTheTree) { EXPECT_EQ(PythonFolder(), fs::current_path() / "python"); }
 
 TEST_F(ProgramViewTest, NamesFilesOfOursByAbsolutePathsAndNoPlainWords) {

@@ -129,7 +129,8 @@ TEST(RecoverUnmarked, SeesNobodyWhereNothingMoves) {
   const auto found =
       RecoverUnmarked({.cameras = film.cameras, .pictures = film.pictures, .rooms = {}, .stature_m = {}});
   ASSERT_FALSE(found);
-  EXPECT_EQ(found.error().message, "in no frame do two films show anybody who moves");
+  EXPECT_EQ(found.error().message,
+            "in no frame do two films show anybody who moves; the room cannot be told from a person who never moves");
 }
 
 }  // namespace

@@ -143,6 +143,34 @@ TEST_F(ReadPeople, AsksWhichOrderTwentyFiveKeypointsHave) {
   EXPECT_THAT(Reason(folder_.path() / "a", "coco"), HasSubstr("25 keypoints a person, not coco; allowed: coco (17)"));
 }
 
+TEST_F(ReadPeople, KnowsTheOrderOfOpenPosesBody25ByItsMidHip) {
+  // People in both orders: mid-hip and hips, or an elbow, a wrist and a hip.
+  const auto people = [](bool has_mid_hip) {
+    std::string list;
+    for (std::size_t i = 0; i < 25; ++i) {
+      const double x = i == 9    ? 90
+                       : i == 12 ? 110
+                                 : 100,
+                   y = i == 0        ? 0
+                       : i == 24     ? 200
+                       : has_mid_hip ? 100
+                                     : 60 + 8 * i;
+      list += fmt::format("{}{}, {}, 0.9", i == 0 ? "" : ", ", x, i == 8 && !has_mid_hip ? 40 : y);
+    }
+    return R"({"people": [{"pose_keypoints_2d": [)" + list + "]}]}";
+  };
+  for (int k = 0; k < 4; ++k) {
+    Write(fmt::format("a/{}.json", k), people(true));
+    Write(fmt::format("b/{}.json", k), people(false));
+  }
+  const auto film = ReadKeypoints(folder_.path() / "a", "");
+  ASSERT_TRUE(film) << ToString(film.error());
+  EXPECT_THAT(film->told, HasSubstr("body_25"));
+  EXPECT_EQ(film->frames[0][0][Landmark::kRightHip].pixel, glm::dvec2(90.5, 100.5));
+  EXPECT_THAT(Reason(folder_.path() / "b"), HasSubstr("tell which one by --layout"));
+  EXPECT_EQ(Reason(folder_.path() / "a", "body_25b"), "no complaint") << "what is said counts";
+}
+
 TEST_F(ReadPeople, ReadsCocoWithFlagsOrScores) {
   const auto coco = [&](const std::string& v) {
     return R"({"images": [{"id": 7, "width": 640, "height": 480}, {"id": 3, "width": 640, "height": 480}],

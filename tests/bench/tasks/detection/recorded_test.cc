@@ -1,10 +1,14 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
+#include "bench/tasks/base/pose_json.h"
 #include "bench/tasks/detection/label_scores.h"
 #include "bench/tasks/detection/recorded_task.h"
 #include "engine/base/directions.h"
+#include "engine/base/named.h"
+#include "engine/teaching/moves_file.h"
 #include "tests/bench/tasks/detection/detection_fixture.h"
 #include "tests/io/streams/record_people.h"
 #include "tests/support/run_world.h"
@@ -61,6 +65,45 @@ TEST_F(RecordedPeopleTest, OnePersonLeftOutIsNamedAsTheRecordingsOwnScoreHasIt) 
     }
     EXPECT_NEAR(named, *Accuracy(out->verdicts), 1e-12) << name;
   }
+}
+
+TEST_F(RecordedPeopleTest, ProgramsAreTaughtWhatBuiltInRecognisersAreAndNothingOfWhoIsJudged) {
+  const LabelledStreams set = SetOf(Record(3, kDanced, 10));
+  const auto task = *MakeTask("methods: [{name: a, recogniser: dtw}]\n", set);
+  ASSERT_TRUE(task->HasOwnSettings());
+  for (int trial = 0; trial < 3; ++trial) {
+    const std::string judged = "person-" + std::to_string(trial);
+    const auto world = task->MakeWorld(World(trial), false);
+    const Payload setting = *world->MakeSetting();
+    const auto fold = *MakeFold(set, {}, {judged}, {});
+    const Json& moves = (*setting.json)["moves"];
+    ASSERT_EQ(moves.size(), fold.repertoire.names.size());
+    std::size_t told = 0;
+    for (const Json& move : moves) {
+      const TaughtMove* taught = FindByName(fold.repertoire.taught, move["name"].get<std::string>());
+      ASSERT_EQ(move["examples"].empty(), taught == nullptr);
+      if (taught == nullptr) continue;
+      ASSERT_EQ(move["examples"].size(), taught->examples.size() + taught->counter_examples.size());
+      EXPECT_EQ(move["poses"].size(), taught->examples.front().frames.size());
+      EXPECT_EQ(move["key_poses"].size(), taught->poses.size());
+      for (std::size_t i = 0; i < taught->examples.size(); ++i) {
+        const Json& example = move["examples"][i];  // nobody errs here: all are right, in the order of teaching
+        EXPECT_NE(example["person"], judged);
+        EXPECT_TRUE(example["is_right"]);
+        EXPECT_EQ(example["frames"].size(), taught->examples[i].frames.size());
+        EXPECT_EQ(example["frames"][0]["pose"], EncodePose(PoseOf(taught->examples[i].frames[0])));
+        ++told;
+      }
+    }
+    EXPECT_GT(told, 10u);
+  }
+  // With moves that were taught beforehand all people share a setting, which holds the same examples.
+  const auto fold = *MakeFold(set, {}, {}, {});
+  const std::string file = WriteMoves(fold.repertoire.taught);
+  const auto taught = *MakeTask("moves: moves.yaml\nmethods: [{name: a, recogniser: dtw}]\n", set, file);
+  EXPECT_FALSE(taught->HasOwnSettings());
+  const Payload setting = *taught->Setting();
+  EXPECT_EQ((*setting.json)["moves"][0]["examples"].size(), fold.repertoire.taught[0].examples.size());
 }
 
 TEST_F(RecordedPeopleTest, LabelsThatMeanNothingAreGuessed) {
