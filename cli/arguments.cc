@@ -276,7 +276,7 @@ void GroupCommands(CLI::App& app) {
   };
   const CommandGroup groups[] = {
       {"Run and judge",
-       {"run", "scenario", "list", "report", "rows", "compare", "gate", "replay", "verify", "merge", "check-method"}},
+       {"run", "evaluate", "scenario", "list", "report", "rows", "compare", "gate", "replay", "verify", "merge", "check-method"}},
       {"Your motions", {"clip", "bridge", "train", "crowd"}},
       {"Your recordings of people", {"teach", "recognise", "coach", "sensor"}},
       {"Your cameras", {"calibrate", "capture"}},
@@ -292,6 +292,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   app.require_subcommand(1);
   // Run scenarios, and judge results.
   DefineRun(app, command_line, action);
+  DefineEvaluate(app, command_line, action);
   DefineScenario(app, action);
   DefineMerge(app, command_line, action);
   DefineReport(app, action);

@@ -136,38 +136,47 @@ void TellUnlocked(const RunOutcome& outcome) {
        fmt::format("could not be locked ({}): that no other run writes into it is up to you", outcome.why_unlocked)});
 }
 
-int RunCommand(const RunOptions& given) {
-  RunOptions options = given;
+}  // namespace
+
+Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options) {
   // Run, with Ctrl-C as a request to stop.
   std::optional<Interrupt> interrupt(std::in_place);
   options.stop = interrupt->requested();
   ProgressBar bar;
-  const auto outcome = Run(options, [&](const Progress& progress) { bar.Show(progress); });
+  ASSIGN_OR_RETURN(auto outcome, Run(options, [&](const Progress& progress) { bar.Show(progress); }));
   interrupt.reset();  // everything is written
-  if (!outcome) return Complain(outcome.error());
   // Report what was left out or damaged.
-  TellUnlocked(*outcome);
-  for (const RefusedClip& one : outcome->refused) Complain({{one.clip}, "left out: " + one.why});
-  const std::string folder = outcome->folder.string();
-  for (const int line : outcome->damaged_lines) {
-    Complain(
-        {{(outcome->folder / kJournalFile).string(), line, 0}, "does not count: damaged, or the second of its cell"});
+  TellUnlocked(outcome);
+  for (const RefusedClip& one : outcome.refused) Complain({{one.clip}, "left out: " + one.why});
+  const std::string folder = outcome.folder.string();
+  for (const int line : outcome.damaged_lines) {
+    Complain({{(outcome.folder / kJournalFile).string(), line, 0}, "does not count: damaged, or the second of its cell"});
   }
-  if (outcome->fence.starts_with("none")) Complain({{}, "methods outside ran in no fence: " + outcome->fence});
+  if (outcome.fence.starts_with("none")) Complain({{}, "methods outside ran in no fence: " + outcome.fence});
   // Stopped: the finished cells are kept for --resume.
-  if (outcome->stopped) {
-    const std::size_t kept = outcome->cells + outcome->cells_answered;
-    return TellStopped({{},
-                        kept == 0 ? "stopped before any cell ended; nothing is kept"
-                                  : fmt::format("stopped; {} cells are kept in {}, --resume goes on", kept, folder)});
-  }
+  if (!outcome.stopped) return std::optional(std::move(outcome));
+  const std::size_t kept = outcome.cells + outcome.cells_answered;
+  TellStopped({{},
+               kept == 0 ? "stopped before any cell ended; nothing is kept"
+                         : fmt::format("stopped; {} cells are kept in {}, --resume goes on", kept, folder)});
+  return std::optional<RunOutcome>();
+}
+
+namespace {
+
+int RunCommand(const RunOptions& options) {
+  const auto finished = RunWithProgress(options);
+  if (!finished) return Complain(finished.error());
+  if (!*finished) return kInterrupted;
+  const RunOutcome& outcome = **finished;
+  const std::string folder = outcome.folder.string();
   // A shard has no tables; merging makes them.
   if (!options.shard.IsWhole()) {
     fmt::print("Shard {}: {} of {} cells ok in {:.1f} s: {}\nNext, when all shards are done: etude merge DIR… -o DIR\n",
-               ToString(options.shard), outcome->cells_ok, outcome->cells, outcome->seconds, folder);
-    return outcome->cells_ok > 0 || outcome->cells == 0 ? kSuccess : kNothingWorked;
+               ToString(options.shard), outcome.cells_ok, outcome.cells, outcome.seconds, folder);
+    return outcome.cells_ok > 0 || outcome.cells == 0 ? kSuccess : kNothingWorked;
   }
-  return ShowOutcome(*outcome);
+  return ShowOutcome(outcome);
 }
 
 int MergeCommand(const MergeOptions& given) {

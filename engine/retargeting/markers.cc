@@ -234,17 +234,48 @@ glm::dvec3 FindUp(const std::vector<JointPositions>& frames) {
   return up;
 }
 
-/// Rotates positions so that `up` becomes Y.
+/// Rotates a position so that `up` becomes Y.
+glm::dvec3 TurnedUpright(const glm::dvec3& up, const glm::dvec3& p) {
+  if (up.z != 0) return {p.x, up.z * p.z, -up.z * p.y};
+  if (up.x != 0) return {-up.x * p.y, up.x * p.x, p.z};
+  return up.y < 0 ? glm::dvec3(p.x, -p.y, -p.z) : p;
+}
+
 void TurnUpright(const glm::dvec3& up, std::vector<JointPositions>& frames) {
   for (JointPositions& places : frames) {
     for (MarkerPosition& place : places) {
-      if (!place) continue;
-      const glm::dvec3 p = *place;
-      if (up.z != 0) *place = {p.x, up.z * p.z, -up.z * p.y};
-      if (up.x != 0) *place = {-up.x * p.y, up.x * p.x, p.z};
-      if (up.y < 0) *place = {p.x, -p.y, -p.z};
+      if (place) *place = TurnedUpright(up, *place);
     }
   }
+}
+
+/// Returns MarkerBody::shown. `up` is the direction that becomes Y.
+MarkerMotion AsShown(double scale, const MarkerMotion& markers, const MarkerSet& set, const Columns& columns,
+                     const glm::dvec3& up) {
+  MarkerMotion shown{.rate_hz = markers.rate_hz, .names = {}, .frames = {}, .remark = set.name};
+  if (scale != 1) shown.remark += fmt::format("; taken for {:g} times the file's unit, by the body's stature", scale);
+  if (!markers.remark.empty()) shown.remark += "; " + markers.remark;
+  std::vector<Role> roles;
+  for (const Role role : AllRoles()) {
+    if (Determines(set, columns, role)) roles.push_back(role);
+  }
+  for (const Role role : roles) shown.names.emplace_back(RoleName(role));
+  std::vector<std::size_t> others;
+  for (const auto& [name, column] : columns) {
+    if (FindRole(name)) continue;
+    shown.names.push_back(name);
+    others.push_back(column);
+  }
+  for (const auto& frame : markers.frames) {
+    const JointPositions places = PositionsOf(set, columns, frame, scale);
+    std::vector<MarkerPosition>& row = shown.frames.emplace_back();
+    for (const Role role : roles) row.push_back(places[Index(role)]);
+    for (const std::size_t column : others) row.push_back(frame[column]);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (row[i]) row[i] = TurnedUpright(up, (i < roles.size() ? 1 : scale) * *row[i]);
+    }
+  }
+  return shown;
 }
 
 /// Returns the longest range of frames in which every needed joint is known: its first frame and the frame after its
@@ -285,7 +316,8 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   int filled = 0;
   const auto max_gap = static_cast<std::size_t>(kMaxGap_s * markers.rate_hz);
   for (std::size_t joint = 0; joint < kRoleCount; ++joint) filled += BridgeGaps(frames, joint, max_gap);
-  TurnUpright(up == 'Z' ? glm::dvec3(0, 0, 1) : up == 'Y' ? glm::dvec3(0, 1, 0) : FindUp(frames), frames);
+  const glm::dvec3 upward = up == 'Z' ? glm::dvec3(0, 0, 1) : up == 'Y' ? glm::dvec3(0, 1, 0) : FindUp(frames);
+  TurnUpright(upward, frames);
   // Keep the longest complete range.
   const auto [begin, end] = LongestStretch(frames);
   if (begin == end) return std::nullopt;
@@ -304,6 +336,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   }
   if (!guessed.empty()) body.note += ", placed by rule: " + Join(guessed);
   if (!markers.remark.empty()) body.note += "; " + markers.remark;
+  body.shown = AsShown(scale, markers, set, columns, upward);
   return body;
 }
 

@@ -14,6 +14,10 @@ struct MarkerBody {
   std::string name;   ///< the prefix of its markers ("Derrick" of "Derrick:LANK"), or ""
   BodyMotion motion;  ///< at the file's rate; metres, Y up, feet on the floor
   std::string note;   ///< the marker set and the corrections made, for people
+  /// The joints as the markers show them, in all frames of the file and with its gaps: no gap is filled, no joint placed
+  /// by rule, no floor found. First the joints that the set determines, by the names of their roles, then the person's
+  /// other markers, by their own in lower case. Metres, Y up. Its remark names the set, and what was guessed.
+  MarkerMotion shown = {};
 };
 
 /// Finds the bodies of a marker recording by the markers' names. Known sets: Etude's own joints, OpenPose's BODY_25,

@@ -138,11 +138,12 @@ std::optional<JointMapOverrides> RolesOfBones(const std::map<std::string, int>& 
 
 /// Turns every body that the markers show into a clip.
 Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const std::string& path, char up = 0) {
-  ASSIGN_OR_RETURN(const auto bodies, FindMarkerBodies(std::move(markers), path, up));
+  ASSIGN_OR_RETURN(auto bodies, FindMarkerBodies(std::move(markers), path, up));
   ClipFile file{.format = format, .figure = {.name = "", .skeleton = {}, .materials = {}, .meshes = {}}, .clips = {}};
-  for (const MarkerBody& body : bodies) {
+  for (MarkerBody& body : bodies) {
     file.clips.push_back(RigClip(body.motion, StandingPose(), body.name));
     file.notes.push_back(body.note);
+    file.shown.push_back(std::move(body.shown));
   }
   file.figure.skeleton = file.clips.front().skeleton;
   return file;
@@ -384,8 +385,12 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   const bool is_recording = file.format == ClipFormat::kRecording;
   if (!is_recording && options.roles && options.roles->rate_hz) {
     for (Clip& clip : file.clips) clip.rate_hz = *options.roles->rate_hz;
+    for (MarkerMotion& shown : file.shown) shown.rate_hz = *options.roles->rate_hz;
   }
   if (is_recording && wanted.animation == "") wanted.animation = options.recorded->OwnTrack(file.clips);
+  const auto shown_of = [&](std::size_t i) {
+    return file.shown.empty() ? nullptr : std::make_shared<const MarkerMotion>(std::move(file.shown[i]));
+  };
   // A file of one motion: a '#' chooses nothing, except the layout of an .npy array.
   const bool has_animations =
       file.format == ClipFormat::kGltf || file.format == ClipFormat::kGlb || file.format == ClipFormat::kFbx;
@@ -398,12 +403,14 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
     const std::string source = wanted.path + (wanted.animation ? "#" + *wanted.animation : "");
     std::vector<SourceClip> only;  // moved into: an initializer list would copy the frames
     only.push_back({stem, source, file.format, std::move(file.clips.front()), nullptr, std::nullopt,
-                    file.notes.empty() ? "" : file.notes.front(), file.remarks});
+                    file.notes.empty() ? "" : file.notes.front(), file.remarks, file.roles, shown_of(0)});
     return only;
   }
   // A file of several clips: undo scales and find the common ground before one clip is chosen.
   std::map<std::string, std::string> notes;
   for (std::size_t i = 0; i < file.notes.size(); ++i) notes[file.clips[i].name] = file.notes[i];
+  std::map<std::string, std::shared_ptr<const MarkerMotion>> shown;
+  for (std::size_t i = 0; i < file.shown.size(); ++i) shown[file.clips[i].name] = shown_of(i);
   TakeScalesOut(file, wanted.path, options);
   const std::optional<Ground> ground = GroundOf(file, wanted.path, options);
   RETURN_IF_ERROR(KeepWanted(wanted, file.figure, file.clips));
@@ -414,8 +421,9 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   for (Clip& clip : file.clips) {
     const std::string animation = "#" + clip.name;
     const std::string note = notes[clip.name];
+    const auto as_shown = shown[clip.name];
     clips.push_back({stem + animation, wanted.path + animation, file.format, std::move(clip), figure, ground, note,
-                     file.remarks, file.roles});
+                     file.remarks, file.roles, as_shown});
   }
   return clips;
 }

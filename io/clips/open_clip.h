@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/formats/trc.h"
 #include "engine/motion/character.h"
 #include "engine/motion/clip.h"
 #include "engine/retargeting/joint_map.h"
@@ -48,6 +49,7 @@ struct ClipFile {
   std::vector<std::string> notes = {};    ///< for clips that are bodies already: how each was made of markers
   std::vector<std::string> remarks = {};  ///< repairs that were made while reading
   std::optional<JointMapOverrides> roles = {};  ///< roles that the bone table of a VRM file assigns
+  std::vector<MarkerMotion> shown = {};  ///< for clips that were made of markers: MarkerBody::shown of each
 };
 
 /// The maximum size of a file, or of a .gltf with its buffers, bytes. A larger file is refused before memory is taken.
@@ -84,6 +86,7 @@ struct SourceClip {
   std::vector<std::string> remarks = {};  ///< repairs made while reading the file; UnderstandClip appends them to the
                                           ///< body's note
   std::optional<JointMapOverrides> roles = {};  ///< as in ClipFile::roles; those of OpenOptions have priority
+  std::shared_ptr<const MarkerMotion> shown = {};  ///< as in ClipFile::shown; null for other clips
 };
 
 /// Reads the clips of one file or built-in name (as ExpandReference returns them): the one clip of a BVH, all
