@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <optional>
 #include <span>
 #include <vector>
@@ -24,6 +25,8 @@ struct EvaluatedPair {
   PointTracks found, truth;
   /// The point by which a pose is moved to its root (the middle of the hips), one a frame; empty: neither has it.
   std::vector<glm::dvec3> found_root, true_root;
+  /// Global rotations of the same joints, frames × joints; empty: one of both has none.
+  std::vector<glm::dquat> found_turns, true_turns;
   /// The answer's feet: left ankle, left toes, right ankle, right toes; no points: it has no such joints.
   PointTracks feet;
 };
@@ -80,6 +83,11 @@ struct FloorErrors {
   std::optional<double> penetration_mm, floating_mm;
 };
 FloorErrors MeasureFloor(const PointTracks& found);
+
+/// Returns the mean over frames of the length of the difference of all joints' quaternions together, as LAFAN1's code
+/// computes it. Signs are made continuous in time; a joint of the answer whose first quaternion lies nearer to the
+/// truth's with the other sign changes it throughout. Frames in which a joint is not seen by both are left out.
+std::optional<double> QuaternionError(const EvaluatedPair& pair);
 
 /// Returns the mean absolute difference of the angles at the middle of three points, degrees. Points come in threes:
 /// hip, knee, ankle; shoulder, elbow, wrist. Nothing if no three are seen by both.

@@ -11,7 +11,8 @@
 namespace etude {
 namespace {
 
-/// Appends a joint midway between the hips, unless one plays the hip centre.
+/// Appends a joint midway between the hips, turned as the joint that carries the left one, unless one plays the hip
+/// centre.
 void AddHipCentre(RawMotion& raw) {
   const int left = raw.roles[Index(Role::kLeftHip)], right = raw.roles[Index(Role::kRightHip)];
   if (raw.roles[Index(Role::kHipCentre)] >= 0 || left < 0 || right < 0) return;
@@ -26,7 +27,8 @@ void AddHipCentre(RawMotion& raw) {
     if (raw.rotations.empty()) continue;
     rotations.insert(rotations.end(), raw.rotations.begin() + static_cast<std::ptrdiff_t>(f * joints),
                      raw.rotations.begin() + static_cast<std::ptrdiff_t>((f + 1) * joints));
-    rotations.emplace_back(1, 0, 0, 0);
+    const int carrier = raw.parents[left];
+    rotations.push_back(carrier < 0 ? glm::dquat(1, 0, 0, 0) : raw.rotations[f * joints + carrier]);
   }
   raw.positions = std::move(positions);
   raw.rotations = std::move(rotations);

@@ -50,6 +50,15 @@ PointTracks Columns(const RawMotion& motion, const std::vector<int>& joints) {
   return tracks;
 }
 
+/// Returns the rotations of some joints in all frames; none if the motion has none.
+std::vector<glm::dquat> TurnsOf(const RawMotion& motion, const std::vector<int>& joints) {
+  std::vector<glm::dquat> turns;
+  for (std::size_t f = 0; f < motion.FrameCount() && !motion.rotations.empty(); ++f) {
+    for (const int joint : joints) turns.push_back(motion.rotations[f * motion.joints.size() + joint]);
+  }
+  return turns;
+}
+
 /// Returns the columns of these roles; none if one of them is missing.
 PointTracks RoleColumns(const RawMotion& motion, std::initializer_list<Role> roles) {
   std::vector<int> joints;
@@ -123,6 +132,8 @@ Result<MatchedMotions> Match(const RawMotion& truth, const RawMotion& answer, st
   matched.pair.rate_hz = truth.rate_hz;
   matched.pair.truth = Columns(truth, of_truth);
   matched.pair.found = Columns(sampled, of_answer);
+  matched.pair.true_turns = TurnsOf(truth, of_truth);
+  matched.pair.found_turns = TurnsOf(sampled, of_answer);
   const PointTracks true_root = RoleColumns(truth, {Role::kHipCentre});
   const PointTracks found_root = RoleColumns(sampled, {Role::kHipCentre});
   if (true_root.points > 0 && found_root.points > 0) {

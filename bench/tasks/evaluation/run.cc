@@ -100,7 +100,7 @@ std::vector<std::string> EvaluationMetrics() {
   for (const char* id :
        {"pck_150mm@mpi_inf_3dhp", "auc_150mm@mpi_inf_3dhp", "w_mpjpe_mm@wham", "wa_mpjpe_mm@wham", "rte@wham",
         "accel_error_mm@human_dynamics", "accel_error_mps2", "accel_error_mps2@wham", "jitter@wham", "skating_ratio@gmd",
-        "skate_from_height_mps@kimodo", "pfc@edge", "penetration_mm", "floating_mm", "bend_error_deg", "seen_share"}) {
+        "skate_from_height_mps@kimodo", "pfc@edge", "penetration_mm", "floating_mm", "bend_error_deg", "l2q@lafan1", "seen_share"}) {
     ids.emplace_back(id);
   }
   return ids;
@@ -114,6 +114,8 @@ CellResult JudgeMotion(const MatchedMotions& matched) {
   MeasureFeet(matched.pair, result);
   result.MeasureOr("bend_error_deg", BendErrorDeg(matched.pair.found, matched.pair.truth, matched.bends),
                    "no knee or elbow with its neighbours is seen by both");
+  result.MeasureOr("l2q@lafan1", QuaternionError(matched.pair),
+                   "one of both files has no rotations, or no frame shows every joint in both");
   result.MeasureOr("seen_share", SeenShare(matched.pair), "the truth shows no joint");
   return result;
 }

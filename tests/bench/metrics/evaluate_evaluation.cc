@@ -79,6 +79,26 @@ Value Rte(const Json& in) {
   return RootTranslationError(pair);
 }
 
+std::vector<glm::dquat> TurnsOf(const Json& in, const char* key) {
+  std::vector<glm::dquat> turns;
+  for (const Json& frame : in.at(key)) {
+    for (const Json& q : frame) {
+      turns.emplace_back(q.at(0).get<double>(), q.at(1).get<double>(), q.at(2).get<double>(), q.at(3).get<double>());
+    }
+  }
+  return turns;
+}
+
+Value L2q(const Json& in) {
+  EvaluatedPair pair;
+  pair.found_turns = TurnsOf(in, "found_turns");
+  pair.true_turns = TurnsOf(in, "true_turns");
+  pair.found.points = in.at("true_turns").at(0).size();
+  pair.found.positions.resize(pair.true_turns.size());
+  pair.truth = pair.found;
+  return QuaternionError(pair);
+}
+
 Value Bend(const Json& in) {
   return BendErrorDeg(TracksOf(in, "found"), TracksOf(in, "truth"),
                       in.at("bends").get<std::vector<std::array<std::size_t, 3>>>());
@@ -120,6 +140,7 @@ std::span<const Evaluator> EvaluationEvaluators() {
       {"penetration_mm", [](const Json& in) -> Value { return MeasureFloor(TracksOf(in, "found")).penetration_mm; }},
       {"floating_mm", [](const Json& in) -> Value { return MeasureFloor(TracksOf(in, "found")).floating_mm; }},
       {"bend_error_deg", Bend},
+      {"l2q@lafan1", L2q},
       {"seen_share", [](const Json& in) -> Value { return SeenShare(PairOf(in)); }},
   };
   return kAll;

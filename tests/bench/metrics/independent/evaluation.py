@@ -221,6 +221,24 @@ def bend_error(given):
     return common.mean([abs(a - b) for a, b in angles if a is not None and b is not None])
 
 
+def continuous(quaternions, start):
+    """One joint's quaternions, each with the sign that lies nearer to the one before, the first to `start`."""
+    kept = []
+    for q in quaternions:
+        before = kept[-1] if kept else start
+        kept.append([-x for x in q] if dot(q, before) < 0 else list(q))
+    return kept
+
+
+def l2q(given):
+    if not given["found_turns"] or not given["true_turns"]:
+        return None
+    truths = [continuous(joint, joint[0]) for joint in zip(*given["true_turns"])]
+    founds = [continuous(joint, truth[0]) for joint, truth in zip(zip(*given["found_turns"]), truths)]
+    frames = zip(zip(*founds), zip(*truths))
+    return common.mean([math.sqrt(math.fsum(distance(a, b) ** 2 for a, b in zip(p, t))) for p, t in frames])
+
+
 METRICS = {
     "mpjpe_unaligned_mm": mpjpe(unaligned),
     "mpjpe_root_mm": mpjpe(by_root, False),
@@ -246,5 +264,6 @@ METRICS = {
     "penetration_mm": lambda given: common.mean([common.MM * max(-y, 0) for y in lowest(given)]),
     "floating_mm": lambda given: common.mean([common.MM * max(y, 0) for y in lowest(given)]),
     "bend_error_deg": bend_error,
+    "l2q@lafan1": l2q,
     "seen_share": seen_share,
 }
