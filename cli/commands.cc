@@ -14,7 +14,7 @@ namespace etude {
 
 int Complain(const Error& error) {
   std::fputs(("etude: " + ToString(error) + "\n").c_str(), stderr);
-  return IsOfThisMachine(error) ? kIncomplete : kUnusableInput;
+  return IsOfThisMachine(error) ? kExitIncomplete : kUnusableInput;
 }
 
 int Finish(const Result<int>& code) { return code ? *code : Complain(code.error()); }
@@ -27,7 +27,7 @@ int TellStopped(const Error& what_is_left) {
 Result<int> UnlessReplaced(const std::string& folder, const RunData& run, int code) {
   if (CheckStillThere(folder, run)) return code;
   Complain({{folder, 0, 0}, "was replaced by another run while files were written into it: write them again"});
-  return kIncomplete;
+  return kExitIncomplete;
 }
 
 void TellUnsealed(const std::string& why) {

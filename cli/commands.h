@@ -19,17 +19,17 @@ constexpr int kSuccess = 0;
 constexpr int kNothingWorked = 1;
 constexpr int kRegression = 1;
 constexpr int kUnusableInput = 2;
-constexpr int kIncomplete = 3;
+constexpr int kExitIncomplete = 3;
 constexpr int kInterrupted = 130;
 
-/// Prints a complaint in the standard form. Returns kUnusableInput, or kIncomplete if the error is this machine's.
+/// Prints a complaint in the standard form. Returns kUnusableInput, or kExitIncomplete if the error is this machine's.
 int Complain(const Error& error);
 /// Returns a command's exit code; for an error, complains and returns Complain's code.
 int Finish(const Result<int>& code);
 /// Says that Ctrl-C stopped the work and what is left of it. Returns kInterrupted.
 int TellStopped(const Error& what_is_left = {{}, "stopped; nothing is kept"});
 /// Returns `code`, unless another run has replaced the folder while files of this run were written into it: then it
-/// complains and returns kIncomplete.
+/// complains and returns kExitIncomplete.
 Result<int> UnlessReplaced(const std::string& folder, const RunData& run, int code);
 /// Warns on standard error that data were read although no valid seal confirms them. `why` = "" means that a seal does,
 /// and prints nothing.

@@ -49,7 +49,7 @@ int ExitCode(GateVerdict verdict) {
     case GateVerdict::kIncomplete:
       break;
   }
-  return kIncomplete;
+  return kExitIncomplete;
 }
 
 /// Prints each world in two lines: its difference, and the command that runs it again.
@@ -130,7 +130,7 @@ Result<int> Update(const GateOptions& options, const FinishedRun& run) {
   // An incomplete run, or one with a method without answers, makes no baseline.
   if (const auto incomplete = WhyIncomplete(run); !incomplete.empty()) {
     PrintList("No baseline is made of an incomplete run:", incomplete);
-    return kIncomplete;
+    return kExitIncomplete;
   }
   if (const auto silent = DescribeSilentMethods(run); !silent.empty()) {
     PrintList("No baseline is made of a run in which a method has no answer, for nothing could be worse:", silent);

@@ -66,7 +66,7 @@ int DoInterruptibly(const std::function<int()>& work, const std::function<void()
   clean_up();
   if (*interrupt.requested()) return TellStopped();
   Complain({{}, "stopped by " + std::string(::strsignal(WTERMSIG(*status))) + "; nothing is kept"});
-  return kIncomplete;
+  return kExitIncomplete;
 }
 
 Result<bool> UnlessInterrupted(Result<bool> is_whole, const Interrupt& interrupt) {

@@ -90,7 +90,7 @@ int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
 void EndAfterCutFile(int) {
   constexpr std::string_view kComplaint = "etude: a file of a run was cut short while it was read\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kComplaint.data(), kComplaint.size());
-  ::_exit(kIncomplete);
+  ::_exit(kExitIncomplete);
 }
 
 /// Returns true for commands whose results need not be identical on all machines: they print existing data, or draw
