@@ -59,7 +59,7 @@ class Evaluate(EtudeCase):
         """What the second implementation reads, of lists of frames."""
         def column(frames, name):
             return [frame[self.names.index(name)] for frame in frames]
-        return {"rate_hz": rate, "found": found, "truth": truth, "segment": 100,
+        return {"rate_hz": rate, "found": found, "truth": truth, "segment": 100, "found_turns": [], "true_turns": [],
                 "found_root": column(found, "hip_centre"), "true_root": column(truth, "hip_centre"),
                 "feet": [list(feet) for feet in zip(*(column(found, name) for name in FEET))],
                 "bends": [[self.names.index(name) for name in bend] for bend in BENDS]}
@@ -182,7 +182,7 @@ class Evaluate(EtudeCase):
 
     def test_a_run_is_an_answer_like_any_file(self):
         run = self.folder / "run"
-        scenario = self.write("t.yaml", "scenario: t\nquestion: q\ntask: transition\nclips: ['builtin:sway']\ntrials: 1\n"
+        scenario = self.write("t.yaml", "scenario: t\nquestion: q\ntask: transition\nclips: ['builtin:sway', 'builtin:clap']\ntrials: 1\n"
                                         "methods: [{name: cut, choice: now, join: cut}]\nvideo: {}\n")
         self.run_suite(scenario, out=run)
         said = self.evaluate(f"{run}#t/-/000@cut", f"{run}#t/-/000@cut")
@@ -214,7 +214,7 @@ class Evaluate(EtudeCase):
                 (["score", scenario, self.folder, "--name", "x", "-o", self.out], "there are no problems to export"),
                 (["run", scenario, "--seed-file", keys], "draws no dice"),
                 (["run", outside], "asks no program"),
-                (["check-method", "evaluation", "--", "python3", "x.py"], "asks no program")]:
+                (["check-method", "--task", "evaluation", "--", "python3", "x.py"], "asks no program")]:
             with self.subTest(words=words, command=arguments[0]):
                 told = self.etude(*arguments)
                 self.assertEqual(told.returncode, 2, told.stdout + told.stderr)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "bench/tasks/evaluation/options.h"
 #include "engine/base/names.h"
@@ -97,10 +98,16 @@ std::string SomeOf(const std::vector<std::string>& names) {
   return Join(std::span(names).first(count)) + (count < names.size() ? ", …" : "");
 }
 
+/// Returns true if the rates, as their files round them, drift apart by less than a hundredth of a frame over the truth.
+bool HaveSameRate(const RawMotion& truth, const RawMotion& answer) {
+  constexpr double kMaxDrift = 0.01;  // frames
+  return std::abs(answer.rate_hz / truth.rate_hz - 1) * static_cast<double>(truth.FrameCount()) < kMaxDrift;
+}
+
 std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const MatchedMotions& matched) {
   std::string note = fmt::format("{} joints", matched.joints.size());
   if (!matched.lacking.empty()) note += fmt::format(" (one of both lacks {})", SomeOf(matched.lacking));
-  const bool is_resampled = answer.rate_hz != truth.rate_hz;
+  const bool is_resampled = !HaveSameRate(truth, answer);
   note += fmt::format(", {} frames at {:g} Hz", matched.pair.truth.FrameCount(), truth.rate_hz);
   if (is_resampled) note += fmt::format(", the answer's {:g} Hz interpolated linearly", answer.rate_hz);
   if (matched.uncovered > 0) note += fmt::format(", the last {} after the answer's end", matched.uncovered);
@@ -122,7 +129,8 @@ Result<MatchedMotions> Match(const RawMotion& truth, const RawMotion& answer, st
   }
   // Sample the answer at the truth's times.
   const std::size_t frames = truth.FrameCount();
-  const RawMotion sampled = Sampled(answer, truth.rate_hz, 0, frames);
+  const double rate_hz = HaveSameRate(truth, answer) ? answer.rate_hz : truth.rate_hz;
+  const RawMotion sampled = Sampled(answer, rate_hz, 0, frames);
   std::vector<int> of_truth, of_answer;
   for (const CommonJoint& joint : common) {
     matched.joints.push_back(joint.name);
@@ -143,10 +151,10 @@ Result<MatchedMotions> Match(const RawMotion& truth, const RawMotion& answer, st
   matched.pair.feet = RoleColumns(sampled, {Role::kLeftAnkle, Role::kLeftFoot, Role::kRightAnkle, Role::kRightFoot});
   matched.bends = FindBends(common, truth);
   // Count the frames behind the answer's end.
-  const double end_s = static_cast<double>(answer.FrameCount() - 1) / answer.rate_hz;
   for (std::size_t f = frames; f > 0; --f) {
     constexpr double kRounding = 1e-6;  // of a frame, as in `Sampled`
-    if (static_cast<double>(f - 1) / truth.rate_hz * answer.rate_hz <= end_s * answer.rate_hz + kRounding) break;
+    const double last = static_cast<double>(answer.FrameCount() - 1) + kRounding;
+    if (static_cast<double>(f - 1) / rate_hz * answer.rate_hz <= last) break;
     ++matched.uncovered;
   }
   if (SeenShare(matched.pair).value_or(0) == 0) {
