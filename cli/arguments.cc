@@ -22,6 +22,9 @@ namespace {
 const std::map<std::string_view, std::vector<std::string_view>>& ExamplesByCommand() {
   static const std::map<std::string_view, std::vector<std::string_view>> examples = {
       {"run", {"etude run quick", "etude run full/ik_weights --trials 50 -o out/try", "etude run mine.yaml --resume"}},
+      {"evaluate",
+       {"etude evaluate truth.bvh mine.trc", "etude evaluate truth 'first=a/*.npz' second=b -o out/two",
+        "etude evaluate --pairs pairs.csv --joints h36m-17"}},
       {"scenario", {"etude scenario copy quick mine", "etude scenario copy full/ik_weights .", "etude list scenarios"}},
       {"list", {"etude list scenarios", "etude list methods", "etude list metrics"}},
       {"clip",
