@@ -44,7 +44,7 @@ Result<std::vector<std::string>> Expand(const std::vector<std::string>& referenc
     std::error_code none;
     if (fs::is_directory(reference, none) && reference.find('#') == std::string::npos) {
       const std::vector<std::string> inside = FilesIn(reference);
-      if (inside.empty()) return Fail(place, "folder {} holds no motion file ({})", Quote(reference), ".bvh, .npz, …");
+      if (inside.empty()) return Fail(place, "folder '{}' holds no motion file (.bvh, .npz, …)", reference);
       files.insert(files.end(), inside.begin(), inside.end());
     } else {
       ASSIGN_OR_RETURN(const auto expanded, ExpandReference(reference, place, kMaxPairs));
@@ -61,8 +61,7 @@ Result<std::map<std::string, std::string>> ByName(const std::vector<std::string>
   for (const std::string& reference : references) {
     const auto [known, is_new] = named.emplace(NameOfReference(reference), reference);
     if (is_new) continue;
-    return Fail(place, "{} and {} have one name; 'pairs' tells which belong together", Quote(known->second),
-                Quote(reference));
+    return Fail(place, "'{}' and '{}' have one name; 'pairs' tells which belong together", known->second, reference);
   }
   return named;
 }
@@ -139,7 +138,9 @@ Result<std::vector<JudgedFiles>> ReadPairs(const std::string& text, const std::s
   if (pairs.empty()) return Fail({file}, "lists no pair");
   std::ranges::stable_sort(pairs, {}, &JudgedFiles::name);
   const auto twice = std::ranges::adjacent_find(pairs, {}, &JudgedFiles::name);
-  if (twice != pairs.end()) return Fail({file}, "two pairs are named {}; a column 'name' tells them apart", Quote(twice->name));
+  if (twice != pairs.end()) {
+    return Fail({file}, "two pairs are named {}; a column 'name' tells them apart", Quote(twice->name));
+  }
   return pairs;
 }
 
@@ -149,7 +150,9 @@ Result<FoundFiles> PairByName(const EvaluationOptions& options, std::span<const 
   ASSIGN_OR_RETURN(const auto truth_files, Expand(options.truth, place));
   ASSIGN_OR_RETURN(const auto truths, ByName(truth_files, place));
   FoundFiles found;
-  for (const auto& [name, truth] : truths) found.worlds.push_back({.name = name, .unit = "", .truth = truth, .answers = {}});
+  for (const auto& [name, truth] : truths) {
+    found.worlds.push_back({.name = name, .unit = "", .truth = truth, .answers = {}});
+  }
   for (const EvaluationMethod& method : methods) {
     if (method.answers.empty()) return Fail(place, "method {} has no 'answers'", Quote(method.name));
     ASSIGN_OR_RETURN(const auto files, Expand(method.answers, place));
@@ -168,8 +171,10 @@ Result<FoundFiles> PairByName(const EvaluationOptions& options, std::span<const 
       ++with_answer;
     }
     if (with_answer == 0) {
-      return Fail(place, "none of the {} answers of method {} is named like a truth: {} and {}; 'pairs' tells which "
-                  "belong together", files.size(), Quote(method.name), Quote(files.front()), Quote(truth_files.front()));
+      return Fail(place,
+                  "none of the {} answers of method {} is named like a truth: '{}' and '{}'; 'pairs' tells which belong "
+                  "together",
+                  files.size(), Quote(method.name), files.front(), truth_files.front());
     }
     for (const auto& [name, file] : answers) found.left_out.emplace_back(file, "no truth is named " + Quote(name));
   }

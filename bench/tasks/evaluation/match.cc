@@ -124,7 +124,7 @@ Result<MatchedMotions> Match(const RawMotion& truth, const RawMotion& answer, st
   MatchedMotions matched;
   const std::vector<CommonJoint> common = FindCommon(truth, answer, set, matched.lacking);
   if (common.empty()) {
-    return Fail({answer.name}, "has no joint in common with {} (joints: {}): {} and {}", Quote(truth.name), set,
+    return Fail({answer.name}, "has no joint in common with '{}' (joints: {}): {} and {}", truth.name, set,
                 SomeOf(answer.joints), SomeOf(truth.joints));
   }
   // Sample the answer at the truth's times.
@@ -158,7 +158,7 @@ Result<MatchedMotions> Match(const RawMotion& truth, const RawMotion& answer, st
     ++matched.uncovered;
   }
   if (SeenShare(matched.pair).value_or(0) == 0) {
-    return Fail({answer.name}, "no joint of {} is ever seen by both", Quote(truth.name));
+    return Fail({answer.name}, "no joint of '{}' is ever seen by both", truth.name);
   }
   matched.note = NoteOn(truth, answer, matched);
   return matched;
