@@ -42,7 +42,8 @@ std::string NameFor(const std::string& pattern) {
   const std::filesystem::path path = pattern.ends_with('/') ? pattern.substr(0, pattern.size() - 1) : pattern;
   const bool is_pattern = path.filename().string().find_first_of("*?[") != std::string::npos;
   std::string name = (is_pattern ? path.parent_path().filename() : path.stem()).string();
-  std::ranges::replace_if(name, [](char c) { return !IsPlainName(std::string(1, c)) && c != '-' && c != '.'; }, '_');
+  std::ranges::replace_if(
+      name, [](char c) { return !IsPlainName(std::string(1, c)) && c != '-' && c != '.'; }, '_');
   return IsPlainName(name) ? name : "result";
 }
 
@@ -88,7 +89,8 @@ Result<std::string> ScenarioOf(const EvaluateOptions& options) {
   }
   ASSIGN_OR_RETURN(const auto results,
                    has_pairs ? ReadColumns(options.pairs) : ReadResults(std::span(options.files).subspan(1)));
-  std::string text = "scenario: evaluate\nquestion: How close do these motions come to their truths?\ntask: evaluation\n";
+  std::string text =
+      "scenario: evaluate\nquestion: How close do these motions come to their truths?\ntask: evaluation\n";
   text += has_pairs ? fmt::format("pairs: {}\n", QuotedInYaml(options.pairs))
                     : fmt::format("truth: [{}]\n", QuotedInYaml(options.files.front()));
   if (!options.joints.empty()) text += fmt::format("joints: {}\n", QuotedInYaml(options.joints));
@@ -137,9 +139,8 @@ void PrintTable(const ScenarioSummary& summary) {
     for (const std::string& id : summary.headline_metrics) {
       const auto metric = std::ranges::find(method.metrics, id, &MetricSummary::id);
       if (metric == method.metrics.end()) continue;
-      const std::string interval = metric->ci_low && metric->ci_high
-                                       ? fmt::format("{:.4g} to {:.4g}", *metric->ci_low, *metric->ci_high)
-                                       : "-";
+      const std::string interval =
+          metric->ci_low && metric->ci_high ? fmt::format("{:.4g} to {:.4g}", *metric->ci_low, *metric->ci_high) : "-";
       fmt::print("  {:<{}}  {:<28}  {:>9}  {:>9}  {:<22}  {} of {}\n", method.method, width, id, show(metric->median),
                  show(metric->mean), interval, metric->present, metric->present + metric->missing);
     }
@@ -204,8 +205,9 @@ void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& acti
   auto options = std::make_shared<EvaluateOptions>();
   options->command_line = command_line;
   CLI::App* command = app.add_subcommand("evaluate", "Judge the motions of files by their truths");
-  command->add_option("files", options->files,
-                      "The truth, then results, each a file, a folder or a pattern in quotes; NAME=PATTERN for several");
+  command->add_option(
+      "files", options->files,
+      "The truth, then results, each a file, a folder or a pattern in quotes; NAME=PATTERN for several");
   command->add_option("--pairs", options->pairs, "A CSV instead: columns truth, one of each method's name, maybe name");
   command->add_option("--joints", options->joints, "Which joints: a set (etude list keys), same, or roles (default)");
   command->add_option("--people", options->people, "Which part of a file's name is the person, such as '{person}_*'");

@@ -150,7 +150,8 @@ Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options) {
   for (const RefusedClip& one : outcome.refused) Complain({{one.clip}, "left out: " + one.why});
   const std::string folder = outcome.folder.string();
   for (const int line : outcome.damaged_lines) {
-    Complain({{(outcome.folder / kJournalFile).string(), line, 0}, "does not count: damaged, or the second of its cell"});
+    Complain(
+        {{(outcome.folder / kJournalFile).string(), line, 0}, "does not count: damaged, or the second of its cell"});
   }
   if (outcome.fence.starts_with("none")) Complain({{}, "methods outside ran in no fence: " + outcome.fence});
   // Stopped: the finished cells are kept for --resume.

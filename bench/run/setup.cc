@@ -53,8 +53,7 @@ Result<std::vector<std::unique_ptr<Task>>> MakeTasks(
     Fields fields(condition.node, "a scenario of task " + scenario.task);
     for (const KeyInfo& key : CommonScenarioKeys()) fields.Raw(key.key);
     ASSIGN_OR_RETURN(auto named_texts, NamedTextsOf(condition, kind, texts));
-    TaskInput input{fields,     built_in,    clips_of(condition), std::move(named_texts),
-                    recordings, setup.files, &opening};
+    TaskInput input{fields, built_in, clips_of(condition), std::move(named_texts), recordings, setup.files, &opening};
     ASSIGN_OR_RETURN(auto task, kind.make(input));
     RETURN_IF_ERROR(fields.Finish());
     tasks.push_back(std::move(task));

@@ -198,7 +198,8 @@ Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const s
   ASSIGN_OR_RETURN(setup.labels, KeepLabels(scenario.streams.labels, sources));
   RETURN_IF_ERROR(FindFiles(scenario, sources, setup));
   if (!setup.files.empty()) {  // each pair of files is one trial; --trials takes the first of them
-    if (options.key) return Fail({file, 0, 0}, "--seed-file: scenario {} draws no dice, it judges files", scenario.name);
+    if (options.key)
+      return Fail({file, 0, 0}, "--seed-file: scenario {} draws no dice, it judges files", scenario.name);
     setup.trials = std::min(options.trials.value_or(static_cast<int>(kMaxCells)), static_cast<int>(setup.files.size()));
     setup.files.resize(static_cast<std::size_t>(setup.trials));
   }
@@ -268,7 +269,8 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
     std::vector<std::string> names;
     for (const auto& [name, text] : texts) names.push_back(name);
     // A text without a file has the same name everywhere.
-    const auto canonical = options.text.empty() ? CanonicalNames(file, names) : std::map<std::string, std::string>{{file, file}};
+    const auto canonical =
+        options.text.empty() ? CanonicalNames(file, names) : std::map<std::string, std::string>{{file, file}};
     std::map<std::string_view, std::string_view> texts_in_order;
     for (const auto& [name, text] : texts) texts_in_order[canonical.at(name)] = text;
     Digest digest;
@@ -313,9 +315,10 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
 Result<void> RefuseFiles(const SuiteSetup& suite) {
   for (const ScenarioSetup& setup : suite.scenarios) {
     if (setup.files.empty()) continue;
-    return Fail({setup.file, 0, 0},
-                "scenario {} judges files: there are no problems to export or score; etude run or etude evaluate does it",
-                setup.name);
+    return Fail(
+        {setup.file, 0, 0},
+        "scenario {} judges files: there are no problems to export or score; etude run or etude evaluate does it",
+        setup.name);
   }
   return {};
 }

@@ -56,7 +56,8 @@ RawMotion OfMarkers(const MarkerMotion& shown) {
 /// Converts a clip of a skeleton, whose unit is `unit` metres long.
 RawMotion OfSkeleton(const Clip& clip, double unit, UpAxis up) {
   // The rotation of Upright: X stays, Z becomes Y.
-  const glm::dquat turn = up == UpAxis::kY ? glm::dquat(1, 0, 0, 0) : glm::quat_cast(glm::dmat3(1, 0, 0, 0, 0, -1, 0, 1, 0));
+  const glm::dquat turn =
+      up == UpAxis::kY ? glm::dquat(1, 0, 0, 0) : glm::quat_cast(glm::dmat3(1, 0, 0, 0, 0, -1, 0, 1, 0));
   RawMotion raw;
   raw.rate_hz = clip.rate_hz;
   for (const Joint& joint : clip.skeleton.joints) {

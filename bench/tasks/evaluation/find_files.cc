@@ -171,10 +171,11 @@ Result<FoundFiles> PairByName(const EvaluationOptions& options, std::span<const 
       ++with_answer;
     }
     if (with_answer == 0) {
-      return Fail(place,
-                  "none of the {} answers of method {} is named like a truth: '{}' and '{}'; 'pairs' tells which belong "
-                  "together",
-                  files.size(), Quote(method.name), files.front(), truth_files.front());
+      return Fail(
+          place,
+          "none of the {} answers of method {} is named like a truth: '{}' and '{}'; 'pairs' tells which belong "
+          "together",
+          files.size(), Quote(method.name), files.front(), truth_files.front());
     }
     for (const auto& [name, file] : answers) found.left_out.emplace_back(file, "no truth is named " + Quote(name));
   }
@@ -248,8 +249,9 @@ Result<FoundFiles> FindEvaluatedFiles(const Node& condition, std::span<const Nod
     if (options.people.empty()) continue;
     const auto person = PersonIn(options.people, world.name);
     if (!person) {
-      return Fail(condition.Find("people")->place, "{} does not fit the pair {}; allowed: a pattern with {}, such as {}_*",
-                  Quote(options.people), Quote(world.name), kPerson, kPerson);
+      return Fail(condition.Find("people")->place,
+                  "{} does not fit the pair {}; allowed: a pattern with {}, such as {}_*", Quote(options.people),
+                  Quote(world.name), kPerson, kPerson);
     }
     world.unit = *person;
   }

@@ -81,8 +81,8 @@ std::vector<std::array<std::size_t, 3>> FindBends(const std::vector<CommonJoint>
     bool has_all = true;
     for (std::size_t i = 0; i < roles.size(); ++i) {
       const int wanted = truth.roles[Index(roles[i])];
-      const auto found = std::ranges::find_if(
-          joints, [&](const CommonJoint& joint) { return wanted >= 0 && joint.truth == wanted; });
+      const auto found =
+          std::ranges::find_if(joints, [&](const CommonJoint& joint) { return wanted >= 0 && joint.truth == wanted; });
       has_all = has_all && found != joints.end();
       bend[i] = static_cast<std::size_t>(found - joints.begin());
     }
@@ -98,7 +98,8 @@ std::string SomeOf(const std::vector<std::string>& names) {
   return Join(std::span(names).first(count)) + (count < names.size() ? ", …" : "");
 }
 
-/// Returns true if the rates, as their files round them, drift apart by less than a hundredth of a frame over the truth.
+/// Returns true if the rates, as their files round them, drift apart by less than a hundredth of a frame over the
+/// truth.
 bool HaveSameRate(const RawMotion& truth, const RawMotion& answer) {
   constexpr double kMaxDrift = 0.01;  // frames
   return std::abs(answer.rate_hz / truth.rate_hz - 1) * static_cast<double>(truth.FrameCount()) < kMaxDrift;

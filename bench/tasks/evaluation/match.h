@@ -21,9 +21,10 @@ struct MatchedMotions {
   std::string note;                               ///< one line
 };
 
-/// Matches an answer to a truth. `joints` is a set (JointSetNames). The frames are the truth's: the answer's first frame
-/// belongs to the truth's first, and the answer is sampled at the truth's times (`Sampled`). Rates that drift apart by
-/// less than a hundredth of a frame over the truth are the same, so frames pair one to one. Nothing else is changed. Fails if no joint is common, or none is ever seen by both.
+/// Matches an answer to a truth. `joints` is a set (JointSetNames). The frames are the truth's: the answer's first
+/// frame belongs to the truth's first, and the answer is sampled at the truth's times (`Sampled`). Rates that drift
+/// apart by less than a hundredth of a frame over the truth are the same, so frames pair one to one. Nothing else is
+/// changed. Fails if no joint is common, or none is ever seen by both.
 Result<MatchedMotions> Match(const RawMotion& truth, const RawMotion& answer, std::string_view joints);
 
 }  // namespace etude

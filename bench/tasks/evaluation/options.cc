@@ -72,7 +72,8 @@ Result<void> CheckFiles(const Node& condition, const EvaluationOptions& options)
 
 const FieldTable<EvaluationMethod>& EvaluationMethodFields() {
   static const FieldTable<EvaluationMethod> table{
-      {Field<EvaluationMethod>::Texts("answers", &EvaluationMethod::answers, "a list of motion files, patterns, folders",
+      {Field<EvaluationMethod>::Texts("answers", &EvaluationMethod::answers,
+                                      "a list of motion files, patterns, folders",
                                       "The answers, named like their truths.")
            .WhenAbsent("(`pairs` names them)")}};
   return table;

@@ -55,7 +55,8 @@ void MeasureErrors(const EvaluatedPair& pair, CellResult& result) {
     const std::vector<double> errors = JointErrorsMm(Aligned(pair, error.alignment), pair.truth);
     result.MeasureOr(error.id, MeanOfSeen(errors), error.why_missing);
     const bool is_drawn = error.alignment == Alignment::kNone || error.alignment == Alignment::kRoot;
-    if (is_drawn && MeanOfSeen(errors)) result.series.push_back({error.id, "frame", CurveOf(errors, pair.found.points)});
+    if (is_drawn && MeanOfSeen(errors))
+      result.series.push_back({error.id, "frame", CurveOf(errors, pair.found.points)});
     if (error.alignment != Alignment::kRoot) continue;
     constexpr double kPck_mm = 150;
     result.MeasureOr("pck_150mm@mpi_inf_3dhp", ShareBelow(errors, kPck_mm), kNoRoot);
@@ -66,7 +67,8 @@ void MeasureErrors(const EvaluatedPair& pair, CellResult& result) {
   };
   result.MeasureOr("w_mpjpe_mm@wham", by_segments(2), kNoFit);
   result.MeasureOr("wa_mpjpe_mm@wham", by_segments(kSegmentFrames), kNoFit);
-  result.MeasureOr("rte@wham", RootTranslationError(pair), "fewer than three roots are seen by both, or the true root stands");
+  result.MeasureOr("rte@wham", RootTranslationError(pair),
+                   "fewer than three roots are seen by both, or the true root stands");
 }
 
 void MeasureMovement(const EvaluatedPair& pair, CellResult& result) {
@@ -77,7 +79,8 @@ void MeasureMovement(const EvaluatedPair& pair, CellResult& result) {
   result.MeasureOr("accel_error_mm@human_dynamics", Times(kToMm, acceleration), kTooShort);
   result.MeasureOr("accel_error_mps2", Times(rate * rate, acceleration), kTooShort);
   const auto of_root = AccelerationError(Aligned(pair, Alignment::kRoot), pair.truth, 1);
-  result.MeasureOr("accel_error_mps2@wham", Times(rate * rate, of_root), "no joint and root are seen by both in five frames");
+  result.MeasureOr("accel_error_mps2@wham", Times(rate * rate, of_root),
+                   "no joint and root are seen by both in five frames");
   result.MeasureOr("jitter@wham", Jitter(pair.found, rate), "no joint is seen in four frames in a row");
 }
 
@@ -97,10 +100,10 @@ void MeasureFeet(const EvaluatedPair& pair, CellResult& result) {
 std::vector<std::string> EvaluationMetrics() {
   std::vector<std::string> ids;
   for (const AlignedError& error : kErrors) ids.emplace_back(error.id);
-  for (const char* id :
-       {"pck_150mm@mpi_inf_3dhp", "auc_150mm@mpi_inf_3dhp", "w_mpjpe_mm@wham", "wa_mpjpe_mm@wham", "rte@wham",
-        "accel_error_mm@human_dynamics", "accel_error_mps2", "accel_error_mps2@wham", "jitter@wham", "skating_ratio@gmd",
-        "skate_from_height_mps@kimodo", "pfc@edge", "penetration_mm", "floating_mm", "bend_error_deg", "l2q@lafan1", "seen_share"}) {
+  for (const char* id : {"pck_150mm@mpi_inf_3dhp", "auc_150mm@mpi_inf_3dhp", "w_mpjpe_mm@wham", "wa_mpjpe_mm@wham",
+                         "rte@wham", "accel_error_mm@human_dynamics", "accel_error_mps2", "accel_error_mps2@wham",
+                         "jitter@wham", "skating_ratio@gmd", "skate_from_height_mps@kimodo", "pfc@edge",
+                         "penetration_mm", "floating_mm", "bend_error_deg", "l2q@lafan1", "seen_share"}) {
     ids.emplace_back(id);
   }
   return ids;

@@ -1,8 +1,7 @@
-#include "bench/metrics/evaluation.h"
-
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "bench/metrics/evaluation.h"
 #include "tests/bench/metrics/evaluators.h"
 #include "tests/bench/metrics/vector_input.h"
 

@@ -60,7 +60,8 @@ TEST_F(FindFilesTest, OneTruthAndOneAnswerAreAPairWhateverTheirNames) {
 
 TEST_F(FindFilesTest, ATableTellsWhichBelongTogether) {
   Make({"t.bvh", "u.bvh", "x.bvh", "y.bvh"});
-  const auto found = Find("pairs: p.csv", {"{name: m}", "{name: n}"}, "n,truth,m\r\n@/x.bvh,@/u.bvh,\n\n,@/t.bvh,@/y.bvh\n");
+  const auto found =
+      Find("pairs: p.csv", {"{name: m}", "{name: n}"}, "n,truth,m\r\n@/x.bvh,@/u.bvh,\n\n,@/t.bvh,@/y.bvh\n");
   ASSERT_TRUE(found) << ToString(found.error());
   const std::vector<JudgedFiles> expected = {{"t", "", In("t.bvh"), {In("y.bvh"), ""}},
                                              {"u", "", In("u.bvh"), {"", In("x.bvh")}}};
@@ -94,8 +95,10 @@ TEST_F(FindFilesTest, WhatCannotBePairedIsRefused) {
   EXPECT_THAT(Complaint("pairs: p.csv", m, "truth,m\n"), HasSubstr("'answers' stands beside 'pairs'"));
   EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth,n\n"), HasSubstr("p.csv:1: unknown column 'n'"));
   EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth\n"), HasSubstr("has no column of method"));
-  EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth,m\na\n"), HasSubstr("p.csv:2: 1 cells; the heading has 2"));
-  EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth,m\nx/a.bvh,1\ny/a.bvh,2\n"), HasSubstr("two pairs are named"));
+  EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth,m\na\n"),
+              HasSubstr("p.csv:2: 1 cells; the heading has 2"));
+  EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth,m\nx/a.bvh,1\ny/a.bvh,2\n"),
+              HasSubstr("two pairs are named"));
   EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, ""), HasSubstr("lists no pair"));
 }
 

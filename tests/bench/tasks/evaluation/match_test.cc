@@ -2,9 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include "bench/metrics/catalogue.h"
 #include "bench/tasks/evaluation/options.h"
 #include "bench/tasks/evaluation/run.h"
-#include "bench/metrics/catalogue.h"
 #include "sim/choreography/canonical_body.h"
 
 namespace etude {
