@@ -23,6 +23,9 @@ namespace {
 const std::map<std::string_view, std::vector<std::string_view>>& ExamplesByCommand() {
   static const std::map<std::string_view, std::vector<std::string_view>> examples = {
       {"run", {"etude run quick", "etude run full/ik_weights --trials 50 -o out/try", "etude run mine.yaml --resume"}},
+      {"evaluate",
+       {"etude evaluate truth.bvh mine.trc", "etude evaluate truth 'first=a/*.npz' second=b -o out/two",
+        "etude evaluate --pairs pairs.csv --joints h36m-17"}},
       {"scenario", {"etude scenario copy quick mine", "etude scenario copy full/ik_weights .", "etude list scenarios"}},
       {"list", {"etude list scenarios", "etude list methods", "etude list metrics"}},
       {"clip",
@@ -283,7 +286,7 @@ void GroupCommands(CLI::App& app) {
   };
   const CommandGroup groups[] = {
       {"Run and judge",
-       {"run", "scenario", "list", "report", "rows", "compare", "gate", "replay", "verify", "merge", "check-method"}},
+       {"run", "evaluate", "scenario", "list", "report", "rows", "compare", "gate", "replay", "verify", "merge", "check-method"}},
       {"Your motions", {"clip", "bridge", "train", "crowd"}},
       {"Your recordings of people", {"teach", "recognise", "coach", "sensor"}},
       {"Your cameras", {"calibrate", "capture"}},
@@ -299,6 +302,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   app.require_subcommand(1);
   // Run scenarios, and judge results.
   DefineRun(app, command_line, action);
+  DefineEvaluate(app, command_line, action);
   DefineScenario(app, action);
   DefineMerge(app, command_line, action);
   DefineReport(app, action);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 
 namespace etude {
 
+struct RunOptions;
 struct RunOutcome;
 
 // The exit codes of all commands.
@@ -34,6 +36,9 @@ Result<int> UnlessReplaced(const std::string& folder, const RunData& run, int co
 void TellUnsealed(const std::string& why);
 /// Reads a baseline, and warns if no seal confirms it. Fails if its seal is invalid, unless seals are ignored.
 Result<Snapshot> TakeBaseline(const std::string& path, Sealing sealing);
+/// Runs scenarios with a progress bar, and says what was left out, damaged or not locked. Returns nothing if it was
+/// stopped, which it says, too.
+Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options);
 /// Prints the tables of a finished run, and the reasons of methods without an answer. Returns kNothingWorked if a
 /// method has no answer or no cell is ok.
 int ShowOutcome(const RunOutcome& outcome);
@@ -47,6 +52,8 @@ void PrintList(const std::string& title, const std::vector<std::string>& lines);
 /// `etude run`: runs scenarios with a progress bar and prints the verdicts; with --dry-run it only forecasts time and
 /// findings.
 void DefineRun(CLI::App& app, const std::string& command_line, Action& action);
+/// `etude evaluate TRUTH RESULT…`: judges the motions of files by their truths, as a run.
+void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& action);
 /// `etude scenario copy NAME FOLDER`: copies a scenario that comes with etude.
 void DefineScenario(CLI::App& app, Action& action);
 /// `etude merge DIR… -o DIR`: merges shards into one run.

@@ -186,44 +186,53 @@ int PrintOutcome(const RunOutcome& outcome, const Shard& shard, int code) {
   return printed ? code : Complain(printed.error());
 }
 
-int RunCommand(const RunOptions& given, bool as_json) {
-  RunOptions options = given;
-  StdoutToStderr aside(as_json);
+}  // namespace
+
+Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options) {
   // Run, with Ctrl-C as a request to stop.
   std::optional<Interrupt> interrupt(std::in_place);
   options.stop = interrupt->requested();
   ProgressBar bar;
-  const auto outcome = Run(options, [&](const Progress& progress) { bar.Show(progress); });
+  ASSIGN_OR_RETURN(auto outcome, Run(options, [&](const Progress& progress) { bar.Show(progress); }));
   interrupt.reset();  // everything is written
-  if (!outcome) return Complain(outcome.error());
   // Report what was left out or damaged.
-  TellUnlocked(*outcome);
-  TellChanges(outcome->changes);
-  for (const RefusedClip& one : outcome->refused) Complain({{one.clip}, "left out: " + one.why});
-  const std::string folder = outcome->folder.string();
-  for (const int line : outcome->damaged_lines) {
+  TellUnlocked(outcome);
+  TellChanges(outcome.changes);
+  for (const RefusedClip& one : outcome.refused) Complain({{one.clip}, "left out: " + one.why});
+  const std::string folder = outcome.folder.string();
+  for (const int line : outcome.damaged_lines) {
     Complain(
-        {{(outcome->folder / kJournalFile).string(), line, 0}, "is ignored: damaged, or a second line for its cell"});
+        {{(outcome.folder / kJournalFile).string(), line, 0}, "is ignored: damaged, or a second line for its cell"});
   }
-  if (outcome->fence.starts_with("none")) Complain({{}, "methods outside ran without a fence: " + outcome->fence});
+  if (outcome.fence.starts_with("none")) Complain({{}, "methods outside ran without a fence: " + outcome.fence});
   // Stopped: the finished cells are kept for --resume.
-  if (outcome->stopped) {
-    const std::size_t kept = outcome->cells + outcome->cells_answered;
-    return TellStopped({{},
-                        kept == 0 ? "stopped before any cell ended; nothing is kept"
-                                  : fmt::format("stopped; {} cells are kept in {}; --resume continues", kept, folder)});
-  }
+  if (!outcome.stopped) return std::optional(std::move(outcome));
+  const std::size_t kept = outcome.cells + outcome.cells_answered;
+  TellStopped({{},
+               kept == 0 ? "stopped before any cell ended; nothing is kept"
+                         : fmt::format("stopped; {} cells are kept in {}; --resume continues", kept, folder)});
+  return std::optional<RunOutcome>();
+}
+
+namespace {
+
+int RunCommand(const RunOptions& options, bool as_json) {
+  StdoutToStderr aside(as_json);
+  const auto finished = RunWithProgress(options);
+  if (!finished) return Complain(finished.error());
+  if (!*finished) return kInterrupted;
+  const RunOutcome& outcome = **finished;
   // A shard has no tables; merging makes them.
   if (!options.shard.IsWhole()) {
     fmt::print("Shard {}: {} of {} cells ok in {:.1f} s: {}\nNext, when all shards are done: etude merge DIR… -o DIR\n",
-               ToString(options.shard), outcome->cells_ok, outcome->cells, outcome->seconds, folder);
+               ToString(options.shard), outcome.cells_ok, outcome.cells, outcome.seconds, outcome.folder.string());
     aside.End();
-    const int code = outcome->cells_ok > 0 || outcome->cells == 0 ? kSuccess : kNothingWorked;
-    return as_json ? PrintOutcome(*outcome, options.shard, code) : code;
+    const int code = outcome.cells_ok > 0 || outcome.cells == 0 ? kSuccess : kNothingWorked;
+    return as_json ? PrintOutcome(outcome, options.shard, code) : code;
   }
-  const int code = ShowOutcome(*outcome);
+  const int code = ShowOutcome(outcome);
   aside.End();
-  return as_json && (code == kSuccess || code == kNothingWorked) ? PrintOutcome(*outcome, {}, code) : code;
+  return as_json && (code == kSuccess || code == kNothingWorked) ? PrintOutcome(outcome, {}, code) : code;
 }
 
 int MergeCommand(const MergeOptions& given) {

@@ -234,6 +234,7 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress
   run.joint_map = options.joint_map;
   run.clip_facts = options.clip_facts;
   ASSIGN_OR_RETURN(const auto suite, ReadSuite(run));
+  RETURN_IF_ERROR(RefuseFiles(suite));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(suite));
   ASSIGN_OR_RETURN(const auto manifest, MakeManifest(suite, scenarios, options.program_version));
   // Check the key, and begin the folder.

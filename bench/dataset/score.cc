@@ -173,6 +173,7 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
                                       const std::function<void(const Progress&)>& on_progress) {
   // Read the scenarios, and check that the result folder is free.
   ASSIGN_OR_RETURN(auto suite, ReadTarget(options));
+  RETURN_IF_ERROR(RefuseFiles(suite));
   suite.scored = ScoredMethod{options.name, options.alone};
   ASSIGN_OR_RETURN(const auto state, LookAtFolder(options.output));
   if (state != FolderState::kFree) {

@@ -9,6 +9,7 @@
 #include "bench/run/cell_runner.h"
 #include "bench/run/outside_programs.h"
 #include "bench/scenario/scenario.h"
+#include "bench/tasks/registry.h"
 #include "engine/base/digest.h"
 #include "engine/base/machine.h"
 #include "io/files/json.h"
@@ -32,12 +33,15 @@ bool IsCommonKey(const std::string& key) {
 }
 
 /// Returns the digest of everything that shapes the worlds of a condition: its task, the task's own keys, the clips.
+/// Worlds made of files have digests of their own.
 std::string WorldDigest(const std::string& task, const Node& condition, std::span<const std::string> clip_digests) {
   Digest digest;
   digest.Add(std::string_view(task));
+  const std::vector<std::string>& of_files = FindTaskKind(task)->keys_of_files;
   std::vector<const Node::Entry*> own;
   for (const Node::Entry& entry : condition.entries) {
-    if (!IsCommonKey(entry.key)) own.push_back(&entry);
+    const bool is_of_files = std::ranges::find(of_files, entry.key) != of_files.end();
+    if (!IsCommonKey(entry.key) && !is_of_files) own.push_back(&entry);
   }
   std::sort(own.begin(), own.end(), [](const auto* a, const auto* b) { return a->key < b->key; });  // keys are unique
   for (const Node::Entry* entry : own) {
@@ -90,6 +94,19 @@ Result<void> CheckMetricVersions(const Json& manifest, const Place& place) {
   return {};
 }
 
+/// Returns the names of worlds made of files with the digests of their truths. `digests` are those of the manifest: of
+/// each world the truth, then the answers that there are.
+Result<NamedDigests> TruthsOf(const ScenarioSetup& setup, std::span<const std::string> digests, const Place& place) {
+  NamedDigests truths;
+  std::size_t at = 0;
+  for (const JudgedFiles& world : setup.files) {
+    if (at >= digests.size()) return Fail(place, "not a manifest: it lacks digests of files");
+    truths.emplace_back(world.name, digests[at]);
+    at += 1 + world.answers.size() - static_cast<std::size_t>(std::ranges::count(world.answers, ""));
+  }
+  return truths;
+}
+
 /// Reads the scenarios of manifest.json from the texts that it keeps.
 Result<std::vector<FinishedScenario>> LoadScenarios(const FilePath& path) {
   ASSIGN_OR_RETURN(const auto manifest, ReadJsonFile(path));
@@ -113,7 +130,13 @@ Result<std::vector<FinishedScenario>> LoadScenarios(const FilePath& path) {
     } catch (const Json::exception& error) {
       return Fail(place, "not a manifest: {}", error.what());
     }
-    finished.push_back(FinishScenario(scenario, setup, clip_digests));
+    if (setup.files.empty()) {
+      finished.push_back(FinishScenario(scenario, setup, clip_digests));
+    } else {
+      ASSIGN_OR_RETURN(auto files, TruthsOf(setup, clip_digests, place));
+      finished.push_back(FinishScenario(scenario, setup, {}));
+      finished.back().files = std::move(files);
+    }
     // The worlds of a secret seed also depend on the version of secret worlds.
     if (setup.seed.IsPlain()) continue;
     for (auto& [condition, digest] : finished.back().worlds) {

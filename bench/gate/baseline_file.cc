@@ -24,12 +24,14 @@ Json EncodePairs(const NamedDigests& pairs) {
 Json EncodeScenario(const SnapshotScenario& scenario) {
   Json metrics = Json::object();
   for (const auto& [id, version] : scenario.metrics) metrics[id] = version;
-  return {{"scenario", scenario.name},
-          {"seed", scenario.seed},
-          {"trials", scenario.trials},
-          {"metrics", std::move(metrics)},
-          {"worlds", EncodePairs(scenario.worlds)},
-          {"methods", EncodePairs(scenario.methods)}};
+  Json json{{"scenario", scenario.name},
+            {"seed", scenario.seed},
+            {"trials", scenario.trials},
+            {"metrics", std::move(metrics)},
+            {"worlds", EncodePairs(scenario.worlds)},
+            {"methods", EncodePairs(scenario.methods)}};
+  for (const auto& [name, truth] : scenario.files) json["files"].push_back({name, truth});  // their order counts
+  return json;
 }
 
 Json IdentityOf(const SnapshotScenario& scenario, const SnapshotCells& cells) {
@@ -151,7 +153,8 @@ class BaselineReader {
 
   Result<void> ReadScenario(const Json& entry, const Place& place) {
     ASSIGN_OR_RETURN(const auto line, JsonObject::Of(entry, place, "a scenario",
-                                                     {"scenario", "seed", "trials", "metrics", "worlds", "methods"}));
+                                                     {"scenario", "seed", "trials", "metrics", "worlds", "methods"},
+                                                     {"files"}));
     // Name, seed and trials.
     SnapshotScenario scenario;
     ASSIGN_OR_RETURN(scenario.name, line.Text("scenario"));
@@ -171,6 +174,7 @@ class BaselineReader {
     };
     RETURN_IF_ERROR(read_digests("worlds", scenario.worlds));
     RETURN_IF_ERROR(read_digests("methods", scenario.methods));
+    RETURN_IF_ERROR(ReadFiles(line, scenario));
     RETURN_IF_ERROR(line.Each("metrics", [&](const std::string& id, const JsonObject& inner) -> Result<void> {
       if (FindMetric(id) == nullptr) {
         return Fail(place, "scenario {} has an unknown metric {}", Quote(scenario.name), Quote(id));
@@ -181,6 +185,20 @@ class BaselineReader {
     }));
     snapshot_.scenarios.push_back(std::move(scenario));
     return {};
+  }
+
+  /// Reads the names of worlds made of files, and the digests of their truths.
+  static Result<void> ReadFiles(const JsonObject& line, SnapshotScenario& scenario) {
+    if (!line.Has("files")) return {};
+    ASSIGN_OR_RETURN(const Json* files, line.List("files"));
+    for (const Json& file : *files) {
+      if (!file.is_array() || file.size() != 2 || !file[0].is_string() || !file[1].is_string()) {
+        return Fail(line.place(), "'files' must list pairs of a name and a digest, found {}", DescribeJson(file));
+      }
+      scenario.files.emplace_back(file[0].get<std::string>(), file[1].get<std::string>());
+    }
+    if (scenario.files.size() == static_cast<std::size_t>(scenario.trials)) return {};
+    return Fail(line.place(), "{} files; its scenario has {} trials", scenario.files.size(), scenario.trials);
   }
 
   /// Checks the number of lines before the table is allocated: two long lists of names in a small file could declare a

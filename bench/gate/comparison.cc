@@ -1,6 +1,7 @@
 #include "bench/gate/comparison.h"
 
 #include <algorithm>
+#include <map>
 
 namespace etude {
 namespace {
@@ -55,6 +56,62 @@ const std::string* FindDigest(const NamedDigests& digests, const std::string& na
   return found == nullptr ? nullptr : &found->second;
 }
 
+/// The trials of the worlds that two snapshots of a scenario share.
+struct SharedWorlds {
+  std::vector<std::size_t> before, after;
+};
+
+/// Returns the worlds to compare: of files those of one name and one truth, else those of equal trials. Files that only
+/// one of both has are added to the lists.
+SharedWorlds FindShared(const SnapshotScenario& before, const SnapshotScenario& after, SnapshotComparison& comparison) {
+  SharedWorlds shared;
+  if (before.files.empty() || after.files.empty()) {
+    for (int t = 0; t < std::min(before.trials, after.trials); ++t) {
+      shared.before.push_back(static_cast<std::size_t>(t));
+      shared.after.push_back(static_cast<std::size_t>(t));
+    }
+    return shared;
+  }
+  std::map<std::string, std::size_t> trial_of;
+  for (std::size_t t = 0; t < after.files.size(); ++t) trial_of[after.files[t].first] = t;
+  for (std::size_t t = 0; t < before.files.size(); ++t) {
+    const auto& [name, truth] = before.files[t];
+    const auto found = trial_of.find(name);
+    const bool is_same = found != trial_of.end() && after.files[found->second].second == truth;
+    if (is_same) {
+      shared.before.push_back(t);
+      shared.after.push_back(found->second);
+    } else {
+      comparison.only_before.push_back(before.name + ", " + name + (found == trial_of.end() ? "" : ", its truth"));
+    }
+    if (is_same) trial_of.erase(found);
+  }
+  for (const auto& [name, truth] : after.files) {
+    const auto left = trial_of.find(name);
+    if (left == trial_of.end()) continue;
+    const bool has_other = FindDigest(before.files, name) != nullptr;
+    comparison.only_after.push_back(before.name + ", " + name + (has_other ? ", its truth" : ""));
+  }
+  return shared;
+}
+
+/// Returns the elements at these places.
+template <typename Elements>
+Elements Picked(const Elements& elements, const std::vector<std::size_t>& places) {
+  Elements picked;
+  for (const std::size_t place : places) picked.push_back(elements[place]);
+  return picked;
+}
+
+/// Keeps the cells' values of these trials only.
+SnapshotCells Picked(const SnapshotCells& cells, const std::vector<std::size_t>& trials) {
+  SnapshotCells picked{cells.condition, cells.method, Picked(cells.statuses, trials), {}};
+  for (const SnapshotValues& values : cells.metrics) {
+    picked.metrics.push_back({values.metric, Picked(values.values, trials)});
+  }
+  return picked;
+}
+
 std::vector<bool> WorldsToCompare(const SnapshotCells& before, const SnapshotCells& after) {
   std::vector<bool> compared(std::min(before.statuses.size(), after.statuses.size()));
   for (std::size_t t = 0; t < compared.size(); ++t) {
@@ -88,7 +145,8 @@ std::vector<std::string> WhyNotComparable(const SnapshotScenario& before, const 
     if (a != b) reasons.push_back(fmt::format("{}: {} {} and {}", before.name, what, a, b));
   };
   differ("seed", before.seed, after.seed);
-  differ("trials", before.trials, after.trials);
+  const bool are_files = !before.files.empty() && !after.files.empty();  // a file more or less leaves the others
+  if (!are_files) differ("trials", before.trials, after.trials);
   for (const auto& [condition, digest] : before.worlds) {
     const std::string* other = FindDigest(after.worlds, condition);
     if (other == nullptr || *other == digest) continue;
@@ -143,9 +201,12 @@ SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& afte
       const std::string* other = FindDigest(partner->methods, method);
       if (other != nullptr && *other != digest) comparison.settings_changed.push_back(scenario.name + ", " + method);
     }
-    for (const SnapshotCells& cells : scenario.cells) {
-      const SnapshotCells* others = FindCells(*partner, cells);
-      if (others == nullptr) continue;
+    const SharedWorlds shared = FindShared(scenario, *partner, comparison);
+    for (const SnapshotCells& all_cells : scenario.cells) {
+      const SnapshotCells* all_others = FindCells(*partner, all_cells);
+      if (all_others == nullptr) continue;
+      const SnapshotCells cells = Picked(all_cells, shared.before), kept_others = Picked(*all_others, shared.after);
+      const SnapshotCells* others = &kept_others;
       const std::vector<bool> compared = WorldsToCompare(cells, *others);
       // Measure the share of ok cells and every metric, world by world.
       const auto add = [&](const std::string& metric, const auto& values, const auto& other_values) {
@@ -153,6 +214,7 @@ SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& afte
         MetricMove& move = comparison.moves.emplace_back(
             MeasureMove({scenario.name, cells.condition, cells.method, metric}, columns, scenario.seed));
         move.tail = FindTail(columns, *FindGateMetric(metric), RuleOf(scenario.name, tails));
+        for (TailWorld& world : move.tail) world.trial = static_cast<int>(shared.after[world.trial]);
       };
       add(kOkShare, OkIn(cells.statuses), OkIn(others->statuses));
       // An exact comparison also counts a change between `unsolved` and `failed`, which kOkShare does not show.

@@ -39,7 +39,7 @@ class ScenarioTaker {
  public:
   explicit ScenarioTaker(const FinishedScenario& one) {
     const Study& study = one.study;
-    taken_ = {study.scenario, one.seed, study.trials, one.worlds, one.methods, {}, {}};
+    taken_ = {study.scenario, one.seed, study.trials, one.worlds, one.methods, {}, {}, one.files};
     const auto trials = static_cast<std::size_t>(study.trials);
     for (const std::string& id : study.gate.metrics) taken_.metrics.emplace_back(id, FindMetric(id)->version);
     for (const std::vector<SweptValue>& condition : study.conditions) {

@@ -20,6 +20,8 @@ struct FinishedScenario {
   std::uint64_t seed = 1;
   NamedDigests worlds;   ///< by condition (CompactLabel): the task's parameters and the clips
   NamedDigests methods;  ///< by method: its settings
+  /// Of a task that judges files, by trial: the world's name, and the digest of its truth. Empty for other tasks.
+  NamedDigests files = {};
 };
 
 /// A result folder, with all that a gate needs besides the rows; bench/finished_runs reads it.
@@ -59,6 +61,7 @@ struct SnapshotScenario {
   NamedDigests methods;                              ///< by method: its settings
   std::vector<std::pair<std::string, int>> metrics;  ///< the metrics kept, with their versions
   std::vector<SnapshotCells> cells;                  ///< conditions × methods
+  NamedDigests files = {};                           ///< FinishedScenario::files
 };
 
 /// The part of a run that is kept as a baseline, so that later runs can be compared with it world by world.

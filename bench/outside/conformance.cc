@@ -328,6 +328,7 @@ Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::
   const TaskKind* kind = FindTaskKind(task);
   if (kind == nullptr) return Fail({}, "{}", UnknownName("task", task, NamesOf(Recipes(), &Recipe::task)));
   if (kind->seats.empty() && !seat.empty()) return Fail({}, "task {} has no seats", task);
+  if (!kind->has_problems && kind->seats.empty()) return Fail({}, "task {} asks no program", task);
   if (seat.empty() && !kind->has_problems) {
     return Fail({}, "task {} needs a seat: {}", task, fmt::join(kind->seats, ", "));
   }

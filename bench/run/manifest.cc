@@ -17,6 +17,7 @@
 #include "engine/base/digest.h"
 #include "engine/base/machine.h"
 #include "engine/base/names.h"
+#include "io/clips/raw_motions.h"
 #include "io/files/files.h"
 #include "io/process/pinned_environment.h"
 #include "sim/render/renderer.h"
@@ -48,7 +49,24 @@ Json DescribeClips(const ClipLibrary& library) {
   return clips;
 }
 
+/// Lists the files of a task that judges files: of each world the truth, then the answers that there are.
+Json DescribeFiles(const PreparedScenario& scenario) {
+  Json files = Json::array();
+  for (const JudgedFiles& world : scenario.setup().files) {
+    std::vector<std::string> references = {world.truth};
+    references.insert(references.end(), world.answers.begin(), world.answers.end());
+    for (const std::string& reference : references) {
+      if (reference.empty()) continue;
+      const auto digest = DigestOfFile(reference, scenario.opening());
+      files.push_back({{"name", world.name}, {"source", reference}, {"digest", digest.value_or("")}});
+      if (!digest) files.back()["note"] = ToString(digest.error());
+    }
+  }
+  return files;
+}
+
 Json DescribeMotions(const PreparedScenario& scenario) {
+  if (!scenario.setup().files.empty()) return DescribeFiles(scenario);
   Json motions = DescribeClips(scenario.clips());
   if (scenario.setup().streams.empty()) return motions;
   for (const NamedStream& recording : scenario.recordings()->streams) {
@@ -178,7 +196,7 @@ Result<void> CheckClips(const FilePath& path, std::span<const PreparedScenario> 
       if (c < now.size() && c < then.size() && now[c] == then[c]) continue;
       const auto name = [&](const Json& clips) {
         return c < clips.size() ? fmt::format("{} {} ({})", clips[c].value("name", "?"), clips[c].value("digest", "?"),
-                                              clips[c].value("note", ""))
+                                              clips[c].value("note", clips[c].value("source", "")))
                                 : "no clip";
       };
       return Fail({path.string(), 0, 0}, "clip {} of scenario {} was {} then and is {} now", c + 1,

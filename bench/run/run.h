@@ -18,6 +18,7 @@ namespace etude {
 
 struct RunOptions {
   std::vector<std::string> scenarios;  ///< files, or folders of *.yaml; empty with `from`
+  std::string text = {};               ///< of the one file in `scenarios`, which is then not read
   std::string from;                    ///< manifest.json of the run to be repeated
   std::optional<std::uint64_t> seed;   ///< instead of each scenario's own seed, or 1
   std::optional<SecretKey> key = {};   ///< of secret worlds; instead of a seed

@@ -31,22 +31,29 @@ Result<std::map<std::string, std::string>> NamedTextsOf(const Condition& conditi
   return named_texts;
 }
 
+/// Returns the mappings of the methods that the task runs.
+std::vector<Node> NodesInTask(const Scenario& scenario) {
+  std::vector<Node> nodes;
+  for (const MethodEntry& method : scenario.methods) {
+    if (method.RunsInTask()) nodes.push_back(method.node);
+  }
+  return nodes;
+}
+
 /// Makes one task per condition. The task reads its own keys from the condition's mapping; a key that neither the task
 /// nor the scenario knows is an error.
 Result<std::vector<std::unique_ptr<Task>>> MakeTasks(
     const Scenario& scenario, const std::function<const ClipLibrary&(const Condition&)>& clips_of,
-    const SourceTexts& texts, const LabelledStreams* recordings) {
-  std::vector<Node> built_in;
-  for (const MethodEntry& method : scenario.methods) {
-    if (method.RunsInTask()) built_in.push_back(method.node);
-  }
+    const SourceTexts& texts, const LabelledStreams* recordings, const ScenarioSetup& setup,
+    const OpenOptions& opening) {
+  const std::vector<Node> built_in = NodesInTask(scenario);
   const TaskKind& kind = *FindTaskKind(scenario.task);
   std::vector<std::unique_ptr<Task>> tasks;
   for (const Condition& condition : scenario.conditions) {
     Fields fields(condition.node, "a scenario of task " + scenario.task);
     for (const KeyInfo& key : CommonScenarioKeys()) fields.Raw(key.key);
     ASSIGN_OR_RETURN(auto named_texts, NamedTextsOf(condition, kind, texts));
-    TaskInput input{fields, built_in, clips_of(condition), std::move(named_texts), recordings};
+    TaskInput input{fields, built_in, clips_of(condition), std::move(named_texts), recordings, setup.files, &opening};
     ASSIGN_OR_RETURN(auto task, kind.make(input));
     RETURN_IF_ERROR(fields.Finish());
     tasks.push_back(std::move(task));
@@ -107,6 +114,10 @@ Json EncodeSetup(const SuiteSetup& setup) {
     for (const RefusedClip& one : scenario.refused) {
       scenarios.back()["refused"].push_back({{"clip", one.clip}, {"why", one.why}});
     }
+    for (const JudgedFiles& one : scenario.files) {
+      scenarios.back()["files"].push_back({{"name", one.name}, {"truth", one.truth}, {"answers", one.answers}});
+      if (!one.unit.empty()) scenarios.back()["files"].back()["unit"] = one.unit;
+    }
     if (scenario.keeps_motions) scenarios.back()["keeps_motions"] = true;
     if (!scenario.streams.empty()) scenarios.back()["streams"] = scenario.streams;
     if (!scenario.labels.empty()) scenarios.back()["labels"] = scenario.labels;
@@ -158,6 +169,11 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
       for (const Json& one : scenario.value("refused", Json::array())) {
         setup.scenarios.back().refused.push_back({one.at("clip").get<std::string>(), one.at("why").get<std::string>()});
       }
+      for (const Json& one : scenario.value("files", Json::array())) {
+        setup.scenarios.back().files.push_back({one.at("name").get<std::string>(), one.value("unit", ""),
+                                                one.at("truth").get<std::string>(),
+                                                one.at("answers").get<std::vector<std::string>>()});
+      }
       for (const Json& library : scenario.value("libraries", Json::array())) {
         setup.scenarios.back().libraries.push_back(
             {library.at("name").get<std::string>(), library.at("clips").get<std::vector<std::string>>()});
@@ -175,8 +191,6 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
   return setup;
 }
 
-namespace {
-
 Result<OpenOptions> OpenOptionsOf(const ScenarioSetup& setup, const SourceTexts& texts) {
   OpenOptions how;
   how.recorded = &MotionsOfRuns();
@@ -187,6 +201,25 @@ Result<OpenOptions> OpenOptionsOf(const ScenarioSetup& setup, const SourceTexts&
   how.roles = std::move(roles);
   return how;
 }
+
+Result<void> FindFiles(const Scenario& scenario, const SourceTexts& texts, ScenarioSetup& setup) {
+  const TaskKind& kind = *FindTaskKind(scenario.task);
+  if (kind.find_files == nullptr) return {};
+  FoundFiles found;
+  for (const Condition& condition : scenario.conditions) {
+    ASSIGN_OR_RETURN(const auto named_texts, NamedTextsOf(condition, kind, texts));
+    ASSIGN_OR_RETURN(auto of_condition, kind.find_files(condition.node, NodesInTask(scenario), named_texts));
+    if (!found.worlds.empty() && of_condition.worlds != found.worlds) {
+      return Fail(condition.node.place, "conditions of task {} judge the same files; only how can be swept", kind.name);
+    }
+    found = std::move(of_condition);
+  }
+  for (auto& [file, why] : found.left_out) setup.refused.push_back({file, why});
+  setup.files = std::move(found.worlds);
+  return {};
+}
+
+namespace {
 
 /// Returns null if worlds are not made of recordings. `refused`, unless null, gets the files that are left out.
 Result<std::unique_ptr<LabelledStreams>> LoadRecordings(const ScenarioSetup& setup, const StreamSource& source,
@@ -269,8 +302,10 @@ Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& s
   prepared.setup_ = setup;
   ASSIGN_OR_RETURN(prepared.recordings_,
                    LoadRecordings(setup, prepared.scenario_.streams, *prepared.clips_, suite.sources));
+  prepared.opening_ = std::make_unique<OpenOptions>(how);
   const auto clips_of = [&](const Condition& condition) -> const ClipLibrary& { return prepared.ClipsOf(condition); };
-  ASSIGN_OR_RETURN(auto tasks, MakeTasks(prepared.scenario_, clips_of, suite.sources, prepared.recordings()));
+  ASSIGN_OR_RETURN(auto tasks, MakeTasks(prepared.scenario_, clips_of, suite.sources, prepared.recordings(), setup,
+                                         *prepared.opening_));
   prepared.tasks_ = std::move(tasks);
   prepared.dice_names_ = NameDice(prepared.scenario_, setup.seed);
   if (suite.scored) {
@@ -329,6 +364,10 @@ Row PreparedScenario::IdentityOf(int condition, int trial, std::size_t method) c
   row.trial = trial;
   if (!clips.empty()) row.clip = clips.front();
   row.units = UnitsOf(clips, scenario_.unit, ClipsOf(scenario_.conditions[condition]));
+  // Files may be of people who have several.
+  if (!setup_.files.empty() && !row.units.empty() && !setup_.files[trial].unit.empty()) {
+    row.units = {setup_.files[trial].unit};
+  }
   row.method = scenario_.methods[method].name;
   return row;
 }

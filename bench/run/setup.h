@@ -38,6 +38,7 @@ struct ScenarioSetup {
   std::vector<std::string> streams = {};   ///< recordings: the scenario's own, or those of --streams
   std::vector<std::string> labels = {};    ///< keys of SuiteSetup::sources
   std::vector<RefusedClip> refused = {};   ///< left out of `clips`, `libraries` and `streams`
+  std::vector<JudgedFiles> files = {};     ///< the worlds of a task that judges files, one a trial
   bool keeps_motions = false;              ///< record every cell (--keep motions), not only those that `video` names
 };
 
@@ -82,6 +83,7 @@ class PreparedScenario {
   /// Returns the recordings of people that its worlds are made of; null if they are not made of recordings.
   const LabelledStreams* recordings() const { return recordings_.get(); }
   const Task& task(int condition) const { return *tasks_[condition]; }
+  const OpenOptions& opening() const { return *opening_; }
 
   /// Returns the key of the dice of a trial under a condition. Conditions of open worlds share it. Secret worlds have
   /// one per condition, because two worlds with the same dice and different noise would together reveal the truth.
@@ -104,9 +106,17 @@ class PreparedScenario {
   std::unique_ptr<ClipLibrary> clips_;
   std::map<std::string, ClipLibrary> libraries_;  ///< by name
   std::unique_ptr<LabelledStreams> recordings_;
+  std::unique_ptr<OpenOptions> opening_;
   std::vector<std::unique_ptr<Task>> tasks_;  ///< one per condition
   std::vector<std::string> dice_names_;       ///< one per condition: WorldKey::scenario
 };
+
+/// Finds the files of a scenario whose task judges files, and sets its trials to their number; does nothing for other
+/// tasks. Files that are left out are added to `setup.refused`.
+Result<void> FindFiles(const Scenario& scenario, const SourceTexts& texts, ScenarioSetup& setup);
+
+/// Returns how the motions of a scenario are opened.
+Result<OpenOptions> OpenOptionsOf(const ScenarioSetup& setup, const SourceTexts& texts);
 
 /// Returns true if the cameras of task `capture` are the sensor of a task of another kind.
 bool IsFilmed(const Scenario& scenario);

@@ -196,6 +196,13 @@ Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const s
   setup.keeps_motions = options.keeps_motions;
   if (options.skip_refused) RETURN_IF_ERROR(LeaveOutRefused(setup, sources));
   ASSIGN_OR_RETURN(setup.labels, KeepLabels(scenario.streams.labels, sources));
+  RETURN_IF_ERROR(FindFiles(scenario, sources, setup));
+  if (!setup.files.empty()) {  // each pair of files is one trial; --trials takes the first of them
+    if (options.key)
+      return Fail({file, 0, 0}, "--seed-file: scenario {} draws no dice, it judges files", scenario.name);
+    setup.trials = std::min(options.trials.value_or(static_cast<int>(kMaxCells)), static_cast<int>(setup.files.size()));
+    setup.files.resize(static_cast<std::size_t>(setup.trials));
+  }
   ASSIGN_OR_RETURN(const auto people, CountRecordedPeople(setup, scenario.streams, sources));
   if (people) setup.trials = std::min(trials, *people);  // each person is one trial
   return setup;
@@ -242,7 +249,10 @@ Result<std::vector<std::string>> FindScenarioFiles(const std::vector<std::string
 }
 
 Result<SuiteSetup> ReadSuite(const RunOptions& options) {
-  ASSIGN_OR_RETURN(const auto files, FindScenarioFiles(options.scenarios));
+  std::vector<std::string> files = options.scenarios;
+  if (options.text.empty()) {
+    ASSIGN_OR_RETURN(files, FindScenarioFiles(options.scenarios));
+  }
   ASSIGN_OR_RETURN(const auto libraries, ReadLibraryOptions(options.libraries));
   SuiteSetup suite;
   suite.suite = SuiteName(options.scenarios);
@@ -253,11 +263,14 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
   for (const std::string& file : files) {
     // The file with its includes, and their digest in the order of their canonical names.
     SourceTexts texts;
-    ASSIGN_OR_RETURN(auto scenarios, ReadScenarios(file, texts));
+    if (!options.text.empty()) texts[file] = options.text;
+    ASSIGN_OR_RETURN(auto scenarios, options.text.empty() ? ReadScenarios(file, texts) : ParseScenarios(file, texts));
     suite.parsed[file] = scenarios;
     std::vector<std::string> names;
     for (const auto& [name, text] : texts) names.push_back(name);
-    const auto canonical = CanonicalNames(file, names);
+    // A text without a file has the same name everywhere.
+    const auto canonical =
+        options.text.empty() ? CanonicalNames(file, names) : std::map<std::string, std::string>{{file, file}};
     std::map<std::string_view, std::string_view> texts_in_order;
     for (const auto& [name, text] : texts) texts_in_order[canonical.at(name)] = text;
     Digest digest;
@@ -297,6 +310,17 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
                                   "--streams or --labels: no task of its scenarios makes its worlds of recordings"));
   }
   return suite;
+}
+
+Result<void> RefuseFiles(const SuiteSetup& suite) {
+  for (const ScenarioSetup& setup : suite.scenarios) {
+    if (setup.files.empty()) continue;
+    return Fail(
+        {setup.file, 0, 0},
+        "scenario {} judges files: there are no problems to export or score; etude run or etude evaluate does it",
+        setup.name);
+  }
+  return {};
 }
 
 Result<SuiteSetup> ReadSuiteToRun(const RunOptions& options) {

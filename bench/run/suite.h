@@ -30,4 +30,7 @@ Result<SuiteSetup> ReadSuiteToRun(const RunOptions& options);
 /// Calls PrepareAll. With `options.from`, fails if clips have changed since, or if programs are not allowed.
 Result<std::vector<PreparedScenario>> PrepareToRun(const SuiteSetup& suite, const RunOptions& options);
 
+/// Fails if a scenario's task judges files: it has no problems to export, and no predictions to score.
+Result<void> RefuseFiles(const SuiteSetup& suite);
+
 }  // namespace etude

@@ -62,6 +62,9 @@ Result<MethodEntry> ReadSeated(const Node& node, const TaskKind& kind) {
   Fields method(node, "a method of task " + kind.name + " with 'exec'");
   MethodEntry entry;
   OutsideMethodFields().ReadKeys(method, entry);
+  if (kind.seats.empty()) {
+    return Fail(node.Find("exec")->place, "task {} asks no program: 'exec' has no use in it", kind.name);
+  }
   entry.seat = method.Choice("seat", kind.seats, "");
   if (entry.seat.empty() && method.ok()) {
     method.Complain(node.place, fmt::format("a program of task {} needs a 'seat' in its loop: {}", kind.name,

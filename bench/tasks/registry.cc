@@ -8,7 +8,7 @@ namespace etude {
 std::span<const TaskKind> AllTaskKinds() {
   static const std::vector<TaskKind> kinds = {MakeTransitionTaskKind(),   MakeDetectionTaskKind(), MakeIkTaskKind(),
                                               MakeTrackingTaskKind(),     MakeCaptureTaskKind(),   MakeSearchTaskKind(),
-                                              MakePoseDistanceTaskKind(), MakeCoachTaskKind()};
+                                              MakePoseDistanceTaskKind(), MakeCoachTaskKind(), MakeEvaluationTaskKind()};
   return kinds;
 }
 

@@ -7,7 +7,8 @@
 
 namespace etude {
 
-/// Returns all kinds of tasks: transition, detection, ik, tracking, capture, search, pose-distance, coach.
+/// Returns all kinds of tasks: transition, detection, ik, tracking, capture, search, pose-distance, coach,
+/// evaluation.
 std::span<const TaskKind> AllTaskKinds();
 /// Returns the task of that name; null if there is none.
 const TaskKind* FindTaskKind(std::string_view name);

@@ -98,6 +98,13 @@ std::vector<std::string> JointLayoutNames() {
   return names;
 }
 
+std::vector<std::string> JointsOfLayout(std::string_view layout, std::size_t joints) {
+  for (const JointLayout& one : Layouts()) {
+    if (one.name == layout && one.joints.size() == joints) return {one.joints.begin(), one.joints.end()};
+  }
+  return {};
+}
+
 Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional<std::string>& layout,
                                    const std::string& file, std::string& note) {
   if (array.shape.size() != 3 || array.shape[2] != 3 || array.shape[0] == 0) {

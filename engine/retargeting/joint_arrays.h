@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/result.h"
@@ -14,6 +15,10 @@ namespace etude {
 /// Returns the layouts of joints that arrays may have: "etude" (20), "smpl" (22 or 24), "h36m" (17), "coco" (17),
 /// "body_25", "halpe_26".
 std::vector<std::string> JointLayoutNames();
+
+/// Returns the joints of a layout by name, in its order: a role's name where a joint plays one. `joints` chooses among
+/// layouts of one name. Empty if there is no such layout.
+std::vector<std::string> JointsOfLayout(std::string_view layout, std::size_t joints);
 
 /// Converts an array T × J × 3 (frames, joints, X Y Z; NaN: not seen) to trajectories at the judged rate, because such
 /// a file contains no rate. `layout` is one of JointLayoutNames(); without it, the layout is that with J joints. The

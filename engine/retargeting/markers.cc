@@ -180,6 +180,34 @@ UpFinding FindUpOf(const std::vector<JointPositions>& frames, double rate_hz, co
   return FindUp(poses, rate_hz, rule);
 }
 
+/// Returns MarkerBody::shown. `seen` holds the joints of every frame; `up` is the direction that becomes Y.
+MarkerMotion AsShown(double scale, const MarkerMotion& markers, const MarkerSet& set, const MarkerColumns& columns,
+                     const std::vector<JointPositions>& seen, const glm::dvec3& up) {
+  MarkerMotion shown{.rate_hz = markers.rate_hz, .names = {}, .frames = {}, .remark = set.name};
+  if (scale != 1) shown.remark += fmt::format("; taken for {:g} times the file's unit, by the body's stature", scale);
+  if (!markers.remark.empty()) shown.remark += "; " + markers.remark;
+  std::vector<Role> roles;
+  for (const Role role : AllRoles()) {
+    if (Determines(set, columns, role)) roles.push_back(role);
+  }
+  for (const Role role : roles) shown.names.emplace_back(RoleName(role));
+  std::vector<std::size_t> others;
+  for (const auto& [name, column] : columns) {
+    if (FindRole(name)) continue;
+    shown.names.push_back(name);
+    others.push_back(column);
+  }
+  for (std::size_t t = 0; t < markers.frames.size(); ++t) {
+    std::vector<MarkerPosition>& row = shown.frames.emplace_back();
+    for (const Role role : roles) row.push_back(seen[t][Index(role)]);
+    for (const std::size_t column : others) row.push_back(markers.frames[t][column]);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (row[i]) row[i] = TurnedUp((i < roles.size() ? 1 : scale) * *row[i], up);
+    }
+  }
+  return shown;
+}
+
 /// Returns the longest range of frames in which every needed joint is known: its first frame and the frame after its
 /// last.
 std::pair<std::size_t, std::size_t> LongestStretch(const std::vector<JointPositions>& frames) {
@@ -233,6 +261,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
     wands.push_back(WandsOf(columns, frame, scale));
   }
   const std::string centres = MoveToJointCentres(set, markers.sizes_m, wands, frames);
+  const std::vector<JointPositions> seen = frames;
   int filled = 0;
   const auto max_gap = static_cast<std::size_t>(kMaxGap_s * markers.rate_hz);
   for (std::size_t joint = 0; joint < kRoleCount; ++joint) filled += BridgeGaps(frames, joint, max_gap);
@@ -268,6 +297,8 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   if (std::string turn = DescribeTurn(body.up); !turn.empty()) body.changes.push_back(std::move(turn));
   if (!body.up.doubt.empty()) body.changes.push_back(body.up.doubt);
   StandOnFloor(options.keep_floor, IsOwn(set), body);
+  body.shown = AsShown(scale, markers, set, columns, seen, body.up.axis);
+  if (!centres.empty()) body.shown.remark += "; " + centres;
   return body;
 }
 

@@ -28,6 +28,10 @@ struct MarkerBody {
   /// The marker set, then every correction and change of what the file holds, each for people.
   std::vector<std::string> changes;
   std::string note;  ///< all of them, between semicolons
+  /// The joints as the markers show them, in all frames of the file and with its gaps: no gap is filled, no joint placed
+  /// by rule, no floor found. First the joints that the set determines, by the names of their roles, then the person's
+  /// other markers, by their own in lower case. Metres, Y up. Its remark names the set, and what was guessed.
+  MarkerMotion shown = {};
 };
 
 /// Finds the bodies of a marker recording by the markers' names. Known sets: Etude's own joints, OpenPose's BODY_25,

@@ -368,12 +368,16 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   const bool is_recording = file.format == ClipFormat::kRecording;
   if (!is_recording && options.roles && options.roles->rate_hz) {
     for (Clip& clip : file.clips) clip.rate_hz = *options.roles->rate_hz;
+    for (MarkerMotion& shown : file.shown) shown.rate_hz = *options.roles->rate_hz;
   } else if (!file.has_rate) {
     for (MadeBody& body : file.bodies) {
       body.changes.push_back(fmt::format("no rate in the file: {:g} Hz are assumed", kJudgedRateHz));
     }
   }
   if (is_recording && wanted.animation == "") wanted.animation = options.recorded->OwnTrack(file.clips);
+  const auto shown_of = [&](std::size_t i) {
+    return file.shown.empty() ? nullptr : std::make_shared<const MarkerMotion>(std::move(file.shown[i]));
+  };
   // A file of one motion: a '#' chooses nothing, except the layout of an .npy array.
   const bool has_animations =
       file.format == ClipFormat::kGltf || file.format == ClipFormat::kGlb || file.format == ClipFormat::kFbx;
@@ -386,12 +390,14 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
     const std::string source = wanted.path + (wanted.animation ? "#" + *wanted.animation : "");
     std::vector<SourceClip> only;  // moved into: an initializer list would copy the frames
     only.push_back({stem, source, file.format, std::move(file.clips.front()), nullptr, std::nullopt,
-                    file.bodies.empty() ? std::nullopt : std::optional(file.bodies.front()), file.remarks});
+                    file.bodies.empty() ? std::nullopt : std::optional(file.bodies.front()), file.remarks, file.roles, shown_of(0)});
     return only;
   }
   // A file of several clips: undo scales and find the common ground before one clip is chosen.
   std::map<std::string, MadeBody> bodies;
   for (std::size_t i = 0; i < file.bodies.size(); ++i) bodies[file.clips[i].name] = file.bodies[i];
+  std::map<std::string, std::shared_ptr<const MarkerMotion>> shown;
+  for (std::size_t i = 0; i < file.shown.size(); ++i) shown[file.clips[i].name] = shown_of(i);
   TakeScalesOut(file, wanted.path, options);
   const std::optional<Ground> ground = GroundOf(file, wanted.path, options);
   RETURN_IF_ERROR(KeepWanted(wanted, file.figure, file.clips));
@@ -401,9 +407,10 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   std::vector<SourceClip> clips;
   for (Clip& clip : file.clips) {
     const std::string animation = "#" + clip.name;
-    const auto made = bodies.find(clip.name);
+    const std::string clip_name = clip.name;
+    const auto made = bodies.find(clip_name);
     clips.push_back({stem + animation, wanted.path + animation, file.format, std::move(clip), figure, ground,
-                     made == bodies.end() ? std::nullopt : std::optional(made->second), file.remarks, file.roles});
+                     made == bodies.end() ? std::nullopt : std::optional(made->second), file.remarks, file.roles, shown[clip_name]});
   }
   return clips;
 }

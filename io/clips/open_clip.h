@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/formats/trc.h"
 #include "engine/motion/character.h"
 #include "engine/motion/clip.h"
 #include "engine/retargeting/joint_map.h"
@@ -55,6 +56,7 @@ struct ClipFile {
   std::vector<MadeBody> bodies = {};      ///< one for each clip, if they are bodies already
   std::vector<std::string> remarks = {};  ///< repairs that were made while reading
   std::optional<JointMapOverrides> roles = {};  ///< roles that the bone table of a VRM file assigns
+  std::vector<MarkerMotion> shown = {};  ///< for clips that were made of markers: MarkerBody::shown of each
   bool has_rate = true;  ///< false: the file tells no rate, and the judged one was assumed
 };
 
@@ -92,6 +94,7 @@ struct SourceClip {
   std::vector<std::string> remarks = {};  ///< repairs made while reading the file; UnderstandClip appends them to the
                                           ///< body's note
   std::optional<JointMapOverrides> roles = {};  ///< as in ClipFile::roles; those of OpenOptions have priority
+  std::shared_ptr<const MarkerMotion> shown = {};  ///< as in ClipFile::shown; null for other clips
 };
 
 /// Reads the clips of one file or built-in name (as ExpandReference returns them): the one clip of a BVH, all

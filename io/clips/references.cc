@@ -91,7 +91,7 @@ Result<BuiltinClip> LoadBuiltinClip(const std::string& name, const Place& place)
   return clip;
 }
 
-Result<std::vector<std::string>> ExpandReference(const std::string& reference, const Place& place) {
+Result<std::vector<std::string>> ExpandReference(const std::string& reference, const Place& place, std::size_t most) {
   const bool is_builtin = reference.starts_with(kBuiltinPrefix);
   std::vector<std::string> found = is_builtin ? BuiltinsOf(reference) : FilesOf(reference);
   if (const PackagedClips* package = FindPackage(reference); found.empty() && package != nullptr) {
@@ -105,7 +105,7 @@ Result<std::vector<std::string>> ExpandReference(const std::string& reference, c
                 "as 'mocap/*.bvh'",
                 reference);
   }
-  if (found.size() > kMaxClips) return Fail(place, "'{}' stands for more than {} clips", reference, kMaxClips);
+  if (found.size() > most) return Fail(place, "'{}' stands for more than {} clips", reference, most);
   return found;
 }
 

@@ -29,8 +29,9 @@ constexpr std::size_t kMaxClips = 1000;
 /// ("builtin:clap"; "builtin:*" are all moves, "builtin:acts" and "builtin:songs" the others), a clip of a package
 /// ("assimp:01_01", "assimp:*"; of Debian's assimp-testmodels), or a file or pattern ("mocap/*.bvh", sorted; `~/` is
 /// the home folder), optionally with "#animation". If a file of exactly that name exists, patterns and '#' are not
-/// interpreted. Relative names start at the current folder. Fails at `place` if nothing matches.
-Result<std::vector<std::string>> ExpandReference(const std::string& reference, const Place& place);
+/// interpreted. Relative names start at the current folder. Fails at `place` if nothing matches, or more than `most` do.
+Result<std::vector<std::string>> ExpandReference(const std::string& reference, const Place& place,
+                                                 std::size_t most = kMaxClips);
 
 /// Lists the clips that all references stand for, in order. Fails if there are more than `kMaxClips`.
 Result<std::vector<std::string>> ExpandReferences(const std::vector<std::string>& references);

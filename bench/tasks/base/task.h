@@ -94,6 +94,22 @@ class Task {
 
 struct ClipLibrary;
 struct LabelledStreams;
+struct OpenOptions;
+
+/// A world of a task that judges files: a truth, and an answer of each method.
+struct JudgedFiles {
+  std::string name;   ///< identifies the world, whatever other files there are
+  std::string unit;   ///< what the world counts for beyond itself, such as a person; "" = its name
+  std::string truth;  ///< a reference to a motion (io/clips/references.h)
+  std::vector<std::string> answers;  ///< likewise, by method; "" = the method has none for this truth
+  friend bool operator==(const JudgedFiles&, const JudgedFiles&) = default;
+};
+
+/// The worlds that a task found, and the files that it left out.
+struct FoundFiles {
+  std::vector<JudgedFiles> worlds;
+  std::vector<std::pair<std::string, std::string>> left_out;  ///< a file, and why
+};
 
 /// The parts of a scenario from which a task is made.
 struct TaskInput {
@@ -105,6 +121,9 @@ struct TaskInput {
   /// The recordings that replace simulated people, if the scenario has `streams` or `labels`
   /// (engine/teaching/labelled_streams.h); they outlive the task.
   const LabelledStreams* recordings = nullptr;
+  /// The worlds of a task that judges files (TaskKind::find_files), one a trial, and how their files are opened.
+  std::span<const JudgedFiles> files = {};
+  const OpenOptions* opening = nullptr;
 };
 
 /// A kind of task: one per folder of bench/tasks.
@@ -125,6 +144,11 @@ struct TaskKind {
   bool uses_recordings = false;  ///< … or of its `streams`
   /// The units that its worlds are drawn from: the default first, then others that a scenario may name; at least one.
   std::vector<SamplingUnit> units = {SamplingUnit::kWorld};
+  /// For a task that judges files instead of making worlds: finds them, once, when a run is set up. Such a task draws no
+  /// dice and asks no program. `texts` are as in TaskInput. Null: the task makes its worlds.
+  Result<FoundFiles> (*find_files)(const Node& condition, std::span<const Node> methods,
+                                   const std::map<std::string, std::string>& texts) = nullptr;
+  std::vector<std::string> keys_of_files = {};  ///< the keys of the condition that `find_files` alone reads
   /// Returns what its results depend on beside the build, for the manifest: "4.5 (Core Profile) Mesa 22.3.6".
   std::string (*platform)() = nullptr;
 };

@@ -27,5 +27,7 @@ TaskKind MakeSearchTaskKind();
 /// some hundreds of pairs of frames of two clips.
 TaskKind MakePoseDistanceTaskKind();
 TaskKind MakeCoachTaskKind();
+/// How close do the motions of files come to their truths in other files?
+TaskKind MakeEvaluationTaskKind();
 
 }  // namespace etude

@@ -158,6 +158,66 @@ TEST(Snapshots, ListWhatOnlyOneOfThemHolds) {
   EXPECT_THAT(CompareSnapshots(Reference(), {}, {}).only_before, ElementsAre("s"));
 }
 
+/// The reference as worlds made of files: "f0", "f1", … by trial, with a truth each.
+Snapshot OfFiles() {
+  Snapshot snapshot = Reference();
+  for (int t = 0; t < snapshot.scenarios[0].trials; ++t) {
+    snapshot.scenarios[0].files.emplace_back("f" + std::to_string(t), "truth" + std::to_string(t));
+  }
+  return snapshot;
+}
+
+/// The same without the world of this trial.
+Snapshot Without(Snapshot snapshot, int trial) {
+  SnapshotScenario& scenario = snapshot.scenarios[0];
+  --scenario.trials;
+  scenario.files.erase(scenario.files.begin() + trial);
+  for (SnapshotCells& cells : scenario.cells) {
+    cells.statuses.erase(static_cast<std::size_t>(trial), 1);
+    for (SnapshotValues& values : cells.metrics) values.values.erase(values.values.begin() + trial);
+  }
+  return snapshot;
+}
+
+TEST(Snapshots, OfFilesAreComparedByNameWhateverTheTrial) {
+  const Snapshot all = OfFiles(), fewer = Without(OfFiles(), 3);
+  EXPECT_THAT(WhyNotComparable(fewer, all), IsEmpty());
+  const SnapshotComparison more = CompareSnapshots(fewer, all, {});
+  for (const MetricMove& move : more.moves) EXPECT_EQ(move.movement, Movement::kSame) << move.identity.metric;
+  EXPECT_THAT(more.only_before, IsEmpty());
+  EXPECT_THAT(more.only_after, ElementsAre("s, f3"));
+  EXPECT_THAT(CompareSnapshots(all, fewer, {}).only_before, ElementsAre("s, f3"));
+  // The control: by trial, most worlds would differ.
+  Snapshot nameless = fewer, others = all;
+  nameless.scenarios[0].files.clear();
+  others.scenarios[0].files.clear();
+  EXPECT_THAT(WhyNotComparable(nameless, others), ElementsAre("s: trials 23 and 24"));
+  const SnapshotComparison shifted = CompareSnapshots(nameless, others, {});
+  EXPECT_TRUE(std::ranges::any_of(shifted.moves, [](const MetricMove& move) { return move.differing > 5; }));
+}
+
+TEST(Snapshots, OfFilesLeaveOutAWorldWhoseTruthIsAnother) {
+  Snapshot changed = OfFiles();
+  changed.scenarios[0].files[7].second = "another";
+  const SnapshotComparison comparison = CompareSnapshots(OfFiles(), changed, {});
+  EXPECT_THAT(comparison.only_before, ElementsAre("s, f7, its truth"));
+  EXPECT_THAT(comparison.only_after, ElementsAre("s, f7, its truth"));
+  EXPECT_EQ(comparison.moves.front().worlds, 23);
+}
+
+TEST(Snapshots, AFarWorseFileIsNamedByItsTrialInTheLaterRun) {
+  Snapshot later = Without(OfFiles(), 3);
+  SnapshotValues& values = later.scenarios[0].cells[0].metrics[0];
+  ASSERT_TRUE(values.values[9]);
+  *values.values[9] += 1e6;  // of "f10"
+  const SnapshotComparison comparison = CompareSnapshots(OfFiles(), later, {});
+  const auto move = std::ranges::find_if(comparison.moves, [&](const MetricMove& one) {
+    return one.identity.metric == values.metric && !one.tail.empty();
+  });
+  ASSERT_NE(move, comparison.moves.end());
+  EXPECT_EQ(move->tail.front().trial, 9);
+}
+
 TEST(Snapshots, AreComparableWhateverDoesNotShapeWorlds) {
   const auto same = [](int trial, const std::string&) { return ExampleResult(trial); };
   const Snapshot annotated = SnapshotOf(same, "expect: [{metric: position_error_cm, of: a, at_most: 99}]  # new\n");

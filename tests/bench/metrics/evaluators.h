@@ -26,5 +26,6 @@ std::span<const Evaluator> SearchEvaluators();
 std::span<const Evaluator> PoseDistanceEvaluators();
 std::span<const Evaluator> DetectionEvaluators();
 std::span<const Evaluator> CoachEvaluators();
+std::span<const Evaluator> EvaluationEvaluators();
 
 }  // namespace etude

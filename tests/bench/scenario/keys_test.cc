@@ -119,7 +119,8 @@ const std::vector<Probe> kProbes = {{"ik", ""},
                                     {"coach", ""},
                                     {"coach", "weights: adaptive"},
                                     {"pose-distance", ""},
-                                    {"pose-distance", "distance: point-cloud"}};
+                                    {"pose-distance", "distance: point-cloud"},
+                                    {"evaluation", ""}};
 
 /// What the task complains of when it is made of a condition and one method. It has no clips: whether it gets as far
 /// as to miss them does not matter here.

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace etude {
+
+/// Positions of some points over time: frames × points, metres, Y up; NaN: not seen.
+struct PointTracks {
+  std::size_t points = 0;
+  std::vector<glm::dvec3> positions;
+
+  std::size_t FrameCount() const { return points == 0 ? 0 : positions.size() / points; }
+  std::span<const glm::dvec3> Frame(std::size_t frame) const { return {&positions[frame * points], points}; }
+};
+
+/// An answer and its truth, frame by frame: the same joints in the same order, at one rate.
+struct EvaluatedPair {
+  double rate_hz = 30;
+  PointTracks found, truth;
+  /// The point by which a pose is moved to its root (the middle of the hips), one a frame; empty: neither has it.
+  std::vector<glm::dvec3> found_root, true_root;
+  /// Global rotations of the same joints, frames × joints; empty: one of both has none.
+  std::vector<glm::dquat> found_turns, true_turns;
+  /// The answer's feet: left ankle, left toes, right ankle, right toes; no points: it has no such joints.
+  PointTracks feet;
+};
+
+/// What is taken out of the answer before it is compared: a movement or, with `_scaled`, a similarity, found from the
+/// joints that both show. Reflections are never taken out.
+enum class Alignment {
+  kNone,
+  kRoot,         ///< in each frame, root onto root
+  kRootScaled,   ///< … and the one scale of that frame with the least squared error (N-MPJPE)
+  kFirst,        ///< the movement that fits the first frame best
+  kFirstScaled,  ///< …
+  kTake,         ///< the movement that fits all frames best
+  kTakeScaled,   ///< …
+  kFrame,        ///< in each frame, the movement that fits it best
+  kFrameScaled,  ///< … (PA-MPJPE)
+};
+
+/// Returns the answer's positions after the alignment; NaN where the answer or its truth is not seen, and in frames in
+/// which the alignment is not determined: without root, or with fewer than three joints seen by both.
+PointTracks Aligned(const EvaluatedPair& pair, Alignment alignment);
+/// The same for segments of `length` frames, each fitted by its first `fitted` frames alone, as similarities (W-MPJPE,
+/// WA-MPJPE). The last segment may be shorter.
+PointTracks AlignedBySegments(const EvaluatedPair& pair, std::size_t length, std::size_t fitted);
+
+/// Returns the distance of each joint from its truth, frames × joints, millimetres; NaN where either is not seen.
+std::vector<double> JointErrorsMm(const PointTracks& aligned, const PointTracks& truth);
+/// Returns the mean of the values that are not NaN; nothing if there are none.
+std::optional<double> MeanOfSeen(std::span<const double> values);
+/// Returns the share of values below `limit_mm`, among those that are not NaN.
+std::optional<double> ShareBelow(std::span<const double> values, double limit_mm);
+/// Returns the mean of ShareBelow at 0, 5, …, 150 mm, as MPI-INF-3DHP's code computes it.
+std::optional<double> AucTo150(std::span<const double> values);
+/// Returns the share of the truth's joints, over all its frames, that both show; nothing if the truth shows none.
+std::optional<double> SeenShare(const EvaluatedPair& pair);
+
+/// Returns the mean length of the difference between the second differences of answer and truth, over all joints and
+/// frames whose three frames both show; metres per frame². `left_out` of them are dropped at either end.
+std::optional<double> AccelerationError(const PointTracks& found, const PointTracks& truth, std::size_t left_out = 0);
+/// Returns the answer's third differences' mean length × rate³ ÷ 10 (WHAM).
+std::optional<double> Jitter(const PointTracks& found, double rate_hz);
+/// Returns the root's mean error after the best movement of its whole path, per cent of the true path's length (WHAM).
+/// Nothing if the true root does not move or fewer than three frames are seen.
+std::optional<double> RootTranslationError(const EvaluatedPair& pair);
+
+/// Returns the share of steps between frames in which a toe skates, as GMD's code computes it.
+std::optional<double> SkatingRatio(const PointTracks& feet, double rate_hz);
+/// Returns the mean speed of toes below 5 cm, m/s, as Kimodo's code computes it.
+std::optional<double> SkateFromHeight(const PointTracks& feet, double rate_hz);
+/// Returns PFC as EDGE's code computes it, with Y up and the motion's own rate.
+std::optional<double> PhysicalFootContact(const PointTracks& feet, std::span<const glm::dvec3> root, double rate_hz);
+/// Returns the mean depth of the answer's lowest joint below height 0, and its mean height above, millimetres.
+struct FloorErrors {
+  std::optional<double> penetration_mm, floating_mm;
+};
+FloorErrors MeasureFloor(const PointTracks& found);
+
+/// Returns the mean over frames of the length of the difference of all joints' quaternions together, as LAFAN1's code
+/// computes it. Signs are made continuous in time; a joint of the answer whose first quaternion lies nearer to the
+/// truth's with the other sign changes it throughout. Frames in which a joint is not seen by both are left out.
+std::optional<double> QuaternionError(const EvaluatedPair& pair);
+
+/// Returns the mean absolute difference of the angles at the middle of three points, degrees. Points come in threes:
+/// hip, knee, ankle; shoulder, elbow, wrist. Nothing if no three are seen by both.
+std::optional<double> BendErrorDeg(const PointTracks& found, const PointTracks& truth,
+                                   std::span<const std::array<std::size_t, 3>> bends);
+
+}  // namespace etude

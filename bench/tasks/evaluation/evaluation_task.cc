@@ -1,0 +1,106 @@
+#include "bench/tasks/base/read_methods.h"
+#include "bench/tasks/base/task_kinds.h"
+#include "bench/tasks/evaluation/find_files.h"
+#include "bench/tasks/evaluation/match.h"
+#include "bench/tasks/evaluation/options.h"
+#include "bench/tasks/evaluation/run.h"
+#include "engine/base/names.h"
+#include "io/clips/raw_motions.h"
+
+namespace etude {
+namespace {
+
+/// The data that all worlds of one condition share.
+struct EvaluationStudy {
+  EvaluationOptions options;
+  std::vector<EvaluationMethod> methods;
+  std::vector<JudgedFiles> files;
+  OpenOptions opening;
+};
+
+/// One pair of files. The truth is read when the world is made, each answer when it is judged.
+class EvaluationWorld final : public TaskWorld {
+ public:
+  EvaluationWorld(const EvaluationStudy& study, const JudgedFiles& files)
+      : study_(study), files_(files), truth_(OpenRawMotion(files.truth, study.opening)) {}
+
+  std::optional<std::string> WhySkipped() const override {
+    if (truth_) return std::nullopt;
+    return "the truth: " + ToString(truth_.error());
+  }
+
+  CellResult Run(std::size_t method) override {
+    const std::string& reference = files_.answers[method];
+    if (reference.empty()) return CellResult::Ended(Status::kFailed, "the method has no answer of this name");
+    const auto answer = OpenRawMotion(reference, study_.opening);
+    if (!answer) return CellResult::Ended(Status::kFailed, ToString(answer.error()));
+    const auto matched = Match(*truth_, *answer, study_.options.joints);
+    if (!matched) return CellResult::Ended(Status::kFailed, ToString(matched.error()));
+    return JudgeMotion(*matched);
+  }
+
+  Result<Payload> MakeProblem() override { return Refused(); }
+  Result<Payload> MakeTruth() override { return Refused(); }
+  Result<CellResult> Judge(const Json&) override { return Refused(); }
+
+ private:
+  static tl::unexpected<Error> Refused() { return Fail({}, "task evaluation judges files and asks no program"); }
+
+  const EvaluationStudy& study_;
+  const JudgedFiles& files_;
+  const Result<RawMotion> truth_;
+};
+
+class EvaluationTask final : public Task {
+ public:
+  explicit EvaluationTask(EvaluationStudy study) : study_(std::move(study)) {}
+
+  std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool /*keeps_motion*/) const override {
+    return std::make_unique<EvaluationWorld>(study_, study_.files[static_cast<std::size_t>(key.trial)]);
+  }
+
+  std::vector<std::string> ClipsOf(const WorldKey& key) const override {
+    return {study_.files[static_cast<std::size_t>(key.trial)].name};
+  }
+
+  Result<Payload> Setting() const override { return Fail({}, "task evaluation judges files and asks no program"); }
+
+ private:
+  const EvaluationStudy study_;
+};
+
+Result<std::unique_ptr<Task>> MakeEvaluationTask(TaskInput& input) {
+  EvaluationStudy study;
+  EvaluationConditionFields().Read(input.condition, study.options);
+  ASSIGN_OR_RETURN(study.methods, ReadMethods(input, "evaluation", EvaluationMethodFields()));
+  RETURN_IF_ERROR(CheckFiles(input.condition.node(), study.options));
+  study.files.assign(input.files.begin(), input.files.end());
+  if (input.opening != nullptr) study.opening = *input.opening;
+  for (const JudgedFiles& files : study.files) {
+    if (files.answers.size() != study.methods.size()) {
+      return Fail(input.condition.node().place, "{} has {} answers; the scenario has {} methods", Quote(files.name),
+                  files.answers.size(), study.methods.size());
+    }
+  }
+  return std::make_unique<EvaluationTask>(std::move(study));
+}
+
+}  // namespace
+
+TaskKind MakeEvaluationTaskKind() {
+  return {.name = "evaluation",
+          .question = "How close do the motions of files come to their truths?",
+          .default_metrics = {"mpjpe_unaligned_mm", "mpjpe_root_mm", "mpjpe_each_frame_scaled_mm", "accel_error_mps2",
+                              "bend_error_deg"},
+          .metrics = EvaluationMetrics(),
+          .make = MakeEvaluationTask,
+          .condition_keys = EvaluationConditionFields().Describe(),
+          .method_keys = EvaluationMethodFields().Describe(),
+          .has_problems = false,
+          .uses_clips = false,
+          .units = {SamplingUnit::kClip, SamplingUnit::kWorld},
+          .find_files = FindEvaluatedFiles,
+          .keys_of_files = {"truth", "pairs"}};
+}
+
+}  // namespace etude

@@ -1,0 +1,261 @@
+#include "bench/tasks/evaluation/find_files.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "bench/tasks/evaluation/options.h"
+#include "engine/base/names.h"
+#include "io/clips/references.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kPerson = "{person}";
+
+/// The extensions of motion files, which a folder is searched for.
+constexpr std::string_view kEndings[] = {".bvh", ".glb", ".gltf", ".fbx", ".amc", ".npz",
+                                         ".npy", ".c3d", ".trc",  ".csv", ".mot", ".vrm"};
+
+/// Returns a reference's name: of a file without folder and extension, and what stands behind '#'.
+std::string NameOfReference(const std::string& reference) {
+  if (reference.starts_with(kBuiltinPrefix)) return reference.substr(kBuiltinPrefix.size());
+  const SplitReference split = Split(reference);
+  const std::string stem = fs::path(split.path).stem().string();
+  return split.animation ? stem + "#" + *split.animation : stem;
+}
+
+/// Lists the motion files of a folder, sorted.
+std::vector<std::string> FilesIn(const std::string& folder) {
+  std::vector<std::string> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string ending = entry->path().extension().string();
+    if (std::ranges::find(kEndings, ending) != std::end(kEndings)) files.push_back(entry->path().string());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+Result<std::vector<std::string>> Expand(const std::vector<std::string>& references, const Place& place) {
+  std::vector<std::string> files;
+  for (const std::string& reference : references) {
+    std::error_code none;
+    if (fs::is_directory(reference, none) && reference.find('#') == std::string::npos) {
+      const std::vector<std::string> inside = FilesIn(reference);
+      if (inside.empty()) return Fail(place, "folder '{}' holds no motion file (.bvh, .npz, …)", reference);
+      files.insert(files.end(), inside.begin(), inside.end());
+    } else {
+      ASSIGN_OR_RETURN(const auto expanded, ExpandReference(reference, place, kMaxPairs));
+      files.insert(files.end(), expanded.begin(), expanded.end());
+    }
+    if (files.size() > kMaxPairs) return Fail(place, "more than {} files", kMaxPairs);
+  }
+  return files;
+}
+
+/// Returns references by their names. Fails if two have one name.
+Result<std::map<std::string, std::string>> ByName(const std::vector<std::string>& references, const Place& place) {
+  std::map<std::string, std::string> named;
+  for (const std::string& reference : references) {
+    const auto [known, is_new] = named.emplace(NameOfReference(reference), reference);
+    if (is_new) continue;
+    return Fail(place, "'{}' and '{}' have one name; 'pairs' tells which belong together", known->second, reference);
+  }
+  return named;
+}
+
+std::vector<std::string> SplitCells(std::string_view line) {
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  std::vector<std::string> cells;
+  while (true) {
+    const std::size_t comma = line.find(',');
+    cells.emplace_back(line.substr(0, comma));
+    if (comma == std::string_view::npos) return cells;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+/// The columns of a CSV of pairs.
+struct PairColumns {
+  std::size_t truth = 0;
+  std::optional<std::size_t> name;
+  std::vector<std::size_t> answers;  ///< by method
+};
+
+Result<PairColumns> ReadHeading(const std::vector<std::string>& heading, std::span<const EvaluationMethod> methods,
+                                const Place& place) {
+  std::vector<std::string> known = {"truth", "name"};
+  for (const EvaluationMethod& method : methods) known.push_back(method.name);
+  PairColumns columns;
+  const auto column_of = [&](const std::string& name) -> std::optional<std::size_t> {
+    const auto found = std::ranges::find(heading, name);
+    return found == heading.end() ? std::nullopt : std::optional<std::size_t>(found - heading.begin());
+  };
+  for (const std::string& cell : heading) {
+    if (std::ranges::find(known, cell) == known.end()) return Fail(place, "{}", UnknownName("column", cell, known));
+    if (std::ranges::count(heading, cell) > 1) return Fail(place, "two columns {}", Quote(cell));
+  }
+  const auto truth = column_of("truth");
+  if (!truth) return Fail(place, "has no column 'truth'; allowed: a heading such as truth,{}", methods.front().name);
+  columns.truth = *truth;
+  columns.name = column_of("name");
+  for (const EvaluationMethod& method : methods) {
+    const auto answers = column_of(method.name);
+    if (!answers) return Fail(place, "has no column of method {}", Quote(method.name));
+    columns.answers.push_back(*answers);
+  }
+  return columns;
+}
+
+/// Reads the pairs of a CSV. Cells have no quotes and no commas.
+Result<std::vector<JudgedFiles>> ReadPairs(const std::string& text, const std::string& file,
+                                           std::span<const EvaluationMethod> methods) {
+  std::vector<JudgedFiles> pairs;
+  std::optional<PairColumns> columns;
+  std::size_t width = 0;
+  int line_number = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::vector<std::string> cells = SplitCells(std::string_view(text).substr(at, end - at));
+    const Place place{file, ++line_number, 0};
+    at = end + 1;
+    if (cells.size() == 1 && cells.front().empty()) continue;
+    if (!columns) {
+      ASSIGN_OR_RETURN(columns, ReadHeading(cells, methods, place));
+      width = cells.size();
+      continue;
+    }
+    if (cells.size() != width) return Fail(place, "{} cells; the heading has {}", cells.size(), width);
+    JudgedFiles pair{.name = "", .unit = "", .truth = cells[columns->truth], .answers = {}};
+    if (pair.truth.empty()) return Fail(place, "no truth");
+    pair.name = columns->name ? cells[*columns->name] : NameOfReference(pair.truth);
+    for (const std::size_t column : columns->answers) pair.answers.push_back(cells[column]);
+    pairs.push_back(std::move(pair));
+    if (pairs.size() > kMaxPairs) return Fail(place, "more than {} pairs", kMaxPairs);
+  }
+  if (pairs.empty()) return Fail({file}, "lists no pair");
+  std::ranges::stable_sort(pairs, {}, &JudgedFiles::name);
+  const auto twice = std::ranges::adjacent_find(pairs, {}, &JudgedFiles::name);
+  if (twice != pairs.end()) {
+    return Fail({file}, "two pairs are named {}; a column 'name' tells them apart", Quote(twice->name));
+  }
+  return pairs;
+}
+
+/// Makes the pairs of files of one name.
+Result<FoundFiles> PairByName(const EvaluationOptions& options, std::span<const EvaluationMethod> methods,
+                              const Place& place) {
+  ASSIGN_OR_RETURN(const auto truth_files, Expand(options.truth, place));
+  ASSIGN_OR_RETURN(const auto truths, ByName(truth_files, place));
+  FoundFiles found;
+  for (const auto& [name, truth] : truths) {
+    found.worlds.push_back({.name = name, .unit = "", .truth = truth, .answers = {}});
+  }
+  for (const EvaluationMethod& method : methods) {
+    if (method.answers.empty()) return Fail(place, "method {} has no 'answers'", Quote(method.name));
+    ASSIGN_OR_RETURN(const auto files, Expand(method.answers, place));
+    // One truth and one answer belong together whatever their names.
+    if (truths.size() == 1 && files.size() == 1) {
+      found.worlds.front().answers.push_back(files.front());
+      continue;
+    }
+    ASSIGN_OR_RETURN(auto answers, ByName(files, place));
+    std::size_t with_answer = 0;
+    for (JudgedFiles& world : found.worlds) {
+      const auto answer = answers.find(world.name);
+      world.answers.push_back(answer == answers.end() ? "" : answer->second);
+      if (answer == answers.end()) continue;
+      answers.erase(answer);
+      ++with_answer;
+    }
+    if (with_answer == 0) {
+      return Fail(
+          place,
+          "none of the {} answers of method {} is named like a truth: '{}' and '{}'; 'pairs' tells which belong "
+          "together",
+          files.size(), Quote(method.name), files.front(), truth_files.front());
+    }
+    for (const auto& [name, file] : answers) found.left_out.emplace_back(file, "no truth is named " + Quote(name));
+  }
+  return found;
+}
+
+/// Matches a text and a pattern in which '*' stands for any text.
+bool Matches(std::string_view pattern, std::string_view text) {
+  // Where the last star stood, and where the text behind it may begin next.
+  std::size_t p = 0, t = 0, star = std::string_view::npos, retry = 0;
+  while (t < text.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++;
+      retry = t;
+    } else if (p < pattern.size() && pattern[p] == text[t]) {
+      ++p;
+      ++t;
+    } else if (star != std::string_view::npos) {
+      p = star + 1;
+      t = ++retry;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', p) == std::string_view::npos;
+}
+
+}  // namespace
+
+std::optional<std::string> PersonIn(std::string_view pattern, std::string_view name) {
+  const std::size_t at = pattern.find(kPerson);
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::string_view before = pattern.substr(0, at), behind = pattern.substr(at + kPerson.size());
+  for (std::size_t begin = 0; begin < name.size(); ++begin) {
+    if (!Matches(before, name.substr(0, begin))) continue;
+    for (std::size_t end = begin + 1; end <= name.size(); ++end) {
+      if (Matches(behind, name.substr(end))) return std::string(name.substr(begin, end - begin));
+    }
+  }
+  return std::nullopt;
+}
+
+Result<FoundFiles> FindEvaluatedFiles(const Node& condition, std::span<const Node> methods,
+                                      const std::map<std::string, std::string>& texts) {
+  // Read the keys that name files; the task reads and checks all keys later.
+  EvaluationOptions options;
+  Fields fields(condition, "a scenario of task evaluation");
+  EvaluationConditionFields().Read(fields, options);
+  if (!fields.ok()) return tl::unexpected(fields.Finish().error());
+  RETURN_IF_ERROR(CheckFiles(condition, options));
+  std::vector<EvaluationMethod> read;
+  for (const Node& node : methods) {
+    Fields method(node, "a method of task evaluation");
+    EvaluationMethod& one = read.emplace_back();
+    one.name = method.RequiredText("name");
+    EvaluationMethodFields().ReadKeys(method, one);
+    RETURN_IF_ERROR(method.Finish());
+    const Node* answers = node.Find("answers");
+    if (answers != nullptr && !options.pairs.empty()) return Fail(answers->place, "'answers' stands beside 'pairs'");
+  }
+  // Make the pairs.
+  FoundFiles found;
+  if (options.pairs.empty()) {
+    const Node* truth = condition.Find("truth");
+    ASSIGN_OR_RETURN(found, PairByName(options, read, truth->place));
+  } else {
+    ASSIGN_OR_RETURN(found.worlds, ReadPairs(texts.at("pairs"), options.pairs, read));
+  }
+  // Find the person of each.
+  for (JudgedFiles& world : found.worlds) {
+    if (options.people.empty()) continue;
+    const auto person = PersonIn(options.people, world.name);
+    if (!person) {
+      return Fail(condition.Find("people")->place,
+                  "{} does not fit the pair {}; allowed: a pattern with {}, such as {}_*", Quote(options.people),
+                  Quote(world.name), kPerson, kPerson);
+    }
+    world.unit = *person;
+  }
+  return found;
+}
+
+}  // namespace etude

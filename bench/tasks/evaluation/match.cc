@@ -1,0 +1,168 @@
+#include "bench/tasks/evaluation/match.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/tasks/evaluation/options.h"
+#include "engine/base/names.h"
+
+namespace etude {
+namespace {
+
+/// A joint by its index in both motions.
+struct CommonJoint {
+  std::string name;
+  int truth = -1, answer = -1;
+};
+
+/// Returns the joints of the set that both have; adds the others to `lacking`.
+std::vector<CommonJoint> FindCommon(const RawMotion& truth, const RawMotion& answer, std::string_view set,
+                                    std::vector<std::string>& lacking) {
+  std::vector<std::string> names;
+  if (set == "same") {
+    names = truth.joints;
+  } else if (set == "roles") {
+    for (const Role role : AllRoles()) names.emplace_back(RoleName(role));
+  } else {
+    names = JointsOfSet(set);
+  }
+  std::vector<CommonJoint> common;
+  for (const std::string& name : names) {
+    const auto index_in = [&](const RawMotion& motion) {
+      if (set != "same") return motion.Find(name);
+      const auto found = std::ranges::find(motion.joints, name);
+      return found == motion.joints.end() ? -1 : static_cast<int>(found - motion.joints.begin());
+    };
+    const CommonJoint joint{name, index_in(truth), index_in(answer)};
+    joint.truth >= 0 && joint.answer >= 0 ? common.push_back(joint) : lacking.push_back(name);
+  }
+  return common;
+}
+
+/// Returns the positions of some joints in all frames.
+PointTracks Columns(const RawMotion& motion, const std::vector<int>& joints) {
+  PointTracks tracks{joints.size(), {}};
+  tracks.positions.reserve(joints.size() * motion.FrameCount());
+  for (std::size_t f = 0; f < motion.FrameCount(); ++f) {
+    for (const int joint : joints) tracks.positions.push_back(motion.At(f, static_cast<std::size_t>(joint)));
+  }
+  return tracks;
+}
+
+/// Returns the rotations of some joints in all frames; none if the motion has none.
+std::vector<glm::dquat> TurnsOf(const RawMotion& motion, const std::vector<int>& joints) {
+  std::vector<glm::dquat> turns;
+  for (std::size_t f = 0; f < motion.FrameCount() && !motion.rotations.empty(); ++f) {
+    for (const int joint : joints) turns.push_back(motion.rotations[f * motion.joints.size() + joint]);
+  }
+  return turns;
+}
+
+/// Returns the columns of these roles; none if one of them is missing.
+PointTracks RoleColumns(const RawMotion& motion, std::initializer_list<Role> roles) {
+  std::vector<int> joints;
+  for (const Role role : roles) joints.push_back(motion.roles[Index(role)]);
+  const bool has_all = std::ranges::none_of(joints, [](int joint) { return joint < 0; });
+  return has_all ? Columns(motion, joints) : PointTracks{};
+}
+
+/// Finds the knees and elbows whose three joints are among those judged.
+std::vector<std::array<std::size_t, 3>> FindBends(const std::vector<CommonJoint>& joints, const RawMotion& truth) {
+  using enum Role;
+  constexpr std::array<std::array<Role, 3>, 4> kBends = {{{kLeftHip, kLeftKnee, kLeftAnkle},
+                                                          {kRightHip, kRightKnee, kRightAnkle},
+                                                          {kLeftShoulder, kLeftElbow, kLeftWrist},
+                                                          {kRightShoulder, kRightElbow, kRightWrist}}};
+  std::vector<std::array<std::size_t, 3>> bends;
+  for (const auto& roles : kBends) {
+    std::array<std::size_t, 3> bend{};
+    bool has_all = true;
+    for (std::size_t i = 0; i < roles.size(); ++i) {
+      const int wanted = truth.roles[Index(roles[i])];
+      const auto found =
+          std::ranges::find_if(joints, [&](const CommonJoint& joint) { return wanted >= 0 && joint.truth == wanted; });
+      has_all = has_all && found != joints.end();
+      bend[i] = static_cast<std::size_t>(found - joints.begin());
+    }
+    if (has_all) bends.push_back(bend);
+  }
+  return bends;
+}
+
+/// Names at most eight joints.
+std::string SomeOf(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 8;
+  const std::size_t count = std::min(names.size(), kMost);
+  return Join(std::span(names).first(count)) + (count < names.size() ? ", …" : "");
+}
+
+/// Returns true if the rates, as their files round them, drift apart by less than a hundredth of a frame over the
+/// truth.
+bool HaveSameRate(const RawMotion& truth, const RawMotion& answer) {
+  constexpr double kMaxDrift = 0.01;  // frames
+  return std::abs(answer.rate_hz / truth.rate_hz - 1) * static_cast<double>(truth.FrameCount()) < kMaxDrift;
+}
+
+std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const MatchedMotions& matched) {
+  std::string note = fmt::format("{} joints", matched.joints.size());
+  if (!matched.lacking.empty()) note += fmt::format(" (one of both lacks {})", SomeOf(matched.lacking));
+  const bool is_resampled = !HaveSameRate(truth, answer);
+  note += fmt::format(", {} frames at {:g} Hz", matched.pair.truth.FrameCount(), truth.rate_hz);
+  if (is_resampled) note += fmt::format(", the answer's {:g} Hz interpolated linearly", answer.rate_hz);
+  if (matched.uncovered > 0) note += fmt::format(", the last {} after the answer's end", matched.uncovered);
+  for (const RawMotion* motion : {&truth, &answer}) {
+    if (motion->notes.empty()) continue;
+    note += fmt::format("; {}: {}", motion == &truth ? "truth" : "answer", Join(motion->notes, "; "));
+  }
+  return note;
+}
+
+}  // namespace
+
+Result<MatchedMotions> Match(const RawMotion& truth, const RawMotion& answer, std::string_view set) {
+  MatchedMotions matched;
+  const std::vector<CommonJoint> common = FindCommon(truth, answer, set, matched.lacking);
+  if (common.empty()) {
+    return Fail({answer.name}, "has no joint in common with '{}' (joints: {}): {} and {}", truth.name, set,
+                SomeOf(answer.joints), SomeOf(truth.joints));
+  }
+  // Sample the answer at the truth's times.
+  const std::size_t frames = truth.FrameCount();
+  const double rate_hz = HaveSameRate(truth, answer) ? answer.rate_hz : truth.rate_hz;
+  const RawMotion sampled = Sampled(answer, rate_hz, 0, frames);
+  std::vector<int> of_truth, of_answer;
+  for (const CommonJoint& joint : common) {
+    matched.joints.push_back(joint.name);
+    of_truth.push_back(joint.truth);
+    of_answer.push_back(joint.answer);
+  }
+  matched.pair.rate_hz = truth.rate_hz;
+  matched.pair.truth = Columns(truth, of_truth);
+  matched.pair.found = Columns(sampled, of_answer);
+  matched.pair.true_turns = TurnsOf(truth, of_truth);
+  matched.pair.found_turns = TurnsOf(sampled, of_answer);
+  const PointTracks true_root = RoleColumns(truth, {Role::kHipCentre});
+  const PointTracks found_root = RoleColumns(sampled, {Role::kHipCentre});
+  if (true_root.points > 0 && found_root.points > 0) {
+    matched.pair.true_root = true_root.positions;
+    matched.pair.found_root = found_root.positions;
+  }
+  matched.pair.feet = RoleColumns(sampled, {Role::kLeftAnkle, Role::kLeftFoot, Role::kRightAnkle, Role::kRightFoot});
+  matched.bends = FindBends(common, truth);
+  // Count the frames behind the answer's end.
+  for (std::size_t f = frames; f > 0; --f) {
+    constexpr double kRounding = 1e-6;  // of a frame, as in `Sampled`
+    const double last = static_cast<double>(answer.FrameCount() - 1) + kRounding;
+    if (static_cast<double>(f - 1) / rate_hz * answer.rate_hz <= last) break;
+    ++matched.uncovered;
+  }
+  if (SeenShare(matched.pair).value_or(0) == 0) {
+    return Fail({answer.name}, "no joint of '{}' is ever seen by both", truth.name);
+  }
+  matched.note = NoteOn(truth, answer, matched);
+  return matched;
+}
+
+}  // namespace etude

@@ -1,0 +1,82 @@
+#include "bench/tasks/evaluation/options.h"
+
+#include <string_view>
+
+#include "engine/motion/body.h"
+#include "engine/retargeting/joint_arrays.h"
+
+namespace etude {
+namespace {
+
+/// A set of joints: a layout of arrays with so many joints.
+struct JointSetOfLayout {
+  std::string_view name, layout;
+  std::size_t joints;
+};
+constexpr JointSetOfLayout kSets[] = {{"roles-20", "etude", 20},
+                                      {"h36m-17", "h36m", 17},
+                                      {"coco-17", "coco", 17},
+                                      {"smpl-22", "smpl", 22},
+                                      {"smpl-24", "smpl", 24}};
+// Leeds Sports Pose: its neck is the base of the neck, its head the top.
+constexpr std::string_view kLsp = "lsp-14";
+constexpr std::string_view kLspJoints[] = {
+    "right_ankle", "right_knee",     "right_hip",     "left_hip",   "left_knee",  "left_ankle",      "right_wrist",
+    "right_elbow", "right_shoulder", "left_shoulder", "left_elbow", "left_wrist", "shoulder_centre", "head"};
+
+}  // namespace
+
+std::vector<std::string> JointSetNames() {
+  std::vector<std::string> names = {"roles", "same"};
+  for (const JointSetOfLayout& set : kSets) names.emplace_back(set.name);
+  names.emplace_back(kLsp);
+  return names;
+}
+
+std::vector<std::string> JointsOfSet(std::string_view name) {
+  if (name == kLsp) return {std::begin(kLspJoints), std::end(kLspJoints)};
+  for (const JointSetOfLayout& set : kSets) {
+    if (set.name == name) return JointsOfLayout(set.layout, set.joints);
+  }
+  return {};
+}
+
+const FieldTable<EvaluationOptions>& EvaluationConditionFields() {
+  using Key = Field<EvaluationOptions>;
+  static const FieldTable<EvaluationOptions> table{
+      {Key::Texts("truth", &EvaluationOptions::truth, "a list of motion files, patterns, folders",
+                  "The truths; each goes with the answers of its name.")
+           .WhenAbsent("(`pairs` names them)"),
+       {{"pairs", FileKind("a CSV file"), "(files of one name are a pair)",
+         "Its columns `truth`, one of each method's name, and perhaps `name` list the files of each pair."},
+        [](Fields& fields, EvaluationOptions& options) { options.pairs = fields.Text("pairs", ""); }},
+       {{"joints", NameKind(JointSetNames()), "roles",
+         "What is judged: the roles that both play, the joints of equal names, or what both have of a set."},
+        [](Fields& fields, EvaluationOptions& options) {
+          options.joints = fields.Choice("joints", JointSetNames(), options.joints);
+        }},
+       Key::Text("people", &EvaluationOptions::people, "a pattern such as '{person}_*'",
+                 "Which part of a pair's name is the person: what claims beyond these files count.")
+           .WhenAbsent("(each pair counts for itself)")}};
+  return table;
+}
+
+Result<void> CheckFiles(const Node& condition, const EvaluationOptions& options) {
+  if (options.truth.empty() == options.pairs.empty()) {
+    return Fail(condition.place, "task evaluation needs 'truth' or 'pairs', one of the two");
+  }
+  const Node* trials = condition.Find("trials");
+  if (trials == nullptr) return {};
+  return Fail(trials->place, "'trials' has no use in task evaluation: each pair is judged once");
+}
+
+const FieldTable<EvaluationMethod>& EvaluationMethodFields() {
+  static const FieldTable<EvaluationMethod> table{
+      {Field<EvaluationMethod>::Texts("answers", &EvaluationMethod::answers,
+                                      "a list of motion files, patterns, folders",
+                                      "The answers, named like their truths.")
+           .WhenAbsent("(`pairs` names them)")}};
+  return table;
+}
+
+}  // namespace etude

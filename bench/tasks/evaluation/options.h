@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/keys/field_table.h"
+
+namespace etude {
+
+/// A condition of task evaluation.
+struct EvaluationOptions {
+  std::vector<std::string> truth;  ///< files, patterns, folders
+  std::string pairs;               ///< the name of a CSV file; "" = pairs are made by name
+  std::string joints = "roles";    ///< one of JointSetNames()
+  std::string people;              ///< a pattern for names, such as "{person}_*"; "" = each pair counts for itself
+};
+
+const FieldTable<EvaluationOptions>& EvaluationConditionFields();
+
+/// Fails unless the condition names its files in one way, and no trials.
+Result<void> CheckFiles(const Node& condition, const EvaluationOptions& options);
+
+/// A method of task evaluation: answers that something outside gave.
+struct EvaluationMethod {
+  std::string name;
+  std::vector<std::string> answers;  ///< files, patterns, folders; empty where `pairs` names them
+};
+
+const FieldTable<EvaluationMethod>& EvaluationMethodFields();
+
+/// Returns the names of the sets of joints: "roles", "same", "roles-20", "h36m-17", "lsp-14", "coco-17", "smpl-22",
+/// "smpl-24".
+std::vector<std::string> JointSetNames();
+/// Returns the joints of a set by name, roles where there are such; empty for "roles" and "same".
+std::vector<std::string> JointsOfSet(std::string_view set);
+
+}  // namespace etude

@@ -1,0 +1,126 @@
+#include "bench/tasks/evaluation/run.h"
+
+#include <cmath>
+
+#include "engine/base/digest.h"
+
+namespace etude {
+namespace {
+
+constexpr const char* kNoFit = "the alignment is not determined: fewer than three joints are seen by both";
+constexpr const char* kNoRoot = "no root, the middle of the hips, is seen in both";
+constexpr const char* kNoFeet = "the answer has no ankles and toes, or fewer than two frames";
+
+/// The metrics that are a mean joint error after an alignment.
+struct AlignedError {
+  const char* id;
+  Alignment alignment;
+  const char* why_missing;
+};
+constexpr AlignedError kErrors[] = {{"mpjpe_unaligned_mm", Alignment::kNone, "no joint is seen by both"},
+                                    {"mpjpe_root_mm", Alignment::kRoot, kNoRoot},
+                                    {"mpjpe_root_scaled_mm", Alignment::kRootScaled, kNoRoot},
+                                    {"mpjpe_first_frame_mm", Alignment::kFirst, kNoFit},
+                                    {"mpjpe_first_frame_scaled_mm", Alignment::kFirstScaled, kNoFit},
+                                    {"mpjpe_take_mm", Alignment::kTake, kNoFit},
+                                    {"mpjpe_take_scaled_mm", Alignment::kTakeScaled, kNoFit},
+                                    {"mpjpe_each_frame_mm", Alignment::kFrame, kNoFit},
+                                    {"mpjpe_each_frame_scaled_mm", Alignment::kFrameScaled, kNoFit}};
+constexpr std::size_t kSegmentFrames = 100;  // of W-MPJPE and WA-MPJPE
+
+std::optional<double> Times(double factor, std::optional<double> value) {
+  return value ? std::optional(factor * *value) : std::nullopt;
+}
+
+std::string DigestOf(const PointTracks& tracks) {
+  Digest digest;
+  for (const glm::dvec3& p : tracks.positions) {
+    std::isnan(p.x) ? digest.Add(std::string_view("unseen")) : digest.Add(p.x).Add(p.y).Add(p.z);
+  }
+  return digest.Hex();
+}
+
+/// Returns each frame's mean error for a curve: a frame without one repeats the one before.
+std::vector<double> CurveOf(const std::vector<double>& errors, std::size_t joints) {
+  std::vector<double> curve;
+  for (std::size_t at = 0; at < errors.size(); at += joints) {
+    const auto mean = MeanOfSeen({&errors[at], joints});
+    curve.push_back(mean.value_or(curve.empty() ? 0 : curve.back()));
+  }
+  return curve;
+}
+
+void MeasureErrors(const EvaluatedPair& pair, CellResult& result) {
+  for (const AlignedError& error : kErrors) {
+    const std::vector<double> errors = JointErrorsMm(Aligned(pair, error.alignment), pair.truth);
+    result.MeasureOr(error.id, MeanOfSeen(errors), error.why_missing);
+    const bool is_drawn = error.alignment == Alignment::kNone || error.alignment == Alignment::kRoot;
+    if (is_drawn && MeanOfSeen(errors))
+      result.series.push_back({error.id, "frame", CurveOf(errors, pair.found.points)});
+    if (error.alignment != Alignment::kRoot) continue;
+    constexpr double kPck_mm = 150;
+    result.MeasureOr("pck_150mm@mpi_inf_3dhp", ShareBelow(errors, kPck_mm), kNoRoot);
+    result.MeasureOr("auc_150mm@mpi_inf_3dhp", AucTo150(errors), kNoRoot);
+  }
+  const auto by_segments = [&](std::size_t fitted) {
+    return MeanOfSeen(JointErrorsMm(AlignedBySegments(pair, kSegmentFrames, fitted), pair.truth));
+  };
+  result.MeasureOr("w_mpjpe_mm@wham", by_segments(2), kNoFit);
+  result.MeasureOr("wa_mpjpe_mm@wham", by_segments(kSegmentFrames), kNoFit);
+  result.MeasureOr("rte@wham", RootTranslationError(pair),
+                   "fewer than three roots are seen by both, or the true root stands");
+}
+
+void MeasureMovement(const EvaluatedPair& pair, CellResult& result) {
+  const double rate = pair.rate_hz;
+  constexpr const char* kTooShort = "no joint is seen by both in three frames in a row";
+  constexpr double kToMm = 1000;
+  const auto acceleration = AccelerationError(pair.found, pair.truth);
+  result.MeasureOr("accel_error_mm@human_dynamics", Times(kToMm, acceleration), kTooShort);
+  result.MeasureOr("accel_error_mps2", Times(rate * rate, acceleration), kTooShort);
+  const auto of_root = AccelerationError(Aligned(pair, Alignment::kRoot), pair.truth, 1);
+  result.MeasureOr("accel_error_mps2@wham", Times(rate * rate, of_root),
+                   "no joint and root are seen by both in five frames");
+  result.MeasureOr("jitter@wham", Jitter(pair.found, rate), "no joint is seen in four frames in a row");
+}
+
+/// Measures the answer alone, on the floor of its file.
+void MeasureFeet(const EvaluatedPair& pair, CellResult& result) {
+  result.MeasureOr("skating_ratio@gmd", SkatingRatio(pair.feet, pair.rate_hz), kNoFeet);
+  result.MeasureOr("skate_from_height_mps@kimodo", SkateFromHeight(pair.feet, pair.rate_hz), kNoFeet);
+  result.MeasureOr("pfc@edge", PhysicalFootContact(pair.feet, pair.found_root, pair.rate_hz),
+                   "the answer lacks ankles, toes, root or three frames, or its root does not accelerate");
+  const FloorErrors floor = MeasureFloor(pair.found);
+  result.MeasureOr("penetration_mm", floor.penetration_mm, "no joint of the answer is seen");
+  result.MeasureOr("floating_mm", floor.floating_mm, "no joint of the answer is seen");
+}
+
+}  // namespace
+
+std::vector<std::string> EvaluationMetrics() {
+  std::vector<std::string> ids;
+  for (const AlignedError& error : kErrors) ids.emplace_back(error.id);
+  for (const char* id : {"pck_150mm@mpi_inf_3dhp", "auc_150mm@mpi_inf_3dhp", "w_mpjpe_mm@wham", "wa_mpjpe_mm@wham",
+                         "rte@wham", "accel_error_mm@human_dynamics", "accel_error_mps2", "accel_error_mps2@wham",
+                         "jitter@wham", "skating_ratio@gmd", "skate_from_height_mps@kimodo", "pfc@edge",
+                         "penetration_mm", "floating_mm", "bend_error_deg", "l2q@lafan1", "seen_share"}) {
+    ids.emplace_back(id);
+  }
+  return ids;
+}
+
+CellResult JudgeMotion(const MatchedMotions& matched) {
+  CellResult result = CellResult::Ended(Status::kOk, matched.note);
+  result.digests = {{"truth", DigestOf(matched.pair.truth)}, {"answer", DigestOf(matched.pair.found)}};
+  MeasureErrors(matched.pair, result);
+  MeasureMovement(matched.pair, result);
+  MeasureFeet(matched.pair, result);
+  result.MeasureOr("bend_error_deg", BendErrorDeg(matched.pair.found, matched.pair.truth, matched.bends),
+                   "no knee or elbow with its neighbours is seen by both");
+  result.MeasureOr("l2q@lafan1", QuaternionError(matched.pair),
+                   "one of both files has no rotations, or no frame shows every joint in both");
+  result.MeasureOr("seen_share", SeenShare(matched.pair), "the truth shows no joint");
+  return result;
+}
+
+}  // namespace etude

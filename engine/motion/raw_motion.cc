@@ -1,0 +1,53 @@
+#include "engine/motion/raw_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace etude {
+namespace {
+
+constexpr double kSameFrame = 1e-6;  // of a frame; times of equal rates meet frames up to rounding
+
+bool EqualsIgnoringCase(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return std::ranges::equal(a, b, {}, lower, lower);
+}
+
+}  // namespace
+
+int RawMotion::Find(std::string_view joint) const {
+  if (const auto role = FindRole(joint); role && roles[Index(*role)] >= 0) return roles[Index(*role)];
+  const auto found =
+      std::ranges::find_if(joints, [&](const std::string& other) { return EqualsIgnoringCase(other, joint); });
+  return found == joints.end() ? -1 : static_cast<int>(found - joints.begin());
+}
+
+glm::dvec3 NotSeen() { return glm::dvec3(std::numeric_limits<double>::quiet_NaN()); }
+
+RawMotion Sampled(const RawMotion& motion, double rate_hz, double start_s, std::size_t count) {
+  RawMotion sampled = motion;
+  const std::size_t joints = motion.joints.size(), frames = motion.FrameCount();
+  sampled.rate_hz = rate_hz;
+  sampled.positions.assign(count * joints, NotSeen());
+  if (!motion.rotations.empty()) sampled.rotations.assign(count * joints, glm::dquat(1, 0, 0, 0));
+  for (std::size_t i = 0; i < count; ++i) {
+    // The two frames around this time.
+    double at = (start_s + static_cast<double>(i) / rate_hz) * motion.rate_hz;
+    if (std::abs(at - std::round(at)) < kSameFrame) at = std::round(at);
+    if (at < 0 || at > static_cast<double>(frames) - 1) continue;
+    const auto from = static_cast<std::size_t>(at);
+    const double part = at - static_cast<double>(from);
+    const std::size_t to = part > 0 ? from + 1 : from;
+    for (std::size_t j = 0; j < joints; ++j) {
+      const glm::dvec3 &a = motion.At(from, j), &b = motion.At(to, j);
+      sampled.positions[i * joints + j] = part > 0 ? a + part * (b - a) : a;
+      if (motion.rotations.empty()) continue;
+      const glm::dquat &p = motion.rotations[from * joints + j], &q = motion.rotations[to * joints + j];
+      sampled.rotations[i * joints + j] = part > 0 ? glm::slerp(p, q, part) : p;
+    }
+  }
+  return sampled;
+}
+
+}  // namespace etude

@@ -1,0 +1,151 @@
+#include "io/clips/raw_motions.h"
+
+#include <algorithm>
+
+#include "engine/base/digest.h"
+#include "engine/base/names.h"
+#include "engine/retargeting/orientation.h"
+#include "io/clips/references.h"
+#include "io/files/files.h"
+
+namespace etude {
+namespace {
+
+/// Appends a joint midway between the hips, turned as the joint that carries the left one, unless one plays the hip
+/// centre.
+void AddHipCentre(RawMotion& raw) {
+  const int left = raw.roles[Index(Role::kLeftHip)], right = raw.roles[Index(Role::kRightHip)];
+  if (raw.roles[Index(Role::kHipCentre)] >= 0 || left < 0 || right < 0) return;
+  const std::size_t joints = raw.joints.size(), frames = raw.FrameCount();
+  // Copy each frame with one joint more.
+  std::vector<glm::dvec3> positions;
+  positions.reserve(frames * (joints + 1));
+  std::vector<glm::dquat> rotations;
+  for (std::size_t f = 0; f < frames; ++f) {
+    for (std::size_t j = 0; j < joints; ++j) positions.push_back(raw.At(f, j));
+    positions.push_back(0.5 * (raw.At(f, left) + raw.At(f, right)));
+    if (raw.rotations.empty()) continue;
+    rotations.insert(rotations.end(), raw.rotations.begin() + static_cast<std::ptrdiff_t>(f * joints),
+                     raw.rotations.begin() + static_cast<std::ptrdiff_t>((f + 1) * joints));
+    const int carrier = raw.parents[left];
+    rotations.push_back(carrier < 0 ? glm::dquat(1, 0, 0, 0) : raw.rotations[f * joints + carrier]);
+  }
+  raw.positions = std::move(positions);
+  raw.rotations = std::move(rotations);
+  raw.roles[Index(Role::kHipCentre)] = static_cast<int>(joints);
+  raw.joints.emplace_back("(midway between the hips)");
+  if (!raw.parents.empty()) raw.parents.push_back(raw.parents[left]);
+}
+
+RawMotion OfMarkers(const MarkerMotion& shown) {
+  RawMotion raw;
+  raw.rate_hz = shown.rate_hz;
+  raw.joints = shown.names;
+  for (const Role role : AllRoles()) {
+    const auto found = std::ranges::find(shown.names, RoleName(role));
+    if (found != shown.names.end()) raw.roles[Index(role)] = static_cast<int>(found - shown.names.begin());
+  }
+  raw.positions.reserve(shown.frames.size() * shown.names.size());
+  for (const auto& frame : shown.frames) {
+    for (const auto& place : frame) raw.positions.push_back(place.value_or(NotSeen()));
+  }
+  raw.notes.push_back("markers: " + shown.remark);
+  return raw;
+}
+
+/// Converts a clip of a skeleton, whose unit is `unit` metres long.
+RawMotion OfSkeleton(const Clip& clip, double unit, UpAxis up) {
+  // The rotation of Upright: X stays, Z becomes Y.
+  const glm::dquat turn =
+      up == UpAxis::kY ? glm::dquat(1, 0, 0, 0) : glm::quat_cast(glm::dmat3(1, 0, 0, 0, 0, -1, 0, 1, 0));
+  RawMotion raw;
+  raw.rate_hz = clip.rate_hz;
+  for (const Joint& joint : clip.skeleton.joints) {
+    raw.joints.push_back(joint.name);
+    raw.parents.push_back(joint.parent);
+  }
+  raw.positions.reserve(clip.frames.size() * raw.joints.size());
+  raw.rotations.reserve(clip.frames.size() * raw.joints.size());
+  std::vector<GlobalTransform> globals;
+  for (const LocalPose& frame : clip.frames) {
+    ComputeGlobals(clip.skeleton, frame, globals);
+    for (const GlobalTransform& joint : globals) {
+      raw.positions.push_back(Upright(unit * joint.position, up));
+      raw.rotations.push_back(glm::normalize(turn * glm::quat_cast(joint.axes)));
+    }
+  }
+  return raw;
+}
+
+std::string NamesOf(const std::vector<Role>& roles) {
+  std::vector<std::string> names;
+  for (const Role role : roles) names.emplace_back(RoleName(role));
+  return Join(names);
+}
+
+/// Says what was converted and guessed.
+std::vector<std::string> NotesOn(const OpenedClip& opened) {
+  const BodyConversion& body = opened.body;
+  std::vector<std::string> notes = {fmt::format("1 unit = {:.4g} cm ({})", 100 * body.metres_per_unit, body.unit)};
+  if (body.unit == "unknown" || body.unit == "scaled") notes.back() += ", a guess by the body's stature";
+  if (body.up == UpAxis::kZ) notes.emplace_back("turned upright from Z up");
+  if (!opened.map.composed.empty()) notes.push_back("has no " + NamesOf(opened.map.composed));
+  if (!opened.map.by_anatomy.empty()) {
+    notes.push_back("roles told by the skeleton's shape: " + NamesOf(opened.map.by_anatomy));
+  }
+  notes.insert(notes.end(), opened.source.remarks.begin(), opened.source.remarks.end());
+  return notes;
+}
+
+}  // namespace
+
+Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options) {
+  const std::string name = source.source;
+  RawMotion raw;
+  if (source.shown != nullptr) {
+    raw = OfMarkers(*source.shown);
+  } else {
+    // UnderstandClip finds roles, unit and up axis; its resampling and its floor are not used.
+    const bool is_body = source.format == ClipFormat::kBuiltin || source.made.has_value();
+    OpenOptions how = options;
+    how.body.drop_t_pose = false;
+    how.body.floor = 0;
+    ASSIGN_OR_RETURN(const auto opened, UnderstandClip(std::move(source), how));
+    raw = OfSkeleton(opened.source.clip, opened.body.metres_per_unit, opened.body.up);
+    for (const Role role : AllRoles()) {
+      const bool is_composed = std::ranges::find(opened.map.composed, role) != opened.map.composed.end();
+      // The joint that carries both hips is not midway between them.
+      const bool is_carrier = role == Role::kHipCentre && !is_body;
+      if (!is_composed && !is_carrier) raw.roles[Index(role)] = opened.map[role].joint;
+    }
+    if (is_body) {
+      raw.rotations.clear();  // made up by RigClip
+    } else {
+      raw.notes = NotesOn(opened);
+    }
+  }
+  raw.name = name;
+  AddHipCentre(raw);
+  if (raw.positions.empty()) return Fail({name}, "no frames; at least one is needed");
+  return raw;
+}
+
+Result<std::string> DigestOfFile(const std::string& reference, const OpenOptions& options) {
+  if (reference.starts_with(kBuiltinPrefix)) return Digest().Add(std::string_view(reference)).Hex();
+  SplitReference wanted = Split(reference);
+  if (options.recorded != nullptr) {
+    ASSIGN_OR_RETURN(wanted, options.recorded->Find(wanted));
+  }
+  ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(FileOf(wanted.path)));
+  return Digest().Add(std::string_view(bytes)).Hex();
+}
+
+Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions& options) {
+  ASSIGN_OR_RETURN(auto clips, ReadClips(reference, options));
+  if (clips.size() == 1) return RawMotionOf(std::move(clips.front()), options);
+  std::vector<std::string> names;
+  for (const SourceClip& clip : clips) names.push_back(clip.source);
+  return Fail({reference}, "holds {} motions; name one of them: {}", clips.size(), Join(names));
+}
+
+}  // namespace etude

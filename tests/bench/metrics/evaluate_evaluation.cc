@@ -1,0 +1,148 @@
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "bench/metrics/evaluation.h"
+#include "tests/bench/metrics/evaluators.h"
+#include "tests/bench/metrics/vector_input.h"
+
+namespace etude {
+namespace {
+
+glm::dvec3 PointOrUnseen(const Json& json) {
+  return ReadOptionalPoint(json).value_or(glm::dvec3(std::numeric_limits<double>::quiet_NaN()));
+}
+
+PointTracks TracksOf(const Json& in, const char* key) {
+  PointTracks tracks;
+  for (const Json& frame : in.at(key)) {
+    tracks.points = frame.size();
+    for (const Json& point : frame) tracks.positions.push_back(PointOrUnseen(point));
+  }
+  return tracks;
+}
+
+std::vector<glm::dvec3> RootOf(const Json& in, const char* key) {
+  std::vector<glm::dvec3> root;
+  for (const Json& point : in.at(key)) root.push_back(PointOrUnseen(point));
+  return root;
+}
+
+EvaluatedPair PairOf(const Json& in, bool has_roots = false) {
+  EvaluatedPair pair;
+  pair.found = TracksOf(in, "found");
+  pair.truth = TracksOf(in, "truth");
+  if (has_roots) {
+    pair.found_root = RootOf(in, "found_root");
+    pair.true_root = RootOf(in, "true_root");
+  }
+  return pair;
+}
+
+std::vector<double> RootErrors(const Json& in) {
+  const EvaluatedPair pair = PairOf(in, true);
+  return JointErrorsMm(Aligned(pair, Alignment::kRoot), pair.truth);
+}
+
+template <Alignment alignment>
+Value Mpjpe(const Json& in) {
+  const bool by_root = alignment == Alignment::kRoot || alignment == Alignment::kRootScaled;
+  const EvaluatedPair pair = PairOf(in, by_root);
+  return MeanOfSeen(JointErrorsMm(Aligned(pair, alignment), pair.truth));
+}
+
+template <bool by_first_two>
+Value SegmentMpjpe(const Json& in) {
+  const EvaluatedPair pair = PairOf(in);
+  const auto length = in.at("segment").get<std::size_t>();
+  return MeanOfSeen(JointErrorsMm(AlignedBySegments(pair, length, by_first_two ? 2 : length), pair.truth));
+}
+
+Value Times(double factor, Value value) { return value ? Value(factor * *value) : std::nullopt; }
+
+double RateOf(const Json& in) { return in.at("rate_hz").get<double>(); }
+
+Value AccelerationMps2(const Json& in) {
+  const EvaluatedPair pair = PairOf(in);
+  return Times(RateOf(in) * RateOf(in), AccelerationError(pair.found, pair.truth));
+}
+
+Value RootAccelerationMps2(const Json& in) {
+  const EvaluatedPair pair = PairOf(in, true);
+  return Times(RateOf(in) * RateOf(in), AccelerationError(Aligned(pair, Alignment::kRoot), pair.truth, 1));
+}
+
+Value Rte(const Json& in) {
+  EvaluatedPair pair;
+  pair.found_root = RootOf(in, "found_root");
+  pair.true_root = RootOf(in, "true_root");
+  return RootTranslationError(pair);
+}
+
+std::vector<glm::dquat> TurnsOf(const Json& in, const char* key) {
+  std::vector<glm::dquat> turns;
+  for (const Json& frame : in.at(key)) {
+    for (const Json& q : frame) {
+      turns.emplace_back(q.at(0).get<double>(), q.at(1).get<double>(), q.at(2).get<double>(), q.at(3).get<double>());
+    }
+  }
+  return turns;
+}
+
+Value L2q(const Json& in) {
+  EvaluatedPair pair;
+  pair.found_turns = TurnsOf(in, "found_turns");
+  pair.true_turns = TurnsOf(in, "true_turns");
+  pair.found.points = in.at("true_turns").at(0).size();
+  pair.found.positions.resize(pair.true_turns.size());
+  pair.truth = pair.found;
+  return QuaternionError(pair);
+}
+
+Value Bend(const Json& in) {
+  return BendErrorDeg(TracksOf(in, "found"), TracksOf(in, "truth"),
+                      in.at("bends").get<std::vector<std::array<std::size_t, 3>>>());
+}
+
+}  // namespace
+
+std::span<const Evaluator> EvaluationEvaluators() {
+  using enum Alignment;
+  static constexpr Evaluator kAll[] = {
+      {"mpjpe_unaligned_mm", Mpjpe<kNone>},
+      {"mpjpe_root_mm", Mpjpe<kRoot>},
+      {"mpjpe_root_scaled_mm", Mpjpe<kRootScaled>},
+      {"mpjpe_first_frame_mm", Mpjpe<kFirst>},
+      {"mpjpe_first_frame_scaled_mm", Mpjpe<kFirstScaled>},
+      {"mpjpe_take_mm", Mpjpe<kTake>},
+      {"mpjpe_take_scaled_mm", Mpjpe<kTakeScaled>},
+      {"mpjpe_each_frame_mm", Mpjpe<kFrame>},
+      {"mpjpe_each_frame_scaled_mm", Mpjpe<kFrameScaled>},
+      {"pck_150mm@mpi_inf_3dhp", [](const Json& in) -> Value { return ShareBelow(RootErrors(in), 150); }},
+      {"auc_150mm@mpi_inf_3dhp", [](const Json& in) -> Value { return AucTo150(RootErrors(in)); }},
+      {"accel_error_mm@human_dynamics",
+       [](const Json& in) -> Value {
+         return Times(1000, AccelerationError(TracksOf(in, "found"), TracksOf(in, "truth")));
+       }},
+      {"accel_error_mps2", AccelerationMps2},
+      {"accel_error_mps2@wham", RootAccelerationMps2},
+      {"w_mpjpe_mm@wham", SegmentMpjpe<true>},
+      {"wa_mpjpe_mm@wham", SegmentMpjpe<false>},
+      {"rte@wham", Rte},
+      {"jitter@wham", [](const Json& in) -> Value { return Jitter(TracksOf(in, "found"), RateOf(in)); }},
+      {"skating_ratio@gmd", [](const Json& in) -> Value { return SkatingRatio(TracksOf(in, "feet"), RateOf(in)); }},
+      {"skate_from_height_mps@kimodo",
+       [](const Json& in) -> Value { return SkateFromHeight(TracksOf(in, "feet"), RateOf(in)); }},
+      {"pfc@edge",
+       [](const Json& in) -> Value {
+         return PhysicalFootContact(TracksOf(in, "feet"), RootOf(in, "found_root"), RateOf(in));
+       }},
+      {"penetration_mm", [](const Json& in) -> Value { return MeasureFloor(TracksOf(in, "found")).penetration_mm; }},
+      {"floating_mm", [](const Json& in) -> Value { return MeasureFloor(TracksOf(in, "found")).floating_mm; }},
+      {"bend_error_deg", Bend},
+      {"l2q@lafan1", L2q},
+      {"seen_share", [](const Json& in) -> Value { return SeenShare(PairOf(in)); }},
+  };
+  return kAll;
+}
+
+}  // namespace etude

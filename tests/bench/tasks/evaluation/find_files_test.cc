@@ -1,0 +1,106 @@
+#include "bench/tasks/evaluation/find_files.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "engine/document/node.h"
+#include "io/files/files.h"
+#include "io/files/temporary_folder.h"
+
+namespace etude {
+namespace {
+
+using ::testing::HasSubstr;
+
+class FindFilesTest : public ::testing::Test {
+ protected:
+  void Make(std::initializer_list<const char*> names) {
+    for (const char* name : names) EXPECT_TRUE(WriteFileAtomically(folder_.path() / name, "x"));
+  }
+  std::string In(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  /// Finds the files of a scenario, in which '@' stands for the folder.
+  Result<FoundFiles> Find(std::string condition, std::vector<std::string> methods, const std::string& csv = "") {
+    const auto filled = [&](std::string text) {
+      for (std::size_t at; (at = text.find('@')) != std::string::npos;) text.replace(at, 1, folder_.path().string());
+      return text;
+    };
+    std::vector<Node> nodes;
+    for (const std::string& method : methods) nodes.push_back(*ParseYaml(filled(method), "s.yaml"));
+    return FindEvaluatedFiles(*ParseYaml(filled(condition), "s.yaml"), nodes, {{"pairs", filled(csv)}});
+  }
+  std::string Complaint(const std::string& condition, const std::vector<std::string>& methods,
+                        const std::string& csv = "") {
+    const auto found = Find(condition, methods, csv);
+    EXPECT_FALSE(found);
+    return found ? "" : ToString(found.error());
+  }
+
+  TemporaryFolder folder_ = *TemporaryFolder::Make("evaluation-test");
+};
+
+TEST_F(FindFilesTest, FilesOfOneNameAreAPair) {
+  Make({"t/b.bvh", "t/a.bvh", "t/notes.md", "m/a.trc", "m/b.npz", "n/b.csv", "n/c.csv"});
+  const auto found = Find("truth: ['@/t']", {"{name: m, answers: ['@/m/*']}", "{name: n, answers: ['@/n']}"});
+  ASSERT_TRUE(found) << ToString(found.error());
+  const std::vector<JudgedFiles> expected = {{"a", "", In("t/a.bvh"), {In("m/a.trc"), ""}},
+                                             {"b", "", In("t/b.bvh"), {In("m/b.npz"), In("n/b.csv")}}};
+  EXPECT_EQ(found->worlds, expected);
+  ASSERT_EQ(found->left_out.size(), 1u);
+  EXPECT_EQ(found->left_out[0].first, In("n/c.csv"));
+}
+
+TEST_F(FindFilesTest, OneTruthAndOneAnswerAreAPairWhateverTheirNames) {
+  Make({"truth.bvh", "mine.bvh"});
+  const auto found = Find("truth: ['@/truth.bvh']", {"{name: m, answers: ['@/mine.bvh']}"});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->worlds[0].answers[0], In("mine.bvh"));
+}
+
+TEST_F(FindFilesTest, ATableTellsWhichBelongTogether) {
+  Make({"t.bvh", "u.bvh", "x.bvh", "y.bvh"});
+  const auto found =
+      Find("pairs: p.csv", {"{name: m}", "{name: n}"}, "n,truth,m\r\n@/x.bvh,@/u.bvh,\n\n,@/t.bvh,@/y.bvh\n");
+  ASSERT_TRUE(found) << ToString(found.error());
+  const std::vector<JudgedFiles> expected = {{"t", "", In("t.bvh"), {In("y.bvh"), ""}},
+                                             {"u", "", In("u.bvh"), {"", In("x.bvh")}}};
+  EXPECT_EQ(found->worlds, expected);
+}
+
+TEST_F(FindFilesTest, TheUnitIsThePersonInTheName) {
+  Make({"t/01_02.bvh", "t/01_03.bvh", "t/02_01.bvh"});
+  const auto found = Find("{truth: ['@/t'], people: '{person}_*'}", {"{name: m, answers: ['@/t']}"});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->worlds[0].unit, "01");
+  EXPECT_EQ(found->worlds[1].unit, "01");
+  EXPECT_EQ(found->worlds[2].unit, "02");
+  EXPECT_EQ(PersonIn("*_S{person}A*", "take_S012A3"), "012");
+  EXPECT_EQ(PersonIn("{person}", "all"), "all");
+  EXPECT_EQ(PersonIn("{person}_*", "none"), std::nullopt);
+  EXPECT_EQ(PersonIn("without", "without"), std::nullopt);
+}
+
+TEST_F(FindFilesTest, WhatCannotBePairedIsRefused) {
+  Make({"t/a.bvh", "t/b.bvh", "u/a.bvh", "m/c.bvh", "m/d.bvh"});
+  const std::vector<std::string> m = {"{name: m, answers: ['@/m']}"};
+  EXPECT_THAT(Complaint("truth: ['@/t']", m), HasSubstr("none of the 2 answers of method 'm' is named like a truth"));
+  EXPECT_THAT(Complaint("truth: ['@/t', '@/u']", m), HasSubstr("have one name; 'pairs' tells"));
+  EXPECT_THAT(Complaint("truth: ['@/none']", m), HasSubstr("no clip matches"));
+  EXPECT_THAT(Complaint("{}", m), HasSubstr("needs 'truth' or 'pairs'"));
+  EXPECT_THAT(Complaint("truth: ['@/t']", {"{name: m}"}), HasSubstr("method 'm' has no 'answers'"));
+  EXPECT_THAT(Complaint("{truth: ['@/t'], people: 'x'}", {"{name: m, answers: ['@/u/a.bvh', '@/t/b.bvh']}"}),
+              HasSubstr("'x' does not fit the pair 'a'"));
+  EXPECT_THAT(Complaint("{truth: ['@/t'], trials: 3}", m), HasSubstr("'trials' has no use"));
+  EXPECT_THAT(Complaint("pairs: p.csv", m, "truth,m\n"), HasSubstr("'answers' stands beside 'pairs'"));
+  EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth,n\n"), HasSubstr("p.csv:1: unknown column 'n'"));
+  EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth\n"), HasSubstr("has no column of method"));
+  EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth,m\na\n"),
+              HasSubstr("p.csv:2: 1 cells; the heading has 2"));
+  EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth,m\nx/a.bvh,1\ny/a.bvh,2\n"),
+              HasSubstr("two pairs are named"));
+  EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, ""), HasSubstr("lists no pair"));
+}
+
+}  // namespace
+}  // namespace etude

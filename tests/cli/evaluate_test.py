@@ -1,0 +1,227 @@
+"""`etude evaluate`: files of other formats, other rates and other sizes against their truths, as a user meets it."""
+import csv
+import json
+import pathlib
+import random
+import sys
+
+from etude_case import EtudeCase
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "bench" / "metrics"))
+from independent.evaluation import METRICS  # noqa: E402
+
+FEET = ["left_ankle", "left_foot", "right_ankle", "right_foot"]
+BENDS = [[f"{side}_{joint}" for joint in limb] for side in ("left", "right")
+         for limb in (("hip", "knee", "ankle"), ("shoulder", "elbow", "wrist"))]
+
+
+def trc(names, frames, rate):
+    """A TRC file in millimetres; None is a gap."""
+    lines = ["PathFileType\t4\t(X/Y/Z)\tmine.trc",
+             "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames",
+             f"{rate}\t{rate}\t{len(frames)}\t{len(names)}\tmm\t{rate}\t1\t{len(frames)}",
+             "Frame#\tTime\t" + "\t\t\t".join(names) + "\t\t",
+             "\t\t" + "\t".join(f"{axis}{i + 1}" for i in range(len(names)) for axis in "XYZ"), ""]
+    for f, frame in enumerate(frames):
+        cells = [f"{1000 * x:.6f}" if p else "" for p in frame for x in (p or [0, 0, 0])]
+        lines.append(f"{f + 1}\t{f / rate:.7f}\t" + "\t".join(cells))
+    return "\n".join(lines) + "\n"
+
+
+class Evaluate(EtudeCase):
+    @classmethod
+    def setUpClass(cls):
+        """A built-in move as files, and its joints."""
+        cls.shared = cls.shared_folder()
+        for name in ("clap.csv", "clap.bvh", "clap.npz", "clap.c3d"):
+            made = cls.etude("clip", "convert", "builtin:clap", cls.shared / name)
+            assert made.returncode == 0, made.stderr
+        with open(cls.shared / "clap.csv") as file:
+            rows = list(csv.DictReader(file))
+        cls.names = [name[:-4] for name in rows[0] if name.endswith("_x_m")]
+        cls.frames = [[[float(row[f"{name}_{axis}_m"]) for axis in "xyz"] for name in cls.names] for row in rows]
+
+    def trc_file(self, name, frames, rate=30.0):
+        path = self.folder / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(trc(self.names, frames, rate))
+        return path
+
+    def evaluate(self, *arguments, code=0, out=None):
+        done = self.etude("evaluate", *arguments, "-o", out or self.out)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+    def rows(self, out=None):
+        return [json.loads(line) for line in ((out or self.out) / "cells.jsonl").read_text().splitlines()]
+
+    def given(self, found, truth, rate):
+        """What the second implementation reads, of lists of frames."""
+        def column(frames, name):
+            return [frame[self.names.index(name)] for frame in frames]
+        return {"rate_hz": rate, "found": found, "truth": truth, "segment": 100, "found_turns": [], "true_turns": [],
+                "found_root": column(found, "hip_centre"), "true_root": column(truth, "hip_centre"),
+                "feet": [list(feet) for feet in zip(*(column(found, name) for name in FEET))],
+                "bends": [[self.names.index(name) for name in bend] for bend in BENDS]}
+
+    def assert_agrees(self, row, given, places):
+        for name, metric in METRICS.items():
+            expected = metric(given)
+            if expected is None:
+                self.assertIsNone(row[name], name)
+            else:
+                self.assertAlmostEqual(row[name], expected, delta=10 ** -places * max(1, abs(expected)), msg=name)
+
+    def test_every_metric_is_that_of_the_second_implementation(self):
+        dice = random.Random(61)
+        noisy = [[None if dice.random() < 0.02 else [1.05 * x + dice.gauss(0.01, 0.02) for x in p] for p in frame]
+                 for frame in self.frames]
+        # As the file holds them.
+        noisy = [[p and [round(1000 * x, 6) / 1000 for x in p] for p in frame] for frame in noisy]
+        answer = self.trc_file("answer.trc", noisy)
+        self.evaluate(self.shared / "clap.csv", answer)
+        row, = self.rows()
+        self.assertEqual((row["status"], row["clip"], row["method"]), ("ok", "clap", "answer"))
+        self.assert_agrees(row, self.given(noisy, self.frames, 30), 9)
+        # Against other files of the same motion, as far as these hold its digits.
+        for name, places in ("clap.npz", 5), ("clap.bvh", 2), ("clap.c3d", 2):
+            out = self.folder / name
+            self.evaluate(self.shared / name, answer, "--metric", "mpjpe_root_mm", out=out)
+            other, = self.rows(out)
+            for metric in "mpjpe_root_mm", "mpjpe_each_frame_scaled_mm", "mpjpe_take_mm":
+                self.assertAlmostEqual(other[metric], row[metric], places, f"{name}, {metric}")
+
+    def test_formats_of_one_motion_agree_with_each_other(self):
+        for a, b in ("clap.bvh", "clap.csv"), ("clap.c3d", "clap.bvh"), ("clap.npz", "clap.npz"):
+            out = self.folder / (a + b)
+            said = self.evaluate(self.shared / a, self.shared / b, out=out).stdout
+            row, = self.rows(out)
+            self.assertLess(row["mpjpe_unaligned_mm"], 0.5, said)
+            self.assertIn("1 of 1 cells ok", said)
+
+    def test_a_shift_a_size_and_a_rate_are_told_apart(self):
+        shifted = [[[p[0] + 0.01, p[1], p[2]] for p in frame] for frame in self.frames]
+        larger = [[[1.1 * x for x in p] for p in frame] for frame in self.frames]
+        self.trc_file("m/shift.trc", shifted)
+        self.trc_file("m/size.trc", larger)
+        self.trc_file("m/slow.trc", self.frames, rate=15.0)
+        for name in "shift", "size", "slow":
+            self.trc_file(f"t/{name}.trc", self.frames)
+        self.evaluate(self.folder / "t", self.folder / "m")
+        rows = {row["clip"]: row for row in self.rows()}
+        self.assertAlmostEqual(rows["shift"]["mpjpe_unaligned_mm"], 10, 6)
+        self.assertAlmostEqual(rows["shift"]["mpjpe_root_mm"], 0, 6)
+        self.assertGreater(rows["size"]["mpjpe_root_mm"], 20)
+        self.assertAlmostEqual(rows["size"]["mpjpe_each_frame_scaled_mm"], 0, 3)
+        self.assertGreater(rows["slow"]["mpjpe_unaligned_mm"], 5, "a motion at half its rate is another motion")
+        self.assertIn("15 Hz interpolated", rows["slow"]["reason"])
+
+    def test_a_file_more_changes_no_other_and_a_changed_one_is_told(self):
+        for name in "b", "d":
+            self.trc_file(f"t/{name}.trc", self.frames)
+            self.trc_file(f"m/{name}.trc", [[[p[0] + 0.02, p[1], p[2]] for p in frame] for frame in self.frames])
+        arguments = [f"{self.folder}/t/*", f"m={self.folder}/m/*"]
+        self.evaluate(*arguments)
+        for name in "a", "c":
+            self.trc_file(f"t/{name}.trc", self.frames[:40])
+            self.trc_file(f"m/{name}.trc", self.frames[5:45])
+        more = self.folder / "more"
+        self.evaluate(*arguments, out=more)
+        self.assertEqual([row["clip"] for row in self.rows(more)], ["a", "b", "c", "d"])
+        facts = self.facts("compare", self.out, more)
+        self.assertEqual(facts["moves"], [])
+        self.assertEqual(facts["only_before"], [])
+        self.assertEqual(sorted(facts["only_after"]), ["evaluate, a", "evaluate, c"])
+        # A baseline of the two files passes with four, and misses one that goes.
+        baseline = self.folder / "two.json"
+        self.assertEqual(self.etude("gate", self.out, "--baseline", baseline, "--update").returncode, 0)
+        gated = self.etude("gate", more, "--baseline", baseline)
+        self.assertEqual(gated.returncode, 0, gated.stdout + gated.stderr)
+        self.etude("gate", more, "--baseline", self.folder / "four.json", "--update")
+        fewer = self.etude("gate", self.out, "--baseline", self.folder / "four.json")
+        self.assertEqual(fewer.returncode, 3, fewer.stdout)
+        self.assertIn("evaluate, a", fewer.stdout + fewer.stderr)
+        # Both runs hold; once a file changes, replay and verify say which.
+        self.assertEqual(self.etude("verify", self.out).returncode, 0)
+        self.trc_file("m/d.trc", self.frames)
+        for command in "replay", "verify":
+            told = self.etude(command, self.out)
+            self.assertEqual(told.returncode, 2, command + told.stdout + told.stderr)
+            self.assertIn("m/d.trc", told.stderr)
+
+    def test_what_cannot_be_judged_is_a_row_and_the_others_stay(self):
+        for name in "a", "b", "c", "d":
+            self.trc_file(f"t/{name}.trc", self.frames)
+        self.trc_file("m/a.trc", self.frames)
+        self.write("m/b.trc", "PathFileType\tno motion\n")
+        self.trc_file("m/c.trc", [[None] * 20] * 10)
+        said = self.evaluate(self.folder / "t", f"m={self.folder}/m").stdout
+        rows = {row["clip"]: row for row in self.rows()}
+        self.assertEqual({name: row["status"] for name, row in rows.items()},
+                         {"a": "ok", "b": "failed", "c": "failed", "d": "failed"})
+        self.assertIn("b.trc", rows["b"]["reason"])
+        self.assertEqual(rows["d"]["reason"], "the method has no answer of this name")
+        self.assertIn("3 not judged:", said)
+        self.assertEqual(rows["a"]["mpjpe_unaligned_mm"], 0)
+
+    def test_people_are_what_claims_beyond_the_files_count(self):
+        for name in "p1_a", "p1_b", "p2_a":
+            self.trc_file(f"t/{name}.trc", self.frames)
+        self.evaluate(self.folder / "t", f"m={self.folder}/t", "--people", "{person}_*")
+        self.assertEqual([row["units"] for row in self.rows()], [["p1"], ["p1"], ["p2"]])
+
+    def test_a_table_of_pairs_and_facts_for_programs(self):
+        answer = self.trc_file("x.trc", [[[p[0], p[1] + 0.03, p[2]] for p in frame] for frame in self.frames])
+        table = self.write("pairs.csv", f"name,truth,mine,none\nfirst,{self.shared}/clap.npz,{answer},\n"
+                                        f"second,{self.shared}/clap.csv,{answer},{answer}\n")
+        facts = self.facts("evaluate", "--pairs", table, "-o", self.out)
+        medians = {(method["method"], metric["metric"]): metric["median"]
+                   for method in facts["methods"] for metric in method["metrics"]}
+        self.assertAlmostEqual(medians["mine", "mpjpe_unaligned_mm"], 30, 3)
+        self.assertEqual([method["pairs_judged"] for method in facts["methods"]], [2, 1])
+
+    def test_a_run_is_an_answer_like_any_file(self):
+        run = self.folder / "run"
+        scenario = self.write("t.yaml", "scenario: t\nquestion: q\ntask: transition\nclips: ['builtin:sway', 'builtin:clap']\ntrials: 1\n"
+                                        "methods: [{name: cut, choice: now, join: cut}]\nvideo: {}\n")
+        self.run_suite(scenario, out=run)
+        said = self.evaluate(f"{run}#t/-/000@cut", f"{run}#t/-/000@cut")
+        row, = self.rows()
+        self.assertEqual(row["mpjpe_unaligned_mm"], 0, said.stdout)
+
+    def test_the_page_shows_it(self):
+        self.evaluate(self.shared / "clap.csv", self.shared / "clap.npz")
+        self.assertEqual(self.etude("report", self.out).returncode, 0)
+        page = (self.out / "report" / "index.html").read_text()
+        self.assertIn("joint error, root-aligned", page)
+
+    def test_bad_input_is_one_line(self):
+        a = self.trc_file("a.trc", self.frames)
+        scenario = self.write("s.yaml", f"scenario: s\nquestion: q\ntask: evaluation\ntruth: ['{a}']\n"
+                                        f"methods: [{{name: m, answers: ['{a}']}}]\n")
+        outside = self.write("o.yaml", f"scenario: s\nquestion: q\ntask: evaluation\ntruth: ['{a}']\n"
+                                       "methods: [{name: m, exec: [python3, x.py]}]\n")
+        keys = self.write("key", "0" * 64)
+        pathlib.Path(keys).chmod(0o600)
+        for arguments, words in [
+                (["evaluate", a], "needs a truth and results"),
+                (["evaluate", a, a, a], "several results need names"),
+                (["evaluate", self.folder / "none*", a], "no clip matches"),
+                (["evaluate", a, a, "--joints", "all"], "'all'"),
+                (["evaluate", a, a, "--metric", "mpjpe"], "unknown metric of task evaluation 'mpjpe'"),
+                (["evaluate", "--pairs", self.write("p.csv", "truth\n"), "-o", self.out], "no column of a method"),
+                (["export", scenario, "-o", self.out], "there are no problems to export"),
+                (["score", scenario, self.folder, "--name", "x", "-o", self.out], "there are no problems to export"),
+                (["run", scenario, "--seed-file", keys], "draws no dice"),
+                (["run", outside], "asks no program"),
+                (["check-method", "--task", "evaluation", "--", "python3", "x.py"], "asks no program")]:
+            with self.subTest(words=words, command=arguments[0]):
+                told = self.etude(*arguments)
+                self.assertEqual(told.returncode, 2, told.stdout + told.stderr)
+                self.assertIn(words, told.stderr)
+                self.assertEqual(told.stderr.count("\n"), 1, told.stderr)
+
+
+if __name__ == "__main__":
+    import unittest
+    unittest.main()

@@ -1,0 +1,41 @@
+"""etude.evaluate: arrays and files, judged as the program judges files."""
+import math
+import unittest
+
+from python_case import PythonCase
+
+import etude
+
+NAMES = ["hip_centre", "shoulder_centre", "head", *(f"{side}_{joint}" for side in ("left", "right") for joint in (
+    "shoulder", "elbow", "wrist", "hip", "knee", "ankle", "foot"))]
+HEIGHTS = [1, 1.5, 1.7, *(1.45, 1.2, 0.95, 0.98, 0.5, 0.1, 0.05) * 2]
+
+
+def standing(frames, across=0.0):
+    """A body that stands; `across` metres to the side."""
+    sides = [0, 0, 0, *[0.2] * 7, *[-0.2] * 7]
+    return [[[x + across, y, 0.1 if "foot" in name else 0.01 * f] for name, x, y in zip(NAMES, sides, HEIGHTS)]
+            for f in range(frames)]
+
+
+class Evaluate(PythonCase):
+    def test_arrays_are_judged_to_the_last_digit(self):
+        found = standing(20, across=0.0125)
+        found[7][2] = [math.nan] * 3
+        run = etude.evaluate(standing(20), mine=found, names=NAMES, rate_hz=30, output=self.folder / "run", progress=False)
+        row, = run["evaluate"].rows()
+        self.assertAlmostEqual(row["mpjpe_unaligned_mm"], 12.5, 12)
+        self.assertAlmostEqual(row["mpjpe_root_mm"], 0, 12)
+        self.assertAlmostEqual(row["seen_share"], 1 - 1 / (20 * len(NAMES)), 12)
+
+    def test_what_is_missing_is_told(self):
+        for wrong, arguments in [(TypeError, {"truth": standing(3), "mine": standing(3)}),
+                                 (TypeError, {"truth": "a.bvh"}),
+                                 (ValueError, {"truth": standing(3), "mine": standing(3), "names": ["a"], "rate_hz": 30}),
+                                 (etude.EtudeError, {"truth": "none.bvh", "mine": "none.trc"})]:
+            with self.subTest(arguments=list(arguments)), self.assertRaises(wrong):
+                etude.evaluate(**arguments, output=self.folder / "none", progress=False)
+
+
+if __name__ == "__main__":
+    unittest.main()
