@@ -129,7 +129,7 @@ void DefineCalibrate(CLI::App& app, Action& action) {
       ->capture_default_str();
   command
       ->add_option("--every", options->every,
-                   "Look at every so many frames of a film (0: 30; for a board of OpenCV's, 200 frames or less in all)")
+                   "Use every n-th frame of a film (0: every 30th; for a board of OpenCV's, at most 200 frames in all)")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
   command

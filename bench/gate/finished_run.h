@@ -20,7 +20,7 @@ struct FinishedScenario {
   std::uint64_t seed = 1;
   NamedDigests worlds;   ///< by condition (CompactLabel): the task's parameters and the clips
   NamedDigests methods;  ///< by method: its settings
-  /// Of a task that judges files, by trial: the world's name, and the digest of its truth. Empty for other tasks.
+  /// By trial, for a task that judges files: the world's name, and the digest of its truth. Empty for other tasks.
   NamedDigests files = {};
 };
 

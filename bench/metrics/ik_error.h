@@ -21,7 +21,7 @@ struct IkErrorSummary {
 /// Summarises the errors of one or more effectors.
 IkErrorSummary SummariseIkErrors(std::span<const EffectorError> errors);
 
-/// Which targets the effectors of a world have: "solved" is judged by these alone.
+/// The targets that the effectors of a world have: "solved" is judged by these alone.
 struct IkTargetParts {
   bool positions = true;
   bool axes = true;

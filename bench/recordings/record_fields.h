@@ -36,7 +36,7 @@ class RecordFields {
     return TextOf(*json);
   }
 
-  /// Reads a record. Complaints name the position within the object: "events[2].score: \"high\" is no number (how right
+  /// Reads a record. Complaints name the position within the object: "events[2].score: \"high\" is not a number (how right
   /// it looked)".
   template <typename Record>
   static Result<Record> Read(const std::string& text) {

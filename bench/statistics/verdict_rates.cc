@@ -33,7 +33,7 @@ double HeavyTailed(RandomStream& dice) {
 
 /// The pseudo-median of e^Z, Z standard normal: the median of the mean of two such values.
 constexpr double kLogNormalCentre = 1.2215829;
-/// That of a normal value which is 5 higher in one case of ten: its Walsh averages are normal with variance ½ around 0,
+/// The pseudo-median of a normal value that is 5 higher in one case of ten: its Walsh averages are normal with variance ½ around 0,
 /// 2.5 and 5, with probabilities 0.81, 0.18 and 0.01.
 constexpr double kFarOffCentre = 0.2107207;
 constexpr double kOffset = 5, kOffsetShare = 0.1;

@@ -59,7 +59,7 @@ Result<std::vector<CameraPairs>> ReadCsv(std::string_view text, const std::strin
     for (std::size_t i = 0; i < 5; ++i) {
       const std::string_view word = words[i + 1];
       const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), values[i]);
-      if (error != std::errc{} || stop != word.data() + word.size()) return Fail(place, "'{}' is no number", word);
+      if (error != std::errc{} || stop != word.data() + word.size()) return Fail(place, "'{}' is not a number", word);
     }
     ASSIGN_OR_RETURN(const PointPair pair, ToPair(values, place));
     auto of = std::ranges::find(cameras, words[0], &CameraPairs::name);

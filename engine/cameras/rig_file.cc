@@ -47,7 +47,7 @@ class Numbers {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool is_number = error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
-    if (!is_number && complaint_.empty()) complaint_ = fmt::format("{}=\"{}\" is no number", attribute, text);
+    if (!is_number && complaint_.empty()) complaint_ = fmt::format("{}=\"{}\" is not a number", attribute, text);
     return value;
   }
   Result<void> Finish() const {

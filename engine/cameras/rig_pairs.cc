@@ -132,7 +132,7 @@ Result<std::vector<double>> NumbersFrom(const ColmapLine& line, std::size_t firs
     const std::string& word = line.words[i];
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) {
-      return Fail({{}, line.number, 0}, "'{}' is no number", word);
+      return Fail({{}, line.number, 0}, "'{}' is not a number", word);
     }
     numbers.push_back(value);
   }

@@ -139,7 +139,7 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
       for (int axis = 0; axis < 3; ++axis) {
         const std::string_view cell = CellAt(cells, place.at[static_cast<std::size_t>(axis)]);
         const auto value = MotiveNumber(cell);
-        if (!cell.empty() && !value) return Fail({file, line, 0}, "{} is no number", Quote(cell));
+        if (!cell.empty() && !value) return Fail({file, line, 0}, "{} is not a number", Quote(cell));
         is_seen = is_seen && value;
         if (is_seen) at[axis] = metres * *value;
       }

@@ -117,7 +117,7 @@ Result<std::vector<std::optional<glm::dvec3>>> ReadFrame(std::string_view line, 
       const std::size_t at = 2 + 3 * marker + axis;
       const std::string_view cell = at < cells.size() ? cells[at] : std::string_view{};
       const auto value = NumberIn(cell);
-      if (!cell.empty() && !value) return Fail(place, "'{}' is no number", cell);
+      if (!cell.empty() && !value) return Fail(place, "'{}' is not a number", cell);
       constexpr double kMaxCoordinate = 1e9;  // in millimetres, the unit of written files
       is_seen =
           is_seen && value && std::abs(*value) * (kMillimetres * header.metres) <= kMaxCoordinate;  // false for "nan"

@@ -256,7 +256,7 @@ class Witnesses {
 
   void AddFeet(const glm::dvec3& up, Sum& sum) const {
     if (stays_.empty()) return;
-    constexpr double kSameHeight = 0.008, kFlatFoot = 0.015, kShare = 0.5, kMostCost = 2, kUnder = 3;
+    constexpr double kSameHeight = 0.008, kFlatFoot = 0.015, kShare = 0.5, kMaxCost = 2, kUnder = 3;
     // Landmarks of one kind: their heights about that of the kind, which is found robustly.
     std::vector<std::pair<glm::dvec3, double>> kinds;  // middle of a kind's stays; its height over that of the sole
     for (std::size_t kind = 0; kind < kFootKinds; ++kind) {
@@ -285,7 +285,7 @@ class Witnesses {
         if (stay.kind != kind) continue;
         const double residual = (glm::dot(up, stay.place) - height) / sigma;
         sum.Add(kFeetAtRest, residual, (stay.place - middle) / sigma, kShare);
-        sum.cost += kShare * std::min(kMostCost, Cost(residual));
+        sum.cost += kShare * std::min(kMaxCost, Cost(residual));
       }
       kinds.emplace_back(middle, AboveSole(kind, stature_));
     }
@@ -300,7 +300,7 @@ class Witnesses {
       const double sigma = kFlatFoot * stature_;
       const double residual = (glm::dot(up, place - middle) - (above - middle_above)) / sigma;
       sum.Add(kFeetAtRest, residual, (place - middle) / sigma, kShare);
-      sum.cost += kShare * std::min(kMostCost, Cost(residual));
+      sum.cost += kShare * std::min(kMaxCost, Cost(residual));
     }
     // Who hangs from their feet is upside down.
     std::vector<double> hips;

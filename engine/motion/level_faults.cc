@@ -91,11 +91,11 @@ bool FindsRest(const GroundView& ground, const FrameRange& span) {
 
 /// Returns the float or the sink of a body that is too high or too low in the whole clip.
 std::optional<MotionFault> FindWrongHeight(const GroundView& ground, const Told& told) {
-  constexpr double kHighRest = 0.10, kHighAtAll = 0.08, kDeepRest = -0.06, kEnoughUpright = 0.3, kMostUpright = 0.5;
+  constexpr double kHighRest = 0.10, kHighAtAll = 0.08, kDeepRest = -0.06, kEnoughUpright = 0.3, kMinUprightShare = 0.5;
   const FrameRange all{0, ground.frames() - 1};
   const double rest = ground.LowestRest() + told.reference - ground.floor();
   const bool is_high = rest > kHighRest && Quantile(ground.lowest(), 0.1) - ground.floor() > kHighAtAll;
-  if (is_high && ground.UprightShare() > kMostUpright) return ground.FaultOf(FaultKind::kFloats, all, rest);
+  if (is_high && ground.UprightShare() > kMinUprightShare) return ground.FaultOf(FaultKind::kFloats, all, rest);
   if (rest < kDeepRest && ground.UprightShare() > kEnoughUpright) return ground.FaultOf(FaultKind::kSinks, all, -rest);
   return std::nullopt;
 }

@@ -144,7 +144,7 @@ glm::dvec3 KneeInward(const SideOf& side, const SkinDepths& depths) {
   return Inward(rough, knee - hip, centre - knee, sign, depth);
 }
 
-/// Which wands stand beside their limbs, left then right: those before or behind it tell nothing.
+/// The wands that stand beside their limbs, left then right: those before or behind it tell nothing.
 struct UsedWands {
   std::array<bool, 2> thigh = {}, shank = {};
 };

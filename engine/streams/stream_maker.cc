@@ -98,7 +98,7 @@ glm::dmat3 QuarterTurns(int quarters) {
 
 /// Returns the quarter turns that set the bodies before a turned sensor upright; 0 if it is not turned.
 int QuartersOfSensor(std::span<const RecordedFrame> frames) {
-  constexpr double kMostFrames = 0.7, kHardlyAny = 0.05, kFaces = 0.7;
+  constexpr double kMinShare = 0.7, kHardlyAny = 0.05, kFaces = 0.7;
   std::array<double, 4> upright{};
   std::vector<double> fronts;  // how far the body faces up or down by the file
   double all = 0;
@@ -116,7 +116,7 @@ int QuartersOfSensor(std::span<const RecordedFrame> frames) {
   }
   if (all == 0 || upright[0] > kHardlyAny * all) return 0;
   const int most = static_cast<int>(std::ranges::max_element(upright) - upright.begin());
-  if (upright[most] < kMostFrames * all) return 0;
+  if (upright[most] < kMinShare * all) return 0;
   const bool is_portrait = most % 2 != 0;
   return is_portrait && (fronts.empty() || UpperMedian(std::move(fronts)) > kFaces) ? 0 : most;
 }

@@ -337,7 +337,7 @@ Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layou
     const Json* id = FirstMember(frame, {"frame_id", "frame", "frame_index"});
     if (const auto time = id == nullptr ? TimeOf(frame) : std::nullopt) times.push_back(*time);
     const auto number = id != nullptr ? FrameNumber(*id) : std::optional(static_cast<long>(i));
-    if (!number) return Fail(place, "frame {} is no number", ShowJson(*id));
+    if (!number) return Fail(place, "frame {} is not a number", ShowJson(*id));
     const Json* people = frame.is_object()
                              ? FirstMember(frame, {"instances", "people", "pose_landmarks", "landmarks", "keypoints"})
                              : &frame;
@@ -381,6 +381,7 @@ void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, P
     if ((number - first) % usual != 0) return;
     indices.push_back(static_cast<std::size_t>((number - first) / usual));
   }
+  if (indices.back() + 1 == names.size()) return;  // only the end is missing: another film, or one that was cut
   const std::size_t count = std::max(of.frames, indices.back() + 1);
   if (indices.back() >= kMaxSpread * indices.size() + of.frames) return;
   MoveFrames(indices, count, film);

@@ -47,7 +47,8 @@ Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layou
 
 /// Lays a film's frames, one for each name, by the number at the end of the names, if these begin alike and the numbers
 /// ascend and the film does not have just as many frames. A number that is missing is a frame without people, which
-/// `told` says. Numbers that leave more than nine of ten frames empty are no clock.
+/// `told` says; if only the end is missing, the frames stay as they are. Numbers that leave over nine of ten frames
+/// empty are no clock.
 void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, PeopleOfFilm& film);
 
 }  // namespace etude

@@ -122,7 +122,7 @@ class Capture(EtudeCase):
         self.assertIn("camera a: cannot calibrate a camera: 5 point pairs; at least 6",
                       self.refusal("calibrate", five, "--size", "640x480", "-o", self.rig))
         words = self.write("words.csv", "camera,x,y,z,u,v\na,1,2,three,4,5\n")
-        self.assertIn("words.csv:2: 'three' is no number",
+        self.assertIn("words.csv:2: 'three' is not a number",
                       self.refusal("calibrate", words, "--size", "640x480", "-o", self.rig))
         self.assertIn("no board; allowed: 3 to 16 squares", self.refusal("calibrate", "x", "--board", "2x2x1", "-o", self.rig))
         self.assertIn("no such file", self.refusal("calibrate", "nothing.mp4", "-o", self.rig))

@@ -189,7 +189,8 @@ class Verify(EtudeCase):
 
     def test_rows_that_no_cell_can_confirm_are_counted_by_method(self):
         shutil.rmtree(self.out)
-        text = ik_scenario(trials=2) + "  - {name: mine, exec: ['false']}\n"
+        hello = '{"type": "hello", "protocol": 1, "name": "m", "version": "1"}'  # and no answer
+        text = ik_scenario(trials=2) + f"  - {{name: mine, exec: [sh, -c, 'read x; echo ''{hello}''']}}\n"
         self.run_suite(self.write("ik.yaml", text), code=1)
         self.assertIn("ik/mine: all 4 cells: they run programs (--allow-exec allows it)", self.verify(expect=0))
         told = self.facts("verify", self.out)

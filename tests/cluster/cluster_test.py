@@ -136,8 +136,8 @@ class Cluster(unittest.TestCase):
     def test_bad_arguments_are_one_message_and_submit_nothing(self):
         for arguments, complaint in {
             (): "-n SHARDS is missing",
-            ("-n", "0", SUITE): "'0' is no number of shards",
-            ("-n", "4", "-c", "two", SUITE): "'two' is no number of CPUs",
+            ("-n", "0", SUITE): "'0' is not a number of shards",
+            ("-n", "4", "-c", "two", SUITE): "'two' is not a number of CPUs",
             ("-n", "4"): "no scenario",
             ("-n", "4", "nowhere.yaml"): "no scenario 'nowhere.yaml'",
             ("-n", "4", SUITE, "--jobs", "2"): "--jobs: the array gives that itself",

@@ -301,7 +301,7 @@ def check_pages(relative, path):
 # House words, and the field's. A word of the glossary's column "not" stands here once no text uses it.
 WORDS = [
     (r"\bk(?:Most|Least|Fewest|Longest|Largest|Shortest|Smallest)[A-Z]\w*", "kMax… or kMin…"),
-    (r"\bseams?\b", "transition point"),
+    (r"(?<!with )\bseams?\b(?! along)", "transition point"),  # but of cloth
     (r"manyeth|\bevery so many\b", "every n-th"),
     (r"\bis no number\b", "is not a number"),
     (r"\b(?:whence|whereof|thereof)\b", "a relative clause"),

@@ -243,7 +243,7 @@ Recording RecordCoaching(const CoachStage& stage, const SessionLog& log) {
   }
   for (const GivenCorrection& correction : log.corrections) extras.corrections.push_back(correction.decided_frame);
   for (const LoggedTransition& transition : log.transitions) {
-    extras.transitions.insert(extras.transitions.end(), transition.seams.begin(), transition.seams.end());
+    extras.transitions.insert(extras.transitions.end(), transition.points.begin(), transition.points.end());
   }
   extras.beats_s = log.beats_s;
   for (const SensedFrame& frame : log.sensed.frames) extras.joint_states.push_back(StateLetters(frame));

@@ -133,7 +133,7 @@ std::vector<double> JumpsOf(const SessionLog& log) {
   std::vector<double> worst;
   for (const LoggedTransition& transition : log.transitions) {
     double jump = -1;
-    for (const int point : transition.seams) {
+    for (const int point : transition.points) {
       const int first = std::max(0, point - kWindowReach), last = point + kWindowReach;
       if (last >= log.Frames()) continue;
       for (int frame = first; frame <= last; ++frame) jump = std::max(jump, jumps[static_cast<std::size_t>(frame)]);

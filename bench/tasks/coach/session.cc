@@ -185,14 +185,14 @@ class Loop {
 
   /// Returns the last frames before the transition points of a transition requested in this frame.
   std::vector<int> TransitionPointsOf(const TransitionRecord& record) const {
-    std::vector<int> seams;
+    std::vector<int> points;
     double frame = frame_;
     const double rate = coach_->state().rate;
     for (std::size_t i = 0; i + 1 < record.segments.size(); ++i) {
       frame += (record.segments[i].last - record.segments[i].first) / rate;
-      seams.push_back(static_cast<int>(std::lround(frame)));
+      points.push_back(static_cast<int>(std::lround(frame)));
     }
-    return seams;
+    return points;
   }
 
   const SessionParts& parts_;

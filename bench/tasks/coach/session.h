@@ -48,7 +48,7 @@ struct LoggedPerformance {
 
 /// A transition of the coach.
 struct LoggedTransition {
-  std::vector<int> seams;
+  std::vector<int> points;
   bool is_bridged = false;  ///< it uses bridge frames, directly or through clips in between
 };
 

@@ -179,7 +179,7 @@ class RecordingAppender {
   DetectionWorld& world_;
 };
 
-/// Returns the move that a person was asked for who did another one: `turn` positions further in the list of all moves,
+/// Returns the move that was asked of a person who performed another one: `turn` positions further in the list of moves,
 /// or the same one if there is no other.
 const std::string& OtherMove(const std::vector<std::string>& moves, const std::string& move, std::size_t turn) {
   const auto at = static_cast<std::size_t>(std::ranges::find(moves, move) - moves.begin());

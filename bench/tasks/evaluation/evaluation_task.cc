@@ -92,6 +92,7 @@ TaskKind MakeEvaluationTaskKind() {
           .question = "How close do the motions of files come to their truths?",
           .default_metrics = {"mpjpe_unaligned_mm", "mpjpe_root_mm", "mpjpe_each_frame_scaled_mm", "accel_error_mps2",
                               "bend_error_deg"},
+          .success = "seen_share",
           .metrics = EvaluationMetrics(),
           .make = MakeEvaluationTask,
           .condition_keys = EvaluationConditionFields().Describe(),

@@ -32,7 +32,7 @@ struct TransitionPoint {
 };
 
 struct BridgeOptions {
-  int min_clips = 2;       ///< a bridge frame's ten terms occur together in so many clips at least
+  int min_clips = 2;       ///< the minimum number of clips in which a bridge frame's ten terms occur together
   double threshold = 0.4;  ///< frames match below this fuzzy distance; a larger one finds more ways, and worse ones
 };
 

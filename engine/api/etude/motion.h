@@ -51,7 +51,7 @@ struct Pose {
 struct Motion {
   double rate_hz = 30;
   std::vector<Pose> poses;
-  /// Of a motion read from a file: what was found, and every change of what the file holds (unit, axis, floor, rate,
+  /// For a motion read from a file: what was found, and every change of what the file holds (unit, axis, floor, rate,
   /// composed joints), each for people.
   std::vector<std::string> changes = {};
 };

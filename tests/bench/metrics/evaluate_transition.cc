@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-std::vector<int> TransitionFramesOf(const Json& in) { return in.at("seams").get<std::vector<int>>(); }
+std::vector<int> TransitionFramesOf(const Json& in) { return in.at("transition_points").get<std::vector<int>>(); }
 
 TransitionSmoothness SmoothnessOf(const Json& in) {
   return MeasureTransitions(ReadMotion(in.at("motion")), TransitionFramesOf(in));

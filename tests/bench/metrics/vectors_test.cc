@@ -100,7 +100,7 @@ TEST(EvaluateMetric, RefusesWhatIsNoInputOfTheMetric) {
   EXPECT_FALSE(EvaluateMetric("jump_cm", "{}"));
   EXPECT_FALSE(EvaluateMetric("jump_cm", "not JSON"));
   const auto unknown_joint =
-      EvaluateMetric("jump_cm", R"({"motion": {"frames": 3, "joints_m": {"tail": [[0, 0, 0]]}}, "seams": [1]})");
+      EvaluateMetric("jump_cm", R"({"motion": {"frames": 3, "joints_m": {"tail": [[0, 0, 0]]}}, "transition_points": [1]})");
   ASSERT_FALSE(unknown_joint);
   EXPECT_THAT(unknown_joint.error().message, HasSubstr("tail"));
 }

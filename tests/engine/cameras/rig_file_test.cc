@@ -122,7 +122,7 @@ TEST(RigFile, RefusedWithPlaceAndReason) {
   EXPECT_THAT(reason(kQualisys), "no complaint");
   EXPECT_EQ(reason(Changed(kQualisys, "viewrotation=\"0\"", "viewrotation=\"90\"")), "no complaint");
   EXPECT_THAT(reason("%YAML:1.0\n---\nnames:\n  - \"1\"\n"), HasSubstr("intri.yml and extri.yml"));
-  EXPECT_THAT(reason(Changed(kQualisys, "x=\"3000\"", "x=\"3m\"")), HasSubstr("rig:6: x=\"3m\" is no number"));
+  EXPECT_THAT(reason(Changed(kQualisys, "x=\"3000\"", "x=\"3m\"")), HasSubstr("rig:6: x=\"3m\" is not a number"));
   EXPECT_THAT(reason(Changed(kQualisys, "r11=\"0\"", "r11=\"5\"")), HasSubstr("R is no rotation"));
   EXPECT_THAT(reason(Changed(kQualisys, "</cameras>", "")), HasSubstr("no XML"));
   EXPECT_THAT(reason("<html/>"), HasSubstr("allowed: <calibration>"));
@@ -309,7 +309,7 @@ TEST(RigPair, OfColmapIsRefusedWithLineAndReason) {
   EXPECT_THAT(reason("\n1 PIN 640 480 600\n", image), HasSubstr("2: camera model PIN; allowed: FULL_OPENCV, OPENCV"));
   EXPECT_THAT(reason("1 PINHOLE 640 480 600 320 240\n", image), HasSubstr("3 parameters of PINHOLE; allowed: 4"));
   EXPECT_THAT(reason("1 PINHOLE\n", image), HasSubstr("no camera; allowed: CAMERA_ID MODEL WIDTH HEIGHT PARAMS"));
-  EXPECT_THAT(reason("1 PINHOLE 640 480 600 6oo 320 240\n", image), HasSubstr("'6oo' is no number"));
+  EXPECT_THAT(reason("1 PINHOLE 640 480 600 6oo 320 240\n", image), HasSubstr("'6oo' is not a number"));
   EXPECT_THAT(reason(camera, "1 1 0 0 0 0 0 3 1\n"), HasSubstr("no image; allowed: IMAGE_ID"));
   EXPECT_THAT(reason(camera, "1 1 0 0 0 0 0 3 2 a.png\n"), HasSubstr("camera 2 is not in cameras.txt"));
   EXPECT_THAT(reason(camera, "# none\n"), HasSubstr("no image in images.txt"));

@@ -214,7 +214,7 @@ TEST(MotiveCsv, RefusesWithLineAndReason) {
               HasSubstr("no Export Frame Rate from 0 to 10000"));
   EXPECT_THAT(reason("X,X,Y,Z,X,Y,Z", "X,X,Y,W,X,Y,W"),
               HasSubstr("0 bones or markers with a Position; allowed: 1 to 1000"));
-  EXPECT_THAT(reason("9,10,20", "9,10,2O"), HasSubstr("8: '2O' is no number"));
+  EXPECT_THAT(reason("9,10,20", "9,10,2O"), HasSubstr("8: '2O' is not a number"));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ def difference(frames, joint, f, coefficients):
 def over_frames_near(given, needed_after, value):
     """The worst of value(frames, f) over the frames within reach of a transition point that have their neighbours."""
     frames = frames_of(given["motion"])
-    return common.worst([value(frames, f) for point in given["seams"]
+    return common.worst([value(frames, f) for point in given["transition_points"]
                          for f in range(point - REACH, point + REACH + 1)
                          if f >= 1 and f + needed_after < len(frames)])
 
@@ -81,7 +81,7 @@ def foot_slide(given):
                 speed = common.CM * rate * math.hypot(there[0] - here[0], there[2] - here[2])
                 speeds.append(speed * min(1, max(0, 2 - 2 ** (common.CM * here[1] / FOOT_HEIGHT_CM))))
         return common.mean(speeds)
-    return common.worst([slide(point) for point in given["seams"]])
+    return common.worst([slide(point) for point in given["transition_points"]])
 
 
 def natural(given):
@@ -150,8 +150,8 @@ def fuzzy_distance(given):
 
 def speed_profile(given):
     frames, rate = frames_of(given["motion"]), given["motion"].get("rate_hz", 30)
-    first = max(0, given["seams"][0] - int(rate))
-    last = min(len(frames) - 1, given["seams"][-1] + int(rate))
+    first = max(0, given["transition_points"][0] - int(rate))
+    last = min(len(frames) - 1, given["transition_points"][-1] + int(rate))
     return [common.mean([rate * distance(frames[f + 1][role], frames[f][role]) for role in ROLES])
             for f in range(first, last)], rate
 
