@@ -162,7 +162,7 @@ TEST(RenderedCalibration, CornersAreWhereTheyWere) {
   }
 }
 
-TEST(HEAVY_RenderedCalibration, TheTruthIsWithinWhatIsTold) {
+TEST(RenderedCalibration, HEAVY_TheTruthIsWithinWhatIsTold) {
   for (const Sheet& sheet : {kChess, kOwn}) {
     for (const double blur_px : {0.7, 2.0}) {
       const auto measured = Measure(sheet, blur_px, 60, 100);

@@ -231,7 +231,7 @@ TEST(FindUp, TheTruthIsWithinTheAngleToldInWhateverPosture) {
   }
 }
 
-TEST(HEAVY_FindUp, TheTruthIsWithinTheAngleToldInNinetyFiveTakesOfAHundred) {
+TEST(FindUp, HEAVY_TheTruthIsWithinTheAngleToldInNinetyFiveTakesOfAHundred) {
   for (const double roll_deg : {0.0, 1.5, 4.0}) {
     for (const double noise_px : {0.0, 1.0, 3.0}) {
       const Covered covered = Cover(60, 7000, roll_deg, noise_px);
