@@ -6,7 +6,7 @@ namespace etude {
 namespace {
 
 /// One joint that moves along X by a metre a frame.
-RawMotion Walk(double rate_hz, std::size_t frames) {
+RawMotion Striding(double rate_hz, std::size_t frames) {
   RawMotion motion;
   motion.rate_hz = rate_hz;
   motion.joints = {"a"};
@@ -15,20 +15,20 @@ RawMotion Walk(double rate_hz, std::size_t frames) {
 }
 
 TEST(Sampled, AtTheMotionsOwnRateIsTheMotion) {
-  const RawMotion walk = Walk(29.97, 1000);
+  const RawMotion walk = Striding(29.97, 1000);
   EXPECT_EQ(Sampled(walk, 29.97, 0, 1000).positions, walk.positions);
 }
 
 TEST(Sampled, LiesOnTheLineBetweenFrames) {
-  const RawMotion sampled = Sampled(Walk(30, 3), 120, 0, 9);
+  const RawMotion sampled = Sampled(Striding(30, 3), 120, 0, 9);
   for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(sampled.At(i, 0).x, 0.25 * static_cast<double>(i), 1e-12);
   EXPECT_EQ(sampled.rate_hz, 120);
 }
 
-TEST(Sampled, BeginsLater) { EXPECT_NEAR(Sampled(Walk(10, 9), 10, 0.25, 1).At(0, 0).x, 2.5, 1e-12); }
+TEST(Sampled, BeginsLater) { EXPECT_NEAR(Sampled(Striding(10, 9), 10, 0.25, 1).At(0, 0).x, 2.5, 1e-12); }
 
 TEST(Sampled, ShowsNothingOutsideTheMotionOrBesideAGap) {
-  RawMotion walk = Walk(10, 4);
+  RawMotion walk = Striding(10, 4);
   walk.positions[2] = NotSeen();
   const RawMotion sampled = Sampled(walk, 20, -0.05, 10);
   // Frames −0.5, 0, 0.5, … 4: seen up to frame 1 and again at frame 3.
@@ -37,7 +37,7 @@ TEST(Sampled, ShowsNothingOutsideTheMotionOrBesideAGap) {
 }
 
 TEST(Sampled, TurnsRotationsEvenly) {
-  RawMotion turn = Walk(10, 2);
+  RawMotion turn = Striding(10, 2);
   turn.rotations = {glm::dquat(1, 0, 0, 0), glm::dquat(0, 0, 1, 0)};
   const glm::dquat half = Sampled(turn, 20, 0, 2).rotations[1];
   EXPECT_NEAR(half.w, std::sqrt(0.5), 1e-12);
@@ -45,7 +45,7 @@ TEST(Sampled, TurnsRotationsEvenly) {
 }
 
 TEST(RawMotion, FindsARoleBeforeAName) {
-  RawMotion motion = Walk(10, 1);
+  RawMotion motion = Striding(10, 1);
   motion.joints = {"Left_Knee", "LKNE"};
   EXPECT_EQ(motion.Find("left_knee"), 0);
   motion.roles[Index(Role::kLeftKnee)] = 1;
