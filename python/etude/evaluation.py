@@ -1,4 +1,5 @@
 """Judges motions, in files or arrays, by their truth (`etude evaluate`)."""
+import json
 import os
 import pathlib
 import re
@@ -43,7 +44,9 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
     code, printed, said = call(*arguments, program=program, progress=progress, allowed=(0, 1))
     found = load(output, program=program)
     if code != 0:
-        raise EtudeError("a method has no answer that can be judged", code, printed + said, found)
+        rows = (json.loads(line) for line in (output / "cells.jsonl").read_text(encoding="utf-8").splitlines())
+        why = next((f": {row['method']}, {row['reason']}" for row in rows if row["status"] != "ok"), "")
+        raise EtudeError("a method has no answer that can be judged" + why, code, printed + said, found)
     return found
 
 
