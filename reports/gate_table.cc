@@ -49,7 +49,7 @@ std::string WorldsText(const MetricMove& move) {
   return text;
 }
 
-/// Returns the counts of the movements without zeros: "2 worse, 3 better, 165 same".
+/// Returns the nonzero counts of the movements: "2 worse, 3 better, 165 same".
 std::string MovementCounts(const std::vector<MetricMove>& moves) {
   std::string text;
   for (Movement movement : {Movement::kWorse, Movement::kChanged, Movement::kBetter, Movement::kUnclear,

@@ -82,8 +82,8 @@ void JudgeMoves(std::span<MetricMove> moves, const std::set<std::string>& exact)
 using TailRules = std::map<std::string, TailRule>;
 
 /// Returns the worlds that became far worse: by more than `rule.times` practical thresholds, or with a lost value. For
-/// kOkShare: the worlds that were `ok` and are not any more; they are lost unless they have an answer (`unsolved`). If
-/// the metric has no direction, only lost values count. Lost worlds come first, then the worst.
+/// kOkShare: the worlds that were `ok` and no longer are; they are lost unless they are now `unsolved`. If the metric
+/// has no direction, only lost values count. Lost worlds come first, then the worst.
 std::vector<TailWorld> FindTail(const MoveColumns& columns, const MetricInfo& metric, const TailRule& rule);
 
 /// Returns how many far worse worlds among `compared` are a regression; 0 = no number is.

@@ -183,7 +183,7 @@ struct Field {
     field.info.fallback = words;
     return field;
   }
-  /// The key is allowed only if `key` has one of these values.
+  /// Allows this field only if `key` has one of these values.
   Field With(const std::string& key, std::vector<std::string> values) const {
     Field field = *this;
     field.info.only_with = {key, std::move(values)};

@@ -37,7 +37,7 @@ ValueKind ListKind(std::string allowed, const ValueKind& item, std::optional<Cou
 /// A mapping with these keys.
 ValueKind MappingKind(std::string allowed, std::span<const KeyInfo> keys);
 
-/// The values of another key of the same mapping under which a key is allowed.
+/// Allows a key only if another key of its mapping has one of these values.
 struct KeyCondition {
   std::string key;                  ///< "solver"; empty: no condition
   std::vector<std::string> values;  ///< any of these

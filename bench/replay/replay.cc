@@ -156,7 +156,7 @@ Result<ReplayOutcome> ReplayPrepared(const ReplayOptions& options, const RunData
     RETURN_IF_ERROR(NoteKey(options.folder, prepared.suite, prepared.scenarios, options.key));
   }
   ASSIGN_OR_RETURN(const Fence fence, FenceFor(prepared.scenarios, options.outside, options.folder, options.key));
-  // The reason of a failure quotes the standard error of programs, which needs a folder.
+  // A failure's reason quotes the program's standard error, which is kept in a folder.
   std::optional<TemporaryFolder> errors;
   if (!ProgramsOf(prepared.scenarios).empty()) {
     ASSIGN_OR_RETURN(errors, TemporaryFolder::Make("replay"));

@@ -34,9 +34,9 @@ class CellRunner {
   /// Builds the world. If that fails, every cell of the world reports the failure.
   void Open(int condition, int trial);
   /// Runs a method in the open world. An exception gives a failed row. If memory runs out, the cell is `out_of_memory`
-  /// if it held more than the scenario allows; otherwise the machine has too little, and the cell is not run. A cell
-  /// with a motion is not yet measured by programs that are metrics: they would learn the truth of a world in which
-  /// other methods are still to be asked.
+  /// if it held more than the scenario allows; otherwise the machine has too little, and the cell is not run. Metric
+  /// programs do not measure a cell with a motion yet: they would learn the truth of the world before all methods have
+  /// answered.
   FinishedCell Run(std::size_t method);
   /// Lets programs measure an answered cell. A run does so when all methods have answered (RunOrders).
   FinishedCell Measure(int condition, FinishedCell answered);

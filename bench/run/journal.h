@@ -15,8 +15,8 @@
 
 namespace etude {
 
-/// The finished cells of a run or shard: for each, by its number in the plan, the position of its line. The lines stay
-/// on the disk until they are read, so a run of any size fits into memory.
+/// Where the line of each finished cell of a run or shard is, by the cell's number in the plan. The lines stay on the
+/// disk until they are read, so a run of any size fits into memory.
 class CellTable {
  public:
   explicit CellTable(std::size_t cells) : places_(cells) {}

@@ -150,7 +150,7 @@ Result<std::vector<NamedClips>> ReadLibraryOptions(const std::vector<std::string
   return libraries;
 }
 
-/// The files with a scenario that can use clips, or recordings.
+/// The files whose scenarios can use clips, or recordings.
 struct UsersOfFiles {
   std::set<std::string> clips, recordings;
 };

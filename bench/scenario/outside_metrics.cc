@@ -181,7 +181,7 @@ std::vector<std::string> ReadHeadline(Fields& fields, const TaskKind& kind, std:
   // Texts complains that it is not a list.
   if (list != nullptr && list->kind != Node::Kind::kSequence) fields.Texts("metrics");
   if (list == nullptr || list->items.empty()) return kind.default_metrics;
-  // Mappings are metrics of the scenario's own; if there are only such, the task's come first.
+  // Mappings are the scenario's own metrics; if all are mappings, the task's come first.
   const auto is_own = [](const Node& item) { return item.kind == Node::Kind::kMapping; };
   std::vector<std::string> names;
   if (std::ranges::all_of(list->items, is_own)) names = kind.default_metrics;

@@ -12,8 +12,8 @@
 namespace etude {
 
 /// Returns the values of a swept parameter, from a list or a range: `{from: 5, to: 20, step: 5}`, `{from: 1, to: 100,
-/// count: 5, scale: log}`. A range's values are written with at most 12 digits, so that 0.1 + 2 × 0.1 reads 0.3; they
-/// have the place of the range. At least one value, at most `most`.
+/// count: 5, scale: log}`. A range's values are written with at most 12 digits, so that 0.1 + 2 × 0.1 reads 0.3; their
+/// place is the range's. At least one value, at most `most`.
 Result<std::vector<Node>> SweptValues(const Node::Entry& swept, std::size_t most);
 
 struct RangeWords {

@@ -19,8 +19,8 @@ struct ConditionFindings {
   ConditionSummary summary;  ///< without comparisons; its answers are not judged yet
   std::vector<Question> against_baselines, against_rivals;
 };
-/// Measures one condition. Random streams are keyed by what is compared alone, so conditions may be measured in any
-/// order and by any process.
+/// Measures one condition. Random streams depend only on what is compared, so conditions may be measured in any order
+/// and by any process.
 ConditionFindings MeasureCondition(const Study& study, const ConditionTable& table, std::uint64_t seed);
 
 /// Returns the summary of a study from the findings of all its conditions, in their order.

@@ -292,7 +292,7 @@ void MeasureFalseAlarms(int repetitions, VerdictRates& rates) {
   rates.coverage_without = 100.0 * held / repetitions;
 }
 
-/// Measures the power for each effect size, and the coverage for twice the threshold.
+/// Measures the power at each effect size, and the coverage at twice the threshold.
 void MeasurePower(int repetitions, VerdictRates& rates) {
   const double matters = JustMatters(rates.design.law);
   const MetricInfo metric = MetricOf(matters);

@@ -13,8 +13,8 @@ namespace etude {
 
 /// Returns the views of boards in films that are not synchronised. A *look* is one of the examined, evenly spaced
 /// pictures of a film. Look k of the first film was taken when the time of film c was k · period_s[0] + delay_s[c].
-/// Corners at a moment between two looks are interpolated by a parabola through the same corner in the nearest look and
-/// in both neighbours, or by a line through two. A board without a neighbouring look becomes a target of its own, which
+/// Between looks, a corner's position is interpolated by a parabola through its positions in the nearest look and both
+/// neighbours, or by a line through two looks. A board without a neighbouring look becomes a target of its own, which
 /// constrains only its camera.
 /// @param sightings all from films (`look` ≥ 0)
 /// @param period_s time between the looks of each film, seconds

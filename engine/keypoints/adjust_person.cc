@@ -184,8 +184,8 @@ class Adjuster {
     if (child == kLeftShoulder || child == kLeftHip) bones[Index(Mirrored(child))] += metres;
   }
 
-  /// Adds the derivatives of all offsets by one length. Offsets are linear in the lengths, so these are the differences
-  /// to the body with that bone longer by a metre.
+  /// Adds the derivatives of all offsets by one length. Offsets are linear in the lengths, so a derivative is the
+  /// change when that bone is a metre longer.
   void AddShares(const CaptureBody& longer) {
     const int length = static_cast<int>(bones_.size());
     for (std::size_t j = 0; j < measurable_.tree.joints.size(); ++j) {

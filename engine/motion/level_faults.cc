@@ -100,7 +100,7 @@ std::optional<MotionFault> FindWrongHeight(const GroundView& ground, const Told&
   return std::nullopt;
 }
 
-/// Appends the times in which all of the body is below the floor or its feet are, without a displacement.
+/// Appends the times in which the feet are below the floor, in frames without a displacement.
 void FindLow(const GroundView& ground, const Told& told, std::vector<MotionFault>& faults) {
   constexpr double kDeep = 0.06, kMinSunk_s = 0.15;
   std::vector<bool> is_deep(ground.frames());

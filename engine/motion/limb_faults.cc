@@ -98,8 +98,8 @@ double SegmentDistance(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec
   return glm::distance(a + s * u, c + t * v);
 }
 
-/// Returns the distance of a forearm and hand from the line of the spine, without its ends (near the hips, hands rest
-/// on the thighs), or of the forearm from neck and head; hands may lie on the nape.
+/// Returns the smallest distance of forearm and hand from the spine without its ends (hands may rest on the thighs),
+/// and of the forearm from neck and head (hands may lie on the nape).
 double DistanceFromSpine(const BodyPose& pose, Role elbow, Role wrist, Role hand) {
   constexpr double kFromHips = 0.3, kToNeck = 0.95;
   const glm::dvec3 low = glm::mix(pose[kHipCentre], pose[kSpine], kFromHips);

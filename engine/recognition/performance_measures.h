@@ -10,9 +10,9 @@
 
 namespace etude {
 
-/// Measures of how a performance keeps to the clock of who asks for it: what is seen from the window's opening on is
-/// laid on an example that is moved in time as a whole and never warped. A warped path hides who is late in the middle;
-/// and a move that repeats itself fits anywhere.
+/// Measures of how a performance keeps time with whoever asks for it: what is seen since the window opened is compared
+/// with an example that is shifted in time as a whole, never warped. A warped path hides who is late in the middle; and
+/// a move that repeats itself fits anywhere.
 struct ClockMeasures {
   double shift = 0;   ///< seconds by which the example must come later to fit best
   double first = 0;   ///< likewise of the example's first half alone
@@ -94,7 +94,7 @@ struct MeasureSlice {
   std::size_t first = 0, count = 0;
 
   constexpr std::size_t end() const { return first + count; }
-  /// What follows, as large: each of these measures beyond what is usual of this person.
+  /// The next slice, equally large: how far each measure is beyond the person's usual.
   constexpr MeasureSlice Beyond() const { return {end(), count}; }
 };
 

@@ -29,8 +29,8 @@ struct MarkerBody {
   std::vector<std::string> changes;
   std::string note;  ///< all of them, between semicolons
   /// The joints as the markers show them, in all frames of the file and with its gaps: no gap is filled, no joint placed
-  /// by rule, no floor found. First the joints that the set determines, by the names of their roles, then the person's
-  /// other markers, by their own in lower case. Metres, Y up. Its remark names the set, and what was guessed.
+  /// by rule, no floor found. First the joints that the set determines, named by role, then the person's other markers,
+  /// by their own names in lower case. Metres, Y up. Its remark names the set, and what was guessed.
   MarkerMotion shown = {};
 };
 

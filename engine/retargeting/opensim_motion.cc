@@ -24,7 +24,7 @@ namespace {
 
 using enum Role;
 
-/// The index of an angle's range among those of `MakeBodyTree`; is_reversed if its sign is opposite there.
+/// The place of an angle's range in `MakeBodyTree`; is_reversed: the angle has the opposite sign there.
 struct TreeAngle {
   BodyTreeJoint joint;
   int axis = 0;

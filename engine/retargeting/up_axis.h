@@ -46,7 +46,7 @@ UpFinding FindUp(std::span<const BodyPose> poses, double rate_hz, const UpRule& 
 /// Finds it for a clip with a skeleton, Y or Z: the usual axis is the one along which the body stands at rest, else Y.
 UpFinding FindUp(const BodyPose& rest, std::span<const BodyPose> poses, double rate_hz);
 
-/// What formats tell of their up axis. TRC, C3D without a word, and arrays of joints have only a usual one.
+/// What formats tell of their up axis. TRC, C3D without Y_SCREEN, and joint arrays have only a usual axis.
 UpRule TrcUp();
 /// `axis` is 'X', 'Y' or 'Z' by the file's Y_SCREEN, or 0. Without that word Z is usual, as biomechanists have it.
 UpRule C3dUp(char axis, bool is_negative);

@@ -53,7 +53,7 @@ struct StreamRecording {
   std::vector<std::string> remarks = {};   ///< decisions made while reading ("2 bodies, of which body 0")
 };
 
-/// Properties of a file that it may not contain.
+/// Properties that a file may lack.
 struct StreamReading {
   std::optional<StreamFormat> format = {};  ///< otherwise detected by content
   std::optional<double> rate_hz = {};       ///< for files without a clock; otherwise 30

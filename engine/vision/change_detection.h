@@ -82,7 +82,7 @@ struct ChangeOptions {
   /// rgb: the largest allowed difference of the three channels, levels. Ten standard deviations of pixel noise, because
   /// light varies slowly over a wall.
   int rgb_threshold = 24;
-  /// ratio: the largest allowed distance of a pixel from the line from black through its background's colour, levels.
+  /// ratio: the largest allowed distance of a pixel's colour from the line through black and its background, levels.
   double ratio_threshold = 14;
   /// running: learning rate of mean and variance for background pixels, per frame; a tenth of it for foreground pixels.
   double learning_rate = 0.05;

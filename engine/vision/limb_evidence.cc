@@ -308,7 +308,7 @@ class EvidenceFinder {
     return seen;
   }
 
-  // Returns the limb's probable half width: at least that of its neighbours, because half of it may be hidden along its
+  // Returns the limb's probable half width: at least that of its neighbours, because one side may be hidden along its
   // whole length.
   double LikelyHalfWidth(std::size_t i) const {
     constexpr double kMinWidthRatio = 0.55;  // ratio of a foot to its shank, the largest step along a limb

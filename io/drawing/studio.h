@@ -14,7 +14,7 @@
 
 namespace etude {
 
-/// The part of the camera's view that must be visible, as tangents to the right of and below its axis.
+/// The part of the camera's view that must be visible, as tangents from its axis: x right, y down.
 struct ViewBounds {
   glm::dvec2 low{1e9};
   glm::dvec2 high{-1e9};

@@ -34,7 +34,7 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
   std::string& why = media.film.why_not;
   const auto capture_cell = ChooseCell(run, "capture", "recovered");
   const auto coach_cell = capture_cell ? std::nullopt : ChooseCell(run, "transition", "coach");
-  // If methods can be compared, their film shows the coach better.
+  // A film that compares methods shows the coach better.
   const auto compares = [&](const ScenarioSummary& scenario) { return FindTransitionRace(run, scenario).has_value(); };
   if (!capture_cell && std::ranges::any_of(run.scenarios, compares)) return;
   if (!coach_cell && !capture_cell) {

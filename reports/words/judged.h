@@ -34,8 +34,8 @@ std::vector<Judged> AnswersOf(const ScenarioSummary& scenario, const std::string
 /// Returns true if all comparisons are by the same metric.
 bool HaveOneMetric(const std::vector<Judged>& judged);
 
-/// Returns the methods that a comparison's baseline names: one, or both of a rival "a or b"
-/// (bench/statistics/scenario_table.h).
+/// Returns the methods that a comparison's baseline names: two if it is "a or b" (bench/statistics/scenario_table.h),
+/// else one.
 std::vector<std::string> BaselinesOf(const Judged& judged);
 
 /// Names the other sides: "“a”", or "“a” or “b”" if conditions or halves of the worlds have different rivals.

@@ -12,7 +12,7 @@ namespace etude {
 /// terminal. For more than 24 clips the matrix is only in the JSON.
 std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s);
 
-/// Writes the same for programs (docs/schemas/bridge-summary.schema.json). Shares of a clip are means over the other
+/// Writes the same for programs (docs/schemas/bridge-summary.schema.json). A clip's shares are means over the other
 /// clips; a clip that leads nowhere has no worst wait.
 Json BridgeSummaryAsJson(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s);
 

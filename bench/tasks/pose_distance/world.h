@@ -64,7 +64,7 @@ bool HoldsTwoDances(const DancedClips& clips);
 
 PairWorld ShowBlindSpot(int trial);
 
-/// Draws two clips of different identities, by index; the first one goes round-robin with the trials. There must be two
+/// Draws the indices of two clips of different identities; the trial number determines the first. There must be two
 /// identities.
 std::pair<std::size_t, std::size_t> DrawClips(const DancedClips& clips, const WorldKey& key);
 

@@ -18,7 +18,7 @@ struct TrackingOptions {
   double duration_s = 5;
   double rate_hz = kJudgedRateHz;
   TargetNoise target_noise = {};
-  /// The standard deviation of the first frame's start from its truth; empty: the start is the standing pose.
+  /// The first frame starts at its truth plus noise of this standard deviation; empty: at the standing pose.
   std::optional<double> joint_noise_deg = {};
   IkOptions common = IkBudget(20);  ///< options that all methods share
 };

@@ -20,7 +20,7 @@ struct PersonFinderOptions {
 class ETUDE_API PersonFinder {
  public:
   /// @param background the empty room: width × height × 3 bytes, red, green, blue, row after row from the top
-  /// Throws BadInput for another number of bytes, a side that is not from 1 to 8192, and a segmenter that there is not.
+  /// Throws BadInput for another number of bytes, a side that is not from 1 to 8192, and an unknown segmenter.
   PersonFinder(std::span<const std::uint8_t> background, int width, int height,
                const PersonFinderOptions& options = {});
   PersonFinder(PersonFinder&&) noexcept;

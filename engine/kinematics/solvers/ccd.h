@@ -121,7 +121,7 @@ class AndersonMixing {
   /// For vectors of `size` numbers; uses the last `memory` ≥ 0 pairs.
   AndersonMixing(int size, int memory);
 
-  /// Records the pair x, g = g(x) and writes the extrapolation to `out`. The first pair is returned as g.
+  /// Records the pair x, g = g(x) and writes the extrapolation to `out`. For the first pair `out` is g.
   void Extrapolate(std::span<const double> x, std::span<const double> g, std::span<double> out);
 
   /// Forgets all pairs. Call it after x has changed in another way than by g.

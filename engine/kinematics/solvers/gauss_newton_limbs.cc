@@ -82,7 +82,7 @@ class LimbPoses {
     for (int c = 0; c < 3; ++c) at_root.axes[c] = LoadFour(numbers + 4 * (c + 1));
     for (std::size_t n = 1; n < packs_.trunk.size(); ++n) {
       const LimbPacks::TrunkJoint& joint = packs_.trunk[n];
-      // A joint: frame before it turns, then its rotations about X, Y, Z.
+      // The joint before it turns, then its rotations about X, Y, Z.
       const TrunkFrame& parent = trunk_[joint.parent];
       Four axes[3];
       for (int c = 0; c < 3; ++c) axes[c] = MixRows(parent.axes, joint.R_PJ[c]);

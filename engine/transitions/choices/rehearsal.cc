@@ -307,8 +307,8 @@ class Rehearsal {
     }
   }
 
-  /// Plays a join with planted feet and adds it to `ways`. Its support is not computed if it already costs more than
-  /// the best.
+  /// Plays a join with planted feet and adds it to `ways`, unless it already costs as much as the best without
+  /// support.
   void PlayFeet(OpenWay& open, std::vector<PlayedJoin>& ways) {
     PlayedJoin& way = open.way;
     const PairStage& stage = StageOf(way);
