@@ -1,6 +1,7 @@
 #include "io/process/tree_meter.h"
 
 #include <dirent.h>
+#include <fcntl.h>
 #include <fmt/core.h>
 #include <linux/kcmp.h>
 #include <sys/stat.h>
@@ -35,6 +36,7 @@ constexpr std::size_t kMaxUncheckedDescriptors = 256;  // above this, pipes are 
 constexpr std::size_t kMaxFreeSockets = 64;            // sockets above this number count as full
 constexpr std::size_t kMaxMappings = 1 << 20;          // read in one sample
 constexpr std::size_t kMaxLockBytes = 4 << 20;
+constexpr std::size_t kEnoughLocks = 17'000;  // more than a program may have (ProgramLimits::kFileLocks)
 constexpr int kMaxSamplesUnseen = 3;
 
 /// Returns the number that follows `name` in a file of /proc; 0 if the name is missing.
@@ -103,19 +105,30 @@ std::size_t CountPipes(const std::vector<pid_t>& processes) {
   return pipes.size() + hidden;
 }
 
+/// Counts the file locks of processes, up to kEnoughLocks. The kernel's time for its list grows with the square of what
+/// is read, so reading stops as soon as the count is enough.
 std::size_t CountLocks(const std::vector<pid_t>& processes) {
   const std::set<pid_t> ours(processes.begin(), processes.end());
-  const std::string locks = ReadProcFile("/proc/locks", kMaxLockBytes);
-  std::size_t count = 0;
-  for (std::size_t at = 0, end = 0; at < locks.size(); at = end + 1) {
-    end = std::min(locks.find('\n', at), locks.size());
+  const int file = ::open("/proc/locks", O_RDONLY | O_CLOEXEC);
+  if (file < 0) return 0;
+  std::size_t count = 0, read = 0;
+  std::string text;  // read, but not yet counted
+  std::array<char, 4096> chunk;
+  for (ssize_t size; count < kEnoughLocks && read < kMaxLockBytes;) {
+    if ((size = ::read(file, chunk.data(), chunk.size())) <= 0) break;
+    read += static_cast<std::size_t>(size);
+    text.append(chunk.data(), static_cast<std::size_t>(size));
     // "1: POSIX  ADVISORY  WRITE 1234 fe:00:5678 0 EOF"; a waiting lock begins with "1: ->"
-    std::array<char, 64> line{};
-    locks.copy(line.data(), std::min(end - at, line.size() - 1), at);
-    int owner = 0;
-    const char* rest = std::strstr(line.data(), "ADVISORY");
-    if (rest != nullptr && std::sscanf(rest, "%*s %*s %d", &owner) == 1 && ours.contains(owner)) ++count;
+    std::size_t at = 0;
+    for (std::size_t end; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
+      const std::string line = text.substr(at, end - at);
+      int owner = 0;
+      const char* rest = std::strstr(line.c_str(), "ADVISORY");
+      if (rest != nullptr && std::sscanf(rest, "%*s %*s %d", &owner) == 1 && ours.contains(owner)) ++count;
+    }
+    text.erase(0, at);
   }
+  ::close(file);
   return count;
 }
 
