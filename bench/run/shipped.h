@@ -18,7 +18,7 @@ std::vector<std::string> ShippedScenarios();
 /// Returns the shipped file or folder for a name such as "full/ik_weights" or "quick"; empty if there is none.
 std::filesystem::path FindShipped(const std::string& name);
 
-/// Returns the error that neither a path nor a shipped name exists, with the nearest shipped name.
+/// Returns the error for a name that is no path and no shipped suite; it proposes the nearest shipped name.
 tl::unexpected<Error> NotShipped(const std::string& path);
 
 /// Returns the scenario file, or the folder of scenario files, for a path or shipped name. A local file or folder wins,

@@ -375,7 +375,7 @@ class Supervisor {
   std::string why_not_run_;  ///< the first reason
 };
 
-/// Returns the orders restricted to cells that are answered, or to those that are not.
+/// Returns the part of the orders whose cells are answered, or the part whose cells are not.
 std::vector<Order> OrdersOf(const Plan& plan, const std::vector<Order>& orders, const CellTable& answered,
                             bool are_answered) {
   std::vector<Order> found;

@@ -36,7 +36,7 @@ struct DeliveredCell {
   Result<FinishedCell> Read(const Plan& plan) const;
 };
 
-/// Called for every cell in order of completion; a second time for a cell that other programs measure.
+/// Called for every cell in order of completion, and again after outside metrics have measured the cell.
 using Deliver = std::function<Result<void>(const DeliveredCell& cell)>;
 
 /// Gives worlds to worker processes and collects their cells; short worlds are given several at a time, so that no

@@ -270,7 +270,8 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   if (IsOwn(set) && rule.evidence == UpEvidence::kPosture) {
     rule = {.axis = {0, 1, 0}, .evidence = UpEvidence::kFile, .source = "the word of Etude's own joints"};
   }
-  MarkerBody body{.name = "", .motion = {.rate_hz = markers.rate_hz, .poses = {}}, .up = {}, .changes = {set.name}, .note = ""};
+  MarkerBody body{
+      .name = "", .motion = {.rate_hz = markers.rate_hz, .poses = {}}, .up = {}, .changes = {set.name}, .note = ""};
   body.up = FindUpOf(frames, markers.rate_hz, rule);
   for (JointPositions& places : frames) {
     for (MarkerPosition& place : places) {
@@ -346,7 +347,7 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std
   if (const int zeros = LeaveZerosOut(markers); zeros > 0) {
     markers.remark += fmt::format("{}{} places at 0, 0, 0 taken for gaps", markers.remark.empty() ? "" : "; ", zeros);
   }
-  // For each person, choose a set and make the body.
+  // Choose the marker set of each person, and make the body from it.
   std::vector<MarkerBody> bodies;
   std::string nearest = "";
   std::size_t fewest = kNeededJoints.size() + 1;

@@ -59,9 +59,10 @@ struct BodyConversion {
 ///   clip that stays farther from it than its legs are long has another root, and gets its own floor.
 ///
 /// Fails, naming `file`, for no frames, more than an hour, more than half a million poses, a body without size, limbs
-/// of no length (two of the eight or more, in the median frame), a given unit in which it is not 0.4 to 4 m tall, a left arm on the side of the right leg, and feet that point backwards (if
-/// feet are composed: arms that do, or knees that bend backwards by more than 35° or together with the arms); left and
-/// right are then swapped, or the axes left-handed. The note states a smaller overextension of the knees.
+/// of no length (two of the eight or more, in the median frame), a given unit in which it is not 0.4 to 4 m tall, a left
+/// arm on the side of the right leg, and feet that point backwards (if feet are composed: arms that do, or knees that
+/// bend backwards by more than 35° or together with the arms); left and right are then swapped, or the axes are
+/// left-handed. The note states a smaller overextension of the knees.
 Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const std::string& file,
                                     const BodyOptions& options = {});
 

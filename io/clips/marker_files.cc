@@ -27,10 +27,11 @@ bool KeepsFloor(const OpenOptions& options) {
 Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const std::string& path,
                                const OpenOptions& options, UpRule rule) {
   if (const auto up = ToldUp(options)) rule = {.axis = AxisOf(*up), .evidence = UpEvidence::kTold, .source = "told"};
-  const MarkerOptions told{.up = std::move(rule),
-                           .keep_floor = KeepsFloor(options),
-                           .metres_per_unit = ToldUnit(options),
-                           .set = options.roles && options.marker_set.empty() ? options.roles->marker_set : options.marker_set};
+  const MarkerOptions told{
+      .up = std::move(rule),
+      .keep_floor = KeepsFloor(options),
+      .metres_per_unit = ToldUnit(options),
+      .set = options.roles && options.marker_set.empty() ? options.roles->marker_set : options.marker_set};
   ASSIGN_OR_RETURN(auto bodies, FindMarkerBodies(std::move(markers), path, told));
   ClipFile file{.format = format, .figure = {.name = "", .skeleton = {}, .materials = {}, .meshes = {}}, .clips = {}};
   for (MarkerBody& body : bodies) {

@@ -390,7 +390,8 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
     const std::string source = wanted.path + (wanted.animation ? "#" + *wanted.animation : "");
     std::vector<SourceClip> only;  // moved into: an initializer list would copy the frames
     only.push_back({stem, source, file.format, std::move(file.clips.front()), nullptr, std::nullopt,
-                    file.bodies.empty() ? std::nullopt : std::optional(file.bodies.front()), file.remarks, file.roles, shown_of(0)});
+                    file.bodies.empty() ? std::nullopt : std::optional(file.bodies.front()), file.remarks, file.roles,
+                    shown_of(0)});
     return only;
   }
   // A file of several clips: undo scales and find the common ground before one clip is chosen.
@@ -410,7 +411,8 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
     const std::string clip_name = clip.name;
     const auto made = bodies.find(clip_name);
     clips.push_back({stem + animation, wanted.path + animation, file.format, std::move(clip), figure, ground,
-                     made == bodies.end() ? std::nullopt : std::optional(made->second), file.remarks, file.roles, shown[clip_name]});
+                     made == bodies.end() ? std::nullopt : std::optional(made->second), file.remarks, file.roles,
+                     shown[clip_name]});
   }
   return clips;
 }
