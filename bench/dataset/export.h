@@ -27,7 +27,7 @@ struct ExportOptions {
 
 struct ExportOutcome {
   std::size_t problems = 0;
-  std::size_t skipped = 0;  ///< worlds that no method can solve; the index gives the reason
+  std::size_t skipped = 0;  ///< worlds in which no method can run; the index gives the reason
 };
 
 /// Writes the problems of all worlds and, separately, their truths (docs/datasets.md):

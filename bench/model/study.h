@@ -15,12 +15,10 @@ struct Expectation {
   std::string metric;
   std::string of;                           ///< the method judged
   std::string below, above;                 ///< the method it is compared with in the same worlds; at most one is set
-  std::optional<double> at_most, at_least;  ///< median, mean or p95; only for bounds
-  /// Of the interval of a comparison; the level of its test is 1 − confidence.
-  std::string statistic = "median";
-  double confidence = 0.95;
-  ///< confidence
-  std::vector<SweptValue> where;  ///< the conditions in which it is judged; empty = all of them
+  std::optional<double> at_most, at_least;  ///< or the bound of its statistic
+  std::string statistic = "median";         ///< median, mean or p95; only for bounds
+  double confidence = 0.95;                 ///< of a comparison's interval; the level of its test is 1 − confidence
+  std::vector<SweptValue> where;            ///< the conditions in which it is judged; empty = all of them
   Place place;
 };
 

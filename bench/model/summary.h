@@ -120,7 +120,7 @@ inline constexpr std::array<Named<AnswerStep>, 4> kAnswerSteps = {{{"none", Answ
                                                                    {"value", AnswerStep::kValue},
                                                                    {"tail", AnswerStep::kTail}}};
 
-/// Whether a method is better than another under one condition, as one verdict (bench/statistics/answers.h). Every
+/// One verdict on whether a method is better than another under one condition (bench/statistics/answers.h). Every
 /// page, table and program that shows a run uses this verdict.
 struct Answer {
   std::string method;
@@ -132,9 +132,9 @@ struct Answer {
   std::optional<Verdict> beyond = {};  ///< the deciding step's verdict for other units; nothing = too few units
   /// Comparison of `Study::success`, where failed cells count 0; nullopt if no cell has a value.
   std::optional<Comparison> success = {};
-  /// Comparison of the value in the worlds where both succeeded; nullopt if these are all worlds or.
+  /// Comparison of the value in the worlds where both succeeded; nullopt if these are all worlds, or none, or if
+  /// success is not a yes or no.
   std::optional<Comparison> both_succeed = {};
-  ///< none, or if success is not a yes or no
   /// Share of worlds where the method is far better − share where it is far worse.
   std::optional<Comparison> tail = {};
 };
@@ -163,7 +163,7 @@ struct ConditionSummary {
   std::vector<Comparison> rivals;          ///< every method with the strongest other method, on the headline metrics
   std::vector<Answer> answers = {};        ///< every method with its baseline
   std::vector<Answer> rival_answers = {};  ///< every method with the strongest other method
-  /// Of the first headline metric, for methods that differ only in their oracles.
+  /// Budgets of the first headline metric, for methods that differ only in their oracles.
   std::vector<ErrorBudget> budgets = {};
 };
 

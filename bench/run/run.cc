@@ -129,7 +129,7 @@ class JournalRecorder {
   CellTable& cells_;
   CellTable* answered_;  ///< null if no program measures cells
   Journal journal_;
-  std::uint32_t file_, answered_file_;  ///< finished cells and work: safe on the disk, and written
+  std::uint32_t file_, answered_file_;  ///< numbers of the journal in the two tables
   Progress progress_, unsynced_;        ///< on the disk; written
   const std::function<void(const Progress&)>& on_progress_;
 };
