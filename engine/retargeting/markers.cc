@@ -270,8 +270,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   if (IsOwn(set) && rule.evidence == UpEvidence::kPosture) {
     rule = {.axis = {0, 1, 0}, .evidence = UpEvidence::kFile, .source = "the word of Etude's own joints"};
   }
-  MarkerBody body{
-      .name = "", .motion = {.rate_hz = markers.rate_hz, .poses = {}}, .up = {}, .changes = {set.name}, .note = ""};
+  MarkerBody body{.name = "", .motion = {.rate_hz = markers.rate_hz, .poses = {}}, .up = {}, .changes = {set.name}};
   body.up = FindUpOf(frames, markers.rate_hz, rule);
   for (JointPositions& places : frames) {
     for (MarkerPosition& place : places) {
@@ -367,7 +366,6 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std
       body->changes.front() += fmt::format(", not {}, which the file holds, too (--marker-set {})", chosen.other->name,
                                            chosen.other->key);
     }
-    body->note = Join(body->changes, "; ");
     bodies.push_back(std::move(*body));
   }
   // Explain why there is no body.

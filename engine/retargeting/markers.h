@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/names.h"
 #include "engine/base/result.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/body.h"
@@ -27,11 +28,13 @@ struct MarkerBody {
   double floor = 0;   ///< the height that became 0, metres
   /// The marker set, then every correction and change of what the file holds, each for people.
   std::vector<std::string> changes;
-  std::string note;  ///< all of them, between semicolons
   /// The joints as the markers show them, in all frames of the file and with its gaps: no gap is filled, no joint placed
   /// by rule, no floor found. First the joints that the set determines, named by role, then the person's other markers,
   /// by their own names in lower case. Metres, Y up. Its remark names the set, and what was guessed.
   MarkerMotion shown = {};
+
+  /// Returns `changes` as one line, between semicolons.
+  std::string Note() const { return Join(changes, "; "); }
 };
 
 /// Finds the bodies of a marker recording by the markers' names. Known sets: Etude's own joints, OpenPose's BODY_25,
