@@ -261,7 +261,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
     wands.push_back(WandsOf(columns, frame, scale));
   }
   const std::string centres = MoveToJointCentres(set, markers.sizes_m, wands, frames);
-  const std::vector<JointPositions> seen = frames;
+  const std::vector<JointPositions> seen = options.keeps_shown ? frames : std::vector<JointPositions>();
   int filled = 0;
   const auto max_gap = static_cast<std::size_t>(kMaxGap_s * markers.rate_hz);
   for (std::size_t joint = 0; joint < kRoleCount; ++joint) filled += BridgeGaps(frames, joint, max_gap);
@@ -297,6 +297,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   if (std::string turn = DescribeTurn(body.up); !turn.empty()) body.changes.push_back(std::move(turn));
   if (!body.up.doubt.empty()) body.changes.push_back(body.up.doubt);
   StandOnFloor(options.keep_floor, IsOwn(set), body);
+  if (!options.keeps_shown) return body;
   body.shown = AsShown(scale, markers, set, columns, seen, body.up.axis);
   if (!centres.empty()) body.shown.remark += "; " + centres;
   return body;
