@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "bench/micro/search_peers.h"
+#include "bench/peers/search_peers.h"
 
 namespace etude {
 

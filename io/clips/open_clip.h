@@ -57,8 +57,8 @@ struct ClipFile {
   std::vector<MadeBody> bodies = {};      ///< one for each clip, if they are bodies already
   std::vector<std::string> remarks = {};  ///< repairs that were made while reading
   std::optional<JointMapOverrides> roles = {};  ///< roles that the bone table of a VRM file assigns
-  std::vector<MarkerMotion> shown = {};  ///< for clips that were made of markers: MarkerBody::shown of each
-  bool has_rate = true;  ///< false: the file gives no rate, so a rate was assumed
+  std::vector<MarkerMotion> shown = {};  ///< for clips made of markers, if asked for: MarkerBody::shown of each
+  bool has_rate = true;                  ///< false: the file gives no rate, so a rate was assumed
 };
 
 /// The options with which a clip is opened.
@@ -66,6 +66,7 @@ struct OpenOptions {
   std::optional<JointMapOverrides> roles;  ///< the user's joint map (--joint-map)
   BodyOptions body;
   std::string marker_set = "";  ///< of marker files: the set to use (MarkerSetKeys); "" = the best
+  bool keeps_shown = false;     ///< of marker files: also make SourceClip::shown
   const RecordedMotions* recorded = nullptr;  ///< reads "RUN#CELL@NAME"; null = such a reference is treated as a file
 };
 

@@ -141,7 +141,9 @@ Result<std::string> DigestOfFile(const std::string& reference, const OpenOptions
 }
 
 Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions& options) {
-  ASSIGN_OR_RETURN(auto clips, ReadClips(reference, options));
+  OpenOptions how = options;
+  how.keeps_shown = true;
+  ASSIGN_OR_RETURN(auto clips, ReadClips(reference, how));
   if (clips.size() == 1) return RawMotionOf(std::move(clips.front()), options);
   std::vector<std::string> names;
   for (const SourceClip& clip : clips) names.push_back(clip.source);

@@ -1,4 +1,4 @@
-#include "bench/micro/search_peers.h"
+#include "bench/peers/search_peers.h"
 
 #include <algorithm>
 #include <bit>

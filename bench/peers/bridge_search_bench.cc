@@ -13,12 +13,10 @@
 #include <string>
 
 #include "bench/micro/bridge_search_data.h"
-#include "bench/micro/search_peers.h"
+#include "bench/peers/nanoflann_peer.h"
+#include "bench/peers/search_peers.h"
 #include "engine/transitions/search/frame_matches.h"
 #include "engine/transitions/search/grade_index.h"
-#ifdef ETUDE_HAS_NANOFLANN
-#include "bench/peers/nanoflann_peer.h"
-#endif
 
 namespace etude {
 namespace {
@@ -39,24 +37,18 @@ Searcher Ask(std::shared_ptr<const Index> index) {
 }
 
 // The first searcher is ours.
-#ifdef ETUDE_HAS_NANOFLANN
 constexpr int kNanoflannLeaves[] = {20, 40, 80, 160};
 constexpr const char* kSearcherNames[] = {"index",        "loop",         "vector-loop",  "nanoflann-20",
                                           "nanoflann-40", "nanoflann-80", "nanoflann-160"};
-#else
-constexpr const char* kSearcherNames[] = {"index", "loop", "vector-loop"};
-#endif
 
 std::vector<Searcher> MakeSearchers(std::span<const Grades> frames) {
   const FeatureWeights weights = PaperWeights();
   std::vector<Searcher> searchers = {Ask(std::make_shared<const GradeIndex>(frames, weights)),
                                      Ask(std::make_shared<const LoopPeer>(frames, weights)),
                                      Ask(std::make_shared<const VectorLoopPeer>(frames, weights))};
-#ifdef ETUDE_HAS_NANOFLANN
   for (int leaf : kNanoflannLeaves) {
     searchers.push_back(Ask(std::make_shared<const NanoflannPeer>(frames, weights, leaf)));
   }
-#endif
   return searchers;
 }
 
@@ -264,22 +256,18 @@ void RegisterMatches(Libraries& libraries, const LibraryKind& library) {
   add("1000-each/loop", [](benchmark::State& state, const SearchData& data) {
     FindPointsByIndex<LoopPeer>(state, ClipsOfLength(data.frames, kClipLength));
   });
-#ifdef ETUDE_HAS_NANOFLANN
   add("1000-each/nanoflann-10", [](benchmark::State& state, const SearchData& data) {
     FindPointsByIndex<NanoflannPeer>(state, ClipsOfLength(data.frames, kClipLength), 10);
   });
-#endif
 }
 
 void RegisterAll(Libraries& libraries) {
   for (const LibraryKind& library : {LibraryKind{1000}, {10'000}, {100'000}, {1'000'000}, {.captured = true}}) {
     if (library.captured && !libraries.HasCaptures()) continue;
     RegisterBuild<GradeIndex>(libraries, library, "index");
-#ifdef ETUDE_HAS_NANOFLANN
     for (int leaf : kNanoflannLeaves) {
       RegisterBuild<NanoflannPeer>(libraries, library, "nanoflann-" + std::to_string(leaf), leaf);
     }
-#endif
     RegisterSearches(libraries, library);
     if (library.count == 10'000 || library.count == 100'000) RegisterMatches(libraries, library);
   }
