@@ -38,7 +38,7 @@ class Bytes {
   double Float(std::size_t at) const {
     std::uint32_t bits = Word(at + 2) << 16 | Word(at);
     if (machine_ != Machine::kIntel) bits = Word(at) << 16 | Word(at + 2);
-    // The exponent of a DEC float has a bias larger by one, and its mantissa lies in [½, 1): together a factor of 4.
+    // A DEC float has an exponent bias that is larger by one, and a mantissa in [½, 1); together this is a factor of 4.
     return machine_ == Machine::kDec ? std::bit_cast<float>(bits) / 4 : std::bit_cast<float>(bits);
   }
   std::string Text(std::size_t at, std::size_t length) const {
@@ -75,7 +75,7 @@ class Parameters {
     std::map<int, std::string> group_names;
     std::vector<std::pair<int, std::pair<std::string, Parameter>>> found;
     const std::size_t end = std::min(bytes.size(), at + kC3dBlock * std::max(1u, bytes.Byte(at + 2)));
-    // The number of blocks is wrong in some files, so follow the chain to its own end, as long as there are bytes.
+    // Some files state a wrong number of blocks, so follow the chain to its end, as long as there are bytes.
     for (std::size_t record = at + 4; record + 4 < std::max(end, bytes.size());) {
       const auto length = static_cast<std::int8_t>(bytes.Byte(record));
       const auto id = static_cast<std::int8_t>(bytes.Byte(record + 1));
@@ -161,7 +161,7 @@ std::vector<std::string> PointNames(const Parameters& parameters, std::size_t po
   return names;
 }
 
-/// Returns the widths of joints that Vicon's programs write, by their names without the group, metres.
+/// Returns the joint widths that Vicon's programs write, metres, by parameter name without its group.
 std::map<std::string, double> BodySizes(const Parameters& parameters) {
   constexpr double kMin_mm = 5, kMax_mm = 400;
   std::map<std::string, double> sizes;
@@ -185,7 +185,7 @@ std::size_t CountFrames(const Bytes& bytes, const Parameters& parameters) {
   };
   const auto begin = field("TRIAL:ACTUAL_START_FIELD"), end = field("TRIAL:ACTUAL_END_FIELD");
   if (begin && end && *end >= *begin) frames = *end - *begin + 1;
-  // If the number exceeds the header's words, POINT:LONG_FRAMES holds it, or POINT:FRAMES does as a float.
+  // If the number exceeds the header's words, POINT:LONG_FRAMES holds it, or POINT:FRAMES as a float.
   if (const auto told = parameters.Number("POINT:FRAMES"); told && last >= 65535 && *told > frames) frames = *told;
   if (const auto told = parameters.Number("POINT:LONG_FRAMES"); told && *told > frames) frames = *told;
   return frames >= 1 && frames <= kMaxC3dFrames ? static_cast<std::size_t>(frames) : 0;
@@ -269,7 +269,7 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
       places[point] = PointAt(all, at, layout);
     }
   }
-  // Say if more data follow than the last frame and the rest of its block.
+  // Add a remark if data follow after the block of the last frame.
   const std::size_t end = layout.begin + frames * layout.frame_bytes;
   const std::size_t data_end = parameters_at >= end ? parameters_at : bytes.size();
   const std::size_t padded = (end + kC3dBlock - 1) / kC3dBlock * kC3dBlock;
