@@ -120,7 +120,7 @@ class ETUDE_API Kinematics {
   /// Returns the frames of all effectors.
   std::vector<Frame> Effectors(const TreePose& pose) const;
 
-  /// Of all poses that meet the targets within the limits, finds the one nearest to `start`; the root does not move.
+  /// Finds, of all poses that meet the targets within the limits, the one nearest to `start`; the root does not move.
   /// Throws BadInput for sizes that do not fit the tree, numbers that are not finite, and axes that are not unit
   /// vectors.
   IkAnswer Solve(const TreePose& start, std::span<const Target> targets) const;
