@@ -19,7 +19,7 @@
 
 namespace etude::engine {
 
-/// Returns what a result holds, or throws its error as BadInput.
+/// Returns the value of a result, or throws its error as BadInput.
 template <typename T>
 T OrThrow(Result<T> result) {
   if (!result) throw BadInput(ToString(result.error()));
@@ -27,30 +27,31 @@ T OrThrow(Result<T> result) {
 }
 
 Motion FromBodyMotion(const BodyMotion& motion);
-/// Throws BadInput for a rate that is none, or places that are not finite.
+/// Throws BadInput for an invalid rate, or positions that are not finite.
 BodyMotion ToBodyMotion(const Motion& motion);
-/// Throws BadInput for no clips, a clip without frames, and rates that differ.
+/// Throws BadInput for no clips, a clip without frames, or different rates.
 std::vector<BodyMotion> ToBodyMotions(std::span<const Motion> clips);
 /// Throws BadInput for a body without legs.
 double StandingHipsOf(const BodyPose& first);
 
-/// The largest fuzzy distance that there is: eight features, weights of which sum to so much, off by all their grades.
+/// The largest possible fuzzy distance: the weights of the features sum to eight, and all grades differ by as much as
+/// they can.
 inline constexpr double kFarthestFuzzy = 6;
-/// Throws BadInput unless a clip can be waited for so long.
+/// Throws BadInput unless a clip can be waited for this long.
 void CheckBudget(double budget_s);
 
-/// Throws BadInput for names that there are not.
+/// Throws BadInput for unknown names.
 TransitionWay WayNamed(const std::string& choice, const std::string& join);
 
 etude::Camera ToEngineCamera(const Camera& camera);
-/// Throws BadInput, naming the camera, for a lens of another model.
+/// Throws BadInput, naming the camera, for a lens with another model.
 Camera FromEngineCamera(std::string name, const etude::Camera& camera);
 
-/// Returns the recogniser of that name that learns by examples alone. Throws BadInput where there is none.
+/// Returns the recogniser of that name, which must learn from examples alone. Throws BadInput if there is none.
 const RecogniserKind& KindOfExamples(const std::string& name);
-/// Throws BadInput for an example without frames or of places that are not finite.
+/// Throws BadInput for an example without frames or with positions that are not finite.
 etude::TaughtMove ToEngineMove(const TaughtMove& move);
-/// Throws BadInput for places that are not finite.
+/// Throws BadInput for positions that are not finite.
 SensedFrame ToEngineFrame(const SensedPose& frame);
 
 }  // namespace etude::engine

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kMatrixNumbers = 9;
 
-/// Returns the engine's view of a tree, whose names it goes on to use.
+/// Returns the engine's view of a tree; the view refers to the tree's names.
 KinematicTree ViewOf(const Tree& tree) {
   KinematicTree view;
   int dofs = 0;
@@ -64,7 +64,7 @@ IkStatus FromStatus(etude::IkStatus status) {
   return IkStatus::kBadInput;
 }
 
-/// Throws when there are not as many of something as there must be.
+/// Throws BadInput if a count is not as required.
 void CheckCount(std::string_view what, std::size_t found, std::size_t wanted) {
   if (found != wanted) throw BadInput(fmt::format("{} {}; allowed: {}", found, what, wanted));
 }
@@ -103,7 +103,7 @@ struct Kinematics::Solver {
     return ComputeFrames(view, {pose.root.position, pose.root.axes, pose.angles});
   }
 
-  /// Puts the problems side by side.
+  /// Copies the problems into the engine's batch, side by side.
   etude::IkBatch Columns(const IkBatch& batch, int count) const {
     etude::IkBatch columns(view, count);
     const int dofs = view.dof_count(), effectors = static_cast<int>(view.effectors.size());

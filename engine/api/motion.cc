@@ -34,10 +34,10 @@ void CheckRate(double rate_hz) {
   throw BadInput(fmt::format("a rate of {} Hz; allowed: {} to {}", rate_hz, kMinRateHz, kMaxRateHz));
 }
 
-/// Returns true if two rates differ by rounding only: one found by a column of times is rounded.
+/// Returns true if two rates differ by rounding only: a rate that was computed from a column of times is rounded.
 bool KeepsRate(double a_hz, double b_hz) { return std::abs(a_hz / b_hz - 1) < 1e-6; }
 
-/// Resamples a body's motion by turning its joints, so that limbs keep their lengths.
+/// Resamples a body's motion by rotating its joints, so that limbs keep their lengths.
 BodyMotion Resampled(const BodyMotion& motion, double rate_hz) {
   if (KeepsRate(motion.rate_hz, rate_hz)) return {.rate_hz = rate_hz, .poses = motion.poses};
   const Clip clip = Resample(RigClip(motion, motion.poses.front(), ""), rate_hz);
@@ -101,7 +101,7 @@ Motion MotionOfClip(const Clip& clip, const std::string& file, double rate_hz, s
   return motion;
 }
 
-/// Reads Etude's own arrays, which stand as they are.
+/// Reads Etude's own arrays, which are used as they are.
 Motion MotionOfArrays(const Npz& arrays, const std::string& file, double rate_hz, const ReadingOptions& options) {
   if (!IsBodyNpz(arrays)) return MotionOfClip(OrThrow(ReadAmass(arrays, file)), file, rate_hz, AmassUp(), options);
   BodyMotion body = OrThrow(ReadBodyNpz(arrays, file));

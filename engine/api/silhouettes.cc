@@ -12,7 +12,7 @@ namespace etude::engine {
 namespace {
 
 constexpr int kMaxMaskSide = 8192;
-constexpr double kFittedSide = 640;  ///< the longer side of the pictures that the fit's options are made for
+constexpr double kFittedSide = 640;  ///< the longer side of the pictures for which the fit's options were chosen
 
 Mask ToMask(const PersonMask& mask) {
   if (std::min(mask.width, mask.height) < 1 || std::max(mask.width, mask.height) > kMaxMaskSide) {
@@ -27,7 +27,7 @@ Mask ToMask(const PersonMask& mask) {
   return made;
 }
 
-/// Returns how many of a camera's pixels a mask's pixel is wide.
+/// Returns the width of a mask's pixel in pixels of the camera.
 int PixelOf(const Camera& camera, const PersonMask& mask) {
   const int pixel = mask.width > 0 ? camera.width / mask.width : 0;
   if (pixel >= 1 && camera.width == pixel * mask.width && camera.height == pixel * mask.height) return pixel;

@@ -30,7 +30,7 @@ std::vector<TransitionSetting> Described(const std::vector<NumberSetting>& setti
   return told;
 }
 
-/// Puts settings told by keys into the order of `known`. Throws BadInput, naming `of`, for those that there are not.
+/// Puts settings that are given by key into the order of `known`. Throws BadInput, naming `of`, for unknown keys.
 std::vector<double> ValuesOf(const std::map<std::string, double>& told, const std::vector<NumberSetting>& known,
                              const std::string& of) {
   std::vector<double> values;

@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// A small list of named items. Find starts after the last hit, so it is O(1) if names are looked up in a repeating
-/// order.
+/// A small list of named items. Find starts after the last hit, so it takes constant time if names are looked up in a
+/// repeating order.
 template <typename T>
 class CyclicLookup {
  public:

@@ -4,8 +4,8 @@
 
 namespace etude {
 
-/// A text file compiled into the program (cmake/embed_texts.cmake), so that a test, a worker and an installed binary
-/// all find it.
+/// A text file compiled into the program (cmake/embed_texts.cmake), so that tests, workers and installed programs all
+/// find it.
 struct EmbeddedText {
   std::string_view name;  ///< its file name, "clap.yaml"
   std::string_view text;

@@ -45,7 +45,7 @@ glm::dmat3 SmallestRotation(const glm::dvec3& from, const glm::dvec3& to) {
   const double sine = glm::length(normal);
   if (sine > 1e-12) return AxisRotation(normal / sine, std::atan2(sine, glm::dot(from, to)));
   if (glm::dot(from, to) > 0) return glm::dmat3(1);
-  // The coordinate axis least along `from` is certainly not parallel to it.
+  // The coordinate axis that deviates most from `from` is never parallel to it.
   const glm::dvec3 size = glm::abs(from);
   const glm::dvec3 other = size.x <= size.y && size.x <= size.z ? glm::dvec3(1, 0, 0)
                            : size.y <= size.z                   ? glm::dvec3(0, 1, 0)

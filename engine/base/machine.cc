@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-// Errors of the machine, whatever the name.
+// Errors of the machine, whatever the file's name is.
 constexpr std::array kShortages = {EIO,    ENOSPC, EDQUOT, EFBIG,   EROFS,  ENOMEM,
                                    EAGAIN, EMFILE, ENFILE, ENOBUFS, ENOLCK, ESTALE};
 constexpr std::array kFaultsOfName = {ENOENT, ENOTDIR, EISDIR, EEXIST, ENOTEMPTY, EINVAL, ENAMETOOLONG, ELOOP, ETXTBSY};

@@ -18,13 +18,13 @@ tl::unexpected<Error> FailOfMachine(fmt::format_string<Args...> format, Args&&..
   return tl::unexpected<Error>(std::move(error));
 }
 
-/// Returns the same error, attributed to this machine; its place becomes part of its message.
+/// Returns the same error, attributed to this machine; its position becomes part of its message.
 inline Error OfThisMachine(const Error& error) { return {{}, ToString(error), ErrorKind::kMachine}; }
 inline bool IsOfThisMachine(const Error& error) { return error.kind == ErrorKind::kMachine; }
 
 /// Returns the error for a file or folder that cannot be written, from an errno: "PATH: WHAT: No space left on device".
-/// It is attributed to the machine (full, limited, read-only, forbidden), unless the name is at fault: a file where a
-/// folder is needed, a missing folder, a name that is too long.
+/// It is attributed to the machine (disk full, limit, read-only, no permission), unless the name is the cause: a file
+/// where a folder is needed, a missing folder, a name that is too long.
 tl::unexpected<Error> CannotWrite(const std::string& path, std::string_view what, int reason);
 /// Returns the error for a file or folder that cannot be read. It is attributed to the input, unless the machine lacks
 /// memory, open files or a working disk.

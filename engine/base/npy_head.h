@@ -9,10 +9,10 @@ namespace etude {
 
 /// What every .npy file begins with (NumPy's format).
 inline constexpr std::string_view kNpyMagic = "\x93NUMPY";
-inline constexpr std::size_t kNpyHead = 192;  ///< bytes; a multiple of 64, and room for any shape
+inline constexpr std::size_t kNpyHead = 192;  ///< bytes; a multiple of 64, large enough for any shape
 
-/// Writes the first kNpyHead bytes of an .npy file of version 1.0: magic, the length of what follows, and a Python
-/// dictionary, filled up with spaces. `type` as NumPy names it: "<f8".
+/// Writes the first kNpyHead bytes of an .npy file of version 1.0: magic string, length of the rest, and a Python
+/// dictionary, padded with spaces. `type` as NumPy names it: "<f8".
 std::string NpyHead(std::string_view type, std::span<const std::size_t> shape);
 
 }  // namespace etude

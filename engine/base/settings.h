@@ -10,8 +10,8 @@
 
 namespace etude {
 
-/// A number that a method can be set by, as scenario files name it. A method's settings are its own: two methods may
-/// have settings of one name. Values are told as numbers in the order of the method's settings.
+/// A numeric setting of a method, as scenario files name it. Each method has its own settings, so two methods may have
+/// settings with the same name. Values are passed as numbers in the order of the method's settings.
 struct NumberSetting {
   std::string key;
   double fallback = 0;
@@ -20,8 +20,8 @@ struct NumberSetting {
   std::string meaning;  ///< one sentence, for people
 };
 
-/// The members of a method's options that can be set, told once: `Describe` is what files and pages know of them,
-/// `Apply` makes options of values. A member's default is that of `Options{}`.
+/// Declares once which members of a method's options can be set: `Describe` lists them for files and pages, `Apply`
+/// makes options from values. A member's default is its value in `Options{}`.
 template <typename Options>
 class SettingTable {
  public:
@@ -49,7 +49,7 @@ class SettingTable {
     return settings;
   }
 
-  /// Makes options of `values`, one per row in their order; of none at all, the defaults.
+  /// Makes options from `values`, one per row in order; no values give the defaults.
   Options Apply(std::span<const double> values) const {
     assert(values.empty() || values.size() == rows_.size());
     Options options;

@@ -29,7 +29,7 @@ struct BoardSighting {
 class BoardViews {
  public:
   explicit BoardViews(std::vector<Board> boards) : boards_(std::move(boards)) {}
-  /// Detects one board of OpenCV's instead.
+  /// Detects one of OpenCV's boards instead.
   BoardViews(const PrintedBoard& board, std::unique_ptr<PrintedBoardFinder> finder)
       : boards_{{.columns = board.columns, .rows = board.rows, .square = board.square}}, printed_(std::move(finder)) {}
 
@@ -45,7 +45,7 @@ class BoardViews {
   std::vector<TargetView> views() const;
   /// The picture size of each camera.
   const std::vector<PictureSize>& sizes() const { return sizes_; }
-  /// Returns what was detected about a board of OpenCV's; "" for our boards.
+  /// Returns what was detected about one of OpenCV's boards; "" for our boards.
   std::string Told() const { return printed_ ? printed_->Told() : ""; }
 
  private:

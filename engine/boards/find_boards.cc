@@ -32,7 +32,7 @@ struct Axes {
 };
 
 // Returns the saddle's edges as the axes of a corner whose lower right square is bright or dark. Of the two possible
-// signs the one near `expected` is returned; nothing if neither is.
+// signs it returns the one near `expected`; nullopt if neither is near.
 std::optional<Axes> AxesLike(const Saddle& saddle, bool is_bright, const Axes& expected) {
   Axes axes = is_bright ? Axes{saddle.edges[0], saddle.edges[1]} : Axes{-saddle.edges[1], saddle.edges[0]};
   if (glm::dot(axes.right, expected.right) < 0) axes = {-axes.right, -axes.down};
@@ -113,7 +113,7 @@ class Grower {
     if (grid_.contains(to)) return;
     const glm::dvec2 pixel = *PixelAt(i, j);
     const Axes axes = axes_.at(place);
-    // With a corner behind, extrapolate.
+    // If there is a corner behind, extrapolate from it.
     if (const auto behind = PixelAt(i - di, j - dj)) {
       const glm::dvec2 predicted = 2.0 * pixel - *behind;
       const double near = kMaxPredictionError * glm::distance(pixel, *behind);
@@ -148,7 +148,8 @@ class Grower {
 };
 
 /// Returns the chessboard around saddle `seed`, grown along the edges; the lower right square of (0, 0) is bright.
-/// Saddles that are `taken` belong to other boards. The grid may be wrong or hold the seed alone; the codes decide.
+/// Saddles that are `taken` belong to other boards. The grid may be wrong, or hold only the seed; the codes decide that
+/// later.
 CornerGrid GrowGrid(const GreyImage& picture, const std::vector<Saddle>& saddles, std::size_t seed,
                     const std::vector<bool>& taken) {
   return Grower(picture, saddles, taken).Grow(seed);
@@ -237,7 +238,7 @@ class Reader {
     return dark_margin > kMaxMisread ? std::nullopt : std::optional(code);
   }
 
-  // Adds a vote for every placement of the grid on the board at which the code would be read here.
+  // Adds a vote for every placement of the grid on the board that would put this code here.
   void Vote(std::uint16_t read, const GridIndex& place, std::size_t board, std::map<Fit, int>& votes) const {
     const Board& pattern = boards_[board];
     for (int row = 0; row < pattern.rows; ++row) {
@@ -287,7 +288,7 @@ std::vector<SeenCorner> FindBoards(const ColourImage& picture, std::span<const B
     for (const auto& [place, saddle] : grid) taken[saddle] = true;
     Name(grid, saddles, *fit, boards[fit->board], seen);
   }
-  // Sort, and keep the first of equal corners: it comes from the grid around the stronger seed.
+  // Sort, and keep only the first of several equal corners; it comes from the grid around the strongest seed.
   const auto order = [](const SeenCorner& s) { return std::tuple(s.board, s.corner.row, s.corner.column); };
   std::stable_sort(seen.begin(), seen.end(),
                    [&](const SeenCorner& a, const SeenCorner& b) { return order(a) < order(b); });

@@ -77,7 +77,7 @@ std::vector<glm::ivec2> DarkPiece(const GreyImage& picture, const glm::ivec2& da
   return is_cut ? std::vector<glm::ivec2>{} : piece;
 }
 
-// The moments of the darkness in a region and its surroundings.
+// The moments of darkness in a region with its surroundings.
 struct Darkness {
   double area = 0;  // pixels
   glm::dvec2 middle{0};
@@ -133,7 +133,7 @@ std::optional<glm::dvec2> FindDisc(const GreyImage& picture, const glm::dvec2& p
   const glm::dvec2 size(picture.width, picture.height);
   const bool is_near =
       glm::all(glm::greaterThan(pointer, glm::dvec2(-reach_px))) && glm::all(glm::lessThan(pointer, size + reach_px));
-  if (!is_near) return std::nullopt;  // also if the pointer is NaN
+  if (!is_near) return std::nullopt;  // also true if the pointer is NaN
   // The region around the darkest pixel, at half contrast.
   const auto darkest = FindDarkest(picture, pointer, reach_px);
   if (!darkest) return std::nullopt;

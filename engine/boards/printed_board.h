@@ -16,7 +16,7 @@
 
 namespace etude {
 
-/// A board of OpenCV's: a chessboard or a ChArUco board.
+/// One of OpenCV's boards: a chessboard or a ChArUco board.
 struct PrintedBoard {
   bool is_charuco = false;
   int columns = 0, rows = 0;  ///< squares per side: 4 to 64 for a chessboard, 3 to 64 for a ChArUco board

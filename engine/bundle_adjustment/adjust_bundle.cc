@@ -42,7 +42,7 @@ struct FrameVariables {
 };
 
 /// Ceres's QuaternionManifold with its own `Plus`: Ceres's versions round differently (2.2 uses hypot instead of sqrt),
-/// and an adjustment of few steps magnifies the difference.
+/// and an adjustment of only a few steps magnifies the difference.
 class TurnManifold final : public ceres::Manifold {
  public:
   int AmbientSize() const override { return kTurnSize; }
@@ -92,8 +92,8 @@ class PlaceEveryFrame final : public ceres::EvaluationCallback {
   Variables& variables_;
 };
 
-/// Writes rows of Jacobians: the derivative of a residual by a point, times the derivatives of the point by the
-/// parameters that move it.
+/// Writes rows of Jacobians: the derivative of a residual with respect to a point, times the derivatives of the point
+/// with respect to the parameters that move it.
 class PointGains {
  public:
   /// `first_block` is the first of the frame's three blocks (position, rotation, angles); `length_block` is −1 if
@@ -105,7 +105,7 @@ class PointGains {
         first_(first_block),
         length_block_(length_block) {}
 
-  /// Adds to row `row` the derivatives of a residual whose derivative by the point is `along`.
+  /// Adds to row `row` the derivatives of a residual whose derivative with respect to the point is `along`.
   void Add(int row, const glm::dvec3& along) const {
     const auto gain = [&](int column) { return glm::dot(along, gains_[column]); };
     // Position, rotation, angles, lengths; a block is null if Ceres does not need it.
@@ -124,7 +124,7 @@ class PointGains {
 
  private:
   // TurnManifold rotates by twice its tangent, and Ceres multiplies this row by the derivative of q, whose columns are
-  // orthonormal. The row is therefore 2 · gain times the transpose of that derivative.
+  // orthonormal. The row is therefore 2 · gain times the transpose of the derivative of q.
   void AddTurn(double* cell, double gx, double gy, double gz) const {
     const auto& [w, x, y, z] = frame_.turn;
     cell[0] += 2 * (-x * gx - y * gy - z * gz);
@@ -186,7 +186,7 @@ class MarkCost final : public ceres::CostFunction {
     for (int k = 0; k < 2; ++k) residuals[k] = glm::dot(root_[k], error);
     if (jacobians == nullptr) return true;
     ClearJacobians(*this, jacobians);
-    // Derivatives of the pixel by the point.
+    // Derivatives of the pixel with respect to the point.
     const auto& h = mark_.matrix.h;
     const auto row_of = [&](int k) {
       const auto gain = [&](int axis) { return (h[k][axis] - pixel[k] * h[2][axis]) / uvw.z; };
@@ -400,7 +400,7 @@ class BundleProblem {
 ceres::Solver::Options SolverOptions(const BundleOptions& options) {
   ceres::Solver::Options solver;
   solver.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
-  // Eigen's sparse Cholesky is scalar code, so results depend neither on a BLAS nor on cache sizes.
+  // Eigen's sparse Cholesky is scalar code, so results do not depend on a BLAS library or on cache sizes.
   solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   solver.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
   solver.max_num_iterations = options.max_iterations;

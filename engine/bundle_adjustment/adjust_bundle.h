@@ -30,7 +30,7 @@ struct BundleInputs {
 
 /// The loss function ρ of a mark's reprojection error.
 enum class RobustLoss {
-  kNone,    ///< quadratic: one gross error moves the whole body
+  kNone,    ///< quadratic: a single gross error moves the whole body
   kHuber,   ///< linear beyond `loss_scale`
   kCauchy,  ///< logarithmic beyond `loss_scale`: gross errors have hardly any influence
 };
@@ -41,7 +41,7 @@ struct BundleSmoothness {
   /// The standard deviation of the acceleration of `points` along each axis, m/s².
   double acceleration = 8;
   std::vector<int> points;
-  std::vector<double> accelerations;  ///< the same for each of `points`; empty: `acceleration` for all
+  std::vector<double> accelerations;  ///< one value for each of `points`; empty: `acceleration` for all
   /// The standard deviation of the acceleration of every angle, rad/s² *(ours)*; infinity turns this term off.
   double angle_acceleration = 40;
 };
@@ -52,12 +52,12 @@ struct BundleOptions {
   double loss_scale = 2;
   /// The smoothness prior; empty if frames are not consecutive.
   std::optional<BundleSmoothness> smoothness;
-  /// The standard deviation of the angle beyond a limit, radians. Limits are soft because they describe people in
-  /// general *(ours)*.
+  /// The standard deviation of the angle beyond a limit, radians. Limits are soft because they describe average people
+  /// *(ours)*.
   double limit_deviation = Radians(3);
   bool adjusts_lengths = false;
-  /// Maximum number of iterations. A take converges in about ten; later ones move only along directions that no mark
-  /// determines.
+  /// Maximum number of iterations. A take converges in about ten; later iterations only move along directions that no
+  /// mark determines.
   int max_iterations = 25;
   /// The search ends if a step lowers the cost by less than this share.
   double min_decrease = 1e-4;
@@ -75,8 +75,8 @@ struct BundleSolution {
 ///   Σ_marks ρ(rᵀ Λ r) + Σ_frames |second difference of points and angles|² / σ² + Σ |angle beyond its limit|² / σ²,
 /// where r is the reprojection error of a mark in pixels, Λ its information and ρ the robust loss, by Ceres's
 /// Levenberg–Marquardt method with an analytic Jacobian and a sparse Cholesky factor; time is linear in the number of
-/// frames. Angles that neither marks nor neighbouring frames determine stay as in `start`. Marks of a point that is
-/// behind the camera at `start` are ignored.
+/// frames. Angles that are determined neither by marks nor by neighbouring frames stay as in `start`. Marks of a point
+/// that is behind the camera at `start` are ignored.
 BundleSolution AdjustBundle(const BundleInputs& inputs, const BundleOptions& options = {});
 
 }  // namespace etude

@@ -21,8 +21,8 @@ struct LengthShare {
   glm::dvec3 per_metre{0};
 };
 
-/// A body whose pose and lengths can be estimated from pictures of its points. Its offsets are linear in a few lengths,
-/// which both sides may share.
+/// A body whose pose and lengths can be estimated from pictures of its points. Its offsets depend linearly on a few
+/// lengths; left and right limbs may share a length.
 struct MeasurableBody {
   KinematicTree tree;
   std::vector<BodyPoint> points;
@@ -34,9 +34,9 @@ struct MeasurableBody {
 /// Returns the body with other lengths, metres; their number must be the same.
 MeasurableBody WithLengths(const MeasurableBody& body, std::span<const double> lengths);
 
-/// The positions of a body's points in one pose, and their Jacobian: for each point, one vector per column with the
-/// derivative of its world position, by the root's translation along x, y, z (metres), by rotations of the whole body
-/// about the root and the world's x, y, z (radians), by each angle, and by each length (metres).
+/// The positions of a body's points in one pose, and their Jacobian: for each point, one vector per column. It is the
+/// derivative of the point's world position with respect to the root's translation along x, y, z (metres), rotations of
+/// the whole body about the root and the world's x, y, z (radians), each angle, and each length (metres).
 struct PlacedPoints {
   std::vector<glm::dvec3> positions;  ///< p_WQ, metres
   int columns = 0;                    ///< 6 + angles + lengths

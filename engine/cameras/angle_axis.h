@@ -8,7 +8,7 @@
 namespace etude {
 
 // Rotations by Rodrigues' vector: the axis times the angle in radians. Ceres has these functions, too, but its rounding
-// differs between versions (2.2 uses hypot instead of sqrt), and a fit of few steps amplifies the difference.
+// differs between versions (2.2 uses hypot instead of sqrt), and a fit of only a few steps amplifies the difference.
 
 /// Returns R(v) p. `T` is double or an automatic-differentiation type, such as Ceres's Jet.
 template <typename T>

@@ -8,11 +8,13 @@
 namespace etude {
 namespace {
 
-/// Returns the Jacobian of the model with five coefficients: the derivatives of (x', y') by x (first column) and by y.
+/// Returns the Jacobian of the model with five coefficients: the derivatives of (x', y') with respect to x (first
+/// column) and y.
 glm::dmat2 BrownJacobian(const Distortion& d, const glm::dvec2& ray) {
   const double x = ray.x, y = ray.y, r2 = x * x + y * y;
   const double gain = 1 + r2 * (d.k1 + r2 * (d.k2 + r2 * d.k3));
-  const double slope = 2 * (d.k1 + r2 * (2 * d.k2 + r2 * 3 * d.k3));  // twice the derivative of `gain` by r²
+  // Twice the derivative of `gain` with respect to r².
+  const double slope = 2 * (d.k1 + r2 * (2 * d.k2 + r2 * 3 * d.k3));
   const double mixed = x * y * slope + 2 * d.p1 * x + 2 * d.p2 * y;
   return {gain + x * x * slope + 2 * d.p1 * y + 6 * d.p2 * x, mixed, mixed,
           gain + y * y * slope + 6 * d.p1 * y + 2 * d.p2 * x};
@@ -100,7 +102,7 @@ std::optional<glm::dvec2> Undistort(const Distortion& distortion, const glm::dve
   glm::dvec2 ray = distorted;
   for (int step = 0; step < kMaxSteps; ++step) {
     const glm::dmat2 jacobian = JacobianOf(distortion, ray);
-    // A determinant that is not positive means that the picture folds back; there is no solution beyond.
+    // If the determinant is not positive, the picture folds back, and there is no solution.
     if (!(glm::determinant(jacobian) > 0) || !(jacobian[0][0] > 0)) return std::nullopt;
     const glm::dvec2 missing = distorted - Distort(distortion, ray);
     ray += glm::inverse(jacobian) * missing;

@@ -21,7 +21,8 @@ enum class Calibration {
   kDlt,            ///< "dlt": least squares on H's entries, |H| = 1 (paper B, section 2.2)
   kDltNormalised,  ///< "dlt-normalised": the same after Hartley's shift and scale of both point sets
   /// "refined": starting from "dlt-normalised", minimises the squared reprojection error over the camera and its lens.
-  /// This is more than a matrix: see `RefineCamera` (refine.h). `Calibrate` returns only the matrix of the start.
+  /// The result is more than a matrix, see `RefineCamera` (refine.h); `Calibrate` returns only the start matrix for
+  /// this method.
   kRefined,
 };
 

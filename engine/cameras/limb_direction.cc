@@ -46,7 +46,8 @@ glm::dvec3 LineAlong(std::span<const StrokePlane> planes, std::span<const double
   return {along_W[0], along_W[1], along_W[2]};
 }
 
-// Returns the inverse of the error of Nᵢ·d per pixel at the stroke's ends, relative to the largest.
+// Returns, for each plane, the inverse of the error of Nᵢ·d that one pixel of error at the stroke's ends causes,
+// relative to the largest.
 std::vector<double> WeightsOf(std::span<const StrokePlane> planes, const glm::dvec3& along_W) {
   std::vector<double> weights;
   constexpr double kEndOn = 0.05;  // sine; limits the weight of a limb seen end-on
@@ -60,7 +61,8 @@ std::vector<double> WeightsOf(std::span<const StrokePlane> planes, const glm::dv
 }
 
 // Returns a value in [−1, 1] that is positive if `direction` leads from ray a towards ray b: within the plane,
-// direction = α·a + β·b, and a point on ray a that moves along it is seen to move towards b exactly if β > 0.
+// direction = α·a + β·b; a point on ray a that moves along the direction is seen to move towards b if and only if β >
+// 0.
 double Sense(const StrokePlane& plane, const glm::dvec3& direction_W) {
   return glm::dot(glm::cross(plane.ray_a_W, direction_W), plane.normal_W);
 }

@@ -54,11 +54,11 @@ struct LimbDirection {
 
 /// Computes the direction of a limb seen by two or more cameras. Each stroke and its camera's centre span a plane with
 /// unit normal N ~ ray(a) × ray(b) that contains the limb. The intersection of two planes is N₁ × N₂ (paper B, section
-/// 2.3). *Ours*: for more planes, the direction is the unit vector d that minimises Σ (Nᵢ·d)²/εᵢ². There εᵢ ~ |rayᵢ ×
-/// d| / (length of the stroke) is the error of Nᵢ·d caused by an error of one pixel at the stroke's ends; so a near
-/// camera, whose stroke is long relative to the visible limb, has more weight. The d in the weights is the solution
-/// with equal weights. Strokes without length are left out. The direction points from a to b in the pictures (ours; the
-/// paper does not say); if pictures disagree, those in which the limb is less foreshortened decide.
+/// 2.3). *Ours*: for more planes, the direction is the unit vector d that minimises Σ (Nᵢ·d)²/εᵢ². Here εᵢ ~ |rayᵢ × d|
+/// / (length of the stroke) is the error of Nᵢ·d caused by an error of one pixel at the stroke's ends; a near camera,
+/// which shows the limb as a long stroke, therefore has more weight. The d in εᵢ is the solution with equal weights.
+/// Strokes without length are left out. The direction points from a to b in the pictures (ours; the paper does not
+/// say); if pictures disagree, those decide in which the limb is less foreshortened.
 /// @param min_plane_angle the result is ill-conditioned if no two planes differ by at least this angle, radians
 LimbDirection ComputeLimbDirection(std::span<const LimbSighting> sightings, double min_plane_angle = Radians(3));
 

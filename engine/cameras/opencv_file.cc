@@ -18,7 +18,7 @@ constexpr double kOurPixelCentre = 0.5;
 bool IsSide(double pixels) { return pixels >= 1 && pixels <= 65536 && pixels == std::floor(pixels); }
 
 bool AreFinite(const OpenCvParameters& p) {
-  double sum = 0;  // not finite if any of the numbers is not
+  double sum = 0;  // the sum is finite only if all numbers are
   for (const double value : p.camera_matrix) sum += std::abs(value);
   for (const double value : p.distortion) sum += std::abs(value);
   for (int i = 0; i < 3; ++i) sum += glm::length(p.R[i]) + std::abs(p.T[i]);
@@ -187,7 +187,7 @@ std::vector<double> MatrixNamed(std::string_view text, std::string_view name) {
   return NumbersOf(behind->substr(from + 5, to - from - 5)).value_or(std::vector<double>{});
 }
 
-/// Returns true if a matrix is there and holds no number.
+/// Returns true if a matrix exists and holds no number.
 bool IsEmptyMatrix(std::string_view text, std::string_view name) {
   const auto behind = Behind(text, name);
   const std::size_t from = behind ? behind->find("data:") : std::string_view::npos;
@@ -223,7 +223,7 @@ Result<Camera> ReadOpenCvCamera(std::string_view text) {
                      .camera_matrix = MatrixNamed(text, "camera_matrix"),
                      .distortion = MatrixNamed(text, "distortion_coefficients"),
                      .is_fisheye = NumberNamed(text, "fisheye") != 0};
-  // A lens that is there but cannot be read must not count as none.
+  // If a lens is given but cannot be read, fail, because it must not be ignored.
   const bool has_lens = Behind(text, "distortion_coefficients").has_value();
   if (has_lens && p.distortion.empty() && !IsEmptyMatrix(text, "distortion_coefficients")) {
     return Fail({}, "distortion_coefficients cannot be read; allowed: a matrix of OpenCV");

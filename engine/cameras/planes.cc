@@ -123,8 +123,8 @@ Result<glm::dmat3> HomographyOf(std::span<const PointPair> pairs) {
 }
 
 Result<Intrinsics> IntrinsicsFromPlanes(std::span<const glm::dmat3> homographies, int width, int height) {
-  // With the principal point at the origin and lengths in picture widths, h₁ᵀωh₂ = 0 and h₁ᵀωh₁ = h₂ᵀωh₂ are linear in
-  // ω = diag(a, b, 1), a = 1/fx², b = 1/fy².
+  // Put the principal point at the origin and measure in picture widths. Then h₁ᵀωh₂ = 0 and h₁ᵀωh₁ = h₂ᵀωh₂ are linear
+  // in ω = diag(a, b, 1), where a = 1/fx², b = 1/fy².
   const double unit = std::max(width, height);
   Eigen::MatrixX2d A(2 * static_cast<Eigen::Index>(homographies.size()), 2);
   Eigen::VectorXd rhs(A.rows());
@@ -220,7 +220,7 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
   return RefineRig(guess, kept, options);
 }
 
-// The pose of each board follows from its first usable view.
+// Each board's initial pose follows from its first usable view.
 Result<RefinedRig> LocateBoards(std::span<const Camera> cameras, std::span<const TargetView> views) {
   RigGuess guess{.cameras = {cameras.begin(), cameras.end()}, .targets = {}};
   std::vector<std::optional<std::size_t>> number;

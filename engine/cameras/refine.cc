@@ -251,8 +251,8 @@ class Bundle {
     }
   }
 
-  // Eliminate the targets first. Intrinsics and poses are groups of their own: Ceres sorts the blocks of a group by
-  // their addresses, and only those of one array have an order that the heap does not decide.
+  // Eliminate the targets first. Intrinsics and poses are separate groups, because Ceres sorts the blocks of a group by
+  // their addresses: within one array this order is fixed, between arrays it depends on the heap.
   std::shared_ptr<ceres::ParameterBlockOrdering> TargetsFirst() {
     auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
     for (PoseBlock& target : targets_) ordering->AddElementToGroup(target.data(), 0);
@@ -296,9 +296,9 @@ class Bundle {
     return normal;
   }
 
-  // Returns the variances of the free parameters if the corners of one view err together (a blur, a bent board, a
-  // finder's bias): the sandwich A⁻¹ (Σ g gᵀ) A⁻¹ with the gradient g of each view, enlarged as for few groups (Cameron
-  // and Miller 2015, CR1). Zeros with fewer than four views.
+  // Returns the variances of the free parameters if the errors of the corners of one view are correlated (by blur, a
+  // bent board, or a bias of the finder): the sandwich A⁻¹ (Σ g gᵀ) A⁻¹ with the gradient g of each view, enlarged
+  // because views are few (Cameron and Miller 2015, CR1). Returns zeros for fewer than four views.
   Eigen::VectorXd VariancesByViews(const Eigen::MatrixXd& inverse) const {
     Eigen::VectorXd variances = Eigen::VectorXd::Zero(inverse.rows());
     constexpr std::size_t kMinViews = 4;

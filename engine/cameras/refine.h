@@ -34,12 +34,13 @@ enum class LensModel {
 
 struct RefineOptions {
   LensModel lens = LensModel::kRadial2;
-  /// Estimates the skew. Sensors have had none for decades, so set it only to get paper B's eleven degrees of freedom.
+  /// Estimates the skew. Modern sensors have none, so set it only to get paper B's eleven degrees of freedom.
   bool skew = false;
   /// Holds focal lengths, principal points and lenses fixed at the start: for rigs whose cameras were calibrated one by
   /// one and then set up.
   bool hold_intrinsics = false;
-  /// Holds the cameras fixed and frees the first target instead: measures how well known cameras explain the views.
+  /// Holds the cameras fixed and frees the first target instead: this measures how well known cameras explain the
+  /// views.
   bool hold_cameras = false;
   int most_iterations = 200;
 };
@@ -50,8 +51,8 @@ struct RigGuess {
   std::vector<CalibrationTargetPose> targets;  ///< the first one is held fixed: it defines the world
 };
 
-/// The standard deviations of a camera's intrinsics, pixels: the larger of those of independent, equally large errors
-/// of the corners, and, with four views or more, of errors that the corners of a view share.
+/// The standard deviations of a camera's intrinsics, pixels: the larger of two estimates: one for independent corner
+/// errors of equal size and, with four views or more, one for errors that the corners of a view share.
 struct IntrinsicsDeviation {
   double fx = 0, fy = 0, cx = 0, cy = 0;
 };
@@ -63,7 +64,8 @@ struct RefinedRig {
   std::vector<double> camera_rms_px;
   double rms_px = 0;
   std::size_t points = 0;  ///< N
-  std::size_t parameters = 0;  ///< p, free ones. With errors of σ per coordinate, rms_px is near σ √2 √((2N−p) / 2N)
+  /// P, the number of free parameters. If corners have errors of σ per coordinate, rms_px is near σ √2 √((2N−p) / 2N)
+  std::size_t parameters = 0;
   std::vector<IntrinsicsDeviation> deviations;  ///< 0 for cameras held fixed
 };
 

@@ -12,8 +12,8 @@
 namespace etude {
 
 /// Reads the cameras of a calibration exported by Qualisys Track Manager (XML, `.qca.txt`), named by their serial
-/// numbers. Intrinsics are in pixels or, for QTM's video cameras, in 1/64 pixel; a sensor range beyond 16384 means the
-/// latter. Distortion coefficients are plain numbers in both cases (Pose2Sim's converter divides them by 64, too, which
+/// numbers. Intrinsics are in pixels or, for QTM's video cameras, in 1/64 pixel; a sensor range above 16384 means 1/64
+/// pixel. Distortion coefficients are plain numbers in both cases (Pose2Sim's converter divides them by 64, too, which
 /// removes nearly all distortion). Poses are in millimetres, Z up, with the camera's y up and z backwards; ours are in
 /// metres, Y up: QTM's (x, y, z) is our (y, z, x), as in ReadPose2SimCalibration. The picture is `fov_video` if
 /// present, otherwise the whole sensor, in the sensor's orientation: a `viewrotation` rotates only the displayed
@@ -27,13 +27,14 @@ Result<std::vector<NamedCamera>> ReadQualisysCalibration(std::string_view text);
 /// allow become '_', and "camera_" is put before a leading digit.
 std::string WriteRig(std::span<const NamedCamera> cameras);
 
-/// The content of a calibration file, as if its world had the usual unit and axes of its format.
+/// The content of a calibration file; its world is assumed to have the usual unit and axes of the format.
 struct RigFile {
-  std::vector<NamedCamera> cameras;  ///< metres, Y up; a picture of 0 x 0 pixels: its size is not in the file
-  std::string format;                ///< as people call it
-  glm::dmat3 R_WF{1};                ///< from the file's axes to the cameras' world
-  double unit_m = 1;                 ///< assumed length of the file's unit, metres
-  bool has_unit = true;              ///< false: lengths have no unit (COLMAP)
+  /// Metres, Y up; a picture of 0 × 0 pixels means that the file does not give its size.
+  std::vector<NamedCamera> cameras;
+  std::string format;    ///< name of the format, for people
+  glm::dmat3 R_WF{1};    ///< rotates from the file's axes to the world of `cameras`
+  double unit_m = 1;     ///< assumed length of the file's unit, metres
+  bool has_unit = true;  ///< false: lengths have no unit (COLMAP)
 };
 
 /// Reads a rig from one file. The format is recognised by its content:

@@ -103,7 +103,7 @@ struct ColmapLine {
   std::vector<std::string> words;
 };
 
-/// Returns the lines that are not comments, including empty ones: an image may have no points.
+/// Returns the lines that are not comments, including empty lines, because an image may have no points.
 std::vector<ColmapLine> LinesOf(std::string_view text) {
   std::vector<ColmapLine> lines;
   for (int number = 1; !text.empty(); ++number) {
@@ -202,7 +202,7 @@ Result<RigFile> ReadColmap(std::string_view cameras, std::string_view images) {
     ASSIGN_OR_RETURN(inside[line.words.front()], InsideOf(line));
   }
   RigFile rig{.cameras = {}, .format = "COLMAP", .R_WF = kOursOfZUp, .has_unit = false};
-  // Each image has two lines; the second one lists its points.
+  // Each image has two lines; the second one lists its points and is skipped.
   bool is_points = false;
   for (const ColmapLine& line : LinesOf(images)) {
     if (is_points || line.words.empty()) {

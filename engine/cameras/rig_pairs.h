@@ -24,7 +24,7 @@ Result<RigFile> ReadEasyMocap(const Node& intrinsics, const Node& extrinsics);
 Result<RigFile> ReadOpenCvStereo(const Node& intrinsics, const Node& extrinsics);
 
 /// Reads COLMAP's text model with one image for each camera; the image's name, without folder and extension, becomes
-/// the camera's. COLMAP's first pixel has its centre at (0.5, 0.5), as ours has. Its lengths have no unit.
+/// the camera's name. As ours, COLMAP's first pixel has its centre at (0.5, 0.5). Its lengths have no unit.
 Result<RigFile> ReadColmap(std::string_view cameras, std::string_view images);
 
 }  // namespace etude

@@ -48,7 +48,8 @@ std::optional<LikeliestPoint> TriangulateLikeliest(std::span<const InformedSight
 
 namespace {
 
-/// The distance of each view, in pixels, from the point that two views triangulate; infinity if it cannot show it.
+/// For each view, the distance in pixels between its sighting and the projection of a point; infinity if the view
+/// cannot show the point.
 using DistanceOfView = std::vector<double>;
 
 struct Consensus {

@@ -18,7 +18,7 @@ struct InformedSighting {
 };
 
 /// The normal equations of Σ rᵀ Λ r at one position, with the reprojection error r of each sighting and its information
-/// Λ: the normal matrix, which is the position's information, and the right side of the Gauss–Newton step.
+/// Λ: the normal matrix, which is the information of the position, and the right-hand side of the Gauss–Newton step.
 struct PointEquations {
   glm::dmat3 information{0};
   glm::dvec3 right{0};
@@ -35,12 +35,12 @@ struct LikeliestPoint {
 /// (`Triangulate`). Returns nullopt if that fails, or if a step leaves the space in front of the cameras.
 std::optional<LikeliestPoint> TriangulateLikeliest(std::span<const InformedSighting> sightings);
 
-/// Finds the sightings of one point that agree with each other *(ours)*. Every pair of sightings triangulates a point,
-/// and those sightings agree with it that show it within `tolerance_px`. The set of the largest total weight is
-/// returned; among equal ones, the set with the smallest (weighted) mean square distance from its point. All pairs are
-/// tried, so no random numbers are needed: n views cost n²/2 triangulations (the consensus of Fischler and Bolles 1981,
-/// without sampling). One outlier among three sightings is detected only by its distance from the other cameras'
-/// epipolar lines.
+/// Finds the sightings of one point that agree with each other *(ours)*. Every pair of sightings triangulates a point;
+/// the sightings within `tolerance_px` of its projections agree with it. The set with the largest total weight is
+/// returned; among sets of equal weight, the one with the smallest (weighted) mean square distance from its point. All
+/// pairs are tried, so no random numbers are needed: n views cost n²/2 triangulations (the consensus of Fischler and
+/// Bolles 1981, without sampling). With three sightings, one outlier can be detected only by its distance from the
+/// epipolar lines of the other two.
 /// @param weights the confidence of each sighting, above 0; empty: all equal
 /// @return their indices, ascending; all indices if there are fewer than three, or if no pair gives a point
 std::vector<std::size_t> AgreeingViews(std::span<const Sighting> sightings, double tolerance_px,
@@ -69,8 +69,8 @@ struct RobustPoint {
 /// Triangulates a point from sightings of which some may be outliers *(ours)*. The start is the set of agreeing views
 /// (`AgreeingViews`, weighted). The position minimises Σ w · d², where d is the distance in the picture
 /// (`TriangulateLikeliest`); views that enter or leave `outlier_px` around it are then added or removed, and the
-/// position is computed again, at most three times. Returns nullopt if no two sightings agree. Of two sightings, both
-/// must agree.
+/// position is computed again, at most three times. Returns nullopt if no two sightings agree. If there are only two
+/// sightings, both must agree.
 std::optional<RobustPoint> TriangulateRobustly(std::span<const WeightedSighting> sightings,
                                                const RobustOptions& options = {});
 

@@ -43,10 +43,10 @@ struct TriangulatedPoint {
 /// arbitrary scale of its H. (The paper prints h₁₄ for h₂₄ in the v rows, a misprint.)
 TriangulatedPoint Triangulate(std::span<const Sighting> sightings);
 
-/// Triangulates like `Triangulate`, but divides every row by the point's depth in its camera as well *(ours)*, so that
-/// distances in pixels are minimised: a distant camera measures the point less exactly and has less weight (iterated
-/// linear least squares, Hartley and Sturm 1997, section 4.3; three rounds). Two cameras at equal distances give the
-/// result of `Triangulate`.
+/// Triangulates like `Triangulate`, but also divides every row by the point's depth in its camera *(ours)*, so that
+/// distances in pixels are minimised: a distant camera measures the point less accurately and gets less weight
+/// (iterated linear least squares, Hartley and Sturm 1997, section 4.3; three rounds). For two cameras at equal
+/// distances the result is that of `Triangulate`.
 TriangulatedPoint TriangulateByPixels(std::span<const Sighting> sightings);
 
 /// The epipolar constraint of two cameras: bᵀ F a = 0 for the pixels a in the first and b in the second picture of one

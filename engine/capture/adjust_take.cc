@@ -16,7 +16,8 @@ constexpr std::array<double LimbLengths::*, 10> kLengths = {
     &LimbLengths::forearm, &LimbLengths::hand};
 static_assert(sizeof(LimbLengths) == kLengths.size() * sizeof(double), "every length stands in the list");
 
-// All offsets are linear in the lengths, so the derivative by one length is the body whose other lengths are 0.
+// All offsets are linear in the lengths, so their derivatives with respect to one length are the offsets of a body with
+// that length 1 and all others 0.
 void AddLengths(const LimbLengths& lengths, TakeBody& made) {
   const auto list = ListOf(lengths);
   made.measurable.lengths.assign(list.begin(), list.end());
@@ -69,8 +70,8 @@ TakeBody MakeTakeBody(const LimbLengths& lengths) {
 
 namespace {
 
-/// Returns one state per frame. Frames without a state take that of the frame before, leading ones the first; empty if
-/// no frame has one.
+/// Returns one state per frame. A frame without a state gets the one before it, a leading frame the first one. Returns
+/// an empty list if no frame has a state.
 std::vector<TreeState> StartOf(const CaptureBody& body, std::span<const OptionalJoints> joints) {
   const BodyPose standing = ToBodyPose(body, StandingState(body.tree));
   std::vector<TreeState> states;
@@ -136,7 +137,7 @@ namespace {
 
 using enum Role;
 
-/// A length of LimbLengths as the distance between two joints; both sides of the body count.
+/// A length of LimbLengths and the two joints whose distance it is; both sides of the body are used.
 struct LengthBetween {
   double LimbLengths::*length;
   Role a, b;

@@ -58,16 +58,16 @@ AdjustedTake AdjustTake(const AdjustTakeInputs& inputs, const AdjustTakeOptions&
 BundleSmoothness SmoothnessOf(const TakeBody& body, double rate_hz);
 
 struct MeasureLengthsOptions {
-  /// The number of frames used, spread evenly over those that show the most joints. Raising it helps little: mark
-  /// errors that persist over frames are averaged by distant frames, not by more frames.
+  /// The number of frames used, spread evenly over those that show the most joints. More frames help little: mark
+  /// errors persist over neighbouring frames, so only distant frames average them out.
   int frames = 12;
   MarkErrors marks;
 };
 
 /// Measures the limb lengths of the person in the pictures (future work in paper B, section 6.2.2): the lengths with
-/// which paper B's body explains the marks of a few frames best, with an independent pose for each frame
-/// (`AdjustBundle` over lengths and poses). The search starts at the medians of the distances between triangulated
-/// joints. Returns nothing if no frame shows a body or a length of the solution is not positive.
+/// which paper B's body best explains the marks of a few frames; each frame has an independent pose (`AdjustBundle`
+/// over lengths and poses). The search starts at the medians of the distances between triangulated joints. Returns
+/// nothing if no frame shows a body or a length of the solution is not positive.
 /// @param measured the joints of every frame (`MeasureJoints`)
 std::optional<LimbLengths> MeasureLengths(const MeasureInputs& pictures, std::span<const JointMeasurements> measured,
                                           const MeasureLengthsOptions& options = {});

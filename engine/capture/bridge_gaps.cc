@@ -10,8 +10,8 @@
 namespace etude {
 namespace {
 
-// Interpolates along the great circle between two unit vectors; nearly equal or opposite vectors are not mixed: the
-// nearer one is taken.
+// Interpolates along the great circle between two unit vectors; for nearly equal or opposite vectors it returns the one
+// nearer in time instead.
 glm::dvec3 SlerpDirections(const glm::dvec3& from, const glm::dvec3& to, double share) {
   const double angle = AngleBetween(from, to);
   constexpr double kNearlyEqual = 1e-6;
@@ -43,8 +43,8 @@ std::optional<Bridged> Bridge(int frame, int frames, int max_gap, ValueAt value_
   return Bridged{mix(*value_at(before), *value_at(after), share), distance};
 }
 
-// Returns the direction of a limb that is assumed unforeshortened: the mean of the directions from the beginning to the
-// end of its strokes.
+// Returns the direction of a limb that is assumed not to be foreshortened: the mean direction of its strokes, from
+// beginning to end.
 std::optional<glm::dvec3> DirectionAcrossSight(std::span<const StrokePlane> planes) {
   glm::dvec3 sum(0);
   for (const StrokePlane& plane : planes) sum += glm::normalize(plane.ray_b_W - plane.ray_a_W);
@@ -54,7 +54,7 @@ std::optional<glm::dvec3> DirectionAcrossSight(std::span<const StrokePlane> plan
   return sum / length;
 }
 
-// Returns the minimiser of the sum of squares in the header, normalised.
+// Returns the unit vector that minimises the sum of squares in the header.
 glm::dvec3 FuseDirection(std::span<const StrokePlane> planes, const Bridged& bridged, const BridgeOptions& options) {
   const double turn = options.turn_per_frame * bridged.distance;
   glm::dmat3 squares(1 / (turn * turn));

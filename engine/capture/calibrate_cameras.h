@@ -14,7 +14,7 @@ namespace etude {
 
 struct CalibrationOptions {
   /// The method, by default paper B's. Use `kDltNormalised` if there are few or noisy point pairs or if they are far
-  /// from the world's origin: it scales the equations, so that no pair has more weight because its numbers are larger.
+  /// from the world's origin: it scales the equations, so that pairs with larger numbers do not get more weight.
   /// `kRefined` stands for `RefineCameras`.
   Calibration method = Calibration::kDlt;
 };
@@ -32,7 +32,7 @@ Result<std::vector<Camera>> RefineCameras(std::span<const std::vector<PointPair>
                                           std::span<const PictureSize> sizes, const RefineOptions& options = {});
 
 /// Returns the marks as the camera would show them without lens distortion, as `MeasureInputs` expects beside
-/// `MatrixOf`. A mark outside the field of the lens is missing.
+/// `MatrixOf`. A mark outside the field of the lens is left out.
 Marks UndistortMarks(const Camera& camera, const Marks& marks);
 
 }  // namespace etude

@@ -10,8 +10,8 @@
 namespace etude {
 namespace {
 
-const glm::dvec3 kAlong(0, 0, 1);         // the direction of every limb in its own frame
-constexpr double kStraight = Radians(5);  // an elbow or knee nearer to straight defines no plane
+const glm::dvec3 kAlong(0, 0, 1);         // every limb points along this direction in its own frame
+constexpr double kStraight = Radians(5);  // an elbow or knee bent by less defines no plane
 constexpr double kTinyM = 1e-9;
 
 bool IsFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
@@ -41,9 +41,10 @@ KinematicTree WithRoles(const CaptureBody& body, std::vector<Role>& roles) {
   KinematicTree tree = body.tree;
   tree.effectors.clear();
   for (const Role role : AllRoles()) {
-    if (role == Role::kHipCentre && body.hips_turn) continue;  // it is the midpoint of the hips
+    // The hip centre is the midpoint of the hips, so it needs no effector.
+    if (role == Role::kHipCentre && body.hips_turn) continue;
     TreePoint point = body.roles[Index(role)];
-    // The joint of a limb is a point of the limb before.
+    // The joint at which a limb begins is a fixed point of the limb before it.
     while (point.joint > 0 && glm::length(point.p_LQ) < kTinyM) {
       const TreeJoint& joint = tree.joints[point.joint];
       point = {joint.parent, joint.p_PJ};
@@ -57,7 +58,7 @@ KinematicTree WithRoles(const CaptureBody& body, std::vector<Role>& roles) {
 
 constexpr double kGoal = 1e-7;                       // metres
 constexpr double kMet = kRoleCount * kGoal * kGoal;  // a residual below means that all targets are met, m²
-// A residual below this multiple of the last frame's needs no other start.
+// If the residual is below this multiple of the last frame's residual, no other start is tried.
 constexpr double kLikeTheLast = 1.5 * 1.5;
 
 IkOptions ExactSteps() {
@@ -91,7 +92,7 @@ PoseFitter::PoseFitter(const CaptureBody& body)
     children_[tree_.joints[i].parent].push_back(static_cast<int>(i));
 }
 
-// Collects the known roles beyond a limb, each way outwards as far as the first one.
+// Collects the known roles beyond a limb: on every way outwards, the first one.
 void PoseFitter::AddAims(int limb, const glm::dvec3& p_LJ, const glm::dmat3& R_LJ, int beyond,
                          const PoseTargets& wanted, std::vector<Aim>& aims) const {
   bool is_met = false;
@@ -111,9 +112,9 @@ void PoseFitter::AddAims(int limb, const glm::dvec3& p_LJ, const glm::dmat3& R_L
   }
 }
 
-// Returns the axes of a limb if the way to the next known joint leads over joints that bend: the limb and the rest of
-// the way are two sides of a triangle, whose third side is the distance to the known joint. It bends to the same side
-// as at rest; if it is straight at rest, as a back is, it bends backwards.
+// Returns the axes of a limb if there are joints without targets between it and the next known joint. The limb and the
+// rest of the way are two sides of a triangle; the third side is the distance to the known joint. The chain bends to
+// the same side as at rest; if it is straight at rest, like a back, it bends backwards.
 glm::dmat3 PoseFitter::BendTowards(int limb, const Aim& aim, const glm::dvec3& to_W, const glm::dmat3& R_WL,
                                    const glm::dvec3& back_W, int mirrored) const {
   glm::dvec3 p_LT(0);  // the end of the limb on that way
@@ -140,13 +141,13 @@ glm::dmat3 PoseFitter::TurnTowards(int limb, const glm::dvec3& p_WL, const glm::
   std::vector<Aim> aims;
   AddAims(limb, glm::dvec3(0), glm::dmat3(1), limb, wanted, aims);
   if (aims.empty()) return R_WJ;
-  // Point at the farthest known role of the limb itself, or else at the farthest beyond.
+  // Point at the farthest known role on the limb itself, or else at the farthest one beyond it.
   const auto main = std::ranges::max_element(
       aims, {}, [](const Aim& aim) { return std::pair(aim.is_on_limb, glm::length(aim.p_LQ)); });
   const glm::dvec3 from = UnitOr(R_WJ * main->p_LQ, R_WJ * kAlong);
   const glm::dvec3 to = UnitOr(wanted.places[main->role] - p_WL, from);
   glm::dmat3 R_WL = SmallestRotation(from, to) * R_WJ;
-  // Twist of a limb by the plane in which its elbow or knee bends.
+  // Take the twist of a limb from the plane in which its elbow or knee bends.
   const auto twist = std::ranges::find(body_.twists, limb, &CaptureBody::Twist::joint);
   if (twist != body_.twists.end()) {
     const glm::dvec3 upper = wanted.places[twist->middle] - wanted.places[twist->upper];

@@ -29,7 +29,7 @@ struct PoseFit {
 /// Finds poses of one body from the positions of its joints. *(Ours.)* First, from the root outwards, every limb points
 /// to the next known joints, with its twist given by elbows and knees (`CaptureBody::Twist`). Then Gauss–Newton steps
 /// minimise the distances of all roles to their targets together; angles that no target determines keep their values of
-/// the first step. A pose of the body is reproduced exactly, as far as its positions determine it.
+/// the first step. If the targets are a pose of the body, that pose is found exactly, as far as positions determine it.
 class PoseFitter {
  public:
   /// `body` must outlive this.
@@ -39,23 +39,23 @@ class PoseFitter {
 
   /// Finds angles that minimise Σ weight · |target − role|², at least locally; the root stands at the target of the
   /// left foot. If targets are not met and the residual is clearly larger than that of `last` (the fit of the frame
-  /// before, if there is one), more starts are tried: the pose of `last`, and for every joint without a target the pose
-  /// in which it bends the other way. The smallest minimum is returned. Returns nothing if a target with weight is not
-  /// finite or the left foot has no weight.
+  /// before, if there is one), more starts are tried: the pose of `last`, and, for every joint without a target, the
+  /// pose in which it bends to the other side. The lowest minimum found is returned. Returns nothing if a target with
+  /// weight is not finite or the left foot has no weight.
   std::optional<PoseFit> Fit(const PoseTargets& wanted, const std::optional<PoseFit>& last = {}) const;
-  /// Finds the local minimum near `state`; its root is kept.
+  /// Finds the local minimum near `state`; the root does not move.
   TreeState Improve(const PoseTargets& wanted, const TreeState& state) const;
 
  private:
-  /// The first known role on a way outwards from a limb, and its position relative to the limb if all angles beyond are
-  /// zero.
+  /// The first known role on a way outwards from a limb, and its position relative to the limb when all angles beyond
+  /// the limb are zero.
   struct Aim {
     Role role;
     glm::dvec3 p_LQ{0};
     bool is_on_limb = false;
   };
 
-  /// Result of the first step: the pose, and the limbs beyond which a joint without a target bends.
+  /// Result of the first step: the pose, and the limbs that end in a bent joint without a target.
   struct Pointed {
     TreeState state;
     std::vector<int> bent;

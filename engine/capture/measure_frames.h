@@ -17,10 +17,10 @@ namespace etude {
 
 /// Removes marks that disagree with those of other cameras *(ours)*. Every disc and stroke that three or more pictures
 /// of a frame show is removed from the views that `AgreeingViews` rejects. Use it if a camera may have moved or marks
-/// may be of the wrong limb; if all marks err alike, it costs a little accuracy.
+/// may be of the wrong limb; if all marks are equally accurate, it costs a little accuracy.
 /// @param marks `marks[camera][frame]`
 /// @param tolerance_px maximum distance, in pixels, of a mark from the point that the other pictures determine. Marks
-/// that err by 2 pixels, and by more at joints hidden by clothes, agree within 12.
+/// with errors of 2 pixels (more at joints under clothes) agree within 12 pixels.
 std::vector<std::vector<Marks>> AgreeingMarks(std::span<const ProjectionMatrix> cameras,
                                               std::span<const std::vector<Marks>> marks, double tolerance_px = 12);
 
@@ -37,8 +37,8 @@ struct FrameMeasurement {
   std::array<std::optional<SightLine>, kRoleCount> sight_lines = {};
 };
 
-/// Measurements of one frame that do not come from marks, for example from another sensor, or true values that show the
-/// cost of a stage. Each member that is present replaces all measurements of its kind.
+/// Measurements of one frame that do not come from marks, for example from another sensor, or true values for measuring
+/// the cost of a stage. Each member that is present replaces all measurements of its kind.
 struct KnownMeasurement {
   std::optional<RoleVectors> ends;
   std::optional<RoleVectors> directions;
@@ -56,13 +56,13 @@ struct MeasureInputs {
 
 struct MeasureOptions {
   /// Minimum angle between two viewing planes of a limb for its strokes alone to give its direction, radians. The error
-  /// of the strokes is multiplied by 1/sin of that angle, about seven at 8°. Below it the planes are kept and combined
-  /// with neighbouring frames (`BridgeGaps`). Raise it if marks are inaccurate; lower it if marks are accurate or the
-  /// cameras are close together.
+  /// of the strokes is multiplied by 1/sin of that angle, about seven at 8°. Below this angle, the planes are kept and
+  /// combined with neighbouring frames (`BridgeGaps`). Raise it if marks are inaccurate; lower it if marks are accurate
+  /// or the cameras are close together.
   double min_plane_angle = Radians(8);
-  /// Strokes shorter than this, in pixels, give no direction: if a limb is seen almost end on, mark errors hide its
-  /// direction. The default is three times the usual mark error in pictures of 640 × 480, 2 pixels; scale it with that
-  /// error.
+  /// Strokes shorter than this, in pixels, give no direction: for a limb that is seen almost end on, mark errors hide
+  /// the direction. The default is three times the usual mark error in pictures of 640 × 480, 2 pixels; scale it with
+  /// that error.
   double min_stroke_px = 6;
 };
 

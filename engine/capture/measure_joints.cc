@@ -22,7 +22,8 @@ glm::dmat2 InformationOfEnd(const PixelSegment& stroke, const MarkErrors& errors
   return glm::outerProduct(t, t) / (along * along) + glm::outerProduct(n, n) / (across * across);
 }
 
-// Returns true if the role has a disc. A disc covers the end of its limb's stroke, which is therefore read too short.
+// Returns true if the role has a disc. A disc covers the end of its limb's stroke, so the stroke that is read is too
+// short.
 bool HasDisc(const Marks& marks, Role role) {
   for (std::size_t i = 0; i < kEffectorCount; ++i) {
     if (EffectorMarks()[i].role == role) return marks.effectors[i].has_value();
@@ -218,7 +219,8 @@ std::optional<BodyPose> CompleteJoints(const OptionalJoints& joints, const BodyP
   const glm::dvec3 like_across = like[kLeftHip] - like[kRightHip];
   const FloorMove turn{.yaw = across ? YawOf(*across) - YawOf(like_across) : 0};
   const auto limb = [&](const Bone& bone) { return turn.Apply(like[bone.child] - like[bone.parent]); };
-  for (std::size_t round = 0; round < kRoleCount; ++round) {  // each round reaches one limb farther
+  // Each round attaches joints that are one limb farther away.
+  for (std::size_t round = 0; round < kRoleCount; ++round) {
     for (const Bone& bone : AllBones()) {
       auto &parent = filled[Index(bone.parent)], &child = filled[Index(bone.child)];
       if (parent && !child) child = *parent + limb(bone);
@@ -234,7 +236,7 @@ std::vector<BodyPose> SmoothPoses(std::span<const std::optional<BodyPose>> poses
                                   std::span<const JointMeasurements> measured, double rate_hz) {
   assert(poses.size() == measured.size());
   std::vector<BodyPose> smooth(poses.size());
-  constexpr double kUnknownVariance = 0.02 * 0.02;  // m²: of a joint that was never triangulated *(ours)*
+  constexpr double kUnknownVariance = 0.02 * 0.02;  // m²: for a joint that was never triangulated *(ours)*
   for (std::size_t role = 0; role < kRoleCount; ++role) {
     const double variance = UsualVariance(measured, role).value_or(kUnknownVariance);
     std::vector<PointMeasurement> track(poses.size());

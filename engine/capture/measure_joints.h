@@ -16,8 +16,8 @@ namespace etude {
 /// The error model of marks that a method may use.
 struct MarkErrors {
   double mark_error_px = 2;  ///< standard deviation of a stroke's end across the stroke, and of a disc, in u and in v
-  /// The standard deviation of a stroke's end along the limb, as a share of the stroke's length. A stroke determines
-  /// the line of a limb more accurately than its ends *(ours)*.
+  /// The standard deviation of a stroke's end along the limb, as a share of the stroke's length. Strokes are more
+  /// accurate across the limb than along it *(ours)*.
   double slide_share = 0.08;
 };
 
@@ -29,8 +29,8 @@ struct MarkedJoint {
 };
 
 /// Returns the joints that the marks of one picture show: both ends of every stroke, and the centre of every disc,
-/// which replaces the stroke end beneath it. Marks that end at one joint come from one decision of the annotator, so
-/// they share the information of a single mark.
+/// which replaces the stroke end beneath it. All marks that end at one joint come from a single decision of the
+/// annotator, so together they have the information of one mark.
 std::vector<MarkedJoint> MarkedJointsOf(const Marks& marks, const MarkErrors& errors);
 
 /// The joint positions measured from the pictures of one frame, by role. Hip centre and spine are never measured,
@@ -42,7 +42,7 @@ struct JointMeasurements {
 
 /// Triangulates every joint from all marks that end there: the position minimises Σ rᵀ Λ r over the pictures, with r
 /// the reprojection error and Λ its information (`MarkedJointsOf`), by Gauss–Newton steps from paper B's linear
-/// solution. Its information is that of the sum at the solution. A joint that only one picture shows lies at the point
+/// solution. Its information is that of this sum at the solution. A joint that only one picture shows lies at the point
 /// of its sight line nearest to its position in neighbouring frames, with a depth error of 15 cm *(ours)*.
 /// `inputs.known` is ignored.
 std::vector<JointMeasurements> MeasureJoints(const MeasureInputs& inputs, const MarkErrors& errors = {});
@@ -54,8 +54,8 @@ using OptionalJoints = RoleVectors;
 /// joint that no frame measures stays empty.
 std::vector<OptionalJoints> BridgeJoints(std::span<const JointMeasurements> measured);
 
-/// Smooths each joint's track independently (`SmoothTrack`) with the acceleration density of maximum likelihood, and
-/// fills the gaps. A joint that no frame measures stays empty.
+/// Smooths each joint's track independently (`SmoothTrack`) with the most likely acceleration density, and fills the
+/// gaps. A joint that no frame measures stays empty.
 std::vector<OptionalJoints> SmoothJoints(std::span<const JointMeasurements> measured, double rate_hz);
 
 /// Completes a body: hip centre and spine are interpolated between other joints; missing joints are attached to their
@@ -63,8 +63,8 @@ std::vector<OptionalJoints> SmoothJoints(std::span<const JointMeasurements> meas
 /// joint has a position.
 std::optional<BodyPose> CompleteJoints(const OptionalJoints& joints, const BodyPose& like);
 
-/// Smooths the poses of a motion as `SmoothJoints` does and fills frames without a pose. The error of each joint is the
-/// usual one of its measurements.
+/// Smooths the poses of a motion as `SmoothJoints` does and fills frames without a pose. Each joint is assumed to have
+/// the median error of its measurements.
 std::vector<BodyPose> SmoothPoses(std::span<const std::optional<BodyPose>> poses,
                                   std::span<const JointMeasurements> measured, double rate_hz);
 

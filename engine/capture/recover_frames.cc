@@ -24,8 +24,8 @@ std::optional<Start> PaperStart(const CaptureBody& body, const LimbObservation& 
   return Start{*fixed, FindStartState(body.tree, *fixed, body.tree.limits)};
 }
 
-// Computes the position of every joint that an end and the limbs inwards from it determine (paper B, figure 3.2(a)),
-// and the midpoint of the hips.
+// Computes the positions of all joints that follow from an end and the limb directions inwards from it (paper B, figure
+// 3.2(a)), and the midpoint of the hips.
 PoseTargets TargetsFromEnds(const CaptureBody& body, const LimbObservation& seen) {
   constexpr double kUnseen = 0.01;  // weight of completed positions
   constexpr double kBent = 0.1;     // weight of positions beyond a joint whose bend is not observed
@@ -68,7 +68,7 @@ std::vector<EffectorError> ErrorsSeen(const CaptureBody& body, const LimbObserva
   return kept;
 }
 
-/// Returns the pose at which the solver starts; nothing if neither the pictures nor the last frame give one.
+/// Returns the pose at which the solver starts; nullopt if neither the pictures nor the last frame give one.
 std::optional<TreeState> StartOf(const Start& found, const std::optional<RecoveredFrame>& last, bool is_marked) {
   if (!last || (found.seen && is_marked)) return found.seen;
   // The solver does not move the root, so its position and frame always come from the pictures.

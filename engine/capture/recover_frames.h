@@ -22,10 +22,10 @@ struct RecoverInputs {
   CaptureBody body;  ///< the body of the person, from PaperBody or FittedBody
   /// The observations, one per frame; empty for frames of which too little was seen.
   std::span<const std::optional<LimbObservation>> seen;
-  /// Empty, or one flag per frame: true if the frame itself was marked. The solver starts a marked frame at the angles
-  /// that its pictures show, any other at the angles of the last frame.
+  /// Empty, or one flag per frame: true if the frame itself was marked. In a marked frame the solver starts at the
+  /// angles that the pictures show, in any other frame at the angles of the last frame.
   std::vector<bool> marked = {};
-  /// Empty, or one per frame: true starts or true poses that replace those of the stage, to show its cost.
+  /// Empty, or one per frame: true starts or true poses that replace the results of that stage, to measure its cost.
   std::vector<TreeState> known_starts = {}, known_poses = {};
 };
 
@@ -49,12 +49,14 @@ struct RecoveredFrame {
 /// Recovers a skeleton in every frame from its observation (paper B, chapter 3): fix the limb lengths, then move every
 /// end effector back to its observed position with the solver. For paper B's body, lengths are fixed as in section 3.2
 /// (`FixLimbLengths`) and start angles found as in 3.3 (`FindStartState`). For another body, `PoseFitter` does both: it
-/// fits the body to all joints that ends and directions determine. Values that an observation lacks come from the last
-/// frame, or from a standing body before there is one (`CompleteObservation`), and are no targets. A frame stays empty
-/// if it has no observation, if its skeleton cannot be computed, or if neither it nor a frame before shows an end.
+/// fits the body to all joints that ends and directions determine. Values that an observation lacks are taken from the
+/// last frame, or at the beginning from a standing body (`CompleteObservation`); they are not used as targets. A frame
+/// stays empty if it has no observation, if its skeleton cannot be computed, or if no end was seen in it or in an
+/// earlier frame.
 std::vector<std::optional<RecoveredFrame>> RecoverFrames(const RecoverInputs& inputs, const RecoverOptions& options);
 
-/// True start or true pose of one frame, if the caller has them; they replace those of the stage, to show its cost.
+/// True start or true pose of one frame, if the caller has them; they replace the results of that stage, to measure its
+/// cost.
 struct KnownAngles {
   std::optional<TreeState> start, pose;
 };

@@ -17,7 +17,7 @@ struct ParabolaMinimum {
 };
 
 std::optional<ParabolaMinimum> FitParabola(const std::function<std::optional<double>(int offset)>& misfit, int frame) {
-  // Frames on either side: the misfit is no parabola farther away; with fewer frames, noise matters more.
+  // Frames on either side: farther away, the misfit is not a parabola; with fewer frames, noise matters more.
   constexpr int kReach = 2;
   double count = 0, x2 = 0, x4 = 0, f = 0, xf = 0, x2f = 0;
   for (int x = -kReach; x <= kReach; ++x) {
@@ -51,9 +51,9 @@ ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& m
     best = offset;
   }
   const ParabolaMinimum minimum = FitParabola(misfit, best).value_or(ParabolaMinimum{});
-  // Hardly an improvement over offset 0 means that nobody moved.
+  // If the improvement over offset 0 is this small, nobody moved.
   constexpr double kNoBetter = 0.001, kNothing = 1e-4;  // a share of the misfit; squared pixels
-  // Noise alone stays below this ratio if there are at least 300 distances.
+  // If there are at least 300 distances, noise alone stays below this ratio.
   constexpr double kTold = 1.25;
   const bool is_better = *assumed - min_misfit + minimum.gain > kNothing + kNoBetter * *assumed;
   const bool is_told = std::abs(best) < max_frames && sum / evaluated > kNothing + kTold * (min_misfit - minimum.gain);
@@ -77,7 +77,7 @@ Pixel BeginOf(const std::optional<PixelSegment>& stroke) { return stroke ? Pixel
 Pixel EndOf(const std::optional<PixelSegment>& stroke) { return stroke ? Pixel(stroke->b) : std::nullopt; }
 
 /// Returns the mean squared epipolar distance between the marks of two cameras if the second is late by `offset`
-/// frames; nothing if they have too few marks in common.
+/// frames; nullopt if they have too few marks in common.
 std::optional<double> Misfit(const EpipolarGeometry& geometry, std::span<const Marks> first,
                              std::span<const Marks> second, double max_px, double offset) {
   double sum = 0;

@@ -27,9 +27,9 @@ struct ClockOffset {
 };
 
 /// Finds the offset that minimises `misfit`, in squared pixels: first the best whole number of frames, then the minimum
-/// of the parabola through its neighbourhood. The misfit is evaluated at whole frames only, because an interpolated
-/// pixel has a smaller error than the pixels it is computed from, which would bias every offset towards a half. Returns
-/// 0 if the minimum is hardly below the misfit at 0, or if there is no misfit at 0.
+/// of the parabola through its neighbourhood. The misfit is evaluated at whole frames only: an interpolated pixel has a
+/// smaller error than measured pixels, which would bias offsets towards half frames. Returns 0 if the minimum is hardly
+/// below the misfit at 0, or if the misfit at 0 is undefined.
 ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& misfit, int max_frames);
 
 /// Returns the pixel at the share `share` between b and c, which are consecutive frames with the neighbours a and d: by
@@ -39,9 +39,9 @@ OptionalPixel PixelBetween(const OptionalPixel& a, const OptionalPixel& b, const
 
 /// Estimates the delay of each camera's pictures in frames *(ours)*: frame k of a camera was taken at the first
 /// camera's time k + offset. Each camera is compared with the first one: the offset minimises the mean squared epipolar
-/// distance (`EpipolarGeometry`, `FindOffset`) of all ends and strokes that both have marked, with the camera's marks
-/// interpolated between its frames (`MarksAt`). The offset is 0 if nothing determines it (nobody moves, or there are
-/// too few marks).
+/// distance (`EpipolarGeometry`, `FindOffset`) of all ends and strokes that both have marked, where the camera's marks
+/// are interpolated between its frames (`MarksAt`). The offset is 0 if nothing determines it (nobody moves, or there
+/// are too few marks).
 std::vector<double> EstimateOffsets(std::span<const ProjectionMatrix> cameras,
                                     std::span<const std::vector<Marks>> marks, const SyncOptions& options = {});
 

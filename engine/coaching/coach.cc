@@ -37,8 +37,8 @@ bool SeeClap(const SensedFrame& frame, ClapState& state) {
 
 namespace {
 
-/// The mean distance of the tracked joints from their rest positions at which the body counts as moving (ours). A
-/// resting body moves by millimetres, while an inferred limb can jump by decimetres, so only the mean over tracked
+/// The body counts as moving if the mean distance of the tracked joints from their rest positions exceeds this (ours).
+/// A resting body moves by millimetres, while an inferred limb can jump by decimetres, so only the mean over tracked
 /// joints counts.
 constexpr double kMovingMetres = 0.025;
 /// The smoothing factor per frame of the rest positions; it corresponds to a time constant of half a second.
@@ -117,14 +117,14 @@ void Coach::PlanAhead() const {
   const auto last_of = [&](int clip) { return static_cast<int>(library.library().motions[clip].poses.size()) - 1; };
   const double lag = options_.reaction_s * kJudgedRateHz;
   const int repetitions = static_cast<int>(dance().repetitions.size());
-  // Plan from every window's end into every corrective act.
+  // Plan the transitions from every window's end into every corrective act.
   for (const char* act : {"head_shake", "wave", "puzzled"}) {
     const int whole = library.ClipOfAct(act);
     for (int repetition = 0; repetition < repetitions; ++repetition) {
       const double closes = static_cast<double>(dance().repetitions[repetition].end) + lag;
       const int clip = library.ClipLeaving(library.RepetitionAt(closes));
       const int frame = static_cast<int>(std::ceil(closes - static_cast<double>(library.DanceFrameOf(clip))));
-      // A dance that is sped up or slowed down closes its windows one frame earlier or later.
+      // If the dance is sped up or slowed down, windows may close one frame earlier or later.
       for (int late = -1; late <= 1; ++late) {
         if (frame + late > last_of(clip)) continue;
         transitions_.Find(clip, frame + late, library.ClipEntering(whole));

@@ -45,13 +45,13 @@ void ResetCounts(StillnessState& state);
 
 /// The settings of a coach. Times are in seconds; values are ours where paper A gives none.
 struct CoachOptions {
-  /// The evidence at which a performance counts as right, in (0, 1]. It depends on the recogniser; tune it for equal
-  /// false-alarm rates.
+  /// The evidence at which a performance counts as right, in (0, 1]. It depends on the recogniser. To compare
+  /// recognisers, tune it so that their false-alarm rates are equal.
   double right_from = 0.5;
   /// The delay of windows after the coach's repetition, because learners follow with a lag.
   double reaction_s = 0.3;
   /// True if the player dances as in a mirror, with the left side as the coach's right. The caller must then mirror the
-  /// input before it is judged (CoachSession does); here it only decides words.
+  /// input before it is judged (CoachSession does so); here it only affects the words.
   bool player_mirrors = false;
   /// After this number of consecutive mistakes the coach acts puzzled instead of shaking its head.
   int puzzled_after = 3;
@@ -61,10 +61,10 @@ struct CoachOptions {
   double praise_share = 0.8;
   /// If the body moved in less than this share of a window's frames, the player stood still.
   double still_share = 0.1;
-  /// The time without motion or without a player in sight after which the coach leaves the dance or standby for the
+  /// After this time without motion, or without a player in sight, the coach leaves the dance or standby and plays the
   /// attract act.
   double idle_s = 30;
-  /// The time of attracting after which the coach dozes.
+  /// After this time in the attract act, the coach dozes.
   double doze_s = 30;
   /// The limits of the tempo that tags may set, in frames of the dance per frame.
   double slowest = 0.8, fastest = 1.25;
@@ -135,13 +135,14 @@ std::string_view ModeName(CoachMode mode);
 
 /// The input of one frame.
 struct CoachInput {
-  SeenFrame seen;                         ///< the player; mirrored if players mirror the coach
-  Evidence evidence = {};                 ///< from a follower that was asked for the window of the previous step
+  SeenFrame seen;  ///< the player; mirrored if players mirror the coach
+  /// From a follower that was asked for the move of the window in the last step's output.
+  Evidence evidence = {};
   std::optional<double> other_side = {};  ///< Evidence::asked for the mirror image, if it is computed
   std::optional<double> music_s = {};     ///< what is heard now, in seconds of the song; empty without music
-  /// For `oracle`: whether the performance asked for was right; read in its last frame.
+  /// For policy `oracle`: whether the requested performance was right; read in its last frame.
   std::optional<bool> told_right = {};
-  bool moment = false;  ///< for `yoked`: correct now, or as soon as a dance can be interrupted
+  bool moment = false;  ///< for policy `yoked`: correct now, or as soon as the dance can be interrupted
 };
 
 /// A request that the player change position.
@@ -171,7 +172,7 @@ struct CoachOutput {
   double clip_frame = 0;       ///< index in that clip
   bool in_transition = false;  ///< true between two clips, until the next one is entered
   int repetition = -1;         ///< the repetition that the coach dances; −1 if none
-  std::optional<OpenWindow> open;     ///< the window for the next frame
+  std::optional<OpenWindow> open;     ///< the window that is open in the next frame
   bool asks = false;                  ///< true if `open` has changed: call MoveFollower::Ask before the next frame
   std::string_view say;               ///< a line of text for the player; "" if there is none
   std::string_view hint;              ///< the key pose asked for or shown, in words; valid as long as the dance
@@ -196,7 +197,7 @@ struct CoachState {
   StillnessState stillness;
   std::int64_t idle_since = 0;  ///< the last frame in which somebody took part
   PlayerHint stand = PlayerHint::kNone;
-  int stand_frames = 0;  ///< number of frames for which another hint has been due
+  int stand_frames = 0;  ///< for how many frames another hint has been due
 
   // The dance.
   bool music_plays = false;
@@ -207,7 +208,7 @@ struct CoachState {
   bool decided = false;       ///< true if the open window was judged before its end
   int correcting = -1;        ///< the repetition that was corrected last
   int corrections_here = 0;   ///< number of its corrections in a row
-  bool moment_waits = false;  ///< a moment came while no dance could be interrupted
+  bool moment_waits = false;  ///< a moment came while the dance could not be interrupted
   std::string_view say;
   std::int64_t say_until = 0;  ///< frame at which `say` ends
 
@@ -223,7 +224,7 @@ struct CoachStep {
 };
 
 /// Paper A's coach as a state machine (algorithms A8). It is immutable, and any number of sessions can share it. It
-/// knows the recogniser's evidence, but not what was truly danced.
+/// gets the recogniser's evidence, but not the truth about what was danced.
 ///
 ///     Coach coach(transitions, {}, {FindPolicy("at-first-mistake"), {}});
 ///     CoachState state = coach.Begin();
@@ -246,8 +247,8 @@ class Coach {
   /// Returns a state in the dance's first frame, as after a clap.
   CoachState BeginDancing() const;
 
-  /// Plans in advance the transitions that a dance will most likely need, so that no frame of a live session waits for
-  /// them: from every window's end into every corrective act, and on from there. Results do not change.
+  /// Plans the most likely transitions in advance, so that no frame of a live session waits for them: from every
+  /// window's end into every corrective act, and onwards from there. This does not change any result.
   void PlanAhead() const;
 
   /// Processes one frame. This is a pure function: the same inputs give the same outputs.

@@ -103,7 +103,7 @@ double RateToTag(const Dance& dance, int next, double frame, double music_s, dou
   const double target = next < static_cast<int>(dance.tags.size()) ? static_cast<double>(dance.tags[next].frame)
                                                                    : static_cast<double>(dance.motion.poses.size() - 1);
   const double frames = target - frame, music_frames = (MusicAt(dance, target) - music_s) * kJudgedRateHz;
-  // The music is already there, so dance as fast as allowed.
+  // The music has already reached the tag, so dance as fast as allowed.
   if (music_frames <= 0) return fastest;
   return std::clamp(frames / music_frames, slowest, fastest);
 }

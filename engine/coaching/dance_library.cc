@@ -11,13 +11,13 @@
 namespace etude {
 namespace {
 
-/// The number of frames after the beginning of the next repetition that a leaving clip contains: the wait for a window
-/// to close, the budget of a transition, and the frames that a join needs.
+/// How many frames after the beginning of the next repetition a leaving clip contains: enough for a window to close,
+/// for the longest wait of a transition, and for a join.
 constexpr std::size_t kLeavingFrames = 60;
-/// The number of frames of an act that an entering clip contains: half a second and the longest join.
+/// How many frames of an act an entering clip contains: half a second and the longest join.
 constexpr std::size_t kEnteringFrames = 15 + 30 + 1;
-/// The number of frames before and after the beginning of a repetition that a returning clip contains: a lead-in, so
-/// that a follower is moving when it begins, and the longest join.
+/// How many frames before and after the beginning of a repetition a returning clip contains: a lead-in, so that players
+/// are already moving when the repetition begins, and the longest join.
 constexpr std::size_t kBeforeFrames = 45, kIntoFrames = 30;
 
 BodyMotion Excerpt(const BodyMotion& motion, std::size_t first, std::size_t end) {
@@ -66,7 +66,7 @@ Result<DanceLibrary> DanceLibrary::Make(Dance dance) {
     clips.Add(clips.names[whole],
               Excerpt(clips.motions[whole], 0, std::min(kEnteringFrames, clips.motions[whole].poses.size())));
   }
-  // Add the excerpts of the dance that are returned to.
+  // Add the excerpts of the dance to which transitions return.
   for (int repetition = -1; repetition < count; ++repetition) {
     const std::size_t begin = first_of(repetition);
     const std::size_t first = begin - std::min(begin, kBeforeFrames);

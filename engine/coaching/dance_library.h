@@ -21,20 +21,22 @@ class DanceLibrary {
   const MotionLibrary& library() const { return library_; }
 
   // The following functions return clips of the library. A `repetition` of −1 stands for the song's beginning.
-  /// ClipOfAct returns the whole clip of an act, ClipOfSlow that of a slow demonstration; these clips are left.
+  /// ClipOfAct returns the whole clip of an act, ClipOfSlow that of a slow demonstration; transitions leave these
+  /// clips.
   int ClipOfAct(std::string_view act) const;
   int ClipOfSlow(int move) const;
-  /// Returns the clip from which the dance is left between this repetition's beginning and some time into the next one.
-  /// The last one extends to the song's end.
+  /// Returns the clip from which transitions leave the dance after this repetition's beginning, until some time into
+  /// the next repetition. The last one extends to the song's end.
   int ClipLeaving(int repetition) const;
   /// Returns the beginning of a whole act or slow demonstration. Transitions enter this clip, so that they cannot skip
   /// the main part.
   int ClipEntering(int whole) const;
-  /// Returns the clip by which the dance is entered at a repetition: from some time before its beginning to some time
-  /// after it.
+  /// Returns the clip through which transitions enter the dance at a repetition; it extends from some time before the
+  /// repetition's beginning to some time after it.
   int ClipReturning(int repetition) const;
 
-  /// Returns the clip that continues after `clip` was entered: for a beginning the whole clip, else `clip` itself.
+  /// Returns the clip that continues after `clip` was entered: for the beginning of a clip, that whole clip; else
+  /// `clip` itself.
   int WholeOf(int clip) const;
   /// Returns the last repetition that has begun at a frame of the dance; −1 before the first.
   int RepetitionAt(double dance_frame) const;

@@ -70,13 +70,13 @@ std::shared_ptr<const ShownPath> DanceTransitions::FindHome(int from, int frame,
 std::shared_ptr<const ShownPath> DanceTransitions::Splice(int from, int frame, const FloorMove* home_from,
                                                           int to) const {
   const std::vector<BodyMotion>& motions = library_.library().motions;
-  // A join looks back only at the frame before the request's frame.
+  // A join needs only one frame before the requested frame.
   const int skipped = std::max(frame - 1, 0);
   std::vector<BodyMotion> clips(2);
   clips[0].rate_hz = motions[from].rate_hz;
   clips[0].poses.assign(motions[from].poses.begin() + skipped, motions[from].poses.end());
   clips[1] = motions[to];
-  // Show the playing clip at its place if the wanted one has a fixed place.
+  // If the wanted clip has a fixed place, show the playing clip at its own place in the world.
   if (home_from != nullptr) {
     for (BodyPose& pose : clips[0].poses) pose = home_from->Apply(pose);
   }
@@ -125,7 +125,8 @@ BodyPose DancePose(const Dance& dance, double frame) {
   return PoseBetween(poses[before], poses[std::min(before + 1, poses.size() - 1)], at - std::floor(at));
 }
 
-/// Returns a frame of a path, or after its end of its clip: a loop is repeated, another clip keeps its last pose.
+/// Returns a frame of a path; after the end of the path, a frame of its clip. A loop is repeated; any other clip keeps
+/// its last pose.
 BodyPose PathPose(const Playback& playback, const DanceLibrary& library, std::size_t frame) {
   const ShownPath& path = *playback.path;
   if (frame < path.frames.size()) return playback.place.Apply(path.frames[frame]);

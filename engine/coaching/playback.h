@@ -34,8 +34,8 @@ class DanceTransitions {
   std::shared_ptr<const ShownPath> Alone(int clip) const;
   /// Returns the path from a frame of a clip into another clip. If the method finds no transition, the path is a cut.
   std::shared_ptr<const ShownPath> Find(int from, int frame, int to) const;
-  /// Returns the path from a frame of a clip with floor move `place` into a clip that is shown where it was authored,
-  /// so that rotations and shifts do not accumulate.
+  /// Returns the path from a frame of a clip with floor move `place` into a clip that is shown at the place where it
+  /// was authored, so that rotations and shifts do not accumulate over many transitions.
   std::shared_ptr<const ShownPath> FindHome(int from, int frame, const FloorMove& place, int to) const;
 
  private:
@@ -73,7 +73,7 @@ BodyPose ShownPose(const Playback& playback, const DanceLibrary& library);
 /// Returns true if the dance or the path's clip has ended or ends within `before` frames; always false for a loop.
 bool IsOver(const Playback& playback, const DanceLibrary& library, double before = 0);
 
-/// Returns true if the playing clip may be left: no join is in progress and the clip itself is shown.
+/// Returns true if the playing clip may be left: no join is in progress, and the frames of the clip itself are shown.
 bool IsSettled(const Playback& playback);
 
 /// Advances by one frame, in the dance by `rate` frames. A path back to the dance ends in the dance.

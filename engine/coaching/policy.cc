@@ -9,7 +9,7 @@ namespace {
 
 using Values = std::span<const double>;
 
-/// Options of `after-n`: the number of consecutive mistakes in a move after which it is corrected.
+/// Options of `after-n`: after this number of consecutive mistakes in a move, the coach corrects it.
 struct AfterOptions {
   int mistakes = 2;
 };

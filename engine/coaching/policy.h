@@ -41,8 +41,8 @@ struct PolicyDecision {
 struct Policy {
   std::string name;
   std::string description;     ///< one line for users
-  bool asks_truth = false;     ///< true if the verdict is CoachInput::told_right instead of the recogniser's
-  bool takes_moments = false;  ///< true if it corrects at CoachInput::moment only
+  bool asks_truth = false;     ///< true if the verdict comes from CoachInput::told_right instead of the recogniser
+  bool takes_moments = false;  ///< true if it corrects only at CoachInput::moment
   std::vector<NumberSetting> settings = {};
   /// Decides after a closed window. `values` holds one value per setting, in order; empty means the defaults.
   PolicyDecision (*decide)(const PolicyInput& input, std::span<const double> values) = nullptr;

@@ -56,7 +56,7 @@ void Stepping::Run() {
 void Stepping::Watch() {
   if (SeeClap(input_.seen.skeleton, state_.clap)) state_.clap_waits = true;
   const bool moves = SeeMotion(input_.seen.skeleton, state_.stillness);
-  // A player who only watches takes part.
+  // A player who only watches a demonstration counts as taking part.
   const bool is_asked = state_.mode == CoachMode::kStandby || state_.mode == CoachMode::kDance;
   if (moves || !is_asked) state_.idle_since = state_.frame;
   if (input_.moment) state_.moment_waits = true;
@@ -244,7 +244,7 @@ void Stepping::Become(CoachMode mode) {
   state_.mode_since = state_.frame;
   state_.idle_since = state_.frame;
   state_.rate = 1;
-  // Claps during a dance belong to the dance.
+  // Claps during a dance are part of the dance, so ignore them.
   state_.clap_waits = false;
   if (mode != CoachMode::kDance) state_.open.reset();
 }
@@ -280,7 +280,7 @@ void Stepping::FollowMusic(double dance_frame) {
     state_.next_tag = NextTag(dance_, dance_frame);
     return;
   }
-  // The last frame is held until the music reaches it.
+  // Hold the last frame until the music reaches it.
   if (!input_.music_s || IsOver(state_.playback, library_)) return;
   const double error_s = *input_.music_s - MusicAt(dance_, dance_frame);
   out_.beat_error_s = error_s;

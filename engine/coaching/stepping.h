@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// The number of frames before its end at which an act is left. Then it rests in the ready stance, and a join has
-/// frames to continue with.
+/// Transitions leave an act this many frames before its end: the act then rests in the ready stance, and a join still
+/// has frames to use.
 constexpr int kBeforeEndFrames = 15;
 
 /// One call of Coach::Step: takes the player's input, advances the playback, shows it, and decides what comes next.

@@ -1,4 +1,4 @@
-// Windows, verdicts and answers to the performances that a player is asked for.
+// Windows, verdicts and reactions to the performances that a player is asked for.
 #include <fmt/format.h>
 
 #include <utility>
@@ -30,7 +30,7 @@ void Stepping::OpenWindowAt(double dance_frame) {
   const double opens = static_cast<double>(repetition.first) + options_.reaction_s * kJudgedRateHz;
   if (dance_frame < opens) return;
   ++state_.next_window;
-  // If the coach itself entered the repetition late, nobody saw it completely, so nobody is asked for it.
+  // If the coach itself enters a repetition later than this, the player did not see all of it and is not asked for it.
   constexpr double kLateFrames = 3;
   if (dance_frame > opens + kLateFrames) return;
   state_.open = {.repetition = index, .move = repetition.move};

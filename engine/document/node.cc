@@ -12,7 +12,7 @@ namespace etude {
 namespace {
 
 constexpr int kMaxNesting = 32;
-constexpr int kMaxValues = 10'000;  // yaml-cpp needs quadratic time to load values
+constexpr int kMaxValues = 10'000;  // yaml-cpp's time grows with the square of the number of values
 
 /// Estimates the nesting of a text before yaml-cpp's recursive parser sees it: the deepest bracket or the longest run
 /// of list markers, whichever is larger. The estimate may be too high. Nesting by indentation is left to yaml-cpp's own
@@ -55,7 +55,7 @@ Result<void> CheckControls(std::string_view text, const Place& place) {
   return {};
 }
 
-// Refuses a carriage return without a line feed. yaml-cpp 0.8 ends a line there; older versions take it for text.
+// Refuses a carriage return without a line feed. yaml-cpp 0.8 ends a line there; older versions treat it as text.
 Result<void> CheckLineEnds(std::string_view text, const std::string& file) {
   int line = 1;
   std::size_t start = 0;  // of the line
@@ -106,7 +106,7 @@ class Builder {
           if (node.Find(key) != nullptr) return Fail(key_place, "the key '{}' stands here twice", key);
           auto value = Build(pair.second, depth + 1);
           if (!value) return value;
-          // The position that yaml-cpp reports is that of the next token.
+          // For an empty value, yaml-cpp reports the position of the next token.
           if (value->kind == Node::Kind::kNull) value->place = key_place;
           node.entries.push_back({key, key_place, std::move(*value)});
         }
@@ -127,7 +127,7 @@ class Builder {
 };
 
 /// Checks the event stream of a document before it is loaded. An alias (`*name`) repeats a whole subtree, so a few
-/// lines can expand to gigabytes, and loading expands aliases without leaving a trace.
+/// lines can expand to gigabytes. Loading expands aliases silently, so they must be found before.
 class DocumentCheck : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark&) override {}

@@ -14,12 +14,12 @@ namespace {
 constexpr std::size_t kMaxBones = 1000;
 constexpr double kCmuRateHz = 120;
 
-/// Walks the lines of a text that hold words; a '#' begins a comment.
+/// Iterates over the lines of a text that contain words; '#' begins a comment.
 class Lines {
  public:
   Lines(std::string_view text, const std::string& file) : scanner_(text, file), text_(text) {}
 
-  /// Sets `words` to those of the next line that has any; returns false at the end.
+  /// Sets `words` to the words of the next line that has any; returns false at the end.
   bool Next() {
     while (!text_.empty()) {
       const std::size_t end = std::min(text_.find_first_of("\r\n"), text_.size());

@@ -33,8 +33,8 @@ bool IsAcclaimMotion(std::string_view text);
 Result<AcclaimSkeleton> ReadAcclaimSkeleton(std::string_view text, const std::string& file);
 
 /// Reads an AMC file for such a skeleton. The file has no frame rate; 120 Hz is assumed, as in CMU's. Returns an error
-/// for bones that the skeleton lacks, a number of values other than that of the channels, frames that are not numbered
-/// consecutively, or no frames.
+/// for bones that the skeleton lacks, a wrong number of values, frames that are not numbered consecutively, or no
+/// frames.
 Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file);
 
 }  // namespace etude

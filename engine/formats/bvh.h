@@ -20,9 +20,10 @@ namespace etude {
 ///   line end, a byte order mark.
 /// A name that occurs again becomes "<name>#2", so that joints can be told apart. A rate within 0.01 % of a whole
 /// number is rounded to it, because files print few digits (.0083333 means 120 Hz). One frame more than announced is
-/// dropped, because some exporters announce the number of their last frame (Boxing_Toes of assimp's models). A joint
-/// below the root with an OFFSET of 0 and positions rests where the first frame has it. Positions that stay around 0 beside
-/// an OFFSET are relative to it. `remarks` receives a sentence about each of the last three cases.
+/// dropped, because some exporters announce the number of their last frame (Boxing_Toes of assimp's models). If a joint
+/// below the root has position channels and an OFFSET of 0, its rest position is that of the first frame. If positions
+/// stay around 0 although the joint has an OFFSET, they are relative to it. `remarks` receives a sentence about each of
+/// the last three cases.
 ///
 /// Returns an error with line and column for anything outside the grammar, a second ROOT, a frame that is not one line
 /// with one number per channel, a wrong number of frames, no frames, frame times outside 0.1 ms…10 s, nesting deeper
@@ -32,13 +33,13 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
 
 /// Writes a clip as BVH. The root and every joint whose translation changes get three positions, and an OFFSET of 0:
 /// some readers replace OFFSET by positions, others add them to it. Every joint gets Z, X, Y rotations in degrees;
-/// numbers have six decimals. Every joint has the same position as in the clip, in all frames; a joint that leaves its
-/// rest pose's translation rests, read again, where the first frame has it, and the root at the origin. What BVH cannot express is converted
-/// by WithoutScales, WithOneRoot and WithWorldAxesAtRest. Frames that were read from BVH need no conversion and are
-/// reproduced to the printed precision. Joints are written depth first,
-/// regardless of their order in the clip; end sites that have children or move become joints; braces and control
-/// characters in names become '_', and duplicate names are numbered as in reading. The clip must have at least one
-/// joint and numbers within ±10⁹ (the limit of ReadBvh).
+/// numbers have six decimals. Every joint has the same position as in the clip, in all frames; when the file is read
+/// again, the rest position of a joint with positions is that of the first frame, and the root rests at the origin.
+/// What BVH cannot express is converted by WithoutScales, WithOneRoot and WithWorldAxesAtRest. Frames that were read
+/// from BVH need no conversion and are reproduced to the printed precision. Joints are written depth first, regardless
+/// of their order in the clip; end sites that have children or move become joints; braces and control characters in
+/// names become '_', and duplicate names are numbered as in reading. The clip must have at least one joint and numbers
+/// within ±10⁹ (the limit of ReadBvh).
 std::string WriteBvh(Clip clip);
 
 }  // namespace etude

@@ -44,7 +44,7 @@ constexpr std::array<std::string_view, kMaxChannels> kChannelNames = {"Xposition
 
 char Lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-/// Returns true if two words are equal except for upper and lower case (ASCII).
+/// Returns true if two words are equal ignoring case (ASCII).
 bool SameWord(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, [](char x, char y) { return Lower(x) == Lower(y); });
 }
@@ -325,7 +325,8 @@ void AddOffsets(const std::vector<BvhChannel>& channels, Clip& clip) {
   }
 }
 
-/// Gives joints below the root with an offset of 0 the positions of the first frame at rest. Returns their number.
+/// For joints below the root with an offset of 0, takes the positions of the first frame as rest positions. Returns the
+/// number of such joints.
 std::size_t TakeOffsetsFromFrame(const LocalPose& frame, Skeleton& skeleton) {
   std::size_t taken = 0;
   for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
@@ -376,7 +377,7 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
     AddOffsets(hierarchy.channels, clip);
     remark("the joints' positions are relative to their OFFSETs: added");
   }
-  // Offsets of 0 beside positions tell no rest pose.
+  // Offsets of 0 beside positions do not define a rest pose.
   if (const std::size_t taken = TakeOffsetsFromFrame(clip.frames.front(), clip.skeleton); taken > 0) {
     remark(
         fmt::format("{} joints with positions have an OFFSET of 0: they rest where the first frame has them", taken));

@@ -46,7 +46,7 @@ std::vector<std::string> PointNames(const C3dParameters& parameters, std::size_t
   return names;
 }
 
-/// Returns the widths of joints that Vicon's programs write, by their names without the group, metres.
+/// Returns the joint widths that Vicon's programs write, metres, by parameter name without its group.
 std::map<std::string, double> BodySizes(const C3dParameters& parameters) {
   constexpr double kMin_mm = 5, kMax_mm = 400;
   std::map<std::string, double> sizes;
@@ -70,7 +70,7 @@ std::size_t CountFrames(const C3dBytes& bytes, const C3dParameters& parameters) 
   };
   const auto begin = field("TRIAL:ACTUAL_START_FIELD"), end = field("TRIAL:ACTUAL_END_FIELD");
   if (begin && end && *end >= *begin) frames = *end - *begin + 1;
-  // If the number exceeds the header's words, POINT:LONG_FRAMES holds it, or POINT:FRAMES does as a float.
+  // If the number exceeds the header's words, POINT:LONG_FRAMES holds it, or POINT:FRAMES as a float.
   if (const auto told = parameters.Number("POINT:FRAMES"); told && last >= 65535 && *told > frames) frames = *told;
   if (const auto told = parameters.Number("POINT:LONG_FRAMES"); told && *told > frames) frames = *told;
   return frames >= 1 && frames <= kMaxC3dFrames ? static_cast<std::size_t>(frames) : 0;
@@ -154,7 +154,7 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
       places[point] = PointAt(all, at, layout);
     }
   }
-  // Say if more data follow than the last frame and the rest of its block.
+  // Add a remark if data follow after the block of the last frame.
   const std::size_t end = layout.begin + frames * layout.frame_bytes;
   const std::size_t data_end = parameters_at >= end ? parameters_at : bytes.size();
   const std::size_t padded = (end + kC3dBlock - 1) / kC3dBlock * kC3dBlock;

@@ -133,7 +133,7 @@ Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
 }
 
 Result<JointCsvRow> ReadJointCsvRow(std::string_view row, const JointCsvColumns& columns, const std::string& file) {
-  // The line is put below a heading, because a word in its first column would otherwise make it a heading.
+  // Parse the line below a heading, because a word in its first column would otherwise make it a heading.
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows("row\n" + std::string(row), file));
   RETURN_IF_ERROR(CheckColumns(columns.count, table.columns, file));
   return RowOf(table.Row(0), columns);

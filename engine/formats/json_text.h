@@ -9,7 +9,7 @@
 namespace etude {
 
 /// Parses JSON of unknown origin. Returns an error with the position of the first byte that is not valid JSON. A zero
-/// byte is refused, too, because the parser would take it for the end of the text.
+/// byte is refused, too, because the parser would treat it as the end of the text.
 Result<nlohmann::json> ParseJsonText(std::string_view text, const std::string& file);
 
 }  // namespace etude

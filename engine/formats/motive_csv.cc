@@ -150,7 +150,7 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
   if (announced && *announced > static_cast<double>(motion.frames.size())) {
     motion.remark = fmt::format("{} rows where {:g} frames are announced", motion.frames.size(), *announced);
   }
-  // Without a time in any row, the frames' numbers are the clock.
+  // If no row has a time, the frame numbers give the times.
   if (std::ranges::all_of(rows.times_s, [](double time) { return std::isnan(time); })) {
     rows.times_s = TimesOfNumbers(numbers, *rate);
   }

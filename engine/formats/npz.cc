@@ -19,9 +19,9 @@ namespace {
 
 constexpr std::size_t kMaxMembers = 1000;
 constexpr std::uint64_t kMaxUnpacked = std::uint64_t{512} << 20;
-constexpr std::uint64_t kMaxDeflateRatio = 1032;  ///< DEFLATE makes no more of one
+constexpr std::uint64_t kMaxDeflateRatio = 1032;  ///< DEFLATE expands one byte to at most this many
 
-/// Returns what follows a key of the header's Python dictionary, up to `end`.
+/// Returns the value of a key in the header's Python dictionary: the text up to `end`.
 std::string_view ValueOf(std::string_view header, std::string_view key, char end) {
   const std::size_t at = header.find(key);
   if (at == std::string_view::npos) return {};
@@ -38,7 +38,7 @@ void Append(std::string_view bytes, std::vector<double>& values) {
   }
 }
 
-/// Reads the numbers of a type such as "<f4"; nothing when they are none.
+/// Reads the numbers of a type such as "<f4"; nullopt if they are not numbers.
 std::optional<std::vector<double>> NumbersOf(std::string_view type, std::string_view bytes) {
   std::vector<double> values;
   if (type == "<f8") {
@@ -61,7 +61,7 @@ std::optional<std::vector<double>> NumbersOf(std::string_view type, std::string_
   return values;
 }
 
-/// Numbers in Fortran's order, whose first index runs fastest, in C's.
+/// Converts numbers from Fortran order (the first index varies fastest) to C order.
 std::vector<double> InOrderOfC(const std::vector<double>& values, const std::vector<std::size_t>& shape) {
   std::vector<double> ordered(values.size());
   for (std::size_t i = 0; i < ordered.size(); ++i) {
@@ -75,11 +75,11 @@ std::vector<double> InOrderOfC(const std::vector<double>& values, const std::vec
   return ordered;
 }
 
-/// Reads an .npy file; nothing when it holds no plain numbers.
+/// Reads an .npy file; nullopt if it does not hold plain numbers.
 Result<std::optional<NumberArray>> ReadMember(std::string_view bytes, const std::string& file) {
   const Place place{file};
   if (!bytes.starts_with(kNpyMagic) || bytes.size() < 12) return Fail(place, "is no .npy file");
-  const bool is_first = bytes[6] == 1;  // later versions tell the header's length by four bytes
+  const bool is_first = bytes[6] == 1;  // later versions give the header's length in four bytes
   const std::size_t length_bytes = is_first ? 2 : 4, head = 8 + length_bytes;
   std::size_t length = 0;
   for (std::size_t i = 0; i < length_bytes; ++i)
@@ -108,7 +108,7 @@ Result<std::optional<NumberArray>> ReadMember(std::string_view bytes, const std:
 
 using Archive = std::unique_ptr<zip_t, decltype(&zip_discard)>;
 
-/// Unpacks a member; `left` is what may still be unpacked.
+/// Unpacks a member. `left` is the number of bytes that may still be unpacked.
 Result<std::string> Unpack(zip_t* archive, zip_uint64_t member, std::uint64_t& left, const std::string& file) {
   zip_stat_t status;
   zip_stat_init(&status);
@@ -124,7 +124,7 @@ Result<std::string> Unpack(zip_t* archive, zip_uint64_t member, std::uint64_t& l
   const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> opened(zip_fopen_index(archive, member, 0), &zip_fclose);
   const bool is_read =
       opened && zip_fread(opened.get(), bytes.data(), status.size) == static_cast<zip_int64_t>(status.size);
-  // One byte more makes the library compare the sums.
+  // Reading one more byte makes the library compare the checksums.
   char more = 0;
   if (!is_read || zip_fread(opened.get(), &more, 1) != 0) return Fail({file}, "member {} is damaged", member);
   return bytes;
@@ -197,7 +197,7 @@ std::string NpyOfNumbers(const NumberArray& array) {
   return bytes;
 }
 
-/// Texts of ASCII, as NumPy has them: four bytes a letter, all of one length.
+/// Writes ASCII texts in NumPy's form: four bytes for each letter, all texts of one length.
 std::string NpyOfTexts(const std::vector<std::string>& texts) {
   std::size_t width = 1;
   for (const std::string& text : texts) width = std::max(width, text.size());
@@ -210,7 +210,7 @@ std::string NpyOfTexts(const std::vector<std::string>& texts) {
   return bytes;
 }
 
-/// Nothing but memory can be missing where an archive is written into memory.
+/// Writing an archive into memory can only fail for lack of memory.
 template <typename Made>
 Made Needed(Made made) {
   if (!made) throw std::bad_alloc();
@@ -228,18 +228,19 @@ std::string WriteNpz(const std::map<std::string, NumberArray>& numbers,
   for (const auto& [name, array] : texts) members[name + ".npy"] = NpyOfTexts(array);
 
   const Source whole(Needed(zip_source_buffer_create(nullptr, 0, 0, nullptr)), &zip_source_free);
-  zip_source_keep(whole.get());  // the archive frees one, and what was written is read from the other
+  // Closing the archive frees one reference; the written bytes are read through the other.
+  zip_source_keep(whole.get());
   Archive archive(Needed(zip_open_from_source(whole.get(), ZIP_CREATE | ZIP_TRUNCATE, nullptr)), &zip_discard);
   for (const auto& [name, bytes] : members) {
     zip_source_t* const member = Needed(zip_source_buffer(archive.get(), bytes.data(), bytes.size(), 0));
     const zip_int64_t at = zip_file_add(archive.get(), name.c_str(), member, ZIP_FL_ENC_UTF_8);
-    constexpr zip_uint16_t kFirstDay = 0x21;  // 1 January 1980: no clock is read
+    constexpr zip_uint16_t kFirstDay = 0x21;  // 1 January 1980: the clock is not read
     const auto index = static_cast<zip_uint64_t>(at);
     Needed(at >= 0 && zip_set_file_compression(archive.get(), index, ZIP_CM_STORE, 0) == 0 &&
            zip_file_set_dostime(archive.get(), index, 0, kFirstDay, 0) == 0);
   }
   Needed(zip_close(archive.get()) == 0);
-  archive.release();  // closed, it is gone
+  archive.release();  // zip_close has freed it
 
   zip_stat_t status;
   zip_stat_init(&status);

@@ -34,8 +34,7 @@ bool IsNpy(std::string_view bytes);
 /// Reads an .npy file of plain numbers. Returns an error for other types, and for anything that ReadNpz refuses.
 Result<NumberArray> ReadNpy(std::string_view bytes, const std::string& file);
 
-/// Writes an .npz file, stored: numbers as 8-byte floats, and lists of texts in ASCII. The same bytes for the same
-/// arrays.
+/// Writes an .npz file, stored: numbers as 8-byte floats, lists of texts in ASCII. The same arrays give the same bytes.
 std::string WriteNpz(const std::map<std::string, NumberArray>& numbers,
                      const std::map<std::string, std::vector<std::string>>& texts);
 

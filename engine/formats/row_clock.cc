@@ -15,11 +15,11 @@ namespace {
 
 constexpr double kMaxStep_s = 600, kMaxBridged_s = 1, kMinSpan_s = 0.5;
 constexpr double kBriefTolerance = 0.05;
-constexpr double kEven = 0.1, kMaxEven = 0.45, kExact = 1e-4;  // of a frame
+constexpr double kEven = 0.1, kMaxEven = 0.45, kExact = 1e-4;  // in frames
 constexpr double kMaxAddedValues = 1e7;
 
-/// Returns the power of ten, at most 0.1, of which all times are multiples because they were printed with so many
-/// decimals; 0 if they have more than six.
+/// Returns the power of ten, at most 0.1, of which all times are multiples, because they were printed with that many
+/// decimals; 0 if they have more than six decimals.
 double PrintedStep(std::span<const double> times) {
   constexpr double kRounding = 1e-6;
   for (double scale = 10; scale < 2e6; scale *= 10) {
@@ -29,8 +29,8 @@ double PrintedStep(std::span<const double> times) {
   return 0;
 }
 
-/// Returns the rate that fits steps of one to three frames best, starting from that of the median step.
-/// Unclear steps, such as those beside a row at a wrong time, are about half-way between whole numbers of frames.
+/// Returns the rate that best fits steps of one to three frames, starting from the rate of the median step. Steps about
+/// half-way between whole numbers of frames are unclear and left out; they occur beside a row at a wrong time.
 double FittedRate(const std::vector<double>& steps, bool only_clear_steps) {
   constexpr double kUnclear = 0.4;  // of a frame
   constexpr int kRounds = 4;
@@ -50,7 +50,8 @@ double FittedRate(const std::vector<double>& steps, bool only_clear_steps) {
   return rate;
 }
 
-/// Returns the indices of the rows that count: of those with equal times, the last. Fails for a clock that is none.
+/// Returns the indices of the rows that are used: of rows with equal times, only the last. Fails if the times do not
+/// form a clock.
 Result<std::vector<std::size_t>> CountingRows(std::span<const double> times, std::span<const int> lines,
                                               const std::string& file) {
   std::vector<std::size_t> rows;
@@ -76,7 +77,7 @@ Result<std::vector<std::size_t>> CountingRows(std::span<const double> times, std
   return rows;
 }
 
-/// Says what is not even: frames without a row, frames between rows, and rows that do not count.
+/// Describes what is uneven: frames without a row, frames between rows, and rows that are not used.
 std::string DescribeGrid(const RowGrid& grid, std::size_t twice) {
   std::size_t holes = 0, places = 0, longest = 0, run = 0, between = 0;
   for (const GridFrame& frame : grid.frames) {
@@ -129,8 +130,8 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
   };
   const bool is_brief = told_hz && span < kMinSpan_s;
   if (is_brief && std::abs(fitted / *told_hz - 1) > kBriefTolerance) return std::nullopt;
-  // Of these rates, the first at which nearly all rows lie on frames: told, whole, one at which the last row lies on a
-  // frame.
+  // Take the first of these rates at which nearly all rows coincide with frames: the stated rate, a whole rate, and the
+  // rate at which the last row coincides with a frame.
   RowGrid grid{.rate_hz = fitted, .frames = {}, .remark = {}};
   for (const double near : {fitted, FittedRate(steps, true)}) {
     const double whole = std::round(near), to_last = std::round(span * near) / span;
@@ -154,7 +155,7 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
     return Fail({file}, "{} rows in {:.6g} s, mostly {:.3g} s apart; allowed: holes of {:g} values in all, {} a frame",
                 rows.size(), span, 1 / grid.rate_hz, kMaxAddedValues, width);
   }
-  // Lay every frame on a row, between two rows, or in a hole.
+  // Every frame is on a row, between two rows, or in a hole.
   std::size_t at = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
     const auto frame = static_cast<double>(k);
@@ -199,7 +200,8 @@ Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
   markers.rate_hz = grid->rate_hz;
   AddRemark(markers.remark, grid->remark);
   if (grid->is_even) return std::move(markers);
-  // Interpolate each marker that both rows show; zeros, which some programs write for a gap, only beside zeros.
+  // Interpolate each marker that both rows show. Some programs write zeros for a gap, so zeros are only interpolated
+  // with zeros.
   std::vector<std::vector<std::optional<glm::dvec3>>> frames;
   frames.reserve(grid->frames.size());
   for (const GridFrame& at : grid->frames) {

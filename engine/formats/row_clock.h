@@ -19,41 +19,42 @@ struct GridFrame {
   bool is_hole = false;  ///< by the clock, a row is missing here
 };
 
-/// The even grid on which a file's rows lie by their clock.
+/// The even grid of frames on which a file's rows are placed by their times.
 struct RowGrid {
   double rate_hz = 0;
   std::vector<GridFrame> frames;
-  bool is_even = true;  ///< the grid's frames are the rows
-  std::string remark;   ///< holes, uneven steps and equal times, for people; "" without
+  bool is_even = true;  ///< every frame is exactly one row
+  std::string remark;   ///< a text for people about holes, uneven steps and equal times; "" if there are none
 };
 
-/// Lays rows on an even grid by their times, which may be rounded to some decimals. The rate is the one that fits the
-/// steps between neighbouring rows; a whole one, or `told_hz` (of the file's header, if any), if it lies within their
-/// rounding. Rows that span less than half a second have `told_hz`, or no clock if they differ from it by more than 5
-/// %. A frame is a row that lies within a tenth of a frame of it (or the rounding of times), else it is interpolated,
-/// or a hole if a row is missing. Of rows with equal times the last one counts. Returns nullopt if there is no clock:
-/// fewer than two rows, no time, or equal times. Fails, naming the row's line (`lines` may be empty), for a missing
-/// time, falling times, steps over ten minutes, and holes of more than ten million values in all, `width` values a
-/// frame.
+/// Places rows on an even grid of frames by their times, which may be rounded to some decimals. The rate fits the steps
+/// between neighbouring rows; a whole rate, or `told_hz` (from the file's header, if any), is preferred if it is within
+/// their rounding. Rows that span less than half a second get the rate `told_hz`, or have no clock if their steps
+/// differ from it by more than 5 %. A frame is the row within a tenth of a frame of it (or within the rounding of
+/// times); otherwise it is interpolated, or it is a hole if a row is missing. Of rows with equal times only the last is
+/// used. Returns nullopt if there is no clock: fewer than two rows, no time, or equal times. Fails, naming the row's
+/// line (`lines` may be empty), for a missing time, falling times, steps over ten minutes, and holes of more than ten
+/// million values in total, `width` values per frame.
 Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::span<const int> lines,
                                           std::optional<double> told_hz, std::size_t width, const std::string& file);
 
-/// Returns times in seconds from frame numbers, if these ascend and are whole: rows are 1 / rate_hz apart where the
-/// number rises by its median step. Returns nothing otherwise.
+/// Returns times in seconds from frame numbers, if these are whole and ascend: the median step of the numbers
+/// corresponds to 1 / rate_hz. Otherwise returns an empty list.
 std::vector<double> TimesOfNumbers(std::span<const double> numbers, double rate_hz);
 
 /// Markers as rows of a file, before they are laid on its clock.
 struct MarkerRows {
   MarkerMotion markers;
-  std::vector<double> times_s;  ///< of each row; NaN if it tells none
-  std::vector<int> lines;       ///< of each row, from 1
-  std::string rate_name = "";   ///< the header that tells `markers.rate_hz`, "" if none does
+  std::vector<double> times_s;  ///< one per row; NaN if the row gives none
+  std::vector<int> lines;       ///< line of each row, from 1
+  std::string rate_name = "";   ///< the header that gives `markers.rate_hz`; "" if none does
 };
-/// Lays markers on their clock: in a hole no marker was seen. The remark says what was changed. Fails as GridOfRows.
+/// Places markers on frames by their times; in a hole, no marker was seen. The remark says what was changed. Fails as
+/// GridOfRows.
 Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file);
 
-/// Lays a body's rows on their clock. Holes of up to a second are bridged linearly; of rows with longer holes the
-/// longest stretch without one is kept. `remark` says so. Fails as GridOfRows.
+/// Places a body's rows on frames by their times. Holes of up to a second are bridged linearly; if there are longer
+/// holes, only the longest stretch without one is kept. `remark` says so. Fails as GridOfRows.
 Result<BodyMotion> LayOnClock(BodyMotion rows, std::span<const double> times_s, const std::string& file,
                               std::string& remark);
 

@@ -189,7 +189,7 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   if (motion.frames.size() != header.frames) {
     return Fail({file}, "{} frames, {} announced", motion.frames.size(), header.frames);
   }
-  // Without a time in any row, the frames' numbers are the clock.
+  // If no row has a time, the frame numbers give the times.
   if (std::ranges::all_of(rows.times_s, [](double time) { return std::isnan(time); })) {
     rows.times_s = TimesOfNumbers(numbers, header.rate_hz);
   }

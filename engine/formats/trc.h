@@ -34,12 +34,12 @@ std::string WriteTrc(const MarkerMotion& motion, std::string name);
 struct MarkerRows;
 
 /// Reads a TRC file in metres, millimetres or centimetres (`Units`), without changing its axes. A marker counts as not
-/// seen if a cell is empty, "nan" or beyond ±10⁶ m. Rows are laid on the clock of the column Time, else Frame#, as in
+/// seen if a cell is empty, "nan" or beyond ±10⁶ m. The columns Time, else Frame#, give the times of the rows, as in
 /// OpenSim (`LayOnClock`); the remark says what that changed. Returns an error with the line if there is no header, the
-/// number of frames or columns is wrong, a cell is not a number, or there are more than 1,000 markers or 64 MiB; and
-/// those of GridOfRows.
+/// number of frames or columns is wrong, a cell is not a number, or there are more than 1,000 markers or 64 MiB; also
+/// returns the errors of GridOfRows.
 Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file);
-/// Reads the rows alone, as they stand in the file.
+/// Reads only the rows, as they are in the file.
 Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file);
 
 }  // namespace etude

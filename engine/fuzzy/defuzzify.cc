@@ -81,7 +81,7 @@ std::vector<double> CornersOf(std::span<const ActivatedTerm> terms, const Univer
   std::ranges::sort(corners);
   std::vector<double> all = corners;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
-    // Between two neighbouring corners every term is straight, so each pair of terms crosses at most once.
+    // Between two neighbouring corners every term is a straight line, so each pair of terms crosses at most once.
     const double low = corners[i], high = corners[i + 1];
     if (high <= low) continue;
     for (std::size_t a = 0; a < terms.size(); ++a) {
@@ -108,7 +108,7 @@ Moment AreaUnder(std::span<const ActivatedTerm> terms, const Universe& universe)
   Moment area;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
     const double low = corners[i], high = corners[i + 1], middle = 0.5 * (low + high);
-    // At a vertical side the curve has two values, so sample slightly inside the piece.
+    // At a vertical side the curve has two values, so sample slightly inside the interval.
     const double inset = (high - low) * 1e-9;
     const double at_low = height(low + inset), at_middle = height(middle), at_high = height(high - inset);
     area.weight += (high - low) / 6 * (at_low + 4 * at_middle + at_high);

@@ -36,8 +36,8 @@ FuzzyDistance ComputeDistance(const Grades& a, const Grades& b, const FeatureWei
 }
 
 bool IsCloser(const Grades& a, const Grades& b, const FeatureWeights& weights, double threshold) {
-  // Rounding is monotonic, so a sum above the rounded square has no root below the threshold. If it equals the square,
-  // only the root can tell.
+  // Rounding is monotonic, so a sum above the rounded square of the threshold has no root below the threshold. If the
+  // sum equals the square, compare the root itself.
   const double square = threshold * threshold;
   double sum = 0;
   for (std::size_t k = 0; k < kFeatureCount; ++k) {

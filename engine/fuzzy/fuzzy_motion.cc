@@ -61,7 +61,7 @@ class Band {
   }
 
  private:
-  double rows_, columns_;  ///< number of rows and columns minus one
+  double rows_, columns_;  ///< number of rows minus one, and of columns minus one
   double slack_;           ///< upper limit of |row · columns_ − column · rows_|
 };
 
@@ -73,7 +73,7 @@ std::optional<double> ComputeMotionSimilarity(std::span<const Grades> a, std::sp
   const std::vector<Grades> rows = Scaled(a, options.weights), columns = Scaled(b, options.weights);
   const Band band(rows.size(), columns.size(), options.band);
   const double steps = static_cast<double>(rows.size() + columns.size());
-  // If D exceeds this, the similarity is below `at_least`; the margin covers rounding.
+  // If the sum exceeds this, the similarity is below `at_least`; the margin covers rounding.
   const double max_cost =
       options.at_least > 0 ? steps * options.half_at * (1 / options.at_least - 1) * (1 + 1e-12) + 1e-12 : kUnreached;
 

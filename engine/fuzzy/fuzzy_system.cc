@@ -121,7 +121,7 @@ class FeaturesReader {
     std::vector<Shape> shapes;
     for (const std::string& term : TermNames(feature)) {
       const Node* shape_node = fields.Raw(term);
-      if (shape_node == nullptr) continue;  // an unknown key is the more likely cause and is reported first
+      if (shape_node == nullptr) continue;  // an unknown key is the more likely cause, and is reported first
       ASSIGN_OR_RETURN(const auto shape, ReadShape(*shape_node, universe));
       shapes.push_back(shape);
     }
@@ -301,7 +301,7 @@ Result<FuzzySystem> ReadFuzzySystem(std::string_view text, const std::string& fi
   RETURN_IF_ERROR(fields.Finish());
   ASSIGN_OR_RETURN(const auto features, ReadFeatures(*features_node));
   ASSIGN_OR_RETURN(const auto rules, rules_node != nullptr ? ReadRules(*rules_node) : RuleBase{});
-  // Every member is set, so that no default asks for the paper's system, which may be the one that is being read.
+  // Set every member: the defaults would read the paper's system, which may be the very system that is being read.
   return FuzzySystem{.name = name, .memberships = features.memberships, .weights = features.weights, .rules = rules};
 }
 

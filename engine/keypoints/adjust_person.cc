@@ -31,8 +31,8 @@ struct SeenAt {
   Keypoint keypoint;
 };
 
-/// Returns the midpoint of two landmarks as the picture shows it: the projection of the midpoint in space, shifted by
-/// the mean offset of both keypoints. The midpoint of the two pixels would lie closer to the nearer landmark.
+/// Returns the pixel of the midpoint of two landmarks: the projection of their midpoint in space, shifted by the mean
+/// offset of both keypoints. (The midpoint of the two pixels is another point, because of perspective.)
 Keypoint MiddleOf(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPositions& places, Landmark a,
                   Landmark b) {
   const glm::dvec3 &p = *places[Index(a)], &q = *places[Index(b)];
@@ -105,8 +105,8 @@ class Adjuster {
   }
 
  private:
-  /// Returns start poses fitted to smoothed points: from noisy ones the solver takes many steps and may reach another
-  /// minimum.
+  /// Returns start poses fitted to smoothed points: from noisy points, the solver needs many steps and may reach
+  /// another minimum.
   std::vector<TreeState> SmoothStart() const {
     constexpr double kCalmHz = 3;
     std::vector<LandmarkPositions> points = person_.landmarks;
@@ -119,7 +119,8 @@ class Adjuster {
     return start;
   }
 
-  /// Returns the mean square of a joint's second differences at `lag` frames, along one axis, without the largest 5 %.
+  /// Returns the mean square of a joint's second differences over `lag` frames, along one axis, without the largest 5
+  /// %.
   std::optional<double> SquareOver(Role role, std::size_t lag) const {
     std::vector<double> squares;
     for (std::size_t k = lag; k + lag < joints_.size(); ++k) {
@@ -137,7 +138,7 @@ class Adjuster {
   }
 
   /// Estimates the acceleration scale of a joint. Second differences at lag 1 and at a longer lag contain the same
-  /// noise, while the part of the acceleration grows with the fourth power of the lag.
+  /// noise, while the contribution of the acceleration grows with the fourth power of the lag.
   double AccelerationOf(Role role) const {
     constexpr double kSeconds = 0.1, kBursts = 1.5;  // 1.5: accelerations come in bursts
     const double lag = std::max(2.0, std::round(kSeconds * options_.rate_hz));
@@ -184,8 +185,8 @@ class Adjuster {
     if (child == kLeftShoulder || child == kLeftHip) bones[Index(Mirrored(child))] += metres;
   }
 
-  /// Adds the derivatives of all offsets by one length. Offsets are linear in the lengths, so a derivative is the
-  /// change when that bone is a metre longer.
+  /// Adds the derivatives of all offsets with respect to one length. Offsets are linear in the lengths, so a derivative
+  /// is the change when that bone is a metre longer.
   void AddShares(const CaptureBody& longer) {
     const int length = static_cast<int>(bones_.size());
     for (std::size_t j = 0; j < measurable_.tree.joints.size(); ++j) {
@@ -200,8 +201,7 @@ class Adjuster {
     }
   }
 
-  /// Locks the spine's bending angles. No landmark shows how the trunk bends, so a longer trunk that bends would fit
-  /// the errors.
+  /// Locks the spine's bending angles. No landmark shows how the trunk bends, so a longer, bent trunk would fit noise.
   void KeepTrunkStraight() {
     const TreeJoint& spine =
         measurable_.tree.joints[static_cast<std::size_t>(person_.body.roles[Index(Role::kShoulderCentre)].joint)];
@@ -266,8 +266,8 @@ class Adjuster {
                       glm::dmat2(1 / (sigma_px * sigma_px))});
   }
 
-  /// Adds marks that hold a joint seen by fewer than two cameras near the position of the single frame: the standard
-  /// deviation is a tenth of the height, or twice `error_px` if that is given.
+  /// Adds marks that hold a joint seen by fewer than two cameras near its position in the single-frame fit: the
+  /// standard deviation is a tenth of the height, or twice `error_px` if that is given.
   void HoldUnseen(std::size_t frame, Role role, const std::optional<double>& error_px) {
     constexpr double kShareOfHeight = 0.1, kComposed = 2;
     const BodyPose& pose = person_.motion.poses[frame];
@@ -307,7 +307,7 @@ class Adjuster {
 
 double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen, double min_confidence,
                        double outlier_px) {
-  std::vector<double> squares;  // each element is an estimate of the variance that is unbiased in the median
+  std::vector<double> squares;  // each element is an estimate of the variance whose median is unbiased
   const std::size_t frames = seen.seen.empty() ? 0 : seen.seen.front().size();
   for (std::size_t frame = 0; frame < frames; ++frame) {
     for (std::size_t i = 0; i < kLandmarkCount; ++i) {

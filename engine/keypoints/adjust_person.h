@@ -11,8 +11,8 @@ struct AdjustPersonOptions {
   double rate_hz = 30;
   double min_confidence = 0.1;  ///< keypoints of lower confidence are ignored
   double acceleration = 8;        ///< lower bound of a joint's acceleration scale along each axis, m/s²
-  /// The motion recovered from silhouettes in the same frames; null: none. The weight of each of its joints follows
-  /// from its usual distance to the motion from keypoints alone.
+  /// The motion recovered from silhouettes in the same frames; null: none. Each of its joints is weighted by its usual
+  /// distance from the motion from keypoints alone.
   const BodyMotion* outlines = nullptr;
 };
 
@@ -22,13 +22,13 @@ struct AdjustPersonOptions {
 double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen, double min_confidence,
                        double outlier_px);
 
-/// Adjusts a recovered motion as a whole (`AdjustBundle`) *(ours)*: one body (bone lengths) and its poses in all frames
-/// that explain the keypoints of all pictures at once. A keypoint's standard deviation follows from its confidence and
-/// `KeypointErrorPx`; the loss is robust. The motion is smooth: each joint's acceleration scale is its own over a tenth
-/// of a second, minus the part due to noise. A landmark that fewer than two cameras see keeps its joint near the
-/// position of the single frame, within a tenth of the person's height; a joint that is never seen itself but composed
-/// of other landmarks is kept within twice the keypoint error. The trunk has one length; the spine does not bend
-/// forward or sideways. Returns true if the problem was solved; otherwise `person` is unchanged.
+/// Adjusts a recovered motion as a whole (`AdjustBundle`) *(ours)*: it finds one body (bone lengths) and its poses in
+/// all frames that together explain the keypoints of all pictures. A keypoint's standard deviation follows from its
+/// confidence and `KeypointErrorPx`; the loss is robust. The motion is smooth: each joint has its own acceleration
+/// scale, estimated over a tenth of a second and corrected for noise. If fewer than two cameras see a landmark, its
+/// joint is kept near its position in the single-frame fit, within a tenth of the person's height; a joint that is
+/// always composed of other landmarks is kept within twice the keypoint error. The trunk has one length; the spine does
+/// not bend forward or sideways. Returns true if the problem was solved; otherwise `person` is unchanged.
 /// @param cameras of the rig without distortion, in the world of `person`; the pixels are undistorted, too
 /// @param seen the keypoints from which `person` was recovered
 bool AdjustPerson(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen,

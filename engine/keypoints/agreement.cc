@@ -33,7 +33,8 @@ std::vector<double> Distances(const MarkerMotion& motion, const MarkerMotion& re
   return distances;
 }
 
-/// Interpolates a marker at a fractional frame; nullopt outside the recording or beside a frame without the marker.
+/// Interpolates a marker at a fractional frame; nullopt outside the recording, or if a neighbouring frame lacks the
+/// marker.
 std::optional<glm::dvec3> MarkerAt(const MarkerMotion& markers, double frame, std::size_t marker) {
   constexpr double kSameTime = 1e-9;
   if (frame < -kSameTime || frame > static_cast<double>(markers.frames.size() - 1) + kSameTime) return std::nullopt;
@@ -45,7 +46,7 @@ std::optional<glm::dvec3> MarkerAt(const MarkerMotion& markers, double frame, st
   return next ? std::optional(glm::mix(*here, *next, share)) : std::nullopt;
 }
 
-/// Returns the indices, in both motions, of the markers that both name.
+/// Returns the indices, in both motions, of the markers that both contain.
 std::vector<std::pair<std::size_t, std::size_t>> SharedMarkers(const MarkerMotion& a, const MarkerMotion& b) {
   std::vector<std::pair<std::size_t, std::size_t>> shared;
   for (std::size_t i = 0; i < a.names.size(); ++i) {

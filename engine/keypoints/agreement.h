@@ -33,16 +33,16 @@ MarkerMotion AtRate(MarkerMotion markers, double rate_hz);
 /// stretch) · k of the reference.
 struct ReferenceClock {
   double at = 0, stretch = 0;
-  /// The mean loss d² / (d² + s²) of the distances d between both, with s = 3 cm: for equal frame numbers, and for this
-  /// clock.
+  /// The mean loss d² / (d² + s²) of the distances d between both, with s = 3 cm: `before` with equal frame numbers,
+  /// `after` with this clock.
   double before = 0, after = 0;
-  /// Returns by how many frames of the reference the clock drifts over `frames` frames.
+  /// Returns the drift of the clock over `frames` frames, in frames of the reference.
   double DriftOver(std::size_t frames) const { return stretch * static_cast<double>(frames); }
 };
 
-/// Estimates the clock from the markers that both recordings name, to a five-hundredth of a frame. A grid search over
-/// offsets of up to two frames and drifts of up to three over half of the motion is followed by a local search. Returns
-/// nullopt if too few markers are in both.
+/// Estimates the clock from the markers that both recordings contain, to 1/500 of a frame. A grid search over offsets
+/// of up to two frames and drifts of up to three over half of the motion is followed by a local search. Returns nullopt
+/// if too few markers are in both.
 std::optional<ReferenceClock> MeasureClock(const MarkerMotion& motion, const MarkerMotion& reference);
 
 /// Returns `frames` frames of the reference at the times of the motion's frames, interpolated as by `AtRate`.
@@ -56,9 +56,9 @@ struct MarkerAgreement {
   std::size_t frames = 0;  ///< number of frames in which both have the marker
 };
 
-/// Compares the markers that both recordings name, in the reference's order, over as many frames as the shorter one
-/// has. The distance is between markers of one name in one frame, without alignment. If the reference was made from the
-/// same keypoints, the distance measures agreement, not error.
+/// Compares the markers that both recordings contain, in the reference's order, over the frames of the shorter one.
+/// Distances are between equal markers in equal frames, without alignment. If the reference was made from the same
+/// keypoints, the distance measures agreement, not error.
 std::vector<MarkerAgreement> CompareMarkers(const MarkerMotion& motion, const MarkerMotion& reference);
 
 /// Compares all markers and frames at once.

@@ -21,12 +21,12 @@ constexpr double kFreedom = 4;
 double Cost(double r) { return 0.5 * (kFreedom + 1) * std::log1p(r * r / kFreedom); }
 double Weight(double r) { return 1 / (1 + r * r / kFreedom); }
 
-/// Who contributes to the direction, in the order in which they are named.
+/// The cues for the direction, in the order in which texts name them.
 enum Witness { kCameras, kFeetAtRest, kStraight, kFlight, kWitnesses };
 constexpr std::array<const char*, kWitnesses> kWitnessNames = {"the cameras' horizons", "resting feet",
                                                                "a person who stands straight", "gravity in jumps"};
 
-/// A camera's picture by its turn: the directions of its rows and of its upper edge, and where it looks.
+/// The directions of a camera's picture in one of its quarter turns: its rows, its upper edge, and the viewing axis.
 struct Picture {
   glm::dvec3 right, above, ahead;
 };
@@ -42,7 +42,7 @@ Picture TurnedPicture(const Camera& camera, int quarters) {
   return picture;
 }
 
-/// The sum of weighted squares about a direction, in the plane square to it.
+/// The sum of weighted squared residuals near a direction, as a quadratic in the plane normal to it.
 class Sum {
  public:
   explicit Sum(const glm::dvec3& up) {
@@ -51,7 +51,7 @@ class Sum {
     tangent_ = glm::dmat2x3(side, glm::cross(up, side));
   }
 
-  /// Adds a residual, with its derivative by the direction, counted `share` times.
+  /// Adds a residual and its derivative with respect to the direction, counted `share` times.
   void Add(Witness witness, double residual, const glm::dvec3& derivative, double share = 1) {
     const glm::dvec2 j = glm::transpose(tangent_) * derivative;
     const double weight = share * Weight(residual);
@@ -99,7 +99,7 @@ std::optional<glm::dvec3> StraightPerson(std::span<const LandmarkPositions> poin
     const auto shoulders = Middle(at, kLeftShoulder, kRightShoulder), hips = Middle(at, kLeftHip, kRightHip),
                knees = Middle(at, kLeftKnee, kRightKnee), ankles = Middle(at, kLeftAnkle, kRightAnkle);
     if (!shoulders || !hips || !knees || !ankles) continue;
-    // The limbs' own lengths: the middles of legs that stride would be shorter.
+    // Use the lengths of the limbs themselves; distances between midpoints are too short if the legs stride.
     double legs = 0;
     for (const auto& [hip, knee, ankle] :
          {std::array{kLeftHip, kLeftKnee, kLeftAnkle}, {kRightHip, kRightKnee, kRightAnkle}}) {
@@ -109,7 +109,7 @@ std::optional<glm::dvec3> StraightPerson(std::span<const LandmarkPositions> poin
     const glm::dvec3 axis = *shoulders - *ankles;
     if (glm::length(axis) > kStraight * (glm::distance(*shoulders, *hips) + legs)) sum += glm::normalize(axis);
   }
-  // Directions that cancel (who bows to all sides) say nothing.
+  // If the directions cancel, as for a person who bows to all sides, they determine nothing.
   const double frames = glm::length(sum);
   return frames > 0 ? std::optional(sum / frames) : std::nullopt;
 }
@@ -134,7 +134,8 @@ std::optional<glm::dvec3> CentreOfMass(const LandmarkPositions& at) {
   return sum;
 }
 
-/// Returns the mean direction against the acceleration of the centre of mass in flights; nullopt without one.
+/// Returns the mean direction opposite to the acceleration of the centre of mass in flights; nullopt if there is no
+/// flight.
 std::optional<glm::dvec3> Flight(std::span<const LandmarkPositions> points, double rate_hz, double metre) {
   constexpr double kShortest_s = 0.2, kGravity = 9.81, kTolerance = 0.15, kFit_m = 0.01;
   const auto window = static_cast<std::size_t>(std::ceil(kShortest_s * rate_hz)) + 1;
@@ -167,7 +168,7 @@ std::optional<glm::dvec3> Flight(std::span<const LandmarkPositions> points, doub
     }
     slope /= t4;
     curve /= norm;
-    // It is a flight if it fits, with an acceleration near gravity's.
+    // It is a flight if the parabola fits and its acceleration is near gravity's.
     double worst = 0;
     for (std::size_t i = 0; i < window; ++i) {
       const double t = static_cast<double>(i) - middle;
@@ -208,7 +209,7 @@ class Witnesses {
     return sum;
   }
 
-  /// Lists directions to begin with: of the pictures in every turn, of the person, and of the axes.
+  /// Lists start directions: those of the pictures in every quarter turn, of the person, and of the axes.
   std::vector<glm::dvec3> Beginnings() const {
     std::vector<glm::dvec3> beginnings;
     constexpr std::size_t kMaxCameras = 4;
@@ -232,7 +233,7 @@ class Witnesses {
   void AddCameras(const glm::dvec3& up, Sum& sum) const {
     constexpr double kRoll = Radians(3), kPitch = Radians(20), kLooksDown = Radians(10), kTurned = 4;
     for (const NamedCamera& named : cameras_) {
-      // Take the turn that explains the direction best.
+      // Take the quarter turn of the picture that fits the direction best.
       double least = 1e9, roll = 0, pitch = 0;
       Picture best{};
       for (int quarters = 0; quarters < 4; ++quarters) {
@@ -257,8 +258,8 @@ class Witnesses {
   void AddFeet(const glm::dvec3& up, Sum& sum) const {
     if (stays_.empty()) return;
     constexpr double kSameHeight = 0.008, kFlatFoot = 0.015, kShare = 0.5, kMaxCost = 2, kUnder = 3;
-    // Landmarks of one kind: their heights about that of the kind, which is found robustly.
-    std::vector<std::pair<glm::dvec3, double>> kinds;  // middle of a kind's stays; its height over that of the sole
+    // Compare landmarks of one kind: the height of each with a robust mean height of its kind.
+    std::vector<std::pair<glm::dvec3, double>> kinds;  // middle of a kind's stays; its height above the sole
     for (std::size_t kind = 0; kind < kFootKinds; ++kind) {
       std::vector<double> heights;
       for (const FootStay& stay : stays_) {
@@ -289,7 +290,7 @@ class Witnesses {
       }
       kinds.emplace_back(middle, AboveSole(kind, stature_));
     }
-    // The kinds among each other: those of a flat foot.
+    // Compare the kinds with each other: their heights should be those of a flat foot.
     glm::dvec3 middle(0);
     double middle_above = 0;
     for (const auto& [place, above] : kinds) {
@@ -302,13 +303,13 @@ class Witnesses {
       sum.Add(kFeetAtRest, residual, (place - middle) / sigma, kShare);
       sum.cost += kShare * std::min(kMaxCost, Cost(residual));
     }
-    // Who hangs from their feet is upside down.
+    // If the hips are below the feet, the direction is upside down.
     std::vector<double> hips;
     for (const glm::dvec3& hip : hips_) hips.push_back(glm::dot(up, hip - middle));
     if (!hips.empty() && UpperMedian(std::move(hips)) < -0.2 * stature_) sum.cost += kUnder;
   }
 
-  /// Adds a direction that is known to `sigma`, unless that costs more than to leave it out.
+  /// Adds a direction with the standard deviation `sigma`, unless leaving it out costs less.
   static void AddDirection(Witness witness, const glm::dvec3& known, double sigma, double most_cost,
                            const glm::dvec3& up, Sum& sum) {
     const double angle = AngleBetween(known, up) / sigma;
@@ -352,7 +353,7 @@ FoundUp FindUp(std::span<const NamedCamera> cameras, std::span<const LandmarkPos
     found.emplace_back(witnesses.At(up).cost, up);
   }
   const auto [cost, up] = *std::ranges::min_element(found, {}, [](const auto& one) { return one.first; });
-  // Its accuracy: from the curvature, the witnesses' disagreement, and the nearest rival.
+  // The accuracy follows from the curvature, the disagreement of the cues, and the nearest other minimum.
   const Sum sum = witnesses.At(up);
   constexpr double kSolvedFor = 2;
   const double spread = std::max(1.0, sum.squares / std::max(1.0, sum.count - kSolvedFor));

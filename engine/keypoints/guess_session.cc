@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-/// A hypothesis of how a picture was rotated and mirrored, and whether its keypoints are the rig's own pixels.
+/// A hypothesis: how a picture was rotated and mirrored, and whether its keypoints are in the rig's own pixels.
 struct Guess {
   int quarter_turns = 0;
   bool is_mirrored = false;
@@ -145,7 +145,7 @@ class Guesser {
     return misses.empty() ? 0 : LowerPercentile(misses, 0.5);
   }
 
-  // Reads the keypoints of all films as the rig's own pixels if that reduces the distance.
+  // Interprets the keypoints of all films as the rig's own pixels if that reduces the distance.
   void ChooseStored() {
     bool is_fitted = false;
     for (const PictureOfFilm& film : films_) {
@@ -239,7 +239,7 @@ namespace {
 
 using Films = std::vector<PictureOfFilm>;
 
-constexpr std::size_t kMaxFilms = 8;  // above which exchanges are not tried
+constexpr std::size_t kMaxFilms = 8;  // with more films, exchanges are not tried
 
 /// A map from a file's pixel to a pixel of the film, whose size is given.
 struct Reading {
@@ -247,8 +247,8 @@ struct Reading {
   glm::dvec2 (*pixel)(const glm::dvec2& p, const glm::dvec2& size);
 };
 
-/// Converts a pixel that was read as relative to the picture but is relative to a square around it. `padded` is the
-/// share of the square's padding that lies before the picture.
+/// Converts a pixel whose coordinates were interpreted relative to the picture but are relative to a square around it.
+/// `padded` is the share of the square's padding that comes before the picture.
 glm::dvec2 OfSquare(const glm::dvec2& p, const glm::dvec2& size, double padded) {
   const double side = std::max(size.x, size.y);
   return p * side / size - padded * (side - size);
@@ -266,7 +266,7 @@ constexpr std::array kReadings = {
     Reading{"keypoints are shares of the picture's longer side",
             [](const glm::dvec2& p, const glm::dvec2& size) { return OfSquare(p, size, 0); }}};
 
-/// Reinterprets the pose that the rig's file states for a camera: p_C = R_CF p_F + t.
+/// Reinterprets the pose that the rig's file gives for a camera: p_C = R_CF p_F + t.
 Camera WithPose(Camera camera, const glm::dmat3& R_WF, bool is_inverse, bool is_opengl) {
   glm::dmat3 R_CF = camera.R_CW * R_WF;
   glm::dvec3 t = -(camera.R_CW * camera.p_WC);
@@ -327,7 +327,7 @@ class SessionGuesser {
     return MissOfPictures(guessed, least_confidence_);
   }
 
-  // Keeps the films if they lower the distance.
+  // Keeps these films as the best hypothesis if they reduce the distance.
   void Try(Films films, std::string told) {
     const double miss = MissOfPictures(films, least_confidence_);
     if (!(miss < least_)) return;

@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// One film's keypoints as in their file, and how its pictures are declared to derive from the rig's.
+/// One film's keypoints as they are in the file, and the declared relation between its pictures and the rig's.
 struct PictureOfFilm {
   Camera camera;
   PixelFit fit;           ///< as declared
@@ -21,23 +21,24 @@ struct PictureOfFilm {
   bool is_sized = false;  ///< true if the file states the size of the film's pictures, so its pixels are the film's
 };
 
-/// The map by which the keypoints of a film are to be read.
+/// The map that converts the keypoints of a film to pixels of the rig.
 struct PictureGuess {
   PixelFit fit;
   std::string told;  ///< explanation for people; "" if the map is as declared
 };
 
-/// Finds how keypoints lie in the rig's pictures *(ours)*: as `fit` declares, or rotated by quarter turns or mirrored.
-/// Cameras are corrected one after the other, the largest gain first. A correction needs keypoints that were more than
-/// 0.3 % of the height off the other cameras' epipolar lines, and must reduce this distance to less than half and to
-/// less than 5 % of the height (median over frames, over the best-fitting people and labelling of sides). Random errors
-/// are never halved. If pictures were fitted, the keypoints of all films may instead be the rig's own pixels (the
-/// estimator ran on the original pictures): the reading with the smaller distance is taken, unless a file states the
-/// film's size. `told` says if a second guess is nearly as good, as with two cameras.
+/// Finds how keypoints map to the rig's pictures *(ours)*: as `fit` declares, or also rotated by quarter turns or
+/// mirrored. Cameras are corrected one after the other, the one with the largest gain first. A correction is tried only
+/// if the keypoints are more than 0.3 % of the height off the other cameras' epipolar lines, and it must reduce this
+/// distance to less than half and to less than 5 % of the height (median over frames, over the best-fitting people and
+/// labelling of sides). A wrong correction cannot halve random errors. If pictures were fitted, the keypoints of all
+/// films may instead be in the rig's own pixels (if the estimator ran on the original pictures). The interpretation
+/// with the smaller distance is taken, unless a file states the film's size. `told` says if a second guess is nearly as
+/// good, as with two cameras.
 std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, double min_confidence);
 
 /// Returns the distance of keypoints, read as declared, from the other cameras' epipolar lines, as a share of the
-/// height: the mean over pairs of cameras of the medians. 1 if it cannot be computed.
+/// height: the mean, over pairs of cameras, of the median distance. 1 if it cannot be computed.
 double MissOfPictures(std::span<const PictureOfFilm> films, double min_confidence);
 
 /// A distance above this share of the height indicates a mistake, not only imprecision.
@@ -54,8 +55,8 @@ struct SessionGuess {
 /// from the cameras to the world, whose cameras look along −z (OpenGL), or both; keypoints of pictures of another size,
 /// with v counted from below, with x and y exchanged, all mirrored, or relative to a square around the picture or to
 /// its longer side. The candidate with the smallest distance to epipolar lines (`MissOfPictures`) is taken if that is
-/// less than half of what remains otherwise, with pictures read as `GuessPictures` finds them, and less than 5 % of the
-/// height. Exchanges are tried among at most eight films.
+/// less than 5 % of the height, and less than half of the distance that remains after `GuessPictures`. Exchanges are
+/// tried among at most eight films.
 /// @param R_WF rotation from the axes of the rig's file to the cameras' world
 SessionGuess GuessSession(std::span<const PictureOfFilm> films, std::span<const std::string> names,
                           const glm::dmat3& R_WF, double min_confidence);

@@ -36,15 +36,16 @@ std::vector<LandmarkPositions> TriangulatePerson(std::span<const ProjectionMatri
 /// Fills gaps of at most `max_gap` frames by linear interpolation between the landmark's positions before and after.
 void BridgePoints(std::span<LandmarkPositions> frames, std::size_t max_gap);
 
-/// Smooths positions by a Gaussian filter over time whose power is one half at `cutoff_hz`: each position becomes the
-/// weighted mean of those around it. The filter has no delay. A cutoff of at least half the rate changes nothing.
+/// Smooths positions by a Gaussian filter over time with half of the power at `cutoff_hz`: each position becomes a
+/// weighted mean of the positions around it. The filter has no delay. A cutoff of at least half the rate changes
+/// nothing.
 void SmoothPoints(std::span<LandmarkPositions> frames, double rate_hz, double cutoff_hz);
 
 /// Returns those of the twenty joints that the landmarks determine. Hips, knees, ankles, shoulders, elbows and wrists
-/// are landmarks; the shoulder centre is midway between the shoulders, the hip centre between the hips; the head is its
-/// top, else the middle of the ears, else the nose; a foot ends at its big toe. *(Ours)*: without a finger tip, the
-/// hand extends the forearm by 0.72 of its length; without a face, the head extends the trunk by half of its length;
-/// without a toe, the foot ends 0.18 m from its ankle, ahead and a little down.
+/// are landmarks; the shoulder centre is midway between the shoulders, the hip centre between the hips; the head is at
+/// its top, else midway between the ears, else at the nose; a foot ends at its big toe. *(Ours)*: without a finger tip,
+/// the hand extends the forearm by 0.72 of its length; without a face, the head extends the trunk by half of its
+/// length; without a toe, the foot ends 0.18 m from its ankle, ahead and a little down.
 RoleVectors JointsOf(const LandmarkPositions& landmarks);
 
 }  // namespace etude

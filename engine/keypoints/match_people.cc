@@ -43,7 +43,7 @@ class Follower {
         tracks[track].entries[frame] = person;
         taken[person] = extended[track] = true;
       }
-      // Everybody else begins a track.
+      // All others begin a new track.
       for (std::size_t person = 0; person < taken.size(); ++person) {
         if (!taken[person]) tracks.push_back({{{frame, person}}});
       }
@@ -54,7 +54,7 @@ class Follower {
  private:
   using Candidate = std::tuple<double, std::size_t, std::size_t>;  ///< step, track, person
 
-  /// Returns the possible extensions by ascending step, without those that have a rival nearly as near.
+  /// Returns the possible extensions by ascending step, without those that have another candidate nearly as near.
   std::vector<Candidate> Candidates(const std::vector<PersonTrack>& tracks, std::size_t frame) const {
     std::vector<Candidate> all;
     for (std::size_t t = 0; t < tracks.size(); ++t) {

@@ -39,7 +39,8 @@ struct MatchOptions {
   /// The largest distance between the rays of one person's keypoints, median over time, as a share of the person's
   /// height in the pictures. Estimators err by 1–2 % of the height; other people differ by 10 % and more *(ours)*.
   double max_error = 0.06;
-  /// True if a camera may have exchanged left and right: tracks that do not match are also compared with sides swapped.
+  /// True if left and right may be exchanged in a camera: tracks that do not match are then also compared with sides
+  /// swapped.
   bool may_be_swapped = false;
 };
 
@@ -52,8 +53,8 @@ struct MatchedPerson {
   std::size_t cameras = 0;
 };
 
-/// Identifies people over cameras and time *(ours)*. The tracks of each camera (`FollowPeople`) are joined over the
-/// cameras in ascending order of their rays' distance; two tracks of one camera that overlap in time are never one
+/// Identifies people over cameras and time *(ours)*. The tracks of different cameras (`FollowPeople`) are joined in
+/// ascending order of the distance between their rays; two tracks of one camera that overlap in time are never one
 /// person. The result is deterministic: ties go to the track that began first. Persons are ordered by `sightings`,
 /// descending.
 /// @param cameras of the rig without distortion; the pixels are undistorted, too

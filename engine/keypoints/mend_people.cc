@@ -123,7 +123,7 @@ class Mender {
     constexpr double kOff = 0.05, kBetter = 1.0 / 3;
     for (std::size_t frame = 0; frame < frames_; ++frame) {
       for (std::size_t round = 0; round < cameras_.size(); ++round) {
-        // Take the worst camera first: its keypoints also raise the misfit of the others.
+        // Take the worst camera first, because its keypoints also raise the misfit of the others.
         std::optional<std::size_t> worst;
         double most = kOff;
         std::size_t seeing = 0;
@@ -223,7 +223,7 @@ class Mender {
   // Finds the labelling of minimal cost over time (Viterbi).
   Course CourseOf(std::size_t group, std::size_t c) const {
     constexpr double kChange = 1.5;
-    std::vector<std::array<bool, 2>> from(frames_);  // true: the best path into the state comes from the swapped one
+    std::vector<std::array<bool, 2>> from(frames_);  // true: the best path into this state comes from the swapped state
     std::array<double, 2> total{};
     double as_it_is = 0;
     // Forward pass: the lowest cost of each of the two states.
@@ -304,7 +304,8 @@ class Mender {
     return from && to ? std::optional(*to - *from) : std::nullopt;
   }
 
-  /// Returns a value above 0 if left is on the body's left; nullopt if it is not seen or ambiguous.
+  /// Returns a value above 0 if the left landmarks are on the body's left side; nullopt if that is not seen or
+  /// ambiguous.
   std::optional<double> Chirality(std::size_t group, std::size_t frame) const {
     const auto hips = MiddleOf(frame, kLeftHip, kRightHip), shoulders = MiddleOf(frame, kLeftShoulder, kRightShoulder);
     const auto left = PositionOf(frame, group == 0 ? kLeftShoulder : kLeftHip);

@@ -92,7 +92,7 @@ Landmark LandmarkOfName(std::string_view name) {
     if (c >= 'a' && c <= 'z') bare += c;
     if (c >= 'A' && c <= 'Z') bare += static_cast<char>(c - 'A' + 'a');
   }
-  // Names that differ from ours by more than the word for the side.
+  // Handle names that differ from ours by more than the word for the side.
   if (bare == "midhip" || bare == "hip" || bare == "pelvis" || bare == "root") return Landmark::kMidHip;
   if (bare == "headtop" || bare == "tophead") return Landmark::kHead;
   // Write the side as one letter in front.

@@ -73,7 +73,7 @@ const KeypointLayout* FindKeypointLayout(std::string_view name);
 /// Big Toe", "mid_hip". Returns kNoLandmark for other names.
 Landmark LandmarkOfName(std::string_view name);
 
-/// The pixel of a landmark in a picture, and the estimator's confidence: 0 = not seen, 1 = certain.
+/// The pixel of a landmark in a picture, and the estimator's confidence (0 = not seen, 1 = certain).
 struct Keypoint {
   glm::dvec2 pixel{0};
   double confidence = 0;

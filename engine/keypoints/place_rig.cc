@@ -198,8 +198,8 @@ Result<ChosenUp> UpOf(const RigFile& rig, const glm::dvec3& person, const FoundU
   const double tilt = Degrees(AngleBetween(usual, found.up)), accuracy = Degrees(found.deviation);
   const double within = Degrees(found.within);
   constexpr double kTold = 3, kTilted = 8, kSure = 3;
-  // Caliscope's axes are those of a calibration board. For formats that define an up axis, feet that are not level (on
-  // a beam) are no reason to tilt the world.
+  // If the format defines an up axis, feet that are not level (on a beam) are no reason to tilt the world. Caliscope's
+  // axes are those of a calibration board, so they define none.
   const bool is_level = rig.format != "Caliscope" || tilt < std::max(kSure * accuracy, kTilted);
   if (options.up == "auto" && camera.empty() && rig.has_unit && tilt < std::max(kFar, within) && is_level) {
     std::string told = fmt::format("up is {} (the person leans {:.0f}° from it)", usual_name(), lean_from(usual));

@@ -17,7 +17,7 @@ namespace etude {
 struct PlacementOptions {
   /// "auto", a name of RigUnits(), or the number of metres in one unit of the file.
   std::string unit = "auto";
-  /// "auto", an axis of the file that points up ("z", "-y"), or "floor": what cameras and feet say, not the file.
+  /// "auto", an axis of the file that points up ("z", "-y"), or "floor": from cameras and feet, not from the file.
   std::string up = "auto";
   /// The position of the floor, which becomes height 0: "auto" (at the feet if they determined the up axis, otherwise
   /// as in the file), "keep", "feet", or its height in metres.
@@ -27,7 +27,7 @@ struct PlacementOptions {
 /// Returns "m, cm, mm, inch, foot".
 std::string RigUnits();
 
-/// Fails if a text of `options` has no meaning.
+/// Fails if a text in `options` is not one of the allowed values.
 Result<void> CheckPlace(const PlacementOptions& options);
 
 /// The map from a rig's world to ours: p' = scale · R · p + shift.
@@ -42,14 +42,14 @@ struct RigPlacement {
   bool IsNone() const { return scale == 1 && R == glm::dmat3(1) && shift == glm::dvec3(0); }
 };
 
-/// Finds the unit and the up axis of a rig from a person in it *(ours)*. The stature is 2.0 times the leg (hip, knee,
-/// ankle; medians over frames). The format's unit is kept if the stature is then 0.5 to 2.2 m; otherwise metres,
-/// centimetres and millimetres are tried, then inches and feet, which must give 1.2 to 2.2 m. The format's up axis is
-/// kept if it is within 35° of what `FindUp` finds and the world is not a camera's frame. Otherwise an axis of the file
-/// is taken that is within 4° of that (10° if it is not known better), or else the direction found itself, told with
-/// the angle that holds the truth in 95 of 100 takes. Fails if no unit gives a plausible stature (the message names the
-/// factor that would), if lengths have no unit, if up is known to 35° only, and if a requested axis puts cameras and
-/// person upside down.
+/// Finds the unit and the up axis of a rig from a person in it *(ours)*. The stature is estimated as 2.0 times the
+/// length of the leg (hip, knee, ankle; medians over frames). The format's unit is kept if the stature is then 0.5 to
+/// 2.2 m; otherwise metres, centimetres and millimetres are tried, then inches and feet, which must give 1.2 to 2.2 m.
+/// The format's up axis is kept if it is within 35° of the result of `FindUp` and the world is not a camera's frame.
+/// Otherwise the up axis is the axis of the file within 4° of that result (10° if the result is not more accurate), or
+/// else the result itself; `told` then gives its 95 % angle. Fails if no unit gives a plausible stature (the message
+/// names the factor that would), if lengths have no unit, if up is known to 35° only, and if a requested axis puts
+/// cameras and person upside down.
 /// @param points of the person, triangulated with the rig as in its file
 Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositions> points, double rate_hz,
                               const PlacementOptions& options);

@@ -17,7 +17,7 @@ namespace etude {
 namespace {
 
 constexpr std::ptrdiff_t kMinJoints = 8;
-constexpr double kUnseen = 0.01;  // the weight of a joint that was not seen but completed
+constexpr double kUnseen = 0.01;  // weight of a joint that was completed, not seen
 constexpr int kRootSteps = 3;     // twenty steps reduce the distance of joints by only one percent more
 
 std::optional<double> MedianDistance(std::span<const RoleVectors> frames, Role a, Role b) {
@@ -55,8 +55,7 @@ void NameHead(CaptureBody& body) {
 PoseTargets TargetsOf(const RoleVectors& joints, const BodyPose& completed) {
   PoseTargets wanted{.places = completed, .weights = {}};
   for (std::size_t i = 0; i < kRoleCount; ++i) wanted.weights[i] = joints[i] ? 1 : kUnseen;
-  // If the trunk is seen shorter than its bones, its bending direction is unknown; this target keeps it nearly
-  // straight.
+  // If the trunk appears shorter than its bones, it could bend in any direction; this target keeps it nearly straight.
   if (joints[Index(Role::kHipCentre)] && joints[Index(Role::kShoulderCentre)]) wanted.weights[Index(Role::kSpine)] = 1;
   return wanted;
 }

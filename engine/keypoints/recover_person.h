@@ -29,7 +29,7 @@ Result<CaptureBody> MedianBody(std::span<const LandmarkPositions> frames);
 /// Finds, in every frame, the angles and the root's position that minimise Σ weight · |position − joint|², at least
 /// locally, over the joints that landmarks determine (`JointsOf`). Joints that a frame lacks keep their relative
 /// position of the frame before, with weight 0.01. The spine, which no landmark shows, has a target on the line from
-/// hips to shoulders with weight 1, because otherwise the trunk could bend in any direction when it is seen too short.
+/// hips to shoulders with weight 1, because otherwise a trunk that appears too short could bend in any direction.
 /// Returns nullopt for frames with fewer than eight joints. *(Ours.)*
 std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::span<const LandmarkPositions> frames);
 
@@ -44,8 +44,8 @@ struct RecoverPersonOptions {
   double min_outlier_px = 0;  ///< … and this as its lower limit
 };
 
-/// Returns the options for pictures with this longer side, pixels: outliers are off by 3 % of it, and somebody who was
-/// not seen for half a second is a new person.
+/// Returns the options for pictures with this longer side, pixels: keypoints that are off by more than 3 % of it are
+/// outliers, and somebody who was not seen for half a second is a new person.
 RecoverPersonOptions UsualRecovery(double rate_hz, double longer_side_px);
 
 /// A person recovered from several cameras' keypoints.

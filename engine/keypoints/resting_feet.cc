@@ -21,7 +21,7 @@ constexpr std::array<std::pair<std::array<Landmark, 2>, double>, kFootKinds> kFe
 }  // namespace
 
 double AboveSole(std::size_t kind, double stature) {
-  constexpr double kOfHeights = 1.7;  // the stature that kFeet is for
+  constexpr double kOfHeights = 1.7;  // the stature to which kFeet refers
   return kFeet[kind].second / kOfHeights * stature;
 }
 
@@ -31,7 +31,7 @@ std::vector<FootStay> FeetAtRest(std::span<const LandmarkPositions> points, doub
   std::vector<std::pair<std::size_t, FootStay>> found;  // with its frames
   for (std::size_t kind = 0; kind < kFeet.size(); ++kind) {
     for (const Landmark landmark : kFeet[kind].first) {
-      std::vector<glm::dvec3> places;  // of the stay so far
+      std::vector<glm::dvec3> places;  // positions of the present stay so far
       const auto mean_of = [&](std::size_t from, std::size_t to) {
         glm::dvec3 sum(0);
         for (std::size_t i = from; i < to; ++i) sum += places[i];
@@ -48,7 +48,7 @@ std::vector<FootStay> FeetAtRest(std::span<const LandmarkPositions> points, doub
       glm::dvec3 sum(0);
       for (std::size_t i = 1; i < points.size(); ++i) {
         const auto &before = points[i - 1][Index(landmark)], &now = points[i][Index(landmark)];
-        if (!before || !now) continue;  // a gap ends no stay
+        if (!before || !now) continue;  // a gap does not end a stay
         const bool is_slow = glm::distance(*before, *now) * rate_hz <= kMaxSpeed * stature;
         const bool is_near =
             places.empty() || glm::distance(*now, sum / static_cast<double>(places.size())) <= kReach * stature;

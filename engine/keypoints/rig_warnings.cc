@@ -23,7 +23,8 @@ double GainAt(int i) { return 1 + kGainStep * (i - kGains / 2); }
 /// The costs at all gains.
 using Costs = std::array<double, kGains>;
 
-/// Returns the gain of minimal cost, refined by a parabola through its neighbours; nullopt at an end of the range.
+/// Returns the gain of minimal cost, refined by a parabola through its neighbours; nullopt if the minimum is at an end
+/// of the range.
 std::optional<double> GainOfLeast(const Costs& costs) {
   const auto at = static_cast<int>(std::ranges::min_element(costs) - costs.begin());
   if (at == 0 || at + 1 == kGains) return std::nullopt;
@@ -160,7 +161,8 @@ class RigChecker {
   }
 
   std::optional<std::string> CheckFocalLengths() const {
-    constexpr double kNormal = 1.4826, kMinUsualPx = 0.05;  // standard deviation / median of |x|, normal distribution
+    // Standard deviation / median of |x| for a normal distribution.
+    constexpr double kNormal = 1.4826, kMinUsualPx = 0.05;
     const double miss = MedianMiss(Gains({}, 1), AsDeclared), usual_px = std::max(kMinUsualPx, kNormal * miss);
     // Take the film, or all films, whose best gain has the lowest cost.
     std::optional<FocalGain> best = Estimate({}, usual_px);
@@ -186,7 +188,7 @@ class RigChecker {
                        best->film ? " (or the camera was moved)" : "");
   }
 
-  /// Returns the median shoulder width as a share of the leg's length; 0 if they are not seen.
+  /// Returns the median shoulder width as a share of the leg length; 0 if shoulders or legs are not seen.
   double ShouldersOfLegs(const Read& read) const {
     std::vector<double> shoulders, thighs, shanks;
     for (const std::size_t frame : frames_) {
@@ -219,7 +221,7 @@ class RigChecker {
   std::optional<std::string> CheckReading() const {
     const Intrinsics& in = cameras_.front().intrinsics;
     constexpr double kUsual = 0.42, kClearly = 1.17, kSomewhat = 1.1, kClearlyLess = 0.9;
-    // The factor by which a ratio differs from the usual one.
+    // Compute the factor by which the ratio differs from the usual one.
     const double said = ShouldersOfLegs(AsDeclared);
     const auto strange = [&](double share) { return share > kUsual ? share / kUsual : kUsual / share; };
     if (in.width == in.height || said == 0 || strange(said) < kSomewhat) return std::nullopt;

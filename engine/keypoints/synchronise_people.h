@@ -17,8 +17,8 @@ struct PeopleSyncOptions {
 /// Estimates the delay of each camera's pictures *(ours)*, like the overload for marks: its frame k was taken at frame
 /// time k + offset of the first camera. People need not be identified: at each offset, every person tracked in the
 /// first camera is compared with all people of the other, and the one of the lowest mean squared epipolar distance
-/// (`EpipolarGeometry`) counts. A camera whose offset cannot be determined gets 0; the first camera's is known by
-/// definition.
+/// (`EpipolarGeometry`) counts. A camera whose offset cannot be determined gets 0; the offset of the first camera is 0
+/// by definition.
 /// @param cameras of the rig without distortion; the pixels are undistorted, too
 /// @param people of each camera, each with its own number of frames
 std::vector<ClockOffset> EstimateOffsets(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
@@ -42,15 +42,15 @@ struct FoundClock {
 
 /// Finds clocks that explain the keypoints much better than the given ones *(ours)*. The search covers offsets of up to
 /// `max_frames` from them and drifts of up to three frames over half of the film; it minimises the mean Geman–McClure
-/// loss of epipolar distances at a scale of 1 % of the height, first on a grid, then with ever smaller steps down to a
-/// five-hundredth of a frame. A clock is changed only if that halves the loss, because wrong keypoints alone are not
-/// evidence of a wrong clock.
+/// loss of epipolar distances at a scale of 1 % of the height, first on a grid, then with ever smaller steps down to
+/// 1/500 of a frame. A clock is changed only if that halves the loss, because wrong keypoints alone are not evidence of
+/// a wrong clock.
 std::vector<FoundClock> FindClocks(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                    std::span<const FilmClock> given, int max_frames, const FollowOptions& options);
 
 /// Returns `frames` frames of one camera's people at the first camera's times. Between frames each person's keypoints
-/// follow a cubic (`PixelBetween`), with the lower confidence of the two frames. Nobody is present where the film has
-/// no frames.
+/// follow a cubic (`PixelBetween`), with the lower confidence of the two frames. At times without frames of the film,
+/// nobody is present.
 SeenPeople PeopleInTime(const SeenPeople& people, const FilmClock& clock, std::size_t frames,
                         const FollowOptions& options = {});
 SeenPeople PeopleInTime(const SeenPeople& people, double offset, std::size_t frames, const FollowOptions& options = {});

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// Limb lengths of one person, metres; left and right are equal. The defaults describe an adult.
+/// Limb lengths of one person, metres, equal on both sides. The defaults describe an adult.
 struct LimbLengths {
   double foot = 0.18;   ///< ankle to toe tips
   double shank = 0.42;  ///< knee to ankle
@@ -54,7 +54,7 @@ KinematicTree MakeBodyTree(const LimbLengths& lengths);
 
 /// One limb of the tree, named by two roles of the canonical body.
 struct BodyTreeLimb {
-  Role from;  ///< the joint that the limb turns about
+  Role from;  ///< the joint about which the limb turns
   Role to;    ///< the joint at its far end, or the role of the effector if the limb ends in one
 };
 
@@ -66,10 +66,10 @@ std::span<const BodyTreeLimb, kBodyTreeJointCount> BodyTreeLimbs();
 BodyPose ToBodyPose(const KinematicTree& body, const TreeState& state);
 
 /// Returns a motion of paper B's body as a clip with its own skeleton: metres, Y up, rooted at the hips as other
-/// programs expect. The root's rotation is the pelvis's frame. The tree runs up the left leg from the toe; the skeleton
-/// runs down it. The conversion is exact: ComputeGlobals gives every joint the position that `ToBodyPose` gives. Joint
-/// names are MotionBuilder's, so FindJointMap knows them; "LowerBack" coincides with the hips and carries the navel's
-/// rotation. At rest the skeleton stands with hanging arms, facing +Z.
+/// programs expect. The root's rotation is that of the pelvis. In the tree, the left leg runs from the toe up to the
+/// hip; in the skeleton, from the hip down. The conversion is exact: ComputeGlobals gives every joint the position that
+/// `ToBodyPose` gives. Joint names are MotionBuilder's, so FindJointMap knows them; "LowerBack" coincides with the hips
+/// and carries the navel's rotation. At rest the skeleton stands with hanging arms, facing +Z.
 Clip ToClip(const KinematicTree& body, std::span<const TreeState> states, double rate_hz, const std::string& name);
 
 }  // namespace etude

@@ -18,7 +18,7 @@ namespace etude {
 
 /// The body model of a capture: a kinematic tree, and what an observer sees of its parts.
 struct CaptureBody {
-  /// What pictures show of an end effector: its position, the direction of the limb that leads to its role, or both.
+  /// The observable parts of an end effector: its position, the direction of the limb that leads to its role, or both.
   struct End {
     Role role;
     bool has_position = true;
@@ -45,13 +45,13 @@ struct CaptureBody {
   bool is_paper = false;  ///< true for paper B's body, which has its own rules for lengths and start angles
   KinematicTree tree;     ///< rooted at the left toe, which is put at its observed position
   std::array<TreePoint, kRoleCount> roles;
-  /// True if the hips turn against the pelvis, each by a joint of its own. The hip centre is then the midpoint of both
+  /// True if each hip turns relative to the pelvis by a joint of its own. The hip centre is then the midpoint of both
   /// hips and not a point of a limb.
   bool hips_turn = false;
   std::vector<End> ends;  ///< one per effector of the tree
   std::vector<Twist> twists;
-  LimbLengths lengths;                      ///< paper B's lengths, each the mean of left and right
-  std::array<double, kRoleCount> bones{};   ///< of each role: rest distance from its parent role, metres
+  LimbLengths lengths;                      ///< paper B's lengths; each is the mean of left and right
+  std::array<double, kRoleCount> bones{};   ///< for each role, the distance from its parent role at rest, metres
   std::array<bool, kRoleCount> is_rigid{};  ///< of each role: true if no joint lies between it and its parent role
   std::vector<ClipJoint> skeleton;          ///< parents first; empty for paper B's body, which has its own `ToClip`
   TreePoint skeleton_root;                  ///< the position of the first joint of `skeleton`
@@ -65,10 +65,10 @@ CaptureBody PaperBody(const LimbLengths& lengths);
 /// where the whole body turns freely. *(Ours.)*
 /// - Joints without a role beyond them are left out. A joint between the pelvis and a hip, as skeletons of depth
 ///   sensors have it, stays (`hips_turn`).
-/// - A limb with one child along its own line has two degrees of freedom, which point it in any direction; nobody sees
-///   its rotation about itself. These have three degrees of freedom: the pelvis, limbs with several children, limbs
-///   whose points do not lie on one line, and the upper arms, the right thigh and the left shank, whose rotation turns
-///   the plane in which elbow or knee bends.
+/// - A limb with one child along its own line has two degrees of freedom, which point it in any direction; its rotation
+///   about itself is not visible. Three degrees of freedom have: the pelvis, limbs with several children, limbs whose
+///   points do not lie on one line, and the upper arms, the right thigh and the left shank, whose rotation turns the
+///   plane in which elbow or knee bends.
 /// - Joints turn freely, because the range of this person's joints is unknown. Only angles of joints that coincide with
 ///   no role (toes, the middle of the neck) are limited, to ±90°.
 /// Fails with a reason if a role is not connected to the pelvis or a limb has no length.
@@ -80,8 +80,8 @@ BodyPose ToBodyPose(const CaptureBody& body, const TreeFrames& frames);
 
 /// Makes the inverse-kinematics problem that follows a start pose: move the ends back to their observed positions and
 /// point the last limbs in their observed directions, where `CaptureBody::ends` says that a limb has one. X and Y axes
-/// of a target are those of the start pose, turned by the smallest rotation, with weight 0. Everything that
-/// `observation` lacks has weight 0. The limits are the tree's.
+/// of a target are those of the start pose, turned by the smallest rotation, with weight 0. Parts that `observation`
+/// lacks have weight 0. The limits are those of the tree.
 IkProblem MakeImageProblem(const CaptureBody& body, const LimbObservation& observation, const TreeState& start);
 
 /// Returns a motion of the body as a clip with its own skeleton: metres, Y up, rooted at the hips. The conversion is

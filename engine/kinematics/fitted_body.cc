@@ -17,13 +17,13 @@ constexpr double kMinLimbLengthM = 1e-4;
 constexpr double kMaxOffLineM = 1e-4;
 // A range without effect: angles start within half a turn of zero, so they never reach ±3π.
 constexpr double kUnlimited = 3 * kPi;
-// Limit of a joint that coincides with no role.
+// The limit of a joint that does not coincide with a role.
 constexpr double kMaxHiddenAngle = Radians(90);
 const glm::dvec3 kToTheRight(-1, 0, 0), kDownwards(0, -1, 0), kAhead(0, 0, 1);
 
 bool AreSame(const glm::dvec3& a, const glm::dvec3& b) { return glm::distance(a, b) < kSamePositionM; }
 
-/// One rigid part of the body in the rest pose: everything that moves with one joint.
+/// One rigid part of the body in the rest pose: all points that move with one joint.
 struct Part {
   std::string name;
   int parent = -1;
@@ -98,7 +98,7 @@ class Parts {
     all_[from].is_left_out = true;
   }
 
-  // A role at a joint is the end of the limb above that joint, so it belongs to the part above.
+  // A role at a joint marks the end of the limb above that joint, so it belongs to the part above.
   void AssignToParent(Role role) {
     int& carrier = carrier_[Index(role)];
     while (carrier != pelvis_ && AreSame(all_[carrier].at, positions_[role])) carrier = all_[carrier].parent;
@@ -324,8 +324,8 @@ class Builder {
     add(kLeftAnkle, kLeftHip, kLeftKnee, kLeftAnkle, -1);
   }
 
-  // Adds paper B's four ends. The left foot needs no position, because the root stands where it was seen; only the
-  // direction of its limb counts.
+  // Adds paper B's four ends. The left foot needs no target position, because the root is put at its observed position;
+  // only the direction of its limb is a target.
   void AddEnds() {
     for (const Role role : {kRightFoot, kLeftHand, kRightHand, kHead}) AddEnd(role, true);
     AddEnd(kLeftFoot, false);
@@ -334,10 +334,10 @@ class Builder {
   void AddEnd(Role role, bool has_position) {
     const glm::dvec3 outer = parts_.places()[role], inner = parts_.places()[*ParentOf(role)];
     const int limb = limb_of_[parts_.CarrierOf(role)];
-    // A limb of the left leg runs from the outer joint to the inner one.
+    // A limb of the left leg leads from the outer joint to the inner joint.
     const bool is_climbed = AreSame(OriginOf(limb), outer);
     const TreePoint end = PointAt(is_climbed ? inner : outer, parts_.CarrierOf(role));
-    // A direction counts only if the stroke between both roles is the rigid limb itself.
+    // A direction is a target only if the stroke between the two roles runs along the rigid limb itself.
     const double off_line = glm::length(glm::cross(end.p_LQ, glm::dvec3(0, 0, 1)));
     const bool has_direction =
         AreSame(OriginOf(limb), is_climbed ? outer : inner) && body_.is_rigid[Index(role)] && off_line < kMaxOffLineM;
@@ -381,7 +381,7 @@ class Builder {
   std::vector<int> limb_of_;           // the limb of each part, −1 if none yet
   std::vector<int> order_;             // the part of each limb
   std::vector<glm::dmat3> rest_axes_;  // of each limb: R_WL at rest
-  std::vector<glm::dvec3> origins_;    // the rest position of each limb's joint, the first limb left out
+  std::vector<glm::dvec3> origins_;    // the rest position of each limb's joint, except the first limb's
 };
 
 }  // namespace

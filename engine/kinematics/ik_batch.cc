@@ -82,9 +82,9 @@ IkProblem IkBatch::Get(int problem_index) const {
   return problem;
 }
 
-// Works row by row without branches, so that compilers vectorise it. Every demand is a comparison that NaN fails.
+// Works row by row without branches, so that compilers vectorise it. Every check is a comparison that fails for NaN.
 std::vector<int> IkBatch::FindSound() const {
-  // Checks that set faults[n] for every problem n that fails them.
+  // These checks set faults[n] for every problem n that fails them.
   const std::size_t count = count_;
   std::vector<std::int64_t> faults(count);  // as wide as a double, for vectorisation
   const auto demand = [&](const auto& holds) {

@@ -13,8 +13,8 @@ class IkBatch {
  public:
   /// Makes `count` problems, all zeros.
   IkBatch(const KinematicTree& tree, int count);
-  /// Copies a list of problems. A problem whose lists do not fit the tree stays all zeros, which `FindSound` never
-  /// accepts (zero axes are not unit vectors).
+  /// Copies a list of problems. A problem whose lists do not fit the tree stays all zeros; `FindSound` never accepts
+  /// it, because zero axes are not unit vectors.
   IkBatch(const KinematicTree& tree, std::span<const IkProblem> problems);
 
   int count() const { return count_; }

@@ -40,7 +40,7 @@ inline bool IsGood(const EffectorTarget& target) {
          IsWeight(target.axis_weights.z) & IsSane(target.position) & IsAFrame(target.axes);
 }
 
-// True if the first joint is the only root and does not turn, parents stand before children, degrees of freedom are
+// True if the first joint is the only root and does not turn, parents come before children, degrees of freedom are
 // numbered consecutively, and all indices are valid.
 bool IsATree(const KinematicTree& tree) {
   const int joints = static_cast<int>(tree.joints.size());
@@ -57,7 +57,7 @@ bool IsATree(const KinematicTree& tree) {
   return std::ranges::all_of(tree.effectors, [&](const Effector& e) { return e.joint >= 0 && e.joint < joints; });
 }
 
-// A point that a target fixes in the world, and the chain of joints from there to the root.
+// A point whose world position is fixed by a target, and the chain of joints from it to the root.
 struct FixedPoint {
   glm::dvec3 position;
   std::vector<int> joints;  // from the point to the root
@@ -177,7 +177,7 @@ std::string_view FindTreeFault(const KinematicTree& tree) {
   if (!IsATree(tree)) return "the joints are no tree with its root first";
   for (const TreeJoint& joint : tree.joints) {
     if (joint.parent < 0) continue;
-    // A joint may coincide with the root: this lets the whole tree turn.
+    // A joint may coincide with the root, which lets the whole tree turn.
     if (!IsSane(joint.p_PJ) || (joint.parent > 0 && glm::length(joint.p_PJ) <= 0)) return "a limb has no length";
   }
   for (const Effector& effector : tree.effectors) {
@@ -226,7 +226,7 @@ bool IsOutOfReach(const KinematicTree& tree, const IkProblem& problem) {
   std::vector<FixedPoint> points;
   for (std::size_t e = 0; e < tree.effectors.size(); ++e) {
     if (problem.targets[e].position_weight <= 0) continue;
-    // Compare the distance to the root, then to every earlier target, with the stretched limbs in between.
+    // Compare the distance to the root, then to every earlier target, with the total length of the limbs in between.
     const FixedPoint point = FixedBy(tree, tree.effectors[e], problem.targets[e]);
     const double from_root = glm::distance(point.position, problem.start.root_position);
     if (from_root > BranchOf(tree, point, {}).length + kRounding) return true;

@@ -14,9 +14,9 @@
 
 namespace etude {
 
-/// How an end effector's position error is weighed against the errors of its three axes. Paper B, section 3.7.3, asks
-/// for weights that follow the errors but gives no formula; the formulas are ours. e = distance to the target in cm,
-/// θ_k = angle of axis k to its target axis.
+/// How an end effector's position error is weighted relative to the errors of its three axes. Paper B, section 3.7.3,
+/// proposes weights that depend on the errors but gives no formula; the formulas are ours. e = distance to the target
+/// in cm, θ_k = angle of axis k to its target axis.
 enum class WeightRule {
   kFixed,          ///< w_p = 1, w_o = 1
   kFixedTuned,     ///< w_p = 0.0015, w_o = 1
@@ -54,7 +54,8 @@ struct WeightFormula {
 /// Returns the rule in SI units; for `kWangChen` without the factor 1 + ρ.
 WeightFormula FormulaOf(WeightRule rule);
 
-/// Returns true if the weights depend on the errors. Those of `kWangChen` do not; they depend on the joint that turns.
+/// Returns true if the weights depend on the errors. The weights of `kWangChen` do not; they depend on the joint that
+/// turns.
 bool IsAdaptive(WeightRule rule);
 
 /// Returns the weights of an effector that is `distance` metres from its target and whose axes are off by `axis_angles`
@@ -81,7 +82,7 @@ struct IkProblem {
   std::vector<AngleRange> limits;       ///< one per degree of freedom, e.g. the tree's own
 };
 
-/// The settings of single solvers. A solver reads its own only; its header has their meanings and defaults.
+/// The settings of single solvers. A solver reads only its own settings; its header explains them and their defaults.
 struct SolverSettings {
   std::optional<int> first_sweeps = {};      ///< gauss-newton
   std::optional<int> memory = {};            ///< ccd-anderson
@@ -104,8 +105,8 @@ struct IkOptions {
   std::optional<double> angle_change_tolerance;
   int max_iterations = 200;
   /// A pose has converged if every effector is nearer to its target than `position_goal` and every single axis of it
-  /// nearer than `axis_goal`; axes and positions of weight 0 do not count. A mean over the axes would accept a twisted
-  /// limb, because a twist leaves the limb's own axis in place. The defaults, 0.1 cm and 0.1°, mean "solved
+  /// nearer than `axis_goal`; axes and positions of weight 0 do not count. (A mean over the axes would accept a twisted
+  /// limb, because a twist does not change the limb's own axis.) The defaults, 0.1 cm and 0.1°, mean "solved
   /// practically".
   double position_goal = 0.001;     ///< metres
   double axis_goal = Radians(0.1);  ///< radians
@@ -123,7 +124,7 @@ struct IkOptions {
 enum class IkStatus {
   kConverged,
   kStalled,      ///< the angles no longer move, and a goal is not reached
-  kUnreachable,  ///< not converged, and no pose can be (`IsOutOfReach`); the angles are the best that were found
+  kUnreachable,  ///< not converged, and no pose can converge (`IsOutOfReach`); the angles are the best that were found
   kIterationLimit,
   kBadInput,  ///< the input has a fault (`FindFault`); nothing was computed, all angles are 0
 };
@@ -155,8 +156,8 @@ struct IkSolution {
   std::vector<IkTraceEntry> trace;
 };
 
-/// Upper bound on the magnitude of every number of a problem (in metres: 1,000 km). Beyond it, squares of distances
-/// lose the digits that the goals are measured in.
+/// Upper bound on the magnitude of every number of a problem (in metres: 1,000 km). Beyond it, squared distances lose
+/// the digits that the goals depend on.
 inline constexpr double kMaxIkValue = 1e6;
 /// Tolerances on the squared length of an axis and on the determinant of a frame, which should both be 1.
 inline constexpr double kUnitTolerance = 2e-6, kFrameTolerance = 1e-5;

@@ -25,14 +25,14 @@ const std::vector<std::string>& LimitSetNames();
 std::optional<LimitSet> FindLimitSet(std::string_view name);
 
 /// Returns the range of every degree of freedom of the body's tree, radians, for `IkProblem::limits`. Table 3.1 names
-/// movements of a body in the anatomical position: standing, palms forward. *Ours* is the mapping from movements to the
-/// axes of the tree; the left side mirrors the right one:
+/// movements of a body in the anatomical position: standing, palms forward. The mapping from movements to the axes of
+/// the tree is *ours*; the left side mirrors the right side:
 /// - X is flexion and extension (hips, knees, ankles, trunk, neck, shoulders, elbows, wrists); Y is abduction, the
 ///   wrist's radial abduction, and lateral bending of trunk and neck; Z is rotation about the limb. The foot's
 ///   inversion turns its toes inward, which is Y; the ankle at the root has no such axis.
 /// - The tree runs up the left leg, so the left hip's angles turn the pelvis about the thigh: X is abduction
 ///   (negative), Y outer (negative) and inner rotation, Z flexion (negative). Each angle alone has the same range of
-///   movement as on the right side; combined angles compose in a different order than at the right hip.
+///   movement as on the right side; but combined angles are composed in another order than at the right hip.
 /// - |Y| is limited to 80°, below the singularity of the three Euler angles at 90°. This shortens the shoulder's
 ///   abduction.
 /// - The table has no shoulder adduction, so it is taken from `adult`. The tree has no axis for pronation and

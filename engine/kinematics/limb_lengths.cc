@@ -129,7 +129,7 @@ class Completer {
 
   bool Lacks(Role end) const { return whole_.lacks_end[Index(end)]; }
 
-  /// Returns the vector from the root of a chain to its end.
+  /// Returns the vector from the root of a chain to its end, from its lengths and directions.
   glm::dvec3 Reach(const Chain& chain, const LimbPair& pair) const {
     return pair.upper * Direction(chain.middle) + pair.lower * Direction(chain.wrist) +
            pair.last * Direction(chain.end);
@@ -190,7 +190,7 @@ std::optional<BodyPose> FixLimbLengths(const LimbObservation& observation, const
   Shift(kRightLeg, lengths.hip_width * glm::normalize(hip_vector) - hip_vector, joints);
   joints[kHipCentre] = 0.5 * (joints[kLeftHip] + joints[kRightHip]);
 
-  // Figure 3.2(b) and (c): joining and centring the arms both move along the shoulder line, so they are one step. The
+  // Figure 3.2(b) and (c): joining and centring both move the arms along the shoulder line, so they are one step. The
   // midpoint of the shoulders is moved to the known trunk length.
   const glm::dvec3 shoulder_vector = joints[kRightShoulder] - joints[kLeftShoulder];
   if (glm::length(shoulder_vector) < kMinGapM) return std::nullopt;

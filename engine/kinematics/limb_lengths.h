@@ -38,25 +38,25 @@ constexpr double kSpineShare = 0.45;
 /// (c) P₁ is the midpoint of the hips, P₂ the foot of the perpendicular from P₁ on the line through both shoulders.
 ///     Both arms move along that line until P₂ is their midpoint. *Ours*: P₂ and the arms then move along P₁P₂ until
 ///     the trunk has its known length. The head follows from P₂.
-/// Afterwards all lengths are right and the left foot is at its observed position. The other ends have moved; inverse
-/// kinematics moves them back. Returns nothing if the input is not finite, a direction or a length is not positive, or
-/// both hips, both shoulders, or P₁ and P₂ coincide.
+/// Afterwards all lengths are right, and the left foot is at its observed position. The other ends have moved, and
+/// inverse kinematics must move them back. Returns nothing if the input is not finite, a direction or a length is not
+/// positive, or both hips, both shoulders, or P₁ and P₂ coincide.
 std::optional<BodyPose> FixLimbLengths(const LimbObservation& observation, const LimbLengths& lengths);
 
 /// Returns the limb lengths that paper B's body needs to follow a motion: means over both sides and all frames. The
-/// trunk ends midway between the shoulders, where the neck begins, as in the model (a real neck begins a little
+/// trunk ends midway between the shoulders, where the neck begins, as in paper B's model (a real neck begins a little
 /// higher). `poses` must not be empty.
 LimbLengths MeasureLimbLengths(std::span<const BodyPose> poses);
 
 /// Completes an observation so that `FixLimbLengths` can use it. Observed values stay as they are, and `lacks_end` and
 /// `lacks_direction` still mark the completed ones. *(Ours; in paper B every limb is marked in every picture.)*
-/// - A missing limb direction is that in `like`, rotated along with the nearest observed limb towards the trunk: by the
-///   smallest rotation that takes that limb from `like` to the observation. If there is no such limb, the direction in
-///   `like` is used unchanged.
-/// - A missing end follows from the rest of the body: hips and shoulders are oriented as in `like`, and the limbs
-///   extend from there with their lengths and directions. If no foot was seen, the hips are placed below the shoulders
-///   by the trunk of `like`; if no hand was seen, the shoulders are placed above the hips in the same way; if no end
-///   was seen at all, the hips are where `like` has them.
+/// - A missing limb direction is taken from `like` and rotated with the nearest observed limb towards the trunk, that
+///   is, by the smallest rotation that takes that limb from `like` to the observation. If there is no such limb, the
+///   direction in `like` is used unchanged.
+/// - A missing end follows from the rest of the body: hips and shoulders have their orientation in `like`, and the
+///   limbs extend from there with their lengths and directions. If no foot was seen, the hips are placed below the
+///   shoulders by the trunk of `like`; if no hand was seen, the shoulders are placed above the hips in the same way; if
+///   no end was seen at all, the hips are where `like` has them.
 /// A complete observation is returned unchanged.
 /// @param like a pose near the observed one: the last one recovered, or a standing body
 /// @param is_placed true if `like` stands at the right position in the world

@@ -10,12 +10,12 @@ struct SineCosine {
 };
 
 /// Returns sine and cosine of an angle in radians, for |angle| ≤ 10⁶. The error is at most 1.5 units in the last place
-/// up to 100 rad and 2.5 beyond. The code has no branches, so compilers compute several angles at once, and gives the
-/// same bits with every C library.
+/// up to 100 rad and 2.5 beyond. The code has no branches, so compilers can compute several angles at once. It gives
+/// the same bits with every C library.
 ///
 /// The angle is reduced to r in [−π/4, π/4] by subtracting the nearest multiple of π/2, with π/2 split into three parts
-/// (Cody and Waite); the first part is short enough for its multiple to be exact. There the Taylor series up to r¹⁷ and
-/// r¹⁶ are accurate to 10⁻¹⁷.
+/// (Cody and Waite); the first part is short enough for its multiple to be exact. In that interval, the Taylor series
+/// up to r¹⁷ (sine) and r¹⁶ (cosine) are accurate to 10⁻¹⁷.
 inline SineCosine ComputeSineCosine(double angle) {
   constexpr double kTwoOverPi = 0.6366197723675814;
   constexpr double kFirst = 0x1.921fb544p+0, kSecond = 0x1.0b4611a6p-34, kThird = 0x1.3198a2e037073p-69;
@@ -31,7 +31,8 @@ inline SineCosine ComputeSineCosine(double angle) {
   const double sine = r + r * z * sine_tail;
   const double half = 0.5 * z, rounded = 1 - half;
   const double cosine = rounded + (((1 - rounded) - half) + z2 * cosine_tail);
-  // The last bits of `shifted` count quarter turns: an odd count swaps sine and cosine, every second one flips a sign.
+  // The last bits of `shifted` count quarter turns: an odd count swaps sine and cosine, and the second bit decides the
+  // signs.
   const auto quarter = std::bit_cast<std::uint64_t>(shifted);
   const auto s = std::bit_cast<std::uint64_t>(sine), c = std::bit_cast<std::uint64_t>(cosine);
   const std::uint64_t swap = (s ^ c) & (0 - (quarter & 1));

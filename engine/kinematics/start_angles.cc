@@ -14,9 +14,9 @@ namespace {
 
 using enum Role;
 
-constexpr double kStraight = Radians(3);  // two limbs within this angle of one line define no normal
+constexpr double kStraight = Radians(3);  // if two limbs are this close to one line, they define no normal
 constexpr double kMinLengthM = 1e-6;
-const glm::dvec3 kAlong(0, 0, 1);  // the direction of every limb in its own frame
+const glm::dvec3 kAlong(0, 0, 1);  // every limb points along this direction in its own frame
 
 // A limb whose rotation about itself follows from the hinge at its end.
 struct TwistHinge {
@@ -44,16 +44,16 @@ std::optional<Directions> FindDirections(const BodyPose& joints) {
 // Returns R_WL of the left foot. Its X axis is that of the hinges at ankle and knee.
 std::optional<glm::dmat3> FindRootFrame(const Directions& directions) {
   // Both hinges turn about +X by positive angles from foot to thigh. Each cross product is proportional to the sine of
-  // its angle, which weighs the normals by their accuracy.
+  // its angle, which weights the normals by their accuracy.
   glm::dvec3 normal = glm::cross(directions[kTreeLeftAnkle], directions[kTreeLeftToe] + directions[kTreeLeftKnee]);
   if (glm::length(normal) < std::sin(kStraight)) {
-    // Toe, ankle, knee and hip lie on one line (a leap, a stand on the toes): use the hip line instead.
+    // If toe, ankle, knee and hip lie on one line (in a leap, or on the toes), use the hip line instead.
     const glm::dvec3& along = directions[kTreeLeftKnee];
     normal = directions[kTreeLeftHip] - glm::dot(directions[kTreeLeftHip], along) * along;
   }
   if (glm::length(normal) < std::sin(kStraight)) return std::nullopt;
   const glm::dvec3 x = glm::normalize(normal);
-  // A foot along X is impossible: it would be normal to the shank and to the plane of the leg.
+  // The foot cannot point along X, because it would be normal to the shank and to the plane of the leg.
   if (std::abs(glm::dot(directions[kTreeLeftToe], x)) > std::cos(kStraight)) return std::nullopt;
   const glm::dvec3 z = UnitNormalPart(directions[kTreeLeftToe], x);
   return glm::dmat3(x, glm::cross(z, x), z);

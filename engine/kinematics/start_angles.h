@@ -11,8 +11,9 @@ namespace etude {
 
 /// Returns the pose of paper B's body (`MakeBodyTree`) whose limbs point as in `joints` (section 3.3); the root stands
 /// at the left foot. From the root outwards, every joint takes the angles that point its limb in the desired direction,
-/// given the actual pose of the joints before it; if an angle is clipped at its limit, the next joint compensates as
-/// far as it can. Two positions do not define the rotation of a limb about itself. These rules define it *(ours)*:
+/// given the actual pose of the joints before it. If an angle is clipped at its limit, the next joint therefore
+/// compensates as far as possible. Two positions do not define the rotation of a limb about itself. These rules define
+/// it *(ours)*:
 /// - upper arms and the right thigh: the X axis of elbow and knee is normal to both limbs, unless these are nearly
 ///   parallel (3°). In that case, and for the neck, the smallest rotation from the parent's rest frame is used;
 /// - the left leg, whose three limbs are joined by hinges with a common X axis: this axis is the mean of the normals at
@@ -20,7 +21,7 @@ namespace etude {
 ///   leg with the foot is straight, the axis is the component of the hip line that is normal to the leg;
 /// - the pelvis: its Y axis is as near as possible to the trunk, so that a sitting body bends at the hips and not at
 ///   the navel. The trunk: its X axis points along the shoulders.
-/// A pose of the tree is reproduced exactly (positions of all joints) if `limits` allow it.
+/// If `joints` are a pose of the tree, the positions of all joints are reproduced exactly, if `limits` allow it.
 /// Returns nothing if a position is not finite, two neighbouring joints coincide, or the left leg and the hips lie on
 /// one line.
 std::optional<TreeState> FindStartState(const KinematicTree& body, const BodyPose& joints,

@@ -63,7 +63,7 @@ struct TreeState {
 /// Returns the pose with all angles zero and the root at the origin.
 TreeState StandingState(const KinematicTree& tree);
 
-/// The pose X_WF in the world of a frame F: of a limb or of an effector.
+/// The pose X_WF of a limb's or an effector's frame F in the world.
 struct LimbFrame {
   glm::dvec3 position{0};  ///< p_WF
   glm::dmat3 axes{1};      ///< R_WF

@@ -11,9 +11,9 @@
 
 namespace etude {
 
-/// The twenty joints of the canonical body, which are those of Kinect v1; both papers and every file format are mapped
-/// to them. Parents come before children. "Left" is the person's own left: if the person faces +Z and Y is up, left is
-/// +X.
+/// The twenty joints of the canonical body, which are those of Kinect v1; the data of both papers and of all file
+/// formats are mapped to them. Parents come before children. "Left" is the person's own left: if the person faces +Z
+/// and Y is up, left is +X.
 enum class Role {
   kHipCentre,  ///< midway between the hips (paper B's navel)
   kSpine,
@@ -65,7 +65,7 @@ struct BodyPose {
 /// The frame rate at which all motions are evaluated (docs/reference/metrics.md).
 constexpr double kJudgedRateHz = 30.0;
 
-/// A sequence of frames at a constant rate: the data that sensors see, pipelines produce and metrics evaluate.
+/// A sequence of frames at a constant rate. Sensors see it, pipelines produce it, and metrics evaluate it.
 struct BodyMotion {
   double rate_hz = kJudgedRateHz;
   std::vector<BodyPose> poses;
@@ -85,8 +85,8 @@ std::span<const Bone, 8> ArmAndLegBones();
 
 double BoneLength(const BodyPose& pose, const Bone& bone);
 
-/// A rigid motion on the floor: a rotation about the vertical axis, then a translation. It changes where a clip is
-/// danced, not the dance.
+/// A rigid motion on the floor: a rotation about the vertical axis, then a translation. It changes where and in which
+/// direction a clip is danced, but not the dance.
 struct FloorMove {
   double yaw = 0;  ///< radians about +Y
   double x = 0;    ///< metres
@@ -108,8 +108,8 @@ FloorMove ToOrigin(const BodyPose& pose);
 /// other. Heights and limbs do not change.
 FloorMove AlignOnFloor(const BodyPose& pose, const BodyPose& onto);
 
-/// Returns the distance of two poses apart from heading and position on the floor: the largest distance of a joint
-/// after `AlignOnFloor`, metres.
+/// Returns the distance of two poses, ignoring heading and position on the floor: the largest distance of a joint after
+/// `AlignOnFloor`, metres.
 double PoseGap(const BodyPose& a, const BodyPose& b);
 
 }  // namespace etude

@@ -9,8 +9,8 @@ struct Move {
   glm::dvec3 shift{0};
 };
 
-/// Returns the cofactor matrix, which is the inverse transpose up to a positive factor and exists for flattened joints,
-/// too.
+/// Returns the cofactor matrix, which is the inverse transpose up to a positive factor, and also exists for flattened
+/// joints.
 glm::dmat3 NormalAxes(const glm::dmat3& axes) {
   const glm::dmat3 cofactors(glm::cross(axes[1], axes[2]), glm::cross(axes[2], axes[0]), glm::cross(axes[0], axes[1]));
   const bool is_mirrored = glm::dot(axes[0], cofactors[0]) < 0;

@@ -63,10 +63,10 @@ void ComputeGlobals(const Skeleton& skeleton, const LocalPose& pose, std::vector
 /// linearly.
 LocalTransform Between(const LocalTransform& from, const LocalTransform& to, double part);
 
-/// Returns the pose of a clip at a frame counted from 0, also between frames, clamped to the clip. Every joint's
-/// rotation is interpolated along the shorter great arc (slerp), translations and scales linearly. Because joints
-/// rotate, limbs keep their lengths; interpolated positions would shorten them. A whole number returns the frame
-/// unchanged. The clip must have at least one frame.
+/// Returns the pose of a clip at a frame number from 0, which may be fractional and is clamped to the clip. Every
+/// joint's rotation is interpolated along the shorter great arc (slerp), translations and scales linearly.
+/// Interpolating rotations keeps the lengths of limbs; interpolating positions would shorten them. A whole number
+/// returns the frame unchanged. The clip must have at least one frame.
 LocalPose SampleFrame(const Clip& clip, double frame);
 
 /// Returns a skeleton of the twenty roles by name, in metres, Y up, rooted at the hip centre. Its rest pose is `rest`,

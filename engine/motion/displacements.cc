@@ -80,14 +80,14 @@ std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
     }
     is_still[f] = fastest < kStill;
   }
-  // A pose that is held is no fault if the body comes to rest and leaves it gently.
+  // A held pose is not a fault if the body comes to rest gently before it and moves gently after it.
   std::vector<FrameRange> frozen;
   for (const FrameRange& range : RangesOf(is_still)) {
     if ((range.last - range.first + 1) / motion.rate_hz < kMinSeconds) continue;
     std::vector<double> elsewhere(mean.begin(), mean.begin() + range.first);
     elsewhere.insert(elsewhere.end(), mean.begin() + range.last + 1, mean.end());
     if (elsewhere.empty()) continue;
-    // A body that is never that still elsewhere is judged more strictly.
+    // If the body is never so still elsewhere, judge more strictly.
     constexpr std::size_t kMinElsewhere = 20;
     const bool is_never_as_still = elsewhere.size() > kMinElsewhere && Quantile(elsewhere, 0.02) > kNeverAsStill;
     const double limit = is_never_as_still ? kNeverAsStill : kAbrupt;
@@ -102,15 +102,15 @@ std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
   return frozen;
 }
 
-/// Returns true if the body freezes or goes on within three frames of the span.
+/// Returns true if a freeze begins or ends within three frames of the span.
 bool IsAtFrozenEnd(const FrameRange& span, const std::vector<FrameRange>& frozen) {
   constexpr int kNear = 3;
   const auto is_near = [&](int frame) { return span.first - kNear <= frame && frame <= span.last + kNear; };
   return std::ranges::any_of(frozen, [&](const FrameRange& f) { return is_near(f.first) || is_near(f.last); });
 }
 
-/// Measures the displacement between the first and the last of these steps, beside the mean of the steps around them:
-/// of the whole body, or of `joint`.
+/// Measures the displacement over these steps, in addition to the mean of the steps around them, for the whole body or
+/// for `joint`.
 Displacement Measure(const BodyMotion& motion, const FrameRange& steps, std::optional<Role> joint = std::nullopt) {
   const PoseSteps before = StepsFrom(motion, steps.first - 1), after = StepsFrom(motion, steps.last + 1);
   Displacement found{.before = steps.first, .after = steps.last + 1};
@@ -124,7 +124,8 @@ Displacement Measure(const BodyMotion& motion, const FrameRange& steps, std::opt
   return found;
 }
 
-/// The steps beside a displacement differ by half of it: returns the main ones. `size_of` returns a step's difference.
+/// A displacement also changes the third differences of the neighbouring steps, by half of its size; returns only the
+/// main steps. `size_of` returns a step's difference.
 template <typename SizeOf>
 FrameRange MainSteps(FrameRange steps, double largest, SizeOf size_of) {
   constexpr double kMainShare = 0.6;
@@ -189,7 +190,7 @@ std::vector<Pop> FindPops(const BodyMotion& motion, const std::vector<glm::dvec3
       largest[Index(h.joint)] = std::max(largest[Index(h.joint)], h.size);
     }
     const auto at = static_cast<std::size_t>(std::ranges::max_element(largest) - largest.begin());
-    // What a joint carries along pops with it: name the innermost joint.
+    // A joint that pops takes the joints beyond it along, so name the innermost joint.
     Role joint = AllRoles()[at];
     for (auto parent = ParentOf(joint); parent && largest[Index(*parent)] > kAsLarge * largest[at];
          parent = ParentOf(joint)) {

@@ -31,11 +31,11 @@ struct Pop {
   double size = 0;  ///< metres
 };
 
-/// The displacements in a motion: what its frames show beside the movement of a body.
+/// The displacements in a motion: changes between frames that are not movements of a body.
 struct Displacements {
-  std::vector<FrameRange> frozen;    ///< frames that repeat their predecessor, with that one, for 0.9 s or more
-  std::vector<Displacement> common;  ///< not those with which a frozen body catches up
-  std::vector<Pop> pops;             ///< likewise
+  std::vector<FrameRange> frozen;    ///< frames that repeat the pose of the first one, for 0.9 s or more
+  std::vector<Displacement> common;  ///< without those in which a frozen body catches up
+  std::vector<Pop> pops;             ///< also without those
 };
 
 /// Finds displacements by third differences, as FindMotionFaults states. The motion must have at least eight frames.

@@ -37,7 +37,8 @@ bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 /// Returns the index after the namespace: "mixamorig:LeftArm".
 std::size_t StartOfName(std::string_view name) { return name.find_last_of(':') + 1; }
 
-/// Returns the index after the word that begins at `at`: "Left|Arm", "l|Shldr", "L|Thigh", "upper|_arm".
+/// Returns the index after the word that begins at `at` (marked by | in "Left|Arm", "l|Shldr", "L|Thigh",
+/// "upper|_arm").
 std::size_t EndOfWord(std::string_view name, std::size_t at) {
   std::size_t end = at + 1;
   for (; end < name.size() && IsLetter(name[end]); ++end) {
@@ -119,7 +120,7 @@ std::optional<glm::dquat> NearestRotation(glm::dmat3 axes) {
   constexpr double kFlat = 1e-9;
   if (!(glm::determinant(axes) > kFlat * size * size * size)) return std::nullopt;
   axes /= std::cbrt(glm::determinant(axes));
-  // Convergence is quadratic near the solution; from the flattest allowed matrix it takes about forty halvings before.
+  // Convergence is quadratic near the solution; for the flattest allowed matrix, about forty halvings come before.
   constexpr int kMaxSteps = 60;
   constexpr double kSame = 1e-15;
   for (int step = 0; step < kMaxSteps; ++step) {
@@ -173,7 +174,7 @@ Clip Resample(const Clip& clip, double rate_hz) {
   if (rate_hz == clip.rate_hz) return clip;
   Clip resampled{.name = clip.name, .skeleton = clip.skeleton, .rate_hz = rate_hz, .frames = {}};
   const double frames_per_sample = clip.rate_hz / rate_hz;
-  constexpr double kRounding = 1e-6;  // of a sample: keeps the last one when the rates divide evenly
+  constexpr double kRounding = 1e-6;  // of a sample; keeps the last sample if one rate is a multiple of the other
   const auto count = static_cast<std::size_t>(clip.DurationSeconds() * rate_hz + kRounding) + 1;
   resampled.frames.reserve(count);
   for (std::size_t k = 0; k < count; ++k) {
@@ -227,7 +228,7 @@ Clip WithoutScales(Clip clip) {
 Clip WithWorldAxesAtRest(Clip clip) {
   std::vector<Joint>& joints = clip.skeleton.joints;
   if (std::ranges::all_of(joints, [](const Joint& joint) { return joint.rest.rotation == kNoTurn; })) return clip;
-  // With a joint's axes R₀ at rest in the world, the new frame is the old one rotated by R₀⁻¹.
+  // If R₀ are a joint's axes at rest in the world, the new frame is the old one rotated by R₀⁻¹.
   std::vector<glm::dquat> at_rest(joints.size());
   const auto above = [&](std::size_t joint) {
     return joints[joint].parent < 0 ? kNoTurn : at_rest[joints[joint].parent];
@@ -279,7 +280,8 @@ Clip WithRootAt(const Clip& clip, int joint) {
   }
   Clip rooted{.name = clip.name, .skeleton = {}, .rate_hz = clip.rate_hz, .frames = {}};
   std::vector<GlobalTransform> globals;
-  // Converts a pose: a joint with its old parent keeps its transform, any other gets it from the world.
+  // Converts a pose: a joint that keeps its parent keeps its transform; for other joints it is computed from their
+  // poses in the world.
   const auto in_order = [&](const LocalPose& pose) {
     ComputeGlobals(clip.skeleton, pose, globals);
     LocalPose moved;

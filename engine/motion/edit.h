@@ -48,8 +48,8 @@ Clip WithRootAt(const Clip& clip, int joint);
 std::string OtherSide(std::string_view name);
 
 /// Renames every joint to its OtherSide. A side without a word boundary ("lfemur", "leftarm", "L5") counts only if the
-/// skeleton has a joint of the other name, too; otherwise it is the beginning of a word, or a vertebra. Applying it
-/// twice returns the skeleton itself.
+/// skeleton also has a joint with the other side's name; otherwise it is the beginning of a word, or a vertebra.
+/// Applying the function twice returns the skeleton itself.
 Skeleton WithSidesSwapped(Skeleton skeleton);
 
 }  // namespace etude

@@ -10,7 +10,7 @@ namespace {
 
 using enum Role;
 
-/// Returns the middle of the 2 cm in which most of the values lie (their median), the height at which feet rest most.
+/// Returns the median of the values in the 2 cm that contain most values: the height at which feet rest most.
 double Mode(std::vector<double> values) {
   constexpr double kWidth = 0.02;
   std::ranges::sort(values);
@@ -25,8 +25,8 @@ double Mode(std::vector<double> values) {
   return Median({begin, begin + static_cast<std::ptrdiff_t>(count)});
 }
 
-/// Returns true if trunk and legs are upright. A person who sits or lies has seats, cushions or the body's own
-/// thickness below the joints.
+/// Returns true if trunk and legs are upright. (Below the joints of a person who sits or lies are seats, cushions or
+/// the thickness of the body.)
 bool IsUprightPose(const BodyPose& pose) {
   constexpr double kSteep = 0.7;
   const glm::dvec3 trunk = pose[kShoulderCentre] - pose[kHipCentre];
@@ -51,7 +51,7 @@ double LowestHeight(const BodyPose& pose) {
 
 GroundView::GroundView(const BodyMotion& motion, const Displacements& displacements, std::optional<double> floor)
     : motion_(motion), displacements_(displacements), offsets_(motion.poses.size()) {
-  // Sum the displacements. Frames within one are shown where they are: they are few.
+  // Sum the displacements. The few frames within a displacement stay where they are.
   for (const Displacement& d : displacements.common) {
     for (int f = d.before + 1; f < d.after; ++f) offsets_[f] += d.largest;
     for (int f = d.after; f < frames(); ++f) offsets_[f] += d.lasting;

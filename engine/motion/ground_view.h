@@ -38,9 +38,9 @@ class GroundView {
   }
   /// Returns the lower of the rest heights of toes and ankles.
   double LowestRest() const { return toe_rest_ < ankle_rest_ ? toe_rest_ : ankle_rest_; }
-  /// Returns the height of the lowest joint of the feet over the height at which it rests.
+  /// Returns the height of the feet: the smallest height of a joint of the feet above its rest height.
   double FootHeight(int frame) const;
-  /// Returns the height of the lowest joint but finger tips, as shown.
+  /// Returns the height of the lowest joint, finger tips ignored, with displacements.
   double Lowest(int frame) const { return lowest_[frame]; }
   const std::vector<double>& lowest() const { return lowest_; }
   /// Returns true if only feet and hands are near the floor: other joints are 20 cm above the height where feet rest.

@@ -20,13 +20,13 @@ struct FootSlide {
 
 /// Measures foot sliding. A foot is in stance if FindBearing by kFootRules finds its toes or its ankle at rest. If no
 /// joint of the body is at rest in a frame, the lowest joints of the feet count as in stance, unless they are more than
-/// SupportRules::height above the floor: so glides and treadmills count as sliding, and jumps do not. The floor is the
-/// lower quartile of the height of the body's lowest joint, which neither a single low frame nor a jump changes. A
+/// SupportRules::height above the floor. So glides and treadmills count as sliding, and jumps do not. The floor is the
+/// lower quartile of the height of the body's lowest joint, because neither a single low frame nor a jump changes it. A
 /// foot's speed is that of its slower joint in stance, so a rolling foot is not counted as sliding. Velocities are
 /// those of JointVelocities.
 FootSlide MeasureFootSlide(const BodyMotion& motion);
 
-/// Overall measures of a motion, in metres and seconds.
+/// Summary measures of a motion, in metres and seconds.
 struct MotionStatistics {
   double stature_m = 0;         ///< median over the frames (Stature)
   double travelled_m = 0;       ///< distance covered by the hip centre along the floor

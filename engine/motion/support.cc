@@ -24,8 +24,9 @@ namespace {
 
 double FloorSpeed(const glm::dvec3& velocity) { return std::hypot(velocity.x, velocity.z); }
 
-/// Returns in which frames of a clip the mass centre falls by SupportRules::min_fall or more, from its second
-/// difference over a tenth of a second in each direction; near the clip's ends, the nearest frame with both is used.
+/// For each frame, returns true if the mass centre falls with SupportRules::min_fall or more. The acceleration is the
+/// second difference over a tenth of a second in each direction; near the clip's ends, that of the nearest frame for
+/// which it exists.
 std::vector<bool> FallingFrames(std::span<const BodyPose> poses, double rate_hz, const SupportRules& rules) {
   constexpr double kReach_s = 0.1;
   const int reach = std::max(static_cast<int>(std::lround(kReach_s * rate_hz)), 1);
@@ -156,9 +157,10 @@ class SupportFinder::ClipSupport {
     const double height = pose.joints[j].y;
     const std::vector<double> heights = HeightsOfRest(frame, j);
     for (std::size_t i = 0; i < heights.size(); ++i) {
-      // A joint that has sunk into the floor is supported, too.
+      // A joint that has sunk into the floor is also supported.
       if (i == 0 && height >= heights[i] - rules_.level && height <= heights[i] + rules_.height) return true;
-      // A height is no surface if a joint of this clip also rests a little below it, as toes do below a bearing heel.
+      // A height is not a surface if a joint of this clip also rests a little below it, as toes rest below a bearing
+      // heel.
       const bool surface = i > 0 && heights[i] - heights[i - 1] > rules_.level;
       if (surface && std::abs(height - heights[i]) <= rules_.height) return true;
     }
@@ -199,7 +201,7 @@ std::vector<Support> SupportFinder::Find(std::span<const BodyPose> shown, int fi
   assert(0 <= first && last < static_cast<int>(shown.size()));
   const std::vector<BodyPose> velocities = JointVelocities(shown, rate_hz_);
   std::vector<Support> support;
-  // A flight at the end is followed to its landing.
+  // Follow a flight at the end until it lands.
   const auto goes_on = [&](int frame) {
     return frame <= last || (!support.back().Holds() && frame < static_cast<int>(shown.size()));
   };
@@ -223,7 +225,7 @@ glm::dvec3 MassCentre(const BodyPose& pose) {
   using enum Role;
   struct Segment {
     Role from, to;
-    double mass, centre;  // shares of the body's mass, and of the way from `from` to `to`
+    double mass, centre;  // share of the body's mass; position on the way from `from` to `to`
   };
   static constexpr std::array kMiddle = {Segment{kShoulderCentre, kHead, 0.081, 1.0},
                                          Segment{kShoulderCentre, kHipCentre, 0.497, 0.5}};
@@ -251,8 +253,8 @@ std::optional<double> BalanceOffset(const BodyPose& pose, const JointSet& joints
     if (joints[j]) points.push_back(glm::dvec2(pose.joints[j].x, pose.joints[j].z) - centre);
   }
   if (points.empty()) return std::nullopt;
-  // If the hull does not contain the origin, the nearest point is on a line between two of the points, and from some
-  // vertex all points lie on the left as seen from the origin.
+  // The hull contains the origin unless, for some vertex, all points lie to the left as seen from the origin. If it
+  // does not, its nearest point is on a line between two of the points.
   bool holds = true;
   double nearest = glm::length(points.front());
   for (const glm::dvec2& a : points) {

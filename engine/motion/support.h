@@ -24,7 +24,7 @@ struct SupportRules {
   double level = 0.12;        ///< heights of rest farther apart than this are two surfaces: a floor and a step
   double window_s = 1.0 / 3;  ///< a clip's rest heights are searched this long before and after a frame
   /// A body without support is in flight if the vertical acceleration of its mass centre is in this band, metres per
-  /// second², and its height deviates from a parabola by at most `flight_stray` (root mean square).
+  /// second², and if its height deviates from a parabola by at most `flight_stray` (root mean square).
   double min_fall = 6.5, max_fall = 13;
   double flight_stray = 0.008;
 };
@@ -33,8 +33,8 @@ struct SupportRules {
 struct Bearing {
   JointSet rests;  ///< lowest joints that are at rest; none while the mass centre falls (min_fall)
   /// Equals `rests` unless that is empty (a jump, walking on the spot, a skating foot). Then it contains all of the
-  /// lowest joints, because the clip itself shows them as support, except those that glide: faster over the floor than
-  /// SupportRules::rest_speed and than three times their speed relative to the hips.
+  /// lowest joints, because the clip itself shows them as support. Joints that glide are left out: those that move over
+  /// the floor faster than SupportRules::rest_speed and faster than three times their speed relative to the hips.
   JointSet bears;
 };
 
@@ -42,7 +42,8 @@ struct Bearing {
 /// frame.
 std::vector<BodyPose> JointVelocities(std::span<const BodyPose> poses, double rate_hz);
 
-/// Finds the joints that bear a body in every frame of its clip. No floor is assumed: any of the lowest joints may.
+/// Finds the joints that bear a body in every frame of its clip. No floor is assumed: any of the lowest joints may bear
+/// the body.
 std::vector<Bearing> FindBearing(std::span<const BodyPose> poses, double rate_hz, const SupportRules& rules = {});
 
 /// The rules for a foot in stance. They are stricter than those for support, so that contacts are unambiguous.
@@ -52,7 +53,7 @@ constexpr SupportRules kFootRules{.lowest = 0.06, .rest_speed = 0.3};
 using FootContacts = std::array<std::vector<bool>, 2>;
 FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz);
 
-/// A clip that shows on what a body may be supported while it is played.
+/// A clip that shows where a body may be supported while the clip is played.
 struct SupportingClip {
   std::span<const BodyPose> poses;  ///< positioned on the floor as shown
   int begin = 0;                    ///< index of the shown frame of poses[0]; may be outside of the requested frames
@@ -63,14 +64,14 @@ struct SupportingClip {
 
 /// The joints that support a body in a shown frame.
 struct Support {
-  JointSet joints;      ///< those that rest where a clip's do, or move as they do
+  JointSet joints;      ///< those that rest where a clip's joints rest, or move as they do
   bool flight = false;  ///< the body is in flight and needs no support
 
   bool Holds() const { return joints.any() || flight; }
 };
 
 /// Finds what supports a body where clips are shown. Only the clips define possible support, so a floating motion
-/// cannot be its own floor. A joint supports
+/// cannot become its own floor. A joint supports the body
 /// - if it is at rest where the same joint of a clip rests near that time: at most SupportRules::height above the
 ///   lowest of these positions and at most SupportRules::level below it, or within `height` of a higher surface; or
 /// - if it moves like a joint that bears the clip in that frame or a neighbouring one: its height differs by at most

@@ -8,7 +8,7 @@ namespace etude {
 namespace {
 
 constexpr double kUnreachable = std::numeric_limits<double>::infinity();
-constexpr std::uint8_t kBegins = 3;  // marks a path's first step, in the place of an advance
+constexpr std::uint8_t kBegins = 3;  // marks the first step of a path, instead of an advance
 
 }  // namespace
 
@@ -34,8 +34,8 @@ void SubsequenceAligner::Update(const PoseVector& seen) {
   // Compute the local distances of this step to every step of the pattern.
   for (std::size_t j = 0; j < size; ++j) distances_[j] = SquaredDistance(seen, pattern_[j]);
 
-  // Extend the best paths by this step. Going from the pattern's end to its start leaves costs_[j - 1] and costs_[j -
-  // 2] as they were in the previous step.
+  // Extend the best paths by this step. Go from the pattern's end to its start, so that costs_[j - 1] and costs_[j - 2]
+  // still hold the values of the previous step.
   for (std::size_t j = size; j-- > 0;) {
     // Either the path stays at pattern step j, …
     double best = costs_[j];
@@ -53,7 +53,7 @@ void SubsequenceAligner::Update(const PoseVector& seen) {
       advance = 2;
       start = starts_[j - 2];
     }
-    if (j == 0) {  // a new path costs nothing, so it replaces every older one
+    if (j == 0) {  // a new path costs nothing, so it replaces any older one
       best = 0;
       advance = kBegins;
       start = now;

@@ -20,7 +20,7 @@ struct StepPair {
 class SubsequenceAligner {
  public:
   /// Aligns with `pattern`, which must have at least one step and outlive this object. A path longer than `longest` ≥ 1
-  /// seen steps is dropped; worse paths that it replaced do not come back.
+  /// seen steps is dropped; worse paths that it had replaced are not restored.
   SubsequenceAligner(std::span<const PoseVector> pattern, int longest);
 
   void Reset();

@@ -92,9 +92,9 @@ namespace {
 using Pattern = std::vector<PoseVector>;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// The largest distance, in metres, at which an unknown other motion is assumed. In 19 of 20 cases, another person's
-/// performance of a move is nearer to it than this (tests/sim/performer; the median of two recorded sets is 10 and
-/// 16–28 cm).
+/// An unknown other motion is assumed at this distance, metres, if no known one is nearer. In 19 of 20 cases, another
+/// person's performance of the same move is nearer than this (tests/sim/performer; the medians of two recorded sets are
+/// 10 and 16–28 cm).
 constexpr double kUnknownMotionDistance = 0.21;
 
 /// An example of a move and the wrong patterns that it is compared with. All have the same number of steps.
@@ -102,7 +102,7 @@ struct Example {
   std::size_t move;
   Pattern right;
   std::vector<Pattern> wrong;  ///< the mirrored example and the example at half its amplitude
-  PoseVector middle;           ///< the example's mean pose; it stands for a person who holds still
+  PoseVector middle;           ///< the example's mean pose, which represents a person who holds still
 };
 
 /// Returns a standing body with paper B's proportions, a trunk of 50 cm and hanging arms.
@@ -214,7 +214,7 @@ class NearestFollower final : public StepFollower {
     std::ranges::fill(wrong_, kFar);
     std::ranges::fill(held_still_, kFar);
     bool fits_in_window = false;
-    // Per move, find the distance to the nearest right example and to the nearest wrong pattern or held pose.
+    // For each move, find the distance to the nearest right example, and to the nearest wrong pattern or held pose.
     standing_.Update(step);
     for (std::size_t i = 0; i < examples_.size(); ++i) {
       const Example& example = examples_[i];
@@ -227,11 +227,11 @@ class NearestFollower final : public StepFollower {
       for (const Pattern& pattern : example.wrong) wrong = std::min(wrong, Distance(seen_, pattern, wrong));
       fits_in_window |= asked() == example.move && example.right.size() <= since_open_;
     }
-    // Unasked, an unknown motion or a person who holds still also competes with the move.
+    // If the move was not requested, an unknown motion or a person who holds still also competes with it.
     for (std::size_t move = 0; move < spotted.size(); ++move) {
       spotted[move] = EvidenceAgainst(std::min(held_still_[move], kUnknownMotionDistance), move);
     }
-    // The asked move counts once the window is long enough for one of its examples.
+    // The requested move counts as soon as the window is long enough for one of its examples.
     return fits_in_window ? EvidenceAgainst(kFar, *asked()) : 0.0;
   }
 

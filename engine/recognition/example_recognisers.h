@@ -23,9 +23,9 @@ std::unique_ptr<Recogniser> MakeDtwRecogniser(std::span<const TaughtMove> taught
 /// compares the last steps with the move's examples and with negatives: the mirrored examples, the examples at half
 /// their amplitude, all other moves, and standing still. The evidence is n / (r + n), where r is the distance to the
 /// nearest example of the move and n the distance to the nearest negative; it is ½ if both are equal. If the move was
-/// not asked for, any motion is possible. Then n also includes the distance to the example's mean pose, so that a
-/// person who holds still does not count as performing the move, and n is at most 21 cm, because other people's
-/// performances are rarely farther away.
+/// not requested, any motion is possible. Then n also includes the distance to the example's mean pose, so that holding
+/// still does not count as performing the move; and n is at most 21 cm, because other people's performances of the move
+/// are rarely farther away.
 std::unique_ptr<Recogniser> MakeNearestRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights);
 
 }  // namespace etude

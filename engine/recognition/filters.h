@@ -79,7 +79,7 @@ class OneEuroFilter {
 enum class FilterKind { kNone, kHolt, kOneEuro };
 
 struct FilterOptions {
-  /// The default is no filter: it adds no lag, and key poses must be held over several frames anyway. Use Holt, which
+  /// The default is no filter, which adds no lag; key poses must be held over several frames anyway. Use Holt, which
   /// Kinect applications usually turn on, for slightly more detections with fewer false alarms
   /// (`scenarios/quick/detection.yaml`). Use 1€ if joints must be calm at rest and also move quickly.
   FilterKind kind = FilterKind::kNone;

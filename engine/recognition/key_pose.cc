@@ -113,7 +113,7 @@ void PoseSequence::Update(std::span<const double> matches) {
     recent_[k][slot] = matches[k];
     held.push_back(*std::ranges::min_element(recent_[k]));
   }
-  // Extend the asked passage from the last pose to the first, so that each pose reads its predecessor's score of the
+  // Extend the requested passage from the last pose to the first, so that each pose uses its predecessor's score of the
   // previous frame.
   for (std::size_t k = held.size(); k-- > 0 && seen_since_open_ >= hold_frames_;) {
     asked_[k] = std::max(asked_[k], std::min(held[k], k == 0 ? 1.0 : asked_[k - 1]));
@@ -153,10 +153,10 @@ double MatchOf(const FeatureFrame& frame, const TaughtPose& pose, const Tracking
     total += weight;
   }
   if (!(total > 0)) return 0.0;
-  // Sort by error, and find the smallest error below which the wanted share of the weights lies.
+  // Sort by error, and find the smallest error that covers the required share of the weights.
   std::sort(angles.begin(), angles.begin() + static_cast<std::ptrdiff_t>(count),
             [](const Angle& a, const Angle& b) { return a.error < b.error; });
-  constexpr double kRounding = 1e-9;  // so that a share of exactly `pose_share` counts in spite of rounding
+  constexpr double kRounding = 1e-9;  // so that rounding does not exclude a share of exactly `pose_share`
   double within = 0, factor = 0;
   for (std::size_t i = 0; i < count && within < (options.pose_share - kRounding) * total; ++i) {
     within += angles[i].weight;

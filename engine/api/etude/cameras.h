@@ -11,8 +11,8 @@
 
 namespace etude::engine {
 
-/// A camera with its lens. Its own axes are x right, y down, z forward. Pixels: u right, v down, the centre of the
-/// first one at (0.5, 0.5). Distortion is Brown's and Conrady's, with OpenCV's coefficients.
+/// A camera with its lens. Its own axes are x right, y down, z forward. Pixels: u right, v down; the centre of the
+/// first pixel is (0.5, 0.5). Distortion follows Brown and Conrady, with OpenCV's coefficients.
 struct Camera {
   std::string name;
   int width = 640, height = 480;
@@ -22,11 +22,12 @@ struct Camera {
   glm::dvec3 p_WC{0};
 };
 
-/// Reads the cameras of a rig from a file of Etude, OpenCV, Pose2Sim, Anipose or Qualisys, told by its content. Throws
-/// BadInput for anything else.
+/// Reads the cameras of a rig from a file of Etude, OpenCV, Pose2Sim, Anipose or Qualisys; the content decides the
+/// format. Throws BadInput for anything else.
 ETUDE_API std::vector<Camera> ReadRig(std::string_view text, const std::string& file);
 
-/// Returns the pixel at which the camera shows a point; nothing for one behind it, or beyond what its lens shows.
+/// Returns the pixel at which the camera shows a point; nullopt for a point behind the camera, or outside the field of
+/// its lens.
 ETUDE_API std::optional<glm::dvec2> Project(const Camera& camera, const glm::dvec3& p_WQ);
 
 /// A point measured in the world, and the pixel that shows it.
@@ -37,21 +38,21 @@ struct PointPair {
 
 struct CalibratedCamera {
   Camera camera;
-  double rms_px = 0;  ///< root mean square distance of the pairs' pixels from where the camera shows their points
+  double rms_px = 0;  ///< root mean square distance between the pairs' pixels and the projections of their points
 };
 
-/// Finds the camera of least squared reprojection error. Throws BadInput, saying why, for pairs that do not determine
-/// one: fewer than six, in one plane, or of no picture.
+/// Finds the camera with the smallest squared reprojection error. Throws BadInput, with the reason, for pairs that do
+/// not determine a camera: fewer than six, points in one plane, or no picture size.
 ETUDE_API CalibratedCamera Calibrate(std::span<const PointPair> pairs, int width, int height);
 
 struct TriangulatedPoint {
   glm::dvec3 p_WQ{0};
-  double residual_px = 0;  ///< root mean square distance of the sightings from it
+  double residual_px = 0;  ///< root mean square distance between the sightings and the projected point
 };
 
-/// Triangulates a point from the pixels of two or more cameras, one each, or nothing where a camera does not show it.
-/// Nothing for fewer than two, or rays that are nearly parallel. Throws BadInput when there are not as many pixels as
-/// cameras.
+/// Triangulates a point from its pixels in two or more cameras: one entry per camera, nullopt where a camera does not
+/// show it. Returns nullopt for fewer than two sightings, or for rays that are nearly parallel. Throws BadInput if the
+/// numbers of pixels and cameras differ.
 ETUDE_API std::optional<TriangulatedPoint> Triangulate(std::span<const Camera> cameras,
                                                        std::span<const std::optional<glm::dvec2>> pixels);
 

@@ -11,32 +11,33 @@ namespace etude::engine {
 
 struct Keypoint {
   glm::dvec2 pixel{0};
-  double confidence = 0;  ///< 0: not seen, 1: sure
+  double confidence = 0;  ///< 0: not seen; 1: certain
 };
 
-/// One person in one picture: the keypoints in the order of a layout.
+/// One person in one picture: keypoints in the order of a layout.
 using SeenPerson = std::vector<Keypoint>;
-/// Everybody that one camera saw, frame by frame, in any order.
+/// All people that one camera saw, frame by frame, in any order.
 using SeenPeople = std::vector<std::vector<SeenPerson>>;
 
 struct CaptureOptions {
   std::string layout = "coco";  ///< or "body_25", "body_25b", "halpe_26", "halpe_26_hands"
   double rate_hz = 30;
-  int person = 0;        ///< of those found, the one seen most first
-  double smooth_hz = 0;  ///< motion above this is smoothed away; 0: none is
+  int person = 0;        ///< index among the people found; 0 is the one seen most
+  double smooth_hz = 0;  ///< motion above this frequency is smoothed away; 0: no smoothing
 };
 
 struct CapturedMotion {
   Motion motion;
-  std::string bvh;            ///< the same as a BVH file with turning joints, metres, of the person's own skeleton
-  std::vector<bool> is_held;  ///< frames of which nothing could be recovered, and which show the last pose
-  double residual_px = 0;     ///< of the triangulated keypoints, median
+  /// The same motion as a BVH file with rotating joints, metres, on the person's own skeleton.
+  std::string bvh;
+  std::vector<bool> is_held;  ///< frames that could not be recovered, and which repeat the last pose
+  double residual_px = 0;     ///< median residual of the triangulated keypoints
 };
 
-/// Recovers a person's motion from keypoints of two or more cameras that ran at the same time: people are told apart
-/// over time and cameras, keypoints that disagree left out, gaps bridged, and the person's own skeleton fitted. Throws
-/// BadInput for inputs that do not fit each other, and where nobody is seen by two cameras.
-/// @param seen of each camera, as many frames
+/// Recovers a person's motion from keypoints of two or more synchronised cameras: people are identified over time and
+/// across cameras, contradictory keypoints are left out, gaps are bridged, and the person's own skeleton is fitted.
+/// Throws BadInput for inputs that do not belong together, and if no person is seen by two cameras.
+/// @param seen the keypoints of each camera, all with the same number of frames
 ETUDE_API CapturedMotion Capture(std::span<const Camera> cameras, std::span<const SeenPeople> seen,
                                  const CaptureOptions& options = {});
 

@@ -11,20 +11,21 @@
 
 namespace etude::engine {
 
-/// The ten pose features of a frame: degrees, but for Posture (standing = 80).
+/// The ten pose features of a frame, in degrees, except Posture (standing = 80).
 inline constexpr std::size_t kFeatureCount = 10;
 using Features = std::array<double, kFeatureCount>;
 
 /// Returns the features' names in their order: "RH", "LH", "RHE", "LHE", "Posture", "Trunk", "RF", "LF", "RFK", "LFK".
 ETUDE_API std::array<std::string_view, kFeatureCount> FeatureNames();
 
-/// Returns the features of every frame. How high the body's hips stand is read off the limbs of its first frame.
+/// Returns the features of every frame. The standing height of the hips is computed from the limb lengths of the first
+/// frame.
 ETUDE_API std::vector<Features> ComputeFeatures(const Motion& motion);
 
 /// Returns the fuzzy distance of two frames, from 0: the weighted Euclidean distance of their 24 grades of membership.
 ETUDE_API double FuzzyDistance(const Features& a, const Features& b);
 
-/// A pair of frames that count as one: the playing clip is left at `from`, the wanted one entered at `to`.
+/// A pair of frames that are shown as one: the playing clip is left at `from`, the wanted clip is entered at `to`.
 struct TransitionPoint {
   int from = 0;
   int to = 0;
@@ -32,24 +33,26 @@ struct TransitionPoint {
 };
 
 struct BridgeOptions {
-  int min_clips = 2;       ///< the minimum number of clips in which a bridge frame's ten terms occur together
-  double threshold = 0.4;  ///< frames match below this fuzzy distance; a larger one finds more ways, and worse ones
+  int min_clips = 2;  ///< the minimum number of clips in which a bridge frame's ten terms occur together
+  /// Frames match below this fuzzy distance; a larger threshold finds more transitions, but worse ones.
+  double threshold = 0.4;
 };
 
-/// Clips made ready for transitions: performed by the body of the first, and tagged.
+/// Clips prepared for transitions: performed by the body of the first clip, and tagged.
 class ETUDE_API Bridges {
  public:
-  /// Throws BadInput for no clips, a clip without frames or of another rate than the first, or options out of range.
+  /// Throws BadInput for no clips, a clip without frames or with another rate than the first, or options out of range.
   explicit Bridges(std::span<const Motion> clips, const BridgeOptions& options = {});
   Bridges(Bridges&&) noexcept;
   Bridges& operator=(Bridges&&) noexcept;
   ~Bridges();
 
-  /// Returns the bridge frames of a clip, rising: frames in poses that several clips share, with the head held quiet.
+  /// Returns the bridge frames of a clip in ascending order: frames in poses that several clips share, with the head
+  /// held still.
   std::span<const int> FramesOf(int clip) const;
 
-  /// Finds the first pair of bridge frames that match while clip `from` goes on from `frame` for `budget_s` seconds at
-  /// most. Throws BadInput for a clip or frame that there is not.
+  /// Finds the first pair of bridge frames that match while clip `from` continues from `frame` for at most `budget_s`
+  /// seconds. Throws BadInput for a clip or frame that does not exist.
   std::optional<TransitionPoint> Find(int from, int frame, int to, double budget_s = 1) const;
 
  private:

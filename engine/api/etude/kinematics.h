@@ -18,11 +18,11 @@ struct Frame {
 };
 
 /// A joint and the rigid limb beyond it. With P the parent's limb, J the axes before the joint turns and L its limb:
-/// R_WL = R_WP R_PJ Rx(q₀) Ry(q₁) Rz(q₂), p_WL = p_WP + R_WP p_PJ. A joint of fewer degrees of freedom leaves out the
-/// last turns.
+/// R_WL = R_WP R_PJ Rx(q₀) Ry(q₁) Rz(q₂), p_WL = p_WP + R_WP p_PJ. A joint with fewer degrees of freedom leaves out the
+/// last rotations.
 struct Limb {
   std::string name;
-  int parent = -1;  ///< parents stand before children; −1: the root, which does not turn
+  int parent = -1;  ///< parents come before children; −1: the root, which does not rotate
   glm::dvec3 p_PJ{0};
   glm::dmat3 R_PJ{1};
   int dofs = 0;  ///< 0…3
@@ -43,11 +43,11 @@ struct AngleRange {
 struct Tree {
   std::vector<Limb> limbs;
   std::vector<Effector> effectors;
-  std::vector<AngleRange> limits;  ///< of each degree of freedom, limb after limb
+  std::vector<AngleRange> limits;  ///< of each degree of freedom, joint after joint
 };
 
-/// Returns a person of usual build: 15 limbs, 29 degrees of freedom with an adult's limits, rooted at the left toe;
-/// effectors right foot, left hand, right hand, head.
+/// Returns a person of average build: 15 limbs, 29 degrees of freedom with an adult's limits, root at the left toe. The
+/// effectors are right foot, left hand, right hand, head.
 ETUDE_API Tree AdultBody();
 
 /// A pose of a tree.
@@ -56,7 +56,7 @@ struct TreePose {
   std::vector<double> angles;  ///< one per degree of freedom
 };
 
-/// The place and turn that an effector shall reach.
+/// The position and orientation that an effector shall reach.
 struct Target {
   Frame frame;
   double position_weight = 1;  ///< 0: the position is unknown
@@ -65,17 +65,18 @@ struct Target {
 
 enum class IkStatus {
   kConverged,
-  kStalled,      ///< the angles do not move any more, and a goal is not reached
-  kUnreachable,  ///< no pose could reach the targets; the angles are the nearest that were found
+  kStalled,      ///< the angles do not change any more, but a goal is not reached
+  kUnreachable,  ///< no pose can reach the targets; the angles are those of the nearest pose found
   kIterationLimit,
-  kBadInput,  ///< of a batch: this problem could not be worked on; its angles are zeros
+  kBadInput,  ///< in a batch: this problem is invalid; its angles are zeros
 };
 
 struct IkOptions {
   int max_iterations = 200;
-  double position_goal = 0.001;              ///< a pose has converged when every effector is nearer than this, metres,
-  double axis_goal = 0.0017453292519943296;  ///< and every axis of it than this: 0.1°
-  std::optional<double> most_change;         ///< no angle leaves its start by more than this
+  /// Metres; a pose has converged when every effector is nearer than this, ….
+  double position_goal = 0.001;
+  double axis_goal = 0.0017453292519943296;  ///< … and each of its axes deviates by less than this, radians (0.1°)
+  std::optional<double> most_change;         ///< no angle may change from its start by more than this
 };
 
 struct IkAnswer {
@@ -86,7 +87,7 @@ struct IkAnswer {
 
 /// A batch of problems of one tree, row after row.
 struct IkBatch {
-  std::vector<Frame> roots;     ///< one, or one a problem
+  std::vector<Frame> roots;     ///< one for all problems, or one for each
   std::vector<double> starts;   ///< problems × degrees of freedom
   std::vector<Target> targets;  ///< problems × effectors
 };
@@ -98,14 +99,14 @@ struct IkBatchAnswer {
 };
 
 enum class Precision {
-  kDouble,  ///< the very answers of `Solve`
-  kFloat,   ///< twice as many problems at a time, goals still met in double; another pose may meet them
+  kDouble,  ///< the same answers as `Solve`
+  kFloat,   ///< twice as many problems at a time; goals are still met in double precision, perhaps by another pose
 };
 
-/// Forward and inverse kinematics of one tree. Answers depend on the inputs alone, not on what was asked before.
+/// Forward and inverse kinematics of one tree. Answers depend on the inputs alone, not on earlier calls.
 class ETUDE_API Kinematics {
  public:
-  /// Throws BadInput for what is no tree, or options out of range.
+  /// Throws BadInput for an invalid tree, or options out of range.
   explicit Kinematics(Tree tree, const IkOptions& options = {});
   Kinematics(Kinematics&&) noexcept;
   Kinematics& operator=(Kinematics&&) noexcept;
@@ -114,15 +115,16 @@ class ETUDE_API Kinematics {
   const Tree& tree() const;
   int dofs() const;
 
-  /// Returns where every limb is. Throws BadInput when the angles are not as many as degrees of freedom.
+  /// Returns the frames of all limbs. Throws BadInput if the number of angles is not the number of degrees of freedom.
   std::vector<Frame> Limbs(const TreePose& pose) const;
-  /// Returns where every effector is.
+  /// Returns the frames of all effectors.
   std::vector<Frame> Effectors(const TreePose& pose) const;
 
-  /// Finds, of all poses that meet the targets within the limits, the one nearest to `start`, whose root stays. Throws
-  /// BadInput for sizes that do not fit the tree, numbers that are not finite and axes that are not unit vectors.
+  /// Finds, of all poses that meet the targets within the limits, the one nearest to `start`; the root does not move.
+  /// Throws BadInput for sizes that do not fit the tree, numbers that are not finite, and axes that are not unit
+  /// vectors.
   IkAnswer Solve(const TreePose& start, std::span<const Target> targets) const;
-  /// Solves many at once, several times as fast. Throws BadInput for sizes that do not fit.
+  /// Solves many problems at once, several times faster. Throws BadInput for sizes that do not fit.
   IkBatchAnswer Solve(const IkBatch& batch, Precision precision = Precision::kDouble) const;
 
  private:

@@ -11,7 +11,7 @@
 
 namespace etude::engine {
 
-/// The twenty joints of the canonical body. "Left" is the person's own: with the person facing +Z, left is +X.
+/// The twenty joints of the canonical body. "Left" is the person's own left: if the person faces +Z, left is +X.
 enum class Role {
   kHipCentre,
   kSpine,
@@ -39,7 +39,7 @@ inline constexpr std::size_t kRoleCount = 20;
 /// Returns "hip_centre", "left_shoulder", …
 ETUDE_API std::string_view RoleName(Role role);
 
-/// One frame: where the twenty joints are in the world.
+/// One frame: the positions of the twenty joints in the world.
 struct Pose {
   std::array<glm::dvec3, kRoleCount> joints{};
 
@@ -51,23 +51,25 @@ struct Pose {
 struct Motion {
   double rate_hz = 30;
   std::vector<Pose> poses;
-  /// For a motion read from a file: what was found, and every change of what the file holds (unit, axis, floor, rate,
-  /// composed joints), each for people.
+  /// For a motion from a file, as sentences for users: what was found, and every change that was made (unit, axis,
+  /// floor, rate, composed joints).
   std::vector<std::string> changes = {};
 };
 
-/// What a user tells about a motion file.
+/// What the user states about a motion file.
 struct ReadingOptions {
-  bool keep_floor = false;         ///< leave the body at the height that the file says
-  char up = 0;                     ///< 'y' or 'z' overrules all other evidence; 0: by the file, its format, posture
-  double metres_per_unit = 0;      ///< 0: the file's own, or found by the stature
-  std::string marker_set = "";     ///< of a file of markers, such as "opencap"; "": the best it holds
+  bool keep_floor = false;         ///< keep the body at its height in the file
+  /// 'y' or 'z' overrules all other evidence; 0: decided by the file, its format and the body's posture.
+  char up = 0;
+  double metres_per_unit = 0;      ///< 0: the file's own unit, or one derived from the body's height
+  std::string marker_set = "";     ///< for marker files: the marker set, such as "opencap"; "": the best one
 };
 
-/// Reads a motion file, told by its content (BVH, AMASS and Etude's own .npz, C3D, TRC, Etude's own CSV, Motive's CSV), as
-/// the twenty joints: at `rate_hz`, metres, Y up, feet on the floor unless they shall stay. Joints are found by their
-/// names, the unit by the body's size; `changes` says what else was changed. `file` is what complaints call it. Throws
-/// BadInput for all else, for bodies that lack limbs, and for markers of several people.
+/// Reads a motion file as the twenty joints: at `rate_hz`, in metres, Y up, with the feet on the floor unless
+/// `keep_floor` is set. The content decides the format: BVH, AMASS's and Etude's own .npz, C3D, TRC, Etude's own CSV,
+/// Motive's CSV. Names identify the joints, the body's size gives the unit; `changes` lists all changes. `file` is its
+/// name in complaints. Throws BadInput for other formats, for bodies without some limbs, and for markers of several
+/// people.
 ETUDE_API Motion ReadMotion(std::string_view bytes, const std::string& file, double rate_hz = 30,
                             const ReadingOptions& options = {});
 

@@ -10,7 +10,7 @@
 
 namespace etude::engine {
 
-/// A move as it is taught: right performances of it, from the first beat to the last.
+/// A move to be taught: right performances of it, from the first beat to the last.
 struct TaughtMove {
   std::string name;
   std::vector<Motion> examples;  ///< at least one
@@ -21,35 +21,36 @@ struct RecogniserOptions {
   bool smooths = true;              ///< the stream goes through Kinect's own filter first
 };
 
-/// The sight that a sensor had of a joint.
+/// How a sensor saw a joint.
 enum class Seen { kTracked, kInferred, kNotTracked };
 
 /// One frame of a skeleton sensor, in the world.
 struct SensedPose {
   Pose pose;
   std::array<Seen, kRoleCount> seen{};  ///< all tracked
-  bool body_seen = true;                ///< false: nothing of the rest means anything
+  bool body_seen = true;                ///< false: all other members have no meaning
 };
 
 /// The evidence for moves in one frame, from this frame and those before it; all in 0…1.
 struct Evidence {
-  double asked = 0;             ///< that the one asked for is right so far; never falls while it is asked for
-  std::vector<double> spotted;  ///< per move, how much this looks like the end of a right performance of it
+  double asked = 0;             ///< that the requested move is right so far; never falls during one request
+  std::vector<double> spotted;  ///< per move: how much the motion looks like the end of a right performance of it
 };
 
 class RecogniserStream;
 
-/// A recogniser that was taught moves; never changes, and may be used by several threads.
+/// A recogniser that was taught moves. It never changes, and several threads may use it.
 class ETUDE_API Recogniser {
  public:
-  /// Throws BadInput for no moves, two of one name, a move without examples, examples without frames or of places that
-  /// are not finite, and a kind that there is not.
+  /// Throws BadInput for no moves, two moves with one name, a move without examples, examples without frames or with
+  /// positions that are not finite, and an unknown kind.
   explicit Recogniser(std::span<const TaughtMove> moves, const RecogniserOptions& options = {});
   Recogniser(Recogniser&&) noexcept;
   Recogniser& operator=(Recogniser&&) noexcept;
   ~Recogniser();
 
-  /// Begins to follow a stream, which keeps what it needs of the recogniser. Throws BadInput for a rate of 0 or below.
+  /// Begins to follow a stream; the stream keeps the data of the recogniser alive. Throws BadInput for a rate of 0 or
+  /// below.
   RecogniserStream Follow(double rate_hz = 30) const;
 
  private:
@@ -65,10 +66,10 @@ class ETUDE_API RecogniserStream {
   RecogniserStream& operator=(RecogniserStream&&) noexcept;
   ~RecogniserStream();
 
-  /// Asks for a move, by its index, from the next frame on; what was seen before does not count. Nothing: asks for
-  /// none. Throws BadInput for a move that there is not.
+  /// Requests a move, by its index, from the next frame on; earlier frames do not count. nullopt ends the request.
+  /// Throws BadInput for a move that does not exist.
   void Ask(std::optional<int> move);
-  /// Takes the next frame. Throws BadInput for places that are not finite.
+  /// Takes the next frame. Throws BadInput for positions that are not finite.
   Evidence Update(const SensedPose& frame);
 
  private:

@@ -22,7 +22,7 @@ namespace {
 
 using DictionaryName = decltype(cv::aruco::DICT_4X4_1000);
 
-/// The largest dictionary of each family; OpenCV's smaller dictionaries are their beginnings.
+/// The largest dictionary of each family; OpenCV's smaller dictionaries are the first codes of these.
 constexpr std::array<std::pair<DictionaryName, const char*>, 9> kDictionaries = {
     {{cv::aruco::DICT_4X4_1000, "DICT_4X4"},
      {cv::aruco::DICT_5X5_1000, "DICT_5X5"},
@@ -114,7 +114,7 @@ class OpenCvFinder : public PrintedBoardFinder {
     return best;
   }
 
-  /// Returns column and row of the square of a marker; in layout 1 the first square holds one.
+  /// Returns column and row of the square of a marker; in layout 1 the first square holds a marker.
   std::array<int, 2> SquareOf(int id, int layout) const {
     for (int row = 0; row < board.rows; ++row) {
       for (int column = 0; column < board.columns; ++column) {
@@ -202,7 +202,8 @@ class OpenCvFinder : public PrintedBoardFinder {
     return corners;
   }
 
-  /// Compares the rim of a marker, one module wide, with its surroundings: it is darker unless the marker is inverted.
+  /// Compares the rim of a marker, one module wide, with its surroundings: the rim is darker unless the marker is
+  /// inverted.
   void CountInversion(const cv::Mat& gray, const Quad& quad) {
     const cv::Mat H = HomographyOfQuad(quad);
     double rim = 0, outside = 0;

@@ -33,12 +33,13 @@ class GltfCurve {
   static Result<GltfCurve> Read(GltfFile& file, int animation, int sampler, std::size_t width);
 
   const std::vector<double>& times() const { return times_; }
-  /// Returns the number of times without those that follow another within microseconds, as keys of three axes do.
+  /// Returns the number of times; times within microseconds of the one before, as separate keys for three axes have,
+  /// count once.
   std::size_t CountTimes() const;
   GltfInterpolation interpolation() const { return interpolation_; }
-  /// Returns true if any key differs from the first by more than the rounding of floats.
+  /// Returns true if any key differs from the first by more than rounding to floats explains.
   bool Moves() const;
-  /// Returns the value at a time, constant before the first key and after the last. Rotations have length 1.
+  /// Returns the value at a time, which is constant before the first key and after the last. Rotations have length 1.
   Value At(double time) const;
 
  private:
@@ -233,7 +234,7 @@ bool LiesOnGrid(const std::vector<double>& times, double start, double rate_hz) 
 /// Returns the rate at which sampling loses no information: that of evenly spaced keys with linear interpolation; else
 /// the default rate.
 double RateOf(const std::vector<Channel>& channels, double start) {
-  // Exporters give resting joints two keys at the ends, which tell nothing about the rate.
+  // Exporters give resting joints only two keys, at both ends; these say nothing about the rate.
   const bool any_moves = std::ranges::any_of(channels, [](const Channel& channel) { return channel.curve.Moves(); });
   const auto counts = [&](const Channel& channel) { return !any_moves || channel.curve.Moves(); };
   const GltfCurve* densest = nullptr;
@@ -308,7 +309,7 @@ class ClipReader {
       }
       // Refuse a second channel for the same property, then read the curve.
       const int joint = nodes_.joint_of[source.target_node];
-      if (joint < 0) continue;  // a node that only holds a skinned mesh is not a joint
+      if (joint < 0) continue;  // a node that holds only a skinned mesh is not a joint
       const bool is_double = std::ranges::any_of(
           channels, [&](const Channel& other) { return other.joint == joint && other.property == property; });
       if (is_double) {

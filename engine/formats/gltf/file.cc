@@ -231,7 +231,7 @@ Result<GltfNumbers> GltfFile::Read(int index, std::size_t width, GltfComponents 
   if (accessor.sparse.isSparse) {
     RETURN_IF_ERROR(ReadSparse(*this, accessor, numbers, name + ".sparse"));
   }
-  const bool is_index = allowed == GltfComponents::kUnsigned;  // indices have their own limits
+  const bool is_index = allowed == GltfComponents::kUnsigned;  // indices are limited separately
   for (std::size_t i = 0; !is_index && i < numbers.values.size(); ++i) {
     if (!(std::abs(numbers.values[i]) <= kMaxGltfNumber)) {
       return Refuse(name, "found {} in element {}; allowed: numbers within ±{:g}", numbers.values[i], i / width,
@@ -244,7 +244,7 @@ Result<GltfNumbers> GltfFile::Read(int index, std::size_t width, GltfComponents 
 namespace {
 
 /// Returns the number of bytes of the UTF-8 character at the start of `text`; 0 if it is invalid (RFC 3629) or a
-/// control character, which could break a line or control a terminal.
+/// control character, which could break a line or affect a terminal.
 std::size_t CharacterBytes(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const unsigned first = byte(0);

@@ -69,8 +69,9 @@ class GltfFile {
   std::size_t numbers_left_ = 20'000'000;
 };
 
-/// Returns a name as one line of UTF-8, as JSON needs it: invalid bytes and control characters become '?'. It is needed
-/// because names from other formats may hold any bytes, and names from glTF files are shown in terminals and tables.
+/// Returns a name as one line of UTF-8, as JSON needs it: invalid bytes and control characters become '?'. This is
+/// needed because names from other formats may contain any bytes, and names from glTF files are shown in terminals and
+/// tables.
 std::string GltfText(std::string_view name);
 
 }  // namespace etude

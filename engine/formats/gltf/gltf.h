@@ -13,8 +13,8 @@
 
 namespace etude {
 
-/// The contents of a glTF file: a character, whose skeleton holds all nodes of the default scene and which may have no
-/// meshes, and one clip per animation on the same skeleton.
+/// The contents of a glTF file: a character, whose skeleton holds all nodes of the default scene (it may have no
+/// meshes), and one clip per animation on the same skeleton.
 struct GltfContent {
   Character character;
   std::vector<Clip> clips;  ///< names as in the file, in one line; unnamed and duplicate ones are numbered
@@ -59,7 +59,7 @@ Result<GltfContent> ReadGltf(std::string_view bytes, const std::string& file, co
                              const DecodePicture& decode = {});
 
 /// Writes a character with its clips as one GLB: nodes, skins, materials without textures, and LINEAR animations at the
-/// clips' rates. Numbers of surfaces and clips are rounded to floats. Reading the file gives the same skeleton,
+/// clips' rates. The numbers of surfaces and clips are rounded to floats. Reading the file returns the same skeleton,
 /// surfaces and clips, and writing these again gives the same bytes. A property that stays at rest is not written; one
 /// that is constant has one key. Neighbouring meshes with the same name and joints become one mesh with several
 /// primitives. Invalid UTF-8 and control characters in names become '?'.

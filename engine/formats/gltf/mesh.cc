@@ -77,7 +77,7 @@ Result<SharedTexture> GltfTextures::ReadPlain(int index, const std::string& wher
   const tinygltf::Texture& source = model.textures[static_cast<std::size_t>(index)];
   SharedTexture& kept = plain_[index];
   const std::string name = fmt::format("textures[{}]", index);
-  if (source.source == kNoIndex) return kept;  // the picture has the format of an extension
+  if (source.source == kNoIndex) return kept;  // the picture's format belongs to an extension
   RETURN_IF_ERROR(file_.CheckIndex(source.source, model.images.size(), name + ".source"));
   const std::string image_name = fmt::format("images[{}]", source.source);
   ASSIGN_OR_RETURN(const auto bytes, BytesOf(model.images[static_cast<std::size_t>(source.source)], image_name));
@@ -188,7 +188,7 @@ class MeshReader {
                        textures.Read(model_.materials[i], material.colour, fmt::format("materials[{}]", i)));
       character_.materials.push_back(std::move(material));
     }
-    // Read in the order of the file's meshes, regardless of the nodes' order.
+    // Read meshes in the order of the file, regardless of the nodes' order.
     std::vector<int> nodes = nodes_.mesh_nodes;
     std::ranges::stable_sort(nodes, {}, [&](int node) { return Node(node).mesh; });
     for (const int node : nodes) {

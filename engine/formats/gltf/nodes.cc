@@ -66,7 +66,7 @@ class NodeReader {
   }
 
   /// Returns the error for a node that is nested too deep or lies below a cycle; a path longer than the number of nodes
-  /// proves a cycle.
+  /// must contain a cycle.
   Result<void> TooDeep(int node) const {
     std::size_t steps = 0;
     for (int above = parents_[node]; above != kNoIndex; above = parents_[above]) {
@@ -128,7 +128,7 @@ class NodeReader {
         MarkWithAncestors(target);
       }
     }
-    // Collect the nodes with meshes; a leaf that only holds a skinned mesh is not a joint.
+    // Collect the nodes with meshes; a leaf that holds only a skinned mesh is not a joint.
     for (int node = 0; node < static_cast<int>(count_); ++node) {
       if (!in_scene_[node] || At(node).mesh == kNoIndex) continue;
       nodes_.mesh_nodes.push_back(node);
@@ -148,7 +148,7 @@ class NodeReader {
     nodes_.joint_of.assign(count_, kNoIndex);
     for (int node = 0; node < static_cast<int>(count_); ++node) {
       if (!is_joint_[node]) continue;
-      // Make its ancestors first, from the root down, if the file lists them later.
+      // If the file lists its ancestors later, make them first, from the root down.
       std::vector<int> chain;
       for (int above = node; above != kNoIndex && nodes_.joint_of[above] == kNoIndex; above = parents_[above]) {
         chain.push_back(above);

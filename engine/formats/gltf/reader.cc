@@ -87,8 +87,8 @@ bool ReadWholeFile(std::vector<unsigned char>* out, std::string*, const std::str
 bool WriteWholeFile(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
 
 /// Makes `parser` read files only through `fetcher`. It is a template because tinygltf's versions differ: since 2.9 it
-/// also asks for a file's size, and if a callback is missing it keeps its own callbacks, which read any file, and
-/// returns an error.
+/// also asks for a file's size; if a callback is missing, it returns an error and keeps its own callbacks, which read
+/// any file.
 template <typename Callbacks, typename Parser>
 Result<void> ReadOnlyThrough(Fetcher& fetcher, Parser& parser) {
   Callbacks callbacks{};
@@ -297,11 +297,12 @@ Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const
   } catch (const std::exception& exception) {
     errors = exception.what();
   }
-  // The model is filled even if reading failed, and a required extension is then the most likely reason.
+  // The model is filled even if reading failed. An unsupported required extension is then the most likely reason, so
+  // report it first.
   RETURN_IF_ERROR(CheckExtensions(*model, file));
   const std::string complaint = Complaint(errors);
   if (!is_read || !complaint.empty()) {
-    // A file that could not be fetched matters only if it was needed.
+    // A file that could not be fetched is an error only if it was needed.
     if (fetcher.complaint) return tl::unexpected(*fetcher.complaint);
     return tl::unexpected(NotGltf(file, complaint.empty() ? "the parser gave up" : complaint));
   }

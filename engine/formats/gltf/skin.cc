@@ -11,8 +11,8 @@ namespace {
 
 using Bindings = std::vector<SkinnedMesh::Binding>;
 
-/// The four largest weights of a vertex with their bindings; the weights have the sum 1. Four or fewer keep their
-/// order.
+/// The four largest weights of a vertex with their bindings; the weights have the sum 1. If there are at most four,
+/// they keep their order.
 struct Influences {
   std::array<int, 4> bindings{};
   std::array<double, 4> weights{1, 0, 0, 0};
@@ -27,7 +27,8 @@ Influences Strongest(std::vector<std::pair<int, double>> all) {
   for (const auto& [binding, weight] : all) sum += weight;
   Influences influences;
   if (sum <= 0) return influences;
-  // A sum within float rounding of 1 is not changed, so that writing and reading change nothing.
+  // If the sum is 1 within float rounding, it is not changed, so that writing and reading a file does not change
+  // weights.
   constexpr double kRounding = 1e-6;
   const double divisor = std::abs(sum - 1) < kRounding ? 1.0 : sum;
   influences.weights = {};

@@ -169,9 +169,9 @@ void AddTrack(tinygltf::Model& model, tinygltf::Animation& animation, const Trac
   animation.channels.push_back(std::move(channel));
 }
 
-/// Adds a clip as a LINEAR animation of the model's first nodes, which are the joints of `skeleton`. A property at rest
-/// gets no channel, a constant one gets one key. If nothing moves, one channel keeps all keys, so that the clip keeps
-/// its length. A clip without frames is left out.
+/// Adds a clip as a LINEAR animation of the model's first nodes, which are the joints of `skeleton`. A property that
+/// stays at rest gets no channel, and a constant property gets one key. If nothing moves, one channel gets all keys, so
+/// that the clip keeps its length. A clip without frames is left out.
 void AddGltfClip(tinygltf::Model& model, const Skeleton& skeleton, const Clip& clip) {
   if (clip.frames.empty()) return;
   std::vector<Track> tracks;
@@ -332,7 +332,7 @@ class GlbWriter {
   }
 
   int AddIndices(const SkinnedMesh& mesh) {
-    const bool is_short = mesh.vertices.size() <= 65535;  // the index 65535 would mean a restart
+    const bool is_short = mesh.vertices.size() <= 65535;  // 16 bits are too few for 65535, which would mean a restart
     GltfBytes bytes;
     for (const auto& triangle : mesh.triangles) {
       for (const std::uint32_t corner : triangle) {

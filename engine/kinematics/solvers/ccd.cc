@@ -93,7 +93,7 @@ double CcdSweep::Sweep() {
 }
 
 double CcdSweep::Turn() {
-  // The weights of this sweep follow the errors measured last.
+  // The weights of this sweep are computed from the errors measured last.
   for (std::size_t e = 0; e < weights_.size(); ++e) {
     weights_[e] = ComputeWeights(options_.weights, errors_[e].position, errors_[e].axis_angles);
   }
@@ -161,12 +161,12 @@ void CcdSweep::TurnBelow(int joint, const glm::dmat3& rotation) {
   }
 }
 
-// Turns one degree of freedom (paper B, case 1). Returns the absolute turn, radians.
+// Turns one degree of freedom (paper B, case 1). Returns the absolute change of its angle, radians.
 double CcdSweep::TurnHinge(int joint, int axis) {
   if (options_.refresh == WeightRefresh::kDof) UpdateWeightsBelow(joint);
   const int dof = tree_.joints[joint].first_dof + axis;
   double& angle = state_.angles[dof];
-  // Still valid: no joint that carries this axis has turned since the last forward kinematics.
+  // The axis is still valid, because no joint that carries it has turned since the last forward kinematics.
   const glm::dvec3& axis_W = frames_.dof_axes[dof];
   const AngleRange left{ranges_[dof].lower - angle, ranges_[dof].upper - angle};
   const double turn = GainAbout(axis_W, joint).OptimumWithin(left);
@@ -178,7 +178,7 @@ double CcdSweep::TurnHinge(int joint, int axis) {
 
 double CcdSweep::TurnAsHinges(int joint) {
   double largest = 0;
-  // Begin with the axis nearest to the leaves: turning it does not move the joint's other axes.
+  // Begin with the axis nearest to the leaves, because a turn about it does not move the joint's other axes.
   for (int axis = tree_.joints[joint].dof_count - 1; axis >= 0; --axis) {
     largest = std::max(largest, TurnHinge(joint, axis));
   }
@@ -277,14 +277,14 @@ class Accelerated {
     sweep_.ReadHalfTangents(now_);
     const double change = sweep_.Turn();
     sweep_.ReadHalfTangents(swept_);
-    // Near the pole of the tangent, keep the plain sweep and restart the extrapolation.
+    // Near a pole of the tangent, use the plain sweep and restart the extrapolation.
     if (!AreFarFromPole(now_) || !AreFarFromPole(swept_)) {
       mixing_.Discard();
       sweep_.Measure();
       return change;
     }
     // Extrapolate; go back to the plain sweep if that raises the weighted sum.
-    const double merit = sweep_.Merit();  // at the pose before the sweep, with the weights of this sweep
+    const double merit = sweep_.Merit();  // at the pose before the sweep, with this sweep's weights
     mixing_.Extrapolate(now_, swept_, mixed_);
     sweep_.SetHalfTangents(mixed_);
     sweep_.Measure();
@@ -302,7 +302,8 @@ class Accelerated {
   std::vector<double> now_, swept_, mixed_;
 };
 
-// A difference is skipped if less than this share of it is independent of newer ones: the rest is rounding.
+// A difference is skipped if less than this share of it is independent of newer ones, because so small a part is mostly
+// rounding.
 constexpr double kNewPart = 1e-10;
 
 double Dot(std::span<const double> a, std::span<const double> b) {
@@ -345,7 +346,7 @@ void AndersonMixing::Extrapolate(std::span<const double> x, std::span<const doub
   std::ranges::copy(g, out.begin());
 
   // Gram–Schmidt orthogonalisation, newest difference first. The component of f along each new direction is subtracted
-  // from f immediately, which keeps the shares accurate although the directions are orthogonal only to rounding (Björck
+  // from f immediately; this keeps γ accurate although rounding makes the directions only nearly orthogonal (Björck
   // 1967).
   std::ranges::copy(last_f_, rest_.begin());
   int rank = 0;

@@ -18,9 +18,9 @@ IkSolution SolveCcd(const KinematicTree& tree, const IkProblem& problem, const I
 IkSolution SolveCcdHinges(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
 
 /// The gain of a hinge: how well the end effectors beyond it match their targets after it turns by φ (paper B,
-/// equations 3.10–3.13), g(φ) = k₁(1 − cos φ) + k₂ cos φ + k₃ sin φ, which is to be maximised. Summing over several
-/// effectors is ours. For axes, the paper starts from Σ (u_d · u_c − 1)² and then maximises Σ u_d · u_c, which is a
-/// different criterion for three axes. This struct follows the second, which minimises Σ |u_d − u_c|².
+/// equations 3.10–3.13), g(φ) = k₁(1 − cos φ) + k₂ cos φ + k₃ sin φ, which is maximised. Summing over several effectors
+/// is ours. For axes, the paper starts from minimising Σ (u_d · u_c − 1)² but then maximises Σ u_d · u_c, which is
+/// another criterion for three axes. This struct uses the second one, which minimises Σ |u_d − u_c|².
 struct HingeGain {
   double k1 = 0, k2 = 0, k3 = 0;
 
@@ -37,8 +37,8 @@ struct HingeGain {
   /// Returns the φ in (−π, π] that maximises g; 0 if g is constant.
   double Optimum() const;
 
-  /// Returns the best φ within `range`, which must contain 0 (no turn is always allowed). The optimum counts modulo 2π.
-  /// If it lies outside, returns the end of the range with the larger g, the lower end on a tie.
+  /// Returns the best φ within `range`, which must contain 0 (no turn is always allowed). The optimum is taken modulo
+  /// 2π. If it is outside, returns the end of the range with the larger g, or the lower end if both are equal.
   double OptimumWithin(const AngleRange& range) const;
 };
 
@@ -67,7 +67,7 @@ class CcdSweep {
   void Measure();
 
   /// Returns the sum that turns reduce, Σ w_p e² + Σ w_o |u_c − u_d|², at the pose measured last, with the weights of
-  /// the last turn. If weights change during a sweep, those at its end count; `kWangChen` counts without ρ.
+  /// the last turn. If weights change during a sweep, the weights at its end are used; `kWangChen` is used without ρ.
   double Merit() const;
   /// Sets every angle, clamped to its range. Does not update the errors.
   void SetAngles(std::span<const double> angles);
@@ -103,12 +103,12 @@ struct CcdAndersonOptions {
   int memory = 5;
 };
 
-/// Solves by the sweeps of `ccd-hinges`, extrapolated from the last of them (`AndersonMixing`). *Ours.* In paper B
-/// every joint is settled in turn, so errors move slowly along the limbs, and such slow convergence can be
-/// extrapolated. An angle enters as x = tan((q − middle of its range) / 2), which costs no trigonometry. If an
-/// extrapolation raises Σ w_p e² + Σ w_o |u_c − u_d|² (with the weights of its sweep), it is discarded and the result
-/// of the sweep is kept. One iteration is one sweep; it costs one forward-kinematics pass, or two if its extrapolation
-/// was discarded.
+/// Solves by the sweeps of `ccd-hinges`, extrapolated from the last of them (`AndersonMixing`). *Ours.* In paper B one
+/// joint is optimised after the other, so errors move slowly along the limbs; such slow convergence can be
+/// extrapolated. Each angle q is represented by x = tan((q − middle of its range) / 2), which needs no trigonometric
+/// functions. If an extrapolation raises Σ w_p e² + Σ w_o |u_c − u_d|² (with the weights of its sweep), it is discarded
+/// and the result of the sweep is kept. One iteration is one sweep; it costs one forward-kinematics pass, or two if its
+/// extrapolation was discarded.
 IkSolution SolveCcdAnderson(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                             const CcdAndersonOptions& own = {});
 
@@ -121,10 +121,10 @@ class AndersonMixing {
   /// For vectors of `size` numbers; uses the last `memory` ≥ 0 pairs.
   AndersonMixing(int size, int memory);
 
-  /// Records the pair x, g = g(x) and writes the extrapolation to `out`. For the first pair `out` is g.
+  /// Records the pair x, g = g(x) and writes the extrapolation to `out`. After the first pair, `out` is g.
   void Extrapolate(std::span<const double> x, std::span<const double> g, std::span<double> out);
 
-  /// Forgets all pairs. Call it after x has changed in another way than by g.
+  /// Forgets all pairs. Call it after x has been changed by anything other than g.
   void Discard();
 
  private:

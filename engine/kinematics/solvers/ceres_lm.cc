@@ -18,7 +18,8 @@ namespace {
 constexpr double kMaxRadius = 1e8;
 // The solver stops if a step lowers the sum by less than this share.
 constexpr double kMinCostChange = 1e-9;
-// Steps that may raise the sum in a row. At limits, ways out often lead uphill at first, so Ceres's 5 are too few.
+// How many successive steps may raise the sum. At limits the way to the solution often leads uphill at first, so
+// Ceres's default of 5 is too small.
 constexpr int kMaxStepsUphill = 20;
 
 // Returns the rotation, in the world, that turns an effector's axes E into the desired axes D, by less than half a
@@ -164,12 +165,12 @@ class Recorder final : public ceres::IterationCallback {
 ceres::Solver::Options TunedOptions(const IkOptions& options, const CeresLmOptions& own) {
   ceres::Solver::Options tuned;
   tuned.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
-  // With about 24 residuals and 29 angles, the matrices are too small for Eigen to block them by cache sizes, which
-  // would make results depend on the machine.
+  // With about 24 residuals and 29 angles, the matrices are so small that Eigen does not divide them into blocks by
+  // cache size. (That would make results depend on the machine.)
   tuned.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
   tuned.dense_linear_algebra_library_type = ceres::EIGEN;
-  // Levenberg's damping by the identity. Marquardt's scaling by the diagonal of JᵀJ lets weakly determined angles
-  // swing.
+  // Use Levenberg's damping by the identity. With Marquardt's scaling by the diagonal of JᵀJ, weakly determined angles
+  // oscillate.
   tuned.jacobi_scaling = false;
   tuned.min_lm_diagonal = 1;
   tuned.max_lm_diagonal = 1;
@@ -178,7 +179,7 @@ ceres::Solver::Options TunedOptions(const IkOptions& options, const CeresLmOptio
   tuned.use_nonmonotonic_steps = true;
   tuned.max_consecutive_nonmonotonic_steps = kMaxStepsUphill;
   tuned.max_num_line_search_step_size_iterations = 0;  // no line search at the bounds: steps are projected
-  // Only our goals, the iteration limit and a stall stop it.
+  // Only our goals, the iteration limit and a stall stop the solver.
   tuned.max_num_iterations = options.max_iterations;
   tuned.function_tolerance = kMinCostChange;
   tuned.gradient_tolerance = 0;
@@ -198,7 +199,8 @@ IkSolution SolveCeresLm(const KinematicTree& tree, const IkProblem& problem, con
 
   // Collect the angles that can move, and record the start.
   IkRun run(tree, problem, options);
-  std::vector<int> moving;  // without angles whose range is a single value, which Ceres's bounds do not allow
+  // Angles whose range is a single value are left out, because Ceres's bounds do not allow them.
+  std::vector<int> moving;
   for (int i = 0; i < tree.dof_count(); ++i) {
     if (run.ranges()[i].lower < run.ranges()[i].upper) moving.push_back(i);
   }

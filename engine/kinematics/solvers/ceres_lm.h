@@ -7,7 +7,8 @@ namespace etude {
 
 struct CeresLmOptions {
   /// The initial radius of the trust region. The default solves the most problems (README.md has the figures). Set it
-  /// to 1 where speed counts: that takes fewer steps and stays nearer to the start, but solves slightly fewer problems.
+  /// to 1 if speed matters: the solver then takes fewer steps and stays nearer to the start, but solves slightly fewer
+  /// problems.
   double first_radius = 10;
 };
 
@@ -16,7 +17,7 @@ struct CeresLmOptions {
 ///   Σ_e [ position_weight · (|P_d − P_c| / 30 cm)² + Σ_k axis_weights_k · |u_kd − u_kc|² ],
 /// by steps (JᵀJ + I / radius) dq = −Jᵀr with an analytic Jacobian; the sum may rise for some steps. Limits are Ceres's
 /// bounds. `IkOptions::weights` and `refresh` do not apply. One iteration is one attempted step. The solver also stalls
-/// if a step lowers the sum by less than 10⁻⁹ of it.
+/// if a step lowers the sum by less than 10⁻⁹ of its value.
 IkSolution SolveCeresLm(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                         const CeresLmOptions& own = {});
 

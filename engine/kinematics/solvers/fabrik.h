@@ -9,24 +9,24 @@
 namespace etude {
 
 /// Solves by FABRIK (Aristidou and Lasenby 2011), which moves joints as points, forward and backward towards the
-/// targets (`FabrikPass`). It uses positions only; the targets' axes are ignored but still count in the errors. *Ours*
-/// is the step from points to angles. After every pair of passes the joints, parents first, turn hinge by hinge, each
-/// within its range and given the actual pose of the joints before it. The first round moves the tips of each joint's
-/// own limb as near as possible to their positions in the passes, without changing the twist; the second round does so
-/// for all tips beyond the joint. The second round compensates for hinges and limits farther out: with the first round
-/// alone, a wrist at its limit keeps its hand from the target; with the second round alone, the solver takes twice the
-/// steps and solves three problems of four. The next passes begin at that pose, and errors are measured there, so a
-/// goal counts as reached only if the angles reach it. A limb in line with its target stays so (figure 3.8), because
-/// points on a line reach along it only. `IkOptions::weights` and `refresh` do not apply. One iteration is one pair of
-/// passes with both rounds; each costs one forward-kinematics pass.
+/// targets (`FabrikPass`). It uses positions only; the targets' axes are ignored but still count in the errors. The
+/// step from points to angles is *ours*. After every pair of passes the joints turn, parents first and hinge by hinge,
+/// each within its range and starting from the actual pose of the joints before it. The first round moves the tips of
+/// each joint's own limb as near as possible to their positions in the passes, without changing the twist; the second
+/// round does so for all tips beyond the joint. The second round compensates for hinges and limits farther out: without
+/// it, a wrist at its limit would keep its hand away from the target. Without the first round, the solver takes twice
+/// as many steps and solves only three of four problems. The next passes begin at that pose, and errors are measured
+/// there, so a goal counts as reached only if the angles reach it. A limb in line with its target stays in line (figure
+/// 3.8), because points on a line move only along it. `IkOptions::weights` and `refresh` do not apply. One iteration is
+/// one pair of passes with both rounds; each costs one forward-kinematics pass.
 IkSolution SolveFabrik(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
 
 /// FABRIK's two passes (Aristidou and Lasenby 2011) over a tree of rigid limbs, on positions alone. A limb has a base
 /// (its joint) and tips (the joints beyond it, the effectors at its end). With one tip this is exactly the paper's
-/// rule: the tip moves to its desired position, and the base follows on the line to its old position. With several tips
-/// the paper moves their common joint (its sub-base) to the mean of the positions that the chains beyond want. It has
-/// no rule for tips that form one rigid limb, like shoulders and neck. *Ours*: such a limb is fitted to its tips by
-/// least squares:
+/// rule: the tip moves to its desired position, and the base follows on the line to its old position. With several
+/// tips, the paper moves their common joint (its sub-base) to the mean of the positions to which the chains beyond it
+/// lead. It has no rule for tips that form one rigid limb, like shoulders and neck. *Ours*: such a limb is fitted to
+/// its tips by least squares:
 /// - backward, tips to root: the mean of the tips moves to the mean of their desired positions; the limb turns about it
 ///   to fit the tips and the old position of its base, which counts like one more tip;
 /// - forward, root to tips: the base is at the end of the limb before; the limb turns about it to fit the tips.

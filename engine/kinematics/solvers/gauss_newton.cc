@@ -154,7 +154,7 @@ class BatchQueue final : public GaussNewtonQueue {
   ScalarHelp& help_;
   IkBatchSolution& solution_;
   Column column_;
-  // Copy of a problem with allowed ranges in place of its limits; empty if they are equal.
+  // A copy of a problem with allowed ranges instead of its limits; empty if they are equal.
   std::vector<double> own_ranges_;
 };
 
@@ -162,7 +162,7 @@ class BatchQueue final : public GaussNewtonQueue {
 
 GaussNewtonRules RulesFor(const IkOptions& options, const GaussNewtonOptions& own, Precision precision) {
   const double position = options.position_goal, axis = options.axis_goal;
-  // Goals on axes are compared by chords, which are shorter than the angle.
+  // Goals of axes are compared as chords of the unit circle, which are shorter than the angles.
   const double chord = 2 * ComputeSineCosine(0.5 * std::min(axis, kPi)).sine;
   if (precision == Precision::kDouble) {
     return {SquareBelow(position), position * position, SquareBelow(chord),
@@ -286,7 +286,7 @@ IkBatchSolution SolveGaussNewtonBatch(const KinematicTree& tree, const IkBatch& 
   solution.fk_evaluations.resize(count);
   if (!FindFault(tree, options).empty()) return solution;
 
-  // Solve all problems without faults, then those again in double that float did not solve.
+  // Solve all problems without faults, then solve those again in double that float did not solve.
   std::vector<int> asked = problems.FindSound();
   const GaussNewtonTree lane_tree(tree);
   ScalarHelp help(tree, options, [&problems](int n) { return problems.Get(n); });

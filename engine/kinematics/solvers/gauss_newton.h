@@ -18,7 +18,7 @@ struct GaussNewtonOptions {
   /// only to compare (README.md has the figures).
   int first_sweeps = 0;
   /// The number of extra active-set passes per step while damping is small: the null-space components of the step
-  /// depend on which limits are active. More than three change little. Set it to 0 if the time of a step matters more
+  /// depend on which limits are active. More than three change little. Set it to 0 if the time per step matters more
   /// than its accuracy.
   int extra_passes = 3;
   /// The number of restarts from other poses when steps are stuck. Set it to 0 if targets are often unreachable and the
@@ -26,30 +26,31 @@ struct GaussNewtonOptions {
   int restarts = 20;
 };
 
-/// Finds, of all poses that meet the targets within the limits, one near the start, so hidden angles, which no target
-/// determines, stay near their start values. *Ours*, the default solver. It runs these phases until the targets are
+/// The default solver (*ours*). Of all poses that meet the targets within the limits, it finds one near the start, so
+/// hidden angles, which no target determines, stay near their start values. It runs these phases until the targets are
 /// met:
 ///
 /// 1. `first_sweeps` sweeps of coordinate descent, none by default;
 /// 2. Gauss–Newton steps with a pull towards the start (`GaussNewtonStep`). The damping is proportional to the squared
 ///    residual: far from the targets steps are short, so few angles reach their limits, and near the targets
 ///    convergence is quadratic;
-/// 3. Levenberg–Marquardt steps without the pull, if it has led to limits that block progress. These steps never raise
+/// 3. Levenberg–Marquardt steps without the pull, if the pull has led to limits that block progress. These steps never
+/// raise
 ///    the residual;
 /// 4. `restarts` from other poses around the start, each with two sweeps and steps as in 3; none if the targets are out
 ///    of reach of any pose;
 /// 5. from the pose of the smallest residual, steps as in 3 until they stall: the answer if the targets cannot be met.
 ///
-/// Most problems end in phase 2. If few iterations are allowed, phases 2 and 3 give up sooner, so that along a motion a
-/// blocked solver recovers within some frames. One iteration is one sweep or one step. A trace can jump where phases 4
+/// Most problems end in phase 2. If few iterations are allowed, phases 2 and 3 end sooner, so that along a motion a
+/// blocked solver recovers within a few frames. One iteration is one sweep or one step. A trace can jump where phases 4
 /// and 5 begin, and without convergence the solution is the pose of the smallest residual, not the last pose of the
 /// trace. Sweeps use the weights `adaptive-power`.
 IkSolution SolveGaussNewton(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                             const GaussNewtonOptions& own = {});
 
 /// Solves one problem of a tree after the other as `SolveGaussNewton` does. The tree is checked and its joints are
-/// ordered once, and memory is allocated once. `tree` must outlive this object. Use it along a motion or for problems
-/// that arrive one by one; `SolveGaussNewtonBatch` is faster for many at once.
+/// ordered once, and memory is allocated once. `tree` must outlive this object. Use it along a motion, or for problems
+/// that arrive one by one; for many problems at once, `SolveGaussNewtonBatch` is faster.
 class GaussNewtonSolver {
  public:
   explicit GaussNewtonSolver(const KinematicTree& tree);
@@ -69,9 +70,9 @@ class GaussNewtonSolver {
 enum class Precision { kFloat, kDouble };
 
 /// Solves many problems of one tree at once by `gauss-newton`. Each problem occupies one lane of the CPU's vectors from
-/// its start to its last restart; a lane whose problem is finished takes the next one. Results depend neither on the
-/// width of the vectors nor on the other problems. Goals that are met only to within rounding, the poses of restarts
-/// and their sweeps are computed by scalar code, everything else in lanes.
+/// its start to its last restart; a lane whose problem is finished takes the next one. Results do not depend on the
+/// width of the vectors or on the other problems. Goals that are met only to within rounding, the poses of restarts and
+/// their sweeps are computed by scalar code, everything else in lanes.
 /// - `kDouble`: every solution equals that of `SolveGaussNewton` to the last bit.
 /// - `kFloat`: twice as many lanes. Goals are tightened to nine tenths, so that the requested goals are met in double;
 ///   damping is at least 10⁻⁵; steps have no pull to the start once |e|² < 10⁻⁶, where float cannot resolve it. A

@@ -8,8 +8,9 @@ namespace etude {
 struct IkOptions;
 struct GaussNewtonOptions;
 
-/// The state machine of `gauss-newton` for one problem: decides what comes next (gauss_newton.h lists the phases) from
-/// the residual of each pose. It knows neither angles nor trees, so the scalar solver and the vector solvers share it:
+/// The state machine of `gauss-newton` for one problem: it decides the next action from the residual of each pose
+/// (gauss_newton.h lists the phases). It does not use angles or trees, so the scalar solver and the vector solvers
+/// share it:
 ///
 ///     place the start;
 ///     while (true) {
@@ -29,7 +30,7 @@ class GaussNewtonCourse {
   struct Next {
     Act act = Act::kEnd;
     bool is_best = false;
-    bool to_start = false;  ///< true: steps are pulled to the start; false: they stay near their own beginning
+    bool to_start = false;  ///< true: steps are pulled to the start; false: they stay near the pose where they begin
     double damping = 0;     ///< μ
     int restart = 0;
     int sweeps = 0;
@@ -126,8 +127,8 @@ class GaussNewtonCourse {
   // Below this damping a step gets extra active-set passes.
   static constexpr double kSmallDamping = 0.01;
 
-  // Steps are stuck if kPatience of them have not reduced |e|² to the share kProgress. If few iterations are allowed,
-  // max_iterations / kShareOfPatience steps count instead, so that restarts get some.
+  // Steps are stuck if kPatience of them have not reduced |e|² to the share kProgress of its value. If few iterations
+  // are allowed, max_iterations / kShareOfPatience steps are enough, so that iterations remain for restarts.
   static constexpr int kPatience = 6;
   static constexpr int kShareOfPatience = 5;
   static constexpr double kProgress = 0.7;

@@ -23,7 +23,7 @@ inline constexpr double kSquaredPositionScale = 0.30 * 0.30;
 // ---- Sine and cosine ------------------------------------------------------------------------------------------------
 
 /// Computes sine and cosine of an angle from those of its remainder, `s` and `c`. The last bits of `shifted` count
-/// quarter turns: an odd count swaps sine and cosine, every second one flips a sign.
+/// quarter turns: an odd count swaps sine and cosine, and the second bit decides the signs.
 template <class T>
 HWY_INLINE void AddQuarters(const Lanes<T>& shifted, const Lanes<T>& s, const Lanes<T>& c, Lanes<T>& sine,
                             Lanes<T>& cosine) {
@@ -115,7 +115,8 @@ HWY_INLINE void TurnAxes(const V& s, const V& c, V (&axes)[3][3]) {
   }
 }
 
-/// Sets `screw` to `axis` and the translation that turning about it at J gives the limb's point at the root R.
+/// Sets `screw` to `axis` and to the translation, per radian of a turn about it at J, of the limb's point at the root
+/// R.
 template <class V>
 HWY_INLINE void SetScrew(const V (&axis)[3], const V (&p_RJ_W)[3], V (&screw)[6]) {
   V shift[3];
@@ -146,7 +147,7 @@ struct TargetQuadraticLanes {
 };
 
 /// Λ is symmetric except for rounding. In double both triangles are stored, to give the same bits as `GaussNewtonStep`.
-/// In float, where bits need not agree, only the lower triangle is stored.
+/// In float, bits need not agree, so only the lower triangle is stored.
 template <class V>
 inline constexpr bool kHasUpperTriangle = !std::is_same_v<V, Lanes<float>>;
 
@@ -276,8 +277,8 @@ HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, 
   const V best = scale * (damping * pull + Dot6(limb.vector, s));
   const auto is_free = AreEqual(hinge.side, nothing);
   const V change = Select(is_free, best, Select(Below(hinge.side, nothing), lower, upper));
-  // Subtract the hinge's part from Λ, as the addition of a negative share: additions can take either operand from
-  // memory, which saves an instruction.
+  // Subtract the hinge's part from Λ by adding a negative share: an addition can take either operand from memory, which
+  // saves an instruction.
   const V share = OrZero(is_free, nothing - scale);
   for (int r = 0; r < 6; ++r) {
     const V row_share = share * y[r];
@@ -299,8 +300,8 @@ HWY_INLINE V Clamped(const V& x, const V& lower, const V& upper) {
   return Select(Below(x, lower), lower, Select(Below(upper, x), upper, x));
 }
 
-/// Sets the hinge's change and side from the movement of the limb before, and updates `movement` to that of the limb
-/// beyond.
+/// From the movement of the limb before, computes the hinge's change and side, and updates `movement` to that of the
+/// limb beyond.
 template <class V>
 HWY_INLINE void SubstituteHinge(const V& lower, const V& upper, const HingeLanes<V>& hinge, V& change, V& side,
                                 V (&movement)[6]) {
@@ -394,8 +395,8 @@ HWY_INLINE void EliminateHinge(const Four& damping, double to_start, double to_l
   hinge.best = FirstOf(best);
 }
 
-/// Sets the hinge's change from the movement of the limb before, and updates `movement` to that of the limb beyond.
-/// Returns true if the hinge has changed sides.
+/// From the movement of the limb before, computes the hinge's change, and updates `movement` to that of the limb
+/// beyond. Returns true if the hinge has changed sides.
 HWY_INLINE bool SubstituteHinge(double to_lower, double to_upper, TrunkHinge& hinge, double& change, SixRow& movement) {
   const Four best = Four(hinge.best) - Four(hinge.scale) * DotRows(LoadRow(hinge.matrix_s), movement);
   const Four lower(to_lower), upper(to_upper);

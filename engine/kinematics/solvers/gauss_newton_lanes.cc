@@ -10,7 +10,7 @@
 #define HWY_TARGET_INCLUDE "engine/kinematics/solvers/gauss_newton_lanes.cc"
 #include "hwy/foreach_target.h"  // before highway.h
 
-// The order matters: these headers are included once per instruction set.
+// These headers are included once per instruction set, so their order matters.
 #include "engine/kinematics/solvers/gauss_newton_kernel-inl.h"
 #include "engine/kinematics/solvers/vectors-inl.h"
 #include "hwy/highway.h"
@@ -45,7 +45,7 @@ class LanePoses {
       from += stride;
       return number;
     };
-    // In float, positions are relative to the root, which preserves the limit digits.
+    // In float, positions are relative to the root, which keeps more of their digits.
     constexpr bool kFromRoot = sizeof(T) < sizeof(double);
     double origin[3] = {};
     for (int k = 0; k < 3; ++k) {
@@ -141,7 +141,7 @@ class LanePoses {
 };
 
 /// Solves one problem per lane in rounds: a round places all poses, passes their residuals to the lanes' courses, and
-/// steps. A lane skips the step of a round if its course asks for something else, or if its step needs another
+/// steps. A lane skips the step of a round if its course requests another action, or if its step needs another
 /// active-set pass that few other lanes need. The results of a lane depend on its own problem alone; only their timing
 /// depends on the others.
 template <class T>
@@ -237,7 +237,7 @@ class GaussNewtonLanes {
     poses_.Load(n, from + 2 * dofs, stride);
   }
 
-  /// Asks every lane's course what to do, and does it, except for steps.
+  /// Gets the next action of every lane's course, and performs it unless it is a step.
   void Steer() {
     registers_[kKeepsLast] = registers_[kKeepsBest] = registers_[kCounts] = V(0.0);
     for (std::size_t n = 0; n < lanes_.size(); ++n) {
@@ -253,7 +253,7 @@ class GaussNewtonLanes {
     }
   }
 
-  /// Asks a lane's course what comes next, and does it unless it is a step. Returns true for a step.
+  /// Gets the next action of a lane's course, and performs it unless it is a step. Returns true for a step.
   bool Ask(Lane& lane, int n) {
     using enum GaussNewtonCourse::Act;
     const auto is_out_of_reach = [&] { return help_.IsOutOfReach(lane.problem); };
@@ -279,7 +279,7 @@ class GaussNewtonLanes {
     if (next.act == kSweep) {
       help_.Sweep(lane.problem, next, lane.course, Angles(n));
       for (std::size_t d = 0; d < angles_.size(); ++d) {
-        // An angle that is rounded to float may leave its range.
+        // An angle may leave its range when it is rounded to float, so clamp it.
         const double lower = GetLane(angles_[d].lower, n), upper = GetLane(angles_[d].upper, n);
         SetLane(angles_[d].now, n, std::clamp<double>(static_cast<T>(scratch_[d]), lower, upper));
       }
@@ -300,12 +300,12 @@ class GaussNewtonLanes {
     return scratch_;
   }
 
-  /// Steps in all lanes that asked for it: active-set passes, then the move.
+  /// Computes the step in all lanes that take one: active-set passes, then the change of angles.
   void Step() {
     int counting = 0;
     for (const Lane& lane : lanes_) counting += lane.steps;
     if (counting == 0) return;
-    // Repeat passes until limit lanes have finished their active sets.
+    // Repeat passes until nearly all lanes have finished their active sets.
     while (true) {
       Eliminate();
       const M has_changed = Substitute();

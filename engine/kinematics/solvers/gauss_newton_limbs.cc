@@ -10,7 +10,7 @@
 #define HWY_TARGET_INCLUDE "engine/kinematics/solvers/gauss_newton_limbs.cc"
 #include "hwy/foreach_target.h"  // before highway.h
 
-// The order matters: these headers are included once per instruction set.
+// These headers are included once per instruction set, so their order matters.
 #include "engine/kinematics/solvers/gauss_newton_kernel-inl.h"
 #include "engine/kinematics/solvers/vectors-inl.h"
 #include "hwy/highway.h"
@@ -53,7 +53,7 @@ class LimbPoses {
   AlignedList<HingeLanes<Four>>& hinges() { return hinges_; }
   AlignedList<TrunkHinge>& trunk_hinges() { return trunk_hinges_; }
 
-  /// Returns where an effector's target is kept, as `GaussNewtonLimbs` declares.
+  /// Returns the memory of an effector's target, in the layout that `GaussNewtonLimbs` declares.
   double* TargetOf(int effector) { return reinterpret_cast<double*>(&EndsOf(effector).target) + Lane(effector); }
   GaussNewtonLimbs::End EndOf(int effector) {
     const double* from = reinterpret_cast<const double*>(&EndsOf(effector).frame) + Lane(effector);
@@ -203,7 +203,7 @@ class LimbPoses {
   ResidualLanes<double> miss_{};
 };
 
-// Solves one problem, as its course decides.
+// Solves one problem, step by step as its course decides.
 class LimbLanes final : public GaussNewtonLimbs {
  public:
   explicit LimbLanes(const LimbPacks& packs)
@@ -223,7 +223,7 @@ class LimbLanes final : public GaussNewtonLimbs {
       *row = next;
       next += index_count_;
     }
-    // Padding without a hinge keeps the angle 0 in the range ±1, so it is always free.
+    // Padding that is no hinge keeps the angle 0 in the range ±1, so it never reaches a limit.
     std::fill_n(lower_, index_count_, -1.0);
     std::fill_n(upper_, index_count_, 1.0);
     angles = start_;
@@ -241,7 +241,7 @@ class LimbLanes final : public GaussNewtonLimbs {
     Copy(start_, now_);
     const auto is_out_of_reach = [&] { return help.IsOutOfReach(0); };
     while (true) {
-      // Place the pose, ask the course, do what it says.
+      // Place the pose, get the course's next action, and perform it.
       poses_.Place(now_, root);
       const GaussNewtonCourse::Next next = course.Arrive(poses_.miss().squares, IsMet(rules, help), is_out_of_reach);
       if (next.is_best) Copy(now_, best_);
@@ -315,7 +315,7 @@ class LimbLanes final : public GaussNewtonLimbs {
   /// Eliminates the hinges of four limbs, from their ends to the trunk.
   void EliminateLimbs(std::size_t number, const Four& damping) {
     const LimbPacks::Pack& pack = packs_.packs[number];
-    QuadraticLanes<Four>& sum = sum_[0];  // in memory: GCC would keep a local variable twice
+    QuadraticLanes<Four>& sum = sum_[0];  // in memory, because GCC would store a local variable twice
     bool is_empty = true;
     for (int l = pack.first_level + pack.level_count; l-- > pack.first_level;) {
       const LimbPacks::Level& level = packs_.levels[l];
@@ -336,7 +336,7 @@ class LimbLanes final : public GaussNewtonLimbs {
                        sum, hinges_[slot]);
       }
     }
-    // Store what is left of each limb as rows, for the trunk.
+    // Store the remaining quadratic of each limb as rows, for the trunk.
     QuadraticRows* rows = &limb_rows_[number * LimbPacks::kWidth];
     for (int r = 0; r < 6; ++r) PutRows(sum.matrix + 6 * r, [&](int lane) -> SixRow& { return rows[lane].matrix[r]; });
     PutRows(sum.vector, [&](int lane) -> SixRow& { return rows[lane].vector; });

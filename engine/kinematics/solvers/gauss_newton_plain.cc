@@ -76,7 +76,7 @@ class PlainSolver {
   void MoveByChange() {
     double largest = 0;
     for (const double c : change_) largest = std::max(largest, std::abs(c));
-    // Overflow, from extreme weights or lengths: take no step.
+    // If extreme weights or lengths cause an overflow, take no step.
     if (!std::ranges::all_of(change_, [](double c) { return std::isfinite(c); })) largest = 0;
     const double share = largest > kMaxTurn ? kMaxTurn / largest : 1;
     for (std::size_t d = 0; d < state_.angles.size() && largest > 0; ++d) {
@@ -114,7 +114,7 @@ class PlainSolver {
     Place();
   }
 
-  // Forward kinematics at a pose that no iteration produced.
+  // Forward kinematics at a pose that was not produced by an iteration.
   void Place() {
     ComputeFrames(tree_, state_, frames_);
     run_.CountPass();
@@ -192,7 +192,7 @@ GaussNewtonStep::GaussNewtonStep(const KinematicTree& tree, std::span<const Effe
       change_(tree.limits.size()) {}
 
 double GaussNewtonStep::Build(const TreeFrames& frames) {
-  // The screw of every hinge: its axis, and the translation that it gives the limb's point at the root.
+  // The screw of every hinge: its axis, and the translation per radian of the limb's point at the root.
   const glm::dvec3 p_WR = frames.joints[0].position;
   for (const int n : inwards_) {
     const TreeJoint& joint = tree_.joints[n];
@@ -265,11 +265,11 @@ void GaussNewtonStep::EliminateInwards(double damping) {
       Hinge& hinge = hinges_[d];
       Spatial y;
       Multiply(limb.matrix.data(), hinge.screw.data(), y.data());
-      // The product sᵀΛs is negative only by rounding.
+      // The product sᵀΛs can be negative only because of rounding.
       hinge.scale = 1 / (damping + std::max(0.0, DotSix(y.data(), hinge.screw.data())));
       hinge.best = hinge.scale * (damping * hinge.pull + DotSix(limb.vector.data(), hinge.screw.data()));
       hinge.matrix_s = y;
-      // A fixed hinge contributes a constant change; a free one takes its best change for every movement.
+      // A fixed hinge contributes a constant change; a free hinge contributes its best change for every movement.
       double change = hinge.side == Side::kLower ? hinge.lower : hinge.upper;
       if (hinge.side == Side::kFree) {
         change = hinge.best;
@@ -277,7 +277,7 @@ void GaussNewtonStep::EliminateInwards(double damping) {
       }
       AddScaled(y.data(), -change, limb.vector.data());
     }
-    // Add the rest to the parent limb.
+    // Add the remaining quadratic to the parent limb.
     Quadratic& parent = limbs_[joint.parent];
     Add<36>(limb.matrix.data(), parent.matrix.data());
     Add<6>(limb.vector.data(), parent.vector.data());

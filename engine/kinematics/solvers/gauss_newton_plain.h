@@ -16,7 +16,8 @@ namespace etude {
 IkSolution SolveGaussNewtonPlainly(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                                    const GaussNewtonOptions& own = {});
 
-/// Gauss–Newton steps towards targets that stay as near to a preferred posture as the targets allow. A step is
+/// Computes Gauss–Newton steps that lead towards targets and stay as near to a preferred posture as the targets allow.
+/// A step is
 ///
 ///     argmin |J dq − e|² + μ |q + dq − q₀|²   subject to   lower ≤ q + dq ≤ upper,
 ///
@@ -27,16 +28,16 @@ IkSolution SolveGaussNewtonPlainly(const KinematicTree& tree, const IkProblem& p
 /// J is never formed. As in Featherstone's articulated-body algorithm, the cost of all targets beyond a joint is one
 /// quadratic function ½VᵀΛV − ηᵀV of the spatial movement V of the joint's limb (its rotation, and its translation at
 /// the root). Elimination runs from the leaves inwards: where limbs join, their quadratics are added; a hinge with
-/// screw s takes its best angle for every V, which subtracts Λs(Λs)ᵀ / (μ + sᵀΛs) from Λ. Substitution runs outwards
-/// from the root, which does not move, and yields the angles one by one. The cost is linear in the number of hinges,
-/// for any tree and any number of effectors.
+/// screw s is eliminated by inserting its best angle for every V, which subtracts Λs(Λs)ᵀ / (μ + sᵀΛs) from Λ.
+/// Substitution runs outwards from the root, which does not move, and yields the angles one by one. The cost is linear
+/// in the number of hinges, for any tree and any number of effectors.
 ///
 /// Bounds are kept by a primal-dual active set (Hintermüller, Ito and Kunisch 2002). During substitution every hinge
-/// compares its best change, given the movement of its limb, with its range: beyond an end it is fixed at that end from
-/// the next call on; a fixed hinge that would come back is freed. Each call is one such pass, inwards and outwards, so
-/// the set converges along with the steps, which needs fewer passes than a complete active set in every step. The
-/// answer always lies within the ranges. It is the optimum if no hinge has changed sides (`is_exact`): then the
-/// conditions of Karush, Kuhn and Tucker hold.
+/// compares its best change, given the movement of its limb, with its range: if the change leads beyond an end, the
+/// hinge is fixed at that end from the next call on; if a fixed hinge would move back inside, it is freed. Each call is
+/// one such pass, inwards and outwards, so the set converges along with the steps, which needs fewer passes than a
+/// complete active set in every step. The answer always lies within the ranges. It is the optimum if no hinge has
+/// changed sides (`is_exact`): then the conditions of Karush, Kuhn and Tucker hold.
 ///
 /// The constructor allocates all memory. `tree` and `targets` must outlive this object.
 class GaussNewtonStep {
@@ -54,7 +55,8 @@ class GaussNewtonStep {
   bool is_exact() const { return is_exact_; }
 
  private:
-  using Spatial = std::array<double, 6>;  // a rotation, then a translation of the limb's point at the root R, both in W
+  // A rotation, then the translation of the limb's point at the root R, both in W.
+  using Spatial = std::array<double, 6>;
   struct Quadratic {
     std::array<double, 36> matrix;  // Λ
     Spatial vector;                 // η

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kMaxDofs = 3;  // of a joint
 
-// Sets the axes of a joint, and whether they only rename or reverse those of its parent.
+// Sets the axes of a joint, and finds if they are only a permutation of its parent's axes with changed signs.
 void DescribeAxes(const glm::dmat3& R_PJ, GaussNewtonTree::Joint& joint) {
   joint.renames_axes = true;
   for (int c = 0; c < 3; ++c) {
@@ -135,8 +135,8 @@ class LimbPacker {
       pack.parents[lane] = joints_[limb.parent].trunk;
       joints[lane] = limb.first_joint;
     }
-    // Outwards, each level holds the next joint of every limb and its effector; the last level holds the ends of
-    // shorter limbs.
+    // Going outwards, each level holds the next joint of every limb and its effector; shorter limbs end in the last
+    // level.
     for (int l = 0; l < pack.level_count; ++l) {
       LimbPacks::Level& level = made_.levels.emplace_back();
       level.first_slot = made_.slot_count;
@@ -194,7 +194,7 @@ class LimbPacker {
     made_.place_count = (places + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
   }
 
-  // Lists the branches of each trunk joint: first its own effectors, then what lies beyond it.
+  // Lists the branches of each trunk joint: first its own effectors, then the limbs and trunk joints beyond it.
   void AddBranches() {
     for (std::size_t n = 0; n < joints_.size(); ++n) {
       if (!joints_[n].is_trunk) continue;

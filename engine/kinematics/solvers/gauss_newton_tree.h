@@ -9,13 +9,13 @@ namespace etude {
 
 struct KinematicTree;
 
-/// The tree as the solver of many problems reads it (gauss_newton_lanes.cc).
+/// The tree in the form that the solver of many problems needs (gauss_newton_lanes.cc).
 struct GaussNewtonTree {
   struct Joint {
     int parent = -1;
     int first_dof = 0, dof_count = 0;
     bool renames_axes = false;  ///< true if every axis of `R_PJ` is ± an axis of the parent
-    int from[3] = {};           ///< for each axis: the index of that parent axis
+    int from[3] = {};           ///< for each axis: the index of the parent's axis along which it lies
     double sign[3] = {};        ///< for each axis: 1 if it points the same way, else −1
     double R_PJ[3][3] = {};     ///< columns
     double p_PJ[3] = {};
@@ -48,8 +48,8 @@ struct GaussNewtonTree {
 
 /// A tree divided for vectors of four numbers. *Limbs* are unbranched chains of joints that end in a leaf; four of them
 /// side by side form a *pack*. The *trunk* holds the joints between them and is computed one by one. In paper B's body,
-/// the arms, the right leg and the neck form one pack. A limb that lacks a joint, an axis or an effector of its pack
-/// gets a neutral one. All numbers stand in the order of use.
+/// the arms, the right leg and the neck form one pack. If a limb has fewer joints, axes or effectors than others of its
+/// pack, neutral ones are added. All numbers are stored in the order of use.
 struct LimbPacks {
   static constexpr int kWidth = 4;
   static constexpr std::size_t kAlignment = kWidth * sizeof(double);

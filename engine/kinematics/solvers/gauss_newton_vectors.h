@@ -15,8 +15,8 @@ enum class Precision;
 
 /// The options that vector code needs.
 struct GaussNewtonRules {
-  /// A pose meets its goals if its largest squared distance and its largest squared chord are below `…_met`; it misses
-  /// them if either is not below `…_missed`. In between, its errors must be measured exactly.
+  /// A pose meets the goals if its largest squared distance and its largest squared chord are below `…_met`, and misses
+  /// them if one of the two is not below `…_missed`. In other cases its errors must be measured exactly.
   double squared_distance_met = 0, squared_distance_missed = 0;
   double squared_chord_met = 0, squared_chord_missed = 0;
   int extra_passes = 0;
@@ -44,7 +44,7 @@ class GaussNewtonHelp {
   virtual bool IsOutOfReach(int problem) = 0;
   /// Returns true if these angles meet the goals, by measuring their errors.
   virtual bool MeetsGoals(int problem, std::span<const double> angles) = 0;
-  /// Scatters and sweeps as `next` says, and counts the sweeps. `angles` are read and replaced.
+  /// Scatters and sweeps as `next` prescribes, and counts the sweeps. `angles` are read and replaced.
   virtual void Sweep(int problem, const GaussNewtonCourse::Next& next, GaussNewtonCourse& course,
                      std::span<double> angles) = 0;
 };
@@ -74,7 +74,7 @@ class GaussNewtonLimbs {
   };
   virtual End EndOf(int effector) = 0;
 
-  /// Solves the problem as `course` decides. `help` is asked for problem 0.
+  /// Solves the problem as `course` decides. Calls to `help` name problem 0.
   virtual void Solve(const GaussNewtonRules& rules, GaussNewtonCourse& course, GaussNewtonHelp& help) = 0;
 };
 

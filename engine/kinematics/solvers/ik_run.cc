@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kScatter = 1.5;                     // maximum distance of a restart from the start, radians
 constexpr double kGoldenShare = 0.6180339887498949;  // multiples of it modulo 1 are evenly distributed
-// A fifth of a degree of the start angle changes x by a whole period.
+// A change of a start angle by 0.2° changes x by a whole period.
 constexpr double kSpread = 300;
 
 }  // namespace
@@ -41,7 +41,7 @@ double IkRun::WorstMeanAxis() const {
   return worst;
 }
 
-// Compares chords, because an angle is never smaller than its chord.
+// Compares chords instead of angles: a chord is never longer than its angle.
 bool IkRun::MissesByFar(const TreeFrames& frames) const {
   const double squared_position_goal = options_.position_goal * options_.position_goal;
   const double squared_axis_goal = options_.axis_goal * options_.axis_goal;

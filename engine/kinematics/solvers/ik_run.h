@@ -45,8 +45,8 @@ class IkRun {
     }
   }
 
-  /// Records by the frames of `angles`, for solvers that do not need errors themselves. Errors are then computed only
-  /// for a trace, near the goals, and at the end.
+  /// Records an iteration by the frames of `angles`, for solvers that do not need errors themselves. Errors are
+  /// computed only for a trace, near the goals, and at the end.
   template <class Angles>
   void RecordFrames(const TreeFrames& frames, const Angles& angles) {
     if (!Traces() && MissesByFar(frames)) {
@@ -96,7 +96,7 @@ class IkRun {
   IkSolution solution_;
 };
 
-/// Returns the solution of every solver to a faulty problem.
+/// Returns the solution that every solver gives for a faulty problem.
 IkSolution BadInput(const KinematicTree& tree);
 
 /// Runs a solver that moves from pose to pose. The start has been recorded when `iterate(run, state, frames)` is
@@ -149,7 +149,7 @@ inline constexpr int kRestarts = 20;
 
 /// Sets `angles` to the pose of restart `number` ≥ 1: up to 1.5 rad from `start` in every angle, within `ranges`. The
 /// pose is a deterministic function of `number` and `start`; it uses no random numbers. Along a motion with few
-/// iterations a frame, every frame therefore tries new poses.
+/// iterations per frame, every frame therefore tries new poses.
 void ScatterAround(std::span<const double> start, std::span<const AngleRange> ranges, int number,
                    std::vector<double>& angles);
 

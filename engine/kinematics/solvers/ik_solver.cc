@@ -27,7 +27,8 @@ Own OwnOptions(const SolverSettings& settings, auto SolverSettings::*told, auto 
   return own;
 }
 
-/// Makes a solver of one that has options of its own: `told` sets `member` of them. `number.fallback` is found there.
+/// Adapts a solver that has options of its own: a given setting sets `member` of these options, whose default becomes
+/// `number.fallback`.
 template <typename Own, typename Number>
 IkSolver WithSetting(IkSolver solver, SolveWithOwn<Own> solve, std::optional<Number> SolverSettings::*told,
                      Number Own::*member, NumberSetting number) {

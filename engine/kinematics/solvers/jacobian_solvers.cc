@@ -29,7 +29,7 @@ void DampedInverse::Build(const LinearTargets& linear) {
 
 bool DampedInverse::Step(double damping, std::span<const double> preferred, std::vector<double>& step) {
   step.assign(preferred.begin(), preferred.end());
-  if (rows_ == 0) return true;  // no target: only the preferred posture counts
+  if (rows_ == 0) return true;  // no target: only the preferred posture determines the step
   damped_ = gram_;
   Eigen::Map<Eigen::MatrixXd> damped(damped_.data(), rows_, rows_);
   damped.diagonal().array() += damping;
@@ -46,10 +46,10 @@ bool DampedInverse::Step(double damping, std::span<const double> preferred, std:
   return true;
 }
 
-// Solves (J_F J_Fᵀ + μI) y = e − J step, where F are the free angles. `duals_` holds the right-hand side before and y
-// after. Returns false if the matrix is singular.
+// Solves (J_F J_Fᵀ + μI) y = e − J step, where F are the free angles. `duals_` holds the right-hand side before the
+// call and y after it. Returns false if the matrix is singular.
 bool DampedInverse::SolveDuals(double damping) {
-  if (rows_ == 0) return true;  // no target: only the preferred posture counts
+  if (rows_ == 0) return true;  // no target: only the preferred posture determines the step
   damped_ = gram_;
   Eigen::Map<Eigen::MatrixXd> damped(damped_.data(), rows_, rows_);
   damped.diagonal().array() += damping;
@@ -129,13 +129,13 @@ void ComputeStep(const LinearTargets& linear, std::span<const double> angles, st
   if (length > 0) step *= gain * residuals.dot(gained) / length;
 }
 
-// Damps the active set's steps where an undamped one within the limits cannot meet the targets.
+// Damps steps with the active set if an undamped step within the limits cannot meet the targets.
 
 // The range of λ in damped least squares, and the factor by which it changes.
 constexpr double kMinDamping = 1e-9;
 constexpr double kMaxDamping = 1e6;
 constexpr double kDampingStep = 5;
-// The solver stalls if a step lowers the sum by less than this share: it would take a million such steps to matter.
+// The solver stalls if a step lowers the sum by less than this share, because only a million such steps would matter.
 constexpr double kMinGain = 1e-6;
 
 }  // namespace
@@ -222,16 +222,16 @@ IkSolution SolveDampedLeastSquares(const KinematicTree& tree, const IkProblem& p
 
 namespace {
 
-// Range of Nielsen's factor on the damping. A factor below the minimum would no longer keep steps short where the
-// residual stays large.
+// Range of Nielsen's factor on the damping. A smaller factor would not keep steps short if the residual stays large.
 constexpr double kMinFactor = 1e-2, kMaxFactor = 1e9;
 // Growth of that factor after the first rejected step.
 constexpr double kFirstGrowth = 2;
 // Minimum damping: JJᵀ of limbs at their limits is singular.
 constexpr double kMinMu = 1e-9;
 
-// A descent is stuck if kMaxPatience steps have not reduced the sum of squares to the share kMinProgress. If few
-// iterations are allowed, max_iterations / kPartOfIterations steps count instead, so that restarts get some.
+// A descent is stuck if kMaxPatience steps have not reduced the sum of squares to the share kMinProgress of its value.
+// If few iterations are allowed, max_iterations / kPartOfIterations steps are enough, so that iterations remain for
+// restarts.
 constexpr int kMaxPatience = 6;
 constexpr int kPartOfIterations = 5;
 constexpr double kMinProgress = 0.7;
@@ -279,7 +279,7 @@ class Minimiser {
   }
 
  private:
-  /// Forward kinematics at a pose that no iteration produced.
+  /// Forward kinematics at a pose that was not produced by an iteration.
   void Place() {
     ComputeFrames(tree_, state_, frames_);
     run_.CountPass();

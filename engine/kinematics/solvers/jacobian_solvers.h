@@ -28,14 +28,14 @@ class DampedInverse {
   /// smallest pivot is not above 10⁻¹² of its largest.
   bool Step(double damping, std::span<const double> preferred, std::vector<double>& step);
 
-  /// Sets `step` to the best step that keeps `angles`, which must lie within `ranges`, there:
+  /// Sets `step` to the best step that keeps `angles` within `ranges`, where they must already be:
   ///     argmin |J dq − e|² + μ |dq − preferred|²   subject to   lower ≤ angles + dq ≤ upper.
   /// By duality dq = clamp(preferred + Jᵀy) with J dq + μ y = e, a piecewise linear equation with as many unknowns as J
   /// has rows. It is solved by Newton's method, which here is the primal-dual active set method (Hintermüller, Ito and
-  /// Kunisch 2002): solve for y with some angles fixed at an end of their range, none at first; then fix each angle for
-  /// which preferred + Jᵀy leaves the range at that end, and free the others. (Starting from the active set of the last
-  /// step takes more passes.) At most four passes are made; with the damping of `levenberg-marquardt` the mean is one
-  /// and a half, nearly all sets settle, and more passes hardly help the others. The answer always lies within the
+  /// Kunisch 2002): solve for y with some angles fixed at an end of their range, none at first; then fix each angle
+  /// whose preferred + Jᵀy leaves its range at the end where it leaves, and free the others. (Starting from the active
+  /// set of the last step takes more passes.) At most four passes are made; with the damping of `levenberg-marquardt`
+  /// the mean is 1.5; nearly all sets settle, and more passes hardly help the others. The answer always lies within the
   /// ranges. It is the optimum if the set has settled (`is_exact`): then the conditions of Karush, Kuhn and Tucker
   /// hold. Returns false as above, for the matrix of the free angles.
   bool StepWithin(double damping, std::span<const double> preferred, std::span<const double> angles,
@@ -60,45 +60,46 @@ class DampedInverse {
 
 struct JacobianTransposeOptions {
   /// Multiplies the step length that is optimal to first order; below 2 the error still falls to first order. The
-  /// default 1 is the method as it is known. It zigzags, as steepest descent with exact steps does, which shorter steps
-  /// avoid (Raydan and Svaiter 2002). Set it to 0.5 to see the method at its best (README.md has the figures).
+  /// default 1 is the usual method. Its steps zigzag like those of steepest descent with exact line search; shorter
+  /// steps avoid that (Raydan and Svaiter 2002). Set it to 0.5 to see the method at its best (README.md has the
+  /// figures).
   double gain = 1;
 };
 
 /// Solves by the transpose of the Jacobian instead of its inverse (Wolovich and Elliott 1984; paper B, section 3.5):
-/// the errors dX act on the limbs like forces, and every angle follows its torque, ΔΘ = α JᵀdX. *Ours*: the step length
+/// the errors dX act on the limbs like forces, and every angle follows its torque, ΔΘ = α JᵀdX. The step length is
+/// *ours*:
 ///     α = gain · ⟨dX, JJᵀdX⟩ / ⟨JJᵀdX, JJᵀdX⟩
-/// minimises |dX − J ΔΘ| for a gain of 1 (Buss 2004), and to first order every gain between 0 and 2 reduces it. Angles
-/// at an end of their range are left out if their torque points out of it; no step turns an angle by more than 0.6 rad;
-/// the new angles are clamped. Steps are cheap, but thousands are needed, because errors to which J is insensitive fade
-/// slowly. The solver stalls if JᵀdX = 0, as for a limb stretched towards its target (figure 3.8). `IkOptions::weights`
-/// and `refresh` do not apply. One iteration is one step and costs one forward-kinematics pass.
+/// With a gain of 1 it minimises |dX − J ΔΘ| (Buss 2004); to first order, every gain between 0 and 2 reduces it. Angles
+/// at an end of their range are left out if their torque points out of the range; no step turns an angle by more than
+/// 0.6 rad; new angles are clamped. Steps are cheap, but thousands are needed, because errors to which J is insensitive
+/// fade slowly. The solver stalls if JᵀdX = 0, as for a limb stretched towards its target (figure 3.8).
+/// `IkOptions::weights` and `refresh` do not apply. One iteration is one step and costs one forward-kinematics pass.
 IkSolution SolveJacobianTranspose(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                                   const JacobianTransposeOptions& own = {});
 
 struct JacobianPinvOptions {
-  /// The damping μ of J⁺ = Jᵀ(JJᵀ + μI)⁻¹. The default 0 is paper B's formula. With μ > 0, the null-space term no
-  /// longer leaves the effectors in place, so steps come to rest beside the targets; 10⁻³ is already too much. Set it
-  /// to 10⁻⁶, which does no harm, if JJᵀ is singular at every pose, as for limbs that cannot leave a plane.
+  /// The damping μ of J⁺ = Jᵀ(JJᵀ + μI)⁻¹. The default 0 is paper B's formula. With μ > 0, the null-space term also
+  /// moves the effectors, so steps end beside the targets; 10⁻³ is already too much. Set it to 10⁻⁶, which does no
+  /// harm, if JJᵀ is singular at every pose, as for limbs that cannot leave a plane.
   double damping = 0;
 };
 
-/// Solves by the pseudo-inverse with a preferred posture for what the targets leave open (paper B, equations 3.5
-/// and 3.7):
+/// Solves by the pseudo-inverse; a preferred posture determines the angles that the targets leave open (paper B,
+/// equations 3.5 and 3.7):
 ///     dΘ = J⁺dX + (I − J⁺J) dZ,   J⁺ = Jᵀ(JJᵀ + μI)⁻¹,   dZ = Θ₀ − Θ
 /// *Ours*: the preferred posture is the start Θ₀; μ is zero in the paper; no step turns an angle by more than 0.6 rad;
-/// limits by clamping the stepped angles, as in the paper. Nothing promises that the error falls: near a singularity,
-/// and where limits bind, it may rise, and an angle that is clamped is not made up for by others. Where
-/// JJᵀ is singular (a stretched limb, figure 3.8) the formula has no value (`DampedInverse`); the solver stalls there
-/// with the angles it has. `IkOptions::weights` and `refresh` do not apply. One iteration is one step; each costs one
-/// forward-kinematics pass.
+/// limits by clamping the stepped angles, as in the paper. The error need not fall: it may rise near a singularity and
+/// where limits are active, and other angles do not compensate for a clamped one. If JJᵀ is singular (a stretched limb,
+/// figure 3.8), the formula is undefined (`DampedInverse`), and the solver stalls with its present angles.
+/// `IkOptions::weights` and `refresh` do not apply. One iteration is one step; each costs one forward-kinematics pass.
 IkSolution SolveJacobianPinv(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                              const JacobianPinvOptions& own = {});
 
 struct DampedLeastSquaresOptions {
-  /// The damping λ of the first step, by default Marquardt's choice (1963). λ then follows the success of the steps, so
-  /// the number of solved problems hardly depends on it. A larger value keeps hidden angles nearer to the start: raise
-  /// it if the answer should stay there (README.md has the figures).
+  /// The damping λ of the first step, by default Marquardt's choice (1963). λ then adapts to the success of the steps,
+  /// so the number of solved problems hardly depends on this value. A larger value keeps hidden angles nearer to the
+  /// start: raise it if the answer should stay there (README.md has the figures).
   double first_damping = 1e-2;
   /// How a step keeps the limits. Clamping is the default because most implementations of this method do it. It is slow
   /// along limits, because other angles compensate for a clamped one only in later steps.
@@ -110,7 +111,7 @@ struct DampedLeastSquaresOptions {
 /// should use the active set, or `SolveLevenbergMarquardt`. Minimises
 ///   Σ_e [ position_weight · (|P_d − P_c| / 30 cm)² + Σ_k axis_weights_k · |u_kd − u_kc|² ]
 /// over the angles with Gauss–Newton steps (JᵀJ + λI) Δq = Jᵀ r. The damping follows Marquardt: λ is divided by 5 after
-/// a step that lowers the sum, and multiplied by 5 (and the step undone) after one that does not. With
+/// a step that lowers the sum, and multiplied by 5 after a step that does not lower it, which is undone. With
 /// `Bounds::kClamped`, each angle moves by at most 0.6 rad a step and is clamped to its limits. With `kActiveSet`,
 /// angles that would leave their limits are fixed there and the step is solved for the others (Baerlocher and Boulic
 /// 2004; here the set is the optimal one, `DampedInverse::StepWithin`), and the whole step is scaled down to at most
@@ -127,19 +128,19 @@ struct LevenbergMarquardtOptions {
 };
 
 /// Solves by the dense Levenberg–Marquardt method (Levenberg 1944; Marquardt 1963) with limits as a projected active
-/// set: the state of the art for this problem, and the strongest competitor of `gauss-newton`. Minimises what
+/// set. It is the state of the art for this problem, and the strongest competitor of `gauss-newton`. Minimises what
 /// `damped-least-squares` minimises,
 ///   Σ_e [ position_weight · (|P_d − P_c| / 30 cm)² + Σ_k axis_weights_k · |u_kd − u_kc|² ],
 /// by the best step within the ranges, argmin |J dq − e|² + μ |dq|²; angles at an end of their range are fixed if the
 /// gradient pushes them out of it (Bertsekas 1982; `DampedInverse::StepWithin`). The damping μ is the sum of squares
 /// (Sugihara 2011), which makes convergence near the targets quadratic, times a factor that follows the ratio of actual
-/// to predicted reduction (Nielsen 1999): down to a third after a good step; doubled, then quadrupled and so on after
-/// steps that would raise the sum, which are undone. No step turns an angle by more than 0.6 rad.
+/// to predicted reduction (Nielsen 1999): it falls to a third at most after a good step; after steps that would raise
+/// the sum, which are undone, it is doubled, then quadrupled, and so on. No step turns an angle by more than 0.6 rad.
 ///
 /// A descent is stuck if six steps (a fifth of the allowed iterations, if that is less) have not reduced the sum to 0.7
-/// of its value. Then up to twenty restarts follow from the same poses around the start that `gauss-newton` uses
-/// (`ScatterAround`), none if the targets are out of reach of any pose. Finally, steps from the pose of the smallest
-/// sum continue until they gain almost nothing: the answer if the targets cannot be met.
+/// of its value. Then up to twenty restarts follow, from the same poses around the start that `gauss-newton` uses
+/// (`ScatterAround`); there are none if no pose can reach the targets. Finally, steps from the pose of the smallest sum
+/// continue until they gain almost nothing; that is the answer if the targets cannot be met.
 ///
 /// `IkOptions::weights` and `refresh` do not apply. One iteration is one attempted step; each costs one
 /// forward-kinematics pass, a restart one more. A trace can jump where a restart begins.

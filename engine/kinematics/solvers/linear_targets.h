@@ -8,10 +8,10 @@
 
 namespace etude {
 
-/// The derivative of every end effector by every angle. Each degree of freedom has one column, with six numbers per
-/// effector in the tree's order: the derivative of its position (∂p/∂q, metres per radian, world), then its rotation
-/// vector per radian (world). A vector u that is fixed to the effector changes by ω × u. The entries are 0 if the angle
-/// does not move the effector.
+/// The derivative of every end effector with respect to every angle. Each degree of freedom has one column, with six
+/// numbers per effector in the tree's order: the derivative of its position (∂p/∂q, metres per radian, world), then its
+/// rotation vector per radian (world). A vector u that is fixed to the effector changes by ω × u. The entries are 0 if
+/// the angle does not move the effector.
 struct TreeJacobian {
   static constexpr int kPerEffector = 6;
 
@@ -30,9 +30,9 @@ void ComputeJacobian(const KinematicTree& tree, const TreeFrames& frames, TreeJa
 /// sum of squares.
 inline constexpr double kPositionScale = 0.30;
 
-/// The targets of a problem, linearised at a pose: angle changes dq meet them to first order if J dq = e. A position
-/// has three rows, in units of 0.30 m; the axes have up to three, in radians, about the effector's own axes. All rows
-/// are multiplied by the root of their weight, so |e|² is to first order
+/// The targets of a problem, linearised at a pose: to first order, angle changes dq meet the targets if J dq = e. A
+/// position has three rows, in units of 0.30 m; the axes have up to three, in radians, about the effector's own axes.
+/// All rows are multiplied by the square root of their weight, so to first order |e|² is
 ///     Σ_e [ position_weight · (|P_d − P_c| / 0.30 m)² + Σ_k axis_weights_k · |u_kd − u_kc|² ].
 /// Positions and axes of weight 0 have no rows. Shared by all solvers that use a Jacobian.
 class LinearTargets {

@@ -1,6 +1,6 @@
 // The data that a hinge needs about all end effectors beyond it are passed from joint to joint as one 4×4 matrix, so
 // the cost does not depend on the number of effectors. Angles are stored as (cos, sin), so the loop needs no
-// trigonometry.
+// trigonometric functions.
 //
 // For every effector E beyond a joint and its target D, the moments are
 //     M = Σ w_p (p_LE, 1)(p_WD, 1)ᵀ + Σ_k w_ok (u_kE_L, 0)(u_kD_W, 0)ᵀ,
@@ -10,8 +10,8 @@
 // where M_i is a row and ê = (e_W, −p_WJ·e_W) an axis of the frame before the hinge turns: M_i·ê_j sums the current
 // components along i times the desired ones along j, both relative to the joint J. So the best angle has the direction
 // (x, y) (paper B's equations 3.10–3.13 for several effectors). Turning by it mixes rows i and j. A step to the
-// parent's joint, away by p_PJ, adds p_PJ[r] times the last row to row r. Columns never change. The vectors ê also
-// suffice for forward kinematics: a turn mixes two of them, and a step by p_PJ subtracts p_PJ[k] from the last
+// parent's joint, at the distance p_PJ, adds p_PJ[r] times the last row to row r. Columns never change. The vectors ê
+// are also enough for forward kinematics: a turn mixes two of them, and a step by p_PJ subtracts p_PJ[k] from the last
 // component of ê_k.
 #include "engine/kinematics/solvers/moment_sweep.h"
 
@@ -82,7 +82,7 @@ struct GoalState {
   double position_pull, axis_pulls[3];
 };
 
-// Returns the angle from which an angle is counted: the middle of its range, or the start of a free angle.
+// Returns the reference of an angle: the middle of its range, or for a free angle its start.
 double MiddleOf(const AngleRange& range, double start) {
   const bool is_free = start - kPi > range.lower && start + kPi < range.upper;
   return is_free ? start : 0.5 * (range.lower + range.upper);
@@ -127,7 +127,7 @@ HWY_INLINE double TurnHinge(const Quad& from, const Quad& towards, HingeState& h
   const double square = x * x + y * y;
   const double length = std::sqrt(square);
   // If the optimum is outside the range, the end nearer on the circle has the larger gain; on a tie the lower end. The
-  // test uses (x, y) rather than its direction, so that it need not wait for the quotient.
+  // test uses (x, y) and not its direction, so that it need not wait for the division.
   const bool is_inside = x * hinge.cos_middle + y * hinge.sin_middle >= hinge.cos_half * length;
   const bool is_below = 0.0 >= y * hinge.cos_middle - x * hinge.sin_middle;
   const double half_s = is_below ? 0.0 - hinge.sin_half : hinge.sin_half;
@@ -363,7 +363,7 @@ void MomentSweep::ReadHalfTangents(std::span<double> out) const {
     const HingeState& hinge = state_->hinges[i];
     const double c = hinge.c * hinge.cos_middle + hinge.s * hinge.sin_middle;
     const double s = hinge.s * hinge.cos_middle - hinge.c * hinge.sin_middle;
-    out[i] = c >= 0 ? s / (1 + c) : (1 - c) / s;  // two forms of tan(angle / 2); each keeps its digits where it is used
+    out[i] = c >= 0 ? s / (1 + c) : (1 - c) / s;  // two forms of tan(angle / 2); each is used where it is accurate
   }
 }
 
@@ -371,7 +371,8 @@ void MomentSweep::SetHalfTangents(std::span<const double> half_tangents) {
   for (std::size_t i = 0; i < half_tangents.size(); ++i) {
     HingeState& hinge = state_->hinges[i];
     const double t = half_tangents[i], scale = 1 / (1 + t * t);
-    const double free_c = (1 - t * t) * scale, free_s = 2 * t * scale;  // before limits, counted from the middle
+    // Cosine before limits are applied, relative to the middle.
+    const double free_c = (1 - t * t) * scale, free_s = 2 * t * scale;
     const bool is_inside = free_c >= hinge.cos_half;
     const double c = is_inside ? free_c : hinge.cos_half;
     const double s = is_inside ? free_s : std::copysign(hinge.sin_half, t);

@@ -32,7 +32,7 @@ NamedAxis NameOf(const glm::dvec3& axis) {
   return {name, axis[name]};
 }
 
-// A step and the number of steps that depend on it one after another. Steps with the most dependants come first.
+// A step, and the length of the longest chain of steps that depend on it. Steps with the longest chains come first.
 struct StepWithDepth {
   SweepTree::Step step;
   int depth = 0;
@@ -107,7 +107,7 @@ void SweepTree::NameAxes(const KinematicTree& tree) {
   }
 }
 
-// Assigns an index to every axis before and after every turn: a sweep needs them all, so none is overwritten.
+// Assigns an index to every axis before and after every turn: a sweep needs all of them, so none may be overwritten.
 void SweepTree::PlaceAxes() {
   for (int& axis : joints[0].axes) axis = axis_count++;
   for (std::size_t n = steps.size(); n-- > 0;) {

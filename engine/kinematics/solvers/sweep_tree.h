@@ -6,10 +6,11 @@
 
 namespace etude {
 
-/// A tree as `MomentSweep` reads it: plain numbers and a list of steps that is the same for every problem. Forwards,
-/// the steps are a sweep from the leaves to the root; backwards, they are forward kinematics. Limbs have their own
-/// frames S: if R_PJ of the tree only permutes axes, as everywhere on the body, the limb's axes are named after the
-/// parent's, so that R_PJ becomes the identity and needs no computation. P, J and L below are limbs in these frames.
+/// A tree in the form that `MomentSweep` needs: plain numbers, and a list of steps that is the same for every problem.
+/// Forwards, the steps are a sweep from the leaves to the root; backwards, they are forward kinematics. Limbs have
+/// their own frames S: if R_PJ of the tree only permutes axes, as everywhere on the body, the limb's axes are named
+/// after the parent's, so that R_PJ becomes the identity and needs no computation. P, J and L below are limbs in these
+/// frames.
 struct SweepTree {
   struct Joint {
     int parent = -1;
@@ -39,7 +40,7 @@ struct SweepTree {
 
   std::vector<Joint> joints;
   std::vector<Effector> effectors;
-  /// Steps of each joint come after those of all joints beyond it; limbs without effectors are left out. Independent
+  /// The steps of a joint come after those of all joints beyond it; limbs without effectors are left out. Independent
   /// limbs alternate, so that a CPU can overlap them.
   std::vector<Step> steps;
   int axis_count = 0;

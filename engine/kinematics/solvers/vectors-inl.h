@@ -1,7 +1,8 @@
 // A CPU's vectors as values with operators: `Lanes` holds one number each of many problems, `Four` holds four doubles.
 // This file is included once per instruction set, which explains the include guard. No operation of `Lanes` mixes
-// lanes, and none is a fused multiply-add, which rounds once where CPUs without it round twice. Roots and quotients are
-// correctly rounded everywhere. So the results of a problem do not depend on the width of the vectors.
+// lanes. None is a fused multiply-add, because it rounds once where CPUs without it round twice. Square roots and
+// quotients are rounded correctly on all CPUs. The results of a problem therefore do not depend on the width of the
+// vectors.
 #if defined(ETUDE_VECTORS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ETUDE_VECTORS_INL_H_
 #undef ETUDE_VECTORS_INL_H_
@@ -115,8 +116,8 @@ HWY_INLINE double GetLane(const Lanes<T, D>& a, int lane) {
 
 // ---- Four doubles --------------------------------------------------------------------------------------------------
 
-// Stored as one vector, or as two on CPUs whose vectors hold two doubles. A `Four` is either one number each of four
-// limbs or four numbers of a row; only rows move numbers between lanes.
+// Stored as one vector, or as two on CPUs whose vectors hold two doubles. A `Four` holds either one number each of four
+// limbs, or four numbers of a row; only operations on rows move numbers between lanes.
 
 #if HWY_MAX_BYTES >= 32
 
@@ -153,7 +154,7 @@ HWY_INLINE void Transpose(Four& a, Four& b, Four& c, Four& d) {
   d.v = hn::ConcatUpperUpper(kTag, cd_odd, ab_odd);
 }
 
-/// Transposes four vectors; `c` and `d` are taken as zero.
+/// Transposes the four vectors a, b, 0, 0.
 HWY_INLINE void TransposeTwo(Four& a, Four& b, Four& c, Four& d) {
   constexpr Four::Tag kTag;
   constexpr hn::Half<Four::Tag> kHalf;
