@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// The result of testing a distance against a threshold on all pairs of frames that a transition could have used: every
+/// Counts how a threshold on a distance decides about all pairs of frames that a transition could have used: every
 /// bridge frame of the old clip within the allowed wait × every bridge frame of the new clip
 /// (docs/reference/metrics.md, Matching).
 struct MatchTally {
@@ -33,7 +33,7 @@ constexpr double kCloseGap = 0.15;
 /// Returns the mean distance of the twenty joints, centimetres, without aligning the poses.
 double MeanJointDistanceCm(const BodyPose& a, const BodyPose& b);
 
-/// The frames that a search returned for one query, in the order in which queries ask for them; empty: none.
+/// The frames that a search returned for one query, in the requested order; empty if none matched.
 using FoundFrames = std::vector<int>;
 
 /// Returns `search_agreement`: the share of queries with exactly the same result as a loop over all frames. Both have

@@ -57,8 +57,8 @@ std::vector<Searcher> MakeSearchers(std::span<const Grades> frames) {
   std::exit(1);
 }
 
-/// Compares the peers' answers with ours. Distances may differ by rounding, and any of several equally near frames
-/// counts.
+/// Compares the peers' answers with ours. Distances may differ by rounding, and any of several equally near frames is
+/// accepted.
 void CompareAnswers(const std::vector<Searcher>& searchers, const Queries& queries) {
   constexpr double kRounding = 1e-12;
   const Searcher& ours = searchers.front();
@@ -144,7 +144,7 @@ class Libraries {
   std::unique_ptr<Measured> held_;
 };
 
-/// Sends a query to a searcher; returns the number of frames found.
+/// Asks a searcher one query; returns the number of frames found.
 using Question = std::size_t (*)(const Searcher&, const Grades&);
 
 /// Times all queries in turn; the reported time is the mean.

@@ -61,7 +61,8 @@ struct NanoflannPeer::Tree {
   void PutPointsInLeafOrder();
 };
 
-/// nanoflann reads points through a table of indices. In the order of its leaves they are contiguous in memory.
+/// nanoflann reads points through a table of indices. If the points are stored in the order of its leaves, each leaf is
+/// contiguous in memory.
 void NanoflannPeer::Tree::PutPointsInLeafOrder() {
   frame_of = kd_tree->vAcc;
   std::vector<GradePoint> ordered;

@@ -27,7 +27,7 @@ double SquaredDistance(const GradePoint& a, const GradePoint& b, double limit) {
   return sum;
 }
 
-/// The k nearest of the frames offered so far, in time order.
+/// The k nearest of the frames seen so far, in time order.
 class BestFrames {
  public:
   explicit BestFrames(int k) : k_(static_cast<std::size_t>(k)) {}

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// A frame as a point with coordinates √S·μ: Euclidean distances of points are the distances of equation 1.
+/// A frame as a point with coordinates √S·μ: the Euclidean distance of two points is the distance of equation 1.
 using GradePoint = std::array<double, kTermCount>;
 GradePoint PointOf(const Grades& grades, const GradePoint& roots);
 GradePoint RootsOf(const FeatureWeights& weights);
@@ -27,7 +27,8 @@ class LoopPeer {
   std::vector<GradePoint> points_;
 };
 
-/// A search of all frames by our SIMD kernel, sixteen at once. Compared with the index, it shows what the tree saves.
+/// A search of all frames by our SIMD kernel, sixteen at once. The difference to the index shows how much the tree
+/// saves.
 class VectorLoopPeer {
  public:
   VectorLoopPeer(std::span<const Grades> frames, const FeatureWeights& weights);

@@ -24,7 +24,7 @@ struct LibraryClip {
   std::optional<Move> move;  ///< the authored move, with its key poses; only built-in moves have one
   RestBody body = {};        ///< the performer's body at rest; it has no joints if the body was not measured
   std::shared_ptr<const RecordedFigure> figure = {};  ///< the file's figure; null if the file has no meshes
-  std::vector<std::string> changes = {};  ///< of a file: what was found, and every change of what it holds
+  std::vector<std::string> changes = {};  ///< what was found in the file, and every change that was made to its content
 };
 
 /// The clips of one scenario, in order. Trial t uses clip t modulo the number of clips.

@@ -116,7 +116,7 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
   } else {
     opened.body.changes.emplace_back("the canonical body");
   }
-  // Markers were turned and scaled as told when they were read; arrays and angles of ours are turned here.
+  // Markers were already turned and scaled as the user asked; our own arrays and angles are turned here.
   const bool is_turned = options.up == UpAxis::kZ && !is_ours && !IsOfMarkers(opened.source.format);
   if (is_turned) {
     opened.body.found_up = {.axis = AxisOf(UpAxis::kZ), .evidence = UpEvidence::kTold};
@@ -126,7 +126,7 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
     opened.body.changes.emplace_back(is_ours ? "unit and up axis are its own, not those told"
                                              : "its unit is its own, not the one told");
   }
-  constexpr double kSameRate = 1e-6;  // a rate found by a column of times is rounded
+  constexpr double kSameRate = 1e-6;  // relative; a rate that was computed from a column of times is rounded
   const bool keeps_rate = std::abs(opened.source.clip.rate_hz / options.rate_hz - 1) < kSameRate;
   if (!keeps_rate) {
     opened.body.changes.push_back(
@@ -172,7 +172,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   const auto shown_of = [&](std::size_t i) {
     return file.shown.empty() ? nullptr : std::make_shared<const MarkerMotion>(std::move(file.shown[i]));
   };
-  // A file of one motion: a '#' chooses nothing, except the layout of an .npy array.
+  // A file of one motion: '#' in the reference has no meaning, except for the layout of an .npy array.
   const bool has_animations =
       file.format == ClipFormat::kGltf || file.format == ClipFormat::kGlb || file.format == ClipFormat::kFbx;
   const bool is_one = !has_animations && !is_recording && file.clips.size() == 1;

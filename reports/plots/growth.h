@@ -18,7 +18,7 @@ struct GrowthCurve {
   std::vector<GrowthPoint> points;  ///< by frames; sizes without a measurement are left out
 };
 
-/// The curves of all methods under conditions that differ only in the size of their library.
+/// The curves of all methods, for conditions that differ only in the size of their library.
 struct Growth {
   std::string label;  ///< of the other swept parameters; "" if there are none
   std::vector<GrowthCurve> distances;
@@ -35,7 +35,8 @@ std::string GrowthPlotSvg(const std::vector<GrowthCurve>& curves, const std::str
 bool ShowsGrowth(const ScenarioSummary& scenario);
 
 /// Returns the work and processor time of a query over the library's size, as curves and as a table; "" for other
-/// scenarios. Work is the same on every machine. A run merged from shards has times of several machines.
+/// scenarios. Work is the same on every machine; the times of a run that was merged from shards may come from several
+/// machines.
 std::string GrowthHtml(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// The widest matrix that fits a terminal; --json has wider ones.
+/// The widest matrix that fits a terminal; the output of --json has no such limit.
 constexpr int kMaxMatrixClips = 24;
 
 /// One clip's row of the table.
@@ -21,7 +21,7 @@ struct ClipSummary {
   int frames = 0, bridge_frames = 0;
   int poses = 0;           ///< number of different tag combinations among its bridge frames
   int reached = 0;         ///< number of other clips that it leads into
-  double frame_share = 0;  ///< mean over the other clips, as is the next member
+  double frame_share = 0;  ///< mean over the other clips; the next member, too
   double in_between_share = 0;
   std::optional<double> worst_wait_s;  ///< over the clips that it leads into
 };

@@ -75,7 +75,7 @@ ClipFacts FactsWithoutClip(const std::string& reference, const OpenOptions& opti
   return facts;
 }
 
-/// Returns what no person does, in words.
+/// Describes values that no person can have.
 std::vector<std::string> RemarksOf(const BodyFacts& body) {
   return body.faults ? FaultSentences(body.faults->faults) : std::vector<std::string>();
 }
@@ -211,7 +211,7 @@ std::string BodyLines(const BodyFacts& body) {
   }
   std::string remarks;
   for (const std::string& remark : RemarksOf(body)) remarks += Line("remark", remark);
-  // The unit or the marker set stands beside the stature; every change has a line.
+  // The unit or the marker set is printed beside the stature; every change gets a line.
   std::string changes;
   for (std::size_t i = 1; i < body.changes.size(); ++i) changes += Line("changed", body.changes[i]);
   return Line("body", fmt::format("{:.2f} m tall; {}; {} up ({})", motion.stature_m, body.changes.front(),
@@ -266,7 +266,7 @@ std::optional<MotionFaults> FaultsOf(const SourceClip& clip, const OpenOptions& 
   own.body.rate_hz = clip.clip.rate_hz;
   auto opened = UnderstandClip(clip, own);
   if (!opened) return std::nullopt;
-  // Put the floor back to the height that the file says.
+  // Put the floor back to the height that it has in the file.
   BodyConversion& body = opened->body;
   for (BodyPose& pose : body.motion.poses) {
     for (glm::dvec3& joint : pose.joints) joint.y += body.floor * body.metres_per_unit;

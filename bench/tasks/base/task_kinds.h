@@ -23,8 +23,8 @@ TaskKind MakeTrackingTaskKind();
 TaskKind MakeCaptureTaskKind();
 /// The task `search`: how does the cost of finding matching frames grow with the library?
 TaskKind MakeSearchTaskKind();
-/// How well does a distance measure tell that two poses look alike? One world: one of eight authored pairs of poses, or
-/// some hundreds of pairs of frames of two clips.
+/// How well does a distance measure show whether two poses look alike? One world: one of eight authored pairs of poses,
+/// or some hundreds of pairs of frames of two clips.
 TaskKind MakePoseDistanceTaskKind();
 TaskKind MakeCoachTaskKind();
 /// How close do the motions of files come to their truths in other files?

@@ -28,7 +28,7 @@ BodyPose HalfWay(const BodyPose& from, const BodyPose& to) {
       return length > 0 ? limb / length : limb;
     };
     glm::dvec3 middle = way(from) + way(to);
-    if (glm::length(middle) < 1e-6) middle = way(to);  // opposite directions have no middle
+    if (glm::length(middle) < 1e-6) middle = way(to);  // the middle of opposite directions is undefined
     const double length = glm::length(to[child] - to[parent]);
     half[child] = half[parent] + (length > 0 ? length * glm::normalize(middle) : glm::dvec3(0));
   }

@@ -11,14 +11,14 @@ namespace etude {
 std::span<const Fault> MadeFaults();
 
 /// Returns the recording with the fault imposed. Amplitude: every limb points half-way between its direction in the
-/// first frame with a body and its present direction, with its length kept. Wrong side: left and right are exchanged.
+/// first frame with a body and its present direction; lengths do not change. Wrong side: left and right are exchanged.
 /// Wrong move: unchanged, for a person who was asked for another move. `fault` is one of MadeFaults.
 NamedStream WithFault(const NamedStream& right, Fault fault);
 
-/// Returns whether a right performance is still right, grey or wrong with this fault, by the same limits as for
-/// simulated people (StrayLimits): by the angles of the limb that deviates most. For a wrong side the performances are
-/// first aligned in time (dynamic time warping), so that an additional step of a walk does not count. Another move is
-/// wrong.
+/// Returns whether a right performance is still right, grey or wrong with this fault, The limits are those for
+/// simulated people (StrayLimits), applied to the angles of the limb that deviates most. For a wrong side, dynamic time
+/// warping first aligns the performances in time, so that an additional step of a walk does not count. A wrong move is
+/// always wrong.
 Truth TruthOfFault(const NamedStream& right, const NamedStream& faulty, const LabelledPart& part, Fault fault);
 
 }  // namespace etude

@@ -16,11 +16,11 @@
 
 namespace etude {
 
-/// Makes the world of one person: their recordings, one after another, with their labels. Clips are sensed under the
-/// condition; recordings of a sensor are used as they are. A performance is judged until half a second after its end,
-/// but at most until the next one begins; this also holds for labels that overlap. If the condition names faults, each
-/// recording follows once more with each fault; right performances are then judged by TruthOfFault, and performances
-/// that were wrong before are grey.
+/// Makes the world of one person: their recordings, one after another, with their labels. Clips are sensed as the
+/// condition says; recordings of a sensor are used as they are. A performance is judged until half a second after its
+/// end, but at most until the next one begins; this also holds for labels that overlap. If the condition names faults,
+/// each recording follows once more with each fault; right performances are then judged by TruthOfFault, and
+/// performances that were wrong before are grey.
 DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person, const DetectionOptions& options,
                                  const WorldKey& key);
 
@@ -28,7 +28,7 @@ DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person,
 /// (`are_taught`), a single person, or recordings whose person is unknown.
 Result<void> CheckRecordings(const LabelledStreams& set, bool are_taught);
 
-/// What recognisers were taught when some people are left out.
+/// What recognisers were taught, with some people left out.
 struct Fold {
   Repertoire repertoire;
   std::vector<ReadyMethod> methods;
@@ -36,12 +36,13 @@ struct Fold {
 
 /// Teaches the methods' recognisers: `taught`, if given; otherwise all moves by everybody except `left_out`, with right
 /// performances as examples and wrong ones as counter-examples. A move that nobody else did right stays untaught. Fails
-/// if no move is left, or if a method needs more of a move than it has.
+/// if no move is left, or if a method needs more examples of a move than there are.
 Result<Fold> MakeFold(const LabelledStreams& set, const std::optional<std::vector<TaughtMove>>& taught,
                       const std::set<std::string>& left_out, const std::vector<DetectionMethod>& methods);
 
 /// Makes a task whose worlds are recorded people, one per trial in the order of their names. Recognisers are taught the
-/// moves of the file that the condition names, or else what all other people did. The task keeps the set's address.
+/// moves of the file that the condition names, or else the performances of all other people. The task keeps the set's
+/// address.
 Result<std::unique_ptr<Task>> MakeRecordedTask(TaskInput& input, const DetectionOptions& options,
                                                std::vector<DetectionMethod> methods);
 

@@ -7,8 +7,8 @@ namespace etude {
 
 /// Describes a library to search to outside methods.
 ///
-/// Setting; the library lies beside it as `library.f64`: `frames` times 24 numbers, frame by frame in time order. They
-/// are the grades of paper A's terms in the order of `terms`, as little-endian IEEE 754 numbers of 64 bits:
+/// Setting; the library is in the file `library.f64` beside it: `frames` times 24 numbers, frame by frame in time
+/// order. They are the grades of paper A's terms in the order of `terms`, as little-endian IEEE 754 numbers of 64 bits:
 ///
 ///     {"frames": 10000, "terms": [{"feature": "RH", "term": "down", "weight": 1}, …],
 ///      "query": "nearest", "threshold": 0.4, "file": "library.f64"}
@@ -16,13 +16,13 @@ namespace etude {
 /// The distance of two frames is √(Σ weight · (difference of the grades)²) over the terms (paper A, equation 1).
 Payload LibraryPayload(const SearchProblem& problem, SearchQuestion question);
 
-/// Encodes the problem: the grades of the frames asked about.
+/// Encodes the problem: the grades of the query frames.
 ///
 ///     {"queries": [[twenty-four numbers], …]}
 ///
 /// Each query asks for a list of frames of the library, numbered from 0. `first`: the earliest frame whose distance is
 /// below the threshold, or none. `within`: all such frames, in order. `nearest` and `nearest-10`: the one or ten frames
-/// of smallest distance, by distance, those of equal distance in order.
+/// of smallest distance, sorted by distance, then by frame number.
 Payload DescribeQueries(std::span<const Grades> queries);
 
 /// Encodes the truth, which is also a perfect answer; outside methods answer in the same form:

@@ -7,12 +7,12 @@
 
 namespace etude {
 
-/// A question about a frame: the first frame that matches it, all that match, or the nearest one or ten.
+/// What a query asks for: the first frame that matches it, all that match, or the nearest one or ten.
 enum class SearchQuestion { kFirst, kWithin, kNearest, kNearest10 };
 /// "first", "within", "nearest", "nearest-10".
 std::string_view QuestionName(SearchQuestion question);
 
-/// Returns the number of frames that `nearest` or `nearest-10` asks for; allows only these two.
+/// Returns the number of frames that `nearest` or `nearest-10` asks for; the question must be one of these two.
 int FramesAskedFor(SearchQuestion question);
 
 /// One condition of a search scenario.
@@ -20,7 +20,7 @@ struct SearchOptions {
   int frames = 10'000;  ///< in the library
   int queries = 200;    ///< per world
   double threshold = 0.4;
-  SearchQuestion question = SearchQuestion::kNearest;  ///< of methods that set none, and of outside methods
+  SearchQuestion question = SearchQuestion::kNearest;  ///< for methods that set none, and for outside methods
 };
 constexpr int kMaxLibraryFrames = 1'000'000;
 

@@ -65,7 +65,7 @@ FoundFrames ScanForNearest(const SearchProblem& problem, const Grades& query, st
   for (std::size_t f = 0; f < frames.size(); ++f) {
     ++seen;
     const auto distance = DistanceBelow(problem, query, frames[f], limit);
-    if (!distance) continue;  // of two equal distances the earlier frame stays
+    if (!distance) continue;  // if two distances are equal, the earlier frame stays
     const Neighbour neighbour{static_cast<int>(f), *distance};
     best.insert(std::upper_bound(best.begin(), best.end(), neighbour, IsBefore), neighbour);
     if (best.size() > wanted) best.pop_back();
@@ -161,7 +161,7 @@ std::vector<std::size_t> SizesOf(const std::vector<FoundFrames>& found) {
   return sizes;
 }
 
-/// Returns how many answers are wrong and the first of them; "" if all are right.
+/// Returns a sentence with the number of wrong answers and the first of them; "" if all are right.
 std::string DescribeMistakes(const std::vector<FoundFrames>& found, const std::vector<FoundFrames>& truth) {
   const auto first = std::mismatch(found.begin(), found.end(), truth.begin());
   if (first.first == found.end()) return "";

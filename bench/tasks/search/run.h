@@ -20,8 +20,9 @@ namespace etude {
 struct SearchAnswer {
   SearchQuestion question = SearchQuestion::kNearest;
   std::vector<FoundFrames> found;
-  std::optional<std::vector<std::int64_t>> distances;  ///< number computed; nothing if the method does not tell
-  std::optional<std::vector<std::int64_t>> boxes;      ///< number of boxes examined; nothing without an index
+  /// Number of distances computed; nullopt if the method does not report it.
+  std::optional<std::vector<std::int64_t>> distances;
+  std::optional<std::vector<std::int64_t>> boxes;  ///< number of boxes examined; nullopt without an index
 };
 
 /// The data that all queries of a world share.
@@ -34,7 +35,8 @@ struct SearchProblem {
 /// Finds the frames by the index.
 SearchAnswer FindByIndex(const SearchProblem& problem, std::span<const Grades> queries, SearchQuestion question);
 
-/// Examines every frame, but stops early: `first` at the first match, and the sum of a distance when it is too large.
+/// Examines every frame, but stops early: `first` stops at the first match, and the sum of a distance stops when it is
+/// too large.
 SearchAnswer FindByBruteForce(const SearchProblem& problem, std::span<const Grades> queries, SearchQuestion question);
 
 /// Returns the right answers to each question: computes every distance in full, and sorts.
@@ -43,7 +45,8 @@ std::map<SearchQuestion, std::vector<FoundFrames>> FindPlainly(const SearchProbl
                                                                const std::set<SearchQuestion>& questions);
 
 /// Measures an answer. The cell is `ok` if every query is answered right, else `unsolved`, with the number of wrong
-/// answers and the first of them. Series along the queries: how many frames were found and, if known, examined.
+/// answers and the first of them. Its series have one value per query: how many frames were found and, if known,
+/// examined.
 CellResult ScoreSearch(const SearchLibrary& library, std::span<const Grades> queries, const SearchAnswer& answer,
                        const std::vector<FoundFrames>& truth);
 

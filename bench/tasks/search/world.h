@@ -25,9 +25,9 @@ struct SearchLibrary {
 std::string DigestOf(std::span<const Grades> frames);
 
 /// Makes a library of `frames` frames: the clips performed by dancers with varied tempo and amplitude (VariedLibrary of
-/// sim/choreography). Needs at least one clip, each of at least two frames. The dice are always the same, because the
-/// library belongs to the condition; only queries differ between worlds. A smaller library is the beginning of a larger
-/// one.
+/// sim/choreography). Needs at least one clip, each of at least two frames. The random draws are always the same,
+/// because the library belongs to the condition; only queries differ between worlds. A smaller library is the beginning
+/// of a larger one.
 SearchLibrary MakeSearchLibrary(const ClipLibrary& clips, const FuzzySystem& fuzzy, int frames);
 
 /// Draws `queries` frames from all held-out frames of the library.
