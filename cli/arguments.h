@@ -30,15 +30,16 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
 
 /// Adds --seed. If the option is not given, `seed` keeps its value, which the help shows as the default.
 CLI::Option* AddSeed(CLI::App& command, std::uint64_t& seed, const std::string& help);
-/// Adds --seed. nullopt means the default of the scenario or of the program.
+/// Adds --seed. If it is not given, `seed` is nullopt, and the scenario or program has its own default.
 CLI::Option* AddSeed(CLI::App& command, std::optional<std::uint64_t>& seed, const std::string& help);
 /// Adds --seed-file, for every command that draws the dice of worlds; it excludes --seed.
 CLI::Option* AddSeedFile(CLI::App& command, std::string& file);
 /// Reads the key of secret worlds, if there is one. Warns if other users can read its file; fails if a seed is given,
 /// too.
 Result<std::optional<SecretKey>> TakeSecretKey(const std::string& file, bool has_seed = false);
-/// Adds --seed-file and returns an action that reads the key into `key` and then runs `act`, or complains. `seed` is
-/// the value of --seed, or null for a command without that option. `seed` and `key` must live as long as `act`.
+/// Adds --seed-file and returns an action that reads the key into `key` and then runs `act`, or complains if the key
+/// cannot be read. `seed` is the value of --seed, or null for a command without that option. `seed` and `key` must live
+/// as long as `act`.
 Action WithSecretKey(CLI::App& command, const std::optional<std::uint64_t>* seed, std::optional<SecretKey>& key,
                      const Action& act);
 /// Adds --reuse-key, for commands with --seed-file that refuse a key that was used before.
@@ -60,8 +61,8 @@ void AddUnsealed(CLI::App& command, Sealing& sealing);
 /// Adds --no-fence and --allow-exec, for every command that runs external methods.
 void AddOutsideRules(CLI::App& command, OutsideRules& rules);
 
-/// Returns a check of an option's text: "" for a number from `low` to `high`, else the complaint. CLI::Range would
-/// accept NaN. `kind` names the quantity: "rate in Hz".
+/// Returns a function that checks an option's text: it returns "" for a number from `low` to `high`, else a complaint.
+/// (CLI::Range would accept NaN.) `kind` names the quantity: "rate in Hz".
 std::function<std::string(const std::string& text)> NumberWithin(double low, double high, const std::string& kind);
 
 }  // namespace etude

@@ -23,8 +23,8 @@ struct BridgeCommandOptions {
   std::vector<std::string> to;  ///< corrective clips; empty = the coach's own among `clips`
   std::string output;           ///< a tags file, "" = only the summary
   std::string check;            ///< a tags file to check; "" = none
-  std::string fuzzy;            ///< builtin:NAME or a file; "" = paper A's, or for a check the one that the tags file
-                                ///< names
+  /// Builtin:NAME or a file; "" = paper A's, or the system that the checked tags file names.
+  std::string fuzzy;
   double threshold = 0.4, wait_s = 1;
   int min_clips = 2, most_per_class = 0;
   bool within_class = false, with_pairs = false, as_json = false, overwrite = false;

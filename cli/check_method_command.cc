@@ -19,7 +19,7 @@
 namespace etude {
 namespace {
 
-/// The recordings of people in place of simulated ones.
+/// Recordings of people, which replace simulated people.
 struct RecordedPeople {
   std::vector<std::string> streams;
   std::string labels;  ///< "" = each recording is one move
@@ -38,7 +38,7 @@ Result<std::unique_ptr<LabelledStreams>> LoadPeople(const RecordedPeople& people
       ASSIGN_OR_RETURN(labels[file], ReadWholeFile(file));
     }
   }
-  for (NamedStream& stream : loaded.streams) stream.motion.reset();  // as in a run: what a sensor saw
+  for (NamedStream& stream : loaded.streams) stream.motion.reset();  // only the sensed data remain, as in a run
   ASSIGN_OR_RETURN(auto labelled, LabelStreams(std::move(loaded.streams), labels));
   return std::make_unique<LabelledStreams>(std::move(labelled));
 }

@@ -285,7 +285,7 @@ Result<int> ClipMapCommand(const ClipMapOptions& options) {
   RETURN_IF_ERROR(WritePreview(options, clips.front().clip, map ? &*map : nullptr));
   // Roles are missing: write a file to fill in, and complain.
   if (!map) {
-    // Never overwrite a joint map that was given: the user is editing it, and it may be the output file.
+    // Never overwrite the joint map that the user gave: it is being edited, and may be the output file.
     if (options.joint_map.empty() && writes) {
       RETURN_IF_ERROR(WriteFileAtomically(options.output, UnfinishedMapFile(skeleton)));
       TellWritten(options.output);

@@ -26,23 +26,23 @@ constexpr int kInterrupted = 130;
 int Complain(const Error& error);
 /// Returns a command's exit code; for an error, complains and returns Complain's code.
 int Finish(const Result<int>& code);
-/// Says that Ctrl-C stopped the work and what is left of it. Returns kInterrupted.
+/// Says that Ctrl-C stopped the work, and what remains of it. Returns kInterrupted.
 int TellStopped(const Error& what_is_left = {{}, "stopped; nothing is kept"});
-/// Returns `code`, unless another run has replaced the folder while files of this run were written into it: then it
-/// complains and returns kIncompleteRun.
+/// Returns `code`, or, if another run has replaced the folder while files of this run were written into it, complains
+/// and returns kIncompleteRun.
 Result<int> UnlessReplaced(const std::string& folder, const RunData& run, int code);
-/// Warns on standard error that data were read although no valid seal confirms them. `why` = "" means that a seal does,
-/// and prints nothing.
+/// Warns on standard error that data were read although no valid seal confirms them. If `why` is "", the seal is valid
+/// and nothing is printed.
 void TellUnsealed(const std::string& why);
 /// Reads a baseline, and warns if no seal confirms it. Fails if its seal is invalid, unless seals are ignored.
 Result<Snapshot> TakeBaseline(const std::string& path, Sealing sealing);
-/// Runs scenarios with a progress bar, and says what was left out, damaged or not locked. Returns nothing if it was
-/// stopped, which it says, too.
+/// Runs scenarios with a progress bar, and reports clips that were left out, damaged lines and missing locks. If it was
+/// stopped, it says so and returns nullopt.
 Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options);
 /// Prints the tables of a finished run, and the reasons of methods without an answer. Returns kNothingWorked if a
 /// method has no answer or no cell is ok.
 int ShowOutcome(const RunOutcome& outcome);
-/// Returns true if the parent had closed our standard output at the start, so that nobody reads it.
+/// Returns true if the parent had closed our standard output before the start, so that nobody reads it.
 bool OutputWasClosed();
 /// Prints a title and indented lines; prints nothing if there are no lines.
 void PrintList(const std::string& title, const std::vector<std::string>& lines);
@@ -52,7 +52,7 @@ void PrintList(const std::string& title, const std::vector<std::string>& lines);
 /// `etude run`: runs scenarios with a progress bar and prints the verdicts; with --dry-run it only forecasts time and
 /// findings.
 void DefineRun(CLI::App& app, const std::string& command_line, Action& action);
-/// `etude evaluate TRUTH RESULT…`: judges the motions of files by their truths, as a run.
+/// `etude evaluate TRUTH RESULT…`: compares motions in files with their truths, and writes a run.
 void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& action);
 /// `etude scenario copy NAME FOLDER`: copies a scenario that comes with etude.
 void DefineScenario(CLI::App& app, Action& action);
@@ -63,11 +63,11 @@ void DefineReport(CLI::App& app, Action& action);
 /// `etude rows DIR`: writes the rows as lines of text.
 void DefineRows(CLI::App& app, Action& action);
 /// `etude replay DIR|FILE`: runs cells again and compares them stage by stage (exit code 1 if one differs), or packs
-/// one cell.
+/// one cell into a file.
 void DefineReplay(CLI::App& app, Action& action);
 /// `etude cite DIR`: prints BibTeX, and a sentence that identifies the run.
 void DefineCite(CLI::App& app, Action& action);
-/// `etude verify DIR`: recomputes and replays what a run states (exit code 1 if it differs), signs it, and checks a
+/// `etude verify DIR`: recomputes and replays the results of a run (exit code 1 if any differ), signs it, and checks a
 /// signature.
 void DefineVerify(CLI::App& app, Action& action);
 /// `etude gate`: exit code 0 = passed, 1 = regression or unmet expectation, 2 = bad input, 3 = incomplete.
@@ -108,7 +108,7 @@ void DefineCalibrate(CLI::App& app, Action& action);
 void DefineCapture(CLI::App& app, const std::string& command_line, Action& action);
 /// `etude coach`: coaches a song live from a skeleton stream.
 void DefineCoach(CLI::App& app, Action& action);
-/// `etude completion SHELL`, and the hidden command from which packages make their manual pages.
+/// `etude completion SHELL`, and the hidden command with which packages make their manual pages.
 void DefineOptionTree(CLI::App& app, Action& action);
 /// `etude crowd`: tracks a crowd's motions on one core, reports the time per frame, and makes a film of it.
 void DefineCrowd(CLI::App& app, Action& action);

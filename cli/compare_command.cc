@@ -26,7 +26,7 @@ Result<FinishedRun> LoadWholeRun(const std::string& folder, Sealing sealing) {
   return run;
 }
 
-/// States the limit of the verdicts: two runs of the same worlds show only what changed in the code.
+/// Returns a sentence on the limit of the verdicts: two runs of the same worlds show only changes of the code.
 std::string ScopeSentence(const FinishedRun& run) {
   std::vector<std::string_view> others;
   for (const FinishedScenario& scenario : run.scenarios) {

@@ -30,7 +30,7 @@ namespace {
 struct CrowdCommandOptions {
   CrowdOptions crowd;
   double seconds = 2;
-  int steps = 100;  ///< maximum steps per frame; a character that misses its targets restarts with as many
+  int steps = 100;  ///< maximum steps per frame; a character that misses its targets gets as many for a restart
   bool in_float = false;
   std::string output;  ///< a film file; "" = only the report
   int jobs = 0;

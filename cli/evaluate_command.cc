@@ -37,7 +37,7 @@ struct NamedResult {
   std::string name, pattern;
 };
 
-/// Returns a plain name for a pattern: of its folder if it has wildcards, else of its file.
+/// Returns a plain name for a pattern: that of its folder if it has wildcards, else that of its file.
 std::string NameFor(const std::string& pattern) {
   const std::filesystem::path path = pattern.ends_with('/') ? pattern.substr(0, pattern.size() - 1) : pattern;
   const bool is_pattern = path.filename().string().find_first_of("*?[") != std::string::npos;
@@ -47,8 +47,8 @@ std::string NameFor(const std::string& pattern) {
   return IsPlainName(name) ? name : "result";
 }
 
-/// Reads RESULT or NAME=PATTERN, one for each method. Fails if several have no names: a shell may have put files in the
-/// place of a pattern.
+/// Reads RESULT or NAME=PATTERN, one for each method. Fails if several have no names: the shell may have replaced a
+/// pattern by file names.
 Result<std::vector<NamedResult>> ReadResults(std::span<const std::string> arguments) {
   std::vector<NamedResult> results;
   for (const std::string& argument : arguments) {
@@ -81,7 +81,7 @@ Result<std::vector<NamedResult>> ReadColumns(const std::string& file) {
   return results;
 }
 
-/// Writes the scenario that the options mean.
+/// Returns the text of the scenario that the options describe.
 Result<std::string> ScenarioOf(const EvaluateOptions& options) {
   const bool has_pairs = !options.pairs.empty();
   if (has_pairs != options.files.empty() || options.files.size() == 1) {
@@ -108,7 +108,7 @@ Result<std::string> ScenarioOf(const EvaluateOptions& options) {
   return text;
 }
 
-/// The aggregates of every metric of every method.
+/// Returns the aggregates of every metric of every method, for programs.
 Json FactsOf(const ScenarioSummary& summary, const std::string& folder) {
   const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
   Json methods = Json::array();
@@ -147,7 +147,7 @@ void PrintTable(const ScenarioSummary& summary) {
   }
 }
 
-/// Says what was judged and done, once for each method, and what could not be judged.
+/// Prints, once for each method, what was judged and how answers were changed; then the files that could not be judged.
 void PrintNotes(const RunData& run) {
   constexpr std::size_t kMaxFailures = 10;
   std::vector<std::string> told, failures;

@@ -21,7 +21,7 @@ CLI::Option* AddJson(CLI::App& command, bool& as_json);
 /// an object. The entry of that name in docs/schemas/facts.schema.json is its schema.
 Result<void> PrintFacts(const std::string& command, Json facts);
 
-/// Redirects standard output to standard error while it lives, so that text for people does not mix with facts for
+/// Redirects standard output to standard error during its lifetime, so that text for people does not mix with facts for
 /// programs.
 class StdoutToStderr {
  public:

@@ -30,7 +30,7 @@ struct GateOptions {
   bool self_test = false;     ///< measure the gate's own rates of false alarms and of detection
   int repetitions = 40;       ///< self-test: pairs of seeds
   std::optional<int> trials;  ///< self-test: worlds per condition; default: the scenario's
-  bool verdicts = false;      ///< self-test: measure the verdicts beyond a run's worlds instead
+  bool verdicts = false;      ///< self-test: measure the verdicts for other units instead
   bool as_json = false;
   Sealing sealing = Sealing::kRequired;
 };
@@ -157,7 +157,7 @@ std::string RateText(const Rate& rate) {
                      rate.of == 0 ? 0.0 : 100.0 * rate.count / rate.of, 100 * rate.low, 100 * rate.high);
 }
 
-/// Says whether the gate's promise is kept. Few gates without an alarm prove nothing.
+/// Says whether the gate keeps its promise; a few gates without an alarm are not enough to say it.
 const char* PromiseSentence(const SelfTestReport& report) {
   if (!report.Holds()) return "The gate does not keep its promise.";
   if (report.false_alarms.high > kFalseAlarmLimit) {

@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// From now on, Ctrl-C (and SIGTERM) ends the program at once, with a message and exit code 130. Use it for work that
-/// writes nothing before it is complete; other work uses Interrupt.
+/// Makes Ctrl-C (and SIGTERM) end the program at once, with a message and exit code 130. Use it for work that writes
+/// nothing before it is complete; other work uses Interrupt.
 void EndWhenInterrupted();
 
 /// A guard for work that can be stopped. While it lives, the first Ctrl-C (or SIGTERM) requests a stop and the second
@@ -26,12 +26,12 @@ class Interrupt {
   void (*piped_)(int);
 };
 
-/// Runs `work` in a copy of this process, which Ctrl-C (and SIGTERM) kills at any point; `clean_up` then removes what
-/// it had begun. Returns the exit code of `work`. Use it for work with long single steps.
+/// Runs `work` in a copy of this process, which Ctrl-C (and SIGTERM) kills at any point; `clean_up` then removes
+/// unfinished output. Returns the exit code of `work`. Use it for work with long single steps.
 int DoInterruptibly(const std::function<int()>& work, const std::function<void()>& clean_up);
 
-/// Returns the result of writing a film, or false if Ctrl-C was pressed. Ctrl-C also reaches the encoder, whose end may
-/// be noticed first as an error.
+/// Returns the result of writing a film, or false if Ctrl-C was pressed. Ctrl-C also ends the encoder, which may be
+/// noticed first, as an error.
 Result<bool> UnlessInterrupted(Result<bool> is_whole, const Interrupt& interrupt);
 
 }  // namespace etude

@@ -71,12 +71,12 @@ std::vector<std::string> KnownWords(const CLI::App& app) {
 
 int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App* command = &app;
-  std::string words;  // the command's words, each followed by a space
+  std::string words;  // the words of the command, each followed by a space
   while (!command->get_subcommands().empty()) {
     command = command->get_subcommands().front();
     words += command->get_name() + " ";
   }
-  // An unknown word explains a failure better than the missing argument that it causes.
+  // Report an unknown word first: it explains the failure better than the missing argument that it causes.
   const std::vector<std::string> extras = app.remaining(true);
   std::string message = error.what();
   if (!extras.empty()) {
@@ -95,7 +95,7 @@ bool RunsUnpinned(const CLI::App& app) {
   return app.got_subcommand("clip") && app.get_subcommand("clip")->got_subcommand("render");
 }
 
-/// Prints the same help in every run and with every version of CLI11. CLI11 stores excluded options ordered by address,
+/// Prints the same help in every run and with every version of CLI11. CLI11 orders excluded options by their addresses,
 /// and its versions write defaults differently.
 class OrderedHelp : public CLI::Formatter {
  public:
@@ -125,7 +125,7 @@ class OrderedHelp : public CLI::Formatter {
 
 bool output_was_closed = false;
 
-/// Refuses arguments that are not UTF-8, because manifests, rows and pages, which would name them, are UTF-8.
+/// Refuses arguments that are not UTF-8, because manifests, rows and pages would contain them and are UTF-8.
 Result<void> CheckNames(std::span<char*> arguments) {
   for (std::size_t i = 1; i < arguments.size(); ++i) {
     if (CheckUtf8(arguments[i], "")) continue;
@@ -138,8 +138,8 @@ Result<void> CheckNames(std::span<char*> arguments) {
   return {};
 }
 
-/// Opens standard streams that the parent has closed. Otherwise the next file that is opened would get the number of
-/// one, and printed text would be written into it.
+/// Opens standard streams that the parent has closed. Otherwise the next opened file would get the number of such a
+/// stream, and printed text would go into that file.
 void OpenStandardStreams() {
   output_was_closed = ::fcntl(STDOUT_FILENO, F_GETFD) < 0;
   for (int descriptor = ::open("/dev/null", O_RDWR); descriptor >= 0; descriptor = ::dup(descriptor)) {
@@ -203,10 +203,10 @@ bool OutputWasClosed() { return output_was_closed; }
 
 int main(int argc, char** argv) {
   etude::OpenStandardStreams();
-  std::signal(SIGCHLD, SIG_DFL);  // a parent may leave it ignored, and then the exit status of our children would be
-                                  // lost
+  // The parent may have set it to be ignored, which would lose the exit status of our children.
+  std::signal(SIGCHLD, SIG_DFL);
   etude::EndWhenMappedFilesAreCut();
-  std::signal(SIGXFSZ, SIG_IGN);  // above a file-size limit, a write then fails with an error that is reported
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond a file-size limit then fails with an error that is reported
   if (auto stack = etude::TakeStack(); !stack) return etude::Complain(stack.error());
   etude::MakeOutputSafe();
   try {
@@ -217,7 +217,7 @@ int main(int argc, char** argv) {
     return etude::Complain(etude::FailOfMachine("there is no more memory").value());
   } catch (const std::filesystem::filesystem_error& error) {
     return etude::Complain({{}, error.what()});
-  } catch (const std::system_error& error) {  // thrown by fmt if the output accepts no more
+  } catch (const std::system_error& error) {  // thrown by fmt if the output cannot be written
     return etude::Complain(etude::CannotWrite("standard output", "cannot be written", error.code().value()).value());
   } catch (const std::exception& error) {
     return etude::Complain({{}, error.what()});

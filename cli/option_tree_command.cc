@@ -25,7 +25,7 @@ std::vector<const CLI::App*> CommandsOf(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App* sub) { return !sub->get_name().empty() && !sub->get_group().empty(); });
 }
 
-/// Calls `use` for the program, each command and each subcommand, with the words that lead to it: "clip info".
+/// Calls `use` for the program, each command and each subcommand, with the words that name it: "clip info".
 void ForEachCommand(const CLI::App& app, const std::string& words,
                     const std::function<void(const CLI::App& command, const std::string& words)>& use) {
   use(app, words);
@@ -80,7 +80,7 @@ std::string Cases(const CLI::App& app,
 }
 
 /// Finds the command's words before the cursor, in bash and zsh: words without a dash that lead to a known command.
-/// `help` is not one of them, so commands are offered again after it.
+/// `help` is not one of them, so commands are also offered after it.
 constexpr std::string_view kFindCommand = R"(  local at="" word
   for word in "${before[@]}"; do
     case "${at:+$at }$word" in
@@ -161,7 +161,7 @@ std::string FishCompletion(const CLI::App& app) {
                     kHelp, quoted(Join(helped, " ")));
 }
 
-/// Escapes text for troff: no line starts a request, and no dash is a hyphen.
+/// Escapes text for troff: so that no line is read as a request, and no dash as a hyphen.
 std::string Troff(const std::string& text) {
   std::string result;
   bool starts_line = true;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kBarWidth = 32;
 
-/// Estimates the remaining time: `left` more at the speed of `done` in `seconds`.
+/// Estimates the time for the remaining amount `left`, if the amount `done` took `seconds`.
 std::string Remaining(double done, double left, double seconds) {
   if (done <= 0 || left <= 0) return "";
   return fmt::format(", about {:.0f} s to go", seconds / done * left);

@@ -10,13 +10,13 @@
 
 namespace etude {
 
-/// Shows the progress of a run or other work on standard error: redrawn in place on a terminal, else printed at every
-/// tenth, and after 2 s, 4 s, 8 s, … up to every minute.
+/// Shows the progress of a run or other work on standard error: on a terminal it is redrawn in place; in a log it is
+/// printed at every tenth of the work, and after 2 s, 4 s, 8 s, …, at least every minute.
 class ProgressBar {
  public:
   enum class Begins {
     kAtOnce,
-    kWhenItTakesLong,  ///< soon on a terminal; else only if the work lasts so long that somebody may read the log
+    kWhenItTakesLong,  ///< soon on a terminal; in a log only if the work takes so long that somebody may read the log
   };
   explicit ProgressBar(Begins begins = Begins::kAtOnce);
   void Show(const Progress& progress);
@@ -31,7 +31,8 @@ class ProgressBar {
   Clock::time_point began_ = Clock::now();
   bool is_shown_ = false;
   int tenths_shown_ = -1;
-  double next_s_ = 2, pause_s_ = 2;  ///< for logs: when the next line is due without another tenth; the pause after it
+  /// For logs: the time of the next line, unless a tenth is reached before; the pause after it.
+  double next_s_ = 2, pause_s_ = 2;
 };
 
 /// Returns a callback that shows the progress of some work and the estimated remaining time ("12/300 clips, about 40 s

@@ -78,7 +78,8 @@ Result<std::vector<double>> ReadSettings(const RecogniserKind& kind, const std::
   return values;
 }
 
-/// Returns how to watch: with the recogniser that was asked for, else with `recommended`, which is told.
+/// Returns the options for recognition: with the requested recogniser, or else with `recommended`, about which it
+/// prints a note.
 Result<WatchOptions> OptionsOf(const RecogniseCommandOptions& options, const RecogniserKind& recommended) {
   WatchOptions watch;
   watch.recogniser.kind = options.recogniser.empty() ? &recommended : FindRecogniser(options.recogniser);
@@ -93,7 +94,7 @@ Result<WatchOptions> OptionsOf(const RecogniseCommandOptions& options, const Rec
   return watch;
 }
 
-/// The taught moves, a recogniser for them, and how it watches.
+/// The taught moves, a recogniser for them, and its options.
 struct Taught {
   std::vector<TaughtMove> moves;
   WatchOptions watch;

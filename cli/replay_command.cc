@@ -36,13 +36,13 @@ void PrintDifference(const CellCheck& check) {
   fmt::print("differs: {}\n  first at {}: {} then, {} now\n", check.cell, check.stage, check.then, check.now);
 }
 
-/// A metric of a cell: its value in a baseline, and its present value.
+/// The value of a cell's metric in a baseline, and its present value.
 struct BaselineValue {
   std::string metric;
   std::optional<double> baseline, now;
 };
 
-/// Finds the values of a cell in a baseline; empty if the baseline does not have the cell.
+/// Finds the values of a cell in a baseline; empty if the baseline does not contain the cell.
 std::vector<BaselineValue> ValuesOf(const Snapshot& baseline, const Row& row) {
   std::vector<BaselineValue> values;
   for (const SnapshotScenario& scenario : baseline.scenarios) {
@@ -123,7 +123,8 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
   std::optional<Snapshot> baseline;
   if (!options.baseline.empty()) {
     if (options.cells.empty()) return Fail({}, "--baseline needs cells: name them with --cell");
-    RETURN_IF_ERROR(LoadRunOutline(options.target, options.sealing));  // registers the metrics that the run added
+    // Also registers the metrics that the scenarios define.
+    RETURN_IF_ERROR(LoadRunOutline(options.target, options.sealing));
     ASSIGN_OR_RETURN(baseline, TakeBaseline(options.baseline, options.sealing));
   }
   ASSIGN_OR_RETURN(const auto replayed, ReplayRun({.folder = options.target,

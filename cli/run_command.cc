@@ -88,7 +88,7 @@ void PrintSummary(const RunData& run) {
   }
 }
 
-/// Returns the methods of a scenario that have attempted cells but no answer among them; ok and unsolved are answers.
+/// Returns the methods of a scenario that attempted cells but answered none; statuses ok and unsolved count as answers.
 std::vector<std::string> SilentMethods(const ScenarioSummary& scenario) {
   std::vector<std::string> silent;
   for (const std::string& name : scenario.methods) {
@@ -112,7 +112,7 @@ bool HasSilentMethod(const ScenarioSummary& scenario) { return !SilentMethods(sc
 
 namespace {
 
-/// Returns what `run --json` tells; `run` is null for a shard.
+/// Returns the facts that `run --json` prints; `run` is null for a shard.
 Json FactsOf(const RunOutcome& outcome, const Shard& shard, const RunData* run) {
   Json scenarios = Json::array(), silent = Json::array();
   for (const ScenarioSummary& scenario : run == nullptr ? std::span<const ScenarioSummary>() : run->scenarios) {
@@ -165,7 +165,8 @@ void TellUnlocked(const RunOutcome& outcome) {
             fmt::format("could not be locked ({}); make sure that no other run writes into it", outcome.why_unlocked)});
 }
 
-/// Tells what was changed of what the clips' files hold: a line each, of many the first.
+/// Prints the changes that were made to the content of the clips' files, one per line; if there are many, only the
+/// first ones.
 void TellChanges(const std::vector<LoadedChange>& changes) {
   constexpr std::size_t kShown = 40;
   for (std::size_t i = 0; i < std::min(changes.size(), kShown); ++i) {
@@ -239,8 +240,8 @@ int MergeCommand(const MergeOptions& given) {
   MergeOptions options = given;
   std::optional<Interrupt> interrupt(std::in_place);
   options.stop = interrupt->requested();
-  // The first half only reads the shards and finds those that do not belong together; its bar starts late, so that a
-  // complaint stands alone.
+  // The first half only reads the shards and finds those that do not belong together. Its bar starts late, so that a
+  // complaint is not printed beside a bar.
   ProgressBar reading(ProgressBar::Begins::kWhenItTakesLong), writing;
   const auto outcome = Merge(options, [&](double share) { (share < 0.5 ? reading : writing).Show(share, "merged"); });
   interrupt.reset();
@@ -386,7 +387,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
                                        "Only estimate how long it would take, and what differences it could show");
   dry->excludes(overwrite, resume);
   AddJson(*command, *as_json);
-  // --from repeats a run, so it excludes everything that its manifest states.
+  // --from repeats a run, so it excludes all options whose values the manifest gives.
   CLI::Option* from = command->add_option("--from", options->from, "Repeat the run that this manifest.json describes");
   for (CLI::Option* option : world_options) from->excludes(option);
   from->excludes(skip_refused, keep);

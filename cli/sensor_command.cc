@@ -78,8 +78,8 @@ double MissingShare(const JointRecording& recording) {
   return all > 0 ? static_cast<double>(missing) / all : 0;
 }
 
-/// Describes how a sensor is turned or tilted that gives reason to; "" otherwise. Statistics are along its line of
-/// sight and across, so a turn about that changes none.
+/// Describes how the sensor is turned or tilted, if that is unusual; else "". Statistics are taken along its line of
+/// sight and across it, so a turn about that line changes none of them.
 std::string DescribeTurn(const JointRecording& recording) {
   std::vector<RecordedFrame> frames(recording.frames.size());
   for (std::size_t t = 0; t < frames.size(); ++t) frames[t].places = recording.frames[t];
@@ -229,7 +229,7 @@ constexpr int kCheckWorlds = 64;
 /// Prints a table of a sensor and a recording side by side, and returns it as an entry of `checks`.
 Json PrintComparison(const char* title, const char* real_name, const RealRecording& real,
                      const SkeletonSensorOptions& sensor) {
-  // Use dice that the fit has not seen.
+  // Use random draws that the fit has not used.
   const WorldKey worlds{.suite_seed = 1, .scenario = "sensor-check", .trial = 0};
   const SensorStatistics measured = StatisticsOf(real);
   const SensorStatistics simulated = SimulatedStatistics(real, sensor, kCheckWorlds, worlds).mean;

@@ -49,7 +49,7 @@ Result<std::vector<TaughtMove>> Teach(const TeachCommandOptions& options) {
     ASSIGN_OR_RETURN(const auto labels, LoadLabels(options.labels));
     ASSIGN_OR_RETURN(parts, MatchLabels(labels, options.labels, loaded.streams));
   }
-  // Leave out the moves that were not wanted; each must be there.
+  // Leave out the moves of --without; each must exist.
   std::set<std::string> moves;
   for (const LabelledPart& part : parts) moves.insert(part.move);
   const std::vector<std::string> names(moves.begin(), moves.end());
@@ -97,7 +97,7 @@ Result<int> TeachCommand(const TeachCommandOptions& options) {
   RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   ASSIGN_OR_RETURN(const auto moves, Teach(options));
   const std::string text = "# Learnt by `etude teach`\n" + WriteMoves(moves);
-  RETURN_IF_ERROR(ReadMoves(text, options.output));  // write only what can be read back
+  RETURN_IF_ERROR(ReadMoves(text, options.output));  // write the file only if it can be read back
   RETURN_IF_ERROR(WriteFileAtomically(options.output, text));
   if (options.as_json) {
     RETURN_IF_ERROR(PrintFacts("teach", {{"moves", FactsOf(moves)}, {"output", options.output}}));

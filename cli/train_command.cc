@@ -82,7 +82,7 @@ std::optional<double> ReadShare(const std::string& text) {
   return share;
 }
 
-/// Chooses the clips that are held out: those whose names match the pattern, else a share drawn by dice.
+/// Chooses the clips that are held out: those whose names match the pattern, or else a randomly drawn share.
 Result<std::vector<bool>> ChooseHeldOut(const std::vector<std::string>& names, const TrainOptions& options) {
   std::vector<bool> held_out(names.size(), false);
   const auto share = ReadShare(options.hold_out);
@@ -232,7 +232,7 @@ Result<int> TrainCommand(const TrainOptions& options) {
   tuned.system.name = options.method;
   const std::vector<std::string> comparison = CompareSystems(split, tuned.system);
   const std::string text = HeaderOf(options, split, tuned, comparison) + WriteFuzzySystem(tuned.system);
-  RETURN_IF_ERROR(ReadFuzzySystem(text, options.output));  // write only what can be read back
+  RETURN_IF_ERROR(ReadFuzzySystem(text, options.output));  // write the file only if it can be read back
   RETURN_IF_ERROR(WriteFileAtomically(options.output, text));
   if (options.as_json) {
     RETURN_IF_ERROR(PrintFacts("train", {{"learnt_from", split.learnt_names},

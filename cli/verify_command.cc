@@ -24,8 +24,8 @@
 namespace etude {
 namespace {
 
-/// The default sample. With 5 % of very many cells forged, 1 in 21 forgeries is missed (0.95^59), fewer with fewer
-/// cells.
+/// The default sample size. If 5 % of very many cells are forged, the sample misses the forgery once in 21 cases
+/// (0.95^59); with fewer cells, less often.
 constexpr const char* kDefaultSample = "59";
 constexpr const char* kWholeSample = "all";
 constexpr std::size_t kMaxSample = 10'000'000;
@@ -116,11 +116,11 @@ Json FactsOf(const CellChoice& choice) {
           {"missed", std::move(missed)}};
 }
 
-/// The report, and what a gate left there, if they are there.
+/// Adds the checks of the report and of the files that a gate left there, if they exist.
 Result<void> AddReport(const std::string& folder, std::vector<Verified>& all, std::vector<std::string>& not_verified) {
   ASSIGN_OR_RETURN(auto run, LoadFinishedRun(folder, Sealing::kIgnored));
-  if (run.scenarios.empty()) return {};  // it has not ended
-  run.data.unsealed.clear();             // which a report of the run would tell
+  if (run.scenarios.empty()) return {};  // the run has not ended
+  run.data.unsealed.clear();             // otherwise the expected page would mention the broken seal
   ASSIGN_OR_RETURN(auto check, CheckReport(run.data, folder));
   ASSIGN_OR_RETURN(auto gate, CheckGate(run, folder));
   check.files += gate.files;

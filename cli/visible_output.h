@@ -2,8 +2,8 @@
 
 namespace etude {
 
-/// Makes `stdout` safe for terminals, whatever names files or methods have: all output passes through Visible, which
-/// keeps line ends and tabs. JSON is unchanged, because WriteJson writes no such characters.
+/// Makes `stdout` safe for terminals, even if names of files or methods contain control characters: all output passes
+/// through Visible, which keeps line ends and tabs. JSON is unchanged, because WriteJson writes no such characters.
 void MakeOutputSafe();
 
 }  // namespace etude

@@ -9,12 +9,12 @@
 
 namespace etude {
 
-/// Returns a verdict as an HTML label: its word on a coloured ground, so that colour alone carries no meaning. An empty
-/// verdict means that it depends on the condition.
+/// Returns a verdict as an HTML label: its word on a coloured ground, so that no meaning depends on colour alone.
+/// nullopt means that the verdict depends on the condition.
 std::string VerdictBadge(const std::optional<Verdict>& verdict);
 
-/// Returns both verdicts of a finding as HTML labels: on these worlds, and for others like them. One label names both
-/// if every world is its own unit and the verdicts agree.
+/// Returns both verdicts of a finding as HTML labels: on these worlds, and for others like them. If every world is its
+/// own unit and the verdicts agree, one label stands for both.
 std::string VerdictBadges(const MethodFinding& finding);
 
 /// Returns the verdict's sign: "▲", "▼", "=", "?"; "±" if it depends on the condition.
@@ -24,7 +24,8 @@ std::string_view VerdictSign(const std::optional<Verdict>& verdict);
 std::string ComparisonSign(const Comparison& comparison);
 /// Returns the sign of a comparison as HTML in the label's colour, with words for screen readers.
 std::string ComparisonMark(const Comparison& comparison, SamplingUnit unit);
-/// Returns the sign of a finding over all its conditions as an HTML label followed by `words`; "" if not compared.
+/// Returns the sign of a finding over all its conditions as an HTML label, followed by `words`; "" if the finding
+/// compares nothing.
 std::string FindingBadge(const MethodFinding& finding, std::string_view words);
 
 }  // namespace etude

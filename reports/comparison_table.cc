@@ -48,7 +48,7 @@ std::string Notes(const Comparison& c) {
 
 std::string BothNotes(const Comparison& c, SamplingUnit unit) {
   std::string text = Notes(c);
-  // If worlds are the units, `Notes` has already given this reason.
+  // If worlds are the units, the result of `Notes` already has this reason.
   if (c.beyond.why_open.empty() || WorldsAreUnits(unit)) return text;
   return text + fmt::format("{}for {}: {}", text.empty() ? "" : "; ", OtherUnits(unit), c.beyond.why_open);
 }
@@ -159,7 +159,7 @@ std::string ShownHtml(const ScenarioSummary& scenario, std::span<const Shown> sh
   return TableHtml(table);
 }
 
-/// Returns "holds", or why no common verdict counts.
+/// Returns "holds", or the reason why there is no common verdict.
 std::string WhatHolds(const AcrossVerdict& across) {
   if (across.Holds()) return "holds";
   std::vector<Verdict> said;
@@ -268,7 +268,7 @@ std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
                            "beyond_verdict",  "beyond_why_open"}) {
     table.columns.push_back({head});
   }
-  // Values in the order of the heads.
+  // Values in the order of the headings.
   ForEachComparison(scenario, [&](const ConditionSummary& condition, const Comparison& c, Against against) {
     const Beyond& beyond = c.beyond;
     table.rows.push_back({{scenario.name,

@@ -12,7 +12,7 @@ namespace etude {
 /// Returns the heading of a group of rows: "orientation error (lower is better, 0.1° matters)".
 std::string MetricHeading(const std::string& metric);
 
-/// Returns a difference with a short unit: tables have no room for "percentage points".
+/// Returns a difference with a short unit: tables have no room for the words "percentage points".
 std::string ShortDifference(double difference, const MetricWords& words);
 
 /// Explains the columns of the tables below.
@@ -33,7 +33,7 @@ inline constexpr std::string_view kComparisonLegend =
 std::size_t CountComparisons(const ScenarioSummary& scenario);
 
 /// Returns every comparison of one scenario once as an HTML table, one row each: the difference with its interval, both
-/// verdicts, the number of worlds, corrected p, effect size and caveats. Comparisons by other metrics than the first
+/// verdicts, the number of worlds, corrected p, effect size and caveats. Comparisons by metrics other than the first
 /// are folded away. Returns "" if nothing is compared.
 std::string ComparisonTableHtml(const ScenarioSummary& scenario);
 
@@ -43,8 +43,9 @@ std::string ComparisonTableMarkdown(const ScenarioSummary& scenario);
 /// Returns all comparisons as CSV: full precision, both tests, empty fields for missing values.
 std::string ComparisonTableCsv(const ScenarioSummary& scenario);
 
-/// Returns a table of the verdicts that must hold under every value of some parameters (scenario key `across`), one row
-/// per comparison: the common verdict, or what differs. Returns "" if no verdict must hold so.
+/// Returns a table of the verdicts that must hold under every value of some parameters (scenario key `across`). Each
+/// comparison has one row with the common verdict, or with the values under which it differs. Returns "" if the
+/// scenario has no such key.
 std::string AcrossTableHtml(const ScenarioSummary& scenario);
 
 /// Returns the same as a Markdown table.

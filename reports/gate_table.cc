@@ -62,7 +62,7 @@ std::string MovementCounts(const std::vector<MetricMove>& moves) {
   return text;
 }
 
-/// Returns the counts of the rulings without zeros: "12 expectations: 11 met, 1 unmet"; "" if there are no items.
+/// Returns the counts of the verdicts, without zeros: "12 expectations: 11 met, 1 unmet"; "" if there are no items.
 template <typename Items, typename RulingOf>
 std::string RulingCounts(const Items& items, std::string_view what, RulingOf ruling_of) {
   std::string text;
@@ -165,7 +165,7 @@ std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, con
   const std::string folder = report.run_folder.empty() ? "RUN" : ShellWord(report.run_folder);
   const MoveIdentity& one = moves.front()->identity;
   const std::string about = one.scenario + (one.condition == "-" ? "" : ", " + one.condition);
-  std::vector<std::pair<int, std::string>> worlds;  // trial, and what is far worse in it
+  std::vector<std::pair<int, std::string>> worlds;  // trial, and a text on what is far worse in it
   std::map<int, std::size_t> places;
   for (const MetricMove* move : moves) {
     const std::string& metric = move->identity.metric;
@@ -217,7 +217,7 @@ std::vector<TailLine> TailLines(const GateReport& report, bool failing, std::siz
 
 namespace {
 
-// GitHub allows 65,536 characters in a comment, and nobody reads a longer table.
+// GitHub allows 65,536 characters in a comment, and nobody would read a longer table.
 constexpr std::size_t kMaxRows = 100;
 constexpr std::size_t kMaxWorldsEach = 5, kMaxWorlds = 40;
 

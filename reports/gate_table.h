@@ -39,7 +39,7 @@ std::string CompareSentence(const SnapshotComparison& comparison);
 struct TailLine {
   std::string
       world;  ///< "ik-weights, joint_noise_deg=5, trial 7, fixed: ok → unsolved; orientation error 0.05° → 60.1°"
-  std::string replay;  ///< "etude replay out/now --cell …", quoted for a shell; "" for a line that only counts the rest
+  std::string replay;  ///< "etude replay out/now --cell …", quoted for a shell; "" for the line that counts the rest
 };
 
 /// Returns one line for each of the first `most` far worse worlds of one method under one condition; `moves` are that
@@ -47,8 +47,8 @@ struct TailLine {
 std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, const GateReport& report,
                                 std::size_t most);
 
-/// Returns such lines for all moves that fail, or for all that do not: at most `most_each` worlds of a method and about
-/// `most` lines in all.
+/// Returns such lines for all moves that fail, or for all others: at most `most_each` worlds of a method, and about
+/// `most` lines in total.
 std::vector<TailLine> TailLines(const GateReport& report, bool failing, std::size_t most_each, std::size_t most);
 
 /// Returns the findings of a gate as a comment on a pull request: the verdict, what fails, what else changed, what

@@ -23,11 +23,11 @@ std::string CaseXml(const std::string& suite, const JunitCase& c) {
 
 ClaimOutcome MetWhen(bool holds) { return holds ? ClaimOutcome::kMet : ClaimOutcome::kUnmet; }
 
-// In a full factorial design every method has a row in every world in which any method has one.
+// If one method has a row in a world, every method must have one, because the design is full factorial.
 JunitCase EveryCellHasARow(const RunData& run, const ScenarioSummary& scenario) {
   std::set<std::string> ids;
   std::set<std::pair<std::string, int>> worlds;
-  for (const Row& row : run.rows) {  // whole worlds, even if they are a sample of a large run
+  for (const Row& row : run.rows) {  // whole worlds, also in the sample of a large run
     if (row.scenario != scenario.name) continue;
     ids.insert(row.Id());
     worlds.emplace(ConditionLabel(row.condition), row.trial);
@@ -42,7 +42,7 @@ JunitCase NoCellBroke(const ScenarioFindings& findings) {
   int broken = 0;
   std::string detail;
   for (const ReasonCount& reason : findings.reasons) {
-    // Unsolved and skipped cells fail no test; a scenario that forbids them says so in `expect`.
+    // Unsolved and skipped cells fail no test; a scenario can forbid them in `expect`.
     if (reason.status == Status::kUnsolved || reason.status == Status::kSkipped) continue;
     broken += reason.cells;
     detail += fmt::format("{} x {} in {}: {}\n", reason.cells, StatusName(reason.status), reason.method, reason.reason);

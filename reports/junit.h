@@ -13,7 +13,7 @@ struct JunitCase {
   std::string name;
   ClaimOutcome ruling;
   std::string detail;
-  std::string said = {};  ///< more that a reader should know, written whatever the ruling
+  std::string said = {};  ///< further text for readers, written whatever the verdict
 };
 
 struct JunitSuite {
@@ -21,13 +21,13 @@ struct JunitSuite {
   std::vector<JunitCase> cases;
 };
 
-/// Returns JUnit XML as CI systems read it; the counts are computed from the cases. `version` is Etude's version, a
-/// property of each suite.
+/// Returns JUnit XML in the form that CI systems read; the counts are computed from the cases. `version` is Etude's
+/// version, a property of each suite.
 std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>& suites, const std::string& version);
 
 /// Returns the run as JUnit XML, one suite per scenario. Its cases are: one per expectation (failed if unmet, skipped
 /// if undecided), one that holds if every cell has a row, and one that holds if no cell crashed, failed, timed out or
-/// answered badly.
+/// gave an invalid answer.
 std::string WriteJunit(const RunData& run);
 
 }  // namespace etude

@@ -101,7 +101,7 @@ std::vector<OverviewRow> RowsOf(const RunData& run, const ScenarioSummary& scena
                                 std::span<const std::string> metrics) {
   std::vector<OverviewRow> rows;
   const ExampleCells examples(run, scenario);
-  // Conditions of the same method stand under each other.
+  // Rows of the same method, one per condition, stand under each other.
   for (const std::string& name : scenario.methods) {
     for (const ConditionSummary& condition : scenario.conditions) {
       const auto method = std::ranges::find(condition.methods, name, &MethodSummary::method);
@@ -137,7 +137,7 @@ TableCell TableCellOf(const OverviewCell& cell, bool has_rivals, SamplingUnit un
   return {text, cell.sorted_by, html};
 }
 
-/// Returns every method by `metrics`, which begin with the headline metrics; metrics after these are details.
+/// Returns a table of methods by `metrics`. The headline metrics come first; the others are marked as details.
 Table OverviewTable(const ScenarioSummary& scenario, std::span<const std::string> metrics,
                     std::span<const OverviewRow> rows, std::string_view method_head, std::string_view condition_head) {
   const bool swept = scenario.conditions.size() > 1;
@@ -203,7 +203,7 @@ std::string VerdictOf(const Row& row) {
   const auto alike = ValueOf(row, "called_alike");
   if (!alike) return std::string(kNoValue);
   std::string text = *alike > 0 ? "alike" : "apart";
-  // Every pair has a fuzzy distance, so a joint distance comes from the method itself.
+  // Every pair has a fuzzy distance. A joint distance exists only if the method uses it.
   if (const auto joints = ValueOf(row, "joint_distance_cm")) {
     text += fmt::format(" {} cm", FormatNumber(*joints));
   } else if (const auto d = ValueOf(row, "fuzzy_distance")) {

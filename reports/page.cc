@@ -55,7 +55,7 @@ void AddSimulatedRows(const ScenarioSummary& scenario, std::size_t& rows, Table&
   }
 }
 
-// Second line of defence behind the escaping: the page may load nothing but the motions beside it.
+// A second defence, in addition to escaping: the page may load nothing but the motions beside it.
 constexpr std::string_view kPolicy =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'self' file:; img-src data:; media-src "
     "data:";

@@ -9,18 +9,18 @@
 
 namespace etude {
 
-/// Returns the page that shows a run to people: verdict first, plain words, pictures; numbers are folded away. The page
-/// contains everything it needs, and its policy forbids network access. `real` holds captures of real films, shown
-/// beside the simulated ones.
+/// Returns the page that shows a run to people: verdicts first, plain words, pictures; tables of numbers are folded
+/// away. The page contains everything it needs, and its policy forbids network access. `real` holds captures of real
+/// films, shown beside the simulated ones.
 std::string WritePage(const RunData& run, const Media& media, std::span<const RealTake> real = {});
 
-/// Returns the page's verdicts as a short Markdown text, for a pull request or a closing note.
+/// Returns the page's verdicts as a short Markdown text, for a pull request or a release note.
 std::string WriteMarkdown(const RunData& run);
 
-/// Returns one scenario as LaTeX floats for plain pdflatex with the package booktabs. Per condition they show every
-/// headline metric of every method with its interval, the number of cells that have it, the paired comparison with the
-/// baseline and its verdict; then paper B's tables, if the cells keep them. Figures are rounded as on the page; the CSV
-/// files hold all digits.
+/// Returns one scenario as LaTeX floats for plain pdflatex with the package booktabs. For each condition they show
+/// every headline metric of every method with its interval, the number of cells that have it, the paired comparison
+/// with the baseline and its verdict; then paper B's tables, if the cells keep them. Figures are rounded as on the
+/// page; the CSV files hold all digits.
 std::string ScenarioLatex(const RunData& run, const ScenarioSummary& scenario);
 
 /// Returns every summary of one scenario as CSV in full precision: median, interval, mean, the number of values, the

@@ -15,9 +15,9 @@ struct PageCheck {
   bool has_media = false, has_takes = false;  ///< something stands between such marks; it was not compared
 };
 
-/// Compares a page with `bare`, the same run's page with nothing between its marks. Between them the page may hold only
-/// the elements of pictures and films, or rows of takes, with any text, each closed where it was opened. A style, a
-/// script or anything that reaches beyond the marks makes the pages differ.
+/// Compares a page with `bare`, the same run's page with nothing between its marks. Between the marks the page may hold
+/// any text, and the elements of pictures and films, or of rows of takes; each must be closed where it was opened. A
+/// style, a script or anything that reaches beyond the marks makes the pages differ.
 PageCheck CheckPage(std::string_view page, std::string_view bare);
 
 }  // namespace etude

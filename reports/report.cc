@@ -55,7 +55,7 @@ Result<void> AddMotions(const RunData& run, std::vector<ReportText>& texts) {
   return {};
 }
 
-/// Returns all text files of a report but the page.
+/// Returns all text files of a report except the page.
 Result<std::vector<ReportText>> TextsOf(const RunData& run) {
   std::vector<ReportText> texts = {{"summary.md", WriteMarkdown(run)}, {"junit.xml", WriteJunit(run)}};
   AddTables(run, texts);
@@ -97,7 +97,8 @@ Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path&
     ASSIGN_OR_RETURN(const auto found, ReadWholeFile(folder / path));
     if (found != text) check.differences.push_back((folder / path).string() + kOtherwise);
   }
-  // The page. A take belongs to no run, so one empty take stands for all when the rest of their section is compared.
+  // The page. Takes of real films do not belong to the run. One empty take stands for them, so that the rest of their
+  // section can be compared.
   bool has_media = false;
   if (const FilePath page = folder / kPage; Exists(page)) {
     ++check.files;

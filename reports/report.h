@@ -13,7 +13,7 @@ namespace etude {
 
 struct ReportOptions {
   /// If true, makes the films and the picture strip, which take most of a report's time; if false, the page says that
-  /// none was asked for.
+  /// none was requested.
   bool pictures = true;
   /// If true, films show coached sessions from first to last frame, not only around a correction.
   bool whole_sessions = false;
@@ -35,14 +35,14 @@ constexpr const char *kGateMarkdown = "gate.md", *kGateJunit = "gate.xml";
 struct ReportCheck {
   int files = 0;                          ///< that exist and were compared
   std::vector<std::string> differences;   ///< files that disagree with the run, or belong to no report
-  std::vector<std::string> not_compared;  ///< what exists but was not compared, in words
+  std::vector<std::string> not_compared;  ///< files that exist but were not compared, in words
 };
 
 /// Compares the tables, motions and page of a folder with those that its run makes. Does not compare pictures, films
 /// and captures of real films.
 Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path& run_folder);
 
-/// Compares what a gate wrote beside the report with what a gate without a baseline says of the run.
+/// Compares the files that a gate wrote beside the report with the result of a gate without a baseline.
 Result<ReportCheck> CheckGate(const FinishedRun& run, const std::filesystem::path& run_folder);
 
 }  // namespace etude

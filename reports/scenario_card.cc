@@ -29,7 +29,7 @@
 namespace etude {
 namespace {
 
-// A screen has no room for more steps; they would only make the page heavy.
+// A screen has no room for more steps; they would only make the page larger.
 constexpr std::size_t kMaxSteps = 120;
 // Beyond this ratio a linear axis squeezes all but the largest values into one line.
 constexpr double kLogarithmicFrom = 100;
@@ -55,9 +55,10 @@ std::string WorstOf(const std::string& metric) {
   return unit == std::string::npos ? metric : metric.substr(0, unit) + "_max" + metric.substr(unit);
 }
 
-// Returns the first headline metric, or its variant for the worst effector, that cells keep along the axis; else the
-// first metric that they keep. Skips series that are no metric (they have pictures of their own), that are all zero
-// (errors of what was not asked for), and shares (a median of yes and no says nothing).
+// Returns the first headline metric (or its variant for the worst effector) for which cells keep a series along this
+// axis, else the first metric with such a series. Skips three kinds of series: those that are no metric, because they
+// have pictures of their own; those that are all zero, which are errors of parts without a target; and shares, because
+// a median of yes and no says nothing.
 std::optional<std::string> FindCurve(const RunData& run, const ScenarioSummary& scenario, const std::string& axis,
                                      const std::map<std::string, std::string>& method_of) {
   std::vector<std::string> found;
@@ -167,7 +168,7 @@ std::string StillElement(const Still& still) {
       EscapeMarkup(still.caption), still.jpeg_base64);
 }
 
-// The data stands beside the canvas as JSON in a script element, which the browser does not run.
+// The data is JSON in a script element beside the canvas; the browser does not run it.
 std::string ChartFigure(const Chart& chart, const std::string& id) {
   return fmt::format(
       "<figure class=\"chart{}\"><figcaption>{}</figcaption><div class=\"canvas\">"
@@ -238,7 +239,8 @@ std::string FirstCellOf(const RunData& run, const ScenarioSummary& scenario, con
   return "";
 }
 
-/// Returns how the cells ended, what they reached, and why some failed. The line that stays open counts those not ok.
+/// Returns a folded part on how the cells ended, what they reached, and why some failed. Its visible line counts the
+/// cells that are not ok.
 std::string Failures(const RunData& run, const ScenarioSummary& scenario, const ScenarioFindings& findings) {
   int others = 0;
   for (const ReasonCount& reason : findings.reasons) others += reason.cells;
@@ -274,7 +276,7 @@ std::string RecordedCells(const RunData& run, const ScenarioSummary& scenario) {
   return cells.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Returns the sentence of a finding after `begin`; its tooltip says why nothing is decided.
+/// Returns the sentence of a finding after `begin`; its tooltip says why the verdict is open.
 std::string AnswerHtml(const MethodFinding& finding, std::string_view begin) {
   return fmt::format("<p class=\"answer\"{}>{}{}</p>",
                      finding.why_open.empty() ? "" : fmt::format(" title=\"{}\"", EscapeMarkup(finding.why_open)),

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// A chart of numbers: the data for assets/report.js, and the same in words for readers who cannot see it.
+/// A chart of numbers: the data for assets/report.js, and a description in words for readers who cannot see it.
 struct Chart {
   std::string caption;      ///< what is drawn, with the unit
   std::string description;  ///< the figures in words
@@ -18,12 +18,12 @@ struct Chart {
 };
 
 /// Returns the chart of the methods' errors over iterations, or over frames if they follow a motion: per method the
-/// median over its cells. Frames are those of the first condition, since others may have other frames. Returns nothing
-/// if the run kept no such curves.
+/// median over its cells. Over frames, it shows the first condition only, because others may have other frames. Returns
+/// nothing if the run kept no such curves.
 std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scenario);
 
 /// Returns a film with its caption as HTML: a <figure> with <video>. Without a film it has the poster and the reason,
-/// or the reason alone; "" if there is none of them.
+/// or only the reason; "" if there is neither.
 std::string FilmElement(const Film& film, bool plays_at_once);
 
 /// Returns the anchor of a scenario's card. `index` is the scenario's place in the run.

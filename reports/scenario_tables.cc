@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kRowsPerFloat = 50;  // that fit a page of A4
+constexpr std::size_t kRowsPerFloat = 50;  // so many fit on a page of A4
 
 constexpr std::string_view kHead =
     "% Needs \\usepackage{booktabs}. The same figures with all their digits: the CSV files beside this one.\n";
@@ -60,7 +60,8 @@ std::vector<TableCell> ComparisonCells(const Comparison& c, const MetricWords& w
   return cells;
 }
 
-/// Returns the comparisons with baselines, then with the strongest other method unless it is one of them.
+/// Returns the comparisons with baselines, then those with the strongest other method, except pairs that are already
+/// listed.
 std::vector<const Comparison*> ComparisonsOf(const ConditionSummary& condition, const std::string& method,
                                              const std::string& metric) {
   std::vector<const Comparison*> found;
@@ -87,7 +88,7 @@ Group OfMetric(const ScenarioSummary& scenario, const ConditionSummary& conditio
     for (const Comparison* c : comparisons) {
       std::ranges::move(ComparisonCells(*c, words), std::back_inserter(cells));
       group.push_back({std::move(cells)});
-      cells = {"", "", ""};  // the method's own figures stand in its first row only
+      cells = {"", "", ""};  // only the method's first row has its own figures
     }
     if (!comparisons.empty()) continue;
     cells.resize(cells.size() + 5);

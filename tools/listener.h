@@ -20,8 +20,8 @@ struct Listener {
   std::function<OnProgress(std::string what)> progress = [](const std::string&) {
     return [](std::size_t, std::size_t) {};
   };
-  /// Runs `write`, which writes one film, with a watch that shows progress and can stop it. Returns the result of
-  /// `write`: false if it was stopped.
+  /// Runs `write`, which writes one film, with a FilmWatch that shows progress and can stop it. Returns the result of
+  /// `write`; false means that it was stopped.
   std::function<Result<bool>(const std::function<Result<bool>(const FilmWatch& watch)>& write)> film =
       [](const auto& write) { return write(FilmWatch{}); };
 };

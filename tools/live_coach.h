@@ -22,7 +22,7 @@ Result<std::string> CoachHead(const Dance& dance);
 /// `brief` the body is left out.
 Result<std::string> CoachLine(const CoachOutput& output, std::int64_t frame, const Dance& dance, bool brief);
 
-/// The position in the music while a coach dances: what a line '#music 12.34' of the stream states, else computed from
+/// The position in the music while a coach dances: taken from lines '#music 12.34' of the stream, else computed from
 /// the coach's own music commands.
 class MusicPosition {
  public:
@@ -47,8 +47,7 @@ struct LiveCoachOptions {
   bool plans_ahead = false;     ///< spreads planning over frames; set it for live streams
   bool brief = false;           ///< leaves out bodies, and frames without a decision
   CoachOptions coach = {};
-  std::function<void(const std::string& remark)> on_remark =
-      {};  ///< receives what the stream's level gives reason to say
+  std::function<void(const std::string& remark)> on_remark = {};  ///< receives warnings about the level of the stream
 };
 
 /// Runs a coach's session on a stream of skeletons, frame by frame. The session begins with the first frame, because

@@ -82,7 +82,7 @@ class NewFolder {
     RETURN_IF_ERROR(MakeFolder(Inside(partial.parent_path()) / partial.filename()));
     NewFolder folder(path, Lock(partial));
     if (folder.lock_ < 0) return Fail(place, "another export is writing it; choose another folder with -o");
-    // Empty the folder of a killed export; refuse one with other contents.
+    // Empty the folder that a killed export left; refuse a folder with other contents.
     for (fs::directory_iterator entry(folder.partial_, error), end; !error && entry != end; entry.increment(error)) {
       if (IsOfExport(entry->path().filename())) continue;
       ::close(std::exchange(folder.lock_, -1));
@@ -159,7 +159,6 @@ class Exporter {
   /// Writes a world and its line of `index`; calls `on_part` after steps 1 and 2.
   Result<void> SaveWorld(int condition, int trial, const std::string& place, ExportOutcome& outcome,
                          std::vector<std::string>& index, const std::function<void(std::size_t)>& on_part) {
-    // Make the world and its line of the index.
     const auto world = scenario_.task(condition).MakeWorld(scenario_.KeyOf(condition, trial), /*keeps_motion=*/false);
     const std::string path = place + "/" + WorldName(scenario_, condition, trial);
     const Row row = scenario_.IdentityOf(condition, trial, 0);

@@ -36,8 +36,8 @@ struct PredictionFaults {
 using PredictionFiles = std::vector<std::optional<FilePath>>;
 
 /// Finds SCENARIO/CONDITION/TRIAL.json in `folder`. TRIAL is a number, with or without leading zeros, or the name of a
-/// secret world. In `faults`, all other files are extra, except names that begin with a dot; links (which could lead to
-/// the truth) and pipes are broken. Fails if the folder cannot be read.
+/// secret world. `faults` lists all other files as extra, except names that begin with a dot, and links (which could
+/// lead to the truth) and pipes as broken. Fails if the folder cannot be read.
 Result<PredictionFiles> FindPredictions(const std::filesystem::path& folder, const Plan& plan,
                                         PredictionFaults& faults);
 

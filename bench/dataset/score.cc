@@ -54,7 +54,6 @@ Result<std::vector<PreparedScenario>> PrepareTarget(const SuiteSetup& suite, con
   return scenarios;
 }
 
-/// Returns the name of a world: "ik/joint_noise_deg=5/007".
 std::string NameOf(const Plan& plan, std::size_t w) {
   const Scenario& scenario = plan.scenario_of(w).scenario();
   const World& world = plan.world(w);
@@ -100,7 +99,7 @@ FinishedCell JudgeWorld(const Plan& plan, std::size_t w, const std::optional<Fil
     faults.broken.push_back(ToString(judged.error()));
     return ended(Status::kBadOutput, judged.error().message);
   }
-  // Make the row. Its metrics are completed now, unless outside metrics must measure it first.
+  // Make the row. Complete its metrics now, unless outside metrics must measure it first.
   FinishedCell cell{scenario.IdentityOf(world.condition, world.trial, method), {}};
   cell.row.result = *std::move(judged);
   cell.is_measured = !has_programs || !cell.row.result.recording;

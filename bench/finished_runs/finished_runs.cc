@@ -62,8 +62,8 @@ std::string MethodDigest(const MethodEntry& method) {
 
 constexpr const char* kBuiltInName = "built in";
 
-// It is fast and has metrics of every kind: medians, a share, a count. The methods differ from the reference by little
-// to much: they limit how far a joint may turn from the start pose, whose error is 15° (standard deviation).
+// A fast scenario with metrics of every kind: medians, a share, a count. Its methods differ from the first one by a
+// little or by much: they limit how far a joint may turn from the start pose, whose error is 15° (standard deviation).
 constexpr const char* kBuiltInScenario = R"(
 scenario: gate-self-test
 question: Does the gate see what it should, and nothing else?
@@ -94,8 +94,8 @@ Result<void> CheckMetricVersions(const Json& manifest, const Place& place) {
   return {};
 }
 
-/// Returns the names of worlds made of files with the digests of their truths. `digests` are those of the manifest: of
-/// each world the truth, then the answers that there are.
+/// Returns the names of worlds made of files with the digests of their truths. `digests` are those of the manifest: for
+/// each world the truth, then its answers, as many as there are.
 Result<NamedDigests> TruthsOf(const ScenarioSetup& setup, std::span<const std::string> digests, const Place& place) {
   NamedDigests truths;
   std::size_t at = 0;

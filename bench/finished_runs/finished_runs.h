@@ -33,7 +33,7 @@ Result<Rehearsal> ReadRehearsal(const std::string& file, std::optional<int> tria
 Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed);
 
 /// Reads a result folder with its scenarios and times. A run that has not ended or was interrupted has no data, only
-/// the reason. Fails like LoadRun, and if cells.jsonl has a duplicate row or one that the manifest does not have.
+/// the reason. Fails like LoadRun, and if cells.jsonl has a duplicate row or a row that the manifest does not list.
 Result<FinishedRun> LoadFinishedRun(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
 }  // namespace etude

@@ -60,7 +60,8 @@ class Lines {
   std::optional<Error> error_;
 };
 
-constexpr std::string_view kLetters = "oufbs";  // a run in which the machine ended a cell gives no baseline
+// No 'm', 't', 'c', 'b': a run in which the machine ended a cell gives no baseline.
+constexpr std::string_view kLetters = "oufbs";
 constexpr std::string_view kAnswers = "ou";     // statuses with an answer
 constexpr std::int64_t kMaxTrials = 1'000'000;  // a scenario's own limit
 constexpr std::int64_t kMaxVersions = 1'000'000;
@@ -110,7 +111,7 @@ class BaselineReader {
                             [this](const Json& entry, const Place& place) { return ReadStatuses(entry, place); }));
     RETURN_IF_ERROR(
         ForEach(head, "values", [this](const Json& entry, const Place& place) { return ReadValues(entry, place); }));
-    // At least one cell must have an answer, and the seal must match.
+    // Each method must have an answer in at least one cell, and the seal must match.
     const auto has_answer = [](const auto& slot) {
       return slot.second.cells->statuses.find_first_of(kAnswers) != std::string::npos;
     };
@@ -202,7 +203,7 @@ class BaselineReader {
   }
 
   /// Checks the number of lines before the table is allocated: two long lists of names in a small file could declare a
-  /// huge table. Lines may not be duplicate, so as many lines as cells fill every cell.
+  /// huge table. Duplicate lines are refused, so if there are as many lines as cells, every cell is filled.
   Result<void> CountLines(const JsonObject& head) const {
     std::size_t cells = 0, lists = 0;
     for (const SnapshotScenario& scenario : snapshot_.scenarios) {

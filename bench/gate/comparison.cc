@@ -61,8 +61,8 @@ struct SharedWorlds {
   std::vector<std::size_t> before, after;
 };
 
-/// Returns the worlds to compare: of files those of one name and one truth, else those of equal trials. Files that only
-/// one of both has are added to the lists.
+/// Returns the worlds to compare: those of equal trials, or, for worlds made of files, those with the same name and the
+/// same truth. Files that only one snapshot has are added to the lists.
 SharedWorlds FindShared(const SnapshotScenario& before, const SnapshotScenario& after, SnapshotComparison& comparison) {
   SharedWorlds shared;
   if (before.files.empty() || after.files.empty()) {
@@ -95,7 +95,7 @@ SharedWorlds FindShared(const SnapshotScenario& before, const SnapshotScenario& 
   return shared;
 }
 
-/// Returns the elements at these places.
+/// Returns the elements at these indices.
 template <typename Elements>
 Elements Picked(const Elements& elements, const std::vector<std::size_t>& places) {
   Elements picked;
@@ -103,7 +103,7 @@ Elements Picked(const Elements& elements, const std::vector<std::size_t>& places
   return picked;
 }
 
-/// Keeps the cells' values of these trials only.
+/// Returns the statuses and values of these trials only.
 SnapshotCells Picked(const SnapshotCells& cells, const std::vector<std::size_t>& trials) {
   SnapshotCells picked{cells.condition, cells.method, Picked(cells.statuses, trials), {}};
   for (const SnapshotValues& values : cells.metrics) {
@@ -145,7 +145,7 @@ std::vector<std::string> WhyNotComparable(const SnapshotScenario& before, const 
     if (a != b) reasons.push_back(fmt::format("{}: {} {} and {}", before.name, what, a, b));
   };
   differ("seed", before.seed, after.seed);
-  const bool are_files = !before.files.empty() && !after.files.empty();  // a file more or less leaves the others
+  const bool are_files = !before.files.empty() && !after.files.empty();  // one file more or less changes no other world
   if (!are_files) differ("trials", before.trials, after.trials);
   for (const auto& [condition, digest] : before.worlds) {
     const std::string* other = FindDigest(after.worlds, condition);

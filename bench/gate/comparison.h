@@ -9,9 +9,9 @@
 
 namespace etude {
 
-/// The comparison of two snapshots; everything in either is listed.
+/// The comparison of two snapshots. Everything that either of them contains is listed.
 struct SnapshotComparison {
-  std::vector<MetricMove> moves;                     ///< everything in both, changed or not
+  std::vector<MetricMove> moves;                     ///< every metric in both, changed or not
   std::vector<std::string> only_before, only_after;  ///< "ik-weights, joint_noise_deg=5, fixed, iterations"
   std::vector<std::string> settings_changed;         ///< methods with the same name but different settings
 };

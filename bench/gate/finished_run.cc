@@ -55,7 +55,7 @@ class ScenarioTaker {
   }
 
   void Take(const Row& row) {
-    if (row.condition != condition_ || label_.empty()) {  // once per condition: its rows are consecutive
+    if (row.condition != condition_ || label_.empty()) {  // once for each condition, because its rows are consecutive
       condition_ = row.condition;
       label_ = CompactLabel(row.condition);
     }

@@ -20,11 +20,11 @@ struct FinishedScenario {
   std::uint64_t seed = 1;
   NamedDigests worlds;   ///< by condition (CompactLabel): the task's parameters and the clips
   NamedDigests methods;  ///< by method: its settings
-  /// By trial, for a task that judges files: the world's name, and the digest of its truth. Empty for other tasks.
+  /// For a task that judges files, by trial: the name of the world and the digest of its truth. Empty for other tasks.
   NamedDigests files = {};
 };
 
-/// A result folder, with all that a gate needs besides the rows; bench/finished_runs reads it.
+/// A result folder and all else that a gate needs; bench/finished_runs reads it.
 struct FinishedRun {
   RunData data;
   std::vector<FinishedScenario> scenarios;

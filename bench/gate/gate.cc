@@ -12,8 +12,8 @@
 namespace etude {
 namespace {
 
-/// Returns the processor times of one method, by world (condition, trial), without cells that the machine ended or that
-/// took less than the clock's resolution.
+/// Returns the processor times of one method, by world (condition, trial), without the cells that the machine ended and
+/// those that took less than the clock's resolution.
 std::map<std::pair<std::string, int>, double> SecondsOf(const FinishedRun& run, const std::string& scenario,
                                                         const std::string& method) {
   std::map<std::pair<std::string, int>, double> seconds;

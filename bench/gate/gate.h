@@ -14,7 +14,7 @@ struct RatioResult {
   TimeRatio rule;
   int pairs = 0;  ///< worlds of all conditions in which neither method was ended by the machine
   std::optional<double> median, ci_low, ci_high;  ///< of the ratios of processor times
-  /// Unmet if the whole interval lies above the limit; undecided if only the median does (times vary on a busy
+  /// Unmet if the whole interval lies above the limit. Undecided if only the median does (times vary on a busy
   /// machine), or if too few worlds have both times.
   ClaimOutcome ruling = ClaimOutcome::kUndecided;
 };
@@ -54,8 +54,8 @@ TailRules TailRulesOf(const FinishedRun& run);
 /// crashed, out of memory; one sentence per scenario and status).
 std::vector<std::string> WhyIncomplete(const FinishedRun& run);
 
-/// Returns one sentence, with the most frequent causes, per method that has no answer (ok or unsolved) in any cell. A
-/// method whose cells were all skipped is left out.
+/// Returns one sentence for each method that has no answer (ok or unsolved) in any cell, with the most frequent causes.
+/// A method whose cells were all skipped is left out.
 std::vector<std::string> DescribeSilentMethods(const FinishedRun& run);
 
 /// Returns true if a move makes the gate fail.

@@ -107,7 +107,7 @@ const MetricInfo* FindGateMetric(std::string_view id) {
     metric.label = "cells that ended ok";
     metric.direction = Direction::kHigherIsBetter;
     metric.aggregate = Aggregate::kMean;
-    metric.practical = 0.02;  // like the catalogue's shares of solved problems
+    metric.practical = 0.02;  // as for the catalogue's shares of solved problems
     return metric;
   }();
   return id == kOkShare ? &ok : FindMetric(id);
@@ -143,7 +143,7 @@ MetricMove MeasureMove(MoveIdentity identity, const MoveColumns& columns, std::u
   move.after = AggregateOfPresent(all_after, metric.aggregate);
   const std::string purpose = fmt::format("gate/{}/{}/{}/{}", move.identity.scenario, move.identity.condition,
                                           move.identity.metric, move.identity.method);
-  if (move.differing == 0) return move;  // the usual case: nothing to test
+  if (move.differing == 0) return move;  // the usual case: there is nothing to test
   move.comparison = ComparePaired(values, metric, seed, purpose);
   if (move.lost + move.gained > 0) {
     move.presence = ComparePaired(presence, *FindGateMetric(kOkShare), seed, purpose + "/presence");

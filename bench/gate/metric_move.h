@@ -25,7 +25,7 @@ enum class Movement {
   kBetter,    ///< clearly, and by at least the practical threshold
   kWorse,     ///< clearly, and by at least the practical threshold
   kNoMatter,  ///< clearly by less than the practical threshold
-  kUnclear,   ///< it differs, but neither clearly nor negligibly; or the metric has no direction
+  kUnclear,   ///< it differs, but neither clearly by the threshold nor clearly by less; or the metric has no direction
   kChanged,   ///< it differs in a scenario whose rule is `exact`
 };
 /// "same", "better", "worse", "too small to matter", "unclear", "changed"
@@ -38,28 +38,29 @@ struct MoveIdentity {
 /// A world that is far worse than before (TailRule).
 struct TailWorld {
   int trial = 0;
-  std::optional<double> before, after;         ///< nullopt = no value
+  std::optional<double> before, after;         ///< nullopt = the cell has no value
   char ended_before = 'o', ended_after = 'o';  ///< StatusLetter
-  bool lost = false;                           ///< it lost its value or its answer
+  bool lost = false;                           ///< it had a value or an answer before, and has none now
 };
 
 /// One metric of one method under one condition, in two snapshots.
 struct MetricMove {
   MoveIdentity identity;
   Movement movement = Movement::kSame;
-  int worlds = 0;                       ///< worlds in which neither cell was ended by the machine
-  int differing = 0;                    ///< worlds among these with different, lost or gained values
-  int lost = 0;                         ///< values that became null
-  int gained = 0;                       ///< nulls that became values
+  int worlds = 0;                       ///< worlds in which the machine ended neither cell
+  int differing = 0;                    ///< worlds among these whose values differ, were lost or were gained
+  int lost = 0;                         ///< values that the second snapshot does not have
+  int gained = 0;                       ///< values that the first snapshot does not have
   std::optional<double> before, after;  ///< the metric's aggregate over the present values
   Comparison comparison;                ///< over worlds with both values; later − earlier
-  bool by_mean = false;                 ///< the mean decided, not the metric's own aggregate
-  std::optional<Comparison> presence;   ///< if values were lost or gained: compares "has a value" (1 or 0)
-  std::vector<TailWorld> tail;          ///< lost worlds first, then the worst
-  bool by_tail = false;                 ///< the tail rule decided; the other rules would have passed
+  /// True if the difference of means decided the verdict, not that of the metric's own aggregate.
+  bool by_mean = false;
+  std::optional<Comparison> presence;  ///< if values were lost or gained: the comparison of "has a value" (1 or 0)
+  std::vector<TailWorld> tail;         ///< lost worlds first, then the worst
+  bool by_tail = false;                ///< the tail rule decided; the other rules would have passed
 };
 
-/// The values of the same trials before and after, and which of them are compared. All have the same length.
+/// The values before and after, by trial, and which trials are compared. All have the same length.
 struct MoveColumns {
   std::vector<std::optional<double>> before, after;
   std::vector<bool> compared;
@@ -82,15 +83,15 @@ void JudgeMoves(std::span<MetricMove> moves, const std::set<std::string>& exact)
 using TailRules = std::map<std::string, TailRule>;
 
 /// Returns the worlds that became far worse: by more than `rule.times` practical thresholds, or with a lost value. For
-/// kOkShare: the worlds that were `ok` and no longer are; they are lost unless they are now `unsolved`. If the metric
-/// has no direction, only lost values count. Lost worlds come first, then the worst.
+/// kOkShare: the worlds that were `ok` and no longer are; they count as lost unless they are now `unsolved`. If the
+/// metric has no direction, only lost values count. Lost worlds come first, then the worst.
 std::vector<TailWorld> FindTail(const MoveColumns& columns, const MetricInfo& metric, const TailRule& rule);
 
-/// Returns how many far worse worlds among `compared` are a regression; 0 = no number is.
+/// Returns the smallest number of far worse worlds, among `compared`, that is a regression; 0 = no number is.
 int WorldsThatFail(int compared, const TailRule& rule);
 bool IsTailRegression(const std::vector<TailWorld>& tail, int compared, const TailRule& rule);
 
-/// Sets a move to kWorse if its tail is a regression, unless it is kWorse already, or kChanged by the rule `exact`.
+/// Sets a move to kWorse if its tail is a regression, unless it is kWorse or kChanged already.
 void JudgeTail(MetricMove& move, const TailRule& rule);
 
 }  // namespace etude

@@ -20,8 +20,8 @@ struct JsonPlaces {
   std::map<std::string, std::vector<int>> lines;
 };
 
-/// Finds the lines in valid JSON (checked by ReadJson). Fails, with the line, on a duplicate key in an object, of which
-/// the parser would silently keep one.
+/// Finds the lines in valid JSON (checked by ReadJson). Fails, with the line, on a duplicate key in an object; the
+/// parser would silently keep one of the two.
 Result<JsonPlaces> FindJsonPlaces(const std::string& text, const std::string& file);
 
 /// Reads a JSON object strictly: every required key exists, no unknown one does, and each value has its type; null is

@@ -61,7 +61,7 @@ void Inject(SnapshotValues& values, double size, std::uint64_t seed) {
   }
 }
 
-constexpr double kBeyondRule = 2, kWithinRule = 0.9;  // multiples of the tail rule's `times`
+constexpr double kBeyondRule = 2, kWithinRule = 0.9;  // multiples of the tail rule's `times`, above and below the rule
 
 template <typename AnySnapshot>
 auto& TargetOf(AnySnapshot& snapshot, const std::string& metric) {
@@ -162,7 +162,7 @@ void InjectedTails::Try(const Snapshot& first, const std::string& target, std::u
   const auto worse_by = [&](double times) { return [=](std::optional<double>& value) { *value += times * worse; }; };
   const auto present = static_cast<int>(DrawTrials(TargetOf(first, target), SIZE_MAX, seed).size());
   const int needed = WorldsThatFail(present, rule);
-  // Make worlds worse by twice `rule.times`: the gate must find them if they are enough.
+  // Make worlds worse by twice `rule.times`: the gate must find them if there are enough of them.
   std::set<int> counts = {1, 2, 3, 5, 10};
   if (needed > 0) counts.insert(needed);
   for (const int count : counts) {
@@ -171,7 +171,7 @@ void InjectedTails::Try(const Snapshot& first, const std::string& target, std::u
                       kBeyondRule * rule.times),
           needed > 0 && count >= needed, compare(static_cast<std::size_t>(count), worse_by(kBeyondRule)));
   }
-  // It must not find worlds just within the rule, but must find a lost value.
+  // The gate must not find worlds that stay just within the rule, but must find a lost value.
   if (needed > 0 && needed <= present) {
     Count(fmt::format("{} in {} of {} worlds worse by {} × what matters", target, needed, present,
                       kWithinRule * rule.times),

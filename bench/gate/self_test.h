@@ -27,10 +27,10 @@ struct SelfTestReport {
   int comparisons = 0;                ///< number of comparisons of one gate
   Rate rerun_alarms;                  ///< alarms of the rule `exact` between two runs of one seed: must be zero
   Rate tail_rerun_alarms;             ///< alarms of the tail rule between two runs of one seed: must be zero
-  Rate false_alarms;                  ///< gates between runs of two seeds that alarm
+  Rate false_alarms;                  ///< gates that alarm although they compare two seeds of the same methods
   Rate false_alarm_comparisons;       ///< comparisons that alarm in these gates
   std::vector<PowerResult> injected;  ///< changes of known size, injected into one metric of one method
-  std::vector<PowerResult> tails;     ///< a few worlds made far worse, or without their value, in the same metric
+  std::vector<PowerResult> tails;     ///< a few worlds of the same metric made far worse, or with their value removed
   std::vector<PowerResult> real;      ///< the first method replaced by each other method
 
   /// Returns true if the gate works as specified: reruns never alarm, the interval of false alarms does not lie above
@@ -58,8 +58,8 @@ using RunUnderSeed = std::function<Result<FinishedRun>(std::uint64_t seed)>;
 /// Fails if a run does, or if the scenario has no metric for injection.
 Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions);
 
-/// Makes a few worlds of a snapshot far worse, and counts the gates that find the change: those to which the tail rule
-/// applies must find it, and others must not find it by that rule.
+/// Makes a few worlds of a snapshot far worse, and counts the gates that find the change: a gate must find it exactly
+/// if the tail rule counts it as a regression.
 class InjectedTails {
  public:
   /// Changes `target` (scenario 0, cells 0, this metric) in copies of `first`: n worlds worse by twice the rule's

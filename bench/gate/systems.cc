@@ -53,7 +53,7 @@ std::string Describe(const RunSystem& system, const MeasuredSystem* measured) {
 
 using LargestDifferences = std::map<std::string, double, std::less<>>;
 
-/// Returns the largest difference between two snapshots by metric; metrics without a difference are left out.
+/// Returns the largest difference of each metric between two snapshots; metrics without a difference are left out.
 LargestDifferences DifferencesOf(const Snapshot& before, const Snapshot& after) {
   LargestDifferences largest;
   const auto add = [&](const SnapshotCells& a, const SnapshotCells& b) {

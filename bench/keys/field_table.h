@@ -18,7 +18,7 @@
 
 namespace etude {
 
-/// Returns access to a member of members: `Path(&Method::filter, &FilterOptions::kind)(method)` is
+/// Returns a function that accesses a nested member: `Path(&Method::filter, &FilterOptions::kind)(method)` is
 /// `method.filter.kind`.
 template <typename... Members>
 constexpr auto Path(Members... members) {
@@ -78,7 +78,7 @@ struct Field {
             }};
   }
 
-  /// A list of `count` numbers; `allowed` tells people how many and which.
+  /// A list of `count` numbers; `allowed` describes them to users.
   template <typename Member>
   static Field Numbers(const std::string& key, Member member, Count count, std::string allowed, Range range,
                        std::string meaning) {
@@ -100,7 +100,7 @@ struct Field {
             }};
   }
 
-  /// Any text; `allowed` tells people which.
+  /// Any text; `allowed` describes it to users.
   template <typename Member>
   static Field Text(const std::string& key, Member member, std::string allowed, std::string meaning) {
     return {{key, TextKind(std::move(allowed)), Default(member), std::move(meaning)},
@@ -165,7 +165,7 @@ struct Field {
             }};
   }
 
-  /// Adds the unit, if the key does not say it or abbreviates it.
+  /// Adds the unit, for keys whose name does not give it in full.
   Field Unit(const std::string& unit) const {
     Field field = *this;
     field.info.value.allowed += " (" + unit + ")";
@@ -177,7 +177,7 @@ struct Field {
     field.info.value.allowed += "; " + words;
     return field;
   }
-  /// Says what an absent key means if that is not a value: "(the scenario's)".
+  /// Sets the text for an absent key if its default is not a value: "(the scenario's)".
   Field WhenAbsent(const std::string& words) const {
     Field field = *this;
     field.info.fallback = words;
@@ -274,8 +274,8 @@ std::vector<Value> ReadListed(Fields& fields, const std::string& key, const std:
 
 enum class Keep { kThese, kOthers };
 
-/// Returns the fields of another table that `keys` name, or all others, to be read into a part of `Options`: a key of
-/// two tasks is declared once. `part` is a member, or a Path to one.
+/// Returns the fields of another table, either those that `keys` name or all others, for reading into a part of
+/// `Options`. A key that two tasks have is thus declared once. `part` is a member, or a Path to one.
 template <typename Options, typename Part, typename Member>
 std::vector<Field<Options>> FieldsOf(const FieldTable<Part>& table, Member part, Keep keep,
                                      const std::vector<std::string>& keys) {
@@ -295,8 +295,8 @@ void Append(std::vector<Field<Options>> more, std::vector<Field<Options>>& field
   std::ranges::move(more, std::back_inserter(fields));
 }
 
-/// One setting of one method of a registry, as a field that goes with the key `chooser`; `set` is called with the
-/// options and the value that is written.
+/// One setting of one method of a registry, as a field that depends on the key `chooser`. `set` receives the options
+/// and the value in the file..
 template <typename Options, typename Set>
 Field<Options> SettingField(const std::string& chooser, const std::string& method, const NumberSetting& setting,
                             Set set) {
@@ -314,9 +314,9 @@ Field<Options> SettingField(const std::string& chooser, const std::string& metho
 }
 
 /// Returns the settings of a registry's methods (solvers, choices, joins) as fields that depend on the key `chooser`.
-/// An entry of the registry has a `name` and `settings`. Values are read into a vector of doubles given by `member`: as
-/// soon as one setting is written, all settings of the chosen method, in its order. Two methods may have settings of
-/// the same name.
+/// An entry of the registry has a `name` and `settings`. Values are read into the vector of doubles `member`: if the
+/// file has at least one setting, the vector holds all settings of the chosen method, in its order. Two methods may
+/// have settings of the same name.
 template <typename Options, typename Registry, typename Member>
 std::vector<Field<Options>> SettingFields(const std::string& chooser, const Registry& registry, Member member) {
   std::vector<Field<Options>> fields;

@@ -45,7 +45,7 @@ ValueKind NumberKind(Range range, bool is_whole) {
 ValueKind FlagKind() { return {"true, false", R"({"type":"boolean"})"}; }
 
 ValueKind TextKind(std::string allowed, const std::string& pattern) {
-  Json schema{{"type", {"string", "number"}}};  // text that looks like a number is a text, too
+  Json schema{{"type", {"string", "number"}}};  // text that looks like a number is allowed, too
   if (!pattern.empty()) schema["pattern"] = pattern;
   return {std::move(allowed), schema.dump()};
 }
@@ -109,7 +109,7 @@ void RefuseMisplacedKeys(Fields& mapping, std::span<const KeyInfo> keys) {
   for (const KeyInfo& key : keys) {
     const Node* written = mapping.Raw(key.key);
     if (written == nullptr) continue;
-    std::vector<std::string> allowed;  // by any key of this name
+    std::vector<std::string> allowed;  // the values that any key of this name allows
     const bool may_stand = std::ranges::any_of(keys, [&](const KeyInfo& other) {
       if (other.key != key.key) return false;
       allowed.insert(allowed.end(), other.only_with.values.begin(), other.only_with.values.end());

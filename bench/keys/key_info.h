@@ -21,20 +21,21 @@ struct ValueKind {
 };
 ValueKind NumberKind(Range range, bool is_whole = false);
 ValueKind FlagKind();
-/// A text that matches the regular expression `pattern`; empty = any text.
+/// Returns the kind of a text that matches the regular expression `pattern`; empty = any text.
 ValueKind TextKind(std::string allowed, const std::string& pattern = "");
-/// A text that names a file. `names_file` distinguishes files from built-in names; null: there are no built-in names.
+/// Returns the kind of a text that names a file. `names_file` distinguishes files from built-in names; null: there are
+/// no built-in names.
 ValueKind FileKind(std::string allowed, bool (*names_file)(std::string_view value) = nullptr);
-/// One of these texts.
+/// Returns the kind of a value that is one of these texts.
 ValueKind NameKind(std::span<const std::string> names);
 /// The number of values that a list may have.
 struct Count {
   std::size_t fewest = 0;
   std::size_t most = 0;
 };
-/// A list of such values: `count` of them, or any number.
+/// Returns the kind of a list of such values: `count` of them, or any number.
 ValueKind ListKind(std::string allowed, const ValueKind& item, std::optional<Count> count = {});
-/// A mapping with these keys.
+/// Returns the kind of a mapping with these keys.
 ValueKind MappingKind(std::string allowed, std::span<const KeyInfo> keys);
 
 /// Allows a key only if another key of its mapping has one of these values.
@@ -47,7 +48,7 @@ struct KeyCondition {
 struct KeyInfo {
   std::string key;
   ValueKind value;
-  std::string fallback;  ///< the default as it would be written, or its meaning in (parentheses); "" = the key is
+  std::string fallback;  ///< the default as a file would state it, or its meaning in (parentheses); "" = the key is
                          ///< required
   std::string meaning;   ///< one sentence
   KeyCondition only_with = {};

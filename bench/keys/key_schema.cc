@@ -44,7 +44,7 @@ Json ConditionSchema(const KeyInfo& key, std::span<const KeyInfo> keys, bool say
   return schema;
 }
 
-/// Is true where a value holds the description of a key below its own level.
+/// Returns true if a value contains the description of a key below its own level.
 bool HoldsKeys(const Json& value) {
   return std::ranges::any_of(value, [](const Json& item) {
     return (item.is_object() && item.contains("description")) || (item.is_structured() && HoldsKeys(item));

@@ -8,8 +8,8 @@
 
 namespace etude {
 
-/// Returns a value of a document as JSON. A document keeps values as text, so whatever reads as a number, true or false
-/// becomes one, even in quotes.
+/// Returns a value of a document as JSON. A document keeps values as text, so a text that reads as a number, true or
+/// false becomes one, even if it had quotes.
 Json ToJson(const Node& node);
 
 /// Returns the JSON Schema (draft 7, the best supported by editors) of a key's value, with description and default.
@@ -19,11 +19,11 @@ Json KeySchema(const KeyInfo& key);
 /// conditions.
 Json MappingSchema(std::span<const KeyInfo> keys);
 
-/// Writes a schema as text, one line a key; objects of described keys, and long lines, take several lines.
+/// Writes a schema as text, one line for each key; objects with described keys, and long lines, take several lines.
 std::string SchemaText(const Json& schema, const std::string& indent = {});
 
 /// Returns the conditions between keys and other keys' values, as `dependencies`. `says_all`: true = an absent key has
-/// its default; false = another part of the file may contain it.
+/// its default; false = it may stand in another part of the file.
 Json ConditionSchemas(std::span<const KeyInfo> keys, bool says_all);
 
 }  // namespace etude

@@ -15,7 +15,7 @@ struct MarkedTwice {
 /// Returns `annotator_distance_px`: the mean distance of what both marked; nothing if both marked nothing in common.
 std::optional<double> AnnotatorDistancePx(std::span<const MarkedTwice> joints);
 
-/// Returns `annotator_overlap`: of what at least one marked, the share that both marked; nothing if none was marked.
+/// Returns `annotator_overlap`: the share, of what at least one marked, that both marked; nothing if none was marked.
 std::optional<double> AnnotatorOverlap(std::span<const MarkedTwice> limbs);
 
 }  // namespace etude

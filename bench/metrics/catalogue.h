@@ -22,9 +22,9 @@ enum class Aggregate { kMedian, kMean };
 /// in percentage points.
 enum class Reading {
   kAmount,  ///< an amount in the metric's unit, or a count
-  kYesNo,   ///< 1 or 0; a run has a share of cells
-  kShare,   ///< a share of something within the cell, 0…1; a run has a mean share
-  kScore,   ///< 0…1, of a quantity with a name of its own: F1, recall
+  kYesNo,   ///< 1 or 0; a run has the share of cells with 1
+  kShare,   ///< a share of something within the cell, 0…1; a run has the mean of shares
+  kScore,   ///< 0…1, a quantity with a name of its own: F1, recall
 };
 
 /// A key of the input of a metric's test vectors.
@@ -37,7 +37,7 @@ struct MetricInput {
 struct MetricVector {
   std::string_view title;          ///< what it tests: "one joint of twenty jumps"
   std::string_view input_json;     ///< one JSON object, with the keys of MetricInfo::inputs
-  std::optional<double> expected;  ///< nothing: the metric has no value here
+  std::optional<double> expected;  ///< nullopt: the metric has no value here
   std::string_view null_reason;    ///< why it has no value; "" if it has one
   double tolerance = 0;            ///< absolute, in the metric's unit
   std::string_view source;         ///< "derived: …" or "published: …"

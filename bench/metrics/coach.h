@@ -40,9 +40,9 @@ struct CoachedSession {
 struct CorrectionTally {
   int due = 0;           ///< performances that were wrong
   int given = 0;         ///< corrections
-  int missed = 0;        ///< of those due, without a correction before the next performance's window has closed
-  int unneeded = 0;      ///< of those given, after a right performance, or before any
-  int wrong_praise = 0;  ///< performances that were wrong and were called right
+  int missed = 0;        ///< due corrections that were not given before the window of the next performance closed
+  int unneeded = 0;      ///< corrections given after a right performance, or before any performance
+  int wrong_praise = 0;  ///< wrong performances that were called right
 };
 CorrectionTally TallyCorrections(const CoachedSession& session);
 
@@ -52,22 +52,22 @@ std::optional<double> AnsweredShare(const CorrectionTally& tally);
 /// Returns `decision_delay_s`: the time from a wrong performance's first frame until it is called wrong; a performance
 /// never called wrong is censored when its window closes. Kaplan–Meier median; empty if it is never reached.
 std::optional<double> DecisionDelaySeconds(const CoachedSession& session);
-/// Returns `feedback_delay_s`: the time from the decision to correct to the act's first frame, censored at the
+/// Returns `feedback_delay_s`: the time from the decision to correct until the act's first frame, censored at the
 /// session's end. Kaplan–Meier median; empty if it is never reached.
 std::optional<double> FeedbackDelaySeconds(const CoachedSession& session);
-/// Returns `feedback_delay_max_s`: the longest of these times among the acts that began. Empty if none began.
+/// Returns `feedback_delay_max_s`: the longest such time among the acts that began. Empty if none began.
 std::optional<double> MaxFeedbackDelaySeconds(const CoachedSession& session);
 
 /// Returns `repetitions_until_right`. `moves` holds, per move, the truth of its performances in order of time. For each
-/// move whose first performance was wrong, it counts the performances up to and including the first right one, censored
-/// after the last one. Kaplan–Meier median; empty if it is never reached.
+/// move whose first performance was wrong, it counts the performances up to and including the first right one; if none
+/// is right, the count is censored after the last performance. Kaplan–Meier median; empty if it is never reached.
 std::optional<double> RepetitionsUntilRight(std::span<const std::vector<PerformanceTruth>> moves);
 
 /// Returns `retention`: the mean probability of a right performance in a test. Empty without tests.
 std::optional<double> Retention(std::span<const double> chances);
 
-/// Returns `beat_error_ms`: the 95th percentile of the absolute errors, in milliseconds from seconds. Empty without
-/// errors.
+/// Returns `beat_error_ms`: the 95th percentile of the absolute errors; input in seconds, result in milliseconds. Empty
+/// without errors.
 std::optional<double> BeatErrorMs(std::span<const double> errors_s);
 
 /// Returns the median, used by `switch_jump_cm`. Empty without values.

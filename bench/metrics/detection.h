@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// Returns `fault_found`: the share of performances with a fault, however slight, that were not called right. Empty
+/// Returns `fault_found`: among performances with a fault of any size, the share that were not called right. Empty
 /// without any.
 std::optional<double> FaultFound(const std::vector<bool>& called);
 /// Returns the share of grey performances that were called right. Empty without any.

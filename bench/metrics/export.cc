@@ -116,7 +116,7 @@ std::string ExpectedText(const MetricVector& vector) {
                               : fmt::format("{:.9g}", *vector.expected);
 }
 
-/// Escapes the bar, which would end a table cell.
+/// Escapes '|', which would end a table cell.
 std::string EscapeTableCell(std::string_view content) {
   std::string text(content);
   for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) text.insert(at, "\\");

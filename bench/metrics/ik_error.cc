@@ -22,7 +22,7 @@ double ShareOfFrames(std::span<const TrackedFrame> frames, bool (*is_solved)(con
   return *Share(solved, static_cast<std::int64_t>(frames.size()));
 }
 
-/// Returns the sum of the absolute third differences. The rate cancels in the ratio of two motions.
+/// Returns the sum of the absolute third differences. Only ratios of two motions are used, so the frame rate cancels.
 double TotalJerk(std::span<const std::vector<double>> frames) {
   double sum = 0;
   for (std::size_t f = 3; f < frames.size(); ++f) {

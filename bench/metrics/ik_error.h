@@ -21,7 +21,7 @@ struct IkErrorSummary {
 /// Summarises the errors of one or more effectors.
 IkErrorSummary SummariseIkErrors(std::span<const EffectorError> errors);
 
-/// The targets that the effectors of a world have: "solved" is judged by these alone.
+/// What the targets of a world prescribe; "solved" is judged by these parts alone.
 struct IkTargetParts {
   bool positions = true;
   bool axes = true;
@@ -41,9 +41,9 @@ int CountLimitViolations(std::span<const double> angles, std::span<const AngleRa
 /// `hidden_angle_change_deg`. Both spans have the same size and are not empty.
 double HiddenAngleDifferenceDeg(std::span<const double> angles, std::span<const double> others);
 
-/// Returns the penalised cost of a solver in one world (`iterations_par2`, `fk_evaluations_par2`): its cost if it
-/// solved the world within the limit, else twice the limit. The mean over worlds is PAR-2, the penalised average of
-/// solver competitions: it penalises unsolved worlds, which a mean over solved worlds would ignore.
+/// Returns the penalised cost of a solver in one world (`iterations_par2`, `fk_evaluations_par2`): the true cost if it
+/// solved the world within the limit, else twice the limit. The mean over worlds is PAR-2, the score of solver
+/// competitions. It penalises unsolved worlds, which a mean over solved worlds would ignore.
 constexpr double PenalisedCost(double spent, double limit, bool solved) {
   return solved && spent <= limit ? spent : 2 * limit;
 }
@@ -69,8 +69,8 @@ struct FrameIterations {
 };
 FrameIterations SummariseIterations(std::span<const int> iterations);
 
-/// Returns `angle_jerk_ratio`: the total jerk of the found angles divided by that of the true ones, [frame][angle] in
-/// radians, the same number of frames in both. Nothing for fewer than four frames, or if the truth stands still apart
+/// Returns `angle_jerk_ratio`: the total jerk of the found angles divided by that of the true ones, both [frame][angle]
+/// in radians with the same number of frames. Nullopt for fewer than four frames, or if the truth stands still apart
 /// from rounding.
 std::optional<double> AngleJerkRatio(std::span<const std::vector<double>> found,
                                      std::span<const std::vector<double>> truth);

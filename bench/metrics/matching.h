@@ -7,7 +7,7 @@
 
 namespace etude {
 
-/// The result of testing a distance against a threshold on all pairs of frames that a transition could have used: every
+/// Counts how a threshold on a distance decides about all pairs of frames that a transition could have used: every
 /// bridge frame of the old clip within the allowed wait × every bridge frame of the new clip
 /// (docs/reference/metrics.md, Matching).
 struct MatchTally {

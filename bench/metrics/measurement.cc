@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// Averages `error_of` over the measured values that have a truth.
+/// Returns the mean of `error_of` over the measured values that have a truth, and the coverage.
 template <typename ErrorOf>
 MeasuredError Compare(std::span<const MeasuredAndTrue> things, ErrorOf error_of) {
   double sum = 0;

@@ -94,7 +94,7 @@ PoseErrors ComparePoses(std::span<const BodyPose> found, std::span<const BodyPos
     for (std::size_t i = 0; i < kRoleCount; ++i) {
       const double error_mm = kMmPerMetre * glm::distance(found[f].joints[i], truth[f].joints[i]);
       sums.pck_50mm += error_mm < kNear_mm;
-      // The area under a step function at `error_mm` is what lies right of the step.
+      // One joint's share is a step function at `error_mm`; the area under it lies to the right of the step.
       sums.auc_200mm += std::max(0.0, 1 - error_mm / kAucEnd_mm);
     }
     sums.joint_angle_error_deg += AngleErrorsDeg(found[f], truth[f], angles);

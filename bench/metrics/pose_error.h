@@ -42,16 +42,16 @@ struct PoseErrors {
 PoseErrors ComparePoses(std::span<const BodyPose> found, std::span<const BodyPose> truth);
 
 /// Returns the mean of one value per frame over the frames whose flag is set (`mpjpe_seen_mm`, `mpjpe_held_mm`);
-/// nothing if no flag is set. Both have the same size.
+/// nullopt if no flag is set. Both have the same size.
 std::optional<double> MeanOfFlagged(std::span<const double> values, const std::vector<bool>& flags);
 
 /// Returns `jerk_error_mps3`: the mean length of the difference between the third differences of found and true joints,
-/// times rate³, over all joints and all runs of four successive judged frames; nothing if there is no such run.
+/// times rate³, over all joints and all groups of four successive judged frames; nullopt if there is no such group.
 std::optional<double> JerkErrorMps3(std::span<const BodyPose> found, std::span<const BodyPose> truth,
                                     const std::vector<bool>& judged, double rate_hz);
 
-/// Returns `limb_length_error_mm`: the mean absolute difference of the lengths, from metres. Both have the same size,
-/// at least one.
+/// Returns `limb_length_error_mm`: the mean absolute difference of the lengths; inputs are in metres. Both have the
+/// same size, at least one.
 double LimbLengthErrorMm(std::span<const double> found_m, std::span<const double> true_m);
 
 }  // namespace etude

@@ -33,7 +33,8 @@ MaskScore ScoreMask(const Mask& found, const Mask& truth, const Mask& shadow) {
   assert(found.pixels.size() == truth.pixels.size() && found.pixels.size() == shadow.pixels.size());
   // Count in runs short enough for 8-bit counters, which the compiler vectorises.
   std::int64_t both = 0, found_count = 0, true_count = 0, shadow_found = 0, shadow_count = 0;
-  constexpr std::size_t kRun = 240;  // number of pixels that a byte can count, a multiple of the 16 of a SIMD register
+  // The most pixels that 8 bits can count, as a multiple of the 16 bytes of a SIMD register.
+  constexpr std::size_t kRun = 240;
   for (std::size_t first = 0; first < found.pixels.size(); first += kRun) {
     const std::size_t end = std::min(first + kRun, found.pixels.size());
     std::uint8_t run_both = 0, run_found = 0, run_true = 0, run_shadow_found = 0, run_shadow = 0;

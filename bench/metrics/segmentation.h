@@ -17,7 +17,7 @@ struct MaskScore {
   std::optional<double> pwc = {};           ///< 100 |found ≠ true| / |pixels|: percentage of wrong classification
 };
 
-/// Scores a mask. All three have the same size; `shadow` marks the pixels of the room that lie in the person's shadow.
+/// Scores a mask. All three have the same size; `shadow` marks the pixels of the room that are in the person's shadow.
 MaskScore ScoreMask(const Mask& found, const Mask& truth, const Mask& shadow);
 
 /// Returns the mean of each value over the images that have it.

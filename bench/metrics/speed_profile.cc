@@ -75,7 +75,7 @@ std::optional<double> LogDimensionlessJerk(std::span<const double> speed) {
     squares += difference * difference;
   }
   if (peak <= 0 || squares <= 0) return std::nullopt;
-  // (N dt)³ / peak² · Σ (difference / dt²)² dt, in which the time between samples, dt, cancels.
+  // (N dt)³ / peak² · Σ (difference / dt²)² dt, where dt, the time between samples, cancels.
   const auto samples = static_cast<double>(speed.size());
   return -std::log(samples * samples * samples * squares / (peak * peak));
 }

@@ -34,7 +34,7 @@ std::optional<double> JumpCm(std::span<const BodyPose> poses, int frame) {
   return kCmPerMetre * worst;
 }
 
-/// Returns the larger jump of the two clips themselves at a frame of the join.
+/// Returns the larger of the jumps that the two clips themselves have at a frame of the join.
 double OwnJumpCm(const JoinView& view, int frame) {
   return std::max(JumpCm(view.left, frame).value_or(0), JumpCm(view.wanted, frame - view.last).value_or(0));
 }
@@ -80,7 +80,7 @@ double JoinSlideCmps(const JoinView& view) {
 }
 
 bool IsCalmlyNatural(const JoinView& view, double limit_cm) {
-  constexpr double kMinLimit_cm = 1;  // a clip that stands still must not forbid all motion
+  constexpr double kMinLimit_cm = 1;  // so that a clip that stands still does not forbid all motion
   constexpr double kOwnAllowance = 1.25;
   const double limit = std::max(limit_cm, kMinLimit_cm);
   const int end = JoinEnd(view);
@@ -103,7 +103,7 @@ double Liveness(const JoinView& view) {
 }
 
 RealFrames::Row RealFrames::RowOf(const BodyPose& before, const BodyPose& now, double rate_hz) {
-  // Hands and feet come first because they differ most: the search then rejects a distant frame after a few numbers.
+  // Hands and feet come first because they differ most, so the sum over a distant frame exceeds the best one early.
   using enum Role;
   static constexpr std::array kOrder = {kLeftHand,       kRightHand,    kLeftFoot,      kRightFoot, kHead,
                                         kLeftElbow,      kRightElbow,   kLeftKnee,      kRightKnee, kHipCentre,
@@ -167,7 +167,7 @@ double StrangeCmSeconds(const JoinView& view, const RealFrames& real) {
   const int end = JoinEnd(view);
   for (int frame = view.first + 1; frame <= end; ++frame) {
     sum += real.DistanceCm(view.shown[frame - 1], view.shown[frame], view.rate_hz, nearest);
-    ++nearest;  // the next frame is probably near the next row
+    ++nearest;  // because the next frame is probably near the next row
   }
   return sum / view.rate_hz;
 }

@@ -35,22 +35,22 @@ std::optional<int> SettledFrame(const JoinView& view);
 /// Returns `settle_s`, the time from the request to SettledFrame; nothing if the join never settles.
 std::optional<double> SettleSeconds(const JoinView& view);
 
-/// Returns the last frame of the join: SettledFrame, or the motion's last frame if it never settles, but at least five
-/// frames after the last transition point if the motion is that long.
+/// Returns the last frame of the join: SettledFrame, or the motion's last frame if it never settles. It is at least
+/// five frames after the last transition point, if the motion is that long.
 int JoinEnd(const JoinView& view);
 
 /// Returns `join_slide_cmps`: FootSlideCmps from the first transition point to the join's end, or to a second after the
 /// last point if that is later. A frame after the first point is required.
 double JoinSlideCmps(const JoinView& view);
 
-/// Returns true if the transition counts for `calm_natural_share`: at no frame from the first transition point to the
-/// join's end is the jump larger than all of `limit_cm` (the limit of the calmer clip), 1 cm, and 1.25 times the jump
-/// of either clip at that same frame.
+/// Returns true if the transition counts for `calm_natural_share`: at every frame from the first transition point to
+/// the join's end, the jump is at most the largest of `limit_cm` (the limit of the calmer clip), 1 cm, and 1.25 times
+/// the larger jump of the two clips at that frame.
 bool IsCalmlyNatural(const JoinView& view, double limit_cm);
 
-/// Returns `live`: the mean joint speed in the slowest ten frames of the join, divided by that of the slowest ten
-/// frames in the second before or in the second after it, whichever is slower; at most 1. It is 1 if these are slower
-/// than 5 cm/s, or too few.
+/// Returns `live`: the mean joint speed in the slowest ten successive frames of the join, divided by that in the
+/// slowest ten of the second before or of the second after it, whichever is slower; at most 1. It is 1 if the divisor
+/// is below 5 cm/s, or if there are too few frames.
 double Liveness(const JoinView& view);
 
 /// The frames of a library's clips, for finding the distance from a frame to the nearest of them.
@@ -59,11 +59,11 @@ class RealFrames {
   RealFrames() = default;
   explicit RealFrames(std::span<const BodyMotion> clips);
 
-  /// Returns the distance to the nearest frame, centimetres: the root of the mean over joints of the squared distance
-  /// of positions plus that of velocities × 0.1 s, with both bodies turned to one heading and their hip centres above
-  /// one point of the floor. `before` is the frame before `now`. At least one frame with a velocity (not the first of a
-  /// clip) is required. The search begins at frame `nearest` and stores the nearest there; the result does not depend
-  /// on where it begins.
+  /// Returns the distance to the nearest frame, centimetres: √(mean over joints of d² + (0.1 s · v)²), where d and v
+  /// are the differences of position and velocity after both bodies are turned to one heading and moved over one point
+  /// of the floor. `before` is the frame before `now`. At least one frame with a velocity (not the first of a clip) is
+  /// required. The search begins at frame `nearest` and stores the index of the nearest frame there; the result does
+  /// not depend on where it begins.
   double DistanceCm(const BodyPose& before, const BodyPose& now, double rate_hz, std::size_t& nearest) const;
 
  private:
@@ -78,8 +78,8 @@ class RealFrames {
 /// transition point.
 double StrangeCmSeconds(const JoinView& view, const RealFrames& real);
 
-/// Finds what supports the body from the first transition point to the join's end, but for at least 1.2 s if the motion
-/// is that long. Support is found from the clips, never from the shown frames (FindSupport).
+/// Finds what supports the body from the first transition point to the join's end, or for 1.2 s if that is longer and
+/// the motion is that long. Support is found from the clips, never from the shown frames (FindSupport).
 std::vector<Support> JoinSupport(const JoinView& view);
 
 /// A transition floats if the body is unsupported for at least this many frames in a row. Shorter gaps are not visible.
@@ -89,9 +89,9 @@ int UnsupportedFrames(std::span<const Support> support);
 /// Returns true if the transition counts for `supported_share`.
 bool IsSupported(std::span<const Support> support);
 
-/// Returns `balance_cm`: the distance from the floor projection of the centre of mass to the joints that bear the body
-/// (BalanceOffset), mean over the frames of `support` with such joints; nothing if there are none. `support` is
-/// JoinSupport's.
+/// Returns `balance_cm`: the distance, on the floor, from the projected centre of mass to the joints that bear the body
+/// (BalanceOffset), as a mean over the frames of `support` that have such joints; nothing if there are none. `support`
+/// is JoinSupport's.
 std::optional<double> BalanceCm(const JoinView& view, std::span<const Support> support);
 
 /// The start of the wanted clip that the transition skips. A motion that continues without a transition enters no clip.
@@ -115,12 +115,12 @@ struct CleanMeasures {
   double skipped_share = 0;
   std::optional<double> settle_s;
 };
-/// Returns true if the transition is clean by `clean_share_v1`: natural and calmly natural, slide ≤ 6 cm/s or what a
-/// clip slides itself, settled within 1.5 s, strange ≤ 10 cm·s, live ≥ 0.5. `supported` and `skipped_share` are not
+/// Returns true if the transition is clean by `clean_share_v1`: natural and calmly natural, slide ≤ 6 cm/s or ≤ that of
+/// the clips themselves, settled within 1.5 s, strange ≤ 10 cm·s, live ≥ 0.5. `supported` and `skipped_share` are not
 /// considered.
 bool IsCleanByVersion1(const CleanMeasures& measures);
-/// Returns true if the transition is clean by `clean_share`: all of the above, supported, and at most a third of the
-/// wanted clip skipped.
+/// Returns true if the transition is clean by `clean_share`: it meets all conditions of version 1, is supported, and
+/// skips at most a third of the wanted clip.
 bool IsClean(const CleanMeasures& measures);
 
 }  // namespace etude

@@ -113,7 +113,8 @@ std::vector<double> NaturalJumpsCm(const BodyMotion& clip) {
 double NaturalLimitCm(std::vector<double> natural_jumps) { return Quantile(natural_jumps, 0.95); }
 
 bool IsNatural(std::optional<double> jump_cm, std::vector<double> natural_jumps_cm) {
-  // With few windows the percentile is one of them, and rounding alone could make a motion fail against itself.
+  // With few windows the percentile is the value of one window; without a tolerance, rounding could make a motion fail
+  // against itself.
   constexpr double kSlack = 1 + 1e-9;
   return jump_cm && *jump_cm <= kSlack * NaturalLimitCm(std::move(natural_jumps_cm));
 }

@@ -23,7 +23,7 @@ struct TransitionSmoothness {
 constexpr int kWindowReach = 5;
 
 /// Returns the largest values over the windows around all transition points in `frames` (at least one); frames outside
-/// the motion do not count. A motion of fewer than four frames has no jerk, of fewer than three no jump.
+/// the motion do not count. A motion of fewer than four frames has no jerk, a motion of fewer than three has no jump.
 TransitionSmoothness MeasureTransitions(const BodyMotion& motion, std::span<const int> frames);
 
 /// Returns the largest second difference of any joint at each frame, centimetres; 0 at both ends.
@@ -48,11 +48,12 @@ double FootSlideCmps(const BodyMotion& motion, int point);
 /// Returns the foot slide over the steps from frame `first` to frame `last` (at most to the motion's end).
 double FootSlideCmps(std::span<const BodyPose> poses, int first, int last, double rate_hz);
 
-/// Returns the largest joint distance between the frame left and the frame entered, already aligned on the floor.
+/// Returns the largest joint distance between the frame that is left and the frame that is entered. Both are already
+/// aligned on the floor.
 double PoseGapCm(const BodyPose& leaving, const BodyPose& arriving);
 
-/// Returns the largest difference of joint velocity between the step into the frame left and the step out of the frame
-/// entered.
+/// Returns the largest difference of joint velocity between the step into the frame that is left and the step out of
+/// the frame that is entered.
 double VelocityGapCmps(const BodyPose& leaving_before, const BodyPose& leaving, const BodyPose& arriving,
                        const BodyPose& arriving_after, double rate_hz);
 
@@ -60,7 +61,7 @@ double VelocityGapCmps(const BodyPose& leaving_before, const BodyPose& leaving, 
 constexpr double kFalseSmoothGapCm = 20;
 constexpr bool IsFalselySmooth(double pose_gap_cm) { return pose_gap_cm > kFalseSmoothGapCm; }
 
-/// The frames of a clip that played while the wanted clip was waited for.
+/// The frames of a clip that played while the transition waited.
 struct Stay {
   int from_frame = 0;
   int until_frame = 0;

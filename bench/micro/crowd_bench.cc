@@ -1,5 +1,5 @@
-// Times a crowd of characters with one body (`etude crowd`) on one core, for every SIMD target, in double and float:
-// the time of a frame, and the number of characters that fit into 1/60 s.
+// Times a crowd of characters with one body (`etude crowd`) on one core, for every SIMD target, in double and float. It
+// prints the time of a frame and the number of characters that can be computed in 1/60 s.
 //
 //     crowd_bench [--characters=1000] [--frames=120]
 #include <fmt/format.h>

@@ -13,8 +13,8 @@
 namespace etude {
 namespace {
 
-// Makes a problem whose truth lies within the middle half of every range and has no joint at rest. The start differs
-// from it by up to 15° per angle.
+// Makes a problem whose truth lies within the middle half of every range and has no joint at its rest angle. The start
+// differs from it by up to 15° per angle.
 IkProblem MakeProblem(const KinematicTree& tree, double phase = 1) {
   TreeState truth = StandingState(tree);
   IkProblem problem{truth, {}, tree.limits};

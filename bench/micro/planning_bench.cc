@@ -1,5 +1,6 @@
-// Times planning one transition by every choice, with clips of 1,000 frames (33 s) and one second to wait; and by the
-// point-cloud distance of every pair, as in its paper. That both find the same frames is checked before measuring.
+// Times the planning of one transition by every choice, with clips of 1,000 frames (33 s) and one second to wait. A
+// second method computes the point-cloud distance of every pair, as in its paper. Before measuring, it is checked that
+// both find the same frames.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

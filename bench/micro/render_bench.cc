@@ -45,7 +45,7 @@ BENCHMARK_CAPTURE(Picture, capsules_vga_labels, OfCapsules, kVga, Kind::kLabels)
 BENCHMARK_CAPTURE(Picture, surfaces_vga, OfSurfaces, kVga, Kind::kColour)->Apply(InMilliseconds);
 BENCHMARK_CAPTURE(Picture, surfaces_vga_all, OfSurfaces, kVga, Kind::kAll)->Apply(InMilliseconds);
 
-// The baseline of `capsules_vga_labels`.
+// Times BareDraw, the baseline of `capsules_vga_labels`.
 void Bare(benchmark::State& state) {
   const Camera camera = LookAt(kVga, {-1.2, 1.4, 3.9}, {0, 0.95, 0});
   const auto bare = BareDraw::Create({}, camera);

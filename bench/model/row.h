@@ -15,10 +15,10 @@ namespace etude {
 struct CellUsage {
   double wall_s = 0;
   double cpu_s = 0;  ///< of the worker and of the outside method
-  /// The largest resident size of either while the cell ran. It is sampled, so cells shorter than the sampling interval
-  /// may share one sample.
+  /// The largest resident size of the worker or of the outside method while the cell ran. It is sampled, so cells
+  /// shorter than the sampling interval may share one sample.
   double peak_mb = 0;
-  /// The time to build the world; given in the row of the first cell that ran in it.
+  /// The time to build the world; only the first cell that ran in the world holds it.
   double world_wall_s = 0, world_cpu_s = 0;
 };
 

@@ -20,7 +20,8 @@ class RowSource {
  public:
   virtual ~RowSource() = default;
   virtual std::size_t size() const = 0;
-  /// Returns the indices of all rows of evenly spaced whole worlds: about `rows` rows, or all if there are fewer.
+  /// Chooses whole worlds, evenly spaced, and returns the indices of all their rows: about `rows`, or all if there are
+  /// fewer.
   virtual std::vector<std::size_t> SampleRowIndices(std::size_t rows) const = 0;
   /// Replaces `row` by the row at this index, reusing its memory. Series and recording are not read.
   virtual void Read(std::size_t place, Row& row) const = 0;
@@ -48,7 +49,7 @@ struct RunSystem {
   friend bool operator==(const RunSystem&, const RunSystem&) = default;
 };
 
-/// A result folder in memory: all rows, or, for a very large run, the rows of some worlds and a source of all others.
+/// A result folder in memory: all rows, or, for a very large run, the rows of some worlds and a source of all rows.
 struct RunData {
   std::string suite;
   std::uint64_t seed = 1;  ///< for secret worlds a number derived from the digest of their key
@@ -61,7 +62,7 @@ struct RunData {
   double wall_seconds = 0;
   std::vector<Row> rows;  ///< canonical order: scenario, condition, trial, method
   /// Reads all rows of a run that does not fit in memory; null otherwise. `rows`, `series` and `cpu_seconds` then hold
-  /// those of evenly spaced whole worlds.
+  /// the data of some worlds only, evenly spaced.
   std::shared_ptr<const RowSource> source;
   std::vector<ScenarioSummary> scenarios;
   std::vector<CellSeries> series;
@@ -72,13 +73,13 @@ struct RunData {
 };
 
 /// Says how the worlds were drawn, and whether an outside program could have known them: "seed 1", "seed 1, open
-/// worlds", "secret worlds, key 0123456789abcdef…". Secret worlds differ between the conditions of a sweep; the text
-/// then says so, because a difference between conditions is also one between worlds.
+/// worlds", "secret worlds, key 0123456789abcdef…". The text also says if the conditions of a sweep have different
+/// worlds, as secret worlds do, because the worlds then add to the difference between conditions.
 std::string DescribeWorlds(const RunData& run);
 
-/// Returns the number of rows of the run, also those that are not in memory.
+/// Returns the number of rows of the run, including those that are not in memory.
 std::size_t CountRows(const RunData& run);
-/// Calls `use` with every row of the run and its index, also with rows that are not in memory.
+/// Calls `use` with every row of the run and its index, including rows that are not in memory.
 void ForEachRow(const RunData& run, const std::function<void(const Row& row, std::size_t place)>& use);
 /// Returns the row at this index, without series and recording if it is read from `source`.
 Row RowAt(const RunData& run, std::size_t place);

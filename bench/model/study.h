@@ -16,9 +16,8 @@ struct Expectation {
   std::string of;                           ///< the method judged
   std::string below, above;                 ///< the method it is compared with in the same worlds; at most one is set
   std::optional<double> at_most, at_least;  ///< or the bound of its statistic
-  std::string statistic = "median";         ///< median, mean or p95; used by bounds
-  double confidence = 0.95;                 ///< of a comparison: of its interval; the level of its test is 1 −
-                                            ///< confidence
+  std::string statistic = "median";         ///< median, mean or p95; only for bounds
+  double confidence = 0.95;                 ///< of a comparison's interval; the level of its test is 1 − confidence
   std::vector<SweptValue> where;            ///< the conditions in which it is judged; empty = all of them
   Place place;
 };
@@ -31,19 +30,20 @@ struct TimeRatio {
   Place place;
 };
 
-/// The rule by which a few worlds alone are a regression, whatever the statistics over all worlds say: in the same
-/// worlds any difference comes from the code. docs/gate.md tells how the defaults were measured.
+/// The rule by which a few worlds alone are a regression, even if the statistics over all worlds show no change. Both
+/// runs have the same worlds, so every difference comes from the code. docs/gate.md says how the defaults were
+/// measured.
 struct TailRule {
-  double times = 20;    ///< a world is far worse if it is worse by more than this many practical thresholds
-  int worlds = 4;       ///< this many far worse worlds of one comparison are a regression; 0 = never …
-  double share = 0.05;  ///< … if they are also at least this share of the worlds compared: rounding may move a few of
-                        ///< many worlds
-  int lost = 1;         ///< this many worlds that lost their value or answer are a regression; 0 = never
+  double times = 20;  ///< a world is far worse if it is worse by more than this many practical thresholds
+  int worlds = 4;     ///< this many far worse worlds of one comparison are a regression; 0 = never …
+  /// … if they are also at least this share of the compared worlds, because rounding may move a few of many.
+  double share = 0.05;
+  int lost = 1;  ///< this many worlds that lost their value or answer are a regression; 0 = never
 };
 
 /// The rules by which `etude gate` compares one scenario with a baseline.
 struct GateRules {
-  std::vector<std::string> metrics;  ///< the headline metrics if the file names none
+  std::vector<std::string> metrics;  ///< metrics to compare; the headline metrics if the file names none
   bool exact = false;                ///< true: every difference is a regression; false: only one above the practical
                                      ///< threshold
   TailRule tail;
@@ -54,14 +54,14 @@ struct GateRules {
 struct ComparedMethod {
   std::string name;
   std::string against;      ///< the method it is compared with; the first method is compared with itself
-  bool has_oracle = false;  ///< the truth replaces some of its stages: it shows an upper bound and does not compete
+  bool has_oracle = false;  ///< the truth replaces some of its stages; it shows an upper bound and does not compete
   std::vector<std::string> oracle = {};  ///< the stages that the truth replaces
   std::string settings = {};     ///< its other settings as text, equal for equal settings; "" = an outside method
   std::string description = {};  ///< what it is, in a sentence, or its settings
 };
 
-/// The comparisons and expectations of a scenario, without how its worlds are made: all that is needed to judge its
-/// rows.
+/// The comparisons and expectations of a scenario, with all that is needed to judge its rows, but without how its
+/// worlds are made.
 struct Study {
   std::string scenario;
   std::string task;
@@ -73,7 +73,8 @@ struct Study {
   std::vector<std::vector<SweptValue>> conditions;  ///< at least one
   std::vector<std::string> metrics;                 ///< headline metrics, most important first
   std::vector<std::string> across;  ///< swept parameters; a verdict must be the same under all of their values
-  std::string success;            ///< the metric of what the task is to reach, by which answers decide first; "" = none
+  /// The metric that says whether the task's goal was reached, which answers compare first; "" = none.
+  std::string success;
   double success_matters = 0.05;  ///< the smallest difference of success that matters, as a share
   std::string rival;              ///< the method that all others must beat; "" = the best method is found
   std::vector<Expectation> expectations;

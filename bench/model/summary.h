@@ -64,51 +64,53 @@ struct PairedTest {
   std::string how;          ///< "exact", "normal approximation", "9,999 draws"
 };
 
-/// A comparison's mean difference if the worlds of one unit are left out.
+/// The mean difference of a comparison without the worlds of one unit.
 struct LeftOut {
   std::string unit;
   double difference = 0;
 };
 
-/// The result of a comparison for other units (clips, people, …) like those that its worlds were drawn from
+/// The result of a comparison generalised to other units (clips, people, …) like those from which its worlds were drawn
 /// (bench/statistics/beyond.h). If every world is its own unit, it equals the result on the worlds.
 struct Beyond {
-  int units = 0;                                ///< units that have a pair
-  int differing = 0;                            ///< units whose mean difference is not zero
-  std::optional<double> difference, low, high;  ///< pseudo-median of the units' mean differences, which the verdict is
-                                                ///< about, and its 95 % interval
+  int units = 0;      ///< units that have a pair
+  int differing = 0;  ///< units whose mean difference is not zero
+  /// The pseudo-median of the units' mean differences, and its 95 % interval; the verdict judges it.
+  std::optional<double> difference, low, high;
   std::optional<double> mean, mean_low, mean_high;  ///< their mean and its 95 % interval
   PairedTest test;                                  ///< the test that decides
   std::optional<double> p_holm;                     ///< corrected over the scenario's comparisons (Holm)
   std::optional<Verdict> verdict;                   ///< nothing = too few units for a verdict
-  std::string why_open;                             ///< says why there is no verdict, or an inconclusive one
+  std::string why_open;                             ///< why there is no verdict or an inconclusive one
   std::vector<LeftOut> left_out;                    ///< in the order of the units' names; empty if worlds are the units
 };
 
-/// `method` against `baseline` on the same worlds: the aggregate (MetricInfo: median, or mean for shares and
-/// penalised costs) of the paired differences method − baseline.
+/// `method` against `baseline` on the same worlds: the median, or the mean for shares and penalised costs (MetricInfo),
+/// of the paired differences method − baseline.
 struct Comparison {
   std::string metric;
   std::string baseline;
   std::string method;
-  int pairs = 0;                                        ///< worlds in which both have a value
-  int differing = 0;                                    ///< pairs whose values differ
-  int only_baseline = 0, only_method = 0, neither = 0;  ///< worlds without a pair, by which method has a value
-  std::optional<double> difference, ci_low, ci_high;    ///< 95 % interval, pairs resampled
+  int pairs = 0;      ///< worlds in which both have a value
+  int differing = 0;  ///< pairs whose values differ
+  /// Worlds without a pair: only one of both has a value, or neither.
+  int only_baseline = 0, only_method = 0, neither = 0;
+  std::optional<double> difference, ci_low, ci_high;  ///< 95 % interval, pairs resampled
   IntervalKind interval = IntervalKind::kNone;
-  std::optional<double> mean, mean_low, mean_high;  ///< mean of the same differences and its 95 % interval, for every
-                                                    ///< metric
-  PairedTest signed_rank;                           ///< Wilcoxon's; decides if the aggregate is the median
-  PairedTest sign_flip;                             ///< of the aggregate; decides if it is the mean
-  std::optional<double> p_holm;       ///< the deciding p, corrected over the scenario's comparisons (Holm)
-  int better = 0, worse = 0;          ///< pairs in which the method is better, or worse, by at least what matters
-  double share_better = 0;            ///< share of the pairs in which the method is better; ties count half
-  std::optional<double> effect_size;  ///< rank-biserial correlation, −1…1; positive favours `method`, or, without a
-                                      ///< direction, larger values
+  /// Mean of the same differences and its 95 % interval, for every metric.
+  std::optional<double> mean, mean_low, mean_high;
+  PairedTest signed_rank;        ///< Wilcoxon's; decides if the aggregate is the median
+  PairedTest sign_flip;          ///< of the aggregate; decides if it is the mean
+  std::optional<double> p_holm;  ///< the deciding p, corrected over the scenario's comparisons (Holm)
+  /// Pairs in which the method is better, or worse, by at least the practical threshold.
+  int better = 0, worse = 0;
+  double share_better = 0;  ///< share of the pairs in which the method is better; ties count half
+  /// Rank-biserial correlation, −1…1; positive if `method` is better, or, without a direction, larger.
+  std::optional<double> effect_size;
   Verdict verdict = Verdict::kInconclusive;  ///< on these worlds
-  std::string why_open;                      ///< says why the verdict is inconclusive, if a reason is known
-  std::vector<std::string> notes;            ///< what else a reader should know before trusting the figures
-  Beyond beyond;                             ///< the same comparison for other units like these
+  std::string why_open;                      ///< why the verdict is inconclusive, if a reason is known
+  std::vector<std::string> notes;            ///< further warnings for readers of the figures
+  Beyond beyond;                             ///< the same comparison for other units like the sampled ones
 };
 
 /// The step of an answer that decided it: success first, then the value, then the tail.
@@ -118,24 +120,28 @@ inline constexpr std::array<Named<AnswerStep>, 4> kAnswerSteps = {{{"none", Answ
                                                                    {"value", AnswerStep::kValue},
                                                                    {"tail", AnswerStep::kTail}}};
 
-/// How a method did against another under one condition, in one verdict (bench/statistics/answers.h). Every reader of a
-/// run speaks of this one.
+/// One verdict on whether a method is better than another under one condition (bench/statistics/answers.h). Every
+/// page, table and program that shows a run uses this verdict.
 struct Answer {
   std::string method;
-  std::string baseline = {};                 ///< the method that the scenario names, or the strongest rival
-  std::string value_metric = {};             ///< the first headline metric that is not the success; "" if there is none
-  Verdict verdict = Verdict::kInconclusive;  ///< on these worlds
+  std::string baseline = {};  ///< the method that the scenario names, or the strongest rival
+  /// The first headline metric that is not `Study::success`; "" if there is none.
+  std::string value_metric = {};
+  Verdict verdict = Verdict::kInconclusive;  ///< for these worlds
   AnswerStep decided_by = AnswerStep::kNone;
-  std::optional<Verdict> beyond = {};      ///< the deciding step's verdict for other units; nothing = too few units
-  std::optional<Comparison> success = {};  ///< of the task's success, failed cells as 0; nothing if no cell says it
-  std::optional<Comparison> both_succeed = {};  ///< of the value where both succeeded; nothing if that is every world,
-                                                ///< or none, or success is no yes or no
-  std::optional<Comparison> tail = {};          ///< share of worlds far better − share of worlds far worse
+  std::optional<Verdict> beyond = {};  ///< the deciding step's verdict for other units; nothing = too few units
+  /// Comparison of `Study::success`, where failed cells count 0; nullopt if no cell has a value.
+  std::optional<Comparison> success = {};
+  /// Comparison of the value in the worlds where both succeeded; nullopt if these are all worlds, or none, or if
+  /// success is not a yes or no.
+  std::optional<Comparison> both_succeed = {};
+  /// Share of worlds where the method is far better − share where it is far worse.
+  std::optional<Comparison> tail = {};
 };
 
-/// The cost of one stage: how much smaller the error is if the truth replaces the stage, mean over worlds.
+/// The cost of one stage: the mean reduction of the error, over worlds, if the truth replaces the stage.
 struct BudgetShare {
-  std::string stage;  ///< or several stages that were replaced together
+  std::string stage;  ///< one stage, or several that were replaced together
   double mean = 0;
   std::optional<double> ci_low = {}, ci_high = {};  ///< 95 % interval of the mean
 };
@@ -143,10 +149,10 @@ struct BudgetShare {
 /// The error of one method, split into the costs of its stages (bench/statistics/summary.h).
 struct ErrorBudget {
   std::string metric;
-  std::string method;       ///< the method with no stage, or the fewest, replaced by the truth
-  bool is_shapley = false;  ///< true: shares are averages over all orders; false: those of one order, that of `shares`
+  std::string method;       ///< the method with no stage replaced by the truth, or with the fewest
+  bool is_shapley = false;  ///< true: shares are means over all orders of the stages; false: `shares` follow one order
   int worlds = 0;
-  double total = 0, rest = 0;  ///< mean error of that method, and of the method with the most stages replaced
+  double total = 0, rest = 0;  ///< mean error of that method, and of the method with most stages replaced
   std::vector<BudgetShare> shares;
 };
 
@@ -154,14 +160,15 @@ struct ConditionSummary {
   std::vector<SweptValue> condition;
   std::vector<MethodSummary> methods;
   std::vector<Comparison> comparisons;     ///< every method with its baseline, on the headline metrics
-  std::vector<Comparison> rivals;          ///< every method with the strongest other one, on the headline metrics
+  std::vector<Comparison> rivals;          ///< every method with the strongest other method, on the headline metrics
   std::vector<Answer> answers = {};        ///< every method with its baseline
-  std::vector<Answer> rival_answers = {};  ///< every method with the strongest other one
-  std::vector<ErrorBudget> budgets = {};   ///< of the first headline metric, for methods that differ in oracles alone
+  std::vector<Answer> rival_answers = {};  ///< every method with the strongest other method
+  /// Budgets of the first headline metric, for methods that differ only in their oracles.
+  std::vector<ErrorBudget> budgets = {};
 };
 
-/// One comparison under every value of the parameters across which a verdict must hold (`across`). If a parameter of
-/// our own simulation, such as how people learn, changes the verdict, the verdict says nothing about the methods.
+/// One comparison under every value of the parameters across which a verdict must hold (`across`). If the verdict
+/// depends on a parameter of our own simulation, such as how people learn, it says nothing about the methods.
 struct AcrossVerdict {
   std::vector<SweptValue> condition;  ///< the values of the other swept parameters
   std::string metric;
@@ -200,8 +207,7 @@ struct ScenarioSummary {
   std::vector<std::string> headline_metrics;
   std::vector<ConditionSummary> conditions;
   std::vector<ExpectationResult> expectations;
-  int family = 0;  ///< number of comparisons over all conditions and headline metrics, among which Holm's correction
-                   ///< runs
+  int family = 0;  ///< number of comparisons over all conditions and headline metrics that Holm's correction covers
   std::vector<AcrossVerdict> across = {};      ///< empty if no verdict must hold across parameters
   std::string description = {};                ///< what its worlds are, in a sentence; "" = not described
   std::vector<std::string> descriptions = {};  ///< what each method is, in a sentence; empty if no method is described

@@ -47,7 +47,7 @@ const std::vector<Recipe>& Recipes() {
   return recipes;
 }
 
-/// Returns the recipe for recorded people, who take the place of clips and simulated people.
+/// Returns the recipe with recorded people instead of clips and simulated people.
 Recipe OfRecordings(const Recipe& recipe) { return {recipe.task, {}, {"{}", "{}"}}; }
 
 Result<Specimen> MakeSpecimen(const TaskKind& kind, const Recipe& recipe, std::size_t index, const std::string& seat,
@@ -101,12 +101,12 @@ Result<Specimen> MakeSpecimen(const TaskKind& kind, const Recipe& recipe, std::s
 
 constexpr int kMaxEndingMs = 2000;
 
-/// A method's result, in a form that can be compared: its answer, or why it gave none.
+/// A method's result in a comparable form: its answer, or the reason why it gave none.
 struct Attempt {
   Status status = Status::kFailed;
   std::string said;
   std::string fault;    ///< why this result is not allowed; "" = it is
-  bool was_put = true;  ///< false: the program could not be started
+  bool was_put = true;  ///< false: the program could not be started, so it was not asked
 };
 
 /// Returns an answer with all angles (numbers below keys that end in "_deg") multiplied by `factor`.
@@ -298,7 +298,7 @@ class ConformanceTest {
     ReportDifference("accepts long lines, unknown keys and ids of any text", Compare(AskAtLength(id), 0));
   }
 
-  /// Sends the first problem with additional keys, unknown to the program.
+  /// Sends the first problem with additional keys that the program does not know.
   Attempt AskAtLength(const std::string& id) {
     const SpecimenProblem& problem = specimens_[0].problems[0];
     if (takes_seat_) return Play<ProgramWithUnknownKeys>(problem, id);

@@ -14,13 +14,13 @@ namespace etude {
 struct SpecimenProblem {
   std::string id;
   std::string setting_id;
-  std::shared_ptr<const Payload> setting;  ///< the specimen's, or this world's own
+  std::shared_ptr<const Payload> setting;  ///< shared by all problems of the specimen, or of this world alone
   std::unique_ptr<TaskWorld> world;
   Payload problem;  ///< empty for tasks with seats
 };
 
 struct Specimen {
-  std::unique_ptr<ClipLibrary> clips;  ///< outlive the task
+  std::unique_ptr<ClipLibrary> clips;  ///< must outlive the task
   std::unique_ptr<Task> task;
   std::vector<SpecimenProblem> problems;
   bool has_plain_method = false;  ///< method 0 of its worlds is a built-in method that solves them
@@ -35,16 +35,16 @@ Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::
 
 /// One requirement for an outside method, and its result.
 struct ConformanceCheck {
-  std::string name;  ///< a sentence that is true of a method that passes
+  std::string name;  ///< a sentence that is true if the method passes
   bool passed = false;
   std::string found;  ///< what was observed, passed or not
 };
 
 /// Sends the specimens of its task to a method and calls `report` after every check: it answers the handshake; its
 /// answers can be scored; they depend on the problem alone, not on earlier problems or settings; it accepts long lines;
-/// it ends when its input ends; it solves some problems if a plain built-in method does (otherwise reports whether its
-/// angles seem to be radians). Stops after a failed handshake or an answer that cannot be scored. Returns true if all
-/// checks passed. Fails as MakeSpecimens does, and if the program cannot be found.
+/// it ends when its input ends; it solves some problems if a plain built-in method solves some (if not, the report says
+/// if its angles seem to be radians). Stops after a failed handshake or an answer that cannot be scored. Returns true
+/// if all checks passed. Fails as MakeSpecimens does, and if the program cannot be found.
 Result<bool> CheckConformance(const OutsideOptions& options, const std::string& seat,
                               const std::function<void(const ConformanceCheck&)>& report,
                               const LabelledStreams* recordings = nullptr);

@@ -27,7 +27,7 @@ Result<Json> ReadMessage(const std::string& line) {
     return Fail({}, "said something that is not JSON{}: {}", where,
                 Printable(std::string_view(line).substr(std::min(start, line.size()))));
   }
-  // JSON parsers disagree about which of two equal keys counts.
+  // JSON parsers differ in which of two equal keys they use, so equal keys are refused.
   if (parsed.repeated_key) {
     return Fail({}, "named the key {} twice in one object: {}", Printable(*parsed.repeated_key), Printable(line));
   }

@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// Longer lines are refused during reading, deeper JSON before parsing.
+/// Limits of a reply: longer lines are refused during reading, more deeply nested JSON before parsing.
 constexpr std::size_t kMaxReplyBytes = std::size_t{16} << 20;
 constexpr int kMaxReplyDepth = 32;
 
@@ -21,9 +21,9 @@ Result<std::string> ProblemLine(const std::string& id, const Json& content, cons
 Result<std::string> BeginLine(const std::string& id, const Json& content, const std::string& files);
 Result<std::string> StepLine(const std::string& id, int number, const Json& content, const std::string& files);
 
-/// A program's reply to the handshake. Each function below reads one type of line and fails on anything else, with what
-/// was found: invalid JSON, another type or problem, a missing field, or one of the wrong type. Unknown fields are
-/// ignored.
+/// A program's reply to the handshake. Each function below reads one type of line and fails on anything else: invalid
+/// JSON, another type or problem, a missing field, or a field of the wrong type. The error says what was found. Unknown
+/// fields are ignored.
 struct HelloReply {
   std::string name;
   std::string version;
@@ -35,7 +35,7 @@ Result<Json> ReadAnswer(const std::string& line, const std::string& id);
 /// The same for step `number` of a session; an "answer" must repeat the number.
 Result<Json> ReadStepAnswer(const std::string& line, const std::string& id, int number);
 
-/// The problem, and the step of a session, that a line answers; `id` is "" if the line is no answer.
+/// The problem, and the step of a session, that a line answers; `id` is "" if the line is not an answer.
 struct Answered {
   std::string id;
   std::optional<int> step = {};

@@ -34,8 +34,8 @@ tl::unexpected<OutsideFailure> Failed(Status status, std::string reason) {
   return tl::unexpected<OutsideFailure>({status, std::move(reason)});
 }
 
-/// Errors by their cause: BadOutput is the program's output, OurFailure a message that cannot be sent, NotAsked this
-/// machine.
+/// Errors by their cause. BadOutput: the output of the program; OurFailure: a message that cannot be sent; NotAsked:
+/// this machine.
 tl::unexpected<OutsideFailure> BadOutput(const Error& error) { return Failed(Status::kBadOutput, error.message); }
 tl::unexpected<OutsideFailure> OurFailure(const Error& error) { return Failed(Status::kFailed, ToString(error)); }
 tl::unexpected<OutsideFailure> NotAsked(const Error& error) {
@@ -90,7 +90,7 @@ struct OutsideMethod::State {
   int repeated = 0;                ///< lines ignored since the problem was sent
 
   struct Failures {
-    int times = 0;  ///< in a row
+    int times = 0;  ///< failures in a row
     OutsideFailure last;
   };
   std::map<std::string, Failures> failures;  ///< by the name of the step
@@ -162,7 +162,8 @@ Outcome<Json> OutsideMethod::State::Solve(const std::string& setting_id, const P
   if (!line) return OurFailure(line.error());
   const auto read = [&](const std::string& said) { return ReadAnswer(said, problem_id); };
   RETURN_IF_ERROR(
-      ReadPendingLines(read));  // before `answered` changes: such lines answer an earlier copy of this problem
+      // Must happen before `answered` changes: such lines answer an earlier copy of this problem.
+      ReadPendingLines(read));
   answered.erase(problem_id);
   auto answer = Exchange(*line, options.time_s, read);
   answered.insert(problem_id);
@@ -184,7 +185,8 @@ Outcome<void> OutsideMethod::State::Start() {
     const std::string cure = program.CureOfStart();
     reply.error().reason += cure.empty() ? kHint : cure;
   }
-  // A program that never said anything has not been asked: this set-up is the cause, and its cells get no rows.
+  // A program that never said anything has not been asked: the set-up of this machine is the cause, and its cells get
+  // no rows.
   const bool is_silent = ended || (!reply && reply.error().status == Status::kTimeout);
   if (is_silent && program_name.empty()) reply.error().was_asked = false;
   if (!reply) return tl::unexpected(std::move(reply).error());
@@ -252,8 +254,8 @@ auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Rea
   }
 }
 
-/// Returns true if a line repeats an answer. The result must not depend on when the line arrives: right after the first
-/// answer, or after the next question.
+/// Returns true if a line repeats an answer. Such lines are ignored, so that the result is the same if the line arrives
+/// before or after the next question.
 bool OutsideMethod::State::RepeatsAnswer(const std::string& line) const {
   const Answered about = QuestionAnsweredBy(line);
   if (session && about.id == session->id) return about.step && *about.step < session->steps - 1;

@@ -24,7 +24,7 @@ struct OutsideOptions {
   std::string error_file = {};       ///< keeps its standard error, up to 1 MiB; "" = it shares ours
   /// The time limit of handshake and setting each, if time_s is less: programs load libraries and models then.
   double start_s = 30;
-  Fence fence = {};                     ///< the sandbox that it runs in
+  Fence fence = {};                     ///< the sandbox in which it runs
   std::vector<std::string> files = {};  ///< files that the sandbox shows it (ProgramView)
   /// Keys the ids that replace the names of settings and problems. With a secret seed the program is restarted for
   /// every setting, so that its memory cannot carry anything from one condition to the next.
@@ -39,8 +39,8 @@ double MaxAskSeconds(double time_s);
 struct OutsideReply {
   Status status = Status::kFailed;  ///< kOk: `answer` is valid; else `reason` says why there is none
   std::string reason;
-  /// False: this machine or the set-up is the cause, as `reason` says; the program was not asked, or never replied to
-  /// its first handshake.
+  /// False: the program was not asked, or never replied to its first handshake, because of this machine or its set-up;
+  /// `reason` says why.
   bool was_asked = true;
   JsonPtr answer;         ///< an object with finite numbers
   double cpu_s = 0;       ///< used by the program since its last reply; 0 if it ended before the first sample

@@ -31,7 +31,8 @@ bool IsSeen(const fs::path& path, const ProgramView& view) {
          std::ranges::any_of(view.shown, [&](const fs::path& one) { return IsWithin(path, one); });
 }
 
-/// Returns true for a folder that nobody should show whole: the root, a home, a scratch folder and what contains one.
+/// Returns true for a folder that must not be shown as a whole: the root, a home folder, a scratch folder, and folders
+/// that contain one of these.
 bool IsTooWide(const fs::path& folder) {
   const fs::path above = folder.parent_path();
   return above == "/" || above == "/home" || folder == "/" || Fence::HoldsScratch(folder);
@@ -54,7 +55,7 @@ fs::path InstallationOf(const fs::path& path, const fs::path& program) {
   return IsTooWide(folder) ? path : folder;
 }
 
-/// Adds a path, and removes what it contains; adds nothing if it is contained.
+/// Adds a path and removes those below it from the list; adds nothing if the list has a folder above it.
 void AddWidest(const fs::path& path, std::vector<fs::path>& paths) {
   if (std::ranges::any_of(paths, [&](const fs::path& known) { return IsWithin(path, known); })) return;
   std::erase_if(paths, [&](const fs::path& known) { return IsWithin(known, path); });
@@ -100,7 +101,7 @@ ProgramView ViewOf(const std::vector<std::string>& command, const std::vector<st
     view.command.push_back(path.string());
     if (!is_file || Fence::IsOfSystem(path)) continue;
     const fs::path folder = path.parent_path();
-    // The Python of a virtual environment is a link: it cannot be a mount point, and its folder shows it already.
+    // The Python of a virtual environment is a link: it cannot be a mount point, and it is shown with its folder.
     const bool is_shown = fs::is_symlink(path, error) && std::ranges::any_of(view.shown, [&](const fs::path& one) {
                             return std::ranges::mismatch(one, path).in1 == one.end();
                           });
@@ -126,7 +127,7 @@ std::vector<fs::path> FindUnseen(const ProgramView& view, std::string_view words
     target = Whole(target.parent_path() / fs::read_symlink(target, error));
     named.push_back(target);
   }
-  // What a script and the last words name.
+  // The paths that a script and the last words name.
   for (const std::string& text : {TextOfScript(target), std::string(words)})
     std::ranges::move(PathsIn(text), std::back_inserter(named));
   std::vector<fs::path> unseen;

@@ -19,12 +19,12 @@ struct ProgramView {
 /// to the system, of its script (the first file among the arguments). Its working folder is the first shown folder.
 ProgramView ViewOf(const std::vector<std::string>& command, const std::vector<std::string>& files);
 
-/// Returns what a program that did not start in a fence may lack: the files and folders of this machine that its link
-/// leads to, that its text names if it is a script, or that `words`, its last ones, name, and that a fence does not
-/// show it. Each is told by the folder of the installation that it lies in, which is shown whole. Empty = none known.
+/// Returns the files and folders that a program may lack if it did not start in a fence. Candidates are the target of
+/// its link, the paths in its text if it is a script, and the paths in `words`, its last output; those that the fence
+/// does not show are returned. Each is replaced by the folder of the installation that contains it. Empty = none known.
 std::vector<std::filesystem::path> FindUnseen(const ProgramView& view, std::string_view words);
 
-/// Returns the key `files` that shows a program `unseen` beside what it sees: "files: [mine, /home/me/venv]".
+/// Returns the key `files` that shows a program `unseen` in addition to what it sees: "files: [mine, /home/me/venv]".
 std::string FilesThatShow(const std::vector<std::filesystem::path>& unseen, const ProgramView& view);
 
 /// Returns the folder of Etude's Python package, which every program is shown and which is in its PYTHONPATH:

@@ -22,7 +22,7 @@
 namespace etude {
 namespace {
 
-constexpr long kTailBytes = 4096;  // the last line is searched in so many bytes at the end
+constexpr long kTailBytes = 4096;  // the number of bytes at the end in which the last line is searched
 
 /// Opens a log file for appending; creates its folder. Links are not followed, because a resumed run may come from
 /// somebody else.
@@ -58,8 +58,8 @@ long ErrorLog::Size() const {
   return memory_ >= 0 && ::fstat(memory_, &status) == 0 ? static_cast<long>(status.st_size) : 0;
 }
 
-// Punching a hole frees memory and loses nothing that the program appends meanwhile. Truncating could lose output, so
-// it is done only when the file comes near the program's size limit.
+// Punching a hole frees memory and loses nothing that the program appends at the same time. Truncating could lose such
+// output, so it is done only when the file comes near the program's size limit.
 void ErrorLog::Trim() {
   const long end = Size() - kTailBytes;
   if (end <= kMaxBytes) return;
@@ -102,7 +102,8 @@ void ErrorLog::Save() {
 
 namespace {
 
-constexpr std::chrono::milliseconds kSampleInterval{20};  // of resources, and of whether it still runs
+// Between samples of resources, and between checks that it still runs.
+constexpr std::chrono::milliseconds kSampleInterval{20};
 
 tl::unexpected<OutsideFailure> NotStarted(const Error& error) {
   // The caller's message already names this machine as the cause, so only the message is passed on.
@@ -206,7 +207,7 @@ OutsideOutcome<void> WatchedProgram::Measure() {
   errors_.Trim();
   const TreeLoad load = meter_->Count();
   const ScratchUse scratch = options_.fence.MeasureScratch(child_->FirstStarted());
-  // The peak has a tolerance of 10 % + 4 MB, so memory below that needs no precise measurement.
+  // The reported peak has a tolerance of 10 % + 4 MB: below that, an upper bound suffices.
   const double held_mb = group_.IsUp() ? group_.HeldMb() + scratch.names_mb
                                        : meter_->HeldMb(scratch.Mb(), std::min(options_.memory_mb, 1.1 * peak_mb_ + 4));
   cpu_s_ = std::max(cpu_s_, load.cpu_s);  // the process may have ended meanwhile
@@ -251,7 +252,7 @@ OutsideFailure WatchedProgram::HowItEnded() {
   if (const std::string words = WithoutFolder(errors_.LastLine()); !words.empty()) {
     reason += "; its last words: " + Printable(words, 200);
   }
-  // An exit code is the program's own (an exception, for instance); a signal may come from the machine.
+  // The program itself decides an exit code (an exception, for instance), but a signal may come from the machine.
   return {end.starts_with("exit code") ? Status::kFailed : Status::kCrashed, std::move(reason)};
 }
 

@@ -14,8 +14,8 @@
 
 namespace etude {
 
-/// Collects the standard error of one program in memory, and saves it to a file that all workers share. In memory, its
-/// last line is not mixed with lines of the same program in other workers.
+/// Collects the standard error of one program in memory, and saves it to a file that all workers share. The last line
+/// in memory is always this program's own, while the file mixes lines of all workers.
 class ErrorLog {
  public:
   /// The maximum size of the file, and of the output kept between two calls of Save.
@@ -74,8 +74,8 @@ class WatchedProgram {
   /// Reads the output available now; NextLine returns its lines.
   void Receive();
   std::optional<std::string> NextLine() { return child_->NextLine(); }
-  /// Waits for a line until `deadline`, which is `seconds` after the question. Fails with the end of the program, with
-  /// the resource whose limit it exceeded, or with a timeout.
+  /// Waits for a line until `deadline`, which is `seconds` after the question. Fails if the program ends, exceeds the
+  /// limit of a resource, or sends no line in time.
   OutsideOutcome<std::string> WaitForLine(Clock::time_point deadline, double seconds);
   /// Measures its resources; fails if they exceed the limits. MeasureIfDue does so only 20 ms after the last sample.
   OutsideOutcome<void> Measure();
@@ -90,7 +90,7 @@ class WatchedProgram {
 
   /// Returns the processor time between the last samples before this call and before the previous one, seconds.
   double TakeCpuSeconds();
-  /// The largest memory measured since ForgetPeak, MB.
+  /// Returns the largest memory measured since ForgetPeak, MB.
   double peak_mb() const { return peak_mb_; }
   void ForgetPeak() { peak_mb_ = 0; }
   /// Returns how to show the program what it seems to lack in its fence; "" if nothing is known to be missing.
@@ -109,7 +109,7 @@ class WatchedProgram {
   ErrorLog errors_;
   std::optional<TemporaryFolder> attachment_root_;
   ProgramView view_;    ///< of the child, without attachments and package
-  ControlGroup group_;  ///< of the child; none if this machine provides none: then the meter measures its memory
+  ControlGroup group_;  ///< of the child; if this machine provides none, `meter_` measures the memory
   std::optional<ChildProcess> child_;
   std::optional<TreeMeter> meter_;  ///< of the child
   Clock::time_point last_measured_{};

@@ -56,7 +56,7 @@ struct Joint {
 
 struct Goal {
   Vector axes[3], position;
-  double scale, axis_scale;  // of rows: square roots of weights, per kPositionScale and per radian
+  double scale, axis_scale;  // of rows: square roots of the weights, per kPositionScale of length and per radian
 };
 
 struct Pose {
@@ -305,7 +305,8 @@ class DensePeer final : public IkPeer {
     return gain;
   }
 
-  // Descends from the current pose until it is solved, or has not fallen to `progress` times its cost for some steps.
+  // Descends from the current pose until the problem is solved, or until the cost has not fallen to `progress` times
+  // its value for some steps.
   void Descend(double progress) {
     double fallen_to = pose_.cost, factor = 1, growth = 2;
     bool has_moved = true;

@@ -16,8 +16,8 @@ struct IkPeerAnswer {
   int steps = -1;  ///< −1 = unknown
 };
 
-/// Inverse kinematics by another library. Its model is built once, with all that does not depend on a problem, for a
-/// tree whose root is fixed where StandingState has it.
+/// Inverse kinematics by another library. Its model is built once and holds all that does not depend on a problem. The
+/// root of the tree is fixed at its place in StandingState.
 class IkPeer {
  public:
   virtual ~IkPeer() = default;
@@ -25,7 +25,7 @@ class IkPeer {
   /// Returns the effectors by the library's own forward kinematics, which shows whether its model equals the tree.
   virtual std::vector<LimbFrame> Effectors(std::span<const double> angles) = 0;
 
-  /// Solves from `problem.start`, to the goals of `options` as far as the library's stop criteria can express them.
+  /// Solves from `problem.start`, with the goals of `options`, as far as the library's stop criteria can express them.
   virtual IkPeerAnswer Solve(const IkProblem& problem, const IkOptions& options) = 0;
 };
 
@@ -46,8 +46,7 @@ struct KdlSettings {
 
 /// Makes KDL's TreeIkSolverPos_NR_JL: Newton–Raphson steps with angles clamped to their limits.
 std::unique_ptr<IkPeer> MakeKdlNewton(const KinematicTree& tree, const KdlSettings& settings);
-/// Makes KDL's TreeIkSolverPos_Online: the same steps, scaled down to maximum speeds. It is run until our goals are
-/// met.
+/// Makes KDL's TreeIkSolverPos_Online: the same steps, scaled down to maximum speeds. It runs until our goals are met.
 std::unique_ptr<IkPeer> MakeKdlOnline(const KinematicTree& tree, const KdlSettings& settings);
 
 /// Makes Simbody's Assembler with a marker and an orientation sensor at every effector; `restrictQ` sets the limits.

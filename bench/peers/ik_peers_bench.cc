@@ -1,7 +1,7 @@
-// Times our inverse kinematics, one by one and in batches, and that of other libraries: the same problems and accuracy
-// in one process. In every round every method solves every problem; a problem's fastest round counts. A problem is
-// solved if our forward kinematics puts every effector's position and axes within the goals, and all angles within the
-// limits.
+// Times our inverse kinematics, one by one and in batches, and that of other libraries, with the same problems and
+// accuracy in one process. In every round, every method solves every problem; the fastest round of each problem counts.
+// A problem is solved if our forward kinematics puts every effector's position and axes within the goals, and all
+// angles within the limits.
 //
 //     ik_peers_bench [--trials=50] [--rounds=3] [--only=parts of methods' names, commas between]
 #include <fmt/format.h>
@@ -68,7 +68,7 @@ struct Outcome {
   double us = std::numeric_limits<double>::infinity();
 };
 
-/// `solve` solves all problems; `outcomes` keeps the shortest time of each.
+/// `solve` solves all problems once; `outcomes` keeps the shortest time of each problem.
 struct Method {
   std::string name;
   std::function<void(std::span<const IkWorld> worlds, std::vector<Outcome>& outcomes)> solve;
@@ -136,7 +136,7 @@ Method Batch(const std::string& target, Precision precision) {
           }};
 }
 
-// Ends the program if the peer's model is not our tree, because it would then solve other problems.
+// Ends the program if the peer's model is not our tree, because it would then solve different problems.
 Method Peer(const std::string& name, std::shared_ptr<IkPeer> peer, int max_iterations) {
   constexpr double kRounding = 1e-9;
   for (int trial = 0; trial < 20; ++trial) {

@@ -23,8 +23,9 @@ LimbFrame FromFrame(const KDL::Frame& f) {
 
 std::string SegmentName(int joint, int axis) { return std::to_string(joint) + "xyz"[axis]; }
 
-// Makes one KDL segment per degree of freedom, the smallest number, because KDL's recursion over names is slow. A
-// joint's offset and rest rotation are in its first segment, an effector's offset in the last segment of its limb.
+// Makes one KDL segment per degree of freedom. This is the smallest possible number, because KDL's recursion over names
+// is slow. A joint's offset and rest rotation are in its first segment, an effector's offset in the last segment of its
+// limb.
 KDL::Tree ToKdl(const KinematicTree& tree) {
   KDL::Tree made("root");
   const TreeState rest = StandingState(tree);
@@ -134,7 +135,7 @@ class KdlNewton final : public KdlPeer {
                                                              steps, goal);
       goal_ = goal;
     }
-    // Restart from another pose if it is stuck, as TRAC-IK does for chains.
+    // If the solver is stuck, restart it from another pose, as TRAC-IK does for chains.
     for (int restart = 1; solver_->CartToJnt(q_, targets_, found_) < 0 && restart <= settings_.restarts; ++restart) {
       ScatterAround(problem.start.angles, problem.limits, restart, scattered_);
       std::ranges::copy(scattered_, q_.data.data());

@@ -123,7 +123,8 @@ OpenCvPerson::OpenCvPerson(OpenCvPerson&&) noexcept = default;
 Mask OpenCvPerson::Find(const ColourImage& picture) {
   State& s = *state_;
   if (s.kind == Kind::kSameHue) {
-    // Changed if the cosine between the chroma vectors of picture and background is below the threshold's.
+    // A pixel has changed if the cosine between the chroma vectors of picture and background is below the cosine of the
+    // threshold.
     s.Chroma(ViewOf(picture));
     cv::multiply(s.planes[0], s.bx, s.dot);
     cv::accumulateProduct(s.planes[1], s.by3, s.dot);
@@ -138,7 +139,7 @@ Mask OpenCvPerson::Find(const ColourImage& picture) {
   } else {
     cv::cvtColor(ViewOf(picture), s.hsv, cv::COLOR_RGB2HSV);
     cv::extractChannel(s.hsv, s.planes[0], 0);
-    // Changed if the hues differ by more than `steps` in both directions of the circle of 180.
+    // A pixel has changed if the hues differ by more than `steps` in both directions of the circle of 180 steps.
     cv::absdiff(s.planes[0], s.hue, s.apart);
     cv::inRange(s.apart, s.steps + 1, 179 - s.steps, s.buffers.changed);
   }

@@ -12,7 +12,7 @@ glm::dvec3 FromVec(const SimTK::Vec3& v) { return {v[0], v[1], v[2]}; }
 
 SimTK::Rotation ToRotation(const glm::dmat3& m) {
   const SimTK::Mat33 rows(m[0][0], m[1][0], m[2][0], m[0][1], m[1][1], m[2][1], m[0][2], m[1][2], m[2][2]);
-  return SimTK::Rotation(rows, true);  // trusts that it is orthogonal
+  return SimTK::Rotation(rows, true);  // true = does not check that the matrix is orthogonal
 }
 SimTK::Transform ToTransform(const SimbodyModel::Frame& frame) {
   return SimTK::Transform(ToRotation(frame.axes), ToVec(frame.position));

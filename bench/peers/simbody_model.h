@@ -8,7 +8,7 @@ namespace etude {
 
 struct SimbodySettings {
   double accuracy = 1e-5;      ///< of its optimiser; smaller values change nothing
-  double position_weight = 3;  ///< weight of a square metre against a square radian
+  double position_weight = 3;  ///< weight of a square metre relative to a square radian
 };
 
 /// Simbody's model of a kinematic tree, with its Assembler. Simbody's headers do not compile as C++20, so this class is
@@ -36,7 +36,7 @@ class SimbodyModel {
 
   /// Returns the effectors by Simbody's forward kinematics; `angles` are in the order of the joints.
   std::vector<Frame> Effectors(const double* angles);
-  /// Returns the angles that the Assembler finds from `start`, or its last ones if it fails.
+  /// Returns the angles that the Assembler finds from `start`, or the last angles that it tried if it fails.
   std::vector<double> Assemble(const double* start, const std::vector<Frame>& targets);
 
  private:

@@ -125,7 +125,7 @@ Result<CaptureExtras> ToExtras(const SortedJson& json) {
     }
     extras.views.push_back(std::move(view));
   }
-  // Each moment is of one of these frames and has marks for every camera.
+  // Each moment belongs to one of these frames and has marks for every camera.
   for (const SortedJson& json_moment : json.value("moments", SortedJson::array())) {
     extras.moments.push_back(ToMoment(json_moment));
     const CaptureExtras::Moment& moment = extras.moments.back();

@@ -50,7 +50,7 @@ struct CaptureExtras {
   /// A frame for which every stage can be shown.
   struct Moment {
     std::size_t frame = 0;
-    BodyPose fixed;                        ///< with the known limb lengths, before inverse kinematics
+    BodyPose fixed;                        ///< joints with the known limb lengths, before inverse kinematics
     std::vector<std::vector<Mark>> marks;  ///< per camera
   };
 
@@ -76,7 +76,7 @@ Result<CaptureExtras> ReadCaptureExtras(std::string_view json);
 std::string EncodeMask(const Mask& mask);
 Result<Mask> DecodeMask(std::string_view text, int width, int height);
 
-/// Halves a mask's size: a pixel is set if at least two of its four are.
+/// Halves a mask's width and height: a pixel is set if at least two of its four source pixels are set.
 Mask HalveMask(const Mask& mask);
 
 }  // namespace etude

@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// A type of value that JSON has: how to recognise it, and how a complaint describes another one.
+/// A JSON type: how to recognise it, and the words for it in complaints.
 struct JsonKind {
   bool (Json::*is)() const noexcept;
   const char* complaint;
@@ -211,7 +211,7 @@ void RecordFields::Document(const char* key, const char* meaning) {
 
 const Json* RecordFields::Find(const char* key, bool must, const char* meaning) {
   if (read_ == nullptr) return nullptr;
-  const auto found = read_->find(key);  // end() for anything that is not an object
+  const auto found = read_->find(key);  // equals end() if `read_` is not an object
   if (found != read_->end()) return &*found;
   if (must) Note(key, Fail({}, ": it is missing"), meaning);
   return nullptr;

@@ -24,8 +24,8 @@ template <typename Value>
 Result<void> DecodeValue(const Json& json, Value& value);
 
 /// The keys of one JSON object of a recording. Each format is declared once, as a function `Describe(RecordFields&,
-/// Record&)` that names every key, its member and its meaning, in the order of writing; the same function writes a
-/// record, reads one, and makes its reference page. Unknown keys are ignored on reading.
+/// Record&)` that names every key, its member and its meaning, in the order of writing; the same function writes and
+/// reads a record, and makes its reference page. Unknown keys are ignored on reading.
 class RecordFields {
  public:
   template <typename Record>
@@ -176,7 +176,7 @@ class RecordFields {
 
   Json& Added(const char* key);
   void Document(const char* key, const char* meaning);
-  /// Returns the value of the key when a record is read. Complains if a required key is missing.
+  /// While a record is read, returns the value of the key. Complains if a required key is missing.
   const Json* Find(const char* key, bool must = false, const char* meaning = "");
   void Note(const char* key, const Result<void>& read, const char* meaning);
   Result<void> Finish();

@@ -4,8 +4,8 @@
 
 namespace etude {
 
-// RecordFields finds these functions by argument-dependent lookup, so they are not in an unnamed namespace; a record's
-// parts come before it.
+// RecordFields finds these functions by argument-dependent lookup, so they are not in an unnamed namespace. The
+// function of a part comes before that of its record.
 
 static void Describe(RecordFields& fields, IkExtras& extras) {
   fields.Tolerated("iterations", extras.iterations, "the iteration that each frame shows, from 0, never decreasing");

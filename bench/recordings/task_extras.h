@@ -11,12 +11,12 @@
 
 namespace etude {
 
-// The contents of a cell's recording beside its tracks (`Recording::extras_json`), by task; that of `capture` is
+// The contents of a cell's recording beside its tracks (`Recording::extras_json`), by task; for task `capture` see
 // CaptureExtras. The keys and their meanings are in task_extras.cc, once for writing, reading and documenting. Frames
 // count from the first of the recording unless stated otherwise.
 
-/// The extras of task `ik`. Tracks "truth", "start" and, step by step, "solution"; the lists have one entry per frame
-/// of these.
+/// The extras of task `ik`. Its tracks are "truth", "start" and "solution" (one frame per step); each list has one
+/// entry per frame.
 struct IkExtras {
   std::vector<int> iterations;
   std::vector<double> position_error_max_cm, orientation_error_max_deg;
@@ -30,20 +30,20 @@ Result<IkExtras> ReadIkExtras(const std::string& json);
 /// The extras of task `transition`: a transition, with some seconds before and after it. Tracks "coach", "left" and
 /// "wanted" (docs/reference/recordings.md), from which the join's metrics can be computed.
 struct TransitionExtras {
-  /// A transition point: two frames, at which the motion changed clips. Frames count in their clips.
+  /// A transition point: two frames, at which the motion changed clips. Frame numbers are those of the clips.
   struct Point {
     std::string from, to;  ///< clips; "in-between" for the method's own frames
     std::optional<int> from_frame = {}, to_frame = {};
     std::optional<double> distance = {};
     std::optional<PerFeature> partials = {};  ///< S_k Δ_k², which sum to distance²
   };
-  /// A pair of frames that was considered. Frames count in their clips.
+  /// A pair of frames that was considered. Frame numbers are those of the clips.
   struct Candidate {
     std::optional<int> point;  ///< the transition point for which it was considered
     int from_frame = 0, to_frame = 0;
     double distance = 0;
     std::optional<PerFeature> partials;
-    std::optional<double> cost;  ///< what the choice ranks by, if not by the distance
+    std::optional<double> cost;  ///< by which the choice ranks, if not by the distance
     std::string outcome;         ///< "taken", "too far", "later", "worse"
 
     bool operator==(const Candidate&) const = default;
@@ -68,7 +68,8 @@ std::string WriteTransitionExtras(const TransitionExtras& extras);
 /// outside methods hold less. Fails if the text is not a JSON object.
 Result<TransitionExtras> ReadTransitionExtras(const std::string& json);
 
-/// The extras of task `detection`: a session before the sensor. Tracks "truth" and "sensed", as the recogniser saw it.
+/// The extras of task `detection`: a session in front of the sensor. Tracks "truth" and "sensed", as the recogniser saw
+/// it.
 struct DetectionExtras {
   /// An angle of a key pose.
   struct Target {
@@ -81,7 +82,7 @@ struct DetectionExtras {
   };
   /// A performance that was asked for.
   struct Event {
-    std::string move, truth, fault;  ///< truth: right, grey, wrong; fault: "none", or names
+    std::string move, truth, fault;  ///< truth: right, grey or wrong; fault: "none", or the names of faults
     std::string danced;              ///< empty: no move
     int begin_frame = 0, end_frame = 0;
     bool called_right = false;
@@ -93,7 +94,7 @@ struct DetectionExtras {
     int frame = 0;
   };
 
-  std::optional<double> threshold;  ///< of judging; absent for an outside method
+  std::optional<double> threshold;  ///< of the judgement; absent for an outside method
   std::vector<Move> moves;
   std::vector<Event> events;
   std::vector<Alarm> alarms;
@@ -103,7 +104,8 @@ std::string WriteDetectionExtras(const DetectionExtras& extras);
 /// Fails, naming the key, when a key is missing or of another kind.
 Result<DetectionExtras> ReadDetectionExtras(const std::string& json);
 
-/// The extras of task `coach`: a session with a learner. Tracks "coach", "truth" (the learner as danced) and "sensed".
+/// The extras of task `coach`: a session with a learner. Tracks "coach", "truth" (the learner's real motion) and
+/// "sensed".
 struct CoachExtras {
   /// An interval of frames in one mode, up to the next one.
   struct Mode {

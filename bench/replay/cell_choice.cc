@@ -103,7 +103,8 @@ Result<CellChoice> ChooseCells(const ReplayOptions& options, const RunData& run,
     }
   });
   if (unexpected) return Fail({options.folder}, "holds the cell {}, which its manifest does not ask for", *unexpected);
-  // Selection sampling (Knuth, volume 2, algorithm S): take each row with probability (still wanted) / (rows left).
+  // Selection sampling (Knuth, volume 2, algorithm S): take each row with probability (number still to draw) / (number
+  // of rows left).
   choice.dice = options.dice.value_or(run.seed);
   const std::size_t wanted = std::min(options.sample.value_or(choice.drawable), choice.drawable);
   std::size_t left = choice.drawable;
@@ -133,7 +134,7 @@ std::vector<MissedForgery> WhatIsMissed(const CellChoice& choice) {
 
 double ChanceOfMissing(std::size_t cells, std::size_t drawn, std::size_t forged) {
   if (drawn + forged > cells) return 0;
-  // Exchanging `drawn` and `forged` gives the same probability, so the loop runs over the smaller one.
+  // Exchanging `drawn` and `forged` gives the same probability, so the loop runs over the smaller number.
   const auto [fewer, more] = std::minmax(drawn, forged);
   double chance = 1;
   for (std::size_t i = 0; i < fewer; ++i) {

@@ -20,7 +20,7 @@ struct MethodRows {
   std::string scenario, method;
   std::size_t rows = 0;
   std::string why_not;       ///< why none of their cells can be run again; "" = they can
-  std::size_t drawable = 0;  ///< rows from which a sample is drawn
+  std::size_t drawable = 0;  ///< rows that a sample may contain
   /// The rows whose status depends on the machine that ran them (DependsOnMachine), by status.
   std::map<std::string, std::size_t> by_machine;
 };
@@ -47,8 +47,8 @@ struct MissedForgery {
   double chance = 0;
 };
 
-/// Returns what a sample may miss: one cell in twenty, half of the cells of the method with fewest, a single cell.
-/// Empty if all are run.
+/// Returns what a sample may miss: forgeries of one cell in twenty, of half of the cells of the method with fewest
+/// cells, and of a single cell. Empty if all are run.
 std::vector<MissedForgery> WhatIsMissed(const CellChoice& choice);
 
 bool IsRecorded(const PreparedRun& run, const Row& row);

@@ -47,7 +47,8 @@ Result<Json> PackClips(const ClipLibrary& library) {
   return Json{{"clips", std::move(clips)}, {"files", std::move(files)}};
 }
 
-/// Writes each packed file into a folder of its own, so that it keeps its name; returns the references of the clips.
+/// Writes each packed file into a folder of its own, so that it keeps its name. Returns references to the written
+/// clips.
 Result<std::vector<std::string>> UnpackClips(const Json& packed, const fs::path& folder) {
   std::vector<std::string> paths;
   for (const Json& file : packed.at("files")) {
@@ -141,7 +142,7 @@ Result<void> UnpackMotions(Pack& pack, const std::string& file, const fs::path& 
     const auto unpacked = UnpackMotions(*pack.motions, folder, pack.suite.scenarios.front());
     if (!unpacked) return Fail({file, 0, 0}, "{}", ToString(unpacked.error()));
     return {};
-  } catch (const std::exception& error) {  // from Json, or at() for a file that the pack lacks
+  } catch (const std::exception& error) {  // thrown by Json, or by at() for a file that is not in the pack
     return Fail({file, 0, 0}, "a clip that cannot be read: {}", error.what());
   }
 }

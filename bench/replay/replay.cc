@@ -85,7 +85,7 @@ Result<void> CompareKept(const fs::path& folder, const std::vector<Series>& then
   return {};
 }
 
-/// Returns the row without what is stored in other files.
+/// Returns the row without curves and recording, which are stored in other files.
 Row WithoutFiles(Row row) {
   row.result.series.clear();
   row.result.recording.reset();
@@ -112,10 +112,10 @@ CellCheck CompareRows(const Row& then, const Row& now) {
   const auto differ = [&](const std::string& stage, const std::string& was, const std::string& is) {
     if (check.same && was != is) check = {check.cell, false, stage, was, is};
   };
-  // A cell that a limit of the machine ended has no stages; the difference is its status.
+  // A cell that a limit of the machine ended has no stages, so the difference is its status.
   const Status was = then.result.status, is = now.result.status;
   if (DependsOnMachine(was) || DependsOnMachine(is)) differ("status", StatusText(was), StatusText(is));
-  // In the order of the pipeline, because the first difference causes the later ones.
+  // Compare stages in the order of the pipeline, because the first difference causes the later ones.
   for (const Row* row : {&then, &now}) {
     for (const auto& [stage, digest] : row->result.digests) differ(stage, DigestOf(then, stage), DigestOf(now, stage));
   }

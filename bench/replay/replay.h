@@ -29,7 +29,7 @@ struct CellCheck {
   std::optional<Row> row = std::nullopt;
 };
 
-/// Compares the identities of two rows: their worlds and methods.
+/// Compares which world and method two rows belong to.
 CellCheck CompareIdentity(const Row& then, const Row& now);
 /// Compares a row with that of the second run: identity, stages, status, reason, metrics.
 CellCheck CompareRows(const Row& then, const Row& now);
@@ -38,10 +38,11 @@ struct ReplayOptions {
   std::string folder;
   std::vector<std::string> cells;          ///< identities as in cells.jsonl; empty = a sample
   std::optional<std::size_t> sample = {};  ///< the size of the sample; nothing = all cells
-  std::optional<std::uint64_t> dice = {};  ///< seed of the sample; nothing = the suite's, which its maker knows
-  bool recorded_too = false;               ///< in addition to the sample, all cells with a recording
-  bool without_programs = false;           ///< leave out cells that need outside programs
-  int jobs = 0;                            ///< 0 = one per processor
+  /// Seed of the sample; nullopt = the seed of the suite, which the maker of the run knows.
+  std::optional<std::uint64_t> dice = {};
+  bool recorded_too = false;      ///< in addition to the sample, all cells with a recording
+  bool without_programs = false;  ///< leave out cells that need outside programs
+  int jobs = 0;                   ///< 0 = one per processor
   OutsideRules outside;
   std::optional<SecretKey> key = {};  ///< of secret worlds
   Sealing sealing = Sealing::kRequired;
@@ -58,7 +59,7 @@ struct ReplayOutcome {
 Result<ReplayOutcome> ReplayRun(const ReplayOptions& options);
 Result<ReplayOutcome> ReplayPrepared(const ReplayOptions& options, const RunData& run, const PreparedRun& prepared);
 
-/// Adds a secret key to its list of used keys (NoteRepeat), if programs that `target` names are asked again.
+/// Adds a secret key to its list of used keys (NoteRepeat), if the replay asks programs that `target` names.
 Result<void> NoteKey(const std::string& target, const SuiteSetup& suite, std::span<const PreparedScenario> scenarios,
                      const std::optional<SecretKey>& key);
 

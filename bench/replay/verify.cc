@@ -59,7 +59,8 @@ Result<Verified> VerifySummary(const FilePath& folder, const FinishedRun& run, i
   return verified;
 }
 
-/// The keys of a manifest that may differ on another machine or in another version; only their types are checked.
+/// The keys of a manifest that may differ on another machine or in another version; only the types of their values are
+/// checked.
 constexpr std::array kSaidByMachine = {"etude", "compiler", "packages", "glibc", "libraries", "environment"};
 
 bool IsTextOrTexts(const Json& value) {
@@ -87,7 +88,7 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
   Verified verified{"manifest.json: what such a run writes", {}};
   ASSIGN_OR_RETURN(const auto then, ReadJsonFile(folder / "manifest.json"));
   ASSIGN_OR_RETURN(auto now, MakeManifest(suite, scenarios, run.data.program_version));
-  // Take over what may differ.
+  // Copy the values that may differ.
   const auto keep = [](const Json& from, Json& to, const char* key) {
     if (to.contains(key) && from.contains(key) && IsTextOrTexts(from.at(key)) &&
         from.at(key).is_object() == to.at(key).is_object())
@@ -95,7 +96,7 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
   };
   for (const char* key : kSaidByMachine) keep(then, now, key);
   if (then.contains("scored") && now.contains("scored")) {
-    for (const char* key : {"answers", "digest"}) {  // of the scored answers, which are not in the folder
+    for (const char* key : {"answers", "digest"}) {  // they describe the scored answers, which are not in the folder
       if (const Json& scored = then.at("scored"); scored.contains(key)) now["scored"][key] = scored.at(key);
     }
   }
@@ -108,7 +109,7 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
       if (told.at(s).contains(key)) scenario[key] = told.at(s).at(key);
     }
   }
-  // Everything else must have the same bytes, and every text must be used.
+  // Everything else must have the same bytes, and every kept text must be used by a scenario.
   ASSIGN_OR_RETURN(const auto text, WriteJson(now));
   ASSIGN_OR_RETURN(const auto found, ReadWholeFile(folder / "manifest.json"));
   if (found != text + "\n") {
@@ -206,8 +207,8 @@ Result<void> CompareLines(const FilePath& file, const std::function<Result<std::
   });
 }
 
-/// Checks the text files for content that this program ignored, but others may use: duplicate keys, further rows or
-/// curves.
+/// Checks the text files for content that this program ignores but other programs may use: duplicate keys, further rows
+/// or curves.
 Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
   Verified verified{"texts: nothing that this program does not read", {}};
   // Keys must not occur twice.
@@ -273,7 +274,8 @@ Result<bool> AreSame(const FilePath& a, const FilePath& b) {
   }
 }
 
-/// Writes the columns again from the rows, and compares the bytes: others may use numbers that belong to no row.
+/// Writes the columns again from the rows and compares the bytes, because other programs may use numbers that belong to
+/// no row.
 Result<Verified> VerifyColumns(const FilePath& folder, const FinishedRun& run) {
   Verified verified{"columns: the same bytes as made from the rows", {}};
   std::size_t place = 0;

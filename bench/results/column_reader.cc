@@ -67,7 +67,7 @@ class ScenarioColumns {
 
   void Read(std::size_t at, Row& row) const {
     const std::size_t methods = index_.methods.size(), trials = static_cast<std::size_t>(index_.trials);
-    // The identity, from the position in the array.
+    // The identity follows from the position in the array.
     row.scenario = index_.scenario;
     row.task = index_.task;
     row.condition = index_.conditions[at / (methods * trials)];

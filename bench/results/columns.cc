@@ -89,7 +89,7 @@ Result<ColumnIndex> Decode(const Json& json, const Place& place) {
   }
   if (index.conditions.empty() || index.trials < 1 || index.methods.empty()) return Fail(place, "tells of no cells");
   if (index.texts.empty()) return Fail(place, "holds no texts, the first of which is empty");
-  // Other readers may use keys that this one ignores, so these must be right, too.
+  // Other programs may use keys that this one ignores, so all keys must be right.
   if (nlohmann::json(Encode(index)) != nlohmann::json(json)) return Fail(place, "is not written as a run writes it");
   return index;
 }
@@ -115,7 +115,8 @@ Result<std::uint64_t> DigestNumber(const std::string& stage, const std::string& 
 /// Returns everything of a curve but its values.
 auto IdentityOf(const Series& series) { return std::tie(series.name, series.axis, series.names); }
 
-/// Returns true if `why` is right for a row's metric: nothing for a value, else its reason or kOwnReason.
+/// Returns true if `why` is right for a row's metric: nullopt if it has a value, else the index of its reason or
+/// kOwnReason.
 bool IsWhy(std::optional<int> why, const MetricValue& metric, const Row& row, const std::vector<std::string>& texts) {
   if (!why || metric.value) return !why && metric.value;
   return metric.null_reason ==

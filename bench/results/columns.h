@@ -29,7 +29,7 @@ constexpr const char* kCurveEnds = ".ends";
 /// Everything about the rows of one scenario that is not a number: columns/SCENARIO/index.json.
 struct ColumnIndex {
   static constexpr int kOwnReason = -1;  ///< the value is missing for the cell's own reason
-  /// What some rows have in common: their metrics, stages and curves, in order, and the reasons of missing values.
+  /// The common part of some rows: their metrics, stages and curves, in order, and the reasons of missing values.
   struct Kind {
     std::vector<std::string> metrics;
     std::vector<std::optional<int>> why;  ///< one per metric: why it has no value; an index in `texts`, or kOwnReason

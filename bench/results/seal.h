@@ -20,7 +20,7 @@ constexpr const char* kLockFile = "lock";
 bool IsMadeFromResults(std::string_view part);
 
 /// Writes `seal.json`: the XXH3 digest of every file in the folder except itself, signatures, the journal and parts
-/// that are made from results. It detects errors of disks and people; it is no signature.
+/// that are made from results. It detects accidental changes; it is not a signature.
 ///
 ///     {"format": "etude-seal", "version": 1, "files": {"cells.jsonl": "0123456789abcdef", …}}
 Result<void> SealRun(const std::filesystem::path& folder);

@@ -24,7 +24,7 @@ constexpr std::string_view kSumBegin = R"(,"sum":")", kSumEnd = R"("})";
 constexpr std::size_t kSumSize = kSumBegin.size() + 16 + kSumEnd.size();
 
 std::optional<std::size_t> IndexInCatalogue(const std::string& id) {
-  if (AddedMetrics().contains(id)) return std::nullopt;  // a scenario's own
+  if (AddedMetrics().contains(id)) return std::nullopt;  // metrics of a scenario have no index
   return static_cast<std::size_t>(FindMetric(id) - AllMetrics().data());
 }
 
@@ -243,7 +243,7 @@ Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const P
   CellResult& result = cell.row.result;
   LineReader reader(line.substr(0, line.size() - kSumSize));
   try {
-    // The head and the usage.
+    // Read the head and the usage.
     const CellLineHead head = ReadHead(reader);
     result.status = head.status;
     cell.is_measured = head.is_measured;

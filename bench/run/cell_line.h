@@ -10,9 +10,9 @@
 namespace etude {
 
 /// Encodes a finished cell as one line of JSON: the form in which a worker sends it and the journal keeps it. The line
-/// holds the cell's number in the plan, all that Plan::IdentityOf does not tell, its usage, and a checksum. A metric of
-/// the catalogue is named by its index there, which is the same in all files of one build; a metric of the scenario's
-/// own, by its id. The members have a fixed order, so a line is read in a microsecond, or passed on unread.
+/// holds the cell's number in the plan, all that Plan::IdentityOf does not give, its usage, and a checksum. A metric of
+/// the catalogue is written as its index there, which is the same in all files of one build; a scenario's own metric as
+/// its id. The members have a fixed order, so that a line can be read in a microsecond, or passed on unread.
 ///
 ///     {"cell":12,"status":"unsolved","reason":"…","usage":[wall_s,cpu_s,peak_mb,world_wall_s,world_cpu_s],
 ///      "values":[3,0.5,4,null],"why":["no truth"],"digests":["world","0123456789abcdef"],

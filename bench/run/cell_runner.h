@@ -17,7 +17,7 @@ struct FinishedCell {
   CellUsage usage;
   /// False: the method has answered, but other programs have yet to measure its answer (CellRunner::Measure).
   bool is_measured = true;
-  /// The fault of this machine that kept the method from being asked, so that there is no row; "" = no fault.
+  /// Why this machine could not ask the method; there is no row then; "" = no fault.
   std::string why_not_run = {};
 };
 
@@ -35,8 +35,7 @@ class CellRunner {
   void Open(int condition, int trial);
   /// Runs a method in the open world. An exception gives a failed row. If memory runs out, the cell is `out_of_memory`
   /// if it held more than the scenario allows; otherwise the machine has too little, and the cell is not run. Metric
-  /// programs do not measure a cell with a motion yet: they would learn the truth of the world before all methods have
-  /// answered.
+  /// programs do not measure here, because they would learn the truth of the world before all methods have answered.
   FinishedCell Run(std::size_t method);
   /// Lets programs measure an answered cell. A run does so when all methods have answered (RunOrders).
   FinishedCell Measure(int condition, FinishedCell answered);
@@ -56,7 +55,8 @@ class CellRunner {
 
   /// Returns the result of a cell that ended with an exception, or sets `why_not_run_`.
   CellResult Thrown(const std::string& when, const std::exception& error);
-  /// Drops the motion of a measured cell that is not recorded, and adds the metrics that it does not report.
+  /// Removes the motion of a measured cell unless it is to be recorded, and adds the metrics that the cell does not
+  /// report.
   void Complete(int condition, Row& row) const;
   CellResult RunMethod(std::size_t method, CellUsage& usage);
   CellResult AskOutside(std::size_t method, CellUsage& usage);

@@ -20,7 +20,7 @@ namespace {
 constexpr const char* kFormat = "etude-costs";
 constexpr int kVersion = 1;
 
-/// The keys that do not affect the work of worlds and methods.
+/// The keys that do not affect the cost of worlds and methods.
 constexpr std::array kNoWork = {"scenario", "question", "description", "trials", "seed",  "unit", "methods", "metrics",
                                 "expect",   "across",   "rival",       "gate",   "video", "name", "against"};
 
@@ -34,7 +34,7 @@ void Add(const Node& node, Digest& digest) {
   }
 }
 
-/// Does a fixed amount of arithmetic on 4 KB, which fit into the first-level cache.
+/// Does one yardstick, a fixed amount of arithmetic, on 4 KB, which fit into the first-level cache.
 void DoOneYardstick(std::array<double, 512>& values) {
   constexpr std::size_t kPasses = 400, kStride = 7;
   for (std::size_t pass = 0; pass < kPasses; ++pass) {

@@ -27,7 +27,7 @@ int CountUnitsOf(const PreparedScenario& prepared) {
   return static_cast<int>(units.size());
 }
 
-/// Returns a step that visits all conditions in an order without trend, because costs vary along a sweep.
+/// Returns a step that visits all conditions in an order without a trend, because costs change along a sweep.
 int StepOver(int conditions) {
   constexpr double kGolden = 0.618;
   int step = std::max(1, static_cast<int>(std::lround(kGolden * conditions)));
@@ -40,8 +40,8 @@ bool IsAsShipped(const RunOptions& options) {
   return options.clips.empty() && options.libraries.empty() && options.streams.empty() && options.from.empty();
 }
 
-/// Returns the mean time of the first worlds, measured until the time is up. The first of all includes one-time costs,
-/// so it counts only if it is the only one.
+/// Returns the mean time of the first worlds, measured until the time is up. The very first world includes one-time
+/// costs, so it counts only if there is no other.
 double MeasureSecondsPerWorld(const PreparedScenario& prepared, const Fence& fence, double until,
                               Clock::time_point start) {
   const Scenario& scenario = prepared.scenario();
@@ -83,7 +83,7 @@ Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
   // The kept costs, and the speed of this machine to scale them by.
   ASSIGN_OR_RETURN(const auto kept, ReadKeptCosts());
   ASSIGN_OR_RETURN(forecast.pace, MeasurePace(forecast.workers));
-  const double seconds_per_yardstick = forecast.workers / forecast.pace.yardsticks_per_s;  // of one worker
+  const double seconds_per_yardstick = forecast.workers / forecast.pace.yardsticks_per_s;  // for one worker
   const auto start = Clock::now();
   // The worlds of the shard, by scenario.
   const Plan plan(scenarios);

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// A scenario as it would be run: its size, its time, and what its comparisons are based on.
+/// A scenario as it would be run: its size, its time, and the number of units and comparisons.
 struct ScenarioForecast {
   std::string name, task;
   std::size_t worlds = 0;  ///< per condition

@@ -110,7 +110,8 @@ Result<std::string_view> CellTable::ReadLine(std::size_t cell) {
 
 Result<void> CellTable::ReadPart(Source& source, const LinePlace& place) const {
   const std::size_t size = std::clamp(kMemory / sources_.size(), kMinPartBytes, kMaxPartBytes);
-  // Lines are in order of completion, so the line of the next cell may be slightly before this one.
+  // Lines are in order of completion, so the line of the next cell may come a little before this one: begin reading
+  // earlier.
   source.begin = place.offset - std::min<std::uint64_t>(place.offset, size / 2);
   source.part.resize(std::max<std::size_t>(size, place.offset - source.begin + place.length));
   ASSIGN_OR_RETURN(const auto file, OpenFile(source.file, O_RDONLY));
@@ -192,7 +193,7 @@ Result<void> Journal::Sync() {
 
 namespace {
 
-/// Returns the first copy of the head that was not changed, from the lines at the beginning of the file.
+/// Returns the first undamaged copy of the head, from the lines at the beginning of the file.
 Result<JournalHead> ReadHead(FileLines lines, const std::string& path) {
   std::string line;
   int read = 0;

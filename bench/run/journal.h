@@ -15,7 +15,7 @@
 
 namespace etude {
 
-/// Where the line of each finished cell of a run or shard is, by the cell's number in the plan. The lines stay on the
+/// The position of each finished cell's line, by the cell's number in the plan of a run or shard. Lines stay on the
 /// disk until they are read, so a run of any size fits into memory.
 class CellTable {
  public:
@@ -71,10 +71,10 @@ struct JournalLag {
   double mebibytes = 1;
 };
 
-/// The append-only record of a run in progress; all that a finished shard leaves. It is a file of JSON Lines: the head
-/// (twice, because nothing can be read without it), then one line per cell (cell_line.h) in order of completion. Each
-/// line is written at once, and synchronised to the disk in groups. A cell that programs measure has two lines: the
-/// answered one, with its motion, and the finished one.
+/// The append-only record of a run in progress. A finished shard leaves nothing else. It is a file of JSON Lines: the
+/// head (twice, because nothing can be read without it), then one line per cell (cell_line.h) in order of completion.
+/// Each line is written at once, and synchronised to the disk in groups. A cell that programs measure has two lines:
+/// the answered one, with its motion, and the finished one.
 class Journal {
  public:
   static Result<Journal> Begin(const std::filesystem::path& folder, const JournalHead& head,
@@ -110,10 +110,10 @@ struct JournalContent {
   std::size_t answered = 0;  ///< cells that are answered but not yet measured
 };
 
-/// Reads the finished cells of a journal into `cells`, and the answered ones into `answered`, unless it is null; both
-/// have one entry per cell of `plan`. An incomplete last line, which a kill leaves, is ignored. A line that was changed
-/// (a flipped bit, an edit) loses its own cell only; of two lines of one cell, the second is ignored. Fails with
-/// file:line at a valid line whose cell is not in the plan or shard.
+/// Reads the finished cells of a journal into `cells`, and those that are answered but not measured into `answered`
+/// (unless null); both have one entry per cell of `plan`. An incomplete last line, left by a kill, is ignored. If a
+/// line was changed (a flipped bit, an edit), only its own cell is lost. If a cell has two lines, the second is
+/// ignored. Fails with file:line at a valid line whose cell is not in the plan or shard.
 Result<JournalContent> ReadJournal(const std::filesystem::path& folder, const Plan& plan, CellTable& cells,
                                    CellTable* answered = nullptr);
 

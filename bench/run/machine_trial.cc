@@ -63,7 +63,7 @@ Result<void> Try(std::span<const PreparedScenario> scenarios, const Fence& fence
       RETURN_IF_ERROR(CheckFence(fence));
       ASSIGN_OR_RETURN(const auto folder, TemporaryFolder::Make("trial"));
       if (auto kept = WriteFileAtomically(folder.path() / "file", "a file of some bytes\n"); !kept) {
-        const std::string& said = kept.error().message;  // the path is temporary; only the reason helps
+        const std::string& said = kept.error().message;  // the path is temporary, so only the reason is useful
         return Fail({folder.path().parent_path().string()}, "takes no temporary files: {}",
                     said.substr(said.rfind(": ") + 2));
       }

@@ -43,13 +43,13 @@ Json DescribeClips(const ClipLibrary& library) {
                      {"source", clip.source},
                      {"frames", clip.motion.poses.size()},
                      {"digest", digest.Hex()},
-                     {"note", clip.note}});
+                     {"note", Join(clip.changes, "; ")}});
     if (!clip.changes.empty()) clips.back()["changes"] = clip.changes;
   }
   return clips;
 }
 
-/// Lists the files of a task that judges files: of each world the truth, then the answers that there are.
+/// Lists the files of a task that judges files: for each world the truth, then its answers, as many as there are.
 Json DescribeFiles(const PreparedScenario& scenario) {
   Json files = Json::array();
   for (const JudgedFiles& world : scenario.setup().files) {
@@ -94,9 +94,9 @@ std::string DigestOf(const std::vector<std::string>& texts) {
 }
 
 /// The libraries that affect results, by the beginnings of their file names: C and C++, the renderer and its compiler,
-/// Ceres with its linear algebra and orderings, image codecs. Eigen, GLM, Random123, and on Debian 12 Ceres are part of
-/// our own build, which the head of a journal names. Libraries that only draw pages, read fonts or train are not
-/// listed, so their updates do not change the identity of a run.
+/// Ceres with its linear algebra and orderings, image codecs. Eigen, GLM, Random123 and, on Debian 12, Ceres are
+/// compiled into the program, whose build the head of a journal names. Libraries that only draw pages, read fonts or
+/// train are not listed, so their updates do not change the identity of a run.
 constexpr std::array kDecisiveLibraries = {
     "libc.",        "libm.",       "libstdc++.",   "libOSMesa.", "libEGL_mesa.", "libgallium", "swrast_dri.",
     "libglapi.",    "libLLVM",     "libblas.",     "libceres.",  "liblapack.",   "libatlas",   "libopenblas",

@@ -19,7 +19,7 @@ Result<Json> MakeManifest(const SuiteSetup& suite, std::span<const PreparedScena
 /// Reads the suite that a manifest describes. Fails if its schema has another version.
 Result<SuiteSetup> ReadManifest(const FilePath& path);
 
-/// Fails unless the clips of `scenarios`, which the manifest at `path` describes, are unchanged.
+/// Fails if the clips of `scenarios` are not those that the manifest at `path` describes.
 Result<void> CheckClips(const FilePath& path, std::span<const PreparedScenario> scenarios);
 
 /// A run that is prepared to be resumed, merged or repeated.
@@ -47,7 +47,7 @@ std::string InWords(std::span<const JsonDifference> differences);
 bool AreOfLibraries(std::span<const JsonDifference> differences);
 /// Reads the differences of libraries that a run's folder records.
 Result<std::vector<JsonDifference>> OtherLibrariesOf(const std::filesystem::path& folder);
-/// Records in the run's folder that libraries changed while its cells were computed; each difference once.
+/// Records in the run's folder which libraries changed while its cells were computed, each once.
 Result<void> RecordOtherLibraries(const std::filesystem::path& folder, std::span<const JsonDifference> differences);
 
 /// Makes host.json, which says where and how the run was made.

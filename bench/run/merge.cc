@@ -21,7 +21,7 @@ struct Shards {
   int count = 0;
   std::map<int, fs::path> folders;
   std::string manifest;              ///< the text of the manifest that all of them have
-  std::vector<std::string> missing;  ///< messages: shards that no folder holds, folders without a shard
+  std::vector<std::string> missing;  ///< for messages: shards that no folder holds, and folders without a shard
   std::vector<JsonDifference> other_libraries = {};
 };
 

@@ -9,7 +9,7 @@
 namespace etude {
 
 /// The metrics of a scenario that other programs measure. Each program is started for its first cell and then kept. It
-/// receives the recording of the cell, the truth included; outside methods never receive the truth.
+/// receives the recording of the cell, including the truth, which outside methods never receive.
 class OutsideMetrics {
  public:
   /// The arguments are those of CellRunner. The scenario must outlive this object.
@@ -17,7 +17,7 @@ class OutsideMetrics {
 
   bool empty() const { return programs_.empty(); }
   /// Adds every metric's value, or the reason why it has none, to a cell with a recording; adds nothing to other cells.
-  /// Returns the fault of this machine that kept a program from being asked; "" = no fault.
+  /// Returns why this machine could not ask a program; "" = no fault.
   std::string Measure(const std::string& cell, CellResult& result);
   /// Asks for every test vector. Fails at the first wrong value, and names the expected and the found value.
   Result<void> CheckVectors();

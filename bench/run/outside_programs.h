@@ -26,8 +26,8 @@ Result<void> CheckPrograms(const std::string& file, std::span<const PreparedScen
                            const OutsideRules& rules);
 
 /// Makes the fence for the programs of these scenarios, which hides the run's `folder` ("" = none). Without programs,
-/// the fence is empty. Fails if a secret seed meets a machine without a fence, unless the rules ask for none, and if a
-/// program would see a scenario with secret worlds, the run's folder or the key's file.
+/// the fence is empty. Fails if worlds are secret and this machine has no fence, unless the rules ask for none; and if
+/// a program would see a scenario with secret worlds, the run's folder or the key's file.
 Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const OutsideRules& rules,
                        const std::filesystem::path& folder, const std::optional<SecretKey>& key);
 

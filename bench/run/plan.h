@@ -19,7 +19,7 @@ struct World {
   int trial = 0;
 };
 
-/// A part of a run, "2/8": the worlds whose index in the plan, modulo count, is index − 1.
+/// A part of a run, "2/8": the worlds whose number in the plan, modulo `count`, is `index` − 1.
 struct Shard {
   int index = 1;
   int count = 1;
@@ -65,10 +65,10 @@ class Plan {
   std::vector<std::size_t> first_cells_;  ///< one per world; at the end the number of all cells
 };
 
-/// The orders that no worker has yet, by condition. Every worker prepares for itself what the worlds of a condition
-/// share (thresholds, tuned weights). A worker therefore stays with its condition while there are orders, then takes
-/// the next unbegun condition, and only then helps with the condition that has most orders left. Conditions with long
-/// worlds get help first: a long world that is begun last leaves all other workers idle.
+/// The orders that no worker has yet, by condition. The worlds of a condition share data (thresholds, tuned weights),
+/// which every worker prepares for itself. A worker therefore stays with its condition as long as there are orders,
+/// then begins the next new condition, and only then helps with the condition that has most orders left. Conditions
+/// with long worlds get help first: a long world that is begun last leaves all other workers idle.
 class OrderQueue {
  public:
   /// The condition of a worker that has had no order.

@@ -42,7 +42,8 @@ Result<SplitReference> ReferTo(const FilePath& file, const std::optional<std::st
 class ResultFolders : public RecordedMotions {
  public:
   bool IsRecording(std::string_view text) const override {
-    return text.starts_with(R"({"recording":)") || text.starts_with(R"({"tracks":)");  // the latter: version 1
+    // The second form is that of version 1.
+    return text.starts_with(R"({"recording":)") || text.starts_with(R"({"tracks":)");
   }
 
   Result<ClipFile> Read(const std::string& text, const std::string& path) const override {

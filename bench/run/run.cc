@@ -32,7 +32,7 @@ fs::path FolderFor(const RunOptions& options, const SuiteSetup& suite) {
   return fmt::format("out/{}-{}{}", suite.suite, seed, part);
 }
 
-/// Fails unless the options allow to write into the folder.
+/// Fails if the options do not allow writing into the folder.
 Result<FolderState> CheckFolder(const fs::path& folder, const RunOptions& options) {
   auto state = LookAtFolder(folder);
   if (!state || *state == FolderState::kFree || options.resume || options.overwrite) return state;
@@ -114,7 +114,7 @@ class JournalRecorder {
     return {};
   }
 
-  /// Reports, each second, that the same cells are still safe and time has passed.
+  /// Reports the progress once a second even if no more cells are safe, because time has passed.
   void Wait() {
     const double now = SecondsSince(start_);
     if (now - progress_.seconds < 1) return;
@@ -183,8 +183,8 @@ Result<OpenedJournal> OpenJournal(const fs::path& folder, const std::string& man
   return OpenedJournal{std::move(journal), before, std::move(damaged)};
 }
 
-/// Writes the results of a whole run; for a shard, which keeps its journal, only host.json. Returns false if it was
-/// stopped meanwhile. `was_done`: nothing was left to run.
+/// Writes the results of a whole run, or only host.json for a shard, which keeps its journal. Returns false if it was
+/// stopped meanwhile. `was_done` means that nothing was left to run.
 Result<bool> FinishFolder(const fs::path& folder, const Plan& plan, CellTable& cells, const Json& host, bool was_done,
                           const RunOptions& options) {
   if (options.shard.IsWhole()) {
@@ -233,7 +233,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
     if (state == FolderState::kFinished) return AlreadyWhole(folder);
     if (is_secret && !may_be_used) RETURN_IF_ERROR(CheckUnused(*options.key, use));
   }
-  // Open the journal, then run what it lacks.
+  // Open the journal, then run the cells that it lacks.
   CellTable cells(plan.cell_count()), answered_cells(HasOutsideMetrics(plan) ? plan.cell_count() : 0);
   CellTable* const answered = answered_cells.size() > 0 ? &answered_cells : nullptr;
   ASSIGN_OR_RETURN(auto opened, OpenJournal(folder, manifest + "\n", head, continues, options, plan, cells, answered));
@@ -279,7 +279,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
       if (std::ranges::find(outcome.refused, one) == outcome.refused.end()) outcome.refused.push_back(one);
     }
   }
-  // Say what was changed of the clips' files, each change once.
+  // List the changes that were made to the content of the clips' files, each once.
   std::set<std::pair<std::string, std::string>> told;
   for (const PreparedScenario& scenario : scenarios) {
     for (const LibraryClip& clip : scenario.clips().clips) {

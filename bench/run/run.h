@@ -18,7 +18,7 @@ namespace etude {
 
 struct RunOptions {
   std::vector<std::string> scenarios;  ///< files, or folders of *.yaml; empty with `from`
-  std::string text = {};               ///< of the one file in `scenarios`, which is then not read
+  std::string text = {};               ///< the text of the only file in `scenarios`, which is then not read
   std::string from;                    ///< manifest.json of the run to be repeated
   std::optional<std::uint64_t> seed;   ///< instead of each scenario's own seed, or 1
   std::optional<SecretKey> key = {};   ///< of secret worlds; instead of a seed
@@ -58,7 +58,7 @@ struct Progress {
   double Work() const { return static_cast<double>(cells_done) + 0.5 * static_cast<double>(cells_answered); }
 };
 
-/// What was found in a clip's file, or changed of what it holds, for people.
+/// A sentence for users: what was found in a clip's file, or a change that was made to its content.
 struct LoadedChange {
   std::string clip, change;
 };
@@ -74,7 +74,7 @@ struct RunOutcome {
   std::vector<RefusedClip> refused = {};  ///< clips and recordings left out of any scenario, each listed once
   std::vector<LoadedChange> changes = {};  ///< what was changed of the content of clip files, each once
   std::string why_unlocked = {};          ///< why the folder could not be locked against other runs; "" = it was locked
-  /// Numbers of the damaged lines of a resumed journal; their cells were run again.
+  /// The line numbers of damaged lines in a resumed journal; their cells were run again.
   std::vector<int> damaged_lines = {};
 };
 
@@ -97,7 +97,8 @@ struct MergeOptions {
 
 /// Merges the shards of a run; the result has the same bytes as a run in one piece. Fails, with a list, if shards have
 /// different builds, suites or seeds, if they overlap, or if cells are missing. If stopped, it leaves nothing.
-/// `on_progress` gets the share of rows that are read and written; only the return means success.
+/// `on_progress` gets the share of rows that are read and written. The merge has succeeded only when this function
+/// returns.
 Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(double share)>& on_progress);
 
 }  // namespace etude

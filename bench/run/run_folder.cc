@@ -36,7 +36,7 @@ bool IsPartOfRun(const fs::path& name) {
                      [&](const std::string& part) { return name == part || name == TemporaryName(part); });
 }
 
-// Names in the temporary folder: the old run, the new folder before the exchange, and what is to be deleted.
+// Names in the temporary folder: the old run, the new folder before the exchange, and files to be deleted.
 constexpr const char *kOldRun = "old", *kNewRun = "new", *kGone = "gone";
 
 bool HoldsMoreThanLock(const fs::path& folder) {
@@ -112,7 +112,7 @@ std::vector<TemporaryFolder> RunFolder::FindLeft() const {
 }
 
 Result<bool> RunFolder::TakeUp() {
-  std::vector<TemporaryFolder> left = FindLeft();  // deleted at the end of this scope, unless one is moved out
+  std::vector<TemporaryFolder> left = FindLeft();  // the destructor deletes them, unless one is moved out
   if (left.empty()) return false;
   ASSIGN_OR_RETURN(const auto state, LookAtFolder(path_));
   if (state == FolderState::kFinished) return false;
@@ -203,7 +203,7 @@ Result<void> RunFolder::Lock() {
       is_ours_ = false;
       return Fail({path_.string(), 0, 0}, "another run is writing into it; choose another folder with -o");
     }
-    // The previous owner may have deleted the file before we locked it: try again.
+    // If the previous owner deleted the file before we locked it, try again.
     struct stat locked {
     }, named{};
     if (::fstat(lock_, &locked) == 0 && ::stat(file.c_str(), &named) == 0 && locked.st_ino == named.st_ino) return {};

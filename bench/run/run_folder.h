@@ -19,7 +19,7 @@ enum class FolderState {
   kFinished,    ///< holds a whole run: host.json, which is written last, and no journal
 };
 
-/// Examines what a folder holds. Fails if anything in it is not part of a run: it is never written into.
+/// Examines what a folder holds. Fails if anything in it is not part of a run; such a folder is never written into.
 Result<FolderState> LookAtFolder(const std::filesystem::path& path);
 
 /// A result folder that this run alone writes into. If the run ends before its first cell, the destructor removes the
@@ -27,11 +27,11 @@ Result<FolderState> LookAtFolder(const std::filesystem::path& path);
 class RunFolder {
  public:
   /// Makes the folder, and locks it against other runs if the file system has locks. The locked file is not readable,
-  /// so that a method behind the fence cannot open and lock it.
-  /// Unless `keep_contents`, the folder is empty afterwards: its old content is moved away in a single step. A process
-  /// that reads the old run keeps its files, and a kill at any moment leaves either the whole old run or nothing of it.
-  /// If the folder cannot be renamed (a mount point, the working folder, a parent without write permission), it is
-  /// emptied in place: host.json first, without which it does not count as a run.
+  /// so that a method behind the fence cannot open and lock it. Unless `keep_contents`, the folder is empty afterwards:
+  /// its old content is moved away in a single step. A process that is reading the old run keeps its files. A kill at
+  /// any moment leaves either the whole old run or nothing of it. If the folder cannot be renamed (a mount point, the
+  /// working folder, a parent without write permission), it is emptied in place: first host.json, because a folder
+  /// without it does not count as a run.
   static Result<RunFolder> Claim(const std::filesystem::path& path, bool keep_contents);
   RunFolder(RunFolder&& other) noexcept;
   ~RunFolder();
@@ -48,7 +48,7 @@ class RunFolder {
   bool Replace();
   Result<void> Empty();
   /// Recovers the old run that a killed `--overwrite` set aside, if this folder holds no whole run. The destructor
-  /// restores it unless this run gets further. Returns false if there is no old run.
+  /// restores it, unless this run calls Keep. Returns false if there is no old run.
   Result<bool> TakeUp();
   /// Returns the temporary folders of killed `--overwrite` runs.
   std::vector<TemporaryFolder> FindLeft() const;

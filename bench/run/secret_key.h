@@ -15,7 +15,8 @@ struct SecretKey {
 };
 
 /// Reads the key from `file`, as 64 hexadecimal digits or 32 raw bytes; if `file` is "", from the environment variable
-/// ETUDE_SEED_KEY, whose value is then erased. Nothing if there is neither. Error messages never show the content.
+/// ETUDE_SEED_KEY, whose value is then erased. Returns nullopt if there is neither. Error messages never show the
+/// content.
 Result<std::optional<SecretKey>> FindSecretKey(const std::string& file);
 
 /// Fails if secret worlds have another version than this program makes.

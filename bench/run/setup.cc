@@ -80,7 +80,8 @@ std::vector<std::string> UnitsOf(const std::vector<std::string>& clips, Sampling
 }
 
 /// Returns the dice name of every condition. In secret worlds it contains the swept values, so that adding a value
-/// changes no other condition's dice; the length keeps one label from being read as the start of another.
+/// changes no other condition's dice. It begins with the label's length, so that no label can be read as the start of
+/// another.
 std::vector<std::string> NameDice(const Scenario& scenario, const Seed& seed) {
   std::vector<std::string> names;
   for (const Condition& condition : scenario.conditions) {
@@ -125,7 +126,7 @@ Json EncodeSetup(const SuiteSetup& setup) {
       scenarios.back()["libraries"].push_back({{"name", library.name}, {"clips", library.clips}});
     }
   }
-  // The texts, and what only some suites have.
+  // The texts, and the parts that only some suites have.
   Json sources = Json::object();
   for (const auto& [file, text] : setup.sources) sources[file] = text;
   Json json{{"suite", setup.suite},
@@ -179,7 +180,7 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
             {library.at("name").get<std::string>(), library.at("clips").get<std::vector<std::string>>()});
       }
     }
-    // What only some suites have.
+    // The parts that only some suites have.
     setup.secret_worlds = json.value("secret_worlds", 1);
     if (json.contains("scored")) {
       const Json& scored = json.at("scored");
@@ -240,7 +241,8 @@ Result<std::unique_ptr<LabelledStreams>> LoadRecordings(const ScenarioSetup& set
     if (refused != nullptr) {
       for (const Error& error : loaded.refused) refused->push_back({error.place.file, ToString(error)});
     }
-    // A stream is sensor data, whatever its format: remove the motion, so that no simulated sensor sees it again.
+    // A stream is sensor data, whatever its format: remove the motion, so that no simulated sensor adds its errors
+    // again.
     for (NamedStream& stream : streams) stream.motion.reset();
   }
   if (streams.empty()) return Fail({setup.file, 0, 0}, "'labels' needs the 'streams' or 'clips' that it labels");
@@ -364,7 +366,7 @@ Row PreparedScenario::IdentityOf(int condition, int trial, std::size_t method) c
   row.trial = trial;
   if (!clips.empty()) row.clip = clips.front();
   row.units = UnitsOf(clips, scenario_.unit, ClipsOf(scenario_.conditions[condition]));
-  // Files may be of people who have several.
+  // One person may have several files, so the person is the unit.
   if (!setup_.files.empty() && !row.units.empty() && !setup_.files[trial].unit.empty()) {
     row.units = {setup_.files[trial].unit};
   }

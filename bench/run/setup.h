@@ -85,13 +85,14 @@ class PreparedScenario {
   const Task& task(int condition) const { return *tasks_[condition]; }
   const OpenOptions& opening() const { return *opening_; }
 
-  /// Returns the key of the dice of a trial under a condition. Conditions of open worlds share it. Secret worlds have
-  /// one per condition, because two worlds with the same dice and different noise would together reveal the truth.
+  /// Returns the key of the dice of a trial under a condition. All conditions of open worlds share it. Secret worlds
+  /// have a key per condition, because two worlds with the same dice and different noise would together reveal the
+  /// truth.
   WorldKey KeyOf(int condition, int trial) const { return {setup_.seed, dice_names_[condition], trial}; }
   /// Returns a cell's row without a result.
   Row IdentityOf(int condition, int trial, std::size_t method) const;
   Row EndedRow(int condition, int trial, std::size_t method, Status status, const std::string& reason) const;
-  /// Adds the metrics that `row` lacks: with the task's value for a failure, else as missing for the row's reason.
+  /// Adds the metrics that `row` lacks: with the task's value for a failure, or else as missing with the row's reason.
   void CompleteMetrics(int condition, Row& row) const;
 
  private:

@@ -25,7 +25,7 @@ tl::unexpected<Error> NotShipped(const std::string& path);
 /// except a folder without scenarios. Empty if nothing is found.
 std::filesystem::path FindScenario(const std::string& path);
 
-/// Returns a note for each of `paths` that exists both locally and under a shipped name: which of the two is used.
+/// Returns a note for each of `paths` that is both a local name and a shipped name; it says which of the two is used.
 std::vector<Error> WhichIsMeant(const std::vector<std::string>& paths);
 
 /// Copies a shipped scenario or suite into `folder`; returns the files. Fails if `name` is unknown or a file exists.

@@ -164,7 +164,7 @@ std::optional<Seed> SeedOf(const RunOptions& options) {
 Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const std::string& digest, int trials,
                             const RunOptions& options, SourceTexts& sources, UsersOfFiles& users) {
   const bool uses_clips = FindTaskKind(scenario.task)->uses_clips;
-  // Which options apply; refuse those that contradict the scenario.
+  // Find the options that apply, and refuse those that contradict the scenario.
   if (uses_clips) users.clips.insert(file);
   const bool replaced = !options.clips.empty() && uses_clips;
   if (replaced && !scenario.libraries.empty()) {
@@ -218,7 +218,7 @@ std::map<std::string, std::string> CanonicalNames(const std::string& scenario_fi
   const fs::path top = TopOf(folder);
   std::map<std::string, std::string> names;
   for (const std::string& source : sources) {
-    // The path as an include would give it: relative to the scenario's folder, links not resolved.
+    // The path as an `include` would write it: relative to the scenario's folder, without resolving links.
     const fs::path from_folder = fs::absolute(source, error).lexically_normal().lexically_relative(given);
     const fs::path path = (folder / from_folder).lexically_normal();
     names[source] = (top.empty() ? path : path.lexically_relative(top)).generic_string();
@@ -242,7 +242,7 @@ Result<std::vector<std::string>> FindScenarioFiles(const std::vector<std::string
       std::sort(inside.begin(), inside.end());
       files.insert(files.end(), inside.begin(), inside.end());
     } else {
-      files.push_back(path);  // any error is reported when it is read
+      files.push_back(path);  // if it does not exist, reading it reports the error
     }
   }
   return files;
@@ -268,7 +268,7 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
     suite.parsed[file] = scenarios;
     std::vector<std::string> names;
     for (const auto& [name, text] : texts) names.push_back(name);
-    // A text without a file has the same name everywhere.
+    // A text that comes from no file has the same name everywhere.
     const auto canonical =
         options.text.empty() ? CanonicalNames(file, names) : std::map<std::string, std::string>{{file, file}};
     std::map<std::string_view, std::string_view> texts_in_order;

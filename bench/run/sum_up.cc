@@ -99,8 +99,8 @@ class Copies {
   std::vector<Copy> copies_;
 };
 
-/// Encodes the findings of a condition as two summaries: the questions without failures, and with them. A question that
-/// has no answer with failures gets a comparison of zero pairs, which no real question has.
+/// Encodes the findings of a condition as two summaries: comparisons without failures, and with failures counted. If a
+/// question has none with failures, a comparison of zero pairs, which no real question has, stands for it.
 Result<std::string> EncodeFindings(const ConditionFindings& findings) {
   ScenarioSummary both;
   ConditionSummary& without = both.conditions.emplace_back(findings.summary);

@@ -25,14 +25,14 @@
 namespace etude {
 namespace {
 
-constexpr int kPollMilliseconds = 20;      // the maximum age of a measured memory size or time
+constexpr int kPollMilliseconds = 20;      // a measured memory size or time is at most this old
 constexpr double kAheadS = 0.05;           // seconds of work given to a worker at a time, estimated from earlier worlds
 constexpr double kLongWorldS = 1;          // a longer one at the end delays the run more than preparing twice
 constexpr int kGatherMicroseconds = 2000;  // if all workers have further orders, their answers are collected together
 constexpr int kMaxDeathsInSetup = 3;       // one may be chance (a shortage of memory, a stray kill); a series is not
 constexpr double kMaxSetupS = 600;         // clips are loaded during it
-constexpr double kClockPerLimit = 20;      // the maximum seconds of wall time per second of the processor-time limit
-constexpr double kGraceS = 10;             // time for a worker to end an outside method and to report that
+constexpr double kClockPerLimit = 20;      // the maximum wall time per second of processor time that the limit allows
+constexpr double kGraceS = 10;             // time for a worker to end an outside method and report it
 constexpr int kShutdownGraceMs = 3000;     // time for a worker to end all its outside methods
 
 Clock::time_point After(double seconds) {
@@ -170,7 +170,7 @@ class Supervisor {
     worker.deadline = After(clock_s);
   }
 
-  /// Begins the first of a worker's orders. If cells are measured, no world is built.
+  /// Begins the first of a worker's orders. No world is built if the cells are only measured.
   Result<void> BeginWorld(Worker& worker) {
     worker.built = answered_ != nullptr;
     worker.began = Clock::now();
@@ -318,8 +318,8 @@ class Supervisor {
     return Replace(worker, Status::kCrashed, "its worker ended with " + end);
   }
 
-  /// Ends a worker, reports its current work as lost, and starts another worker while there are orders. If there is no
-  /// `status`, this machine is the cause, and the lost cells get no rows.
+  /// Ends a worker, reports its current work as lost, and starts another worker while there are orders. No `status`
+  /// means that this machine is the cause; the lost cells then get no rows.
   Result<void> Replace(Worker& worker, std::optional<Status> status, const std::string& reason) {
     worker.process.Finish();
     if (!worker.ready && ++deaths_in_setup_ == kMaxDeathsInSetup) {

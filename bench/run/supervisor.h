@@ -29,7 +29,7 @@ struct SupervisorOptions {
   std::function<Result<void>()> on_all_answered = {};
 };
 
-/// A finished or answered cell (CellLineHead::is_measured): its line as the worker wrote it, and the head of that.
+/// A finished or answered cell (CellLineHead::is_measured): its line as the worker wrote it, and the head of that line.
 struct DeliveredCell {
   CellLineHead head;
   std::string_view line;

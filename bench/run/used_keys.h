@@ -28,12 +28,12 @@ std::string DigestOfRun(const Json& manifest);
 /// environment or a pipe has no list, and is not checked.
 Result<void> CheckUnused(const SecretKey& key, const KeyUse& use);
 
-/// Checks again, because two runs may begin at the same time, then adds a use to the list; it is on the disk on return.
-/// With `may_be_used`, nothing is checked, and a list that cannot be written is left unchanged.
+/// Checks again, because two runs may begin at the same time, then adds a use to the list; when this function returns,
+/// the list is on the disk. With `may_be_used`, nothing is checked, and it is no error if the list cannot be written.
 Result<void> NoteUse(const SecretKey& key, const KeyUse& use, bool may_be_used);
 
-/// Adds the key to its list, if it is not there, because cells of a run are run again by programs that its manifest
-/// names, and those learn the worlds. Fails if the list cannot be written.
+/// Adds the key to its list, if it is not there: a replay asks programs that the manifest names, and these learn the
+/// worlds. Fails if the list cannot be written.
 Result<void> NoteRepeat(const SecretKey& key, const KeyUse& use);
 
 }  // namespace etude

@@ -11,7 +11,7 @@ std::vector<std::string> MetricsOf(const TaskKind& kind);
 /// Returns the task's metrics and those that the scenario defines itself.
 std::vector<std::string> MetricsOf(const TaskKind& kind, const Scenario& scenario);
 
-/// Returns those of them that may be a scenario's success: shares and scores of which more is better.
+/// Returns those of these metrics that may be a scenario's success: shares and scores for which higher is better.
 std::vector<std::string> SuccessMetricsOf(const TaskKind& kind, const Scenario& scenario);
 
 /// Adds a metric to `metrics`. Complains if it is not in `known` or already in the list.
@@ -21,7 +21,7 @@ void NoteMetric(Fields& fields, const std::string& task, const std::vector<std::
 // The keys of `expect`, `gate` and its `time_ratios`. They name methods and conditions of `scenario`, which must
 // outlive the tables, and `metrics` of its task.
 FieldTable<Expectation> ExpectationFields(const Scenario& scenario, const std::vector<std::string>& metrics);
-// `success` is one of `metrics`, those of SuccessMetricsOf.
+// The keys about success; `success` must be one of `metrics`, which SuccessMetricsOf returns.
 FieldTable<Scenario> SuccessFields(const std::vector<std::string>& metrics);
 FieldTable<GateRules> GateFields(const Scenario& scenario, const std::vector<std::string>& metrics);
 FieldTable<TailRule> TailFields();

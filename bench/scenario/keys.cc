@@ -85,7 +85,7 @@ namespace {
 
 Json Ref(const std::string& definition) { return {{"$ref", "#/definitions/" + definition}}; }
 Json ListOf(Json item) { return {{"type", "array"}, {"items", std::move(item)}}; }
-/// Returns the schema condition that `key` has this value.
+/// Returns the schema of the condition that `key` has this value.
 Json Says(const std::string& key, const std::string& value) {
   return {{"properties", {{key, {{"const", value}}}}}, {"required", {key}}};
 }

@@ -9,8 +9,8 @@ namespace etude {
 
 /// The keys of one kind of mapping in a scenario file.
 struct KeyGroup {
-  std::string path;   ///< where such a mapping stands: "expect[]" = an item of the list under `expect`; "" = the top of
-                      ///< the file
+  /// The place of such a mapping: "expect[]" = an item of the list under `expect`; "" = the top level.
+  std::string path;
   std::string title;  ///< "An expectation"
   std::vector<KeyInfo> keys;
 };

@@ -11,8 +11,8 @@ bool IsPlainName(const std::string& name);
 ValueKind PlainNameKind();
 std::string ReadPlainName(Fields& fields, std::string_view key);
 
-/// The keys of an outside method. A built-in method has `name`, `against` and `description` of them, and its task's
-/// keys.
+/// The keys of an outside method. Of these, a built-in method has `name`, `against` and `description`; its other keys
+/// are those of its task.
 const FieldTable<MethodEntry>& OutsideMethodFields();
 
 /// Reads `methods`: the keys that every method has, and all keys of outside methods. Complaints stay in `fields`.

@@ -178,10 +178,10 @@ ValueKind HeadlineKind() {
 
 std::vector<std::string> ReadHeadline(Fields& fields, const TaskKind& kind, std::vector<OutsideMetric>& own) {
   const Node* list = fields.Raw("metrics");
-  // Texts complains that it is not a list.
+  // Fields::Texts complains if it is not a list.
   if (list != nullptr && list->kind != Node::Kind::kSequence) fields.Texts("metrics");
   if (list == nullptr || list->items.empty()) return kind.default_metrics;
-  // Mappings are the scenario's own metrics; if all are mappings, the task's come first.
+  // Mappings define the scenario's own metrics. If there are only mappings, the task's metrics come first.
   const auto is_own = [](const Node& item) { return item.kind == Node::Kind::kMapping; };
   std::vector<std::string> names;
   if (std::ranges::all_of(list->items, is_own)) names = kind.default_metrics;

@@ -101,7 +101,7 @@ class Collector {
   /// Returns the keys that `include` and `defaults` of a file give to its scenarios.
   Result<Entries> DefaultsOf(const Node& top, const std::string& file) {
     Entries found;
-    // Included files first, a later one replaces an earlier one.
+    // Included files come first; a later one replaces keys of an earlier one.
     if (const Node* list = top.Find("include")) {
       const auto names = AsTexts(*list);
       if (!names) return Fail(names.error().place, "'include': {}", names.error().message);

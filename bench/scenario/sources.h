@@ -15,7 +15,7 @@ using TextOf = std::function<Result<std::string>(const std::string& file, const 
 
 /// Returns the mappings of the scenarios of `file`, in order, with defaults inserted for keys that a scenario does not
 /// have. A scenario's own keys win over the file's `defaults`, these over included ones, and a later include over an
-/// earlier one. A key's value is replaced as a whole; every node keeps its place in its file.
+/// earlier one. A key's value is replaced as a whole. Every node keeps its position in its file, for complaints.
 Result<std::vector<Node>> CollectScenarios(const std::string& file, const TextOf& text_of);
 
 /// Returns the keys at the top of a file of several scenarios.

@@ -13,7 +13,7 @@ namespace etude {
 
 /// Returns the values of a swept parameter, from a list or a range: `{from: 5, to: 20, step: 5}`, `{from: 1, to: 100,
 /// count: 5, scale: log}`. A range's values are written with at most 12 digits, so that 0.1 + 2 × 0.1 reads 0.3; their
-/// place is the range's. At least one value, at most `most`.
+/// position, for complaints, is that of the range. At least one value, at most `most`.
 Result<std::vector<Node>> SweptValues(const Node::Entry& swept, std::size_t most);
 
 struct RangeWords {
@@ -25,8 +25,8 @@ struct RangeWords {
 /// The keys of a range of at most `most` values.
 FieldTable<RangeWords> RangeFields(std::size_t most);
 
-/// The largest number of values in the mappings of a file's scenarios and of their conditions together: each condition
-/// is a copy.
+/// The largest number of values in all mappings of a file: those of its scenarios and those of their conditions, each
+/// of which is a copy.
 constexpr std::size_t kMaxFileValues = 300'000;
 constexpr std::size_t kMaxConditions = 1000;
 

@@ -31,8 +31,8 @@ MetricInfo ShareMetric(const Study& study, const std::string& id) {
   return metric;
 }
 
-/// Returns a cell's success: its value, or 0 if it failed without one. Nothing if it was skipped, or answered and has
-/// no value.
+/// Returns a cell's success: its value, or 0 if it failed without one. Nullopt if it was skipped, or if it was answered
+/// but has no value.
 std::optional<double> SuccessAt(const MethodColumns& method, const std::string& success, int trial) {
   const Status status = method.StatusAt(trial).value_or(Status::kSkipped);
   if (status == Status::kSkipped) return std::nullopt;
@@ -40,7 +40,7 @@ std::optional<double> SuccessAt(const MethodColumns& method, const std::string& 
   return status == Status::kOk ? std::nullopt : std::optional(0.0);
 }
 
-/// One pair of methods; of a rival that differs between the halves of the worlds, the one of each world.
+/// One pair of methods. A rival may differ between the two halves of the worlds; `other` holds it for each world.
 struct Pairing {
   const MethodColumns* method;
   std::vector<const MethodColumns*> other;  ///< by trial
@@ -58,7 +58,8 @@ PairedWorlds SuccessesOf(const Pairing& pairing, const std::string& success) {
   return worlds;
 }
 
-/// Returns −1, 0 or 1 as pairs: the worlds in which the method's value is far worse or far better.
+/// Returns a pair for each world with the difference −1, 0 or 1: the method's value is far worse, neither, or far
+/// better.
 PairedWorlds FarOff(const PairedWorlds& values, const MetricInfo& metric, double times) {
   PairedWorlds far = values;
   const double sign = metric.direction == Direction::kLowerIsBetter ? -1 : 1;
@@ -75,7 +76,7 @@ class Measurer {
   Measurer(const Study& study, const ConditionTable& table, std::uint64_t seed)
       : study_(study), table_(table), seed_(seed) {}
 
-  /// `other` is the name of the other side, `key` what keys the random streams.
+  /// `other` is the name of the other side; `key` keys the random streams.
   Answer Measure(const Pairing& pairing, const PairedWorlds& values, const std::string& other,
                  const std::string& key) const {
     Answer answer = MeasureSteps(pairing, values, key);
@@ -129,7 +130,7 @@ class Measurer {
         answer.both_succeed = Compare(both, *FindMetric(value), purpose("both succeed"));
       }
     }
-    // The tail; of a share every difference would be one.
+    // The tail. Shares have none, because every difference of a yes-or-no value would count as far better or worse.
     const MetricInfo& metric = *FindMetric(value);
     if (!values.pairs.empty() && metric.direction != Direction::kNeither && metric.reading == Reading::kAmount) {
       const PairedWorlds far = FarOff(values, metric, study_.gate.tail.times);
@@ -138,7 +139,7 @@ class Measurer {
     return answer;
   }
 
-  /// Returns how many answers against baselines are judged together; of those against rivals there are about as many.
+  /// Returns the number of answers against baselines that are judged together; there are about as many against rivals.
   int CountAnswers() const {
     const auto compared = std::ranges::count_if(
         study_.methods, [](const ComparedMethod& method) { return method.name != method.against; });
@@ -150,8 +151,8 @@ class Measurer {
   const std::uint64_t seed_;
 };
 
-/// Corrects one step's p-values over a family of answers, and judges it. `metric_of` gives the definition by which an
-/// answer's step is judged.
+/// Corrects one step's p-values over a family of answers, and judges it. `metric_of` returns the metric by whose
+/// threshold an answer's step is judged.
 template <typename MetricOf>
 void JudgeStep(const std::vector<Answer*>& family, std::optional<Comparison> Answer::*step, SamplingUnit unit,
                const MetricOf& metric_of) {
@@ -177,7 +178,7 @@ void JudgeStep(const std::vector<Answer*>& family, std::optional<Comparison> Ans
   }
 }
 
-/// Decides an answer from its judged steps and the value's comparison over all worlds, null if there is none.
+/// Decides an answer from its judged steps and the value's comparison over all worlds, which may be null.
 void Decide(Answer& answer, const Comparison* value) {
   const auto decide = [&](AnswerStep step, Verdict verdict, std::optional<Verdict> beyond) {
     answer.decided_by = step;
@@ -195,7 +196,7 @@ void Decide(Answer& answer, const Comparison* value) {
   if (answer.tail && IsDecided(answer.tail->verdict)) {
     return decide(AnswerStep::kTail, answer.tail->verdict, answer.tail->beyond.verdict);
   }
-  // Nothing decides. "No difference" needs that of every step that could differ.
+  // No step decides. The answer is "no difference" only if no step is still open.
   const auto is_open = [](const std::optional<Comparison>& step) {
     return step && step->verdict == Verdict::kInconclusive;
   };

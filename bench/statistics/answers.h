@@ -9,8 +9,9 @@
 
 namespace etude {
 
-/// Returns McNemar's mid-p of the worlds in which one of two methods alone succeeded (Fagerland, Lydersen & Laake
-/// 2013): two-sided, 2 · P(B ≥ larger) − P(B = larger) with B ~ Binomial(gained + lost, ½), at most 1. 1 if both are 0.
+/// Returns McNemar's mid-p of the numbers of worlds in which only one of two methods succeeded (Fagerland, Lydersen &
+/// Laake 2013): two-sided, 2 · P(B ≥ larger) − P(B = larger) with B ~ Binomial(gained + lost, ½), at most 1. 1 if both
+/// are 0.
 double McNemarMidP(int gained, int lost);
 
 /// Measure the answers of one condition: every method against its baseline, and against its strongest rival. Their
@@ -18,21 +19,22 @@ double McNemarMidP(int gained, int lost);
 ///
 /// *Success*: the difference of Study::success in the worlds that neither skipped; a cell that failed counts 0, and a
 /// world in which an answered cell has no value is left out. Where all values are 0 or 1 the test is McNemar's.
-/// *Value*: the first headline metric that is not the success; what is measured here is that metric in the worlds in
-/// which both succeeded, if success is yes or no and some world was lost. The comparison over all worlds, with failures
-/// counted, stands in ConditionSummary::comparisons or ::rivals.
-/// *Tail*: the share of worlds in which the method is far better minus that in which it is far worse, by more than
-/// TailRule::times practical thresholds of the value's metric; not of shares.
+/// *Value*: the first headline metric that is not the success; this function compares it in the worlds where both
+/// succeeded, if success is a yes or no and some worlds drop out. The comparison over all worlds, with failures
+/// counted, is in ConditionSummary::comparisons or ::rivals. *Tail*: the share of worlds in which the method is far
+/// better minus that in which it is far worse, by more than TailRule::times practical thresholds of the value's metric;
+/// shares have no tail.
 std::vector<Answer> MeasureAnswersAgainstBaselines(const Study& study, const ConditionTable& table, std::uint64_t seed);
 std::vector<Answer> MeasureAnswersAgainstRivals(const Study& study, const ConditionTable& table, std::uint64_t seed);
 
 /// Judges all answers of a study, after its comparisons were judged: each step's p-values are corrected over all
-/// conditions and methods (Holm), those against baselines and those against rivals apart. An answer is the first of
-/// these steps that is better or worse:
+/// conditions and methods (Holm), separately for baselines and rivals. The first of these steps with a verdict "better"
+/// or "worse" decides the answer:
 ///   success   by at least Study::success_matters
 ///   value     the verdict over all worlds, unless that over the worlds where both succeeded is the opposite
 ///   tail      by at least Study::success_matters
-/// Otherwise it is the value's verdict (success's without one), "no difference" only if success's is not open.
+/// If no step decides, the answer is the verdict on the value, or on success if there is no value. It is "no
+/// difference" only if the verdict on success is not open.
 void JudgeAnswers(const Study& study, std::vector<ConditionSummary>& conditions);
 
 }  // namespace etude

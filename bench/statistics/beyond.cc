@@ -54,8 +54,8 @@ double JackknifeError(std::span<const LeftOut> left_out) {
   return std::sqrt((n - 1) / n * squares);
 }
 
-/// The t test of an estimate. A standard error of zero has no t distribution: then p is the smallest that sign flips of
-/// this many units can reach.
+/// The t test of an estimate. If the standard error is zero, t is undefined, and p is the smallest value that sign
+/// flips of this many units can reach.
 PairedTest StudentTest(double estimate, double error, int units) {
   std::string how = "t test of units' means";
   if (estimate == 0) return {1.0, std::move(how)};
@@ -71,13 +71,13 @@ std::pair<double, double> ShareInterval(std::span<const double> values) {
   return {interval.low, interval.high};
 }
 
-/// Returns true if the interval lies on one side of zero. It may touch zero where the estimate does not: units without
-/// a difference make many Walsh averages zero, and the test counts them.
+/// Returns true if the interval lies on one side of zero. One end may be zero while the estimate is not: units without
+/// a difference make many Walsh averages zero, and the test takes them into account.
 bool IsOnOneSide(const Beyond& beyond) {
   return (*beyond.low >= 0 && *beyond.difference > 0) || (*beyond.high <= 0 && *beyond.difference < 0);
 }
 
-/// Returns true if the mean has the sign of the pseudo-median, so that no few units outweigh the others.
+/// Returns true if the mean has the sign of the pseudo-median, so that a few units do not outweigh the others.
 bool MeanAgrees(const Beyond& beyond) { return *beyond.mean * *beyond.difference > 0; }
 
 }  // namespace
@@ -140,7 +140,7 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons) {
   beyond.mean_high = KeepThirtyBits(mean + half);
   // Choose the test by the counts, never by the result.
   if (SmallestP(beyond.units) * comparisons <= kAlpha) {
-    // Values of one size have equal ranks: this is the sign test.
+    // If all values have the same size, their ranks are equal, and this is the sign test.
     beyond.test = SignedRankTest(values);
     beyond.test.how = "signed ranks of units, " + beyond.test.how;
   } else {
@@ -151,7 +151,8 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons) {
 
 std::optional<Verdict> VerdictBeyond(const Beyond& beyond, const MetricInfo& metric) {
   if (!beyond.low || !beyond.p_holm) return std::nullopt;
-  // An interval within ± threshold is "no difference" if the mean's agrees and enough units differ.
+  // "No difference" needs both intervals, of the pseudo-median and of the mean, within ± threshold, and enough units
+  // that differ.
   const auto is_within = [&](double low, double high) { return low >= -metric.practical && high <= metric.practical; };
   if (is_within(*beyond.low, *beyond.high)) {
     const bool holds = is_within(*beyond.mean_low, *beyond.mean_high) && beyond.differing >= kMinUnits;

@@ -30,13 +30,13 @@ constexpr int kMinUnits = 6;
 /// value is then the jackknife's pseudo-value n · mean − (n − 1) · mean without the unit's worlds (Tukey 1958; for
 /// nodes of a network Snijders & Borgatti 1999). With one unit per world both are the same.
 ///
-/// The estimate is the pseudo-median of these values, with its interval, because intervals of a mean over few units
-/// fail where units are skewed, or one lies far off (docs/findings/verdicts.md). The mean stands beside it, with
-/// Student's interval from the jackknife's standard error. Where every unit's value is −1, 0 or 1 (one yes-or-no world
-/// each) the estimate is the mean, with the interval of two shares: such values are symmetric if their mean is zero.
-/// The test is Wilcoxon's signed-rank test of the values where that can reach 5 % among `comparisons` (2^(1 − units) ×
-/// comparisons ≤ 0.05), and Student's t test of their mean otherwise. The choice depends on the numbers of units and
-/// comparisons, never on the result.
+/// The estimate is the pseudo-median of these values, with its interval, because the interval of a mean over few units
+/// fails if the values are skewed or one is an outlier (docs/findings/verdicts.md). The mean is reported beside it,
+/// with Student's interval from the jackknife's standard error. Where every unit's value is −1, 0 or 1 (one yes-or-no
+/// world each) the estimate is the mean, with the interval of two shares: such values are symmetric if their mean is
+/// zero, as the test requires. The test is Wilcoxon's signed-rank test of the values if it can reach 5 % among
+/// `comparisons` (2^(1 − units) × comparisons ≤ 0.05), and Student's t test of their mean otherwise. The choice depends
+/// on the numbers of units and comparisons, never on the result.
 ///
 /// With fewer than kMinUnits units the result holds the estimate and the leave-one-out means, but no interval and
 /// no test.
@@ -44,15 +44,15 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons);
 
 /// Returns the verdict that the estimate and its `p_holm` allow:
 ///   nothing          fewer than kMinUnits units
-///   no difference    the intervals of pseudo-median and mean lie within ± threshold, and at least kMinUnits differ
+///   no difference the intervals of pseudo-median and mean lie within ± threshold, and at least kMinUnits units differ
 ///   better / worse   p_holm ≤ alpha, the interval of the pseudo-median lies on one side of zero, the pseudo-median is
 ///   at
 ///                    least the threshold in size, and the mean has its sign
 ///   inconclusive     anything else
 std::optional<Verdict> VerdictBeyond(const Beyond& beyond, const MetricInfo& metric);
 
-/// Says in words why there is no verdict or an inconclusive one; returns "" if the verdict is clear. `comparisons` is
-/// the number of comparisons that were made together (Holm).
+/// Returns a sentence that says why there is no verdict or an inconclusive one; "" if the verdict is clear.
+/// `comparisons` is the number of comparisons that were made together (Holm).
 std::string WhyOpenBeyond(const Beyond& beyond, const MetricInfo& metric, SamplingUnit unit, int comparisons);
 
 }  // namespace etude

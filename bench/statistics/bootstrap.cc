@@ -90,7 +90,7 @@ std::optional<double> Acceleration(std::span<const double> jackknife) {
     cubes += pull * pull * pull;
     largest = std::max(largest, std::abs(value));
   }
-  // The jackknife of a constant sample differs by rounding alone.
+  // Rounding alone makes the jackknife values of a constant sample differ.
   const double noise = 1e-12 * largest;
   if (squares <= noise * noise * static_cast<double>(jackknife.size())) return std::nullopt;
   return cubes / (6 * squares * std::sqrt(squares));
@@ -102,8 +102,8 @@ double AtLevel(std::span<const double> sorted, double level) {
   return sorted[static_cast<std::size_t>(std::clamp(rank, 1.0, static_cast<double>(sorted.size()))) - 1];
 }
 
-/// Returns the interval of the median from order statistics: the number of values below the median is binomial, here by
-/// its normal approximation.
+/// Returns the interval of the median from order statistics: the number of values below the median is binomial,
+/// approximated here by a normal distribution.
 Interval OrderStatisticsInterval(std::span<const double> sorted, double confidence) {
   const double n = static_cast<double>(sorted.size());
   const double below = std::floor(0.5 * n - 0.5 * std::sqrt(n) * NormalQuantile(0.5 + confidence / 2));
@@ -126,8 +126,8 @@ std::vector<double> Sorted(std::span<const double> values) {
   return sorted;
 }
 
-/// Returns the interval of a sample whose values are all equal, or which is too large to be resampled; nothing for
-/// others.
+/// Returns the interval of a sample whose values are all equal, or which is too large to be resampled; nullopt for
+/// other samples.
 std::optional<Interval> IntervalWithoutDice(std::span<const double> sorted, Aggregate aggregate, double confidence) {
   if (sorted.front() == sorted.back()) return Interval{sorted.front(), sorted.front(), IntervalKind::kPercentile};
   if (static_cast<int>(sorted.size()) <= kMaxResampled) return std::nullopt;

@@ -26,7 +26,7 @@ constexpr int kMinSample = 6;
 Interval BcaInterval(std::vector<double>& replicates, double estimate, std::span<const double> jackknife,
                      double confidence = kConfidence);
 
-/// Larger samples are not resampled: closed forms give the same interval there at no cost.
+/// Samples above this size are not resampled, because closed forms give the same interval at no cost.
 constexpr int kMaxResampled = 20'000;
 
 /// Returns the BCa interval of the values' aggregate, from 1,999 resamples drawn from a stream keyed by `seed` and

@@ -27,8 +27,8 @@ double ShareBetter(std::span<const double> differences, double sign) {
   return better / static_cast<double>(differences.size());
 }
 
-/// Computes the intervals of the differences' median and mean; the median's is left empty where the metric is
-/// aggregated by the mean.
+/// Computes the intervals of the differences' median and mean; that of the median is left empty if the metric's
+/// aggregate is the mean.
 MedianAndMean IntervalsOf(std::span<const Pair> pairs, std::span<const double> differences, const MetricInfo& metric,
                           std::uint64_t seed, const std::string& purpose, double confidence) {
   if (metric.aggregate == Aggregate::kMedian) {
@@ -57,7 +57,7 @@ Comparison ComparePaired(std::span<const Pair> pairs, const MetricInfo& metric, 
   result.metric = metric.id;
   result.pairs = static_cast<int>(pairs.size());
   if (pairs.empty()) return result;
-  // Paired differences, and how many are not zero.
+  // Compute the paired differences, and count those that are not zero.
   std::vector<double> differences;
   for (const Pair& pair : pairs) {
     differences.push_back(DifferenceOf(pair, metric));
@@ -103,7 +103,7 @@ bool SeesTooFewDiffer(const Comparison& comparison, const MetricInfo& metric) {
 Verdict VerdictOf(const Comparison& comparison, const MetricInfo& metric, double confidence) {
   if (!comparison.ci_low || !comparison.p_holm) return Verdict::kInconclusive;
   const double low = *comparison.ci_low, high = *comparison.ci_high, difference = *comparison.difference;
-  // An interval within ± threshold is "no difference" if the interval of the mean is, too.
+  // "No difference" needs both intervals, of the aggregate and of the mean, within ± threshold.
   const auto is_within = [&](double from, double to) { return from >= -metric.practical && to <= metric.practical; };
   if (is_within(low, high)) {
     const bool holds = is_within(*comparison.mean_low, *comparison.mean_high) && !SeesTooFewDiffer(comparison, metric);

@@ -18,8 +18,8 @@ struct Pair {
 /// Returns true if all values are 0 or 1, so that their means are shares.
 bool AreShares(std::span<const Pair> pairs);
 
-/// Returns method − baseline, free of rounding: differences below a billionth of the practical threshold are zero, and
-/// others keep 30 bits, so that values that differ in their last bits alone are ties, also in ranks.
+/// Returns method − baseline, free of rounding: differences below a billionth of the practical threshold become zero,
+/// and others are rounded to 30 bits. Values that differ only in their last bits are therefore ties, also in ranks.
 double DifferenceOf(const Pair& pair, const MetricInfo& metric);
 
 /// Compares two methods on the worlds in which both have a value. Returns the aggregate of the paired differences with
@@ -30,13 +30,13 @@ double DifferenceOf(const Pair& pair, const MetricInfo& metric);
 Comparison ComparePaired(std::span<const Pair> pairs, const MetricInfo& metric, std::uint64_t seed,
                          const std::string& purpose, double confidence = kConfidence);
 
-/// Returns the p-value of the test that decides: Wilcoxon's where the metric's aggregate is the median, the sign-flip
-/// test where it is the mean. The choice depends on the metric, never on the result.
+/// Returns the p-value of the test that decides: Wilcoxon's if the metric's aggregate is the median, the sign-flip test
+/// if it is the mean. The choice depends on the metric, never on the result.
 std::optional<double> DecidingP(const Comparison& comparison, const MetricInfo& metric);
 
-/// Returns true if the bootstrap of a mean rests on too few differences to exclude rare large ones. If 8 worlds are all
-/// equal, its interval has no width, and a difference that occurs in every tenth world is missed by 43 % of such
-/// samples.
+/// Returns true if the bootstrap of a mean rests on too few differences to exclude rare large ones. If all 8 worlds of
+/// a sample are equal, the interval has no width; but a difference that occurs in one world of ten is absent from 43 %
+/// of such samples.
 bool SeesTooFewDiffer(const Comparison& comparison, const MetricInfo& metric);
 
 /// Returns the verdict by interval, `p_holm` and the metric's practical threshold, alpha = 1 − confidence:
@@ -48,9 +48,9 @@ bool SeesTooFewDiffer(const Comparison& comparison, const MetricInfo& metric);
 ///   inconclusive     anything else; always with fewer than kMinSample pairs
 Verdict VerdictOf(const Comparison& comparison, const MetricInfo& metric, double confidence = kConfidence);
 
-/// Sets the comparison's p to the one with failures counted, if there are failures, and its verdict to the one that
-/// holds with and without them, or kInconclusive if the two differ. Both inputs come with their own `p_holm`. Returns
-/// the verdict that ignores failures.
+/// Judges with and without failures. If there are failures, the comparison's p becomes the one that counts them, and
+/// its verdict the common one of both ways, or kInconclusive if they differ. Both inputs bring their own `p_holm`.
+/// Returns the verdict that ignores failures.
 Verdict JudgeBothWays(Comparison& comparison, const std::optional<Comparison>& with_failures, const MetricInfo& metric,
                       double confidence = kConfidence);
 

@@ -14,8 +14,8 @@ double StudentTwoSided(double t, int freedom);
 /// Returns P(B ≥ successes) for B ~ Binomial(trials, ½), 0 ≤ successes ≤ trials.
 double FairCoinUpperTail(int successes, int trials);
 
-/// Returns the value rounded to 30 bits of mantissa. Every value of a summary that went through exp or log passes here,
-/// because their last bits differ between machines.
+/// Returns the value rounded to 30 bits of mantissa. Every value of a summary that depends on exp or log is rounded so,
+/// because the last bits of these functions differ between machines.
 double KeepThirtyBits(double value);
 
 /// Returns the smallest mean difference, in standard deviations of the `count` > 1 independent differences, that a

@@ -37,7 +37,7 @@ std::string NotWithFailures(Verdict of_pairs) {
   return fmt::format("“{}” where both have a value, but not when failing counts as losing", VerdictName(of_pairs));
 }
 
-/// Says in how many worlds the method is better and worse: a median does not show differences in fewer than half of the
+/// Says in how many worlds the method is better and worse, because a median hides differences in fewer than half of the
 /// worlds.
 std::string DescribeWhatMedianHides(const Comparison& c) {
   const int tied = c.pairs - c.differing;
@@ -47,12 +47,12 @@ std::string DescribeWhatMedianHides(const Comparison& c) {
                      ties, better, c.pairs, c.differing - better);
 }
 
-/// Says why the verdict is open: the first reason that holds, in the order in which a reader would check. "" for a
-/// clear one.
+/// Says why the verdict is open: the first reason that holds, in the order in which a reader would check; "" if the
+/// verdict is clear.
 std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int comparisons) {
   if (c.verdict != Verdict::kInconclusive) return "";
   if (c.pairs == 0) return "no world gave both a value";
-  // The interval lies within ± threshold, but what it cannot see may matter.
+  // The interval lies within ± threshold, but differences that it cannot show may matter.
   const int needed = PairsNeeded(comparisons, kAlpha);
   const bool within = c.ci_low && *c.ci_low >= -metric.practical && *c.ci_high <= metric.practical;
   if (within && SeesTooFewDiffer(c, metric)) {
@@ -83,12 +83,12 @@ std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int compariso
     if (p > kAlpha) return fmt::format("the interval excludes zero, but the test does not confirm it (p = {:.2g})", p);
     return fmt::format("p = {:.2g} alone, but not among {} comparisons (Holm)", p, comparisons);
   }
-  // Both find a difference, but its size or direction decides nothing.
+  // Both find a difference, but it is too small, or the metric has no direction.
   if (std::abs(*c.difference) < metric.practical) return "it differs, but whether by as much as matters is open";
   return "it differs, but neither way is better";
 }
 
-/// Returns a note if the mean differs by more than the threshold and the median does not; "" otherwise.
+/// Returns a note if the mean difference exceeds the threshold and the median difference does not; else "".
 std::string NoteOnMean(const Comparison& c, const MetricInfo& metric) {
   if (metric.aggregate != Aggregate::kMedian || !c.mean_low) return "";
   const bool up = *c.mean_low > metric.practical, down = *c.mean_high < -metric.practical;
@@ -150,7 +150,7 @@ void CopyVerdictsBeyond(Comparison& comparison) {
   beyond.why_open = comparison.why_open;
 }
 
-/// Judges a family beyond its worlds by the same rule as on these worlds.
+/// Judges a family for other units, by the same rule as for these worlds.
 void JudgeBeyond(std::span<Question* const> family, SamplingUnit unit) {
   // Holm's correction, with and without failures counted as losses.
   std::vector<std::optional<double>> pairs_alone, all_worlds;

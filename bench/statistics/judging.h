@@ -11,7 +11,7 @@
 namespace etude {
 
 /// Returns the p-values after Holm's step-down correction (1979): comparing each with alpha keeps the probability of
-/// one or more false rejections among all of them at most alpha. A missing p counts as a comparison and stays missing.
+/// one or more false rejections among all of them at most alpha. A missing p counts as a comparison, but stays missing.
 std::vector<std::optional<double>> HolmCorrected(std::span<const std::optional<double>> p_values);
 
 /// A comparison to be judged, and the same comparison with failures counted as losses (WithFailures).
@@ -20,11 +20,11 @@ struct Question {
   std::optional<Comparison> with_failures;
 };
 
-/// Corrects the deciding p-values of comparisons that belong together (Holm), judges each again, and writes on each why
-/// its verdict is open and which notes a reader needs. A comparison without a p counts in the correction too. Where one
-/// method alone failed, the p is the one with failures counted, and the verdict must be the same with and without them.
-/// The verdicts beyond these worlds are a family of their own, judged by the same rule; where every world is its own
-/// `unit`, they equal those on these worlds.
+/// Corrects the deciding p-values of comparisons that belong together (Holm), judges each again, and sets its reason
+/// for an open verdict and its notes. A comparison without a p counts in the correction too. Where only one method
+/// failed, the p is the one with failures counted, and the verdict must be the same with and without them. The verdicts
+/// for other units are a family of their own, judged by the same rule. If every world is its own `unit`, they equal
+/// those for these worlds.
 void JudgeFamily(std::span<Question* const> family, SamplingUnit unit = SamplingUnit::kWorld);
 
 /// Judges the comparisons with baselines again for a study whose verdicts must be the same under every value of
@@ -33,10 +33,10 @@ void JudgeFamily(std::span<Question* const> family, SamplingUnit unit = Sampling
 std::vector<AcrossVerdict> JudgeAcross(const Study& study, const std::vector<ConditionSummary>& conditions);
 
 /// Judges one expectation over every condition that it names. A comparison (below, above) is met if the paired verdict
-/// at its confidence is clear in every such condition, unmet if it is clear the other way or "no difference" in one of
-/// them, and undecided otherwise. Because every condition must hold, no correction for multiple conditions is needed
-/// (intersection–union test, Berger 1982). A bound (at_most, at_least) is compared with the statistic itself; a bound
-/// that is met only by the cells with a value is undecided if cells without a value exist.
+/// at its confidence agrees with it in every such condition, unmet if the verdict is the opposite or "no difference" in
+/// one of them, and undecided otherwise. Because every condition must hold, no correction for multiple conditions is
+/// needed (intersection–union test, Berger 1982). A bound (at_most, at_least) is compared with the statistic itself; if
+/// cells without a value exist, a bound that the other cells meet is undecided.
 ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& study, const ScenarioTable& table,
                                    std::uint64_t seed);
 

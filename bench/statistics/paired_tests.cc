@@ -14,8 +14,8 @@
 namespace etude {
 namespace {
 
-/// With more non-zero differences the p-value of the ranks is the normal approximation. Counts of sign vectors up to
-/// 2⁵⁰ are exact in a double.
+/// With more non-zero differences, the normal approximation gives the p-value of the ranks. Counts of sign vectors up
+/// to 2⁵⁰ are exact in a double.
 constexpr std::size_t kMaxExactRanks = 50;
 
 /// Twice the rank of |difference|, for each non-zero difference; doubled, so that the mean ranks of ties are integers
@@ -49,7 +49,7 @@ double SumOf(const std::vector<int>& ranks) {
 /// Returns P(W ≤ w) or P(W ≥ w), whichever is smaller, over all signs of these ranks (shift algorithm).
 double ExactTail(const std::vector<int>& ranks, double w) {
   const auto total = static_cast<std::size_t>(SumOf(ranks));
-  std::vector<double> ways(total + 1);  // by sum: the number of sign vectors that reach it, an integer up to 2⁵⁰
+  std::vector<double> ways(total + 1);  // by sum: how many sign vectors reach it, an integer of at most 2⁵⁰
   ways[0] = 1;
   std::size_t reached = 0;
   for (int rank : ranks) {
@@ -146,8 +146,8 @@ class FlippedSample {
   std::vector<std::array<double, 256>> byte_sums_;
 };
 
-/// Tests very many differences by the normal approximation of their flips: a mean has variance Σd² / n², and for a
-/// median the number of differences on either side of zero is tested (sign test).
+/// Tests very many differences by the normal approximation of their flips: a mean has variance Σd² / n²; for a median,
+/// the numbers of differences above and below zero are compared (sign test).
 PairedTest ManyFlips(std::span<const double> sizes, const Signs& signs, Aggregate aggregate) {
   double sum = 0, squares = 0;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
@@ -195,7 +195,7 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
     negatives += ordered[i] < 0;
     if (ordered[i] < 0) observed[i / 64] |= std::uint64_t{1} << (i % 64);
   }
-  // All differences of one size: the binomial gives the exact p of the mean.
+  // If all differences have the same size, the binomial gives the exact p of the mean.
   const std::size_t differing = sizes.size() - zeros;
   if (differing == 0) return {1.0, "exact"};
   const double largest = sizes.back();
@@ -206,7 +206,7 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
 
   if (static_cast<int>(differing) > kMaxResampled) return ManyFlips(sizes, observed, aggregate);
   const FlippedSample sample(std::move(sizes), aggregate);
-  // A small tolerance, because sums that are equal in exact arithmetic differ by rounding.
+  // Use a small tolerance, because sums that are equal in exact arithmetic may differ by rounding.
   const double reached = std::abs(sample.AggregateUnder(observed)) - 1e-12 * largest;
   Signs signs(sample.words());
   if (differing <= kMaxEnumerated) {

@@ -16,13 +16,13 @@
 namespace etude {
 namespace {
 
-/// For more values the quantile of the signed-rank statistic is the normal approximation.
+/// For more values, a normal approximation gives the quantile of the signed-rank statistic.
 constexpr std::int64_t kMaxExactValues = 50;
 
 /// Returns the number of Walsh averages of the ascending values that are at most `limit`.
 std::int64_t CountWalshAverages(std::span<const double> ascending, double limit) {
   std::int64_t count = 0;
-  auto end = static_cast<std::int64_t>(ascending.size());  // of the partners of the value in turn
+  auto end = static_cast<std::int64_t>(ascending.size());  // end of the partners of the current value
   for (std::int64_t i = 0; i < end; ++i) {
     while (end > i &&
            (ascending[static_cast<std::size_t>(i)] + ascending[static_cast<std::size_t>(end - 1)]) / 2 > limit)
@@ -41,8 +41,8 @@ double ValueAt(std::int64_t order) {
   return std::bit_cast<double>(order >= 0 ? order : std::numeric_limits<std::int64_t>::min() - order);
 }
 
-/// Returns the k-th smallest Walsh average, k = 1 … n (n + 1) / 2, by bisection over the doubles: the smallest one that
-/// at least k averages do not exceed.
+/// Returns the k-th smallest Walsh average, k = 1 … n (n + 1) / 2, by bisection over the doubles: it is the smallest
+/// double that at least k averages do not exceed.
 double WalshAverage(std::span<const double> ascending, std::int64_t k) {
   std::int64_t low = OrderOf(ascending.front()), high = OrderOf(ascending.back());
   while (low < high) {
@@ -65,7 +65,7 @@ std::int64_t RankOfEnd(std::int64_t n) {
     const double mean = count * (count + 1) / 4, variance = mean * (2 * count + 1) / 6;
     return static_cast<std::int64_t>(std::floor(mean + NormalQuantile(kAlpha / 2) * std::sqrt(variance) + 0.5));
   }
-  // By sum: the number of subsets of the ranks 1 … n that have it. Up to 2⁵⁰, so exact in a double.
+  // For each sum, the number of subsets of the ranks 1 … n with that sum; at most 2⁵⁰, so exact in a double.
   std::vector<double> ways(static_cast<std::size_t>(n * (n + 1) / 2 + 1));
   ways[0] = 1;
   for (std::int64_t rank = 1; rank <= n; ++rank) {

@@ -68,8 +68,8 @@ bool IsCandidate(const Study& study, const ComparedMethod& method, const Compare
   return other.name != method.name && other.name != method.against && Competes(study, other);
 }
 
-/// Returns the best candidate in one half of the worlds: by the first headline metric, then among those left by the
-/// second, and so on; the first listed if several are left. "" if there is none.
+/// Returns the best candidate in one half of the worlds: by the first headline metric; if several are left, by the
+/// second, and so on; at last the first listed of those left. "" if there is none.
 std::string BestOther(const Study& study, const ConditionTable& table, const ComparedMethod& method, int half) {
   std::vector<const MethodColumns*> candidates;
   for (const ComparedMethod& other : study.methods) {
@@ -236,7 +236,8 @@ std::optional<Rival> FindRival(const Study& study, const ConditionTable& table, 
   if (!HasRival(study, method)) return std::nullopt;
   if (!study.rival.empty()) return Rival{{study.rival, study.rival}};
   Rival rival{{BestOther(study, table, method, 1), BestOther(study, table, method, 0)}};
-  if (rival.of_half[0].empty() || rival.of_half[1].empty()) return std::nullopt;  // one half has no world to choose on
+  // One half has no world on which to choose.
+  if (rival.of_half[0].empty() || rival.of_half[1].empty()) return std::nullopt;
   return rival;
 }
 

@@ -25,7 +25,7 @@ class MethodColumns {
   std::optional<Status> StatusAt(int trial) const { return statuses_[static_cast<std::size_t>(trial)]; }
   /// Returns the trial's value of a metric; nothing if its cell has none.
   std::optional<double> ValueAt(const std::string& metric, int trial) const;
-  /// Returns all values of a metric in the order of trials; `missing` counts the cells without one.
+  /// Returns all values of a metric in the order of trials; `missing` gets the number of cells without a value.
   std::vector<double> ValuesOf(const std::string& metric, int& missing) const;
   /// Returns true if a cell reports the metric, by a value or by the reason why there is none.
   bool Reports(const std::string& metric) const { return values_.Find(metric) != nullptr; }
@@ -47,7 +47,7 @@ struct ConditionTable {
   int trials() const { return static_cast<int>(world_units.size()); }
 };
 
-/// One study's rows as columns of numbers, 8 bytes a value: all that statistics keep of a run while its rows pass by.
+/// One study's rows as columns of numbers, 8 bytes per value. Statistics need nothing else of the rows of a run.
 class ScenarioTable {
  public:
   explicit ScenarioTable(const Study& study);
@@ -62,7 +62,8 @@ class ScenarioTable {
 
   std::string scenario_;
   std::vector<ConditionTable> conditions_;
-  std::size_t last_ = 0;  ///< the condition of the last row, searched first: rows of one condition come together
+  /// The condition of the last row, which is tried first because rows of one condition follow each other.
+  std::size_t last_ = 0;
 };
 
 /// Returns the half of the worlds that a trial belongs to, 0 or 1. Worlds of one unit are in the same half.
@@ -74,8 +75,8 @@ struct PairedWorlds {
   std::vector<Pair> pairs;  ///< of the worlds in which both have a value
   std::vector<int> trials;  ///< the trial of each pair
   int only_baseline = 0, only_method = 0, neither = 0;
-  /// The trials of only_method and only_baseline in which the other method's cell failed (and did not merely lack this
-  /// metric).
+  /// The trials counted in only_method (and only_baseline) in which the baseline's (the method's) cell failed, instead
+  /// of only lacking this metric.
   std::vector<int> baseline_failed, method_failed;
 };
 
@@ -87,8 +88,8 @@ PairedWorlds PairsOf(const ConditionTable& table, const std::string& baseline, c
 void AddWorld(const MethodColumns& baseline, const MethodColumns& method, const std::string& metric, int trial,
               PairedWorlds& paired);
 
-/// Counts failures as losses: each world in which one method alone failed counts against that method with the largest
-/// difference among the pairs, but at least the practical threshold (worst ranks, Lachin 1999). Returns nothing if
+/// Counts failures as losses: in each world in which only one method failed, that method is worse by the largest
+/// difference among the pairs, and at least by the practical threshold (worst ranks, Lachin 1999). Returns nothing if
 /// there is no such world, no pair, or the metric has no better direction.
 std::optional<PairedWorlds> WithFailures(const PairedWorlds& paired, const MetricInfo& metric);
 
@@ -99,31 +100,30 @@ std::string PurposeOf(const std::string& scenario, const std::vector<SweptValue>
 
 /// A method's strongest rival.
 struct Rival {
-  std::array<std::string, 2> of_half;  ///< the rival in the worlds of even units, and in those of odd units
+  std::array<std::string, 2> of_half;  ///< the rival in worlds of even units, and in worlds of odd units
 
   std::string Name() const;  ///< "a", or "a or b" if the two halves chose differently
   std::string Note() const;  ///< says how they were chosen; "" if both are the same
 };
 
-/// Returns true if a method competes. A method that is compared with none, and that none is compared with, is only a
-/// yardstick; a method with an oracle shows an upper bound.
+/// Returns true if a method competes. Two kinds do not compete: a method that takes part in no comparison, which is
+/// only a yardstick, and a method with an oracle, which shows an upper bound.
 bool Competes(const Study& study, const ComparedMethod& method);
 
 /// Returns true if a method has a rival (FindRival); this follows from the scenario alone.
 bool HasRival(const Study& study, const ComparedMethod& method);
 
 /// Returns the rival that the scenario names, or else the best of all other competing methods. The method's baseline is
-/// not a candidate: the two are compared in all worlds anyway, and a rival that is the baseline in half of the worlds
-/// would repeat that comparison with half of the evidence. A method therefore beats all others if it beats its baseline
-/// and its rival.
+/// not a candidate, because the two are compared in all worlds anyway. A method therefore beats all others if it beats
+/// its baseline and its rival.
 ///
 /// The best is chosen by the first headline metric; methods that differ there by less than the practical threshold are
-/// compared by the next metric, and so on. A failed cell counts as the condition's worst value. The rival is chosen on
-/// other worlds than those on which it is judged: on the worlds of odd units for those of even units, and the reverse
-/// (trials take the place of units if worlds are units or have several).
+/// compared by the next metric, and so on. A failed cell counts as the condition's worst value. The rival is chosen in
+/// one half of the worlds and judged in the other: the worlds of odd units choose for those of even units, and the
+/// reverse. (Trials replace units if worlds are units or have several.)
 ///
 /// Returns nothing for the rival itself, for a method that does not compete, if only the baseline competes, and if one
-/// half has no world to choose on.
+/// half has no world on which to choose.
 std::optional<Rival> FindRival(const Study& study, const ConditionTable& table, const ComparedMethod& method);
 
 /// Returns the values of `method` and of its rival, in all worlds of the condition.

@@ -262,8 +262,8 @@ std::vector<std::vector<Member>> FamiliesOf(const Study& study) {
   return members;
 }
 
-/// Returns the chain from the member with the fewest stages on; each next member is the smallest that contains the one
-/// before.
+/// Returns a chain that begins with the member of the fewest stages; each next member is the smallest one that contains
+/// the stages of the one before.
 std::vector<Member> ChainOf(const std::vector<Member>& family) {
   std::vector<Member> chain;
   for (const Member& member : family) {
@@ -307,7 +307,7 @@ class BudgetMaker {
     const std::vector<Member> members = is_whole ? family_ : ChainOf(family_);
     values_ = ValuesOf(members, table_, metric_);
     if (values_.empty() || members.size() < 2) return std::nullopt;
-    // The error with the fewest stages true, the error that is left with the most, and the shares between them.
+    // The error with the fewest true stages, the remaining error with the most, and the shares between them.
     budget_.metric = metric_;
     budget_.method = members.front().method;
     budget_.is_shapley = is_whole;
@@ -323,7 +323,7 @@ class BudgetMaker {
   }
 
  private:
-  /// Adds what the stages of one step of the chain save.
+  /// Adds the saving of one step of the chain, for the stages that it replaces.
   void AddStep(const Member& before, const Member& after) {
     std::string name;
     for (const std::string& stage : Without(after.stages, before.stages)) name += (name.empty() ? "" : ", ") + stage;

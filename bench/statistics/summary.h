@@ -13,8 +13,7 @@ namespace etude {
 /// Returns the number of comparisons of methods with their baselines, which are judged together.
 int CountComparisons(const Study& study);
 
-/// The summary of one condition with its comparisons, before they are judged together with those of all other
-/// conditions.
+/// The summary of one condition with its comparisons, before the comparisons of all conditions are judged together.
 struct ConditionFindings {
   ConditionSummary summary;  ///< without comparisons; its answers are not judged yet
   std::vector<Question> against_baselines, against_rivals;
@@ -34,8 +33,8 @@ ScenarioSummary JudgeFindings(const Study& study, const ScenarioTable& table, st
 ScenarioSummary Summarise(const Study& study, const ScenarioTable& table, std::uint64_t seed);
 
 /// Splits the final error into the cost of each stage, for methods under one condition that differ in `oracle` alone.
-/// Returns one budget for each such family of two methods or more. Values come from the worlds in which all methods of
-/// the family have one; intervals are bootstrap intervals of the mean over these worlds.
+/// Returns one budget for each such family of two methods or more. Only worlds in which all methods of the family have
+/// a value are used; intervals are bootstrap intervals of the mean over these worlds.
 /// - If every subset of the stages is among the methods, and there are at most kMaxShapleyStages stages, a stage's
 ///   share is its Shapley value (Shapley 1953): the error that it saves, averaged over all orders in which stages are
 ///   replaced by the truth. Stages that interact share the saving equally.
@@ -44,7 +43,7 @@ ScenarioSummary Summarise(const Study& study, const ScenarioTable& table, std::u
 std::vector<ErrorBudget> ComputeErrorBudgets(const Study& study, const ConditionTable& table, const std::string& metric,
                                              std::uint64_t seed);
 
-/// Families with more stages are treated as a chain: 2ⁿ methods would be needed.
+/// Families with more stages are treated as a chain, because Shapley values would need 2ⁿ methods.
 constexpr std::size_t kMaxShapleyStages = 6;
 
 }  // namespace etude

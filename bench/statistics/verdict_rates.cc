@@ -15,7 +15,7 @@ namespace {
 
 /// The chance that a world of kTies has a difference other than zero.
 constexpr double kUntied = 0.4;
-/// Returns the limit of a cost's logarithm, which seven of ten stay below.
+/// Returns the limit of a cost's logarithm; seven of ten costs stay below it.
 double LogLimit() {
   static const double limit = NormalQuantile(0.7);
   return limit;
@@ -33,8 +33,8 @@ double HeavyTailed(RandomStream& dice) {
 
 /// The pseudo-median of e^Z, Z standard normal: the median of the mean of two such values.
 constexpr double kLogNormalCentre = 1.2215829;
-/// The pseudo-median of a normal value that is 5 higher in one case of ten: its Walsh averages are normal with variance ½ around 0,
-/// 2.5 and 5, with probabilities 0.81, 0.18 and 0.01.
+/// The pseudo-median of a normal value to which 5 is added in one case of ten. Its Walsh averages are normal with
+/// variance ½ around 0, 2.5 and 5, with probabilities 0.81, 0.18 and 0.01.
 constexpr double kFarOffCentre = 0.2107207;
 constexpr double kOffset = 5, kOffsetShare = 0.1;
 constexpr double kModeWidth = 0.3;
@@ -90,7 +90,7 @@ double ShiftFor(double effect) {
   return low;
 }
 
-/// Draws the worlds of a design: what a unit contributes to each of its worlds, plus what is drawn for each world.
+/// Draws the worlds of a design: each world is the sum of its units' contributions and of noise of its own.
 class Sampler {
  public:
   Sampler(const SampleDesign& design, double effect, RandomStream& dice)
@@ -155,8 +155,8 @@ class Sampler {
         return dice_.Chance(kUntied) ? untied : 0;
       }
       case SampleLaw::kShares:
-        // Each world takes its unit's draw with probability √alike, so two worlds are equal with probability alike:
-        // their correlation.
+        // Each world takes its unit's draw with probability √alike, so two worlds of a unit are equal with probability
+        // `alike`, which is then their correlation.
         return dice_.Chance(std::sqrt(design_.alike)) ? brings_[static_cast<std::size_t>(units.front())].coins
                                                       : CoinsDiffer(effect_, dice_);
       case SampleLaw::kCensored:
@@ -251,10 +251,10 @@ std::string PurposeOf(const SampleDesign& design, double effect) {
                      design.in_pairs, design.part_alike, effect);
 }
 
-/// Returns the true pseudo-median of the units' means under an effect: shifted with the mean, but for laws whose shape
-/// the effect changes. There it is the median of 20,000 means of two units.
+/// Returns the true pseudo-median of the units' means under an effect: If the effect only shifts a law, it shifts with
+/// the mean. If the effect changes the shape, it is the median of 20,000 means of two units.
 double TruthOf(const SampleDesign& design, double effect) {
-  // Of one yes-or-no world a unit the mean is claimed.
+  // If each unit has one yes-or-no world, the verdict is about the mean.
   const bool changes_shape = design.law == SampleLaw::kTies || design.law == SampleLaw::kCensored ||
                              (design.law == SampleLaw::kShares && design.trials > 1);
   if (design.in_pairs || !changes_shape) return effect * JustMatters(design.law);
@@ -270,7 +270,7 @@ double TruthOf(const SampleDesign& design, double effect) {
 
 /// Returns true if the interval contains the true pseudo-median.
 bool Holds(const Beyond& beyond, double truth) {
-  // The tolerance is for a sample of shares that has no difference: its interval has no width.
+  // A tolerance, because the interval of a sample of shares without any difference has no width.
   return *beyond.low <= truth + 1e-9 && truth - 1e-9 <= *beyond.high;
 }
 
@@ -343,7 +343,7 @@ std::vector<SampleDesign> PublishedDesigns() {
       }
     }
   }
-  // One world per unit, which differ by what the unit contributes alone.
+  // One world per unit; worlds differ only by their units' contributions.
   for (int units : {6, 8, 10, 12, 20, 30, 60}) {
     for (SampleLaw law : {SampleLaw::kNormal, SampleLaw::kLogNormal, SampleLaw::kFarOff, SampleLaw::kBimodal}) {
       designs.push_back({.law = law, .units = units, .trials = 1, .alike = 1});

@@ -10,8 +10,9 @@
 
 namespace etude {
 
-/// The distribution of the differences. Without an effect the pseudo-median of the units' means is zero: the first five
-/// laws are symmetric; a unit draws from one of the others, and its worlds add normal noise.
+/// The distribution of the differences. Without an effect the pseudo-median of the units' means is zero: The first five
+/// laws are drawn for each world and are symmetric. The others are drawn for each unit, and its worlds add normal
+/// noise.
 enum class SampleLaw {
   kNormal,
   kHeavyTailed,  ///< Student's t of 3 degrees of freedom
@@ -19,11 +20,11 @@ enum class SampleLaw {
   kShares,       ///< difference of two 0/1 values: −1, 0 or 1
   kCensored,     ///< penalised costs (PAR-2): log-normal; three of ten exceed the limit and count as twice the limit
   kLogNormal,    ///< of σ = 1
-  kFarOff,       ///< normal, but one unit in ten lies 5 σ off
+  kFarOff,       ///< normal, but one unit in ten is an outlier by 5 σ
   kBimodal,      ///< −1 or 1, with normal noise of 0.3
 };
 inline constexpr int kSampleLaws = 8;
-inline constexpr int kWorldLaws = 5;  ///< the first laws, which worlds draw from, too
+inline constexpr int kWorldLaws = 5;  ///< number of laws, the first ones, that worlds draw from
 std::string_view SampleLawName(SampleLaw law);
 
 /// The design of a random sample.
@@ -31,16 +32,17 @@ struct SampleDesign {
   SampleLaw law = SampleLaw::kNormal;
   int units = 6;
   int trials = 1;    ///< worlds per unit; with `in_pairs`, worlds in all
-  double alike = 0;  ///< correlation of two worlds of one unit, 0…1 (for kTies and kCensored before ties and limit)
-  bool in_pairs = false;  ///< a world is drawn from two units in two roles, each with half of the correlation
+  /// Correlation of two worlds of one unit, 0…1 (for kTies and kCensored before ties and limit apply)
+  double alike = 0;
+  bool in_pairs = false;  ///< a world is drawn from two units in two roles, each of which has half of the correlation
   double part_alike = 0;  ///< correlation of one unit's contributions in the two roles
 };
 
-/// Returns the practical threshold in the sample's own unit: a third of the law's standard deviation; a sixth for
-/// shares and penalised costs, so that an effect of four times as much is still possible.
+/// Returns the practical threshold in the sample's own unit: a third of the law's standard deviation; for shares and
+/// penalised costs a sixth, so that an effect of four thresholds is still possible.
 double JustMatters(SampleLaw law);
 
-/// Draws a sample whose true mean difference is `effect` × JustMatters more than without an effect.
+/// Draws a sample. An effect raises the true mean difference by `effect` × JustMatters.
 UnitSample DrawSample(const SampleDesign& design, double effect, RandomStream& dice);
 
 /// A share of samples in per cent, with its 95 % Wilson interval.
@@ -56,7 +58,7 @@ struct VerdictRates {
   Percentage false_alarms;
   /// The share of false alarms of a test that treats worlds as units.
   Percentage false_alarms_of_worlds;
-  /// The share of intervals that contain the true pseudo-median: without an effect, and with one of twice the
+  /// The share of intervals that contain the true pseudo-median: without an effect, and with an effect of twice the
   /// threshold.
   double coverage_without = 0, coverage_with = 0;
   /// The share of right verdicts where the effect is 1, 2 and 4 times the threshold.
@@ -81,9 +83,10 @@ std::vector<SampleDesign> PublishedDesigns();
 std::vector<VerdictRates> MeasureAll(std::span<const SampleDesign> designs, const VerdictRepetitions& repetitions,
                                      const std::function<void(std::size_t)>& done);
 
-/// Returns true if the verdicts of a design keep the promised rates: the 95 % interval of false alarms starts at 5.5 % or
-/// below (6 % for laws of units) and ends at 6.5 % or below, and without an effect at least 93 % of the intervals contain
-/// the truth. Of hundreds of designs with a rate of exactly 5 % some intervals start above it, hence the half per cent.
+/// Returns true if the verdicts of a design keep the promised rates: the 95 % interval of false alarms starts at 5.5 %
+/// or below (6 % for laws of units) and ends at 6.5 % or below, and without an effect at least 93 % of the intervals
+/// contain the truth. The extra half per cent is needed because, among hundreds of designs with a rate of exactly 5 %,
+/// some intervals start above 5 %.
 bool KeepsPromise(const VerdictRates& rates);
 
 /// Returns the tables of docs/findings/verdicts.md.

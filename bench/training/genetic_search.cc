@@ -28,7 +28,7 @@ const Result<PagmoEvolve*>& Module() {
 }
 
 using enum Feature;
-/// The tuned features, each with that of the limb's other side, which is tuned along with it.
+/// The tuned features, each with the same feature of the other side, which is tuned together with it.
 constexpr Feature kTuned[][2] = {{kRH, kLH},       {kRHE, kLHE}, {kPosture, kPosture},
                                  {kTrunk, kTrunk}, {kRF, kLF},   {kRFK, kLFK}};
 

@@ -41,25 +41,26 @@ Result<void> LoadGeneticSearch();
 GeneticResult SearchGenetically(const std::function<double(std::span<const double>)>& score,
                                 std::span<const Genome> ancestors, const GeneticOptions& options = {});
 
-/// The module's only function, pointed to by its symbol `etude_pagmo_evolve`: the search, with the seeds of its random
-/// genomes and of its algorithm.
+/// The type of the module's only function, the search. The module's symbol `etude_pagmo_evolve` points to it. It also
+/// gets the seeds of the random genomes and of the algorithm.
 using PagmoEvolve = void(const std::function<double(std::span<const double>)>& score, std::span<const Genome> ancestors,
                          const GeneticOptions& options, unsigned population_seed, unsigned algorithm_seed,
                          GeneticResult& result);
 
-/// The half-width of the ramp, as a share of d² = 0.4², on which a pair counts as partly matched (PairTable::SoftF1).
-/// Close pairs are so few that F1 itself changes in steps of single pairs: a search with F1 overfits them and does
-/// worse on other clips.
+/// The half-width of the ramp of PairTable::SoftF1, as a share of d² = 0.4²; on the ramp a pair counts as partly
+/// matched. Close pairs are few, so F1 itself jumps with every single pair: a search with F1 overfits these pairs and
+/// does worse on other clips.
 constexpr double kFitnessRamp = 0.5;
 
-/// Fits the `genetic` weights (future work in paper A; the method is ours): the S ≥ 0 with sum 8 by which "d < 0.4"
-/// best separates the close pairs, by their soft F1. The first ancestor is `start`, so the result is no worse on the
+/// Fits the `genetic` weights (future work in paper A; the method is ours): the S ≥ 0 with sum 8 for which "d < 0.4"
+/// best separates the close pairs, measured by soft F1. The first ancestor is `start`, so the result is no worse on the
 /// training pairs. Status as in FitWeights; `iterations` counts generations; unless kFitted, the weights are `start`.
 WeightFit FitWeightsGenetically(std::span<const LabelledPair> pairs, const FeatureWeights& start,
                                 const GeneticOptions& options = {});
 
-/// Returns the weights for genes in [0, 1]: proportional to their squares, with sum 8. A gene is a √S, the factor by
-/// which equation 1 scales a difference of grades, so weights near zero are found, too. Nothing if all genes are zero.
+/// Returns the weights for genes in [0, 1]: proportional to their squares, with sum 8. A gene stands for √S, the factor
+/// by which equation 1 scales a difference of grades, so the search also finds weights near zero. Nullopt if all genes
+/// are zero.
 std::optional<FeatureWeights> WeightsOfGenes(std::span<const double> genes);
 /// Returns the genes of weights, at least one of which is above zero.
 Genome GenesOf(const FeatureWeights& weights);
@@ -68,8 +69,8 @@ Genome GenesOf(const FeatureWeights& weights);
 constexpr double kBreakpointReach = 0.2;
 
 /// Returns the number of genes of the memberships: one per breakpoint inside the universe, of the triangular and
-/// trapezoidal shapes. Breakpoints at its ends are fixed, so that shoulders stay shoulders; left and right limbs share
-/// theirs; Gaussian and singleton shapes are fixed.
+/// trapezoidal shapes. Breakpoints at the ends of the universe are fixed, so that shoulders stay shoulders. Left and
+/// right limbs share their genes. Gaussian and singleton shapes are fixed.
 std::size_t CountMembershipGenes(const Memberships& start);
 
 /// Returns the memberships for genes in [0, 1]: every breakpoint of `start` is moved by (2 gene − 1) ·

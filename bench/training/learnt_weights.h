@@ -23,9 +23,9 @@ std::vector<std::string> WeightSourceNames();
 /// Returns the source of a name, which must be one of them.
 WeightSource FindWeightSource(std::string_view name);
 
-/// The weights for each pair of judged clips, learnt from all other clips, so weights are never judged on their
-/// training data. Fits are cached, because trials use the same pairs again; an answer depends on the question alone, so
-/// any number of workers gives the same.
+/// The weights for each pair of judged clips. They are learnt from all other clips, so weights are never judged on
+/// their training data. Fits are cached, because trials use the same pairs again. An answer depends only on the
+/// question, so results do not depend on the number of workers.
 class LearntWeights {
  public:
   explicit LearntWeights(TrainingClips training, const FuzzySystem& system = {});
@@ -34,7 +34,7 @@ class LearntWeights {
   /// own if nothing could be learnt.
   const FeatureWeights& For(WeightSource source, const std::string& judged_a, const std::string& judged_b);
 
-  /// Returns the fit behind those weights; `source` is not kFixed.
+  /// Returns the fit behind those weights; `source` must not be kFixed.
   const WeightFit& FitOf(WeightSource source, const std::string& judged_a, const std::string& judged_b);
 
  private:

@@ -12,21 +12,20 @@
 
 namespace etude {
 
-/// A training frame. Its membership grades are not stored, because the membership functions may be what is learnt.
+/// A training frame. Its membership grades are not stored, because training may change the membership functions.
 struct TrainingFrame {
   BodyPose pose;
   PoseFeatures features;
 };
 
-/// Training clips, performed by one body. What is learnt for a transition never uses the two clips on which it is
-/// judged.
+/// Training clips, performed by one body. Learning for a transition never uses the two clips on which it is judged.
 struct TrainingClips {
   std::vector<std::string> identities;             ///< equal for equal clips: "builtin:clap", or the file
   std::vector<std::vector<TrainingFrame>> frames;  ///< of each clip, sampled evenly
 };
 
-/// The number of frames sampled from a clip: the middles of equal parts, so that long clips count no more than short
-/// ones. A shorter clip gives all its frames.
+/// The number of frames sampled from a clip: the middles of equal parts, so that long clips do not count more than
+/// short ones. A clip with fewer frames gives all of them.
 constexpr int kFramesPerClip = 16;
 
 /// Samples clips in the given order, retargeted to `proportions`.
@@ -82,7 +81,7 @@ class PairTable {
   static constexpr int kBlock = 64;
   struct Block {
     float squared_gaps[kFeatureCount][kBlock];
-    int used[kBlock];   // 1; 0 for the unused rest of the last block
+    int used[kBlock];   // 1 for a pair, 0 for unused places in the last block
     int close[kBlock];  // 1 or 0
   };
   static void AddUp(const Block& block, const FeatureWeights& weights, float (&squared)[kBlock]);

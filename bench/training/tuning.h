@@ -12,7 +12,7 @@ namespace etude {
 
 using ClipFrames = std::span<const std::vector<TrainingFrame>>;
 
-/// The part of the system that is learnt, and the method.
+/// The parts of the system that are learnt, and the learning method.
 enum class Tuning {
   kAdaptive,            ///< the weights, by logistic regression (engine/fuzzy/weights.h)
   kGenetic,             ///< the weights, by the genetic algorithm (genetic_search.h)
@@ -33,7 +33,7 @@ TunedSystem TuneSystem(ClipFrames clips, Tuning tuning, const GeneticOptions& ge
 /// The score of a system at separating close pairs of clips.
 struct SystemScore {
   MatchScore at_threshold;    ///< at 0.4
-  std::optional<double> auc;  ///< over all thresholds; nothing if all pairs are close, or none is
+  std::optional<double> auc;  ///< over all thresholds; nullopt if all pairs are close, or none is
 };
 SystemScore ScoreSystem(ClipFrames clips, const FuzzySystem& system);
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/names.h"
 #include "engine/base/result.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/body.h"
@@ -17,6 +18,7 @@ struct MarkerOptions {
   bool keep_floor = false;                                ///< leave bodies at the height that the file says
   std::optional<double> metres_per_unit = std::nullopt;  ///< told by the user, instead of the file's unit
   std::string set = "";                                  ///< a key of MarkerSets; "" = chosen by rank
+  bool keeps_shown = false;                              ///< also make MarkerBody::shown
 };
 
 /// A body found in the trajectories of markers.
@@ -27,11 +29,14 @@ struct MarkerBody {
   double floor = 0;   ///< the height that became 0, metres
   /// The marker set, then every correction and change of what the file holds, each for people.
   std::vector<std::string> changes;
-  std::string note;  ///< all of them, between semicolons
-  /// The joints as the markers show them, in all frames of the file and with its gaps: no gap is filled, no joint placed
-  /// by rule, no floor found. First the joints that the set determines, named by role, then the person's other markers,
-  /// by their own names in lower case. Metres, Y up. Its remark names the set, and what was guessed.
+  /// The joints as the markers show them, in all frames of the file and with its gaps: no gap is filled, no joint
+  /// placed by rule, no floor found. First the joints that the set determines, named by role, then the person's other
+  /// markers, by their own names in lower case. Metres, Y up. Its remark names the set, and what was guessed. Empty
+  /// unless MarkerOptions asks for it.
   MarkerMotion shown = {};
+
+  /// Returns `changes` as one line, between semicolons.
+  std::string Note() const { return Join(changes, "; "); }
 };
 
 /// Finds the bodies of a marker recording by the markers' names. Known sets: Etude's own joints, OpenPose's BODY_25,

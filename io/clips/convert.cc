@@ -68,7 +68,7 @@ Result<Clip> Edited(const Clip& clip, const ConvertOptions& options) {
   return edited;
 }
 
-/// Adds what the user asked for; `from_hz` is the clip's rate if it is resampled here.
+/// Adds the edits that the user asked for to the list of changes; `from_hz` is the clip's rate if it is resampled here.
 void AddEdits(std::optional<double> from_hz, const ConvertOptions& options, std::vector<std::string>& changes) {
   if (options.trim) changes.emplace_back("trimmed");
   if (from_hz && options.rate_hz && *options.rate_hz != *from_hz) {
@@ -96,7 +96,7 @@ Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFor
                                       const ConvertOptions& options) {
   Converted converted{.bytes = "", .note = "own skeleton", .changes = {}};
   std::vector<Clip> clips;
-  // Edit each clip; convert it to metres and Y up if GLB is made of a format without a fixed unit.
+  // Edit each clip. GLB is in metres with Y up, so clips of formats without a fixed unit are converted.
   for (const SourceClip& source : sources) {
     auto edited = Edited(source.clip, options);
     if (!edited) return Fail({source.source, 0, 0}, "{}", edited.error().message);
@@ -162,7 +162,7 @@ Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat fo
     if (format == MotionFormat::kTrc) converted.bytes = WriteTrc(motion, name);
     if (format == MotionFormat::kCsv) converted.bytes = WriteJointCsv(motion);
     if (format == MotionFormat::kC3d) converted.bytes = WriteC3d(motion);
-    // A body with its own proportions rests in the canonical stance, scaled to its limb lengths.
+    // The rest pose of a body with its own proportions is the canonical stance, scaled to its limb lengths.
     if (!is_canonical && clips.empty()) rest = Retarget({.poses = {rest}}, motion.poses.front()).poses.front();
     if (format == MotionFormat::kNpz) converted.bytes = WriteBodyNpz(motion, rest);
     if (format == MotionFormat::kMot) converted.bytes = WriteOpenSimMotion(motion, rest, name);

@@ -42,8 +42,9 @@ struct ConvertOptions {
 /// The bytes of the converted file, and what was done, in plain words.
 struct Converted {
   std::string bytes;
-  std::string note;                  ///< "own skeleton", "as a body: Plug-in Gait", …
-  std::vector<std::string> changes;  ///< every change of what the file holds; of several clips each once
+  std::string note;  ///< "own skeleton", "as a body: Plug-in Gait", …
+  /// Every change that was made to the file's content; each once, also for several clips.
+  std::vector<std::string> changes;
 };
 
 /// Converts the clips of one file: exactly one, or any number for GLB. A clip keeps its own skeleton (and its meshes,

@@ -36,7 +36,7 @@ struct FbxNode {
   FbxRange properties, children;
 };
 
-/// Reads the nodes of one level; stops at the null record, or at one that does not fit its range.
+/// Reads the nodes of one level; stops at the null record, or at a record that ends beyond its range.
 std::vector<FbxNode> NodesIn(std::string_view bytes, FbxRange range) {
   constexpr std::size_t kVersionAt = 23;
   constexpr std::uint32_t kLongOffsets = 7500;
@@ -57,7 +57,7 @@ std::vector<FbxNode> NodesIn(std::string_view bytes, FbxRange range) {
   return nodes;
 }
 
-/// A "P" record: its name and where its numbers are, each with its size.
+/// A "P" record: its name, and the position and size of each of its numbers.
 struct FbxProperty {
   std::string_view name;
   std::vector<FbxRange> numbers;
@@ -113,7 +113,7 @@ std::size_t LeaveOutOfBinary(std::string_view bytes, std::string& changed) {
         }
       }
       if (!is_off || ignored.empty()) continue;
-      // Zeros need as many bytes as the numbers.
+      // Overwrite with zeros in a copy; the size stays the same.
       if (changed.empty()) changed = bytes;
       for (const FbxProperty& property : ignored) {
         for (const FbxRange& number : property.numbers) {

@@ -31,13 +31,14 @@ Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const st
       .up = std::move(rule),
       .keep_floor = KeepsFloor(options),
       .metres_per_unit = ToldUnit(options),
-      .set = options.roles && options.marker_set.empty() ? options.roles->marker_set : options.marker_set};
+      .set = options.roles && options.marker_set.empty() ? options.roles->marker_set : options.marker_set,
+      .keeps_shown = options.keeps_shown};
   ASSIGN_OR_RETURN(auto bodies, FindMarkerBodies(std::move(markers), path, told));
   ClipFile file{.format = format, .figure = {.name = "", .skeleton = {}, .materials = {}, .meshes = {}}, .clips = {}};
   for (MarkerBody& body : bodies) {
     file.clips.push_back(RigClip(body.motion, StandingPose(), body.name));
     file.bodies.push_back({body.changes, body.up, body.floor});
-    file.shown.push_back(std::move(body.shown));
+    if (options.keeps_shown) file.shown.push_back(std::move(body.shown));
   }
   file.figure.skeleton = file.clips.front().skeleton;
   return file;
@@ -50,7 +51,7 @@ Result<ClipFile> ReadJointTable(std::string_view text, const std::string& path, 
   MarkerRows rows{.markers = {.names = {}, .frames = {}}, .times_s = csv.times_s, .lines = csv.lines};
   for (const Role role : AllRoles()) rows.markers.names.emplace_back(RoleName(role));
   for (const auto& frame : csv.frames) rows.markers.frames.emplace_back(frame.begin(), frame.end());
-  // Without times, the frames' numbers are the clock, at an assumed rate.
+  // Without a column of times, frame numbers give the times, at an assumed rate.
   const bool has_rate = csv.rate_hz.has_value();
   if (!has_rate) rows.times_s = TimesOfNumbers(csv.numbers, kJudgedRateHz);
   ASSIGN_OR_RETURN(auto markers, LayOnClock(std::move(rows), path));
@@ -90,7 +91,7 @@ std::optional<UpRule> UpRuleOf(ClipFormat format) {
     case ClipFormat::kGlb:
       return GltfUp();
     case ClipFormat::kFbx: {
-      UpRule of_file = GltfUp();  // its settings have turned it
+      UpRule of_file = GltfUp();  // assimp has already turned the scene as its settings say
       of_file.evidence = UpEvidence::kFile;
       of_file.source = "the word of its settings";
       return of_file;

@@ -10,18 +10,19 @@
 
 namespace etude {
 
-/// What the user tells about files, by options or in a joint map.
+/// Return what the user gave by an option or in a joint map: the up axis, the metres per unit, and whether the floor is
+/// kept.
 std::optional<UpAxis> ToldUp(const OpenOptions& options);
 std::optional<double> ToldUnit(const OpenOptions& options);
 bool KeepsFloor(const OpenOptions& options);
 
-/// Returns what the format of a clip with a skeleton tells of its up axis; nullopt for BVH and Acclaim.
+/// Returns what the format of a clip with a skeleton says about its up axis; nullopt for BVH and Acclaim.
 std::optional<UpRule> UpRuleOf(ClipFormat format);
 
-/// Returns true for the formats of markers, and of joints read as such.
+/// Returns true for the formats of markers, and for files of joint positions that are read like markers.
 bool IsOfMarkers(ClipFormat format);
 
-/// Turns every body that the markers show into a clip. `rule` says what is known of the up axis if the user tells none.
+/// Makes a clip of every body that the markers show. `rule` says how the up axis is found if the user gives none.
 Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const std::string& path,
                                const OpenOptions& options, UpRule rule);
 

@@ -36,7 +36,7 @@ namespace fs = std::filesystem;
 class CappedReader {
  public:
   Result<std::string> Read(const fs::path& path) {
-    std::error_code not_there;  // ReadWholeFile reports a missing file better
+    std::error_code not_there;  // on an error here; ReadWholeFile reports a missing file better
     const std::uintmax_t size = fs::file_size(path, not_there);
     if (!not_there && size > left_) {
       return Fail({path.string(), 0, 0}, "{} MB; at most {} MB of a clip are read", (size + 999'999) / 1'000'000,
@@ -226,27 +226,27 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
   const bool is_ours = opened.source.format == ClipFormat::kBuiltin || opened.source.format == ClipFormat::kRecording;
   opened.body = {.metres_per_unit = 1, .unit = "metre", .motion = {}};
   if (opened.source.made) {
-    for (const std::string& change : opened.source.made->changes) AddChange(change, opened.body);
+    opened.body.changes = opened.source.made->changes;
     opened.body.found_up = opened.source.made->up;
     opened.body.floor = opened.source.made->floor_m;
   } else {
-    AddChange("the canonical body", opened.body);
+    opened.body.changes.emplace_back("the canonical body");
   }
-  // Markers were turned and scaled as told when they were read; arrays and angles of ours are turned here.
+  // Markers were already turned and scaled as the user asked; our own arrays and angles are turned here.
   const bool is_turned = options.up == UpAxis::kZ && !is_ours && !IsOfMarkers(opened.source.format);
   if (is_turned) {
     opened.body.found_up = {.axis = AxisOf(UpAxis::kZ), .evidence = UpEvidence::kTold};
-    AddChange(DescribeTurn(opened.body.found_up), opened.body);
+    opened.body.changes.push_back(DescribeTurn(opened.body.found_up));
   }
   if (!IsOfMarkers(opened.source.format) && (options.metres_per_unit || (is_ours && options.up))) {
-    AddChange(is_ours ? "unit and up axis are its own, not those told" : "its unit is its own, not the one told",
-              opened.body);
+    opened.body.changes.emplace_back(is_ours ? "unit and up axis are its own, not those told"
+                                             : "its unit is its own, not the one told");
   }
-  constexpr double kSameRate = 1e-6;  // a rate found by a column of times is rounded
+  constexpr double kSameRate = 1e-6;  // relative; a rate that was computed from a column of times is rounded
   const bool keeps_rate = std::abs(opened.source.clip.rate_hz / options.rate_hz - 1) < kSameRate;
   if (!keeps_rate) {
-    AddChange(fmt::format("resampled from {:.6g} to {:.6g} Hz", opened.source.clip.rate_hz, options.rate_hz),
-              opened.body);
+    opened.body.changes.push_back(
+        fmt::format("resampled from {:.6g} to {:.6g} Hz", opened.source.clip.rate_hz, options.rate_hz));
   }
   const Clip clip = keeps_rate ? opened.source.clip : Resample(opened.source.clip, options.rate_hz);
   opened.body.motion.rate_hz = options.rate_hz;
@@ -378,7 +378,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   const auto shown_of = [&](std::size_t i) {
     return file.shown.empty() ? nullptr : std::make_shared<const MarkerMotion>(std::move(file.shown[i]));
   };
-  // A file of one motion: a '#' chooses nothing, except the layout of an .npy array.
+  // A file of one motion: '#' in the reference has no meaning, except for the layout of an .npy array.
   const bool has_animations =
       file.format == ClipFormat::kGltf || file.format == ClipFormat::kGlb || file.format == ClipFormat::kFbx;
   const bool is_one = !has_animations && !is_recording && file.clips.size() == 1;
@@ -435,7 +435,7 @@ Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options)
     told.stature = source.ground->stature;
   }
   ASSIGN_OR_RETURN(auto body, ToBodyMotion(source.clip, map, source.source, told));
-  for (const std::string& remark : source.remarks) AddChange(remark, body);
+  body.changes.insert(body.changes.end(), source.remarks.begin(), source.remarks.end());
   return OpenedClip{std::move(source), std::move(map), std::move(body)};
 }
 

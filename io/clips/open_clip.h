@@ -42,7 +42,8 @@ std::string_view FormatName(ClipFormat format);
 
 /// How a clip that is a body already was made.
 struct MadeBody {
-  std::vector<std::string> changes;  ///< what it was made of, and every change of what the file holds, for people
+  /// The source of the body, and every change that was made to the file's content, as sentences for users.
+  std::vector<std::string> changes;
   UpFinding up = {};                 ///< the axis of the file that became Y
   double floor_m = 0;                ///< the height that became 0
 };
@@ -51,13 +52,13 @@ struct MadeBody {
 struct ClipFile {
   ClipFormat format = ClipFormat::kBvh;
   Character figure;         ///< a skeleton, and meshes if the file has any
-  std::vector<Clip> clips;  ///< on that skeleton; glTF may hold none, and a marker file one clip for each of several
+  std::vector<Clip> clips;  ///< on that skeleton; glTF may hold none; a marker file of several people holds one each
                             ///< people
   std::vector<MadeBody> bodies = {};      ///< one for each clip, if they are bodies already
   std::vector<std::string> remarks = {};  ///< repairs that were made while reading
   std::optional<JointMapOverrides> roles = {};  ///< roles that the bone table of a VRM file assigns
-  std::vector<MarkerMotion> shown = {};  ///< for clips that were made of markers: MarkerBody::shown of each
-  bool has_rate = true;  ///< false: the file tells no rate, and the judged one was assumed
+  std::vector<MarkerMotion> shown = {};  ///< for clips made of markers, if asked for: MarkerBody::shown of each
+  bool has_rate = true;                  ///< false: the file gives no rate, so a rate was assumed
 };
 
 /// The options with which a clip is opened.
@@ -65,6 +66,7 @@ struct OpenOptions {
   std::optional<JointMapOverrides> roles;  ///< the user's joint map (--joint-map)
   BodyOptions body;
   std::string marker_set = "";  ///< of marker files: the set to use (MarkerSetKeys); "" = the best
+  bool keeps_shown = false;     ///< of marker files: also make SourceClip::shown
   const RecordedMotions* recorded = nullptr;  ///< reads "RUN#CELL@NAME"; null = such a reference is treated as a file
 };
 
@@ -73,10 +75,10 @@ constexpr std::uintmax_t kMaxClipFileBytes = 500'000'000;
 
 /// Reads a motion file; the content decides the format, not the name. Known are BVH, glTF, GLB, FBX, DeepMimic's
 /// motions, Acclaim's AMC, AMASS's .npz, our own .npz and .mot, arrays of joints (.npy, arranged as `layout` says:
-/// JointsOfArray), and markers in C3D, TRC, Motive's CSV or joint CSV (FindMarkerBodies). The buffers of a .gltf are
-/// read only from its own folder and below; links that lead out of it are refused. The skeleton of an AMC is the ASF
-/// file beside it: "01.asf" for "01_01.amc", else the only ASF of the folder. `options` tells what
-/// files of markers leave open; its `recorded` reads a run's recording, which else is refused as one without motion.
+/// JointsOfArray), and markers in C3D, TRC, Motive's CSV or joint CSV (as FindMarkerBodies does). The buffers of a
+/// .gltf are read only from its own folder and below; links that lead out of it are refused. The skeleton of an AMC is
+/// the ASF file beside it: "01.asf" for "01_01.amc", else the only ASF of the folder. `options` gives what marker files
+/// do not say. Its `recorded` reads the recordings of runs; without it, they are refused as files without motion.
 Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::string>& layout = std::nullopt,
                               const OpenOptions& options = {});
 

@@ -11,8 +11,8 @@
 namespace etude {
 namespace {
 
-/// Appends a joint midway between the hips, turned as the joint that carries the left one, unless one plays the hip
-/// centre.
+/// Appends the hip centre, midway between the hips, unless a joint of the file plays it. It gets the orientation of the
+/// joint that carries the left hip.
 void AddHipCentre(RawMotion& raw) {
   const int left = raw.roles[Index(Role::kLeftHip)], right = raw.roles[Index(Role::kRightHip)];
   if (raw.roles[Index(Role::kHipCentre)] >= 0 || left < 0 || right < 0) return;
@@ -53,7 +53,7 @@ RawMotion OfMarkers(const MarkerMotion& shown) {
   return raw;
 }
 
-/// Converts a clip of a skeleton, whose unit is `unit` metres long.
+/// Converts a clip with a skeleton; `unit` is the length of its unit in metres.
 RawMotion OfSkeleton(const Clip& clip, double unit, UpAxis up) {
   // The rotation of Upright: X stays, Z becomes Y.
   const glm::dquat turn =
@@ -83,7 +83,7 @@ std::string NamesOf(const std::vector<Role>& roles) {
   return Join(names);
 }
 
-/// Says what was converted and guessed.
+/// Returns notes on what was converted and assumed.
 std::vector<std::string> NotesOn(const OpenedClip& opened) {
   const BodyConversion& body = opened.body;
   std::vector<std::string> notes = {fmt::format("1 unit = {:.4g} cm ({})", 100 * body.metres_per_unit, body.unit)};
@@ -105,7 +105,7 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options) {
   if (source.shown != nullptr) {
     raw = OfMarkers(*source.shown);
   } else {
-    // UnderstandClip finds roles, unit and up axis; its resampling and its floor are not used.
+    // UnderstandClip finds roles, unit and up axis; its resampling and the floor that it finds are not used.
     const bool is_body = source.format == ClipFormat::kBuiltin || source.made.has_value();
     OpenOptions how = options;
     how.body.drop_t_pose = false;
@@ -119,7 +119,7 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options) {
       if (!is_composed && !is_carrier) raw.roles[Index(role)] = opened.map[role].joint;
     }
     if (is_body) {
-      raw.rotations.clear();  // made up by RigClip
+      raw.rotations.clear();  // RigClip invented them
     } else {
       raw.notes = NotesOn(opened);
     }
@@ -141,7 +141,9 @@ Result<std::string> DigestOfFile(const std::string& reference, const OpenOptions
 }
 
 Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions& options) {
-  ASSIGN_OR_RETURN(auto clips, ReadClips(reference, options));
+  OpenOptions how = options;
+  how.keeps_shown = true;
+  ASSIGN_OR_RETURN(auto clips, ReadClips(reference, how));
   if (clips.size() == 1) return RawMotionOf(std::move(clips.front()), options);
   std::vector<std::string> names;
   for (const SourceClip& clip : clips) names.push_back(clip.source);

@@ -9,8 +9,8 @@
 namespace etude {
 
 /// Converts a clip to what its file holds: every frame at the file's own rate, on the file's own floor, with its gaps,
-/// in metres and Y up. A leading T-pose stays. Of a skeleton, all joints; of markers, the joints that their set
-/// determines and all other markers. Joints that a reader places by rule are left out: they play no role here. The hip
+/// in metres and Y up. A leading T-pose stays. Of a skeleton it takes all joints; of markers, the joints that the
+/// marker set determines and all other markers. Joints that a reader only estimates by a rule are left out. The hip
 /// centre is midway between the hips, unless the file's own joint plays it. Fails as UnderstandClip does: without
 /// roles, unit and up axis are unknown.
 Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options);

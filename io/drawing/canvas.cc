@@ -139,7 +139,7 @@ void Canvas::DrawImage(const ColourImage& image, const Box& box, double radius) 
   cairo_clip(cr);
   StretchOver(cr, box, image.width, image.height);
   cairo_set_source_surface(cr, source.get(), 0, 0);
-  // Repeats the outermost pixels, so that the clip's soft edge does not blend with black.
+  // Repeats the outermost pixels, so that the soft edge of the clipping region does not blend with black.
   cairo_pattern_set_extend(cairo_get_source(cr), CAIRO_EXTEND_PAD);
   cairo_paint(cr);
   cairo_restore(cr);

@@ -35,7 +35,7 @@ bool ReceiveByte(int socket) {
 
 void FilmWorkers::Unmap::operator()(std::uint8_t* memory) const { munmap(memory, bytes); }
 
-// Data come from one source in the order of frames, so processes take turns frame by frame (chunks of 1).
+// With a feed, data come in the order of frames, so processes take turns after every frame (chunks of 1).
 FilmWorkers::FilmWorkers(int frames, int jobs, int width, int height, FrameFeed feed)
     : frames_(frames),
       width_(width),

@@ -18,8 +18,8 @@
 
 namespace etude {
 
-/// Supplies data that only this process can produce and that frames are drawn from: the pictures of a film that is
-/// read, or the positions of a moving crowd.
+/// Supplies the data of frames that only this process can produce: the pictures of a film that is read, or the
+/// positions of a moving crowd.
 struct FrameFeed {
   std::size_t bytes = 0;  ///< bytes of every frame; 0 = frames need no data
   /// Fills in the data of a frame. It is called once for each frame, in order, before the frame is drawn.
@@ -27,8 +27,8 @@ struct FrameFeed {
 };
 
 /// Draws the frames of a film in several processes, which start as copies of this one, and returns them in order. Each
-/// process draws chunks of consecutive frames. A frame may keep data for the next one as long as the picture does not
-/// depend on it; then the film is the same for any number of processes.
+/// process draws chunks of consecutive frames. Drawing a frame may cache data for the next frame, but no picture may
+/// depend on the cache; then the film is the same for any number of processes.
 class FilmWorkers {
  public:
   /// Draws a frame, 0 … `frames` − 1, from its data; all canvases have one size with even sides.
@@ -48,10 +48,10 @@ class FilmWorkers {
 
  private:
   struct Worker {
-    /// The socket carries single bytes: "drawn" from the process; "data is there", or without a feed "a slot is free",
-    /// to it.
+    /// The socket carries single bytes. The process sends "drawn"; we send "data is there", or without a feed "a slot
+    /// is free".
     std::optional<ForkedCopy> copy;
-    int fed = 0, taken = 0;  ///< frames of this process that have got their data, and that were returned
+    int fed = 0, taken = 0;  ///< frames of this process: how many have got their data, and how many were returned
   };
   struct Unmap {
     std::size_t bytes;
@@ -75,7 +75,7 @@ class FilmWorkers {
 
   int frames_, width_, height_;
   FrameFeed feed_;
-  int chunk_, slots_;  ///< consecutive frames that one process draws; frames that it may draw ahead
+  int chunk_, slots_;  ///< consecutive frames that one process draws; how many frames it may be ahead
   int next_ = 0, fed_ = 0;
   std::vector<Worker> workers_;
   std::unique_ptr<std::uint8_t, Unmap> memory_{nullptr, Unmap{0}};  ///< `slots_` slots for each process
@@ -127,8 +127,8 @@ class Scene {
   virtual int PosterFrame() const = 0;
   /// Returns a description of what the film shows.
   virtual std::string Words() const = 0;
-  /// Returns a canvas of kFilmWidth × kFilmHeight. Frames may be drawn in any order, also by copies of this process, so
-  /// data that a scene keeps between frames must not change the pictures.
+  /// Returns a canvas of kFilmWidth × kFilmHeight. Frames are drawn in any order, and by copies of this process, so
+  /// pictures must not depend on data that a scene keeps between frames.
   virtual Canvas Draw(int frame) = 0;
   /// Returns the times at which a beat clicks, ascending, in seconds since the start of the film; empty for a silent
   /// film.

@@ -39,7 +39,7 @@ std::string ExactText(std::optional<double> value) {
 std::string FormatFixed(double value, int decimals) {
   if (!std::isfinite(value)) return std::string(kNoValue);
   std::string text = fmt::format("{:.{}f}", value, decimals);
-  // "-0.0" comes from rounding and is no negative value.
+  // "-0.0" comes from rounding and is not a negative value.
   if (text.find_first_of("123456789") == std::string::npos && text.starts_with('-')) text.erase(0, 1);
   text = GroupThousands(std::move(text));
   if (text.starts_with('-')) text.replace(0, 1, "−");

@@ -12,7 +12,7 @@ struct Axis {
   bool is_logarithmic = false;
   double from = 0, to = 1;  ///< the positions of `low` and `high`; `from` may exceed `to`
 
-  /// Returns the position of a value; a value beyond an end is put on that end.
+  /// Returns the position of a value; a value outside the axis gets the position of the nearer end.
   double At(double value) const;
   /// Returns about five round values, or powers of ten on a logarithmic axis. Never empty.
   std::vector<double> Ticks() const;
@@ -21,14 +21,14 @@ struct Axis {
 };
 
 /// Makes an axis that holds all values. It is logarithmic if `floor` is above 0 and the values span more than two
-/// decades; smaller values than `floor` are then drawn on its end. Without values it is 0…1.
+/// decades; values below `floor` are then drawn at its lower end. Without values it is 0…1.
 Axis AxisOf(const std::vector<double>& values, double floor);
 
 /// Makes a linear axis that holds all values and zero.
 Axis AxisAroundZero(const std::vector<double>& values);
 
-/// Makes a logarithmic axis of one to eight whole decades. It ends above the largest value and includes the smaller
-/// ones as far as eight decades reach. Without a value above zero it is 1…10.
+/// Makes a logarithmic axis of one to eight whole decades. It ends above the largest value, and reaches down to the
+/// smallest value, but at most eight decades. Without a value above zero it is 1…10.
 Axis DecadeAxis(const std::vector<double>& values);
 
 /// Returns the label of a number on a linear axis: "0.01", "12", "−3", "1e-05".
@@ -42,7 +42,7 @@ inline constexpr double kPanelWidth = 340;
 inline constexpr double kPanelLeft = 48, kPanelRight = 330;  ///< the left and right limits of the drawing area
 
 /// Opens a panel of this height; `words` describe it to screen readers. `style` is its class on the page: "plot", or
-/// "panel" for the smaller ones of the papers.
+/// "panel" for the smaller panels of paper pages.
 std::string BeginPanel(double height, std::string_view words, double width = kPanelWidth,
                        std::string_view style = "plot");
 

@@ -73,7 +73,7 @@ void Shrinker::Shrink(const Image<std::uint32_t>& large, const PixelRect& rect, 
     };
     const std::uint8_t *a = row(0), *b = row(1), *c = row(2), *d = row(3);
     const std::uint16_t p = rows.weights[0], q = rows.weights[1], s = rows.weights[2], t = rows.weights[3];
-    // Sum the rows, with fewer taps where the others weigh nothing.
+    // Sum the rows; two taps are enough if the others have weight 0.
     std::uint16_t* sum = sums.data();
     if (s == 0 && t == 0) {
       for (int i = 0; i < bytes; ++i) sum[i] = static_cast<std::uint16_t>(a[i] * p + b[i] * q);

@@ -107,7 +107,7 @@ Studio::Studio(int width, int height, double detail, const ViewBounds& bounds)
   inside.fx = inside.fy = std::min(room.x / extent.x, room.y / extent.y);
   const glm::dvec2 middle = 0.5 * (bounds.low + bounds.high);
   inside.cx = inside.width / 2.0 - inside.fx * middle.x;
-  // Leave spare height above the head.
+  // Leave more room above the head than at the other borders.
   inside.cy = inside.height * (1 - kBorder) - inside.fy * bounds.high.y;
   camera_ = CameraOf(inside);
 
@@ -186,7 +186,7 @@ void Studio::Draw(Canvas& canvas, const Box& box, Renderer& renderer, const Figu
   renderer.DrawFigures({placed}, camera_, figures_);
   changed = Union(changed, figures_.drawn);
   const bool is_first = !painted_;
-  // If the placement has changed, the whole visible floor changes.
+  // If the placement has changed, the whole visible floor must be painted again.
   if (is_first || painted_->yaw != placement.yaw || painted_->x != placement.x || painted_->z != placement.z) {
     PaintFloor(placement);
     painted_ = placement;

@@ -11,13 +11,13 @@
 namespace etude {
 namespace {
 
-/// Neighbouring columns under one head.
+/// Neighbouring columns under one common heading.
 struct Span {
   std::string head;
   std::size_t first = 0, columns = 0;
 };
 
-/// Gives the upper heads; none when no column has one.
+/// Returns the upper headings; empty if no column has one.
 std::vector<Span> SpansOf(const Table& table) {
   std::vector<Span> spans;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
@@ -78,7 +78,7 @@ std::string TableHtml(const Table& table) {
   for (const TableColumn& column : table.columns) html += HeadHtml(column);
   html += "</tr></thead>";
 
-  // Each group is a body of its own.
+  // Each group of rows becomes a <tbody> of its own.
   bool is_open = table.rows.empty() || table.rows.front().group.empty();
   if (is_open) html += "<tbody>";
   for (const TableRow& row : table.rows) {

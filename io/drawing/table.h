@@ -10,56 +10,59 @@ namespace etude {
 
 struct TableColumn {
   std::string head = {};
-  bool is_number = false;    ///< stands at the right
-  bool is_row_head = false;  ///< its cells are the heads of their rows
-  bool is_detail = false;    ///< for experts: the page shows it when asked
+  bool is_number = false;    ///< aligned to the right
+  bool is_row_head = false;  ///< its cells are the headings of their rows
+  bool is_detail = false;    ///< for experts: the page shows it on request
   bool is_sortable = false;  ///< the page sorts its cells by their numbers
-  std::string latex = {};    ///< what LaTeX has for the head, where that is not its text
-  std::string over = {};     ///< a second head above this one, which neighbours share
-  std::string title = {};    ///< what the page tells of the head to a pointer
-  std::string sign = {};     ///< markup that follows the head on the page
+  std::string latex = {};    ///< the heading in LaTeX, if it differs from the text
+  std::string over = {};     ///< a second heading above this one, shared with neighbouring columns
+  std::string title = {};    ///< the tooltip of the heading on the page
+  std::string sign = {};     ///< markup after the heading on the page
 };
 
 struct TableCell {
   TableCell() = default;
-  /// `markup` stands for the text on the page.
+  /// `markup` replaces the text on the page.
   template <std::convertible_to<std::string_view> Text>
   TableCell(const Text& words, std::optional<double> value = {}, std::string markup = {})
       : text(std::string_view(words)), number(value), html(std::move(markup)) {}
-  /// A number with all its digits; an empty cell without one.
+  /// A number with all its digits; the cell is empty without a number.
   TableCell(std::optional<double> value) : number(value) {}
   TableCell(double value) : number(value) {}
   TableCell(int value) : number(value) {}
 
   std::string text;              ///< plain: each writer escapes it
-  std::optional<double> number;  ///< what CSV holds in place of the text, and what the page sorts by
-  std::string html;              ///< "" where the page shows the text
-  std::string_view latex_sign;   ///< LaTeX that follows the text
+  std::optional<double> number;  ///< written to CSV instead of the text; the page sorts by it
+  std::string html;              ///< shown on the page instead of the text, unless ""
+  std::string_view latex_sign;   ///< LaTeX after the text
   bool is_strong = false;        ///< bold in Markdown
 };
 
 struct TableRow {
-  std::vector<TableCell> cells = {};  ///< as many as the table has columns; none in a row that heads a group
-  std::string group = {};             ///< the head of the rows that follow, across all columns; "" in all other rows
-  std::string mark = {};              ///< a comment of the page in the place of a row; other writers leave it out
-  std::string attributes = {};        ///< of the row, or of the group, on the page: " class=\"taken\""
+  std::vector<TableCell> cells = {};  ///< as many as the table has columns; none in a row that begins a group
+  std::string group = {};             ///< the heading of the rows that follow, across all columns; "" in all other rows
+  /// An HTML comment that the page holds instead of the row; other writers leave it out.
+  std::string mark = {};
+  std::string attributes = {};  ///< HTML attributes of the row, or of the group: " class=\"taken\""
 };
 
 /// A table as a value. All four writers escape its texts.
 struct Table {
-  std::string label = {};    ///< its name for screen readers, where the page may scroll it; "": it does not scroll
-  std::string style = {};    ///< its class on the page
-  std::string caption = {};  ///< "" without one
+  /// Its name for screen readers, if the page may scroll it sideways; "" = it does not scroll.
+  std::string label = {};
+  std::string style = {};    ///< its CSS class on the page
+  std::string caption = {};  ///< "" = no caption
   std::vector<TableColumn> columns = {};
   std::vector<TableRow> rows = {};
 };
 
 std::string TableHtml(const Table& table);
-/// Writes a table of GitHub's Markdown, the caption as a paragraph before it. Groups have no heads there.
+/// Writes a table of GitHub's Markdown, with the caption as a paragraph before it. Headings of groups are left out.
 std::string TableMarkdown(const Table& table);
-/// Writes a tabular of the package booktabs, the caption as a line before it, without a float around them.
+/// Writes a tabular of the package booktabs, with the caption as a line before it, and without a float.
 std::string TableLatex(const Table& table);
-/// Writes the heads, then a line per row, numbers with all their digits (RFC 4180). Captions and groups are left out.
+/// Writes CSV (RFC 4180): the headings, then one line for each row, numbers with all their digits. Captions and group
+/// headings are left out.
 std::string TableCsv(const Table& table);
 
 }  // namespace etude

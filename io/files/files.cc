@@ -36,7 +36,7 @@ bool Synced(int file) { return ::fsync(file) == 0 || errno == EINVAL || errno ==
 Result<void> Sync(const std::filesystem::path& path, int flags) {
   int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
   if (file < 0 && errno == EACCES)
-    file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags);  // a lock file may not be readable
+    file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags);  // read access may be denied for a lock file
   if (file < 0) return CannotWrite(path.string(), "cannot be opened to synchronise it", errno);
   const int failed = Synced(file) ? 0 : errno;
   ::close(file);
@@ -44,7 +44,7 @@ Result<void> Sync(const std::filesystem::path& path, int flags) {
   return {};
 }
 
-/// Returns the `copy`-th temporary name. It keeps the extension, because encoders choose the container by it.
+/// Returns temporary name number `copy`. It keeps the extension, because encoders choose the container by it.
 std::filesystem::path NameOfCopy(const std::filesystem::path& path, int copy) {
   const std::string number = copy == 0 ? "" : std::to_string(copy + 1);
   return path.parent_path() / (path.stem().string() + ".partial" + number + path.extension().string());

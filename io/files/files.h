@@ -26,8 +26,8 @@ Result<void> WriteFileAtomically(const FilePath& path, std::string_view bytes, O
 /// Writes one JSON value and a line end like WriteFileAtomically. Fails also on NaN and infinity (WriteJson).
 Result<void> SaveJson(const FilePath& path, const Json& json, OnDisk when = OnDisk::kAtOnce);
 
-/// Returns the temporary name under which `path` is written, unless another process is writing the same file (then a
-/// number is added).
+/// Returns the temporary name under which `path` is written, if no other process is writing the same file; otherwise a
+/// number is added.
 std::filesystem::path TemporaryName(const std::filesystem::path& path);
 
 /// A file that is written under a temporary name, beside its final path. Finish renames it; without Finish it is

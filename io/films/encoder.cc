@@ -18,10 +18,9 @@ namespace etude {
 namespace {
 
 // Preset veryfast gives the smallest files on drawn films; no other preset saves more than two milliseconds per frame
-// of 720 × 720. The number of threads and the processor's instructions change the bytes, so there is one thread, and
-// x264 takes no algorithm by the processor (cpu-independent). The bitexact flags keep dates and versions
-// out of the file. FLAC needs no floating-point arithmetic, so its bytes are the same on every CPU, and browsers play
-// it in an MP4.
+// of 720 × 720. The number of threads and the processor's instructions change the bytes, so x264 runs one thread and
+// chooses no algorithm by the processor (cpu-independent). The bitexact flags keep dates and versions out of the file.
+// FLAC needs no floating-point arithmetic, so its bytes are the same on every CPU, and browsers play it in an MP4.
 std::vector<std::string> Arguments(const std::string& program, int width, int height, int rate_hz,
                                    const std::filesystem::path& sound, Encoder::Form form) {
   const bool is_drawn = form == Encoder::Form::kI420;
@@ -34,8 +33,8 @@ std::vector<std::string> Arguments(const std::string& program, int width, int he
   add({"-sws_flags", "+accurate_rnd+bitexact", "-c:v", "libx264", "-preset", "veryfast", "-crf", "20"});
   add({"-x264-params", "cpu-independent=1"});
   add({"-pix_fmt", "yuv420p", "-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact"});
-  // ffmpeg writes to the file that it inherits as its standard output, not to a name, where somebody may have put a
-  // link. It opens that file again through /proc, because MP4 needs an output that can seek.
+  // ffmpeg writes to the file that it inherits as its standard output, not to a path, because somebody may have put a
+  // link there. It opens that file again through /proc, because MP4 needs an output that can seek.
   add({"-map_metadata", "-1", "-f", "mp4", "/proc/self/fd/1"});
   return all;
 }

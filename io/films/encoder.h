@@ -21,7 +21,7 @@ namespace etude {
 /// Finish leaves no file.
 class Encoder {
  public:
-  /// The form of the pictures: RGB, or I420 as encoders take it (three planes, BT.601).
+  /// The form of the pictures: RGB, or I420, the form that encoders need (three planes, BT.601).
   enum class Form { kRgb, kI420 };
 
   /// Starts ffmpeg. Pictures must have this size (even numbers) and follow at `rate_hz`. `sound` is a WAV file that is

@@ -21,15 +21,15 @@ namespace {
 
 // The size of an uncompressed picture with kMaxPictureSide pixels per side, rounded up.
 constexpr std::uintmax_t kMaxPictureFileBytes = std::uintmax_t{1} << 28;
-// The limit for pictures that no camera took: what GL and JPEG can hold.
+// The limit for pictures that no camera took: the limit of GL and JPEG.
 constexpr std::uint32_t kMaxSide = 16'384;
 constexpr int kRunLengthOnly = 3;  // zlib's Z_RLE
 
 // --- PNG
 
 /// Encodes 8-bit sRGB pixels as the bytes of a PNG file. `colour_type` is PNG_COLOR_TYPE_RGB or PNG_COLOR_TYPE_GRAY.
-/// Filtered rows of camera pictures hold noise and runs of zeros but no repeated strings: run-length coding gives the
-/// same file size as zlib's default strategy in a sixth of the time.
+/// Filtered rows of camera pictures hold noise and runs of zeros but no repeated strings, so run-length coding gives
+/// the same file size as zlib's default strategy in a sixth of the time.
 std::string EncodePixels(const std::uint8_t* pixels, int width, int height, int colour_type,
                          double pixels_per_metre = 0) {
   assert(width > 0 && height > 0);
@@ -116,7 +116,7 @@ void WriteExr(const View& view, const NormalImage& normals, std::span<const Dept
   }
   // Depth, labels, normals, and further depth images.
   if (!view.depth.pixels.empty()) add(kDepthChannel, Imf::FLOAT, view.depth.pixels.data(), sizeof(float));
-  // Labels are floats, because readers of web pages (three.js, parse-exr) misread files with whole numbers.
+  // Labels are floats, because readers in browsers (three.js, parse-exr) misread files with integer channels.
   const std::vector<float> labels(view.labels.pixels.begin(), view.labels.pixels.end());
   if (!labels.empty()) add(kLabelChannel, Imf::FLOAT, labels.data(), sizeof(float));
 

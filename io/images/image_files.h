@@ -15,7 +15,7 @@ namespace etude {
 // side are refused before memory is taken. Errors name the file unless stated otherwise.
 
 /// Returns the bytes of a PNG file, for embedding in a page. The same picture gives the same bytes. `image` must have
-/// at least one pixel. With `pixels_per_metre` above 0 the file says how large it is to be printed.
+/// at least one pixel. With `pixels_per_metre` above 0, the file states its size in print.
 std::string EncodePng(const ColourImage& image, double pixels_per_metre = 0);
 /// Returns a mask as the bytes of a grey PNG: 0 becomes black, any other value white.
 std::string EncodePng(const Mask& mask);
@@ -36,10 +36,10 @@ struct DepthChannel {
 };
 
 /// Returns the bytes of an OpenEXR file (ZIP, lossless) with the channels R, G, B (half; linear light, 1 is the
-/// brightest value of an 8-bit picture), Z (float, metres along the viewing axis), label (float, a whole number below 2²⁴), N.X, N.Y, N.Z (float,
-/// normals in world coordinates) and further depth images (float) under their own names. Empty pictures are left out;
-/// all others must have one size. The same pictures give the same bytes. Fails with OpenEXR's message, which names no
-/// file.
+/// brightest value of an 8-bit picture), Z (float, metres along the viewing axis), label (float that holds a whole
+/// number below 2²⁴), N.X, N.Y, N.Z (float, normals in world coordinates) and further depth images (float) under their
+/// own names. Empty pictures are left out; all others must have one size. The same pictures give the same bytes. Fails
+/// with OpenEXR's message, which names no file.
 Result<std::string> EncodeExr(const View& view, const NormalImage& normals = {},
                               std::span<const DepthChannel> measured = {});
 

@@ -217,7 +217,7 @@ Result<PeopleOfFilm> Ordered(std::map<long, std::vector<SeenPerson>> numbered, c
   if (lowest < 0 || highest > kMaxFrames)
     return Fail(place, "frames {} to {}; allowed: 0 to {}", lowest, highest, kMaxFrames);
   const auto frames = static_cast<long>(of.frames);
-  // Without a known film length, the numbers decide the length.
+  // Without a known film length, the frame numbers give the length.
   const long first = frames > 0 ? (lowest > 0 && highest == frames ? 1 : 0) : std::min(lowest, 1L);
   const long count = frames > 0 ? std::max(frames, highest - first + 1) : highest - first + 1;
   film.frames.resize(static_cast<std::size_t>(count));
@@ -228,7 +228,7 @@ Result<PeopleOfFilm> Ordered(std::map<long, std::vector<SeenPerson>> numbered, c
   return film;
 }
 
-/// Moves frames to the given indices, which ascend; `count` is the number of frames. Says if frames are missing.
+/// Moves frames to the given indices, which ascend; `count` is the number of frames. Adds a note if frames are missing.
 void MoveFrames(std::span<const std::size_t> indices, std::size_t count, PeopleOfFilm& film) {
   SeenPeople frames(count);
   for (std::size_t i = 0; i < indices.size(); ++i) frames[indices[i]] = std::move(film.frames[i]);
@@ -254,7 +254,7 @@ std::optional<double> TimeOf(const Json& frame) {
   return std::nullopt;
 }
 
-/// Lays frames on their times, which only count as ratios. Does nothing if the times do not ascend.
+/// Places frames at their times; only the ratios of times matter. Does nothing if the times do not ascend.
 void LayByTimes(const std::vector<double>& times, PeopleOfFilm& film) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < times.size(); ++i) {
@@ -262,7 +262,7 @@ void LayByTimes(const std::vector<double>& times, PeopleOfFilm& film) {
     if (!(steps.back() > 0)) return;
   }
   if (steps.empty()) return;
-  // In units of the usual step, as if the frames were those of a film at 30 Hz.
+  // Measure times in the usual step between frames, as if the film had 30 Hz.
   const double usual = UpperMedian(std::move(steps)) * kJudgedRateHz;
   std::vector<double> scaled;
   for (const double time : times) scaled.push_back((time - times.front()) / usual);
@@ -271,7 +271,8 @@ void LayByTimes(const std::vector<double>& times, PeopleOfFilm& film) {
   std::vector<std::size_t> indices;
   for (const double time : scaled) {
     const double index = std::round(time * (*grid)->rate_hz);
-    if (!indices.empty() && static_cast<std::size_t>(index) <= indices.back()) return;  // too uneven for one frame each
+    // too uneven: two frames would get one index
+    if (!indices.empty() && static_cast<std::size_t>(index) <= indices.back()) return;
     indices.push_back(static_cast<std::size_t>(index));
   }
   MoveFrames(indices, indices.back() + 1, film);
@@ -355,7 +356,7 @@ Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layou
 
 void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, PeopleOfFilm& film) {
   if (names.size() < 2 || names.size() != film.frames.size() || of.frames == names.size()) return;
-  // Read the numbers, which must ascend behind one text.
+  // Read the numbers, which must ascend after the same text.
   const auto text_of = [](std::string name) {
     if (const std::size_t dot = name.find_last_of('.'); dot != std::string::npos && dot > 0) name.resize(dot);
     const std::size_t end = name.find_last_of("0123456789");
@@ -370,7 +371,7 @@ void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, P
     if (!numbers.empty()) steps.push_back(static_cast<double>(*number - numbers.back()));
     numbers.push_back(*number);
   }
-  // Numbers may rise by more than one from frame to frame, and count from 0, from 1 or from the first one.
+  // Numbers may rise by more than 1 per frame, and may count from 0, from 1 or from any first number.
   const auto usual = static_cast<long>(LowerPercentile(std::move(steps), 0.5));
   const auto frames = static_cast<long>(of.frames);
   const long last = numbers.back();
@@ -381,7 +382,7 @@ void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, P
     if ((number - first) % usual != 0) return;
     indices.push_back(static_cast<std::size_t>((number - first) / usual));
   }
-  if (indices.back() + 1 == names.size()) return;  // only the end is missing: another film, or one that was cut
+  if (indices.back() + 1 == names.size()) return;  // only the end is missing: the film is longer, or was cut
   const std::size_t count = std::max(of.frames, indices.back() + 1);
   if (indices.back() >= kMaxSpread * indices.size() + of.frames) return;
   MoveFrames(indices, count, film);

@@ -19,8 +19,8 @@ std::vector<std::string> TextsOf(const Json* list);
 /// Reads a list of triples x, y, confidence. A point with a null was not seen.
 Result<std::vector<Keypoint>> Triples(const Json* list, const Place& place);
 
-/// Makes a person from an estimator's keypoints. Their order is `layout`, else the only layout with that number of
-/// keypoints, else the one that `names` give. Fails if none of these applies.
+/// Makes a person from an estimator's keypoints. Their order is that of `layout`; else of the only layout with that
+/// number of keypoints; else the one that `names` give. Fails if none of these applies.
 Result<SeenPerson> ToPerson(const std::vector<Keypoint>& points, const std::string& layout,
                             const std::vector<std::string>& names, const Place& place);
 
@@ -39,16 +39,16 @@ bool IsKeypointList(const Json& json);
 /// - MMPose's `instance_info`: objects with `frame_id` and `instances`, names in `meta_info`;
 /// - frames in order, as users of MediaPipe save them: objects with `pose_landmarks`, `landmarks`, `keypoints`,
 ///   `people` or `instances`, or bare lists of people or of points; null means no people.
-/// Frame numbers count from 1 if none is 0 and the film's number of frames is unknown or equals the last one; else from
-/// 0. Frames without numbers are laid on their times, if all have one (`timestamp`, `timestamp_ms`, `time`, …: only
-/// ratios count) and the film does not have just as many frames; `told` says if frames are missing.
+/// Frame numbers count from 1 if none is 0, and the film's number of frames is unknown or equals the last number; else
+/// from 0. If frames have no numbers but all have a time (`timestamp`, `timestamp_ms`, `time`, …), and the film has
+/// another number of frames, the times place them; only ratios of times matter. `told` says if frames are missing.
 Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layout, const FilmOfKeypoints& of,
                                       const Place& place);
 
-/// Lays a film's frames, one for each name, by the number at the end of the names, if these begin alike and the numbers
-/// ascend and the film does not have just as many frames. A number that is missing is a frame without people, which
-/// `told` says; if only the end is missing, the frames stay as they are. Numbers that leave over nine of ten frames
-/// empty are no clock.
+/// Places the frames of a film, one for each name, by the number at the end of their names. It needs names that begin
+/// alike, numbers that ascend, and a film with another number of frames. A missing number becomes a frame without
+/// people, and `told` says so. If only the end is missing, or if more than nine of ten frames would be empty, the
+/// frames stay as they are.
 void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, PeopleOfFilm& film);
 
 }  // namespace etude

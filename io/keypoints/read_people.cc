@@ -111,7 +111,8 @@ Result<std::vector<SeenPerson>> ReadFrame(const fs::path& file, const std::strin
 }
 
 /// Counts the people of a file whose ninth of 25 keypoints lies between the tenth and the thirteenth, and those whose
-/// does not. In `body_25` these are mid-hip and hips; in `body_25b` the right elbow, the left wrist and the right hip.
+/// does not. In `body_25` these three are the mid-hip and the hips; in `body_25b` the right elbow, the left wrist and
+/// the right hip.
 void CountMidHips(const Json& json, const Place& place, int& between, int& elsewhere) {
   constexpr std::size_t kCount = 25, kMidHip = 8, kRightHip = 9, kLeftHip = 12;
   constexpr double kMaxShare = 0.03;  // of the person's height
@@ -135,8 +136,8 @@ void CountMidHips(const Json& json, const Place& place, int& between, int& elsew
   }
 }
 
-/// Returns "body_25" if the first people of these files have 25 keypoints in that order, as their mid-hips tell; else
-/// "".
+/// Returns "body_25" if the first people of these files have 25 keypoints in that order, which the position of their
+/// mid-hips shows; else "".
 Result<std::string> LayoutOf(std::span<const fs::path> files) {
   constexpr int kEnoughPeople = 50, kMinPeople = 3;
   constexpr double kMinShare = 0.9;

@@ -23,14 +23,14 @@ struct FilmOfKeypoints {
 };
 
 /// Reads keypoints from a folder of OpenPose's or MMPose's JSON (`*.json`, one file per frame, ordered by name with
-/// numbers compared by value) or from one file: COCO's, a list of COCO results, AlphaPose, MMPose, or landmarks as
-/// MediaPipe has them (`keypoint_lists.h`). Files put pixel centres at whole numbers, we at halves. COCO's v is 2 for a
-/// visible and 1 for a hidden keypoint (confidence 1 and 0.5), or a score within 0…1. If all keypoints lie within 0…1
-/// (with a tolerance of 0.1) and the film is known to be larger, they are shares of its width and height, and `told`
-/// says so. The number of keypoints, or the names in the file, give their order; of 25
-/// keypoints a folder's people do if a mid-hip lies between their hips (`body_25`), and `told` says so. Fails if there
-/// are no frames, if numbers are not finite, and, with an empty `layout`, if no layout or several (25) have that many
-/// keypoints. The error says file, what was found, what is allowed.
+/// numbers compared by value) or from one file: COCO's, a list of COCO results, AlphaPose, MMPose, or landmarks of
+/// MediaPipe (`keypoint_lists.h`). In these files pixel centres are whole numbers; in the result they end in .5. COCO's
+/// v is 2 for a visible and 1 for a hidden keypoint (confidence 1 and 0.5), or a score within 0…1. If all keypoints lie
+/// within 0…1 (with a tolerance of 0.1) and the film is known to be larger, they are shares of its width and height,
+/// and `told` says so. The number of keypoints, or the names in the file, give their order. 25 keypoints of a folder
+/// are taken as `body_25` if the mid-hip lies between the hips, and `told` says so. Fails if there are no frames, if
+/// numbers are not finite, and, with an empty `layout`, if no layout, or more than one, has that many keypoints. The
+/// error says file, what was found, what is allowed.
 /// @param layout a name of KeypointLayouts(), or "" to choose it by the number of keypoints
 /// @param film gives the number of frames if a file lists only frames with people
 Result<PeopleOfFilm> ReadKeypoints(const std::filesystem::path& path, const std::string& layout,

@@ -35,9 +35,9 @@ constexpr double kNameBytes = 700, kInodeBytes = 900;  // per temporary file wit
 
 /// Folders that every program sees: the system's programs and libraries.
 constexpr std::array kSystem = {"/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/opt", "/nix"};
-/// The system's settings that every program sees: those of loaders, interpreters and libraries. It is a list of allowed
-/// names, so that files with secrets, users or the machine's identity stay hidden, also ones added later. "*" at the
-/// end matches any rest of the name.
+/// The system's settings that every program sees: those of loaders, interpreters and libraries. It lists what is
+/// allowed, so that files with secrets, users or the machine's identity stay hidden, even if they are added later. "*"
+/// at the end matches any rest of the name.
 constexpr const char* kSettings = "/etc";
 constexpr std::array kShownSettings = {
     "ld.so.*",       "alternatives",   "localtime",     "timezone",  "locale.alias",
@@ -285,11 +285,11 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
     const std::string target = is_link ? fs::read_symlink(setting, error).string() : setting.string();
     Add(words, {is_link ? "--symlink" : "--ro-bind-try", target, setting.string()});
   }
-  // Lists of users and groups with this user alone, without its real name.
+  // Lists of users and groups with this user only, under another name.
   Add(words, {"--file", pass_text(fmt::format("user:x:{}:{}::{}:/bin/sh\n", ::geteuid(), ::getegid(), kScratch[0]))});
   Add(words, {"/etc/passwd", "--file", pass_text(fmt::format("user:x:{}:\n", ::getegid())), "/etc/group"});
-  // Shown and hidden paths, sorted, so that a folder comes before its contents. Only visible paths are hidden: an
-  // unneeded mask would reveal a name.
+  // Shown and hidden paths, sorted, so that a folder comes before its contents. Only visible paths are hidden: masking
+  // a path that is not visible would reveal its name.
   std::map<fs::path, bool> is_shown;
   for (const fs::path& path : shown) is_shown.emplace(path, true);
   const auto is_within_shown = [&](const fs::path& path) {

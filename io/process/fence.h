@@ -40,7 +40,7 @@ class Fence {
   static Fence Of(const std::string& program, std::vector<std::filesystem::path> kept = {}, std::string groups = "");
   /// Returns true if a path belongs to the part of the system that every program sees.
   static bool IsOfSystem(const std::filesystem::path& path);
-  /// Lists the sockets and named pipes below a folder: programs can write to them even through a read-only mount.
+  /// Lists the sockets and named pipes below a folder: programs could write to them even in a read-only mount.
   static std::vector<std::filesystem::path> PipesBelow(const std::filesystem::path& folder);
   /// Returns true if a folder is or contains a scratch folder, so it cannot be shown as it is.
   static bool HoldsScratch(const std::filesystem::path& folder);
@@ -57,7 +57,7 @@ class Fence {
 
   /// Returns ControlGroup::FindPlace(); "" without a fence.
   const std::string& groups() const { return groups_; }
-  /// Returns who counts the memory of programs inside: "counted by the kernel (cgroup v2)", for instance.
+  /// Returns how the memory of programs inside is counted: "counted by the kernel (cgroup v2)", for instance.
   std::string MemoryDescription() const;
 
   /// Hides a path, even if it is in the system or in a shown folder: a folder appears empty, a file cannot be read.

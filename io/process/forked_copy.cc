@@ -74,7 +74,7 @@ std::optional<int> ForkedCopy::StatusIfEnded() {
 
 void ForkedCopy::CloseSocket() {
   if (socket_ < 0) return;
-  ::shutdown(socket_, SHUT_RDWR);  // copies that were forked later keep this end open too
+  ::shutdown(socket_, SHUT_RDWR);  // also ends the connection of copies that were forked later and keep this end open
   ::close(std::exchange(socket_, -1));
 }
 

@@ -57,7 +57,7 @@ constexpr auto kRefused = std::to_array<Refusal>({
     // A filter cannot read the arguments of clone3; without it, C libraries use clone.
     {SYS_unshare, EPERM},
     {SYS_clone3, ENOSYS},
-    // It performs the operations above without system calls.
+    // io_uring performs the operations above without system calls.
     {SYS_io_uring_setup, ENOSYS},
     // The user's keys, and information about other processes.
     {SYS_add_key, ENOSYS},

@@ -20,7 +20,7 @@ struct RealDistance {
 /// A capture of real films beside a reference.
 struct RealTake {
   std::string name;
-  std::string recovery;   ///< the source of the person's position in the films: "keypoints", "marks", "silhouettes"
+  std::string recovery;   ///< how the person was found in the films: "keypoints", "marks", "silhouettes"
   std::string reference;  ///< the name of its file
   std::vector<std::string> films = {};
   int frames = 0;

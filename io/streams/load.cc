@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 
+#include "engine/base/names.h"
 #include "engine/recognition/recognise.h"
 #include "io/clips/clip_library.h"
 #include "io/clips/references.h"
@@ -93,7 +94,7 @@ std::vector<NamedStream> StreamsOf(const ClipLibrary& library) {
                        .stream = StreamOf(clip.motion),
                        .start_s = 0,
                        .description = fmt::format("clip, {:.1f} s{}{}", clip.motion.DurationSeconds(),
-                                                  clip.note.empty() ? "" : ", ", clip.note),
+                                                  clip.changes.empty() ? "" : ", ", Join(clip.changes, "; ")),
                        .motion = clip.motion});
   }
   return streams;
@@ -106,7 +107,7 @@ Result<std::vector<NamedStream>> LoadStream(const std::string& reference, const 
     return StreamsOf(library);
   }
   ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(reference));
-  // A file of no known recording format may be a clip.
+  // A file whose format is no sensor's may be a clip.
   if (!reading.format && !DetectStreamFormat(text)) {
     if (const auto library = LoadClips({reference}, {}, clips)) return StreamsOf(*library);
   }
@@ -128,7 +129,7 @@ Result<LoadedStreams> LoadStreams(const std::vector<std::string>& references, co
                                   const StreamOptions& options, const OpenOptions& clips) {
   LoadedStreams loaded;
   for (const std::string& reference : references) {
-    // Load each reference: a folder, or what it expands to.
+    // Load each reference: a folder, or the files that it expands to.
     std::error_code ignored;
     if (fs::is_directory(reference, ignored)) {
       RETURN_IF_ERROR(AddFolder(reference, reading, options, clips, loaded));

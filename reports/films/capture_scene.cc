@@ -294,7 +294,7 @@ void CaptureScene::DrawSkeletons(Canvas& canvas, const CapturePanel& capture, co
   const BodyPose& recovered = capture.Recovered(frame);
   const auto seen = [&](const glm::dvec3& joint) -> std::optional<glm::dvec2> {
     const auto pixel = Project(camera_, joint);
-    // Do not draw joints far outside the column over its neighbour.
+    // Skip joints far outside the column, because they would cover its neighbour.
     if (!pixel || pixel->x < 0 || pixel->x > box.width) return std::nullopt;
     return glm::dvec2(box.x, box.y + kSkeletonTop) + *pixel;
   };

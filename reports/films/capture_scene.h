@@ -22,8 +22,8 @@ Result<void> SaveStripPictures(const CapturePanel& capture, Renderer& renderer, 
 /// most two cameras. Returns nullopt if the recording keeps no moments.
 std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer);
 
-/// Finds the captures of one world that a film compares: in the typical cell's world (ChooseCell), every method that
-/// was recorded, in the scenario's order, three at most. Empty if there is none; fails if one cannot be read.
+/// Finds the captures of one world that a film compares: the world is that of the typical cell (ChooseCell); it takes
+/// the recorded methods in the scenario's order, at most three. Empty if there is none; fails if one cannot be read.
 Result<std::vector<CapturePanel>> FindCaptures(const RunData& run, const ShownCell& typical);
 
 /// The film of a capture: the views of two cameras and, side by side for each method, the true skeleton with the

@@ -140,7 +140,7 @@ Paint PaintOfMode(const std::string& mode) {
   return kUndecidedPaint;
 }
 
-/// Returns the last span that began at or before a frame.
+/// Returns the last span that begins at or before a frame.
 template <typename Span>
 const Span& InForce(const std::vector<Span>& spans, int frame) {
   const auto after = std::ranges::upper_bound(spans, frame, {}, &Span::begin_frame);

@@ -85,7 +85,7 @@ void ErrorPlot::Draw(Canvas& canvas, const Box& panel, double iteration) const {
   DrawIterationAxis(canvas, frame);
   const double now = frame.X(iteration);
   canvas.DrawLine({now, frame.box.y}, {now, frame.Bottom()}, 1.5, kTime);
-  // Draw later curves thinner, so that coinciding curves are all visible.
+  // Draw later curves thinner, so that all of several equal curves are visible.
   double width = 3 + 2.0 * (static_cast<double>(curves_.size()) - 1);
   for (const ErrorCurve& curve : curves_) {
     DrawCurve(canvas, frame, curve, iteration, width);
@@ -146,7 +146,8 @@ constexpr double kDetail = 1.5;
 constexpr double kWordsShare = 0.34;
 // The bodies are turned from the front, so that near and far limbs can be distinguished.
 constexpr double kTurn = Radians(25);
-// Metres, about a tenth of a pixel. The last iterations often move less and need no new picture.
+// Metres, about a tenth of a pixel. If no joint moves farther, as in many of the last iterations, the last picture is
+// shown again.
 constexpr double kVisible = 0.0005;
 constexpr Paint kGhostRim{0.90, 0.93, 0.95, 0.55};
 constexpr Paint kMarkShadow{0.05, 0.06, 0.07, 0.8};
@@ -186,7 +187,7 @@ void DrawMarks(Canvas& canvas, const std::vector<std::pair<glm::dvec2, glm::dvec
   }
 }
 
-// Errors far below the goal are not distinguished.
+// Errors far below the goal are all written alike.
 std::string ShortNumber(double value) { return value < 0.001 ? "< 0.001" : FormatNumber(value); }
 
 double LargestShift(const BodyPose& a, const BodyPose& b) {
@@ -300,7 +301,7 @@ void ConvergencePanel::Draw(Canvas& canvas, const Box& panel, Renderer& renderer
   figure(84, "iteration", FormatCount(reached), kInk);
   error(164, "worst position error", path_.position_cm, kGoalCm, " cm");
   error(244, "worst orientation error", path_.orientation_deg, kGoalDeg, "°");
-  // After a method has ended, show how it ended, and its last pose until the other one ends.
+  // After a method has ended, show how it ended. Its last pose stays until the other method ends.
   if (entry + 1 == path_.poses.size()) {
     const Paint& paint = path_.solved_at ? kGood : kWarn;
     canvas.DrawText({x, panel.y + 342}, path_.ending, 25, paint, panel.width - 36, true);

@@ -28,7 +28,7 @@ struct IkPath {
   std::string ending;                   ///< "solved", "not solved", or the status
   std::string reason;                   ///< the reason if it is not solved, else empty
 
-  /// Returns the entry to show at `iteration`: the last recorded iteration that is complete.
+  /// Returns the entry to show at `iteration`: the last recorded iteration that is not later.
   std::size_t EntryAt(double iteration) const;
 };
 
@@ -53,7 +53,8 @@ struct IkRace {
 };
 
 /// Finds the first two methods with recordings, in the scenario's order, and the first world that both recorded; it
-/// never selects by appearance. Fails with the reason if there is no such world or its recordings cannot be read.
+/// never selects a world by its content. Fails with the reason if there is no such world or its recordings cannot be
+/// read.
 Result<IkRace> FindIkRace(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

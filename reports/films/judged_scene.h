@@ -21,15 +21,16 @@ struct JudgedSessionFacts {
   struct Performance {
     std::string move, truth, fault;  ///< truth: right, grey, wrong; fault: "none", or names
     int begin_frame = 0, end_frame = 0;
-    std::vector<TaughtPose> poses;            ///< empty if no key pose of the move is known
-    std::vector<std::optional<int>> reached;  ///< for each pose, the frame at which it and all before it were first
-                                              ///< seen within the window
+    std::vector<TaughtPose> poses;  ///< empty if no key pose of the move is known
+    /// For each pose, the first frame in the window by which it and all before it.
+    std::vector<std::optional<int>> reached;
+    ///< have been seen
   };
   struct Judge {
     std::string method;
     std::vector<std::optional<int>> called_right;  ///< for each performance, the frame of the verdict "right"; nullopt
-                                                   ///< if it was called wrong
-    std::vector<DetectionExtras::Alarm> alarms;    ///< the false ones
+                                                   ///< if it was never given
+    std::vector<DetectionExtras::Alarm> alarms;    ///< only false alarms
   };
 
   std::vector<Performance> performances;  ///< in order of time

@@ -23,8 +23,8 @@ struct ScenarioPicture {
 
 /// All pictures and films made from a run's recordings, with reasons for those that could not be made.
 struct Media {
-  Film film;  ///< the run's film: a capture, or a coach alone; empty for other tasks, and if a scenario's film shows
-              ///< all of it
+  Film film;  ///< the run's film: a capture, or a coach alone; empty for other tasks, and if a scenario's film already
+              ///< shows all of it
   std::vector<Picture> strip;                ///< moments of the capture: pictures of both cameras with mask and
                                              ///< recovered skeleton
   std::vector<Still> stills;                 ///< the middle frame of the same capture as its cameras took it
@@ -48,7 +48,7 @@ struct MediaOptions {
 std::set<std::string> FilmNames(const RunData& run);
 
 /// Draws the recordings of a run: the films, their posters, the strip and the pictures behind it. A part that cannot be
-/// made is left out with the reason in `why_not`; that is never a failure of the report.
+/// made is left out, with the reason in `why_not`; the report does not fail because of it.
 Media MakeMedia(const RunData& run, const MediaPaths& paths, const MediaOptions& options = {});
 
 }  // namespace etude

@@ -9,7 +9,8 @@
 
 namespace etude {
 
-/// Draws the body from the front as lines, with its feet near the lower edge of a box that is `tall` metres high.
+/// Draws the body from the front as lines, with its feet near the lower edge of a box that shows `tall` metres from
+/// bottom to top.
 void DrawStickFigure(Canvas& canvas, const BodyPose& pose, const Box& box, double tall, const Paint& paint);
 
 /// Returns the position of a joint in that box.
@@ -26,10 +27,10 @@ inline constexpr Paint kUndecidedPaint{0.55, 0.58, 0.60, 1};
 /// Returns the name of a move or fault for people: "fast_sway" becomes "fast sway".
 std::string PlainName(std::string name);
 
-/// Returns the plain name of one of paper A's angles, after the limb that is bent or raised: "right arm".
+/// Returns the plain name of one of paper A's angles, named after the limb that is bent or raised: "right arm".
 std::string_view PlainNameOf(Feature feature);
 
-/// Returns the colour of "right" or "wrong"; any other word has the undecided colour.
+/// Returns the colour of "right" or "wrong"; any other word gets the colour of undecided verdicts.
 Paint PaintOfWord(const std::string& word);
 
 /// The strip below a film of a session: rows of bars over the visible frames, and a line at the current frame.

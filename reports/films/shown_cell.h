@@ -16,7 +16,7 @@ struct ShownCell {
 };
 
 /// Chooses the cell that a film of this kind of task shows. Candidates are recorded cells with status ok and this
-/// track, preferably of the method that answers the scenario's question. Of these it takes the median by the first
+/// track, preferably of the method that the scenario's question is about. Of these it takes the median by the first
 /// headline metric: a typical cell, not the best one.
 std::optional<ShownCell> ChooseCell(const RunData& run, std::string_view task, std::string_view track);
 

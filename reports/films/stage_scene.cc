@@ -20,17 +20,18 @@ constexpr double kEyeHeight = 1.45;
 constexpr double kLookAtHeight = 0.94;
 // Pictures are drawn this much larger and then shrunk, which smooths edges at about half the cost of a factor of 2.
 constexpr double kCoachDetail = 1.5;
-// The camera path is averaged over a second to either side. A camera that stands still also saves redrawing the room.
+// The camera path is averaged over a second to either side. If the camera stands still, the room need not be drawn
+// again.
 constexpr int kCoachFollowFrames = 30;
 // The smallest distance of the hips from the room's wall, metres.
 constexpr double kMinWallDistance = 1.0;
-// Frames for which the change stays marked after the transition point, and frames around it that show its distances.
+// How many frames the change stays marked after the transition point, and how many frames around it show its distances.
 constexpr int kCoachMarkFrames = 15;
 constexpr int kBarsBefore = 15, kBarsAfter = 60;
 // Beside the feet, above the timeline.
 constexpr double kBarsWidth = 320, kBarsLift = 34;
 
-// Moves the motion to the middle of the room, facing the camera at the transition point, and forward so far that it
+// Moves the motion to the middle of the room, facing the camera at the transition point, and so far forward that it
 // stays in front of the wall.
 void PutOnStage(BodyMotion& motion, int point) {
   const FloorMove move = ToOrigin(motion.poses[static_cast<std::size_t>(point)]);
@@ -45,7 +46,7 @@ void PutOnStage(BodyMotion& motion, int point) {
 
 Paint Faded(const Paint& paint) { return {paint.r, paint.g, paint.b, 0.55}; }
 
-// The film is long enough to watch one change of moves; kLongest limits the time that it takes to make.
+// The film is long enough to watch one change of moves; kLongest limits the time for making it.
 constexpr int kMinFrames = 5 * kFilmRate;
 // A motion that is repeated rests on its last frame before it starts again.
 constexpr int kRest = kFilmRate / 2;

@@ -33,17 +33,17 @@ const Paint& PaintOfSegment(const TransitionFacts& facts, std::size_t points_bef
 constexpr double kDistanceBarsHeight = 120;
 
 /// Draws the ten partial distances between the two frames of a transition point as bars with the features' names, under
-/// a line with d, the threshold and the branch. A full bar alone reaches the threshold. `point` counts from 0. Before
-/// the first transition point, and if the recording has no distances, the bars are empty. The box is
-/// kDistanceBarsHeight high.
+/// a line with d, the threshold and the branch. A full bar means that this part alone reaches the threshold. `point`
+/// counts from 0. Before the first transition point, and if the recording has no distances, the bars are empty. The box
+/// is kDistanceBarsHeight high.
 void DrawDistanceBars(Canvas& canvas, const Box& box, const TransitionFacts& facts, std::optional<std::size_t> point);
 
 /// Describes a transition point: "distance 0.384 < 0.4 · front half", or for one of two points "1 of 2 · distance 0.21
 /// < 0.4 · in-between".
 std::string PointWords(const TransitionFacts& facts, std::size_t point);
 
-/// Returns "side kick in 0.34 s" from the request until the wanted clip plays, "waited 0.57 s" after that, and ""
-/// before the request. `time` and `last_point` are frames after the request.
+/// Returns "side kick in 0.34 s" between the request and the start of the wanted clip, "waited 0.57 s" after that, and
+/// "" before the request. `time` and `last_point` are frames after the request.
 std::string CountdownWords(const std::string& wanted, int time, int last_point, double rate_hz);
 
 }  // namespace etude

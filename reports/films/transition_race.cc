@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-// Older recordings state only the wait. A recording without request and wait is aligned at its last transition point.
+// Older recordings contain only the wait. A recording without request and wait is aligned at its last transition point.
 int RequestOf(const TransitionFacts& facts, double rate_hz) {
   if (facts.request_frame) return *facts.request_frame;
   constexpr double kMaxWaitSeconds = 3600;
@@ -36,9 +36,9 @@ std::vector<const RecordedTransition*> ShownOf(const RecordedRequest& world, con
 }
 
 constexpr int kBefore = kFilmRate, kAfter = 3 * kFilmRate / 2;
-// The film ends by then; a method that waits longer is shown waiting.
+// The film ends at the latest then; a method that waits longer is shown while it waits.
 constexpr int kLatest = 4 * kFilmRate;
-// Long enough to see what leads to a transition and what follows it; the same stretch is shown in slow motion.
+// Long enough to see what leads to a transition and what follows it; slow motion shows the same frames.
 constexpr int kSlowBefore = kFilmRate / 3, kSlowAfter = 2 * kFilmRate / 3;
 constexpr int kMaxSlowFrames = 5 * kFilmRate / 2;
 

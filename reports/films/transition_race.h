@@ -38,8 +38,8 @@ struct TransitionRace {
 };
 constexpr std::size_t kMaxTransitionPaths = 4;
 
-/// Finds the first world that has recordings of the most methods (at most kMaxTransitionPaths, the scenario's first).
-/// Fails with the reason if no world has recordings of two.
+/// Finds the first world that has recordings of the most methods (at most kMaxTransitionPaths, the first ones of the
+/// scenario). Fails with the reason if no world has recordings of two.
 Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSummary& scenario);
 
 /// Maps frames of a film to times of a request, the same for every method: from a second before the request until after

@@ -37,7 +37,7 @@ std::vector<std::vector<FloorMove>> AllPlacements(const TransitionRace& race) {
   return placements;
 }
 
-// Frames for which a change stays marked, and for which the pose that was left stays visible as a ghost.
+// How many frames a change stays marked, and how many frames the pose at the leaving point stays visible as a ghost.
 constexpr int kMarkFrames = kFilmRate / 2, kGhostFrames = kFilmRate;
 constexpr double kPanelMargin = 12;
 constexpr Paint kPlate{0.13, 0.15, 0.17, 1};
@@ -149,7 +149,7 @@ void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& rendere
   }
   canvas.FillBox(plate, kPlate, kPanelRadius);
   canvas.Put(drawn_->picture, static_cast<int>(box.x), static_cast<int>(box.y), kPanelRadius);
-  // Veil the picture before the recording begins.
+  // Dim the picture as long as the recording has not begun.
   constexpr double kMarkRoom = 112;
   if (!path_.IsRecordedAt(time)) {
     canvas.FillBox(box, kVeil, kPanelRadius);

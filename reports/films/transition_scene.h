@@ -19,7 +19,7 @@ class TransitionStage {
   /// Makes a stage for pictures of this size that show the times `first` … `last`, in frames after the request.
   TransitionStage(const TransitionRace& race, int first, int last, int width, int height);
 
-  /// Draws a frame of a path; another frame of it, `ghost`, shows through behind.
+  /// Draws a frame of a path; behind it, another frame of the path, `ghost`, shows through.
   Image<std::uint32_t> Picture(Renderer& renderer, const TransitionPath& path, std::size_t index, int frame,
                                std::optional<int> ghost) const;
 

@@ -15,8 +15,8 @@
 namespace etude {
 namespace {
 
-// Size and margins of the panel in its own units; the page scales it. Terms are above the curves, numbers below the
-// axis.
+// Size and margins of the panel in its own units; the page scales it. The terms are written above the curves, the
+// numbers below the axis.
 constexpr double kPanelWide = 240, kPanelHeight = 150, kPanelTop = 22, kBase = 118;
 constexpr double kPanelMargin = 24, kPanelRim = 10;
 constexpr Axis kGrades{.low = 0, .high = 1, .from = kBase, .to = kPanelTop};
@@ -57,7 +57,7 @@ class MembershipPanel {
     return PanelText(inputs_.At(peak), kPanelTop - 8, name, anchor);
   }
 
-  /// Returns the numbers along the axis. One too close to its neighbour stands a row lower.
+  /// Returns the numbers along the axis. A number that is too close to its neighbour is written one row lower.
   std::string Numbers(std::vector<double> marks) const {
     marks.insert(marks.end(), {universe_.low, universe_.high});
     std::ranges::sort(marks);
@@ -95,7 +95,8 @@ class MembershipPanel {
 
 constexpr std::string_view kFuzzyKey = "fuzzy", kBuiltin = "builtin:";
 
-/// Returns the paper's system, then the built-in ones that the scenario sweeps. Results do not hold a file's functions.
+/// Returns the paper's system, then the built-in ones that the scenario sweeps. Systems from files are left out,
+/// because results do not hold their functions.
 std::vector<FuzzySystem> ShownSystems(const ScenarioSummary& scenario) {
   std::vector<FuzzySystem> systems = {FuzzySystem{}};
   for (const ConditionSummary& condition : scenario.conditions) {

@@ -16,7 +16,7 @@ struct PaperAFigure {
   const char* title;
   const char* input;           ///< what the axis shows
   std::vector<int> equations;  ///< one per term, in the order of TermsOf
-  const char* repaired;        ///< what the paper misprints or leaves open; "" for nothing
+  const char* repaired;        ///< misprints or gaps of the paper that were repaired; "" if there are none
 };
 const std::vector<PaperAFigure>& PaperAFigures();
 
@@ -31,9 +31,9 @@ std::string MembershipPlotSvg(Feature feature, const Memberships& memberships, c
 /// Returns true for paper A's own scenario (task transition, named `paper-bridging`) and for sweeps of the key `fuzzy`.
 bool ShowsPaperA(const ScenarioSummary& scenario);
 
-/// Returns figures 5 to 10 of paper A, drawn from the functions that grade poses, with what defuzzification makes of
-/// their grades; then the program's other fuzzy systems, if the scenario sweeps them. Returns "" if ShowsPaperA is
-/// false.
+/// Returns figures 5 to 10 of paper A, drawn from the functions that grade poses, with the values that defuzzification
+/// recovers from the grades; then the program's other fuzzy systems, if the scenario sweeps them. Returns "" if
+/// ShowsPaperA is false.
 std::string PaperAHtml(const ScenarioSummary& scenario);
 /// Returns the functions as a folded table.
 std::string PaperAMarkdown(const ScenarioSummary& scenario);

@@ -32,7 +32,7 @@ struct Panel {
   std::vector<PlotCurve> curves;
 };
 
-/// Returns the first trial's curve of each method, and the median of all trials if there are several.
+/// Returns the first trial's curve of each method, and, if there are several trials, the median over all.
 std::vector<PlotCurve> CurvesOf(const CellSeriesIndex& series, const std::vector<const Row*>& rows,
                                 const std::vector<std::string>& methods, const std::string& name) {
   std::vector<PlotCurve> singles, medians;
@@ -174,9 +174,9 @@ bool HasEffectorCurves(const RunData& run, const ScenarioSummary& scenario) {
   return scenario.task == "ik" && KeepsSeries(run, scenario, "head_position_error_cm");
 }
 
-/// Draws paper B's figure 5.2: each end effector's position error, and the error along each axis, over iterations.
-/// Each is a small panel of all methods on a logarithmic axis, thin for the first trial, thick for the median of all.
-/// One folded figure per condition; "" if no cell keeps such curves.
+/// Draws paper B's figure 5.2: each end effector's position error, and the error along each axis, over iterations. Each
+/// small panel shows all methods on a logarithmic axis: a thin line for the first trial, a thick line for the median of
+/// all trials. One folded figure per condition; "" if no cell keeps such curves.
 std::string EffectorCurvesHtml(const RunData& run, const ScenarioSummary& scenario) {
   if (!HasEffectorCurves(run, scenario)) return "";
   const CellSeriesIndex series(run);
@@ -210,7 +210,7 @@ std::string PaperBHtml(const RunData& run, const ScenarioSummary& scenario) {
       with_angles = with_angles || !set.angles.empty();
     }
   }
-  // Without a filled table there is nothing to compare with the paper's.
+  // Without a filled table there is nothing to compare with the paper's tables.
   return open ? html : html + PrintedHtml(with_angles);
 }
 

@@ -11,7 +11,7 @@ namespace etude {
 bool ShowsPaperB(const RunData& run, const ScenarioSummary& scenario);
 
 /// Returns single effectors and joints as paper B shows them: the curves of its figure 5.2, its tables 5.1 and 5.2
-/// filled from the run, and beside them the printed ones. Returns "" if no cell keeps them.
+/// filled from the run, and beside them the tables that the paper prints. Returns "" if no cell keeps them.
 std::string PaperBHtml(const RunData& run, const ScenarioSummary& scenario);
 /// Returns the tables alone, folded.
 std::string PaperBMarkdown(const RunData& run, const ScenarioSummary& scenario);

@@ -147,7 +147,7 @@ double RootMeanSquare(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// Returns a figure over those of `rows` that have it; nothing if none has.
+/// Returns a figure over the rows that have it; nullopt if none has it.
 std::optional<double> Figure(const CellSeriesIndex& series, std::span<const Row* const> rows, const std::string& name,
                              std::size_t index, const Aggregator& aggregate) {
   std::vector<double> values;

@@ -34,7 +34,8 @@ struct PaperTable {
 /// Returns "(a)", "(b)", …, "(z)", "(27)", …
 std::string PaperLetter(std::size_t index);
 
-/// Returns the table as all writers take it: the caption, two rows of headings, values beside their six decimals.
+/// Converts the table for the writers: caption, two rows of headings, and cells that hold a value and its text of six
+/// decimals.
 Table TableOf(const PaperTable& table);
 
 /// A row of paper B's tables of errors, in the paper's order.
@@ -93,8 +94,8 @@ struct PaperBCondition {
 bool HasPaperBTables(const RunData& run, const ScenarioSummary& scenario);
 
 /// Returns the filled tables, one entry per condition whose cells keep effectors' errors; empty for other scenarios. A
-/// method without such figures has no table, and its line in `outcomes` says why. Position errors have signs; over all
-/// trials they are medians of absolute values.
+/// method without such figures has no table, and its line in `outcomes` says why. Position errors of one trial have
+/// signs; those over all trials are medians of absolute values.
 std::vector<PaperBCondition> PaperBTables(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

@@ -35,7 +35,7 @@ CurveAxes AxesFor(const std::vector<const PlotCurve*>& curves) {
 }
 
 std::string CurveLine(const PlotCurve& curve, const Axis& across, const Axis& up) {
-  // More points would only make the page heavy. The last one is always drawn.
+  // More points would make the page larger without showing more. The last point is always drawn.
   const std::size_t count = curve.values.size();
   const std::size_t stride = std::max<std::size_t>(1, (count + kMaxPoints - 1) / kMaxPoints);
   std::string points;

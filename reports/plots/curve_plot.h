@@ -8,10 +8,10 @@
 namespace etude {
 
 struct PlotCurve {
-  std::size_t style = 0;  ///< colour and dashes, those of the method with this index
+  std::size_t style = 0;  ///< index of the method that gives the colour and dashes
   bool faint = false;
   std::vector<double> values;   ///< 0 or more
-  std::vector<double> at = {};  ///< place of each value on the horizontal axis; empty: 0, 1, 2, …
+  std::vector<double> at = {};  ///< position of each value on the horizontal axis; empty: 0, 1, 2, …
 };
 
 /// Axes that neighbouring panels share, so that their curves can be compared.
@@ -20,13 +20,13 @@ struct CurveAxes {
   Axis up;      ///< whole decades
 };
 
-/// Returns axes that hold all these curves of steps, at most eight decades of them.
+/// Returns axes that hold all these curves; the vertical one has at most eight decades.
 CurveAxes AxesFor(const std::vector<const PlotCurve*>& curves);
 
-/// Draws one panel of curves over steps as an SVG element. Values below the axis lie on its lower end.
+/// Draws one panel of curves over steps as an SVG element. Values below the axis are drawn at its lower end.
 std::string CurvePlotSvg(const std::vector<PlotCurve>& curves, CurveAxes axes, const std::string& title);
 
-/// Draws a curve between two axes: at most 80 of its points, the last among them.
+/// Draws a curve between two axes: at most 80 of its points, including the last one.
 std::string CurveLine(const PlotCurve& curve, const Axis& across, const Axis& up);
 
 /// Draws the short line that stands for a method in a legend.

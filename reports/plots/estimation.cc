@@ -104,7 +104,7 @@ class Plot {
     const MetricInfo* info = FindMetric(c_.metric);
     return info == nullptr ? 0 : info->practical * words_.scale;
   }
-  // The end of a logarithmic axis: costs below a hundredth of the practical threshold need not be told apart.
+  // The end of a logarithmic axis: costs below a hundredth of the practical threshold need not be distinguished.
   double Floor() const {
     return words_.is_share || words_.direction != Direction::kLowerIsBetter ? 0 : Practical() / 100;
   }
@@ -144,7 +144,7 @@ class Plot {
   /// Draws each unit's mean difference, and beside them the interval over units.
   std::string Units(const Axis& axis) const {
     if (!ShowsUnits()) return "";
-    // A world of two clips belongs to both, so no clip has a mean of its own.
+    // A world of two clips belongs to both clips, so no clip has a mean of its own.
     std::string interval = Interval(axis, kUnitsX + 10, c_.beyond.difference, c_.beyond.low, c_.beyond.high);
     if (scenario_.unit == SamplingUnit::kClipPair) return interval;
     std::map<std::size_t, std::pair<double, int>> sums;
@@ -189,8 +189,8 @@ std::string Caption(const Judged& judged, const PairedDots& pairs) {
 
 constexpr double kStripHeight = 58, kStripTop = 6, kStripBottom = 36;
 
-/// Returns the unit that matters most: if the difference matters, the one without which least of it is left, else the
-/// one without which it would be largest.
+/// Returns the unit that matters most: if the difference matters, the unit whose removal leaves the smallest
+/// difference; else the unit whose removal leaves the largest.
 const LeftOut& Extreme(const Beyond& beyond, double practical) {
   const double all = *beyond.mean;
   const bool matters = std::abs(all) >= practical;

@@ -32,7 +32,7 @@ std::size_t LeadCondition(const ScenarioSummary& scenario, const std::string& me
   return lead;
 }
 
-/// Collects pictures of comparisons, each pair of methods once under each condition, and explains them once.
+/// Collects pictures of comparisons and explains them once. Each pair of methods appears once for each condition.
 class Section {
  public:
   Section(const RunData& run, const ScenarioSummary& scenario) : run_(run), scenario_(scenario) {}

@@ -24,19 +24,21 @@ std::string PlotSectionHtml(const RunData& run, const ScenarioSummary& scenario)
 std::string StripsHtml(const RunData& run, const ScenarioSummary& scenario, const ConditionSummary& condition,
                        const std::string& metric);
 
-/// Draws the cost of each stage as a waterfall with intervals, from the method's error to what is left when all
-/// stages are true. The caption says whether the shares depend on an order. `condition` is in words and may be empty.
+/// Draws the cost of each stage as a waterfall with intervals, from the method's error to the error that is left when
+/// the truth replaces all stages. The caption says whether the shares depend on an order of the stages. `condition` is
+/// in words and may be empty.
 std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condition);
 
-/// Draws survival curves of what is censored in this scenario (steps of unsolved cells, waits without an end): one
-/// curve per method, one panel per condition; "" if nothing is censored. What never ends stays in the denominator, so a
-/// method gains nothing by giving up early.
+/// Draws survival curves of the metrics that are censored in this scenario (steps of unsolved cells, waits without an
+/// end): one curve per method, one panel per condition; "" if there are none. Cells that never end stay in the
+/// denominator, so a method gains nothing by giving up early.
 std::string SurvivalHtml(const RunData& run, const ScenarioSummary& scenario);
 
 /// A world in which both methods of a comparison have a value. Shares are in per cent.
 struct PairedWorld {
   int trial = 0;
-  std::size_t unit = 0;  ///< index in PairedDots::units; the first of several (clip left × clip entered)
+  /// Index in PairedDots::units; if the world has several units (clip left × clip entered), the first.
+  std::size_t unit = 0;
   double baseline = 0, method = 0;
   std::string baseline_cell = {}, method_cell = {};  ///< HTML attributes of the dots if those cells were recorded
 
@@ -57,11 +59,11 @@ PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, c
 
 /// Draws one comparison as an estimation plot (Gardner & Altman 1986; paired as in Ho et al. 2019). The first panel
 /// joins each world's dots under both methods. The second shows the paired differences: dots, the aggregate and the
-/// units' means, each with a 95 % interval, and a band for what does not matter. Dots are coloured by unit, or by
-/// method if worlds are units. Returns "" without worlds.
+/// units' means, each with a 95 % interval, and a band for differences that do not matter. Dots are coloured by unit,
+/// or by method if worlds are units. Returns "" without worlds.
 std::string EstimationHtml(const ScenarioSummary& scenario, const Judged& judged, const PairedDots& pairs);
 
-/// Returns in words what such plots show of this metric, once for all of them.
+/// Returns a legend that explains such plots of this metric; one legend serves all of them.
 std::string EstimationLegend(const ScenarioSummary& scenario, const std::string& metric);
 
 /// Returns the legend of the units' colours; "" if worlds are units.
@@ -71,7 +73,8 @@ std::string UnitLegendHtml(const PairedDots& pairs);
 /// whether it alone makes or hides the difference. Returns "" if worlds are units.
 std::string WithoutEachUnit(const Comparison& comparison, SamplingUnit unit);
 
-/// Draws the same as a strip: the mean difference without each unit beside the practical threshold, words beneath.
+/// Draws this as a strip of the mean differences without each unit, with the practical threshold; the words are below
+/// it.
 std::string LeftOutStripHtml(const Comparison& comparison, SamplingUnit unit);
 
 }  // namespace etude

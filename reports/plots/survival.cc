@@ -22,11 +22,11 @@ constexpr double kCurveHeight = 200, kCurveTop = 8, kCurveBottom = 172;
 constexpr std::size_t kMaxPanels = 4;
 constexpr std::size_t kMaxLines = 16;
 
-/// A metric that is censored: its value may end before what it measures does.
+/// A metric that is censored: measuring may stop before the measured event happens.
 struct Censored {
   std::string_view metric;
-  std::string_view done;   ///< metric that is 1 if it came to its end; "" if any value means so
-  std::string_view share;  ///< what the curve is the share of
+  std::string_view done;   ///< a metric that is 1 if the event happened; "" if every value means that it did
+  std::string_view share;  ///< the words for the share that the curve shows
 };
 constexpr std::array<Censored, 2> kCensored = {
     {{"iterations", "solved_practical", "worlds not yet solved"}, {"wait_s", "", "requests still waiting"}}};

@@ -52,8 +52,8 @@ std::string SharePanel(const std::string& caption, const std::string& words,
   return Figure(caption, words, drawn);
 }
 
-/// An axis of shares as normal deviates, from 1 to 99 %: two normal distributions of scores give a straight line
-/// (Martin et al. 1997).
+/// An axis that shows shares from 1 to 99 % on the scale of normal deviates. If the scores of both classes are normal,
+/// the curve is a straight line (Martin et al. 1997).
 struct DeviateAxis {
   static constexpr double kLow = 0.01, kHigh = 0.99;
   double from = 0, to = 1;

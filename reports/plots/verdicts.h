@@ -13,13 +13,14 @@
 namespace etude {
 
 struct JudgedPerformance {
-  int person = 0;    ///< the trial, that is, who performed it
+  int person = 0;    ///< the trial, which identifies the performer
   double score = 0;  ///< a higher score means nearer to right
   double truth = 0;  ///< 1 right, ½ grey, 0 wrong
   bool is_called = false;
-  double severity = 0;                    ///< of its worst fault; 0 if none
-  std::string fault = {};                 ///< that fault's name; "" if none
-  std::string danced = {};                ///< the move truly danced; "" if none
+  double severity = 0;     ///< of its worst fault; 0 if none
+  std::string fault = {};  ///< that fault's name; "" if none
+  /// The move as which the method named it, "" for none; unset if methods name no moves.
+  std::string danced = {};
   std::optional<std::string> named = {};  ///< the move it was taken for, "" for none; unset if methods name no moves
 };
 
@@ -34,7 +35,7 @@ struct MethodVerdicts {
 std::map<std::size_t, MethodVerdicts> VerdictsUnder(const RunData& run, const ScenarioSummary& scenario,
                                                     const ConditionSummary& condition);
 
-/// Counts performances by the move danced and the move named; "" stands for no move.
+/// Counts performances by the danced move and the named move; "" stands for no move.
 struct MoveConfusion {
   std::vector<std::string> moves;                             ///< danced or named; sorted
   std::map<std::pair<std::string, std::string>, int> counts;  ///< (danced, named)
@@ -43,11 +44,11 @@ struct MoveConfusion {
 };
 MoveConfusion ConfusionOf(std::span<const JudgedPerformance> performances);
 
-/// Counts the faulty performances, and those of them that were not called right.
+/// Counts the faulty performances, and how many of them were not called right.
 struct FaultCount {
   int all = 0, found = 0;
 };
-/// Returns the counts by the worst fault's name: of slight faults (severity to ½), and of bad ones.
+/// Returns, by the name of the worst fault, the counts of slight faults (severity up to ½) and of bad faults.
 std::map<std::string, std::pair<FaultCount, FaultCount>> FoundByFault(std::span<const JudgedPerformance> performances);
 
 /// The mistakes in a person's session: right performances missed, wrong ones praised.
@@ -63,12 +64,12 @@ std::vector<SessionMistakes> WorstSessions(std::span<const JudgedPerformance> pe
 /// moves. Returns "" if methods judge no performances.
 std::string VerdictTablesHtml(const RunData& run, const ScenarioSummary& scenario);
 
-/// Returns the share of faulty performances not called right by fifths of severity: (middle of the fifth, share).
-/// Fifths without performances are left out.
+/// Returns the share of faulty performances not called right for each fifth of the severity range: (middle of the
+/// fifth, share). Fifths without performances are left out.
 std::vector<std::pair<double, double>> FoundBySeverity(std::span<const JudgedPerformance> performances);
 
-/// Returns the smallest severity from which half of the faults are found, by linear interpolation; nothing if the curve
-/// does not rise through a half.
+/// Returns the severity at which the share of found faults first reaches a half, by linear interpolation; nullopt if it
+/// never rises through a half.
 std::optional<double> HalfFoundAt(std::span<const std::pair<double, double>> curve);
 
 /// Returns a scenario's verdicts as curves, per condition: every method's ROC with its area, its detection error

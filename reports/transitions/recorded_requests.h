@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// The contents of a transition's recording, with clips named as people name them.
+/// The contents of a transition's recording, with clip names for people.
 using TransitionFacts = TransitionExtras;
 using PointFacts = TransitionExtras::Point;
 using CandidateFacts = TransitionExtras::Candidate;
@@ -19,7 +19,7 @@ using CandidateFacts = TransitionExtras::Candidate;
 /// `cell` if the extras are no JSON object.
 Result<TransitionFacts> ReadTransitionFacts(const Recording& recording, const std::string& cell);
 
-/// Returns a clip's name as people write it: "builtin:side_kick" becomes "side kick".
+/// Returns a clip's name in the form for people: "builtin:side_kick" becomes "side kick".
 std::string ClipInWords(std::string name);
 
 /// A method's recorded transition for a request.
@@ -29,7 +29,7 @@ struct RecordedTransition {
   TransitionFacts facts;
 };
 
-/// One request with the recorded transition of each method. Never empty.
+/// One request with the recorded transition of each method. There is at least one transition.
 struct RecordedRequest {
   std::vector<RecordedTransition> transitions;  ///< in the order of the scenario's methods
 

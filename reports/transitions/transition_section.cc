@@ -17,7 +17,7 @@ namespace {
 
 TableColumn NumberColumn(std::string head) { return {.head = std::move(head), .is_number = true}; }
 
-/// Draws a bar of the share of the threshold's square that this feature alone takes up.
+/// Draws a bar for one feature: its partial distance as a share of the squared threshold.
 TableCell Bar(double partial, double full, bool has_threshold) {
   const double share = full > 0 ? std::clamp(partial / full, 0.0, 1.0) : 0;
   const bool alone = has_threshold && partial >= full;
@@ -131,7 +131,7 @@ TableRow CandidateRow(const CandidateFacts& candidate, const TransitionFacts& fa
   return row;
 }
 
-/// Returns a note on how many of all pairs of frames are listed; "" if all are.
+/// Returns a note on how many of all pairs of frames are listed; "" if all of them are.
 std::string HowMany(const TransitionFacts& facts) {
   const auto listed = static_cast<long long>(facts.candidates.size());
   if (!facts.pairs_seen || *facts.pairs_seen <= listed) return "";

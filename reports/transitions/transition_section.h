@@ -18,8 +18,8 @@ constexpr std::string_view kFeatureLegend =
     "RH, LH: how far the right and the left arm are raised; RHE, LHE: their elbows; Posture: lying to jumping; Trunk: "
     "its lean; RF, LF: how far the legs are spread; RFK, LFK: their knees.";
 
-/// A table of the ten partial distances of transition points, one row per point, each with a bar: a full bar alone
-/// reaches the threshold. Weights stand above, once for all methods that share them.
+/// A table of the ten partial distances of transition points, one row per point, each with a bar. A full bar means that
+/// this part alone reaches the threshold. The weights are listed above the table, once for all methods that share them.
 class DistanceTable {
  public:
   void AddWeights(const std::string& method, const FeatureWeights& weights);

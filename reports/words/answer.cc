@@ -98,7 +98,7 @@ std::string SentenceOverConditions(const std::vector<Judged>& judged, const Metr
                        CountVerdicts(VerdictsOf(judged), judged.size()));
   }
   const std::string others = OthersOf(judged), range = RangeOfChanges(judged, words);
-  // The range names both of two conditions.
+  // With two conditions, the range already names both.
   const std::string under = judged.size() > 2 ? " under " + AllConditions(judged.size()) : "";
   const auto verdict = CommonVerdict(judged);
   if (verdict == Verdict::kBetter || verdict == Verdict::kWorse) {
@@ -117,7 +117,7 @@ std::string SentenceOverConditions(const std::vector<Judged>& judged, const Metr
                      CountVerdicts(VerdictsOf(judged), judged.size()), range);
 }
 
-// Names the worlds without a pair: a method that fails in hard worlds must not look better for it.
+// Names the worlds without a pair, so that a method that fails in hard worlds does not look better because of it.
 std::string UnpairedWords(const std::vector<Judged>& judged) {
   int only_baseline = 0, only_method = 0;
   for (const Judged& j : judged) {
@@ -134,7 +134,7 @@ std::string UnpairedWords(const std::vector<Judged>& judged) {
   return text.empty() ? "" : fmt::format(" Not in this difference, since one of the two has no value there: {}.", text);
 }
 
-// From this value on, a ratio says more than a difference.
+// At or above this value, a ratio says more than a difference.
 constexpr double kMinTellingRatio = 2;
 // A value below this share of the practical threshold counts as zero, so a ratio to it says nothing.
 constexpr double kMinShareOfThreshold = 0.1;
@@ -151,12 +151,13 @@ std::string RatioText(const CostRatio& ratio) {
   return least == most ? least : fmt::format("{}–{}", least, most);
 }
 
-/// Returns true if a question about this metric is the scenario's: its answer is about success first.
+/// Returns true if this metric is the one that the scenario's question is about; the answer then considers success
+/// first.
 bool IsAnswer(const ScenarioSummary& scenario, const std::string& metric) {
   return !scenario.headline_metrics.empty() && scenario.headline_metrics.front() == metric;
 }
 
-/// Returns the verb of a cost: a method needs steps, but has an error.
+/// Returns the verb for a cost: a method "needs" steps, but "has" an error.
 std::string_view VerbOf(const Comparison& c) {
   const MetricInfo* info = FindMetric(c.metric);
   return info != nullptr && info->unit.empty() && info->practical >= 1 ? "needs" : "has";
@@ -212,7 +213,8 @@ std::string PhraseOf(const std::vector<Judged>& judged, std::string_view what = 
                : VerdictPhrase(judged) + ChangeOf(judged, what);
 }
 
-/// Returns the largest cost ratio by which the rival leads in another headline metric, in words; "" if there is none.
+/// Returns, in words, the largest ratio of costs in another headline metric in which the rival is better; "" if there
+/// is none.
 std::string CostElsewhere(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                           const std::string& rival) {
   std::string phrase;
@@ -234,7 +236,7 @@ std::string AgainstRival(const ScenarioSummary& scenario, const std::string& met
                          const std::string& baseline, const std::optional<Verdict>& of_baseline) {
   const std::vector<Judged> judged = AnswersOf(scenario, method, Against::kRival);
   if (judged.empty()) return "";
-  // The metric stands there where it is another one than against the baseline.
+  // Name the metric if it is not the one that decided against the baseline.
   const std::string& decides = judged.front().comparison->metric;
   const std::string what = decides == metric ? "" : WordsFor(decides).label + " ";
   const std::string rival = OthersOf(judged);
@@ -249,14 +251,15 @@ std::string AgainstRival(const ScenarioSummary& scenario, const std::string& met
   return "; " + (elsewhere.empty() ? phrase : is_led ? phrase + " and " + elsewhere : phrase + ", but " + elsewhere);
 }
 
-/// Returns the figure that decides beyond these worlds: " Middle of 8 clips 2.39 cm (−6.3 to 11.0)."; "" if worlds do.
+/// Returns the figure that decides the verdict for other units: " Middle of 8 clips 2.39 cm (−6.3 to 11.0)."; "" if
+/// worlds are the units.
 std::string MiddleOfUnits(const Comparison& c, const MetricWords& words, SamplingUnit unit) {
   if (WorldsAreUnits(unit) || !c.beyond.low || !c.beyond.difference) return "";
   return fmt::format(" Middle of {} {} ({}).", CountUnits(c.beyond.units, unit), Amount(*c.beyond.difference, words),
                      FormatInterval(c.beyond.low, c.beyond.high, words));
 }
 
-/// Returns what else an answer rests on: the value where both succeeded, and the tail if it decides.
+/// Returns the further grounds of an answer: the value where both succeeded, and the tail if it decides.
 std::string FurtherSteps(const Judged& judged) {
   const Answer* answer = judged.answer;
   if (answer == nullptr) return "";
@@ -276,7 +279,7 @@ std::string FurtherSteps(const Judged& judged) {
   return text;
 }
 
-/// Returns a sentence on how a method did against another over all its conditions, with the figures behind its
+/// Returns a sentence that compares a method with another over all its conditions, with the figures behind the
 /// verdicts. `judged` must not be empty.
 std::string SentenceOf(const std::vector<Judged>& judged, SamplingUnit unit) {
   const Comparison& first = *judged.front().comparison;

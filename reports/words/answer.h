@@ -8,10 +8,10 @@
 
 namespace etude {
 
-/// Returns a scenario's first line: how `method` did against its baseline, and against the strongest other method:
+/// Returns a scenario's first line: how `method` compares with its baseline, and with the strongest other method:
 /// "better than “fixed”; needs 140 × the solver steps of “gauss-newton”". If a cost is at least twice the other's, it
-/// gives the ratio, else the verdict. Without rivals it has the first half only. It says so if nothing is known beyond
-/// these worlds.
+/// gives the ratio, else the verdict. Without rivals it has only the first half. It says if there is no verdict for
+/// other units.
 std::string HeadlineOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric);
 
 /// One method's cost divided by another's: the smallest and largest ratio over conditions.
@@ -20,12 +20,12 @@ struct CostRatio {
 };
 std::optional<CostRatio> CostRatioOf(const std::vector<Judged>& judged);
 
-/// Returns in words how `method` did by `metric` against its baseline, or the strongest other method, over all
-/// conditions.
+/// Compares `method` by `metric` with its baseline, or with the strongest other method, over all conditions, in words.
 MethodFinding CompareInWords(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                              Against against);
 
-/// Returns the method that the question is about: the first one that is compared with another; "" if none is.
+/// Returns the method that the question is about: the first one that is compared with another method; "" if there is
+/// none.
 std::string MethodInQuestion(const ScenarioSummary& scenario);
 
 }  // namespace etude

@@ -46,8 +46,8 @@ std::vector<const Row*> RowsUnder(const RunData& run, const std::string& scenari
 /// Returns every recording whose cell has a row, with that row, in order.
 std::vector<std::pair<const Row*, const CellRecording*>> RecordedRows(const RunData& run);
 
-/// Returns the median of each step over several curves of different lengths. A curve that ended keeps its last value,
-/// as a solver that stopped keeps its answer.
+/// Returns the median of each step over several curves of different lengths. A curve that has ended continues with its
+/// last value, because a solver that has stopped keeps its answer.
 std::vector<double> MedianCurve(const std::vector<const std::vector<double>*>& curves);
 
 }  // namespace etude

@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-// Returns "°" for degrees; other units stand in the catalogue as people write them.
+// Returns "°" for degrees; other units are written for people in the catalogue already.
 std::string Suffix(const std::string& unit) {
   if (unit == "deg") return "°";
   return unit.empty() ? "" : " " + unit;

@@ -14,10 +14,10 @@ namespace etude {
 struct MetricWords {
   std::string label;              ///< "orientation error"; "share “solved”", "mean F1"
   std::string suffix;             ///< follows a value: "°", " cm", " %", ""
-  std::string difference_suffix;  ///< follows a difference: the same, but " percentage points" after values in per cent
+  std::string difference_suffix;  ///< follows a difference: the same, but " percentage points" for values in per cent
   double scale = 1;               ///< factor that turns a value into the one shown
   bool is_share = false;          ///< 0…1, shown in per cent
-  bool by_mean = false;           ///< the mean stands for all cells, not the median
+  bool by_mean = false;           ///< true: the mean summarises all cells; false: the median
   Direction direction = Direction::kNeither;
   std::string plain_label = {};  ///< "orientation error", "solved", "F1": for texts that already say mean or share
 };
@@ -25,11 +25,12 @@ MetricWords WordsFor(const std::string& metric_id);
 /// Returns the suffix without its space, for captions: "cm", "".
 std::string UnitOf(const MetricWords& words);
 
-/// Returns the one number that stands for all cells: the median or mean, whichever the metric uses, in its unit.
+/// Returns the number that summarises all cells: the median or the mean, as the metric defines, in its unit.
 std::optional<double> TypicalValue(const MetricSummary& summary, const MetricWords& words);
 /// Returns a value as text: "12.3°", "98 %"; kNoValue if there is none.
 std::string FormatValue(std::optional<double> value, const MetricWords& words);
 
-/// Returns an interval as text: "10.1–14.0", both ends with equal digits, or "−1.2 to 0.4"; kNoValue if none.
+/// Returns an interval as text: "10.1–14.0", both ends with equal digits, or "−1.2 to 0.4"; kNoValue if there is no
+/// interval.
 std::string FormatInterval(std::optional<double> low, std::optional<double> high, const MetricWords& words);
 }  // namespace etude

@@ -15,7 +15,7 @@
 namespace etude {
 namespace {
 
-// Of more methods than this, only the least and the most successful are named.
+// If there are more methods than this, only the least and the most successful ones are named.
 constexpr std::size_t kMaxSuccesses = 12;
 
 std::string ExpectationsSentence(const RunFindings& f) {
@@ -135,7 +135,8 @@ std::string SuccessOf(const ScenarioFindings& findings, const ScenarioSummary& s
   return FormatShare(ok, attempted);
 }
 
-/// Returns the methods that `asked` is compared with, each once: baselines, then the strongest others.
+/// Returns the methods with which `asked` is compared, each once: first the baselines, then the strongest other
+/// methods.
 std::vector<std::string> OthersBeside(const ScenarioSummary& scenario, const std::string& asked,
                                       const std::string& metric) {
   std::vector<std::string> names;
@@ -151,7 +152,8 @@ std::vector<std::string> OthersBeside(const ScenarioSummary& scenario, const std
   return names;
 }
 
-/// Returns in how many worlds another method loses to `asked` by as much as matters, over all conditions.
+/// Returns the number of worlds, over all conditions, in which another method is worse than `asked` by at least the
+/// practical threshold.
 std::string WorldsLostTo(const ScenarioSummary& scenario, const std::string& asked, const std::string& other,
                          const std::string& metric) {
   for (const Against against : {Against::kBaseline, Against::kRival}) {
@@ -163,7 +165,7 @@ std::string WorldsLostTo(const ScenarioSummary& scenario, const std::string& ask
     }
     if (pairs > 0) return fmt::format("{}/{}", FormatCount(lost), FormatCount(pairs));
   }
-  return "";  // one of two rivals that half of the worlds each chose
+  return "";  // the rival is one of two, each chosen on half of the worlds
 }
 
 KeyFigures KeyFiguresOf(const ScenarioSummary& scenario, const std::string& asked, Times& times,
@@ -218,7 +220,7 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
     findings.answer = CompareInWords(scenario, asked, findings.metric, Against::kBaseline);
     findings.rival = CompareInWords(scenario, asked, findings.metric, Against::kRival);
   }
-  // Every method that is compared, and the yardsticks.
+  // All methods that are compared, and the yardsticks.
   for (std::size_t i = 1; i < scenario.methods.size(); ++i) {
     if (IsYardstick(scenario, scenario.methods[i])) {
       findings.yardsticks.push_back(scenario.methods[i]);

@@ -19,17 +19,18 @@ inline std::string_view VerdictWords(const std::optional<Verdict>& verdict) {
   return verdict ? VerdictName(*verdict) : "it depends";
 }
 
-/// How one method did against another by one metric, over all conditions.
+/// The comparison of one method with another by one metric, over all conditions.
 struct MethodFinding {
   std::string method;
-  std::string baseline;  ///< the method compared with; of several strongest other ones, that of the first condition
+  /// The method compared with; if conditions have different strongest methods, that of the first one.
+  std::string baseline;
   SamplingUnit unit = SamplingUnit::kWorld;
   bool is_compared = false;             ///< false if not compared by this metric
   std::optional<Verdict> verdict = {};  ///< on these worlds; empty if it depends on the condition
-  BeyondFinding beyond = {};            ///< for others like them
-  std::string others = {};              ///< all methods that it was compared with: “a” or “b”
-  std::string sentence = {};            ///< plain words with the figures that carry the verdicts
-  std::string why_open = {};            ///< why nothing is decided; set only if there is one condition
+  BeyondFinding beyond = {};            ///< for other units
+  std::string others = {};              ///< all methods with which it was compared: “a” or “b”
+  std::string sentence = {};            ///< plain words, with the figures behind the verdicts
+  std::string why_open = {};            ///< the reason for an open verdict; set only if there is one condition
 
   /// Returns the verdict in words: "better on these clips".
   std::string Words() const { return fmt::format("{} on {}", VerdictWords(verdict), TheseUnits(unit)); }
@@ -41,7 +42,7 @@ struct MethodFinding {
 struct KeyFigures {
   struct Method {
     std::string name;
-    std::vector<std::string> values;  ///< one per label, with its unit; "" if it has no meaning
+    std::vector<std::string> values;  ///< one per label, with its unit; "" if the method has none
   };
   std::vector<std::string> labels;  ///< headline metric, success, processor time, worlds lost to it; only known ones
   std::vector<Method> methods;      ///< the one in question first; empty if nothing is compared
@@ -58,8 +59,8 @@ struct ReasonCount {
   int cells = 0;
 };
 
-/// How many cells of each method reached the task's goal, by one metric. Status ok says only that a cell was
-/// measured.
+/// The shares of cells, by method, that reached the task's goal according to one metric. Status `ok` only means that a
+/// cell was measured.
 struct SuccessFinding {
   std::string metric;
   std::vector<std::pair<std::string, double>> shares;  ///< per method: mean over its cells that have a value, 0…1
@@ -67,7 +68,7 @@ struct SuccessFinding {
 
 /// All findings on one scenario in words, which the page and the Markdown share.
 struct ScenarioFindings {
-  std::string metric;    ///< the first headline metric, which the answer is about; "" without any
+  std::string metric;    ///< the first headline metric, which the question is about; "" without any
   std::string headline;  ///< the answer in one line: against the baseline, and against the strongest other method
   MethodFinding answer;  ///< against the baseline
   MethodFinding rival;   ///< against the strongest other method; not compared in old runs, or if there is none
@@ -76,7 +77,7 @@ struct ScenarioFindings {
   std::vector<std::string> yardsticks;
   int cells = 0;
   std::vector<std::pair<Status, int>> statuses;  ///< in the order of Status; those that occur
-  std::vector<SuccessFinding> successes;         ///< by every metric that tells success (MetricInfo::is_success)
+  std::vector<SuccessFinding> successes;         ///< one per metric of success (MetricInfo::is_success)
   std::vector<ReasonCount> reasons;              ///< of every cell that is not ok, most frequent first
 };
 /// Returns true if the strongest other method is not the baseline, so that there is more to tell.
@@ -87,9 +88,9 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
 /// The whole run in one sentence, and the counts in it.
 struct RunFindings {
   int cells = 0;
-  int ok = 0;        ///< measured; the status does not tell whether a goal was reached
-  int unsolved = 0;  ///< measured, but stopped short of the goal
-  int skipped = 0;   ///< the world lacked what the task needs
+  int ok = 0;        ///< measured; the status does not say whether a goal was reached
+  int unsolved = 0;  ///< measured, but ended before the goal was reached
+  int skipped = 0;   ///< not run, because the world lacked something that the task needs
   int broken = 0;    ///< failed, crashed, timed out or answered badly
   int met = 0, unmet = 0, undecided = 0;
   std::string sentence;

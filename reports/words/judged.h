@@ -15,7 +15,8 @@ enum class Against { kBaseline, kRival };
 struct Judged {
   const Comparison* comparison;
   const ConditionSummary* condition;
-  const Answer* answer = nullptr;  ///< the answer that the comparison decides or is part of; null: it stands for itself
+  /// The answer that the comparison decides or belongs to; null: none, the comparison stands alone.
+  const Answer* answer = nullptr;
 
   /// Returns the verdict on these worlds, and for others like them.
   Verdict Here() const { return answer == nullptr ? comparison->verdict : answer->verdict; }
@@ -27,8 +28,8 @@ struct Judged {
 std::vector<Judged> JudgedOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                              Against against);
 
-/// Returns the answers on a method, one per condition, each with the comparison that decides it: that of success, else
-/// that of the value. For a summary without answers: the comparisons by the first headline metric.
+/// Returns the answers on a method, one per condition, each with the comparison that decides it: that of success, or
+/// else that of the value. For a summary without answers it returns the comparisons by the first headline metric.
 std::vector<Judged> AnswersOf(const ScenarioSummary& scenario, const std::string& method, Against against);
 
 /// Returns true if all comparisons are by the same metric.
@@ -54,14 +55,15 @@ std::string CountVerdicts(const std::vector<Verdict>& verdicts, std::size_t cond
 /// Returns the verdicts on these worlds.
 std::vector<Verdict> VerdictsOf(const std::vector<Judged>& judged);
 
-/// Returns true if the scenario compares a method with none (`against` itself). False for the first method, the
-/// baseline of all others.
+/// Returns true if a method is compared with no other one (its `against` names itself); false for the first method,
+/// which is the baseline of all others.
 bool IsComparedWithNone(const ScenarioSummary& scenario, const std::string& method);
 
 /// Returns true for a yardstick, such as natural motion: it is compared with no method, and no method with it.
 bool IsYardstick(const ScenarioSummary& scenario, const std::string& method);
 
-/// Returns the method's index in the scenario, which selects its colour and mark; the number of methods if it has none.
+/// Returns the method's index in the scenario, which selects its colour and mark; the number of methods if it is not
+/// found.
 std::size_t IndexOf(const ScenarioSummary& scenario, const std::string& method);
 
 /// Returns the method's name; a yardstick is "natural (yardstick)".
@@ -72,11 +74,11 @@ std::string_view TheseUnits(SamplingUnit unit);
 /// Returns the units of a verdict beyond them: "other worlds", "other people", "other clips".
 std::string_view OtherUnits(SamplingUnit unit);
 
-/// What comparisons say beyond their worlds, over all conditions.
+/// What comparisons say about other units, over all conditions.
 struct BeyondFinding {
-  bool on_these_only = true;            ///< no condition has a verdict beyond these worlds
+  bool on_these_only = true;            ///< no condition has a verdict for other units
   bool as_on_these = false;             ///< every condition has one, the same as on these worlds
-  std::optional<Verdict> verdict = {};  ///< the common one of all conditions that have one
+  std::optional<Verdict> verdict = {};  ///< the common verdict of all conditions that have one
   std::string words = {};               ///< "for other clips: worse", "on these clips only (4 clips, 6 are needed)"
 };
 BeyondFinding BeyondInWords(const std::vector<Judged>& judged, SamplingUnit unit);

@@ -52,7 +52,7 @@ DOORS = {
     "hwy/": ["engine/kinematics/solvers", "engine/transitions/search", "engine/vision"],
     "libxml/": ["engine/cameras", "engine/transitions/tags_file"],
     "pagmo/": ["bench/training"],
-    "assimp/": ["io/clips/assimp", "bench/micro"],
+    "assimp/": ["io/clips/assimp", "bench/peers"],
     "ceres/": ["engine/bundle_adjustment", "engine/cameras", "engine/kinematics/solvers"],
     "glog/": ["engine/bundle_adjustment", "engine/kinematics/solvers"],
     "kdl/": ["bench/peers"],

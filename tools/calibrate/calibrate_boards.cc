@@ -120,7 +120,7 @@ Result<void> AddFilm(std::size_t camera, const fs::path& film, const CalibrateOp
   }
 }
 
-/// Makes the search for the board of the options: a board of OpenCV's kind, or our own.
+/// Makes the search for the board of the options: a board as OpenCV defines it, or our own.
 Result<BoardViews> SearchFor(const CalibrateOptions& options) {
   const auto printed = ReadPrintedBoard(options.boards.front());
   if (!printed) {
@@ -208,12 +208,12 @@ Result<std::vector<TargetView>> SynchroniseFilms(const CalibrateOptions& options
   if (!are_films || seen.size() < 2) return search.views();
   std::vector<double> period_s;
   for (const CameraBoards& s : seen) period_s.push_back(s.period_s);
-  // Find the delay of each film by the joint reprojection error.
+  // Find the delay of each film by the reprojection error of all films together.
   constexpr double kLooks = 2;
   const double max_delay_s = options.sync_s > 0 ? options.sync_s : kLooks * period_s.front();
   ASSIGN_OR_RETURN(const FilmDelays steps, FindFilmDelays(search.sizes(), search.sightings(), period_s, max_delay_s,
                                                         RefineOptionsOf(options), options.listener.progress("times of films")));
-  // Report each delay, and doubt a delay at the limit of the search.
+  // Report each delay, and warn if it is at the limit of the search.
   for (std::size_t i = 1; i < seen.size(); ++i) {
     const double delay_s = steps.delay_s[i];
     if (delay_s == 0) continue;
@@ -266,7 +266,8 @@ std::string NumberAtEnd(const std::string& name) {
   return name.substr(from);
 }
 
-constexpr const char* kOpenCv = "opencv";  // value of --beside that is no file: OpenCV's calibrateCamera
+// A value of --beside that names no file: compare with OpenCV's calibrateCamera.
+constexpr const char* kOpenCv = "opencv";
 
 /// Compares with OpenCV's calibration from the same corners. OpenCV calibrates one camera, so each camera is compared
 /// alone.
@@ -327,8 +328,8 @@ Result<void> CompareBeside(const CalibrateOptions& options, const RefinedRig& ri
   return {};
 }
 
-/// Draws each camera's best picture with the corners of all its pictures: yellow below half a pixel of error, orange
-/// below one, else red.
+/// Draws each camera's best picture with the corners of all its pictures, coloured by error: yellow below 0.5 px,
+/// orange below 1 px, else red.
 std::string PictureOfBoards(const RefinedRig& rig, std::span<const TargetView> views, std::vector<CameraBoards> seen) {
   // One panel for each camera, one below the other.
   constexpr int kWidth = 640, kGap = 8;

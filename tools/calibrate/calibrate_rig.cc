@@ -96,7 +96,7 @@ Result<Calibrated> FromPairs(const CalibrateOptions& options) {
   RETURN_IF_ERROR(SetSize(options.size, cameras));
   Calibrated rig;
   for (const CameraPairs& of : cameras) {
-    // Calibrate by refinement with a lens, or by a linear method, which knows no lens.
+    // Calibrate by refinement with a lens, or by a linear method, which models no lens.
     const auto complain = [&](const Error& error) { return Fail({file}, "camera {}: {}", of.name, error.message); };
     rig.points.push_back(of.pairs.size());
     if (options.method == "refined") {
@@ -118,7 +118,7 @@ Result<Calibrated> FromPairs(const CalibrateOptions& options) {
 }
 
 std::string TextOf(const Calibrated& rig) {
-  constexpr double kOfNinetyFive = 2;  // half the interval that holds the truth in 95 of 100, of the deviation
+  constexpr double kOfNinetyFive = 2;  // half width of the 95 % interval, in standard deviations
   std::string text;
   // Reprojection error, intrinsics, lens, position, and paper B's parameters of each camera.
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
@@ -153,7 +153,7 @@ std::string PaperFor(const Board& board) {
     const char* name;
     double narrow_mm, wide_mm;
   };
-  constexpr Paper kPapers[] = {{"fits on A4 or Letter", 210, 279},  // what both hold
+  constexpr Paper kPapers[] = {{"fits on A4 or Letter", 210, 279},  // a size that fits on both papers
                                {"needs A3 paper", 297, 420},
                                {"needs A2 paper", 420, 594},
                                {"needs A1 paper", 594, 841},

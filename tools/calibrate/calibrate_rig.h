@@ -21,8 +21,8 @@ struct CalibrateOptions {
   bool skew = false;
   std::string size;             ///< "1920x1080", the size of the pictures if the point pairs are CSV
   std::string world = "floor";  ///< floor or wall: the plane in which the first board lies
-  int every = 0;                ///< every n-th frame of a film is searched; 0 = 30, or for OpenCV's boards the n-th
-                                ///< that gives about 200 frames
+  /// Every n-th frame of a film is searched; 0 = every 30th, or for OpenCV's boards about 200 frames.
+  int every = 0;
   double sync_s = 0;            ///< maximum delay between films of boards; 0 = two search intervals
   std::string picture;          ///< a PNG with the corners found and their errors, "" = none
   std::string beside;           ///< another calibration of these cameras to compare with, or "opencv"; "" = none
@@ -30,7 +30,7 @@ struct CalibrateOptions {
   Listener listener = {};
 };
 
-/// A rig with the figures that are printed about it, one entry for each camera.
+/// A rig, and the numbers that are printed about it, one entry for each camera.
 struct Calibrated {
   std::vector<NamedCamera> cameras;
   std::vector<double> rms_px;
@@ -50,8 +50,8 @@ Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options);
 /// what it found. Every complaint names the file or the option.
 Result<Calibrated> CalibrateRig(const CalibrateOptions& options);
 
-/// Draws the first of `boards` for printing, at 16 pixels per module with its size in the file, writes it to `print`,
-/// and says what paper it needs.
+/// Writes the first of `boards` to `print` as a PNG of 16 pixels per module that states its size in print, and tells
+/// which paper it fits on.
 Result<void> PrintBoard(const CalibrateOptions& options);
 
 }  // namespace etude

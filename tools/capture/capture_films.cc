@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-/// Refuses a reference of which no marker has the name of a keypoint or of a joint: nothing could be compared.
+/// Refuses a reference in which no marker has the name of a keypoint or joint, because nothing could be compared.
 Result<void> CheckReference(const MarkerMotion& reference, const std::string& file) {
   const auto is_known = [](const std::string& name) { return FindLandmark(name) || FindRole(name); };
   if (std::ranges::any_of(reference.names, is_known)) return {};

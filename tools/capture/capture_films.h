@@ -19,7 +19,7 @@ struct CaptureFilmsOptions {
   std::string marks;                 ///< a folder of annotation pictures with an entry for each film
   bool silhouettes = false;          ///< use the person's silhouettes, alone or together with keypoints
   std::string rooms;                 ///< for silhouettes: a folder with a picture of each film's empty room, "" = none
-  bool accepts_doubtful = false;     ///< for silhouettes: write a motion in `CapturedFilms::doubt`, too
+  bool accepts_doubtful = false;     ///< for silhouettes: write the motion even if `CapturedFilms::doubt` is not empty
   double stature_m = 0;              ///< for silhouettes: the person's height, metres; 0 = estimated
   std::string output;                ///< BVH, GLB, TRC or CSV, chosen by the extension
   std::string points;                ///< a TRC of the triangulated keypoints, "" = none
@@ -44,7 +44,8 @@ struct CaptureFilmsOptions {
 /// The outcome of a capture.
 struct CapturedFilms {
   bool is_whole = false;  ///< false if a film was stopped: the motion is written, the film is not
-  std::string doubt;      ///< why the motion is taken for wrong; if so, and unless accepted, nothing was written
+  /// Why the motion is probably wrong; then nothing was written, unless doubtful motions are accepted.
+  std::string doubt;
   JsonPtr facts;          ///< the findings for programs (docs/schemas/facts.schema.json, "capture")
 };
 

@@ -29,7 +29,7 @@ RecoverPersonOptions RecoverOptionsOf(const CaptureFilmsOptions& options, const 
   recover.person = static_cast<std::size_t>(options.person - 1);
   recover.cutoff_hz = options.smooth_hz;
   recover.max_gap_s = options.max_gap_s;
-  constexpr double kMinOutlierShare = 0.004;  // of the picture's longer side: errors left by rounding and lenses
+  constexpr double kMinOutlierShare = 0.004;  // of the picture's longer side: errors that rounding and lenses leave
   recover.min_outlier_px = kMinOutlierShare * longer_side;
   if (options.outlier_px > 0) recover.triangulate.robust.outlier_px = recover.min_outlier_px = options.outlier_px;
   recover.mends = recover.match.may_be_swapped = true;
@@ -104,7 +104,7 @@ Json FactsOf(const RecoveredPerson& person, const std::vector<FilmedView>& views
           {"told", told}};
 }
 
-/// Reports the distances of the written motion's joints from the points that they were fitted to.
+/// Reports the distances between the joints of the written motion and the points to which they were fitted.
 std::string FitText(const RecoveredPerson& person) {
   std::string text;
   const MarkerMotion skeleton = JointMarkers(person.motion);
@@ -230,7 +230,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   ASSIGN_OR_RETURN(SeenFilms films, SeeFilms(options, recover, session));
   ASSIGN_OR_RETURN(RecoveredPerson located, LocatePerson(films.cameras, films.people, recover));
   // Move the rig and the points into the world: metres, Y up, the floor as the options say.
-  for (const FilmedView& view : views) {  // as they were mended
+  for (const FilmedView& view : views) {  // with the repairs of the recovery
     const auto same = std::ranges::find(session.rig.cameras, view.camera.name, &NamedCamera::name);
     if (same != session.rig.cameras.end()) same->camera = view.camera.camera;
   }

@@ -20,8 +20,8 @@ struct TakeCurve {
 struct CapturedCamera {
   std::string name;
   TakeCurve residual;              ///< the measure of `CameraResiduals`, frame by frame
-  std::optional<double> left_out;  ///< share of keypoints that disagreed with the other cameras'; absent without
-                                   ///< keypoints
+  std::optional<double> left_out;  ///< share of keypoints that disagreed with the other cameras'; absent if there
+                                   ///< are no keypoints
 };
 
 /// The differences between what each camera shows and the recovered motion, by one measure.
@@ -49,7 +49,7 @@ struct CapturePage {
   std::string version, command;
 };
 
-/// Writes one HTML page that contains all it needs and forbids itself network access, in the style of a run's page.
+/// Writes one HTML page that needs no other file and may not use the network, in the style of a run's page.
 std::string WriteCapturePage(const CapturePage& page);
 
 }  // namespace etude

@@ -146,10 +146,11 @@ Result<UnmarkedMotion> RecoverByOutlines(const ReducedTake& take, const CaptureF
 /// landmarks give only by rules of thumb are left out.
 MarkerMotion JointsOfReference(const MarkerMotion& reference);
 
-/// Captures from keypoints or marks (`CaptureKeypoints`), or from silhouettes alone (`CaptureUnmarked`), which find the
-/// only person who moves in the films. With `options.silhouettes`, keypoints support the silhouettes. Both compare with
-/// `reference`, if there is one, and add their findings to `facts`. They return false if they were interrupted. From
-/// silhouettes alone, a motion that is taken for wrong sets `facts["doubt"]` and is not written unless accepted.
+/// `CaptureKeypoints` captures from keypoints or marks. `CaptureUnmarked` captures from silhouettes alone, of the only
+/// person who moves in the films. With `options.silhouettes`, keypoints support the silhouettes. Both compare with
+/// `reference`, if there is one, and add their findings to `facts`. They return false if they were interrupted. If a
+/// motion from silhouettes alone is probably wrong, `facts["doubt"]` says why, and it is written only if the options
+/// accept doubtful motions.
 Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession session,
                               const std::optional<MarkerMotion>& reference, Json& facts);
 Result<bool> CaptureUnmarked(const CaptureFilmsOptions& options, const FilmedSession& session,

@@ -70,7 +70,7 @@ void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<S
         for (Keypoint& keypoint : person.keypoints) keypoint.pixel = guess.fit.ToRig(keypoint.pixel);
       }
     }
-    // Keypoints of pictures that were not scaled to the rig say nothing about the film's own fit.
+    // Keypoints of pictures that were not scaled to the rig do not show how the film itself was scaled.
     const bool is_films_own = guess.fit.scale == view.fit.scale && guess.fit.shift == view.fit.shift;
     if (is_films_own) view.fit = guess.fit;
   }
@@ -89,7 +89,7 @@ void Synchronise(const CaptureFilmsOptions& options, const std::vector<FilmedVie
       std::clamp(static_cast<int>(std::lround(options.sync_s * rate)), 1, std::max(1, static_cast<int>(shortest / 2)));
   const SyncOptions clocks{.max_frames = max_frames, .max_px = recover.triangulate.robust.outlier_px};
   const std::vector<ClockOffset> found = EstimateOffsets(films.cameras, films.people, {clocks, recover.match.follow});
-  // Report each clock, and the cameras whose clock no keypoints determine.
+  // Report each clock, and the cameras whose clock the keypoints do not determine.
   std::string untold;
   std::string told = fmt::format("clocks, after {}'s:", views.front().camera.name);
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -132,8 +132,8 @@ void WarnOfDelays(const std::vector<FilmedView>& views, const RecoverPersonOptio
   }
 }
 
-/// Reports the drift that the keypoints of a film show, if its rate was taken as equal to the first film's although the
-/// files state different rates.
+/// Reports the drift that a film's keypoints show, if its rate was assumed to equal the first film's although the files
+/// state different rates.
 void TellDrift(const std::vector<FilmedView>& views, std::size_t film, const FilmClock& taken, const FilmClock& nearest,
                std::size_t frames, SeenFilms& films) {
   const double rate = views.front().facts.rate_hz, own = views[film].facts.rate_hz;

@@ -189,8 +189,8 @@ std::vector<double> KnownOf(const std::vector<std::optional<double>>& values) {
 
 constexpr double kPercent = 100;
 
-/// Reports the findings and the doubts, one line each. Returns why the motion is taken for wrong, "" if it is not: in
-/// most frames of a camera body and outline share less than half, or most frames hold the last pose.
+/// Reports the findings and the doubts, one line each. Returns why the motion is probably wrong, or "". It is if, in
+/// most frames of a camera, body and outline overlap by less than half, or if most frames repeat the last pose.
 std::string TellUnmarked(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
                          const UnmarkedMotion& person, MessageLog& told) {
   told.Tell(fmt::format("stature: {:.2f} m{}; outlines cost {:.0f} a picture", person.stature_m,

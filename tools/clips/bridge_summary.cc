@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// The widest matrix that fits a terminal; --json has wider ones.
+/// The widest matrix that fits a terminal; the output of --json has no such limit.
 constexpr int kMaxMatrixClips = 24;
 
 /// One clip's row of the table. With pairs, its coverage is about the other clips one by one; without them, about any

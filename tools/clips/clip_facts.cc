@@ -55,7 +55,6 @@ BodyFacts FactsOfBody(const OpenedClip& clip) {
                   .floor = body.floor,
                   .dropped_t_pose = body.dropped_frames > 0,
                   .changes = body.changes,
-                  .note = body.note,
                   .motion = ComputeStatistics(body.motion)};
   for (const Role role : AllRoles()) {
     facts.joints[Index(role)] = clip.source.clip.skeleton.joints[clip.map[role].joint].name;
@@ -76,7 +75,7 @@ ClipFacts FactsWithoutClip(const std::string& reference, const OpenOptions& opti
   return facts;
 }
 
-/// Returns what no person does, in words.
+/// Describes values that no person can have.
 std::vector<std::string> RemarksOf(const BodyFacts& body) {
   return body.faults ? FaultSentences(body.faults->faults) : std::vector<std::string>();
 }
@@ -119,7 +118,7 @@ Json JsonOf(const BodyFacts& body) {
           {"floor_units", body.floor},
           {"dropped_t_pose", body.dropped_t_pose},
           {"changes", body.changes},
-          {"note", body.note},
+          {"note", Join(body.changes, "; ")},
           {"stature_m", motion.stature_m},
           {"travelled_m", motion.travelled_m},
           {"speed_median_m_s", motion.speed_median_m_s},
@@ -212,7 +211,7 @@ std::string BodyLines(const BodyFacts& body) {
   }
   std::string remarks;
   for (const std::string& remark : RemarksOf(body)) remarks += Line("remark", remark);
-  // The unit or the marker set stands beside the stature; every change has a line.
+  // The unit or the marker set is printed beside the stature; every change gets a line.
   std::string changes;
   for (std::size_t i = 1; i < body.changes.size(); ++i) changes += Line("changed", body.changes[i]);
   return Line("body", fmt::format("{:.2f} m tall; {}; {} up ({})", motion.stature_m, body.changes.front(),
@@ -267,7 +266,7 @@ std::optional<MotionFaults> FaultsOf(const SourceClip& clip, const OpenOptions& 
   own.body.rate_hz = clip.clip.rate_hz;
   auto opened = UnderstandClip(clip, own);
   if (!opened) return std::nullopt;
-  // Put the floor back to the height that the file says.
+  // Put the floor back to the height that it has in the file.
   BodyConversion& body = opened->body;
   for (BodyPose& pose : body.motion.poses) {
     for (glm::dvec3& joint : pose.joints) joint.y += body.floor * body.metres_per_unit;
@@ -299,7 +298,7 @@ std::string FactsAsLine(const ClipFacts& facts) {
                                  facts.rate_hz, Plural(static_cast<long long>(facts.joints), "joint"));
   if (!facts.body) return text;
   return text + fmt::format(" · {:.2f} m tall · feet slide {} · {}", facts.body->motion.stature_m,
-                            CmPerSecond(facts.body->motion.foot_slide.mean), facts.body->note);
+                            CmPerSecond(facts.body->motion.foot_slide.mean), Join(facts.body->changes, "; "));
 }
 
 }  // namespace etude

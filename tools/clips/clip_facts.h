@@ -27,13 +27,13 @@ struct BodyFacts {
   std::vector<Role> composed;                  ///< roles that have no joint of their own and follow that joint rigidly
   std::string unit;
   double metres_per_unit = 0;
-  UpFinding up = {};  ///< the file's axis, and what it follows from
+  UpFinding up = {};  ///< the file's up axis, and the evidence for it
   double floor = 0;   ///< height in the file's unit
   bool dropped_t_pose = false;
   std::vector<std::string> changes;  ///< BodyConversion::changes
-  std::string note;
   MotionStatistics motion;
-  std::optional<MotionFaults> faults = {};  ///< at the file's own rate and heights (FaultsOf); absent: not searched
+  /// At the file's own rate and heights (FaultsOf); absent if no faults were searched for.
+  std::optional<MotionFaults> faults = {};
 };
 
 /// The facts of a clip, as `etude clip info` shows them. If a fact cannot be determined, it is missing and `complaint`
@@ -57,8 +57,8 @@ struct ClipFacts {
 std::vector<ClipFacts> FactsOf(const std::string& reference, const OpenOptions& options);
 /// Collects the facts of a clip whose roles are known, without its faults.
 ClipFacts FactsOf(const OpenedClip& clip);
-/// Finds the faults of a clip's motion as FindMotionFaults does, at the rate and the heights of its file. Empty if the
-/// clip cannot be understood at its own rate.
+/// Finds the faults of a clip's motion as FindMotionFaults does, at the rate and the heights of its file. nullopt if
+/// UnderstandClip fails at that rate.
 std::optional<MotionFaults> FaultsOf(const SourceClip& clip, const OpenOptions& options);
 
 /// Writes the facts as a paragraph for people. If the roles equal those of `before`, they are not repeated.

@@ -46,11 +46,11 @@ double TurnFor(Viewpoint from) {
   return Radians(90);
 }
 
-// Moving pictures hide rough edges, so less detail than on a sheet is enough (1.5 instead of 2).
+// Rough edges are less visible in motion, so less detail than on a contact sheet is enough (1.5 instead of 2).
 constexpr double kDetail = 1.5;
 // The camera path is averaged over half a second to either side.
 constexpr int kSmoothing = 15;
-// The number of frames from which the visible space is determined.
+// The number of frames that determine the visible bounds.
 constexpr int kLookedAt = 200;
 
 }  // namespace

@@ -29,7 +29,7 @@ enum class ActorKind {
 class ClipActor {
  public:
   /// Makes an actor. Without a kind, it is the file's own figure if it has one, the bear for built-in clips, else the
-  /// mannequin. Fails if the own figure of a file without meshes is asked for.
+  /// mannequin. Fails if `kOwn` is requested for a file without meshes.
   static Result<ClipActor> Make(OpenedClip clip, std::optional<ActorKind> kind);
 
   const OpenedClip& clip() const { return clip_; }

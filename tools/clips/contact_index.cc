@@ -19,7 +19,7 @@ constexpr double kPictureWidth = 960, kLabelWidth = 70, kRightEdge = 20, kPanelH
 constexpr double kCm = 100;
 constexpr std::array kSides = {std::pair("left foot", Role::kLeftFoot), std::pair("right foot", Role::kRightFoot)};
 
-/// A curve over the clip, with the limit below which a foot stands.
+/// A curve over the clip, with the limit below which a foot counts as standing.
 struct CurvePanel {
   std::string label, unit;
   std::vector<double> values;
@@ -36,7 +36,7 @@ class ContactPicture {
                 .to = kPictureWidth - kRightEdge} {}
 
   void Add(const CurvePanel& panel) {
-    // Cut the axis at four times the limit: larger values carry no information, and the range near the limit stays
+    // Cut the axis at four times the limit: larger values need not be told apart, and the range near the limit stays
     // readable.
     const double top = std::clamp(*std::ranges::max_element(panel.values), 1.5 * panel.limit, 4 * panel.limit);
     const Axis axis{.low = 0, .high = top, .from = y_ + kPanelHeight, .to = y_};

@@ -7,7 +7,6 @@
 namespace etude {
 namespace {
 
-/// A joint that both systems saw in one frame.
 struct Pair {
   std::size_t joint;
   glm::dvec3 sensed;
@@ -20,7 +19,7 @@ std::optional<Carrier> Between(const std::optional<Carrier>& a, const std::optio
   return Carrier{glm::mix(a->position, b->position, share), glm::slerp(a->rotation, b->rotation, share)};
 }
 
-/// Returns the twin's carriers at a time on the twin's clock; all are empty outside the twin.
+/// Returns the twin's carriers at a time on the twin's clock; all are empty before its start and after its end.
 std::array<std::optional<Carrier>, kRoleCount> CarriersAt(const TwinMotion& twin, double time_s) {
   const double frame = time_s * twin.rate_hz;
   if (frame < 0 || frame > static_cast<double>(twin.frames.size()) - 1) return {};
@@ -94,7 +93,8 @@ double RootMeanSquare(const std::vector<Pair>& pairs, const TwinAlignment& align
   return std::sqrt(sum / static_cast<double>(pairs.size()));
 }
 
-/// Fits rotation with translation, and offsets, alternately until the residual converges. `alignment` holds the start.
+/// Fits rotation with translation, and offsets, alternately until the residual converges. `alignment` holds the initial
+/// values.
 void FitAlternately(const std::vector<Pair>& pairs, int max_iterations, TwinAlignment& alignment) {
   constexpr double kSettled = 1e-6;  // metres
   std::vector<glm::dvec3> from(pairs.size()), to(pairs.size());

@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// The alignment of a recording with its twin: the part of their difference that is no error of the sensor, as far as
-/// one recording can tell.
+/// The alignment of a recording with its twin: the part of their difference that is not an error of the sensor, as far
+/// as one recording shows it.
 struct TwinAlignment {
   double shift_s = 0;  ///< time of the twin at the recording's time 0: difference of clocks and the sensor's lag
   glm::dmat3 R_ST{1};  ///< rotates the twin's directions into the sensor's frame
@@ -29,10 +29,10 @@ struct TwinMatch {
   std::vector<RolePositions> truth;  ///< as many frames as the recording, in the sensor's frame
 };
 
-/// Finds time shift, rotation, translation and offsets by least squares over all joints. The shift comes from the
-/// correlation of both systems' speeds first and is then refined to a tenth of a frame; for each shift, rotation with
-/// translation and offsets are fitted alternately until they converge. Returns nullopt if the overlap is less than a
-/// second or less than three joints.
+/// Finds time shift, rotation, translation and offsets by least squares over all joints. The shift is first found by
+/// correlating the speeds of both systems, and then refined to a tenth of a frame. For each shift, rigid motion and
+/// offsets are fitted alternately until they converge. Returns nullopt if the overlap is less than a second or less
+/// than three joints.
 std::optional<TwinMatch> AlignTwin(const JointRecording& recording, const TwinMotion& twin);
 
 /// Aligns a recording that differs little from one that is aligned already: starts from that alignment and searches

@@ -40,8 +40,8 @@ BodyMotion WithoutShiver(const BodyMotion& motion) {
     for (std::size_t j = 0; j < kRoleCount; ++j) {
       glm::dvec3 sum(0);
       double weights = 0;
-      const long reach = std::min({kReach, t, count - 1 - t});  // equal reach to both sides, so that the ends have no
-                                                                // lag
+      // Equal reach to both sides, so that the filter has no lag at the ends.
+      const long reach = std::min({kReach, t, count - 1 - t});
       for (long d = -reach; d <= reach; ++d) {
         const double off = static_cast<double>(d) / motion.rate_hz / deviation_s;
         const double weight = std::exp(-0.5 * off * off);
@@ -66,7 +66,7 @@ Camera SensorOf(const RealRecording& real, const BodyMotion& motion, const Intri
 
 constexpr WorldKey kFitWorlds{.suite_seed = 1, .scenario = "sensor-fit", .trial = 0};
 
-/// Multiplies `value` by real ÷ simulated, limited to a factor of three per step, and clamps it to the range that a
+/// Multiplies `value` by real ÷ simulated, where the factor is limited to 1/3…3, and clamps it to the range that a
 /// sensor file allows.
 void Scale(double& value, const std::optional<double>& real, const std::optional<double>& simulated, Range allowed) {
   if (!real || !simulated || *real <= 0 || *simulated <= 0) return;

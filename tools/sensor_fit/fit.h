@@ -23,10 +23,10 @@ std::optional<RealRecording> MakeRealRecording(JointRecording recording, TwinMot
 SensorStatistics StatisticsOf(const RealRecording& real);
 
 /// Simulates the sensor's recording of the twin's motion from the real sensor's position; if that is unknown, the
-/// sensor stands at its usual distance in front of the body (`SensorPlacement`). Joints are absent where the twin's are.
+/// sensor stands at its usual distance in front of the body (`SensorPlacement`). A joint that the twin lacks is absent.
 JointRecording Simulate(const RealRecording& real, const SkeletonSensorOptions& options, const WorldKey& world);
 
-/// Summarises the statistics of `worlds` simulated recordings, each aligned with the twin like a real one.
+/// Returns statistics over `worlds` simulated recordings; each is aligned with the twin as the real one is.
 SensorStatisticsSummary SimulatedStatistics(const RealRecording& real, const SkeletonSensorOptions& options, int worlds,
                                             const WorldKey& first_world);
 
@@ -41,8 +41,8 @@ struct SensorFitOptions {
 /// Fits a sensor by the method of moments, so that its simulated recordings of the twin's motion have the statistics of
 /// the real one: simulate, compare, correct, repeat. Fitted are each group's size and depth ratio, planted feet,
 /// correlations along bones, the white noise at rest, the share of fast errors, the stretch of shoulders, arms and
-/// hands (hands by their jumps), and the reference distance. All other settings cannot be determined from such a
-/// recording and are kept, as are those of groups that were never seen. Deterministic.
+/// hands (for hands from their jumps), and the reference distance. All other settings keep their values, because such a
+/// recording does not determine them; so do the settings of groups that were never seen. Deterministic.
 SkeletonSensorOptions FitSensor(const RealRecording& real, const SensorFitOptions& options);
 
 }  // namespace etude

@@ -61,7 +61,8 @@ class BoneFrames {
     if (!parent || region == Region::kTrunk) return Carrier{*place, *trunk_};
     const auto bone = Between(*parent, role);
     if (!bone) return std::nullopt;
-    // The limb's most frequent direction, relative to the trunk. The swing is undefined for the opposite direction.
+    // The limb's most frequent direction, relative to the trunk. The swing is undefined only for its opposite, which is
+    // then the rarest direction.
     const double side = RoleName(role).starts_with("left") ? 1 : -1;
     const glm::dvec3 usual =
         glm::normalize(region == Region::kArm ? glm::dvec3(side, -0.4, 0.5) : glm::dvec3(0, -1, 0.2));

@@ -25,7 +25,7 @@ struct JointRecording {
   double DurationSeconds() const { return static_cast<double>(frames.size()) / rate_hz; }
 };
 
-/// The rigid body that carries a joint, measured by a trusted system; the joint's position in its frame is constant.
+/// The rigid body that carries a joint, measured by the second system; the joint's position in its frame is constant.
 struct Carrier {
   glm::dvec3 position{0};
   glm::dquat rotation{1, 0, 0, 0};

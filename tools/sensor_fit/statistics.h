@@ -30,9 +30,9 @@ struct SensorStatistics {
 };
 
 /// Computes the statistics of one recording; `match` may be null. Errors of a group are pooled over its joints,
-/// correlations over both sides of the body. `quiet_white_mm` is the standard deviation of white noise with the
-/// observed median length of second differences over three frames, for torso joints that move less than 5 mm in ten
-/// frames. Smooth motion and slow errors hardly influence it.
+/// correlations over both sides of the body. `quiet_white_mm` is the standard deviation of white noise whose second
+/// differences have the observed median length; it uses torso joints that move less than 5 mm in ten frames. Smooth
+/// motion and slow errors hardly change it.
 SensorStatistics StatisticsOf(const JointRecording& recording, const TwinMatch* match);
 
 /// A summary of many recordings: the mean of each statistic and its standard deviation between recordings.
@@ -54,10 +54,10 @@ struct StatisticRow {
 /// Returns the rows of a table of statistics, in order.
 std::vector<StatisticRow> RowsOf(const SensorStatistics& statistics);
 
-/// The tolerances of a simulation: sizes may differ by 30 % from real ones, correlations by 0.15.
+/// The tolerances of a simulation: amounts may differ by 30 % from the real ones, correlations by 0.15.
 constexpr double kSizeTolerance = 0.30, kCorrelationTolerance = 0.15;
 
-/// The number of rows that both columns have, and the number of these within the tolerances.
+/// The number of rows in which both columns have a value, and how many of these are within the tolerances.
 struct Agreement {
   int within = 0;
   int compared = 0;

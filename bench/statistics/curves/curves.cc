@@ -13,8 +13,8 @@ struct Admitted {
   int right = 0, wrong = 0;
 };
 
-/// Returns these numbers for every threshold from the highest to the lowest, starting with none; equal scores make one
-/// step.
+/// Returns these numbers for every threshold from the highest to the lowest, starting with no event; equal scores make
+/// one step.
 std::vector<Admitted> AdmitByScore(std::span<const JudgedEvent> events) {
   std::vector<JudgedEvent> sorted(events.begin(), events.end());
   std::ranges::stable_sort(sorted, std::ranges::greater{}, &JudgedEvent::score);
@@ -84,7 +84,7 @@ std::optional<double> ThresholdAtRecall(std::span<const JudgedEvent> events, dou
   }
   if (scores.empty()) return std::nullopt;
   std::ranges::sort(scores, std::ranges::greater());
-  constexpr double kRounding = 1e-9;  // so that 0.9 of 10 events is 9
+  constexpr double kRounding = 1e-9;  // so that 0.9 of 10 events is exactly 9
   const double needed = std::ceil(recall * static_cast<double>(scores.size()) - kRounding);
   return scores[static_cast<std::size_t>(std::max(needed, 1.0)) - 1];
 }
@@ -163,7 +163,7 @@ std::vector<std::pair<double, double>> SurvivalCurve(std::span<const Wait> waits
 }
 
 std::optional<double> KaplanMeierMedian(std::span<const Wait> waits) {
-  constexpr double kRounding = 1e-12;  // the products of fractions may miss ½ by rounding
+  constexpr double kRounding = 1e-12;  // rounding may move the product of the fractions off ½
   for (const auto& [seconds, share] : SurvivalCurve(waits)) {
     if (share <= 0.5 + kRounding) return seconds;
   }

@@ -50,11 +50,12 @@ std::optional<double> ThresholdAtRecall(std::span<const JudgedEvent> events, dou
 /// called right), from (0, 0) to (1, 1); equal scores make one step. Empty without a right or a wrong event.
 std::vector<std::pair<double, double>> RocCurve(std::span<const JudgedEvent> events);
 
-/// Returns the point of the ROC at which the events were called. Empty without a right or a wrong event.
+/// Returns the point of the ROC at which the recogniser worked when it called the events. Empty without a right or a
+/// wrong event.
 std::optional<std::pair<double, double>> OperatedAt(std::span<const JudgedEvent> events);
 
-/// Returns the largest F1 that any threshold on the scores reaches, whichever threshold was set. Empty without a right
-/// or a wrong event.
+/// Returns the largest F1 that any threshold on the scores reaches, not only the one that was used. Empty without a
+/// right or a wrong event.
 std::optional<double> BestF1(std::span<const JudgedEvent> events);
 
 /// A value and its 95 % interval.
@@ -73,9 +74,9 @@ struct Wait {
   bool happened = false;  ///< false: censored, the wait is longer than `seconds`, which may be infinite
 };
 
-/// Returns the estimated share still waiting (Kaplan and Meier 1958): (time, share) after each time at which a wait
-/// ended, after a first point (the earliest time, 1). A censored wait counts as at risk until its time, also for events
-/// at that same time. Empty without waits.
+/// Returns the estimated share still waiting (Kaplan and Meier 1958): a first point (the earliest time, 1), then (time,
+/// share) after each time at which a wait ended. A censored wait counts as at risk up to and including its time. Empty
+/// without waits.
 std::vector<std::pair<double, double>> SurvivalCurve(std::span<const Wait> waits);
 
 /// Returns the median waiting time: the first time at which the survival curve is ½ or less. Empty if it never is.

@@ -30,7 +30,7 @@ std::optional<std::string> NumberComplaint(const Json& json, const Range& range)
 }
 
 std::optional<std::string> IntegerComplaint(const Json& json, int lowest, int highest) {
-  // 3.0 counts as an integer: some languages write no other form.
+  // Accept 3.0 as an integer, because some languages write no other form.
   if (!json.is_number() || json.get<double>() != std::floor(json.get<double>())) {
     return fmt::format("{} is not a whole number", ShowJson(json));
   }

@@ -38,8 +38,8 @@ class Disguise {
   explicit Disguise(const WorldKey& key);
 
   double scale() const { return scale_; }
-  /// Returns the (fractional) frame of the clip to play as frame `count` of a window that begins at `start` and takes
-  /// every `step`-th frame; at most `last`.
+  /// Returns the fractional frame of the clip that is played as frame `count` of a window. Without a disguise it would
+  /// be `start` + `count` · `step`; it is at most `last`.
   double FrameOf(double start, double step, std::size_t count, double last) const;
   /// Turns the limbs of a window and scales it.
   void ApplyTo(std::vector<BodyPose>& window, double rate_hz) const;

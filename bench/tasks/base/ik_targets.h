@@ -22,8 +22,8 @@ struct TargetNoise {
   double orientation_deg = 0;  ///< standard deviation of each component of the rotation vector
 };
 
-/// Moves and turns every target by random noise. It draws six numbers per target for any noise strength, so that
-/// changing the strength changes no other draws.
+/// Moves and turns every target by random noise. It always draws six numbers per target, so that the noise strength
+/// does not change the other random draws.
 void Disturb(std::vector<EffectorTarget>& targets, const TargetNoise& noise, RandomStream& dice);
 
 }  // namespace etude

@@ -27,7 +27,7 @@ class LiveProgram {
   /// Begins a session. Returns false if the program has failed.
   virtual bool Begin(const Payload& session) = 0;
   /// Asks for the next step. Returns the answer, an object whose numbers are finite. Returns null if the program has
-  /// failed or gave no answer: the session is then over, and the caller of the world's Run knows the reason.
+  /// failed or gave no answer: the session is then over, and the caller of RunWith knows the reason.
   virtual JsonPtr Step(const Payload& step) = 0;
 };
 
@@ -41,12 +41,12 @@ class TaskWorld {
   /// skipped.
   virtual std::optional<std::string> WhySkipped() const { return std::nullopt; }
 
-  /// Computes the expensive stages that several built-in methods share, so that their time is charged to none of them.
+  /// Computes the expensive stages that several built-in methods share, so that their time counts for none of them.
   virtual void PrepareShared() {}
 
   /// Runs the built-in method with this index in TaskInput::methods.
   virtual CellResult Run(std::size_t method) = 0;
-  /// Runs a method with `program` in the seat that the method leaves to it (TaskKind::seats). An answer of the wrong
+  /// Runs a method with `program` in the seat that the method leaves open (TaskKind::seats). An answer of the wrong
   /// shape, size or range is an Error, as in Judge. If the program has failed, the result is ignored.
   virtual Result<CellResult> RunWith(LiveProgram& /*program*/, std::size_t /*method*/) {
     return Fail({}, "worlds of this task have no loop");
@@ -96,19 +96,19 @@ struct ClipLibrary;
 struct LabelledStreams;
 struct OpenOptions;
 
-/// A world of a task that judges files: a truth, and an answer of each method.
+/// One world of a task that judges files: a truth, and the answer of each method.
 struct JudgedFiles {
-  std::string name;   ///< identifies the world, whatever other files there are
-  std::string unit;   ///< what the world counts for beyond itself, such as a person; "" = its name
+  std::string name;   ///< identifies the world; it does not depend on which other files exist
+  std::string unit;   ///< the sampling unit to which the world belongs, such as a person; "" = its name
   std::string truth;  ///< a reference to a motion (io/clips/references.h)
-  std::vector<std::string> answers;  ///< likewise, by method; "" = the method has none for this truth
+  std::vector<std::string> answers;  ///< also references, by method; "" = the method has none for this truth
   friend bool operator==(const JudgedFiles&, const JudgedFiles&) = default;
 };
 
 /// The worlds that a task found, and the files that it left out.
 struct FoundFiles {
   std::vector<JudgedFiles> worlds;
-  std::vector<std::pair<std::string, std::string>> left_out;  ///< a file, and why
+  std::vector<std::pair<std::string, std::string>> left_out;  ///< a file, and the reason why it was left out
 };
 
 /// The parts of a scenario from which a task is made.
@@ -131,25 +131,27 @@ struct TaskKind {
   std::string name;
   std::string question;                      ///< one line, for `etude list`
   std::vector<std::string> default_metrics;  ///< the headline metrics of a report, most important first
-  std::string success;                       ///< the metric of what a cell is to reach: solved, recovered, clean, …
+  /// The metric that says how well a cell reached the task's goal: solved, recovered, clean, ….
+  std::string success;
   std::vector<std::string> metrics;          ///< all metrics that its cells report, by a value or a reason
   Result<std::unique_ptr<Task>> (*make)(TaskInput& input);
   std::vector<KeyInfo> condition_keys;  ///< its keys in a scenario
   std::vector<KeyInfo> method_keys;     ///< its keys in a method, beside `name`
   /// The seats of its loop that a program may take, named by the method's key `seat`. The program is then asked step by
-  /// step, and the method has the task's keys for everything else.
+  /// step, and the method uses the task's keys for everything else.
   std::vector<std::string> seats = {};
   bool has_problems = true;      ///< whether a program may also be asked one question per world, without a seat
   bool uses_clips = true;        ///< whether its worlds use a scenario's `clips`
   bool uses_recordings = false;  ///< … or of its `streams`
   /// The units that its worlds are drawn from: the default first, then others that a scenario may name; at least one.
   std::vector<SamplingUnit> units = {SamplingUnit::kWorld};
-  /// For a task that judges files instead of making worlds: finds them, once, when a run is set up. Such a task draws no
-  /// dice and asks no program. `texts` are as in TaskInput. Null: the task makes its worlds.
+  /// For a task that judges files instead of making worlds: finds the files, once, when a run is set up. Such a task
+  /// draws no random numbers and asks no program. `texts` are as in TaskInput. Null if the task makes its worlds.
   Result<FoundFiles> (*find_files)(const Node& condition, std::span<const Node> methods,
                                    const std::map<std::string, std::string>& texts) = nullptr;
-  std::vector<std::string> keys_of_files = {};  ///< the keys of the condition that `find_files` alone reads
-  /// Returns what its results depend on beside the build, for the manifest: "4.5 (Core Profile) Mesa 22.3.6".
+  std::vector<std::string> keys_of_files = {};  ///< the keys of the condition that only `find_files` reads
+  /// Returns, for the manifest, the software that its results depend on in addition to the build: "4.5 (Core Profile)
+  /// Mesa 22.3.6".
   std::string (*platform)() = nullptr;
 };
 

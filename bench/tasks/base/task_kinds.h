@@ -21,8 +21,8 @@ TaskKind MakeTrackingTaskKind();
 /// How close does the skeleton from two cameras come to the truth? Paper B's whole pipeline on rendered pictures of a
 /// clip.
 TaskKind MakeCaptureTaskKind();
-/// How well does a distance measure tell that two poses look alike? One world: one of eight authored pairs of poses, or
-/// some hundreds of pairs of frames of two clips.
+/// How well does a distance measure show whether two poses look alike? One world: one of eight authored pairs of poses,
+/// or some hundreds of pairs of frames of two clips.
 TaskKind MakePoseDistanceTaskKind();
 TaskKind MakeCoachTaskKind();
 /// How close do the motions of files come to their truths in other files?

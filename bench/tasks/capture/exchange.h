@@ -46,19 +46,20 @@ Payload DescribeStudio();
 Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);
 constexpr std::size_t kMaxPictures = 1200;
 
-/// Makes the truth of a take: the poses, which are a perfect answer. Files: `truth.bvh`, `truth.trc` and `truth.csv`
-/// hold the same for other programs; `camera-1.yaml`… are OpenCV calibration files, `calibration.toml` all of them in
-/// Pose2Sim's format. Per frame `camera-1-0000.exr` holds `label`, `Z` (depth along the viewing axis, metres), `N.X`,
-/// `N.Y`, `N.Z` (normals in the world), and `R`, `G`, `B`, the linear light of a camera with this lens and clock but no
-/// other faults. `Z_measured.v1` and `.v2` are what the depth cameras of the first and second Kinect would measure from
-/// the same place (sim/depth_camera); infinity where they measure nothing.
+/// Makes the truth of a take: the poses; as an answer they would be perfect. Files: `truth.bvh`, `truth.trc` and
+/// `truth.csv` hold the same for other programs; `camera-1.yaml`… are OpenCV calibration files, `calibration.toml` all
+/// of them in Pose2Sim's format. Per frame `camera-1-0000.exr` holds `label`, `Z` (depth along the viewing axis,
+/// metres), `N.X`, `N.Y`, `N.Z` (normals in the world), and `R`, `G`, `B`, the linear light of a camera with this lens
+/// and clock but no other faults. `Z_measured.v1` and `.v2` are what the depth cameras of the first and second Kinect
+/// would measure from the same place (sim/depth_camera); infinity where they measure nothing.
 ///
 ///     {"poses": [[sixty numbers], …], "labels": {"background": 0, "shadow": 1, "trunk": 2, …}}
 Result<Payload> MakeCaptureTruth(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);
 
-/// Makes a sheet of two cameras at the take's frame with the fastest motion: as the scenario has them, with labels,
-/// depth and the annotator's marks; then each effect of a camera at three strengths, with all other effects as in the
-/// scenario. The true skeleton at that time is drawn over the effects of clocks and shutters. Fails without a renderer.
+/// Makes a sheet of two cameras at the take's frame with the fastest motion: first as the scenario sets them, with
+/// labels, depth and the annotator's marks; then with each camera effect at three strengths, the other effects being as
+/// in the scenario. The true skeleton at that time is drawn over the effects of clocks and shutters. Fails without a
+/// renderer.
 Result<SensorSheet> MakeCaptureSheet(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);
 
 /// The answer of an outside method, one entry per frame, null without a pose:

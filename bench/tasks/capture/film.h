@@ -15,7 +15,7 @@
 
 namespace etude {
 
-/// The result of one way of cutting out the person in a take. Indices: [camera][frame]; "by picture" means
+/// The result of one segmenter (or of the truth in its place) on a take. Indices: [camera][frame]; "by picture" means
 /// [camera][picture], where only every `StudioOptions::picture_every`-th frame has a picture.
 struct Observation {
   PersonSource source;

@@ -14,20 +14,21 @@
 
 namespace etude {
 
-/// The annotators of one take's pictures, cut out one way. Each draws on pictures of their own, which are then read
-/// back (`ReadMarks`). Two markings of the same world use the same random draws, whatever pictures they are shown.
+/// The annotators of one take, for one way of cutting out the person. Each annotator draws on pictures of their own,
+/// which are then read back (`ReadMarks`). Two markings of the same world use the same random draws, whatever pictures
+/// they are shown.
 class Marking {
  public:
-  /// `key` must outlive this. From the world come the number of cameras and the kind of figure: the positions of joints
-  /// in its limbs, and the marked point of its head.
+  /// `key` must outlive this. The world gives the number of cameras and the kind of figure: where joints are in its
+  /// limbs, and which point of its head is marked.
   Marking(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key);
 
-  /// Marks one picture and returns the marks as methods receive them: the mean of both annotators' if both drew a
-  /// stroke or disc, else the one that exists. Empty in frames that are not marked. A camera's frames come in order.
+  /// Marks one picture and returns the marks as methods receive them: the mean of both annotators' marks if both drew a
+  /// stroke or disc, else the only one. Empty in frames that are not marked. A camera's frames come in order.
   Marks Mark(std::size_t camera, std::size_t frame, const AnnotatedPicture& picture);
 
-  /// Returns the exact marks of the limbs and ends that the picture shows, at the joints of `pose`, without drawing.
-  /// Uses no random draws.
+  /// Returns exact marks, at the joints of `pose`, for the limbs and ends that the picture shows, without drawing. Uses
+  /// no random draws.
   Marks MarkTrueJoints(std::size_t frame, const AnnotatedPicture& picture, const Camera& camera,
                        const BodyPose& pose) const;
 
@@ -52,7 +53,7 @@ class Marking {
 /// pose and measured beforehand.
 double HeadBelowCrown(const Figure& figure, const BodyPose& body);
 
-/// Returns the mean of both marks for each stroke and disc, or the one there is.
+/// Returns the mean of both marks for each stroke and disc, or the only one.
 Marks MeanMarks(const Marks& first, const Marks& second);
 
 }  // namespace etude

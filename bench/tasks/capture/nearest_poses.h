@@ -8,9 +8,9 @@
 
 namespace etude {
 
-/// Finds for each true pose the pose of a body whose joints come nearest to it: the smallest Σ |joint − true joint|²
-/// found, with a root that moves and turns freely. The remaining distance cannot be expressed by the body. A body
-/// fitted to the performer has none.
+/// Finds for each true pose the pose of a body whose joints come nearest to it: the pose with the smallest Σ |joint −
+/// true joint|² that was found; the root moves and turns freely. The remaining distance is what this body cannot
+/// express; for a body fitted to the performer it is zero.
 std::vector<TreeState> FindNearestPoses(const CaptureBody& body, std::span<const BodyPose> truth);
 
 }  // namespace etude

@@ -12,7 +12,7 @@ Field<StudioOptions> Effect(const std::string& key, double CameraEffects::*effec
   return Field<StudioOptions>::Number(key, Path(&StudioOptions::camera, effect), range, std::move(meaning));
 }
 
-/// The keys of what the cameras do to the light: one per effect of CameraEffects, in their order.
+/// The keys of the cameras' optical and electronic effects: one for each member of CameraEffects, in their order.
 std::vector<Field<StudioOptions>> CameraFields() {
   using E = CameraEffects;
   return {
@@ -131,7 +131,7 @@ FieldTable<StudioOptions> MakeConditionFields() {
 void CheckMethod(Fields& fields, CaptureMethod& method) {
   const Oracle& oracle = method.oracle;
   if (method.recovery == Recovery::kKeypoints) {
-    method.lengths = LengthSource::kMeasured;  // it uses no others
+    method.lengths = LengthSource::kMeasured;  // it uses no other lengths
     if (oracle.lengths)
       fields.Complain(fields.Raw("oracle")->place, "'recovery: keypoints' measures the lengths itself");
   }

@@ -40,7 +40,8 @@ struct StudioOptions {
   RigOptions rig = {};  ///< where the cameras stand
   PerformerFigure figure = PerformerFigure::kStaged;
   Clothes clothes = Clothes::kStudio;
-  /// 0 = the studio; 1 = a furnished room with people and things that move (sim/stage/README.md has the steps between).
+  /// 0 = the studio; 1 = a furnished room with moving people and things (sim/stage/README.md describes the values
+  /// between).
   double scene = 0;
   double light_drift = 0.06;  ///< largest relative change of the lamp's brightness
   CameraEffects camera = {};  ///< of every camera
@@ -53,7 +54,7 @@ struct StudioOptions {
   int annotators = 1;                ///< number of people who mark the same pictures independently: 1 or 2
   int mark_every = 1;                ///< the annotator marks every n-th frame; directions are interpolated in between
   std::vector<double> moments = {};  ///< frames, counted from 1, for which a recording keeps every stage
-  /// The cameras take every n-th frame only; used if they are the sensor of another task, whose takes are long.
+  /// The cameras take every n-th frame only; used if the cameras are the sensor of another task, whose takes are long.
   int picture_every = 1;
 
   bool IsPictured(std::size_t frame) const { return frame % static_cast<std::size_t>(picture_every) == 0; }
@@ -83,8 +84,8 @@ enum class Sync {
   kEstimated,  ///< "estimated": from the motion of the marks
 };
 
-/// The stages of the pipeline that are replaced by the truth, to measure their cost in the final error. `marks`: where
-/// a picture shows a limb or an end, the strokes and discs are at the true joints. `start`, `ik`: the pose of the
+/// The stages of the pipeline that are replaced by the truth, to measure their cost in the final error. `marks`:
+/// strokes and discs are at the true joints wherever a picture shows the limb or end. `start`, `ik`: the pose of the
 /// method's body that is nearest to the truth (`FindNearestPoses`).
 struct Oracle {
   bool calibration = false;
@@ -127,15 +128,16 @@ enum class LengthSource {
 enum class SilhouetteStart {
   kCold,  ///< "cold": from the pictures alone
   kNear,  ///< "near": from the first frame's true pose with errors of up to 10° in every angle
-  /// "keypoints": cold, and in every picture the marks give the positions of joints, as a pose estimator's keypoints
-  /// would
+  /// "keypoints": as kCold, but in every picture the marks give the positions of joints, as the keypoints of a pose
+  /// estimator would
   kKeypoints,
 };
 
 /// The source of the marks in the pictures.
 enum class MarkSource {
   kAnnotator,  ///< "annotator": a person, by hand (paper B)
-  kColours,    ///< "colours": none by hand; the colours of a coded suit identify limbs (engine/vision/limb_colours)
+  /// "colours": no marks by hand; the colours of a coded suit identify the limbs (engine/vision/limb_colours)
+  kColours,
 };
 
 /// The part of a method's work that an outside program does.
@@ -177,7 +179,7 @@ const FieldTable<CaptureMethod>& CaptureMethodFields();
 /// CaptureMethodFields with `seat`, for the task's own pictures (not for cameras as another task's sensor).
 const FieldTable<CaptureMethod>& SeatedCaptureMethodFields();
 
-/// Complains of a method at `place` that reads suit colours which nobody wears in this studio.
+/// Complains of a method at `place` that reads the colours of a suit, if nobody wears the suit in this studio.
 Result<void> CheckMarks(const StudioOptions& options, const CaptureMethod& method, const Place& place);
 
 /// How the person is cut out of the pictures, by a segmenter or by the truth, and where marks come from.
@@ -185,7 +187,7 @@ struct PersonSource {
   Segmenter segmenter = Segmenter::kHue;
   PersonPieces pieces = PersonPieces::kLargest;
   bool is_truth = false;
-  /// For methods that use silhouettes alone: masks are kept, and the pictures are not marked, …
+  /// True for methods that use silhouettes: masks are kept. The pictures are not marked …
   bool for_silhouettes = false;
   bool has_keypoints = false;          ///< … unless this is set
   SeatedSegmenter* program = nullptr;  ///< replaces the segmenter

@@ -127,7 +127,7 @@ Result<RecoveredPerson> PersonByKeypoints(const CaptureStages& stages, const Cap
   return RecoverPerson(run.cameras.matrices, people, UsualRecovery(kJudgedRateHz, longer_side));
 }
 
-/// Uses a person's body and motion for the run, except in frames that `is_lost` marks.
+/// Uses a person's body and motion for the run, except in frames for which `is_lost` is true.
 void TakePerson(const RecoveredPerson& person, const std::vector<bool>& is_lost, CaptureRun& run) {
   run.body = person.body;
   TreeState last = StandingState(run.body.tree);
@@ -228,7 +228,7 @@ BridgeOptions LiveBridgeOptions(const StudioOptions& options) {
 }
 
 Result<CaptureBody> BodyFor(CaptureStages& stages, const CaptureRun& run) {
-  // The points determine the body later.
+  // The triangulated points determine the body later.
   if (run.method.recovery == Recovery::kKeypoints) return PaperBody({});
   if (run.method.lengths == LengthSource::kKnown) {
     ASSIGN_OR_RETURN(const CaptureBody* body, stages.GetKnownBody(run.method));

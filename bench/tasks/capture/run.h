@@ -27,20 +27,20 @@ struct CaptureRun {
 /// Returns the options of RecoverFrames for this method.
 RecoverOptions RecoverOptionsOf(const CaptureMethod& method);
 
-/// Returns the limits on gaps for a live method, which sees marked frames only: the same durations as in a take in
-/// which every frame is marked.
+/// Returns the limits on gaps for a live method. It sees marked frames only, so the limits are counted in these, with
+/// the same durations as if every frame were marked.
 BridgeOptions LiveBridgeOptions(const StudioOptions& options);
 
-/// Returns the body that a method begins with: known, or with limb lengths measured from what it sees. Fails, saying
-/// why, if none can be made.
+/// Returns the body that a method begins with, with known limb lengths or with lengths measured from its marks. Fails
+/// with the reason if none can be made.
 Result<CaptureBody> BodyFor(CaptureStages& stages, const CaptureRun& run);
 
-/// Fills the run's frames as its method recovers and smooths them. Bundle adjustment of paper B's body with measured
-/// lengths also refines these lengths.
+/// Recovers and smooths the run's frames by its method. Bundle adjustment of paper B's body with measured lengths also
+/// refines these lengths.
 Result<void> Recover(CaptureStages& stages, CaptureRun& run);
 
-/// Runs one method in one world. Fails, saying why, if a camera cannot be calibrated, there is no renderer, or no body
-/// can be made or measured.
+/// Runs one method in one world. Fails, with the reason, if a camera cannot be calibrated, there is no renderer, or no
+/// body can be made or measured.
 Result<CaptureRun> RunCapture(CaptureStages& stages, const CaptureMethod& method);
 
 }  // namespace etude

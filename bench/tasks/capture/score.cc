@@ -127,8 +127,8 @@ PoseErrors JudgePoses(const CaptureWorld& world, const std::vector<BodyPose>& po
   return ComparePoses(InView(world, poses), InView(world, world.truth));
 }
 
-/// Returns the distance from the end effectors to their measured positions, mean over the frames with such; empty
-/// without any.
+/// Returns the distance from the end effectors to their measured positions, as a mean over the frames that have such
+/// positions; empty if none has.
 std::optional<double> MeanEffectorErrorCm(const std::vector<RecoveredFrame>& frames) {
   constexpr double kCmPerMetre = 100;
   double of_frames = 0;

@@ -17,7 +17,7 @@ BodyPose PoseAt(std::span<const BodyPose> poses, double frame);
 /// Returns the figure of the performer at a fractional frame.
 Figure PerformerAt(const CaptureWorld& world, double frame);
 
-/// Returns only those effects that decide where and when cameras look (clocks, shutter, lens), without those that
+/// Returns only the effects that decide where and when cameras look (clocks, shutter, lens), without the effects that
 /// degrade the picture. Used for pictures of the truth.
 CameraEffects FaultlessPictures(const CameraEffects& effects);
 

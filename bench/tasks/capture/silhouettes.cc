@@ -26,7 +26,7 @@ TreeState NearStart(const SilhouetteBody& body, const BodyPose& pose, const Worl
   return Moved(body.tree, truth, by);
 }
 
-// A person moves farther between pictures that are further apart.
+// The longer the time between pictures, the farther a person moves.
 TrackOptions OptionsFor(const SilhouetteInputs& inputs) {
   TrackOptions options;
   options.angle_change *= inputs.picture_every;
@@ -41,7 +41,7 @@ std::optional<TreeState> StartOf(const SilhouetteInputs& inputs, const Silhouett
 
 // Returns the joints that the marks give, by camera and picture; empty if they are not used.
 std::vector<std::vector<std::vector<SeenJoint>>> JointsMarked(const SilhouetteInputs& inputs) {
-  constexpr double kSigma_px = 4;  // of a joint in the body, which a mark on its surface only approximates
+  constexpr double kSigma_px = 4;  // of a joint inside the body; a mark on the surface only approximates it
   std::vector<std::vector<std::vector<SeenJoint>>> joints;
   if (inputs.start != SilhouetteStart::kKeypoints) return joints;
   for (const std::vector<Marks>& of_camera : inputs.marks) {
@@ -53,7 +53,8 @@ std::vector<std::vector<std::vector<SeenJoint>>> JointsMarked(const SilhouetteIn
   return joints;
 }
 
-// Makes a recovered frame, with the state of paper B's tree near that pose, which the recording's BVH file shows.
+// Makes a recovered frame, with the state of paper B's tree near that pose, which is written to the recording's BVH
+// file.
 RecoveredFrame FrameOf(const BodyPose& pose, const KinematicTree& tree, const TreeState& last) {
   return {.fixed = pose, .state = FindStartState(tree, pose, tree.limits).value_or(last), .pose = pose, .errors = {}};
 }

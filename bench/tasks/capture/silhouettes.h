@@ -31,13 +31,13 @@ struct SilhouetteInputs {
 std::vector<std::optional<RecoveredFrame>> FollowSilhouettes(const SilhouetteInputs& inputs,
                                                              std::span<const std::vector<Mask>> masks);
 
-/// Tracks silhouettes picture by picture; each pose uses the pictures up to it alone.
+/// Tracks silhouettes picture by picture; each pose uses only the pictures up to its time.
 class LiveSilhouettes {
  public:
   /// `inputs.body` must outlive this.
   explicit LiveSilhouettes(const SilhouetteInputs& inputs);
 
-  /// Returns the next pose, from one mask per camera; nothing if no pose was found.
+  /// Returns the next pose, from one mask per camera; nullopt if no pose was found.
   std::optional<RecoveredFrame> Next(std::span<const Mask> masks);
 
  private:

@@ -50,8 +50,8 @@ std::vector<PointPair> ClickedBy(const StudioOptions& options, const Camera& cam
   return pairs;
 }
 
-// Returns the pixel of a disc that a human points at with the error `off`; nothing if it is seen too obliquely or not
-// found.
+// Finds a disc near the pixel to which a human points with the error `off`; returns nullopt if the disc is seen too
+// obliquely or not found.
 std::optional<glm::dvec2> FindPointedAt(const PlacedDisc& disc, const Camera& camera, const GreyImage& picture,
                                         const glm::dvec2& off) {
   constexpr double kMaxAside_deg = 70;

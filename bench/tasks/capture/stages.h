@@ -19,16 +19,17 @@
 
 namespace etude {
 
-/// The calibration target of each camera: positions in the world, as measured, and their pixels in its picture.
+/// The calibration target of each camera: measured positions in the world, and their pixels in the camera's picture.
 using CalibrationPairs = std::vector<std::vector<PointPair>>;
 
 /// Returns points on three walls of a box around the stage (paper B, section 2.2: "on different planes"), clicked by a
 /// human with an error of `calibration_noise_px`, and measured with one of `calibration_measure_mm`.
 CalibrationPairs ClickedPoints(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key);
 
-/// Returns the discs of a cube (sim/rig/calibration_target.h), found in a picture that each camera takes of it with all
-/// effects of its optics and sensor, near a position pointed at by a human with an error of `calibration_noise_px`.
-/// Each disc is measured by itself. Discs seen at more than 70° from their normal, and those not found, are left out.
+/// Returns the discs of a cube (sim/rig/calibration_target.h), found in a picture that each camera takes of it, with
+/// all effects of its optics and sensor. Each disc is searched near a position to which a human points with an error of
+/// `calibration_noise_px`. Each disc is measured by itself. Discs seen at more than 70° from their normal, and those
+/// not found, are left out.
 CalibrationPairs FoundMarks(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key,
                             Renderer& renderer);
 
@@ -47,8 +48,8 @@ struct CalibratedCameras {
 
 /// The measurements in space from the marks of a whole take.
 struct MeasuredTake {
-  /// `marks[camera][frame]`: the drawn marks without lens distortion, synchronised and without disagreeing ones if the
-  /// method says so. Every way of recovering a motion uses these.
+  /// `marks[camera][frame]`: the drawn marks without lens distortion; if the method says so, synchronised, and without
+  /// those that disagree. Every method of recovery uses these.
   std::vector<std::vector<Marks>> marks;
   std::vector<FrameMeasurement> frames;
   std::vector<std::optional<LimbObservation>> seen;  ///< the same with gaps bridged
@@ -59,11 +60,11 @@ struct MeasuredTake {
 /// The pose of a body nearest to the truth (`FindNearestPoses`), frame by frame.
 using NearestPoses = std::vector<TreeState>;
 
-/// The stages that methods may share in one world: each is computed when a method first asks for it, and kept.
+/// The stages that methods may share in one world: each is computed when a method first needs it, and kept.
 class CaptureStages {
  public:
-  /// `sources` must hold every way of cutting out the person that will be asked for, because each picture is rendered
-  /// once for all of them and not kept. References must outlive this.
+  /// `sources` must hold every way of cutting out the person that methods will use, because each picture is rendered
+  /// once for all of them and is not kept. References must outlive this.
   CaptureStages(const StudioOptions& options, CaptureWorld world, const WorldKey& key,
                 std::span<const PersonSource> sources, bool keeps_masks);
 
@@ -74,15 +75,15 @@ class CaptureStages {
   const std::vector<bool>& marked() const { return marked_; }
   /// Adds the performer's next pose (live capture).
   void Add(const BodyPose& pose);
-  /// Returns the renderer; fails, saying why, if there can be none.
+  /// Returns the renderer; fails, with the reason, if it cannot be made.
   Result<Renderer*> GetRenderer();
   Result<const Take*> GetTake();
   Result<const CalibrationPairs*> GetCalibrationPairs();
   Result<const CalibratedCameras*> GetCameras(const CaptureMethod& method);
-  /// Returns the measurements of `method`; `cameras` and `observation` are its own.
+  /// Returns the measurements of `method`; `cameras` and `observation` must be those of `method`.
   const MeasuredTake& GetMeasured(const CaptureMethod& method, const CalibratedCameras& cameras,
                                   const Observation& observation);
-  /// Returns the body of `method`; fails, saying why, if it cannot be made of the performer's joints.
+  /// Returns the body of `method`; fails, with the reason, if it cannot be made from the performer's joints.
   Result<const CaptureBody*> GetBody(const CaptureMethod& method);
   /// Returns the body of `method` with known limb lengths.
   Result<const CaptureBody*> GetKnownBody(const CaptureMethod& method);

@@ -26,8 +26,8 @@ class SeatedSegmenter {
 
   /// Begins a camera: its empty room, then its pictures.
   void Begin(std::size_t camera, const ColourImage& background);
-  /// Returns the mask that the program answers for the next picture. All zero if it has failed or its answer was
-  /// invalid: then it is not asked again.
+  /// Returns the mask that the program answers for the next picture. The mask is all zero if the program has failed or
+  /// its answer was invalid; then the program is not asked again.
   Mask Detect(const ColourImage& picture);
 
   /// The complaint about an answer, or success.
@@ -40,10 +40,11 @@ class SeatedSegmenter {
   std::size_t camera_ = 0, frame_ = 0;
 };
 
-/// The cameras of a take, and what its pictures share: backgrounds, clocks, annotators.
+/// The cameras of a take, and all that its pictures share: backgrounds, clocks, annotators.
 class TakeCameras {
  public:
-  /// References must outlive this. The world must have its first pose now, and the poses of a frame when it is shot.
+  /// References must outlive this. The world must already have its first pose, and must have the poses of a frame
+  /// before that frame is shot.
   TakeCameras(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
               std::span<const PersonSource> sources, Renderer& renderer);
 

@@ -57,7 +57,7 @@ Window ChooseWindow(const StudioOptions& options, const LibraryClip& clip, const
   if (!loops) frames = std::min(frames, available);
   const std::size_t starts = loops ? available : available - frames + 1;
 
-  // Take the first random window that stays within reach, or else the one that leaves it least.
+  // Take the first random window that stays within reach, or else the window that exceeds it least.
   constexpr int kTries = 12;
   Window best;
   double least = 0;
@@ -98,7 +98,7 @@ Wardrobe WardrobeOf(Clothes clothes) {
   return Wardrobe::kStudio;
 }
 
-/// Draws the seed of a picture's room, which recordings contain. In a secret world it has enough bits to prevent a
+/// Draws the seed of a picture's room, which recordings contain. In a secret world it has so many bits that nobody can
 /// search through all seeds.
 std::uint64_t DrawRoomSeed(RandomStream& random, const WorldKey& key) {
   return random.IndexBelow(std::uint64_t{1} << (key.suite_seed.IsPlain() ? 30 : 53));

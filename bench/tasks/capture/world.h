@@ -34,16 +34,16 @@ struct OwnFigure {
   FloorMove move;
 };
 
-/// The truth of one take: the performer and the motion, the cameras and the light.
+/// The truth of one take: performer, motion, cameras and light.
 struct CaptureWorld {
   std::vector<BodyPose> truth;     ///< at 30 Hz, around the floor's origin, facing +Z in its middle frame
   PersonalLimbs person;            ///< the performer
-  PersonalLimbs measured;          ///< the same as measured beforehand, as in paper B
+  PersonalLimbs measured;          ///< the limb lengths as measured beforehand, as in paper B
   std::array<Rgb8, 16> colours{};  ///< of the performer, by Part
   std::optional<OwnFigure> own;    ///< drawn instead of the stage's people
   glm::dvec3 middle{0};            ///< the expected position of the performer on the floor
   std::vector<Camera> cameras;     ///< at least two, each with its lens
-  std::vector<bool> in_view;       ///< per frame: two cameras have the whole body in their pictures
+  std::vector<bool> in_view;       ///< per frame: two cameras see the whole body
   Room room;                       ///< its brightness is that of the background pictures; used by the studio alone
   StageOptions stage_options;      ///< the options of `stage`
   StagedRoom stage;                ///< the room and people that `scene` adds
@@ -61,16 +61,16 @@ struct FilmedPerson {
 /// Makes the studio of `key` without a performer: `truth` and `in_view` are empty.
 CaptureWorld MakeStudio(const StudioOptions& options, const FilmedPerson& booking, const WorldKey& key);
 
-/// Makes the world of `key`. The window of the clip begins at a random frame. Among a few random windows the first one
-/// is taken that keeps the performer within 1.2 m of the middle, where both cameras see the whole body, or else the one
-/// that leaves it least. Moves that loop are repeated; other clips shorter than the window are used whole. In a secret
-/// world the clip is disguised (bench/tasks/base/disguise.h), unless it has its own figure.
+/// Makes the world of `key`. The window of the clip begins at a random frame. Of a few random windows it takes the
+/// first that keeps the performer within 1.2 m of the middle, where both cameras see the whole body, or else the one
+/// that leaves this circle least. Moves that loop are repeated; other clips shorter than the window are used whole. In
+/// a secret world the clip is disguised (bench/tasks/base/disguise.h), unless it has its own figure.
 CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key);
 
 /// Returns the lens of a camera under these effects.
 Distortion LensOf(const CameraEffects& effects, const Camera& camera, std::size_t index, const WorldKey& key);
 
-/// Returns the measurements that exact marks and cameras would give of a frame.
+/// Returns the measurements of a frame that exact marks and cameras would give.
 FrameMeasurement TrueMeasurement(const BodyPose& truth);
 
 }  // namespace etude

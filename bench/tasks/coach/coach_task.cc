@@ -24,8 +24,8 @@ struct Rehearsal {
   std::vector<CoachMethod> methods;
 };
 
-/// Keeps a rehearsal's coaches by scenario and seed. They are made at the first request; an operating point sets their
-/// thresholds on people keyed apart from the judged ones.
+/// Keeps a rehearsal's coaches by scenario and seed. They are made at the first request. If there is an operating
+/// point, their thresholds are set on other people than the judged ones.
 class ReadyCoaches {
  public:
   /// `rehearsal` must outlive this.
@@ -104,7 +104,7 @@ class CoachTask final : public Task {
 
  private:
   const Rehearsal shared_;
-  mutable ReadyCoaches coaches_{shared_};  // a cache of what depends on keys alone
+  mutable ReadyCoaches coaches_{shared_};  // a cache; its content depends on keys alone
 };
 
 /// Returns the stage of a song, which all conditions with this song share.

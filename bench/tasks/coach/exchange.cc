@@ -17,7 +17,7 @@ Json NameOf(const CoachStage& stage, int move) {
   return move < 0 ? Json(nullptr) : Json(stage.dance().moves[static_cast<std::size_t>(move)].name);
 }
 
-/// Describes what is on the screen, for programs that see no picture.
+/// Describes the content of the screen, for programs that see no picture.
 Json DescribeShown(const CoachStage& stage, const CoachOutput& shown) {
   const int move =
       shown.repetition < 0 ? -1 : stage.dance().repetitions[static_cast<std::size_t>(shown.repetition)].move;
@@ -162,7 +162,7 @@ class SeatedLearner final : public Player {
 
   SeatedCoachProgram& program_;
   BodyPose pose_;
-  std::vector<std::optional<PerformanceTruth>> truths_;  ///< by repetition, the latest
+  std::vector<std::optional<PerformanceTruth>> truths_;  ///< by repetition, of the latest performance
   bool given_up_ = false;
 };
 

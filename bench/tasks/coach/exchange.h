@@ -43,21 +43,21 @@ class SeatedCoachProgram {
   std::optional<Error> error_;
 };
 
-/// Makes a recogniser that a program plays. Step: what the sensor reports, and, when a window opens or closes, what is
-/// asked for from this frame on:
+/// Makes a recogniser whose part a program plays. A step holds what the sensor reports and, when a window opens or
+/// closes, the move that is asked for from this frame on:
 ///
 ///     {"pose": [x, y, z, …], "states": "tttiii…", "body_seen": true, "ask": {"move": "clap"}}     or "move": null
 ///
-/// Answer: how right the performance asked for looks so far, 0…1 (the largest value so far counts while the same one is
-/// asked for); optionally `spotted`, the same for every move, asked for or not.
+/// The answer is how right the requested performance looks so far, 0…1 (the largest value counts, as long as the
+/// request is the same), and optionally `spotted`, the same for every move, requested or not.
 ///
 ///     {"asked": 0.7, "spotted": [0, 0.1, …]}
 ///
 /// `program` must outlive the recogniser and its follower.
 std::unique_ptr<Recogniser> MakeSeatedRecogniser(SeatedCoachProgram& program);
 
-/// Makes a policy that a program plays. Step: what the coach showed in the frame before, and its verdicts on the
-/// windows that closed in it:
+/// Makes a policy whose part a program plays. A step holds what the coach showed in the frame before, and its verdicts
+/// on the windows that closed in that frame:
 ///
 ///     {"mode": "dance", "move": "clap", "repetition": 3,
 ///      "verdicts": [{"move": "clap", "repetition": 2, "verdict": "wrong", "mistake": "not reached", "evidence": 0.3}]}
@@ -65,21 +65,21 @@ std::unique_ptr<Recogniser> MakeSeatedRecogniser(SeatedCoachProgram& program);
 /// Answer: {"correct": true} interrupts the dance now, or as soon as the coach dances.
 std::unique_ptr<MomentSource> MakeSeatedPolicy(SeatedCoachProgram& program);
 
-/// Makes a learner that a program plays. Step: what is on the screen and what was decided in this frame:
+/// Makes a learner whose part a program plays. A step holds the content of the screen and the decisions of this frame:
 ///
 ///     {"pose": [x, y, z, …], "mode": "dance", "clip": "dance", "clip_frame": 120, "move": "clap", "repetition": 3,
 ///      "say": "Watch!", "hint": "both arms up", "events": ["wrong", "corrects"]}
 ///
-/// Answer: its own next pose in the world (the sensor stands before it, in the direction of +Z), whether the
-/// performance that it dances now is right (null: grey), and whether its patience has run out:
+/// The answer holds the learner's next pose in the world (the sensor stands in front of it, in the direction of +Z),
+/// whether its present performance is right (null: grey), and whether its patience has run out:
 ///
 ///     {"pose": [x, y, z, …], "right": true, "given_up": false}
 ///
-/// After the session it is tested on every move, as it would be after the time of 20 more performances: {"test":
-/// {"move": "clap", "after": 20}}, answered by {"right": true}.
+/// After the session the learner is tested on every move. The test is as late as 20 more performances would take:
+/// {"test": {"move": "clap", "after": 20}}, answered by {"right": true}.
 std::unique_ptr<Player> MakeSeatedLearner(SeatedCoachProgram& program);
 
-/// Records what a film of a session shows: tracks "coach", "truth" (the learner as danced) and "sensed", and
+/// Records what a film of a session shows: tracks "coach", "truth" (the learner's real motion) and "sensed", and
 /// CoachExtras.
 Recording RecordCoaching(const CoachStage& stage, const SessionLog& log);
 

@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-/// Number of frames from what was on the screen to the requested pose.
+/// Number of frames between the time of the screen that the learner sees and the time of the requested pose.
 constexpr double kFramesAhead = static_cast<double>(SkeletonSensor::kAhead) + 1;
 
 PerformanceTruth TruthOf(Truth truth) {

@@ -9,11 +9,11 @@
 
 namespace etude {
 
-/// The simulated learner before the coach.
+/// The simulated learner who faces the coach.
 ///
-/// Learners see the dance go on and dance to where it will be when they move, so that they are late by their lag alone.
-/// They react to unexpected events (the coach stops, shakes its head, shows the move) later, by the number of frames
-/// that poses are requested ahead.
+/// Learners predict where the dance will be when they move, so that they are late only by their own lag. They react to
+/// unexpected events (the coach stops, shakes its head, shows the move) later, by the number of frames for which poses
+/// are requested in advance.
 class LearnerPlayer final : public Player {
  public:
   /// Both must outlive this.
@@ -32,11 +32,12 @@ class LearnerPlayer final : public Player {
 
   const CoachStage& stage_;
   Learner learner_;
-  std::optional<double> last_frame_;  ///< the dance's frame shown before; empty if it was not danced
-  int danced_ = -1;                   ///< the repetition danced in the frame before; −1: none
-  int performances_ = 0;              ///< number begun so far; a repeated repetition is a new performance
-  int about_ = -1;                    ///< the move of the latest correction
-  std::vector<int> latest_;           ///< by repetition of the dance, its latest performance; −1: none
+  /// The frame of the dance that was shown before; empty if the dance was not shown.
+  std::optional<double> last_frame_;
+  int danced_ = -1;          ///< the repetition that the learner danced in the frame before; −1: none
+  int performances_ = 0;     ///< performances begun so far; if a repetition is danced again, it counts again
+  int about_ = -1;           ///< the move of the latest correction
+  std::vector<int> latest_;  ///< for each repetition of the dance, its latest performance; −1: none
 };
 
 }  // namespace etude

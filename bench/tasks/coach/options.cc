@@ -29,7 +29,7 @@ std::vector<Field<Method>> CoachFields() {
                     "Whether music-time tags slow down and speed up the dance.")};
 }
 
-/// `policy`, its settings, and what goes with them.
+/// The key `policy`, its settings, and the keys that belong to it.
 std::vector<Field<Method>> PolicyFields() {
   using Key = Field<Method>;
   std::vector<Key> fields = {Key::Name("policy", Path(&Method::policy, &Coach::PolicyChoice::policy), PolicyNames(),

@@ -12,14 +12,14 @@
 
 namespace etude {
 
-/// The point at which coaches are compared: each uses the threshold on evidence at which this many right performances a
-/// minute are taken for mistakes, by other people under the same condition.
+/// The operating point at which coaches are compared. Each coach uses the threshold on evidence at which, for other
+/// people under the same condition, this many right performances per minute are taken for mistakes.
 struct CoachOperatingPoint {
   double needless_per_min = 0.2;
   int sessions = 24;  ///< number of sessions, each of another person
 };
 
-/// One condition of a coach scenario: who learns what, how well the sensor sees it, and how well the music keeps time.
+/// One condition of a coach scenario: who learns which song, how well the sensor sees it, and how steady the music is.
 ///
 ///     song: groove       # what is danced
 ///     session_s: 180     # how long the coach may take; the song begins anew when it is over
@@ -30,9 +30,9 @@ struct CoachCondition {
   std::string song = "groove";
   double session_s = 180;
   LearnerOptions learner;
-  std::optional<CoachOperatingPoint> operating_point;  ///< sets the thresholds of methods that say none
+  std::optional<CoachOperatingPoint> operating_point;  ///< sets the thresholds of methods that set none
   MusicClockOptions music;
-  DetectionOptions sight;  ///< the person and the sensor; its session's script is not used
+  DetectionOptions sight;  ///< the person and the sensor; the session script in it is not used
 };
 
 /// The part of the loop that an outside program takes.
@@ -48,9 +48,10 @@ struct CoachMethod {
   std::string name;
   DetectionMethod sight;
   Coach::PolicyChoice policy{&AllPolicies().front(), {}};
-  const Policy* partner = &AllPolicies().front();  ///< of the session from which a yoked method takes its correction
-                                                   ///< times
-  bool knows_truth = false;                        ///< `oracle: [judgement]`
+  /// A yoked method corrects at the times of a session with this policy.
+  const Policy* partner = &AllPolicies().front();
+  ///< times
+  bool knows_truth = false;  ///< `oracle: [judgement]`
   TransitionMethod transition;
   CoachOptions coach;
   Seat seat = Seat::kNone;

@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-/// Corrects at the frames at which another session did.
+/// Corrects at the frames at which another session corrected.
 class Moments final : public MomentSource {
  public:
   explicit Moments(const SessionLog& other) {
@@ -34,7 +34,7 @@ SessionParts PartsOf(const ReadyCoach& ready, const Coach& coach, const Recognis
   return {coach, recogniser, sight.filter, sight.sees_truth, sight.Capture()};
 }
 
-/// Runs the session from which a yoked one takes its correction times: another person's, under the same condition.
+/// Runs the session of another person, under the same condition, from which a yoked session takes its correction times.
 Result<SessionLog> RunPartner(const ReadyCoach& ready, const CoachCondition& condition, const CoachStage& stage,
                               const CoachWorld& world) {
   const std::string scenario = fmt::format("{}/partner", world.key.scenario);
@@ -49,7 +49,8 @@ bool AreAlike(const TransitionWay& a, const TransitionWay& b) {
          a.rules.within_class == b.rules.within_class;
 }
 
-/// Returns the coach's own policy. A program in that seat decides when to correct, as a partner does.
+/// Returns the coach's own policy. If a program takes that seat, it decides when to correct, as the partner of a yoked
+/// method does.
 Coach::PolicyChoice PolicyOf(const CoachMethod& method) {
   if (method.seat == Seat::kPolicy) return {FindPolicy("yoked"), {}};
   return method.policy;

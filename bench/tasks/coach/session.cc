@@ -30,7 +30,7 @@ class Loop {
   }
 
   Result<SessionLog> Run() {
-    for (int i = 0; i < kAhead; ++i) MoveLearner();  // the poses ahead of the session's start
+    for (int i = 0; i < kAhead; ++i) MoveLearner();  // the poses that are requested in advance
     ASSIGN_OR_RETURN(sensor_, MakeSensor());
     for (const BodyPose& pose : log_.learner.poses) sensor_->Update(pose);
     while (frame_ < world_.frames) {
@@ -52,7 +52,7 @@ class Loop {
   }
 
  private:
-  /// Begins the song again after its end. The coach keeps what it remembers of the player and has seen.
+  /// Begins the song again after its end. The coach keeps its memory of the player and of the frames that it has seen.
   void DanceAgain() {
     CoachState state = parts_.coach.BeginDancing();
     state.moves = coach_->state().moves;
@@ -146,8 +146,8 @@ class Loop {
     }
   }
 
-  /// Logs the performance whose window has closed. A window that the coach itself cut off did not ask for a whole
-  /// performance and is not logged.
+  /// Logs the performance whose window has closed. A window that the coach itself cut off is not logged, because it did
+  /// not ask for a whole performance.
   void NoteVerdict(CoachEvent event) {
     if (!open_) return;
     const bool was_cut = event == CoachEvent::kUnjudged && shown_.mode != CoachMode::kDance;

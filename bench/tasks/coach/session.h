@@ -20,21 +20,21 @@ struct PlayedPerformance {
   std::string faults = "none";  ///< "amplitude+late"
 };
 
-/// The dancer before the coach.
+/// The dancer in front of the coach.
 class Player {
  public:
   virtual ~Player() = default;
 
-  /// Returns the body's next pose, after the coach showed `shown`. The pose is SkeletonSensor::kAhead frames ahead of
-  /// what is shown, because nobody reacts at once (0.23 s; a simple visual reaction takes 0.2 to 0.25 s).
+  /// Returns the body's next pose, after the coach showed `shown`. The pose is for a time SkeletonSensor::kAhead frames
+  /// later than what is shown (0.23 s), because nobody reacts at once: a simple visual reaction takes 0.2 to 0.25 s.
   virtual BodyPose Next(const CoachOutput& shown) = 0;
-  /// Returns the latest performance of this repetition of the dance; nothing if it was not begun.
+  /// Returns the latest performance of this repetition of the dance; nullopt if it was not begun.
   virtual std::optional<PlayedPerformance> PerformanceOf(int repetition) const = 0;
   /// Returns true if the player's patience has run out.
   virtual bool HasGivenUp() const = 0;
-  /// Tests the player without a coach, after the time of `performances_later` more performances. Returns for every move
-  /// of the dance the probability of dancing it without a fault; for a player who cannot tell it, 1 or 0, and no entry
-  /// for a grey performance.
+  /// Tests the player without a coach, as late as `performances_later` more performances would take. Returns, for every
+  /// move of the dance, the probability of dancing it without a fault. A player without such a probability performs
+  /// each move once: the value is 1 or 0, and a grey performance has no entry.
   virtual std::vector<double> TakeTest(int performances_later) = 0;
 };
 
@@ -49,7 +49,7 @@ struct LoggedPerformance {
 /// A transition of the coach.
 struct LoggedTransition {
   std::vector<int> points;
-  bool is_bridged = false;  ///< it uses bridge frames, directly or through clips in between
+  bool is_bridged = false;  ///< it uses bridge frames, directly or with clips in between
 };
 
 /// The words on the screen from a frame on.
@@ -95,7 +95,7 @@ class MomentSource {
 };
 
 /// Runs one session: the player sees the coach, the sensor sees the player, and the coach sees what the sensor reports.
-/// `moments` may be null. Fails, saying why, if cameras cannot be set up.
+/// `moments` may be null. Fails, with the reason, if cameras cannot be set up.
 Result<SessionLog> RunSession(const SessionParts& parts, const CoachWorld& world, Player& player,
                               MomentSource* moments);
 

@@ -35,11 +35,13 @@ CoachCondition DrawCondition(const WorldKey& key) {
   if (dice.Chance(0.5)) condition.sight.sensor = SensorV1();
   condition.sight.session.people = People::kMixed;
   condition.learner.skill = dice.Uniform(0.1, 0.8);
-  if (dice.Chance(0.5)) condition.learner.severity = 1;  // full mistakes are otherwise rare, and must not be missed
+  // Else full mistakes would be rare, and the model must not miss them.
+  if (dice.Chance(0.5)) condition.learner.severity = 1;
   return condition;
 }
 
-/// Adds a bag for each window that is not grey: its nearest measures, only as many as can matter.
+/// Adds a bag for each window that is not grey. It holds only the nearest measures, because others cannot influence the
+/// fit.
 void AddSession(const Lesson& lesson, const SessionLog& log, Weighting weighting, std::vector<LabelledBag>& bags) {
   std::vector<PerformanceMeasures> measured;
   const auto recogniser =

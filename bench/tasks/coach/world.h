@@ -16,10 +16,10 @@
 
 namespace etude {
 
-/// The data that all worlds of a condition share: the song as a dance, and its moves.
+/// The data that all worlds of a condition share: a song with its dance and moves.
 struct CoachStage {
   std::vector<Move> moves;                   ///< of the dance, in its order, at the song's tempo
-  std::vector<TaughtMove> taught;            ///< the same, as recognisers are taught them
+  std::vector<TaughtMove> taught;            ///< the same moves, as recognisers are taught them
   std::unique_ptr<ShowableFaults> showable;  ///< the faults that each of them can have; never null
   std::unique_ptr<DanceLibrary> library;     ///< never null
   std::vector<double> natural_jumps_cm;      ///< of the unbroken dance
@@ -30,9 +30,9 @@ struct CoachStage {
 /// Prepares a built-in song.
 Result<CoachStage> SetCoachStage(const std::string& song);
 
-/// One trial: the learner and the place of the sensor. Everything else that is random in a session is drawn while it
-/// runs, from streams keyed by the event (the n-th performance of a move) and by the frame, so that every coach meets
-/// the same random events.
+/// One trial: the learner and the position of the sensor. All other random values of a session are drawn while it runs,
+/// from streams keyed by the event (the n-th performance of a move) and by the frame, so that every coach meets the
+/// same random events.
 struct CoachWorld {
   WorldKey key;
   Person person;
@@ -43,7 +43,7 @@ struct CoachWorld {
   MusicClockOptions music;
   int frames = 0;  ///< of the session
   LearnerOptions learner;
-  int test_after = 20;  ///< what was retained is tested after the time of this many more performances
+  int test_after = 20;  ///< the test of what was retained comes as late as this many more performances would take
 };
 
 /// Makes the world of `key`, whose scenario must outlive it.

@@ -39,7 +39,7 @@ class DetectionTask final : public Task {
                                           keeps_motion);
   }
 
-  /// A session mixes all labelled clips, so only a clip that has to be left out is named.
+  /// A session mixes all labelled clips, so a clip is named only if it causes the world to be skipped.
   std::vector<std::string> ClipsOf(const WorldKey& key) const override {
     const TrialClip& clip = ClipAt(key);
     if (clip.is_labelled) return {};
@@ -66,7 +66,7 @@ class DetectionTask final : public Task {
   const DetectionOptions options_;
   const std::vector<ReadyMethod> methods_;
   const Repertoire repertoire_;
-  mutable MethodDecisions decisions_{methods_, repertoire_, options_};  // a memory of what depends on keys alone
+  mutable MethodDecisions decisions_{methods_, repertoire_, options_};  // a cache; its content depends on keys alone
   std::vector<TrialClip> clips_;
 };
 

@@ -27,8 +27,8 @@ struct ToldExample {
   int begin = 0, end = 0;  ///< frames [begin, end) of the stream
 };
 
-/// Describes moves that recordings teach: what built-in recognisers are taught of them, and whose performances these
-/// are. `names` are all moves that may be asked for; one that nobody teaches has no poses and no examples.
+/// Describes moves that recordings teach: what built-in recognisers are taught, and who performed it. `names` are all
+/// moves that may be asked for; a move without a teacher has no poses and no examples.
 ///
 ///     {"joints": […], "parents": […],
 ///      "moves": [{"name": "clap", "span_s": 3.1, "rate_hz": 30, "poses": [[x, y, z, …], …],
@@ -54,7 +54,8 @@ std::vector<ToldExample> ExamplesOf(std::span<const TaughtMove> taught);
 /// `person` is the name, and `starts` are the first frames of all recordings but the first.
 Payload SessionPayload(const DetectionWorld& world);
 
-/// Encodes the truth of a session: how it was performed. `first_right_s` is absent if the performance was not right.
+/// Encodes the truth of a session: the performed motion, and the truth about every performance. `first_right_s` is
+/// absent if the performance was not right.
 ///
 ///     {"rate_hz": 30, "poses": [[x, y, z, …], …],
 ///      "events": [{"move": "clap", "is_right": true, "fault": "none", "danced": "clap", "begin_frame": 30,
@@ -65,10 +66,10 @@ Payload SessionPayload(const DetectionWorld& world);
 /// the sensed ones if no true motion is known.
 Payload TruthPayload(const DetectionWorld& world);
 
-/// Reads an answer. `events` holds, for each performance asked for, in order, the frame at which the method calls it
-/// right (within its window; null: it is wrong), and a score, higher = more right, on any scale. `alarms` holds every
-/// frame at which the method detects one of the moves. Detections in a window in which their move was asked for or
-/// performed are not false alarms (IsPerformance), so a method need not know the windows.
+/// Reads an answer. `events` holds, for each performance asked for, in order, the frame within its window at which the
+/// method calls it right (null: never), and a score on any scale, higher = more right. `alarms` holds every frame at
+/// which the method detects one of the moves. Detections in a window in which their move was asked for or performed are
+/// not false alarms (IsPerformance), so a method need not know the windows.
 ///
 ///     {"events": [{"right_at_frame": 88, "score": 0.83}, {"right_at_frame": null, "score": 0.1}, …],
 ///      "alarms": [{"move": "sway", "frame": 215}, …]}

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Returns the mean squared distance along the best warping path. It may stop early, with infinity, if that exceeds
-/// `enough`.
+/// Returns the mean squared distance along the best warping path. It may stop early and return infinity if the result
+/// exceeds `enough`.
 double WarpedCost(const std::vector<PoseVector>& a, const std::vector<PoseVector>& b, double enough) {
   if (a.empty() || b.empty()) return kFar;
   const double all = static_cast<double>(a.size() + b.size());

@@ -23,9 +23,11 @@ std::optional<double> Accuracy(std::span<const Classified> verdicts);
 struct LeaveOneOut {
   std::vector<std::string> people;         ///< sorted
   std::vector<Classified> verdicts;        ///< of right performances with a beginning and an end
-  std::vector<Classified> nearest;         ///< the same by the nearest whole performance of anybody else: the yardstick
+  /// The same performances, classified by the nearest whole performance of anybody else: a yardstick.
+  std::vector<Classified> nearest;
   std::vector<Moment> points, detections;  ///< of recordings with action points, on one time axis
-  int untaught_performances = 0;  ///< performances of moves that nobody else did right; in `verdicts` as classified as none
+  /// Performances of moves that nobody else did right; `verdicts` holds them as not recognised.
+  int untaught_performances = 0;
 };
 
 /// Leaves one person out at a time: teaches all moves by the others' right performances (their wrong ones are
@@ -35,7 +37,7 @@ Result<LeaveOneOut> LeaveOnePersonOut(const std::vector<NamedStream>& streams, c
                                       const std::string& file, const WatchOptions& options);
 
 /// Returns the distance of two performances, centimetres RMS per joint with the trunk scaled to 50 cm, by dynamic time
-/// warping of both as a whole (Sakoe and Chiba 1978, symmetric): the usual yardstick for such data sets. Nothing if one
+/// warping of both as a whole (Sakoe and Chiba 1978, symmetric): the usual yardstick for such data sets. Nullopt if one
 /// shows no body.
 std::optional<double> WarpedDistanceCm(const SkeletonStream& a, const SkeletonStream& b);
 
@@ -45,9 +47,9 @@ class LabelScores {
   /// All arguments must outlive this; `recogniser` was taught `moves`.
   LabelScores(std::span<const TaughtMove> moves, const Recogniser& recogniser, const WatchOptions& watch);
 
-  /// Adds a recording with its parts and the moves spotted in it. A performance counts as called right if its evidence,
-  /// asked for from its beginning to half a second after its end, reaches the threshold. Labels of moves that were not
-  /// taught are only counted.
+  /// Adds a recording with its parts and the moves spotted in it. The recogniser is asked for each performance from its
+  /// beginning to half a second after its end; the performance counts as called right if its evidence reaches the
+  /// threshold. Labels of moves that were not taught are only counted.
   void Add(const NamedStream& stream, std::span<const LabelledPart> parts, std::span<const Spotting> spottings);
 
   const std::vector<JudgedEvent>& Performances() const { return performances_; }

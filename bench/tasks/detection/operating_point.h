@@ -22,7 +22,7 @@ struct ReadyMethod {
   std::unique_ptr<Recogniser> recogniser;
 };
 
-/// The evidence of a session, and a test for detections that are not false alarms in it.
+/// The evidence of a session, and a function that tells true detections from false alarms.
 struct AlarmTrial {
   std::shared_ptr<const EvidenceTrace> trace;
   double rate_hz = kJudgedRateHz;
@@ -30,11 +30,11 @@ struct AlarmTrial {
 };
 
 /// Returns the smallest threshold of spotting, to 1 in 2¹⁶, at which all trials together give at most
-/// `false_alarms_per_min`. The rate falls as the threshold rises, apart from alarms that a refractory time hides.
-/// Returns 1 if even that gives more. At least one trial is required, each with frames.
+/// `false_alarms_per_min`. The rate falls as the threshold rises, except for alarms that a refractory time hides.
+/// Returns 1 if even a threshold of 1 gives more. At least one trial is required, each with frames.
 double ThresholdAt(std::span<const AlarmTrial> trials, double false_alarms_per_min, double refractory_s);
 
-/// What a method saw of other people: its evidence for all moves, and the performances asked for, judged without a
+/// A method's results for other people: its evidence for all moves, and the requested performances, judged without a
 /// threshold.
 struct MethodTrials {
   std::vector<AlarmTrial> alarms;
@@ -42,19 +42,19 @@ struct MethodTrials {
 };
 using TrialsOfMethods = std::vector<MethodTrials>;
 
-/// Adds what each method without a threshold of its own sees in a world. All methods were taught `repertoire`.
+/// Adds the results, in one world, of each method without a threshold of its own. All methods were taught `repertoire`.
 void AddTrials(const std::shared_ptr<const DetectionWorld>& world, std::span<const ReadyMethod> methods,
                const Repertoire& repertoire, TrialsOfMethods& trials);
 
 /// Returns the thresholds of each method: its own, or those of the operating point on its trials, if there is an
-/// operating point. If no performance was right, the threshold of spotting is also used for judging. `trials` are of
-/// all people but the judged one.
+/// operating point. If no performance was right, the threshold of spotting is also used for judging. `trials` come from
+/// all people except the judged one.
 std::vector<MethodDecision> DecideBy(std::span<const ReadyMethod> methods, const TrialsOfMethods& trials,
                                      const std::optional<OperatingPoint>& point);
 
 /// The thresholds of each method of a scenario with simulated people. With an operating point, thresholds that methods
-/// do not set are computed at the first request, on sessions of people keyed apart from the judged ones; of a mixture,
-/// every kind of people has its share.
+/// do not set are computed at the first request, on sessions of other people than the judged ones; if the condition has
+/// a mixture of people, every kind has its share.
 class MethodDecisions {
  public:
   /// The arguments must outlive this.

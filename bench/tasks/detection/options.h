@@ -25,10 +25,11 @@ constexpr const char* kMovesKey = "moves";
 /// The object between sensor and performer (`MakeOccluders`).
 enum class OccluderKind { kNone, kTable, kChair, kPerson };
 
-/// The point at which methods are compared. Its thresholds are set on other people under the same condition, half of
-/// whose performances have faults of any severity, whatever the condition says about the judged people. Each method
-/// spots moves at the threshold that gives `false_alarms_per_min`, and judges performances at the threshold that
-/// praises the share `recall` of the right ones. So no method is better only because it says yes, or no, more often.
+/// The operating point at which methods are compared. Its thresholds are set on other people under the same condition.
+/// Half of their performances have faults of any severity, whatever the condition says about the judged people. Each
+/// method spots moves at the threshold that gives `false_alarms_per_min`, and judges performances at the threshold at
+/// which the share `recall` of the right ones is praised. So no method is better only because it says yes, or no, more
+/// often.
 struct OperatingPoint {
   double false_alarms_per_min = 1;
   double recall = 0.9;  ///< of judging
@@ -53,18 +54,19 @@ struct MethodDecision {
 ///     turn_deg: 0      # how far the performer is turned away from the sensor
 ///     occluder: none   # what stands between the two: table, chair, person
 struct DetectionOptions {
-  std::string moves;  ///< a file of taught moves (etude teach); of recordings
+  std::string moves;  ///< only with recordings: a file of taught moves (etude teach)
   SessionOptions session;
   double noise = 1;
-  SkeletonSensorOptions sensor = SensorV2();  ///< strength aside; the task opens what the condition names
+  /// Without the noise factor; the task opens the sensor that the condition names.
+  SkeletonSensorOptions sensor = SensorV2();
   double turn_deg = 0;
-  std::optional<double> distance_m;  ///< else drawn in each trial, 2.5–3 m
+  std::optional<double> distance_m;  ///< if absent, drawn in each trial, 2.5–3 m
   double sensor_height_m = 1;
   OccluderKind occluder = OccluderKind::kNone;
-  bool has_cameras = false;  ///< `sensor: cameras`: nothing of the above is read but the session
+  bool has_cameras = false;  ///< `sensor: cameras`: of the members above only the session is read
   CameraSensing cameras;
-  std::optional<double> threshold;                ///< of methods that say none of their own
-  std::optional<OperatingPoint> operating_point;  ///< sets the thresholds of methods that say none
+  std::optional<double> threshold;                ///< for methods that set none
+  std::optional<OperatingPoint> operating_point;  ///< sets the thresholds of methods that set none
 };
 
 /// One way from stream to verdict.
@@ -73,10 +75,11 @@ struct DetectionOptions {
 struct DetectionMethod {
   std::string name;
   FilterOptions filter;
-  bool sees_truth = false;                    ///< `oracle: [stream]`
-  std::optional<CaptureMethod> capture = {};  ///< with cameras: how pictures become skeletons; else as capture does
+  bool sees_truth = false;  ///< `oracle: [stream]`
+  /// With cameras: how pictures become skeletons; if absent, the defaults of task capture.
+  std::optional<CaptureMethod> capture = {};
   RecogniserOptions recogniser;
-  std::optional<double> threshold;  ///< else the recogniser's own
+  std::optional<double> threshold;  ///< if absent, the recogniser's own
   double refractory_s = DecisionOptions{}.refractory_s;
 
   CaptureMethod Capture() const { return capture.value_or(CaptureMethod{}); }
@@ -91,8 +94,8 @@ struct DetectionMethod {
 Result<SkeletonSensorOptions> SensorOf(const TaskInput& input);
 /// Complains of keys that belong to another sensor than the condition's.
 void CheckSensorKeys(Fields& condition, DetectionOptions& options);
-/// Refuses methods that set `capture` if the condition has no cameras; else prepares the cameras for every method.
-/// `methods` has the order of the input's methods; `sight` returns the DetectionMethod of one.
+/// If the condition has no cameras, refuses methods that set `capture`; otherwise prepares the cameras for every
+/// method. `methods` has the order of the input's methods; `sight` returns the DetectionMethod in one of them.
 template <typename Methods, typename Sight>
 Result<void> PrepareCameras(const TaskInput& input, const Methods& methods, Sight sight, DetectionOptions& options) {
   RETURN_IF_ERROR(OpenOwnCameras(input, options.cameras.studio));

@@ -34,7 +34,7 @@ BodyPose HalfWay(const BodyPose& from, const BodyPose& to) {
       return length > 0 ? limb / length : limb;
     };
     glm::dvec3 middle = way(from) + way(to);
-    if (glm::length(middle) < 1e-6) middle = way(to);  // opposite directions have no middle
+    if (glm::length(middle) < 1e-6) middle = way(to);  // the middle of opposite directions is undefined
     const double length = glm::length(to[child] - to[parent]);
     half[child] = half[parent] + (length > 0 ? length * glm::normalize(middle) : glm::dvec3(0));
   }
@@ -338,8 +338,8 @@ class RecordedTask final : public Task {
     return folds_.emplace(index, MakeFold(set_, taught_, {NameOf(person)}, methods_)).first->second;
   }
 
-  /// Sets thresholds on other people, each seen by recognisers that were taught neither by them nor by the judged
-  /// person.
+  /// Sets thresholds on other people. The recognisers that see one of them were taught neither by that person nor by
+  /// the judged one.
   const std::vector<MethodDecision>& DecisionsFor(const WorldKey& key) const {
     const auto known = decisions_.find(key.trial);
     if (known != decisions_.end()) return known->second;
@@ -374,7 +374,7 @@ class RecordedTask final : public Task {
   mutable std::map<int, std::vector<MethodDecision>> decisions_;
 };
 
-/// Complains of faults that cannot be imposed on these recordings.
+/// Complains of faults that cannot be made from these recordings.
 Result<void> CheckFaults(const Node& condition, std::span<const Fault> faults, const LabelledStreams& set) {
   if (faults.empty()) return {};
   const Node& named = *condition.Find("faults");
@@ -427,7 +427,7 @@ Result<std::unique_ptr<Task>> MakeRecordedTask(TaskInput& input, const Detection
     ASSIGN_OR_RETURN(taught, ReadMoves(input.texts.at(kMovesKey), options.moves));
   }
   RETURN_IF_ERROR(CheckRecordings(set, taught.has_value()));
-  const std::size_t needed = taught ? 2 : 3;  // one judged, one for the thresholds, one who teaches
+  const std::size_t needed = taught ? 2 : 3;  // one person is judged, one sets the thresholds, one teaches
   if (options.operating_point && set.people.size() < needed) {
     return Fail(condition.Find("operating_point")->place,
                 "thresholds need people who neither teach nor are judged; recorded: {}, needed: {}", set.people.size(),

@@ -21,21 +21,21 @@ namespace etude {
 std::span<const Fault> MadeFaults();
 
 /// Returns the recording with the fault imposed. Amplitude: every limb points half-way between its direction in the
-/// first frame with a body and its present direction, with its length kept. Wrong side: left and right are exchanged.
+/// first frame with a body and its present direction; lengths do not change. Wrong side: left and right are exchanged.
 /// Wrong move: unchanged, for a person who was asked for another move. `fault` is one of MadeFaults.
 NamedStream WithFault(const NamedStream& right, Fault fault);
 
-/// Returns whether a right performance is still right, grey or wrong with this fault, by the same limits as for
-/// simulated people (StrayLimits): by the angles of the limb that deviates most. For a wrong side the performances are
-/// first aligned in time (dynamic time warping), so that an additional step of a walk does not count. Another move is
-/// wrong.
+/// Returns whether a right performance is still right, grey or wrong with this fault, The limits are those for
+/// simulated people (StrayLimits), applied to the angles of the limb that deviates most. For a wrong side, dynamic time
+/// warping first aligns the performances in time, so that an additional step of a walk does not count. A wrong move is
+/// always wrong.
 Truth TruthOfFault(const NamedStream& right, const NamedStream& faulty, const LabelledPart& part, Fault fault);
 
-/// Makes the world of one person: their recordings, one after another, with their labels. Clips are sensed under the
-/// condition; recordings of a sensor are used as they are. A performance is judged until half a second after its end,
-/// but at most until the next one begins; this also holds for labels that overlap. If the condition names faults, each
-/// recording follows once more with each fault; right performances are then judged by TruthOfFault, and performances
-/// that were wrong before are grey.
+/// Makes the world of one person: their recordings, one after another, with their labels. Clips are sensed as the
+/// condition says; recordings of a sensor are used as they are. A performance is judged until half a second after its
+/// end, but at most until the next one begins; this also holds for labels that overlap. If the condition names faults,
+/// each recording follows once more with each fault; right performances are then judged by TruthOfFault, and
+/// performances that were wrong before are grey.
 DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person, const DetectionOptions& options,
                                  const WorldKey& key);
 
@@ -43,7 +43,7 @@ DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person,
 /// (`are_taught`), a single person, or recordings whose person is unknown.
 Result<void> CheckRecordings(const LabelledStreams& set, bool are_taught);
 
-/// What recognisers were taught when some people are left out.
+/// What recognisers were taught, with some people left out.
 struct Fold {
   Repertoire repertoire;
   std::vector<ReadyMethod> methods;
@@ -51,12 +51,13 @@ struct Fold {
 
 /// Teaches the methods' recognisers: `taught`, if given; otherwise all moves by everybody except `left_out`, with right
 /// performances as examples and wrong ones as counter-examples. A move that nobody else did right stays untaught. Fails
-/// if no move is left, or if a method needs more of a move than it has.
+/// if no move is left, or if a method needs more examples of a move than there are.
 Result<Fold> MakeFold(const LabelledStreams& set, const std::optional<std::vector<TaughtMove>>& taught,
                       const std::set<std::string>& left_out, const std::vector<DetectionMethod>& methods);
 
 /// Makes a task whose worlds are recorded people, one per trial in the order of their names. Recognisers are taught the
-/// moves of the file that the condition names, or else what all other people did. The task keeps the set's address.
+/// moves of the file that the condition names, or else the performances of all other people. The task keeps the set's
+/// address.
 Result<std::unique_ptr<Task>> MakeRecordedTask(TaskInput& input, const DetectionOptions& options,
                                                std::vector<DetectionMethod> methods);
 

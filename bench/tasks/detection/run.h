@@ -25,8 +25,8 @@ struct SessionVerdict {
 /// no body.
 SeenStream SeeSession(const DetectionWorld& world, const DetectionMethod& method);
 
-/// Returns the evidence of each recording (DetectionWorld::Takes), in order. The recogniser learns what is asked for
-/// when its window opens.
+/// Returns the evidence of each recording (DetectionWorld::Takes), in order. The recogniser is told the requested move
+/// when the window opens.
 std::vector<EvidenceTrace> FollowSession(const DetectionWorld& world, const SeenStream& seen,
                                          const Repertoire& repertoire, const Recogniser& recogniser);
 
@@ -34,7 +34,8 @@ std::vector<EvidenceTrace> FollowSession(const DetectionWorld& world, const Seen
 std::vector<Judgement> JudgeEvents(const DetectionWorld& world, std::span<const EvidenceTrace> traces,
                                    double threshold);
 
-/// Judges every performance asked for, and collects the false alarms. `seen` must be what the method sees of the world.
+/// Judges every performance asked for, and collects the false alarms. `seen` must be the result of SeeSession for this
+/// method.
 SessionVerdict JudgeSession(const DetectionWorld& world, const SeenStream& seen, const Repertoire& repertoire,
                             const Recogniser& recogniser, const MethodDecision& decision);
 

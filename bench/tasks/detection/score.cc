@@ -73,7 +73,7 @@ std::vector<Wait> WaitsOf(const DetectionWorld& world, const SessionVerdict& ver
   return waits;
 }
 
-/// Returns how well the spotted moves of labelled recordings agree with their action points.
+/// Returns the F-score of the moves spotted in labelled recordings against their action points.
 std::optional<double> PointFScore(const DetectionWorld& world, const SessionVerdict& verdict,
                                   const Repertoire& repertoire) {
   const double rate = world.stream.rate_hz;

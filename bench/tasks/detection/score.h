@@ -24,9 +24,9 @@ void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, co
 std::vector<std::string> DetectionMetrics();
 
 /// Returns the value of a metric for a method without an answer (Task::ValueOfFailure). A coach without answers praises
-/// nobody, so every right performance is missed: `recall` and `f1` are 0 if some were right. The others are missing:
-/// nothing was called right (precision), nothing was ranked (roc_auc), no praise came (latency), and the absence of
-/// false alarms is no merit.
+/// nobody, so every right performance is missed: `recall` and `f1` are 0 if some were right. The other metrics are
+/// missing: nothing was called right (precision), nothing was ranked (roc_auc), no praise came (latency), and a method
+/// without answers deserves no credit for having no false alarms.
 std::optional<double> DetectionFailureValue(std::string_view metric, bool some_are_right);
 
 using StageDigests = std::vector<std::pair<std::string, std::string>>;
@@ -36,7 +36,7 @@ StageDigests WorldDigests(const DetectionWorld& world);
 /// Returns the digests of the filtered stream and of the verdicts.
 StageDigests VerdictDigests(const SessionVerdict& verdict, const Repertoire& repertoire);
 
-/// Returns, frame by frame, the score of the move asked for so far in its window; 0 between windows.
+/// Returns, for each frame, the score so far of the requested move in its window; 0 between windows.
 Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict);
 
 /// Returns one value per performance, for curves over many sessions (reports/plots): `performance_score`; `_truth`: 1

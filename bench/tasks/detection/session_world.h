@@ -52,7 +52,7 @@ class SessionWorld final : public TaskWorld {
   const StageDigests world_digests_ = WorldDigests(world_);
   const bool keeps_motion_;
   const Set set_;
-  std::deque<SeenByMethods> seen_;  ///< one for all methods with the same filter, oracle and capture
+  std::deque<SeenByMethods> seen_;  ///< one entry for all methods with the same filter, oracle and capture
 };
 
 /// A trial that cannot be judged.

@@ -17,13 +17,13 @@ struct RecogniserTraining {
   OnProgress progress = {};  ///< called with the number of sessions
 };
 
-/// Trains the model of recogniser `learnt`: simulated people perform the repertoire's moves before both sensors, with
-/// various noises, turns and distances; performances are measured as the recogniser measures them in use, and the model
-/// is fitted to the truth. Grey performances are left out. The worlds are keyed apart from those of every scenario, so
-/// no judged person is among them.
+/// Trains the model of recogniser `learnt`: simulated people perform the repertoire's moves in front of both sensors,
+/// with various noises, turns and distances. Performances are measured as the recogniser does in use, and the model is
+/// fitted to the truth. Grey performances are left out. The worlds have other dice than those of every scenario, so no
+/// judged person is among them.
 LearntModel TrainRecogniser(const Repertoire& repertoire, const RecogniserTraining& training);
 
-/// Keeps the nearest performances of a bag, nearest first: only as many as can matter.
+/// Keeps the nearest performances of a bag, nearest first; the others cannot influence the fit.
 void KeepNearest(std::vector<PerformanceMeasures>& performances);
 
 }  // namespace etude

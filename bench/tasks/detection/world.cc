@@ -15,8 +15,8 @@
 namespace etude {
 namespace {
 
-/// Returns a box whose centre is `ahead` metres from the performer towards the sensor and `aside` metres to the side,
-/// facing the sensor.
+/// Returns a box that faces the sensor. Its centre is `ahead` metres from the performer towards the sensor, and `aside`
+/// metres to the side.
 Cuboid BoxBefore(const SensorPlacement& sensor, double ahead, double aside, double height, const glm::dvec3& half_size) {
   const double sine = std::sin(sensor.turn), cosine = std::cos(sensor.turn);
   return {.centre = {ahead * sine + aside * cosine, height, ahead * cosine - aside * sine},

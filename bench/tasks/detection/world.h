@@ -16,8 +16,8 @@
 namespace etude {
 
 /// Returns the occluders between the sensor and a performer at the origin, for `frames` frames: none; a desk with a
-/// closed front, 75 cm high, 80 cm before the performer; a chair a little to the side, 90 cm high; a second person who
-/// sways 1.2 m before the performer, beside the line to the sensor (all ours).
+/// closed front, 75 cm high, 80 cm in front of the performer; a chair, 90 cm high, a little to the side; or a second
+/// person who sways 1.2 m in front of the performer, beside the line to the sensor (all ours).
 Occluders MakeOccluders(OccluderKind kind, const SensorPlacement& sensor, std::size_t frames);
 
 /// The moves that may be performed, and what recognisers were taught of them.
@@ -42,12 +42,12 @@ struct DetectionEvent {
   std::string move;                      ///< asked for
   std::vector<GradedFault> faults = {};  ///< of simulated people
   std::string labelled_fault = {};           ///< of a recording: the fault that its label names
-  std::string danced;                    ///< the move that was truly danced; empty: none, or unknown
+  std::string danced;                    ///< from the first beat to the last beat
   double start_s = 0, end_s = 0;         ///< from the first beat to the last
   FrameInterval performed;               ///< the same in frames
   FrameInterval window;                  ///< in which it is judged; windows do not overlap
   Truth truth = Truth::kRight;
-  /// The time at which it had truly passed every key pose asked for; only for right performances.
+  /// The time at which the performer had truly passed every requested key pose; only for right performances.
   std::optional<double> first_right_s = {};
 
   bool IsRight() const { return truth == Truth::kRight; }
@@ -56,7 +56,7 @@ struct DetectionEvent {
   std::string FaultText() const;
 };
 
-/// A frame at which, by a label, a move was done.
+/// A frame that a label marks as the moment of a move.
 struct ActionPoint {
   std::string move;
   int frame = 0;
@@ -65,16 +65,16 @@ struct ActionPoint {
 /// One trial: what was truly performed, and what the sensor saw. For a recorded person it holds all their recordings,
 /// one after another.
 struct DetectionWorld {
-  BodyMotion motion;  ///< as performed; for a recording with unknown truth, as sensed
+  BodyMotion motion;  ///< as performed; if the truth of a recording is unknown, as sensed
   std::vector<DetectionEvent> events;
-  SkeletonStream stream;    ///< of a skeleton sensor; with cameras, whose skeletons depend on the method, without
-                            ///< bodies
+  /// The output of a skeleton sensor; with cameras it has no bodies, because skeletons depend on the method.
+  SkeletonStream stream;
   std::string person = {};  ///< of recordings
   std::vector<ActionPoint> points = {};      ///< of recordings
   std::shared_ptr<CameraTake> cameras = {};  ///< null without cameras
   std::vector<int> starts = {};              ///< the first frames of all recordings but the first
 
-  /// Returns the intervals that are followed without interruption: one per recording.
+  /// Returns the intervals that recognisers follow without interruption: one per recording.
   std::vector<FrameInterval> Takes() const;
   bool IsRecorded() const { return !person.empty(); }
 };

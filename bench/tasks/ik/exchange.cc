@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t kMaxRecordedSteps = 150;
 constexpr int kEveryUpTo = 60;
 
-/// Lists every iteration up to kEveryUpTo, then each later by a factor of 1 + 1/`share`, and the last.
+/// Lists every iteration up to kEveryUpTo, then iterations whose distance grows by the factor 1 + 1/`share`, and the
+/// last.
 std::vector<int> Growing(int last, int share) {
   std::vector<int> iterations;
   for (int i = 0; i < last; i += i < kEveryUpTo ? 1 : std::max(1, i / share)) iterations.push_back(i);

@@ -29,10 +29,10 @@ struct IkTrialOptions {
   LimitSet limit_set = LimitSet::kAdult;
   double pose_range = 0.5;  ///< the true pose is uniform in this share of every joint's range, around its middle
   IkStart start = IkStart::kDisturbed;
-  double joint_noise_deg = 15;  ///< how far the start is from the truth
+  double joint_noise_deg = 15;  ///< size of the disturbance of the start
   NoiseKind noise = NoiseKind::kGaussian;
   TargetNoise target_noise;
-  double unreachable_cm = 0;  ///< how far one target lies beyond the reach of every pose; 0: none does
+  double unreachable_cm = 0;  ///< how far one target is beyond the reach of every pose; 0: all can be reached
   bool asks_positions = true;
   bool asks_axes = true;
 };

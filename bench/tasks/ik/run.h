@@ -35,8 +35,8 @@ CellResult ScoreAngles(const KinematicTree& tree, const IkWorld& world, std::spa
                        std::span<const EffectorError> effector_errors, const IkAccount& account,
                        const IkRecords& records);
 
-/// Scores an answer of an outside method, without curves; a recording has two frames, start and answer. `max_steps`
-/// limits its cost.
+/// Scores an answer of an outside method, without curves; a recording has two frames, start and answer. `max_steps` is
+/// the limit for its penalised costs.
 CellResult ScoreIkAnswer(const KinematicTree& tree, const IkWorld& world, const IkAnswer& answer, int max_steps,
                          const IkRecords& records);
 
@@ -58,9 +58,9 @@ std::vector<Series> WorstErrorCurves(std::span<const IkTraceEntry> trace);
 /// `right_foot_x_axis_error_deg`, … (paper B, figure 5.2).
 std::vector<Series> EffectorCurves(const KinematicTree& tree, std::span<const IkTraceEntry> trace);
 
-/// Returns the effectors' errors, along axis "effector", before (`start_…`) and after: `position_error_{x,y,z}_cm`,
-/// effector minus target along the world's axes, and `orientation_error_{x,y,z}_deg`, the angle between the effector's
-/// axis and its target (table 5.1).
+/// Returns the effectors' errors, along axis "effector", at the start (`start_…`) and at the end:
+/// `position_error_{x,y,z}_cm`, effector minus target along the world's axes, and `orientation_error_{x,y,z}_deg`, the
+/// angle between the effector's axis and its target (table 5.1).
 std::vector<Series> EffectorErrors(const KinematicTree& tree, const IkProblem& problem, std::span<const double> angles);
 
 /// Returns differences of angles, along axis "angle", in the tree's order: `angle_change_deg`, the solution minus the

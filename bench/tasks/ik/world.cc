@@ -30,9 +30,9 @@ void BendLegs(const KinematicTree& tree, double shank, double thigh, std::vector
 
 TreeState CrouchBeneathStandingHands(const KinematicTree& tree, RandomStream& dice) {
   TreeState state = StandingState(tree);
-  // Crouch by a random angle of the shanks; the thighs compensate, so that the hips move down vertically.
+  // Crouch by a random angle of the shanks; the thighs lean backward so that the hips move down vertically.
   const double shank = LengthOf(tree, kTreeLeftKnee), thigh = LengthOf(tree, kTreeLeftHip);
-  const double lean = Radians(dice.Uniform(8, 19));  // every set of limits allows the ankle 20°
+  const double lean = Radians(dice.Uniform(8, 19));  // the ankle may turn by 20° under every set of limits
   const double counter = std::asin(shank * std::sin(lean) / thigh);
   BendLegs(tree, lean, counter, state.angles);
   const double drop = shank * (1 - std::cos(lean)) + thigh * (1 - std::cos(counter));
@@ -70,8 +70,8 @@ void MakePoses(const KinematicTree& tree, const IkTrialOptions& options, const W
   }
 }
 
-/// Moves the target of one effector straight away from the root, `beyond` metres farther than the nearest unreachable
-/// position in that direction, which is found by bisection.
+/// Moves the target of one effector straight away from the root, `beyond` metres farther than the border of its reach
+/// in that direction, which is found by bisection.
 void PullOutOfReach(const KinematicTree& tree, double beyond, RandomStream& dice, IkProblem& problem) {
   constexpr double kFarOut = 100;  // metres
   constexpr int kHalvings = 50;    // accurate to 10⁻¹³ m

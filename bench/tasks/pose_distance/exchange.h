@@ -22,8 +22,8 @@ Payload PairsPayload(const PairWorld& world);
 ///     {"name": "arm forward or sideways", "pose_gap_cm": [103.2, …]}
 Payload GapsPayload(const PairWorld& world);
 
-/// Reads an answer: the distance of the two poses of each pair, larger = less alike, on any scale from 0 up; and
-/// whether a transition between them would go unnoticed.
+/// Reads an answer: the distance of the two poses of each pair, on any scale from 0 up, larger = less alike; and
+/// whether the two poses look alike, so that a transition between them would not be noticed.
 ///
 ///     {"distances": [0.31, …], "alike": [true, …]}
 ///

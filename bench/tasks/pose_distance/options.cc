@@ -5,8 +5,8 @@
 namespace etude {
 namespace {
 
-/// Ours: of any frames of two clips the joints' mean lets through about as many pairs below it (0.4 %) as paper A's d
-/// does below 0.4 (0.5 %).
+/// Ours: of all pairs of frames of two clips, 0.4 % have a mean joint distance below it; about as many (0.5 %) have
+/// paper A's d below 0.4.
 constexpr double kThresholdCm = 6;
 
 void SetThreshold(Fields& /*method*/, PoseDistanceMethod& options) {

@@ -18,7 +18,7 @@ struct PairStudy {
   std::vector<PoseDistanceMethod> methods;
   DancedClips clips;
   FuzzySystem fuzzy;
-  mutable LearntWeights learnt;  ///< remembers fits; what it answers depends on the question only
+  mutable LearntWeights learnt;  ///< caches fits; its answers depend on the question alone
 };
 
 class PoseDistanceWorld final : public TaskWorld {

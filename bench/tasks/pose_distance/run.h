@@ -27,9 +27,9 @@ PoseDistance FindPoseDistance(std::string_view name);
 struct PoseDistanceMethod {
   std::string name;
   PoseDistance distance = PoseDistance::kFuzzy;
-  WeightSource weights = WeightSource::kFixed;  ///< of the fuzzy one
-  double threshold = kPaperThreshold;           ///< poses are called alike below it; in centimetres for the other
-                                                ///< distances
+  WeightSource weights = WeightSource::kFixed;  ///< of the fuzzy distance
+  /// Poses with a smaller distance are called alike; in centimetres for the other distances.
+  double threshold = kPaperThreshold;
 };
 
 /// The verdicts of a method on a world's pairs, in their order.

@@ -14,8 +14,8 @@
 
 namespace etude {
 
-/// Two poses that look clearly different, but have a small fuzzy distance: paper A's features contain how far a limb is
-/// raised, not in which direction, and their membership functions are flat in ranges that were not expected to matter.
+/// Two poses that look clearly different, but have a small fuzzy distance: paper A's features say how far a limb is
+/// raised but not in which direction, and their membership functions are flat in ranges that were thought unimportant.
 struct BlindSpot {
   std::string_view name;  ///< "arm forward or sideways"
   Controls a, b;          ///< controls of the two poses, for the body of the built-in moves

@@ -20,13 +20,13 @@
 
 namespace etude {
 
-/// Describes, for the studio's cameras, a person who stands as in `first` and will dance there: half a metre to every
-/// side, and as high as a jump. The limb lengths are those of that pose.
+/// Describes, for setting up the studio's cameras, a person who stands as in `first` and will dance there, half a metre
+/// to every side and as high as a jump. The limb lengths are those of that pose.
 FilmedPerson MakeFilmedPerson(std::span<const BodyPose> places, const BodyPose& first, std::size_t frames);
 std::vector<BodyPose> PlacesAround(const BodyPose& first);
 
 /// Returns the frame that cameras report: every joint is tracked, at its position in the skeleton. Without a skeleton
-/// no body is seen, and all joints are where they were in `last`.
+/// the frame shows no body, and all joints keep their positions in `last`.
 SensedFrame SensedOf(const std::optional<RecoveredFrame>& recovered, const SensedFrame& last);
 
 /// Cameras that film a motion known beforehand: every capture method works on the same pictures.
@@ -38,7 +38,7 @@ class CameraTake {
   /// Takes the pictures, which all methods share; without this call the first method takes them.
   void Film() { (void)stages_.GetTake(); }  // every method reports a failure
 
-  /// Returns the stream of the whole motion. Fails, saying why, if there is no renderer, the cameras cannot be
+  /// Returns the stream of the whole motion. Fails, with the reason, if there is no renderer, the cameras cannot be
   /// calibrated, or no body can be made.
   const Result<SkeletonStream>& See(const CaptureMethod& method);
 
@@ -52,7 +52,7 @@ class CameraTake {
 class CameraSensor final : public LiveSensor {
  public:
   /// Sets up the cameras for a person who stands as in `first`, for `frames` frames. `key` must outlive this;
-  /// `method.causal` must be set. Fails, saying why, as `LiveCapture` does.
+  /// `method.causal` must be set. Fails as `LiveCapture` does.
   static Result<std::unique_ptr<LiveSensor>> Make(const StudioOptions& studio, const CaptureMethod& method,
                                                   const BodyPose& first, std::size_t frames, const WorldKey& key);
 

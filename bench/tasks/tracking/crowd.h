@@ -23,7 +23,7 @@ Result<std::vector<TrackingWorld>> MakeCrowd(const CrowdOptions& options);
 
 /// Follows the motions of many characters at once. Each frame is one batch of `gauss-newton`, in which every character
 /// starts from its last answer, within the joint limits. In double precision each character's result equals, bit for
-/// bit, what task `tracking` finds for it alone.
+/// bit, the result of task `tracking` for that character alone.
 class Crowd {
  public:
   /// The worlds have the same tree and number of frames; there is at least one. They must outlive this.

@@ -18,8 +18,8 @@ Payload DescribeTrackingSetting(const TrackingOptions& options, const IkOptions&
 ///     {"joints": […], "angles": […], "effectors": […], "start_angles_deg": [twenty-nine numbers],
 ///      "frames": [{"root": {"position_m": […], "rotation": […]}, "targets": [{"effector": "right_foot", …}, …]}, …]}
 ///
-/// The method must find angles for every frame as if the frames came one by one. This is a convention: all frames are
-/// in the problem, so a method could look ahead.
+/// The method must find the angles of every frame as if the frames came one by one. This is only a convention, because
+/// all frames are in the problem, so a method could look ahead.
 Payload DescribeMotion(const TrackingWorld& world);
 
 /// Encodes the truth: the angles of the motion, per frame. It is a perfect answer unless targets are disturbed. The
@@ -32,9 +32,9 @@ Payload DescribeTrueAngles(const TrackingWorld& world);
 ///
 ///     {"angles_deg": [[twenty-nine numbers], …], "iterations": [4, 2, …]}
 ///
-/// `iterations`, the method's own steps, are optional; without them their metrics are missing. Angles are never clamped
-/// to their limits: a frame that breaks a limit by more than 10⁻⁶ degrees is measured and counts as unsolved. A wrong
-/// shape, and angles of more than a million degrees, are errors.
+/// `iterations` counts the method's own steps in each frame and is optional; without it, the metrics of iterations are
+/// missing. Angles are never clamped to their limits: a frame that breaks a limit by more than 10⁻⁶ degrees is measured
+/// and counts as unsolved. A wrong shape, and angles of more than a million degrees, are errors.
 Result<TrackingAnswer> ReadTrackingAnswer(const Json& answer, const TrackingWorld& world);
 
 }  // namespace etude

@@ -18,7 +18,8 @@ struct TrackingOptions {
   double duration_s = 5;
   double rate_hz = kJudgedRateHz;
   TargetNoise target_noise = {};
-  /// The first frame starts at its truth plus noise of this standard deviation; empty: at the standing pose.
+  /// The first frame starts at its truth plus noise of this standard deviation; if empty, it starts at the standing
+  /// pose.
   std::optional<double> joint_noise_deg = {};
   IkOptions common = IkBudget(20);  ///< options that all methods share
 };

@@ -20,8 +20,8 @@ IkProblem ProblemAt(const TrackingWorld& world, std::size_t frame, const std::ve
   return problem;
 }
 
-/// Appends a frame's solution to the answer; a solution of bad input is an error that says what is wrong with
-/// `problem`.
+/// Appends a frame's solution to the answer; if the solver refused its input, returns an error that says what is wrong
+/// with `problem`.
 Result<void> StoreSolution(IkSolution solution, const IkProblem& problem, const TrackingWorld& world,
                            const TrackingMethod& method, TrackingAnswer& answer) {
   if (solution.status == IkStatus::kBadInput) {

@@ -61,8 +61,8 @@ std::vector<AngleRange> WithinReach(const KinematicTree& tree, const std::vector
   return ranges;
 }
 
-/// Moves the poses of a secret world within the set of poses that meet the same targets. A program that recovers the
-/// disguised motion from its targets then still does not know the angles that the targets leave open.
+/// Moves the poses of a secret world within the set of poses that meet the same targets. Even a program that recovers
+/// the disguised motion from its targets then does not know the angles that the targets leave open.
 class OpenAngles {
  public:
   OpenAngles(const KinematicTree& tree, const WorldKey& key) : tree_(tree), solver_(tree) {
@@ -72,7 +72,7 @@ class OpenAngles {
   }
 
   /// Returns a pose with the end effectors of `state` that is near random angles and within `ranges`; if no such pose
-  /// was found, the one that came closest to the end effectors.
+  /// was found, returns the pose whose end effectors came closest.
   TreeState Slide(const TreeState& state, const std::vector<AngleRange>& ranges, double seconds) {
     IkProblem problem{state, TargetsMetBy(tree_, state), ranges};
     for (std::size_t i = 0; i < ranges.size(); ++i) {

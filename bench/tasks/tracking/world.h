@@ -10,9 +10,9 @@
 namespace etude {
 
 /// One motion to be followed: paper B's body with the limb lengths of a clip's performer, and the targets of its end
-/// effectors in every frame. The truth is a motion of this very body, whose limbs point as the clip's as far as joints
-/// and limits allow (FindStartState), so every target can be reached unless it is disturbed. It differs from the clip,
-/// which has joints that this body lacks.
+/// effectors in every frame. The truth is a motion of this very body, whose limbs point in the directions of the clip's
+/// limbs as far as joints and limits allow (FindStartState). Every target can therefore be reached, unless it is
+/// disturbed. The motion differs from the clip, which has joints that this body lacks.
 ///
 /// No angle of the truth turns faster than 1200° a second *(ours: a boxer's elbow)*. Without this bound an arm beyond
 /// its limit would jump from one end of its range to the other within a frame, and a straight arm would spin. An arm
@@ -25,7 +25,7 @@ struct TrackingWorld {
 };
 
 /// Makes the world of `key`. The window of the clip begins at a random frame; moves that loop are repeated, other clips
-/// shorter than the window are used whole. At other rates than the clips' 30 Hz joints are interpolated linearly
+/// shorter than the window are used whole. If the rate is not the clips' 30 Hz, joints are interpolated linearly
 /// between two frames. In a secret world the clip is disguised (bench/tasks/base/disguise.h), its place and heading are
 /// random, and the five angles that no target determines are random functions of time. Fails for a clip of fewer than
 /// kMinTrackedFrames frames, and if a frame's limbs give no pose of the body.

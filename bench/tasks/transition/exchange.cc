@@ -107,7 +107,7 @@ FrameWindow RecordedFrames(const TransitionOutcome& outcome, const Stage& stage)
   const JoinView view = ViewOf(outcome, stage);
   FrameWindow window = AroundPoints(outcome.splice, kSeconds);
   const int judged = view.first + static_cast<int>(JoinSupport(view).size()) - 1;
-  const int landed = judged + static_cast<int>(view.rate_hz);  // a body in flight has landed by then
+  const int landed = judged + static_cast<int>(view.rate_hz);  // until then, a body in flight has landed
   window.last = std::max(window.last, std::min(landed, static_cast<int>(view.shown.size()) - 1));
   return window;
 }
@@ -190,8 +190,8 @@ Recording RecordTransition(const TransitionOutcome& outcome, const Stage& stage)
     const std::ptrdiff_t end = std::min<std::ptrdiff_t>(window.last - shown_first + 1 + more, count);
     return Track{name, {view.rate_hz, {poses.begin() + begin, poses.begin() + end}}};
   };
-  // Support is looked up in a clip even after it was left: for the window of its rules, and one more frame for
-  // velocities.
+  // The support of a clip is needed even after the clip was left: for the window of the support rules, and one more
+  // frame for velocities.
   const int asked = static_cast<int>(std::lround(SupportRules().window_s * view.rate_hz)) + 1;
 
   // The facts of the transition.

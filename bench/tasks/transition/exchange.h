@@ -31,19 +31,19 @@ Payload StagePayload(const Stage& stage);
 /// and counts in metric `wait_s`, as for the built-in `wait-for-end`.
 Payload RequestPayload(const TransitionRequest& request, double max_wait_s);
 
-/// Encodes the truth: the largest jump that still counts in `natural_share`.
+/// Encodes the truth: the largest jump that still counts as natural in `natural_share`.
 ///
 ///     {"natural_limit_cm": 3.1}
 Payload NaturePayload(const Stage& stage, const TransitionRequest& request);
 
-/// The answer of an outside method: how it gets from one clip into the other.
+/// The answer of an outside method: how it leads from one clip into the other.
 ///
 ///     {"leave_frame": 52, "enter_frame": 10}
 ///
 /// Clip `from` is shown up to and including `leave_frame`. After it, clip `to` is shown from the frame that follows
-/// `enter_frame` to its end: both frames stand for the same moment. Clip `to` is turned and moved on the floor (yaw, x,
-/// z), so that its `enter_frame` has the heading and the floor position of the hip centre of the last frame shown.
-/// Optional keys:
+/// `enter_frame` to its end: the two frames are shown at the same moment. Clip `to` is turned and moved on the floor
+/// (yaw, x, z), so that its `enter_frame` has the heading and the floor position of the hip centre of the last frame
+/// shown. Optional keys:
 ///
 /// - `"through": [{"clip": 2, "enter_frame": 3, "leave_frame": 40}]`: clips played in between, entered and left by the
 ///   same rule.
@@ -53,8 +53,8 @@ Payload NaturePayload(const Stage& stage, const TransitionRequest& request);
 ///   at the end. Other joins have durations of their own.
 /// - `"between": [[x, y, z, …], …]`: the method's own frames, shown after `leave_frame` in the place and heading of
 ///   clip `from` as the setting has it. Clip `to` is then aligned with the last of them, which should be the method's
-///   version of `enter_frame`. They are performed by the same body: a limb more than 2 cm longer or shorter than in the
-///   clips is an error. At most 300. Not together with `through`.
+///   own version of `enter_frame`. They are performed by the same body: a limb more than 2 cm longer or shorter than in
+///   the clips is an error. At most 300. Not together with `through`.
 /// - `"between_start": [x, y, z, …]`: with `between`, the method's version of `leave_frame`. It is not shown, but the
 ///   gaps at the transition point are measured to it. Without it, the frames between are assumed to begin at constant
 ///   velocity.

@@ -17,7 +17,7 @@ TransitionWay DefaultWay();
 ///     - {name: fuzzy, choice: fuzzy-bridge, join: cut, weights: adaptive, threshold: 0.4, pick: first}
 struct TransitionMethod {
   std::string name;
-  /// Its weights are paper A's here; learnt weights depend on the world.
+  /// The weights in it are paper A's, because learnt weights depend on the world.
   TransitionWay way = DefaultWay();
   WeightSource weights = WeightSource::kFixed;
   double wait_s = 1;  ///< the budget of its requests, seconds
@@ -27,9 +27,9 @@ struct TransitionMethod {
 struct TransitionCondition {
   double threshold = kPaperThreshold;  ///< for methods that set none
   double wait_s = 1;                   ///< for methods that set none
-  bool explain = false;  ///< whether every cell keeps the explanation of its transition (ExplanationOf), not only
-                         ///< recordings
-  StageRules stage;      ///< without its fuzzy system
+  /// If true, every cell keeps the explanation of its transition (ExplanationOf); if false, only recordings do.
+  bool explain = false;
+  StageRules stage;  ///< its fuzzy system is not set here
 };
 
 const FieldTable<TransitionCondition>& TransitionConditionFields();

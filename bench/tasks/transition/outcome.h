@@ -13,8 +13,8 @@ struct TransitionAnswer;
 /// The transition of one method in one world.
 struct TransitionOutcome {
   TransitionRequest request;
-  bool matched = false;  ///< it chose the frames left and entered because they are similar
-  MatchRules rules;      ///< by which its distances were computed
+  bool matched = false;  ///< the frames left and entered were chosen because they are similar
+  MatchRules rules;      ///< the rules by which its distances were computed
   TransitionRecord record;
   Splice splice;  ///< empty if the record has no segments
 };
@@ -23,8 +23,8 @@ struct TransitionOutcome {
 /// frames. Distances use the fixed weights, whichever weights the method used.
 TransitionOutcome FollowAnswer(const TransitionAnswer& answer, const Stage& stage, const TransitionRequest& request);
 
-/// Returns the join of an outcome with segments, for measuring: with the clip that played and the requested one. It is
-/// a view of both arguments.
+/// Returns the join of an outcome with segments, with the clip that played and the requested clip, for measurement. It
+/// is a view of both arguments.
 JoinView ViewOf(const TransitionOutcome& outcome, const Stage& stage);
 
 /// Returns the frames of a splice from `seconds` before its first transition point to `seconds` after its last, clipped

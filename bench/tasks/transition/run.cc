@@ -103,7 +103,7 @@ bool ScorePoints(const TransitionOutcome& outcome, const Stage& stage, CellResul
     result.Missing("false_smooth", "the frames were not chosen because they match");
   }
   result.Measure("foot_slide_cmps", foot_slide);
-  // Smoothness of the joints' mean speed around the points, and the rest.
+  // Smoothness of the joints' mean speed around the points, and the remaining metrics.
   const FrameWindow second = AroundPoints(splice, 1);
   const std::vector<double> speed = MeanJointSpeed(splice.motion, second.first, second.last);
   constexpr const char* kStill = "nothing moves around the point, or too shortly";

@@ -32,12 +32,12 @@ void ScoreMatching(const std::optional<MatchTally>& tally, CellResult& result);
 std::vector<std::string> TransitionMetrics();
 
 /// Returns the value of a metric for a method without a transition (Task::ValueOfFailure): 0 for `natural_share` and
-/// the other shares over all cells. If a missing transition were left out of the count, a method could raise its share
-/// by failing in hard cases. Returns nothing for the others: no number of centimetres stands for a jump that was not
-/// made, and 0 for `false_smooth` would be a merit.
+/// the other shares over all cells. If missing transitions were not counted, a method could raise its share by failing
+/// in hard cases. Returns nullopt for the other metrics: a jump that was not made has no size, and 0 for `false_smooth`
+/// would reward the failure.
 std::optional<double> TransitionFailureValue(std::string_view metric);
 
-/// Records the metrics of ScoreTransition for a world in which no transition was found.
+/// Records the metrics of ScoreTransition as missing, for a world in which no transition was found.
 void MeasureNoWay(CellResult& result);
 
 /// The data that the runs of a task share; all of it must outlive them.
@@ -46,7 +46,7 @@ struct TransitionBasis {
   const Stage& stage;
   LearntWeights& learnt;  ///< caches fits; its answers depend on the question alone
   double max_wait_s = 0;  ///< sent to outside methods; built-in ones have their own
-  bool explain = false;   ///< whether every cell keeps its explanation
+  bool explain = false;   ///< true: every cell keeps the explanation of its transition
 };
 
 /// One request on the task's stage, in which methods are run and scored.

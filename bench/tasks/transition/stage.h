@@ -23,7 +23,7 @@ struct StageRules {
 /// A library of clips prepared for transitions: all performed by one body (`JudgedProportions`), tagged, and each with
 /// its own natural jumps for comparison.
 struct Stage {
-  MotionLibrary library;                ///< its names are those that rows and videos show
+  MotionLibrary library;                ///< its clip names are those that rows and videos show
   std::vector<std::string> identities;  ///< the source of each clip; equal for equal clips
   std::vector<std::vector<double>> natural_jumps_cm;
   std::vector<double> natural_slides_cmps;  ///< foot slide over each clip
@@ -37,7 +37,7 @@ struct Stage {
 constexpr int kMinClipFrames = 13;
 
 /// Returns the natural jumps with which a transition between these two clips is compared, centimetres
-/// (docs/reference/metrics.md). A clip played in between sets no standard.
+/// (docs/reference/metrics.md). A clip played in between does not influence them.
 std::vector<double> NaturalJumpsOf(const Stage& stage, int from, int to);
 /// Returns the smaller of both clips' natural limits.
 double CalmerLimitCm(const Stage& stage, int from, int to);

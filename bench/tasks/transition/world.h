@@ -9,8 +9,8 @@ namespace etude {
 /// Returns the clip that plays in this trial; the stage must not be empty.
 int FromClip(const Stage& stage, const WorldKey& key);
 
-/// Draws one trial: which clip plays, which one is requested, and when. The budget is left to the method. The error is
-/// the reason to skip this world.
+/// Draws one trial: the clip that plays, the requested clip, and the time of the request. The method sets the waiting
+/// time. An error is the reason why this world is skipped.
 Result<TransitionRequest> DrawRequest(const Stage& stage, const WorldKey& key);
 
 }  // namespace etude

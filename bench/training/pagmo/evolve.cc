@@ -9,7 +9,7 @@ namespace etude {
 namespace {
 
 constexpr double kCrossover = 0.9;
-constexpr double kSpreadIndex = 1;      // of a crossover that is not used
+constexpr double kSpreadIndex = 1;      // of a crossover operator that is not used
 constexpr double kMutation = 0.2;       // probability per gene
 constexpr double kMutationWidth = 0.1;  // standard deviation
 constexpr unsigned kTournament = 2;

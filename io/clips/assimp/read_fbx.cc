@@ -35,8 +35,8 @@ void Append(std::string& bytes, std::uint32_t number) {
   bytes.append(raw.data(), raw.size());
 }
 
-/// Writes the nodes and animations of a scene as a GLB file. assimp's own writer leaves out transforms within 0.01 of
-/// the identity, which moves a joint that is a centimetre from its parent onto the parent.
+/// Writes the nodes and animations of a scene as a GLB file. assimp's own writer is not used: it leaves out transforms
+/// within 0.01 of the identity, so a joint that is a centimetre from its parent would move onto it.
 class MotionGlb {
  public:
   explicit MotionGlb(const aiScene& scene) {

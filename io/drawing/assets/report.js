@@ -1,10 +1,10 @@
-// Draws every <canvas data-chart="id"> from the JSON element of that id, a line per method. Shows which cells stand
-// behind a dot or a row and how to run them again. Sorts, filters and copies tables; saves pictures.
+// Draws every <canvas data-chart="id"> from the JSON element of that id, one line for each method. Shows the cells of a
+// dot or a row, and the command that runs them again. Sorts, filters and copies tables; saves pictures.
 (() => {
   'use strict';
   const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   const colour = (i) => style('--m' + (i % 8));
-  // Colours begin again after eight methods: then with other dashes.
+  // The eight colours repeat for further methods, with other dashes.
   const dashes = (i) => i >= 8 ? [10, 3, 2, 3] : [[], [], [6, 4], [2, 3]][Math.floor(i / 2)];
   const short = (v) => v === 0 ? '0' : Math.abs(v) < 0.001 || Math.abs(v) >= 1e8 ? v.toExponential(1) :
       Number(v.toPrecision(3)).toLocaleString('en', {maximumFractionDigits: 6});
@@ -90,7 +90,7 @@
     picked = null;
     back?.focus();
   };
-  // A table's row stands for all trials. Its card shows the trial with the most recorded cells, else the first.
+  // A row of a table stands for all trials.
   const TRIAL = /\/\d+(?=\/[^/]*$)/, without = (id) => id.replace(TRIAL, '');
   const ofRow = (ids, kept) => {
     const asked = ids.map(without), count = new Map();
@@ -174,8 +174,8 @@
     if (row.dataset.ids) (row.tagName === 'TR' ? row.cells[0] : row).append(button('', 'Run it again', () => show(row), 'rerun'));
   });
 
-  // A picture is saved as a file, with its present colours and the marks that it uses, or printed alone on a page of
-  // its size, which every browser saves as a PDF of vector graphics.
+  // A picture is saved as a file, with the colours on the screen and the marks that it uses, or is printed alone on a
+  // page of its size, which every browser saves as a PDF of vector graphics.
   const PAINTS = ['fill', 'stroke', 'stroke-width', 'stroke-dasharray', 'fill-opacity', 'stroke-opacity', 'opacity', 'font-size', 'font-family', 'paint-order'];
   const whole = (svg) => {
     const copy = svg.cloneNode(true), there = svg.querySelectorAll('*');
@@ -259,7 +259,8 @@
       rows.forEach((row, i) => row.dataset.at ??= i);
       const compare = (a, b) => {
         const x = keyOf(a, column), y = keyOf(b, column);
-        if (x === Infinity || y === Infinity) return (x === Infinity) - (y === Infinity);  // no value: last either way
+        // missing values come last in both orders
+        if (x === Infinity || y === Infinity) return (x === Infinity) - (y === Infinity);
         return way * (typeof x === 'number' ? x - y : x.localeCompare(y, 'en', {numeric: true}));
       };
       rows.sort((a, b) => (way && compare(a, b)) || a.dataset.at - b.dataset.at);

@@ -5,7 +5,7 @@ const JOINTS = ['hip centre', 'spine', 'shoulder centre', 'head', ...['shoulder 
 const PARENT = [-1, 0, 1, 2, 2, 4, 5, 6, 2, 8, 9, 10, 0, 12, 13, 14, 0, 16, 17, 18];
 const ARM = [.052, .042, .034, .026], LEG = [.075, .054, .04, .03], RADIUS = [.085, .085, .055, .05, ...ARM, ...ARM, ...LEG, ...LEG];
 const HEAD = 3, HEAD_RADIUS = .1, COUNT = 20;
-// Blue, pale, red: also for readers who see no green or red.
+// Blue, pale, red: so that readers who cannot tell green from red can read it.
 const SCALE = [[45, 100, 180], [125, 180, 220], [248, 232, 175], [236, 140, 72], [178, 28, 40]];
 
 const island = document.getElementById('motions');
@@ -51,7 +51,7 @@ const prepare = (world) => {
       }
     }
   }
-  // The colour scale ends at the 90th percentile of errors above a fiftieth of the greatest.
+  // The colour scale ends at the 90th percentile of errors that exceed 1/50 of the largest error.
   const greatest = everyError.reduce((a, b) => Math.max(a, b), 0), seen = everyError.filter((e) => e > greatest / 50).sort((a, b) => a - b);
   const high = seen[Math.floor(.9 * (seen.length - 1))] || 1, power = 10 ** Math.floor(Math.log10(high));
   world.most = [1, 2, 3, 5, 10].find((n) => n * power >= high * .999) * power;
@@ -167,7 +167,8 @@ const glbOf = (world, body) => {
       accessors.push({bufferView: 0, byteOffset: 4 * numbers.length, componentType: 5126, count: n, type});
       for (const frame of frames) {
         let q = frame[j].turn;
-        if (dot(q.slice(1), last.slice(1)) + q[0] * last[0] < 0) q = q.map((x) => -x);  // q and −q: the nearer to last
+        // q and −q are the same rotation: take the one nearer to the last
+        if (dot(q.slice(1), last.slice(1)) + q[0] * last[0] < 0) q = q.map((x) => -x);
         if (type === 'VEC4') last = q;
         numbers.push(...(type === 'VEC3' ? frame[j].place : [q[1], q[2], q[3], q[0]]));
       }
@@ -369,7 +370,6 @@ const flatRenderer = (canvas) => {
   }};
 };
 
-// ---- The dialog.
 const KEYS = 'k plays and stops; ← → a frame, with Shift a second; on the picture arrows turn it; + − zoom; 0 the first view; ' +
     '[ ] last, next moment; Home End first, last frame; s side by side; e colour by error; Escape closes.';
 const make = (tag, attributes = {}, ...children) => {
@@ -572,7 +572,7 @@ const show = (world, cells) => {
     stage.prepend(canvas);
     renderer = (!flat && glRenderer(canvas, () => setUp(true))) || null;
     if (!renderer) {
-      if (!flat) return setUp(true);  // a canvas that has given WebGL gives no other context
+      if (!flat) return setUp(true);  // a canvas that has had a WebGL context gives no other one
       renderer = flatRenderer(canvas);
     }
     stage.dataset.renderer = renderer.kind;
