@@ -107,11 +107,11 @@ std::string ClipsAsText(const BridgeLibrary& loaded, const Coverage& coverage, c
   }
   text += fmt::format(
       "\nposes: different sets of ten tags. frames with a match: of all frames, d < {} to some frame of {}.\n"
-      "worst wait: until a bridge frame that leads on, {}; the clip starts over at its end.\n"
-      "in-between: how often a transition within {} s needs one{}.\n",
-      loaded.match_rules.threshold, has_pairs ? "another clip, mean over the other clips" : "any other clip",
-      has_pairs ? "over the clips reached" : "into any other clip", wait_s,
-      has_pairs ? ", mean over the other clips" : "");
+      "worst wait: until a bridge frame that leads on{}; the clip starts over at its end.\n"
+      "in-between: how often a transition within {} s needs one.{}\n",
+      loaded.match_rules.threshold, has_pairs ? "another clip" : "any other clip",
+      has_pairs ? ", over the clips reached" : " to any other clip", wait_s,
+      has_pairs ? " Matches and in-betweens are means over the other clips." : "");
   return text;
 }
 
