@@ -130,12 +130,12 @@ SplitReference Split(const std::string& reference) {
   return {reference.substr(0, hash), reference.substr(hash + 1)};
 }
 
-Result<std::vector<std::string>> ExpandReferences(const std::vector<std::string>& references) {
+Result<std::vector<std::string>> ExpandReferences(const std::vector<std::string>& references, std::size_t most) {
   std::vector<std::string> all;
   for (const std::string& reference : references) {
-    ASSIGN_OR_RETURN(auto expanded, ExpandReference(reference, {}));
+    ASSIGN_OR_RETURN(auto expanded, ExpandReference(reference, {}, most));
     all.insert(all.end(), expanded.begin(), expanded.end());
-    if (all.size() > kMaxClips) return Fail({}, "more than {} clips", kMaxClips);
+    if (all.size() > most) return Fail({}, "more than {} clips", most);
   }
   return all;
 }

@@ -53,7 +53,6 @@ DOORS = {
     "libxml/": ["engine/cameras", "engine/transitions/tags_file"],
     "pagmo/": ["bench/training"],
     "assimp/": ["io/clips/assimp", "bench/peers"],
-    "nanoflann.hpp": ["bench/peers"],
     "ceres/": ["engine/bundle_adjustment", "engine/cameras", "engine/kinematics/solvers"],
     "glog/": ["engine/bundle_adjustment", "engine/kinematics/solvers"],
     "kdl/": ["bench/peers"],
