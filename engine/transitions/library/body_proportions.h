@@ -27,10 +27,10 @@ BodyPose StandingPose(const BodyProportions& proportions);
 ///
 /// Every limb keeps its direction and gets its new length. Travel and hip height scale with the legs. Then the clips
 /// are shifted vertically so that the lower foot is on or below the floor in 5 % of the frames. Clips with equal leg
-/// lengths (to 0.1 mm, in the first frame) belong to one person and are shifted together, so that a person who only
-/// sits in one clip sits as high there as after sitting down in another. A clip whose feet would then be below the
-/// floor, which can happen with the new limb lengths, is shifted separately. A limb of zero length in the source takes
-/// its parent limb's direction.
+/// lengths (to 0.1 mm, in the first frame) belong to one person and are shifted together, so that a person who sits
+/// during a whole clip sits at the same height as after sitting down in another clip. A clip whose feet would then be
+/// below the floor, which can happen with the new limb lengths, is shifted separately. A limb of zero length in the
+/// source takes its parent limb's direction.
 std::vector<BodyMotion> PerformedBy(const BodyProportions& proportions, std::span<const BodyMotion> motions);
 
 }  // namespace etude

@@ -133,7 +133,8 @@ class PairSearch {
   ///
   /// Before the first match, `nearest` is at the threshold, so the first frame that improves it is the first match.
   std::optional<int> CompareBlock(std::size_t asking, NearBlock& near, Best& nearest, SearchWork& work) const {
-    // Distances up to twice the threshold are computed; they tell for how many queries the block can be skipped.
+    // Distances up to twice the threshold are computed, because they show for how many queries the block can be
+    // skipped.
     const double farthest = 2 * rules_.threshold;
     const int start = near.block * kBlockLanes;
     const int count = std::min(kBlockLanes, to_.targets.frame_count - start);

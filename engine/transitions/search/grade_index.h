@@ -50,8 +50,8 @@ class GradeIndex {
   std::optional<Neighbour> First(const Grades& query, double threshold, SearchWork* work = nullptr) const;
   /// Returns all frames with a distance < `threshold`, in time order.
   std::vector<Neighbour> Within(const Grades& query, double threshold, SearchWork* work = nullptr) const;
-  /// Returns the `k` frames of smallest distance, sorted by distance, then by time; all frames if there are fewer than
-  /// `k`.
+  /// Returns the `k` frames of smallest distance, sorted by distance, then by time; or all frames if there are fewer
+  /// than `k`.
   std::vector<Neighbour> Nearest(const Grades& query, int k, SearchWork* work = nullptr) const;
 
  private:
