@@ -123,13 +123,13 @@ constexpr std::size_t kMeasureCount = kRigidSlice.Beyond().end();
 constexpr std::size_t kDistanceMeasure = kDistanceMeasures.first;
 using PerformanceMeasures = std::array<double, kMeasureCount>;
 
-/// A performance as it went along an example.
+/// A performance that was aligned with an example.
 struct AlignedPerformance {
   std::span<const StepPair> path;              ///< at least one pair
   std::function<const PoseVector&(int)> seen;  ///< by StepPair::seen; limbs
   std::span<const PoseVector> pattern;         ///< limbs
   double cost = 0;                             ///< of the path (SubsequenceAligner::Cost)
-  /// Of the nearest other move in the last second; infinite if there is none.
+  /// The cost of the nearest other move in the last second; infinite if there is none.
   double other_cost = 0;
 };
 
