@@ -39,7 +39,7 @@ class CappedReader {
     std::error_code not_there;  // on an error here; ReadWholeFile reports a missing file better
     const std::uintmax_t size = fs::file_size(path, not_there);
     if (!not_there && size > left_) {
-      return Fail({path.string(), 0, 0}, "{} MB; at most {} MB of a clip are read", (size + 999'999) / 1'000'000,
+      return Fail({path.string(), 0, 0}, "{} MB; allowed: clips of at most {} MB", (size + 999'999) / 1'000'000,
                   kMaxClipFileBytes / 1'000'000);
     }
     auto bytes = ReadWholeFile(path);
@@ -179,7 +179,7 @@ void RootAtHips(Clip& clip, bool has_meshes, std::vector<std::string>& remarks) 
   };
   const int root = has_meshes ? -1 : FindNewRoot(clip.skeleton);
   if (root < 0 || has_scales(RestPose(clip.skeleton)) || std::ranges::any_of(clip.frames, has_scales)) return;
-  remarks.push_back(fmt::format("rooted at {} instead of {}", Quote(clip.skeleton.joints[root].name),
+  remarks.push_back(fmt::format("root moved to {} from {}", Quote(clip.skeleton.joints[root].name),
                                 Quote(clip.skeleton.joints[0].name)));
   clip = WithRootAt(clip, root);
 }
@@ -213,7 +213,8 @@ void TakeScalesOut(ClipFile& file, const std::string& path, const OpenOptions& o
   if (!map) return;
   if (const auto ratio = UndoScales(file.clips, *map)) {
     file.remarks.push_back(fmt::format(
-        "the frames show a body {:.3g} times as tall as the rest pose, by scales that it has not: undone", *ratio));
+        "removed scales of the frames that the rest pose does not have; they made the body {:.3g} times as tall",
+        *ratio));
   }
 }
 
@@ -239,7 +240,8 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
     AddChange(DescribeTurn(opened.body.found_up), opened.body);
   }
   if (!IsOfMarkers(opened.source.format) && (options.metres_per_unit || (is_ours && options.up))) {
-    AddChange(is_ours ? "unit and up axis are its own, not those told" : "its unit is its own, not the one told",
+    AddChange(is_ours ? "the file's own unit and up axis are used, not the given ones"
+                      : "the file's own unit is used, not the given one",
               opened.body);
   }
   constexpr double kSameRate = 1e-6;  // relative; a rate that was computed from a column of times is rounded
@@ -305,7 +307,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   if (options.recorded != nullptr && options.recorded->IsRecording(bytes)) return options.recorded->Read(bytes, path);
   // Text formats of bodies: OpenSim's angles and DeepMimic's motions.
   if (first.text == "Coordinates" && HasModelOfAngles(bytes)) {
-    std::string note = "angles of the model in the file's head";
+    std::string note = "angles of the model in the file's header";
     ASSIGN_OR_RETURN(const auto motion, ReadOpenSimMotion(bytes, path, &note));
     return FileOfBody(ClipFormat::kMot, motion, path, note);
   }
@@ -329,7 +331,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     auto read = ReadGltf(
         is_fbx ? fbx.glb : bytes, path, [&](const std::string& uri) { return ReadBeside(path, uri, reader); },
         DecodeTexture);
-    if (!read && is_fbx) return Fail({path}, "an FBX file whose motion is refused: {}", read.error().message);
+    if (!read && is_fbx) return Fail({path}, "an FBX file whose motion cannot be used: {}", read.error().message);
     ASSIGN_OR_RETURN(auto content, std::move(read));
     for (std::string& remark : content.remarks) file.remarks.push_back(std::move(remark));
     file.figure = std::move(content.character);
@@ -371,7 +373,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
     for (MarkerMotion& shown : file.shown) shown.rate_hz = *options.roles->rate_hz;
   } else if (!file.has_rate) {
     for (MadeBody& body : file.bodies) {
-      body.changes.push_back(fmt::format("no rate in the file: {:g} Hz are assumed", kJudgedRateHz));
+      body.changes.push_back(fmt::format("the file states no rate; {:g} Hz is assumed", kJudgedRateHz));
     }
   }
   if (is_recording && wanted.animation == "") wanted.animation = options.recorded->OwnTrack(file.clips);
@@ -384,7 +386,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   const bool is_one = !has_animations && !is_recording && file.clips.size() == 1;
   if (is_one) {
     if (wanted.animation && file.format != ClipFormat::kNpy) {
-      return Fail({wanted.path, 0, 0}, "a {} file has one motion; '#{}' chooses one of a glTF file",
+      return Fail({wanted.path, 0, 0}, "a {} file has only one motion; '#{}' can only select a motion of a glTF file",
                   FormatName(file.format), *wanted.animation);
     }
     const std::string source = wanted.path + (wanted.animation ? "#" + *wanted.animation : "");
