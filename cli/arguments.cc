@@ -245,25 +245,26 @@ std::array<CLI::Option*, 9> AddWorldOptions(CLI::App& command, std::optional<std
           ->check(CLI::IsMember({"y", "z"})),
       command
           .add_option_function<std::string>("--rate", tell("rate"),
-                                            "Frames per second of the clips (default: their own)")
+                                            "Frames per second of the clips (default: their own rate)")
           ->check(NumberWithin(1, 1000, "rate in Hz")),
-      command.add_flag_callback("--keep-floor", [&clip_facts] { clip_facts += "keep_floor: true\n"; },
-                                "Leave bodies at the heights that their files say"),
+      command.add_flag_callback(
+          "--keep-floor", [&clip_facts] { clip_facts += "keep_floor: true\n"; },
+          "Leave bodies at the heights of their files"),
       command
           .add_option_function<std::string>("--marker-set", tell("marker_set"),
-                                            "Which markers of the clips count (default: the best they hold)")
+                                            "Which set of markers is used (default: the best that the clips contain)")
           ->check(CLI::IsMember(MarkerSetKeys()))};
 }
 
 void AddUnsealed(CLI::App& command, Sealing& sealing) {
   command.add_flag_callback(
-      "--unsealed", [&sealing] { sealing = Sealing::kIgnored; }, "Read a run or baseline that was changed, and say so");
+      "--unsealed", [&sealing] { sealing = Sealing::kIgnored; },
+      "Read a run or baseline even if it was changed, with a warning");
 }
 
 void AddOutsideRules(CLI::App& command, OutsideRules& rules) {
   command.add_flag("!--no-fence", rules.is_fenced, "Run methods outside without a fence, to debug them");
-  command.add_flag("--allow-exec", rules.allow_exec,
-                   "Allow running the programs that a manifest, a run or a pack names");
+  command.add_flag("--allow-exec", rules.allow_exec, "Allow programs that a manifest, a run or a pack names to be run");
 }
 
 std::function<std::string(const std::string&)> NumberWithin(double low, double high, const std::string& kind) {

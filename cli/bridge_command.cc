@@ -32,12 +32,12 @@ struct BridgeCommandOptions {
 };
 
 constexpr const char* kBridgeExamples =
-    "\nA bridge frame is a frame fit for a transition: its pose occurs in several clips, and its head is still. Two\n"
+    "\nA bridge frame is suitable for a transition: its pose occurs in several clips, and its head is still. Two\n"
     "bridge frames match when their fuzzy distance is below the threshold. Clips are named as in etude clip --help;\n"
-    "docs/bridge-frames.md tells more.\n\n"
+    "docs/bridge-frames.md explains more.\n\n"
     "Try:\n"
     "  etude bridge 'builtin:*' builtin:acts -o tags.xml      the bear's moves and acts\n"
-    "  etude bridge 'mocap/*.bvh' --to wave.bvh               from which clips is there a way into wave.bvh?\n"
+    "  etude bridge 'mocap/*.bvh' --to wave.bvh               which clips can lead into wave.bvh?\n"
     "  etude bridge 'mocap/*.bvh' --threshold 0.6 --json      everything, for another program\n"
     "  etude bridge --check tags.xml 'mocap/*.bvh'            is the file valid, and does it fit these clips?";
 
@@ -71,7 +71,7 @@ BridgeCommandOptions OptionsOf(const BridgeTags& tags, BridgeCommandOptions opti
 
 Result<int> CheckTags(const BridgeCommandOptions& options) {
   if (options.clips.empty() && !options.fuzzy.empty()) {
-    return Fail({"--fuzzy"}, "is only used to tag clips again; name the clips that the file should fit");
+    return Fail({"--fuzzy"}, "is only used to tag clips again; name the clips that the file belongs to");
   }
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(options.check));
   ASSIGN_OR_RETURN(const auto tags, ReadTagsFile(text, options.check));
@@ -120,7 +120,7 @@ Result<int> BridgeCommand(const BridgeCommandOptions& options) {
 void DefineBridge(CLI::App& app, Action& action) {
   auto options = std::make_shared<BridgeCommandOptions>();
   CLI::App* command =
-      app.add_subcommand("bridge", "Find the frames at which one clip can lead into another, and tag them");
+      app.add_subcommand("bridge", "Find and tag the frames at which one clip can lead into another");
   // The inputs and outputs.
   command->add_option("clips", options->clips, "The clips of one library");
   CLI::Option* output = command->add_option("-o,--output", options->output, "The tags file to write (XML)");
@@ -132,7 +132,7 @@ void DefineBridge(CLI::App& app, Action& action) {
   add(command->add_option(
       "--to", options->to,
       "Clips that every other clip must lead into; they are added to the library (default: head_shake,\n"
-      "wave, puzzled and slow demonstrations, where they are among the clips)"));
+      "wave, puzzled and slow demonstrations, if they are among the clips)"));
   // The rules of matching and tagging.
   add(command->add_option("--threshold", options->threshold, "Fuzzy distance below which two frames match")
           ->check(NumberWithin(1e-6, 6, "threshold"))

@@ -53,7 +53,7 @@ Result<int> CalibrateCommand(const CalibrateCommandOptions& asked) {
   }
   if (options.inputs.empty())
     return Fail({}, "nothing to calibrate with; allowed: a file of point pairs, or folders of pictures");
-  if (options.output.empty()) return Fail({}, "no -o RIG.yaml: where shall the rig be written?");
+  if (options.output.empty()) return Fail({}, "-o RIG.yaml is missing: it names the file for the rig");
   for (const std::string* path : {&options.output, &options.picture}) {
     if (!path->empty()) RETURN_IF_ERROR(CheckOutput(*path, asked.overwrite));
   }
@@ -67,21 +67,20 @@ Result<int> CalibrateCommand(const CalibrateCommandOptions& asked) {
 }
 
 constexpr const char* kCalibrateExamples =
-    "\nA rig is what `etude capture` needs to know of its cameras: focal lengths, principal points, lenses, and where\n"
-    "they stand. Two ways lead to it.\n\n"
+    "\nA rig describes the cameras of `etude capture`: focal lengths, principal points, lens distortion and poses. It "
+    "can\nbe found in two ways.\n\n"
     "From point pairs: at least six points that fill a volume (not one wall: two or three), measured in metres, Y up,\n"
     "and the pixels that show them. CSV with the heading camera,x,y,z,u,v (and --size), or YAML:\n"
     "  left:  {size: [1920, 1080], pairs: [[0.0, 0.0, 0.0, 812.4, 903.1], ...]}\n"
     "  right: {size: [1920, 1080], pairs: ...}\n"
-    "--method refined (the default) finds focal lengths, principal point, lens and pose by least squares of\n"
-    "the reprojection error; dlt and dlt-normalised solve for the matrix H alone, as paper B does.\n\n"
-    "From pictures of a board: print one (--print), glue it to something flat, and measure a square. Take ten or more\n"
-    "pictures with every camera, the board tilted this way and that and filling the picture's corners; pictures of "
-    "one\n"
-    "moment have one name in every folder, and some moments must show the board to two cameras at once. The first\n"
-    "picture tells the world: lay the board on the floor there (--world floor). A film will do for a folder; films of "
-    "a\n"
-    "moving board that did not begin at the same moment are set in step, and how late each is is said.\n\n"
+    "--method refined (the default) finds focal lengths, principal point, lens and pose by least squares of\nthe "
+    "reprojection error; dlt and dlt-normalised only solve for the matrix H, as paper B does.\n\n"
+    "From pictures of a board: print one (--print), glue it to something flat, and measure a square. Take ten or "
+    "more\npictures with every camera: tilt the board in all directions, and fill the picture's corners, too. Pictures "
+    "of the same\nmoment need the same name in every folder, and some moments must show the board to two cameras at "
+    "once. The\nfirst picture determines the world: lay the board on the floor for it (--world floor). A film can "
+    "replace a folder.\nIf films of a moving board did not begin at the same moment, the delay of each is found, "
+    "corrected and reported.\n\n"
     "The file that is written is YAML that OpenCV reads, too: "
     "cv::FileStorage(\"rig.yaml\")[\"left\"][\"camera_matrix\"].\n"
     "`etude capture` also takes calibrations of OpenCV, Pose2Sim, Anipose, FreeMoCap, Caliscope, Qualisys, EasyMocap "
@@ -118,13 +117,14 @@ void DefineCalibrate(CLI::App& app, Action& action) {
       ->check(CLI::IsMember(CalibrationNames()))
       ->capture_default_str();
   command
-      ->add_option("--lens", options->lens, "What is found of a lens: none; radial2 (k1, k2, p1, p2); radial3 (and k3)")
+      ->add_option("--lens", options->lens, "Lens parameters to find: none; radial2 (k1, k2, p1, p2); radial3 (and k3)")
       ->check(CLI::IsMember({"none", "radial2", "radial3"}))
       ->capture_default_str();
-  command->add_flag("--skew", options->skew,
-                    "Find the angle between the picture's axes, too (paper B; sensors have none)");
-  command->add_option("--size", options->size, "Of the pictures of point pairs as CSV: 1920x1080");
-  command->add_option("--world", options->world, "How the board of the first picture stands: floor or wall")
+  command->add_flag(
+      "--skew", options->skew,
+      "Also find the angle between the picture's axes (as paper B does; that of today's sensors is 90 degrees)");
+  command->add_option("--size", options->size, "Size of the pictures, for point pairs as CSV: 1920x1080");
+  command->add_option("--world", options->world, "Where the board is in the first picture: on the floor or on a wall")
       ->check(CLI::IsMember({"floor", "wall"}))
       ->capture_default_str();
   command
@@ -134,18 +134,18 @@ void DefineCalibrate(CLI::App& app, Action& action) {
       ->capture_default_str();
   command
       ->add_option("--sync", options->sync_s,
-                   "Films of boards may be late by this much, s; how much is found from the board (0: up to two of the "
-                   "pictures that are looked at)")
+                   "Largest delay of a film of boards, s; the delay is found from the board (0: up to two of the "
+                   "pictures that are used)")
       ->check(NumberWithin(0, 60, "time in s"))
       ->capture_default_str();
   // Further outputs and comparisons.
-  command->add_option("--picture", options->picture, "Draw what was found where, and how far off, too (PNG)");
-  command->add_option(
-      "--beside", options->beside,
-      "Another calibration of these cameras: focal lengths, distances and residuals of both; opencv: its "
-      "calibrateCamera, each camera alone");
-  CLI::Option* print = command->add_option("--print", options->print,
-                                           "Write the board as a picture (PNG) to be printed, and nothing else");
+  command->add_option("--picture", options->picture,
+                      "Also draw the corners that were found, and their residuals (PNG)");
+  command->add_option("--beside", options->beside,
+                      "Another calibration of these cameras, for a comparison of focal lengths, distances and "
+                      "residuals; opencv: calibrateCamera, for each camera alone");
+  CLI::Option* print =
+      command->add_option("--print", options->print, "Only write the board as a picture (PNG) for printing");
   AddOverwrite(*command, asked->overwrite);
   AddJson(*command, asked->as_json)->excludes(print);
   command->footer(kCalibrateExamples);

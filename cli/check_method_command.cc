@@ -77,7 +77,7 @@ int CheckMethodCommand(OutsideOptions options, const std::string& seat, const Re
     return *all_passed ? kSuccess : kNothingWorked;
   }
   fmt::print("{} of {} checks passed{}\n", passed, checks,
-             *all_passed ? "" : "; docs/outside-methods.md says what a method has to do");
+             *all_passed ? "" : "; docs/outside-methods.md explains the protocol");
   return *all_passed ? kSuccess : kNothingWorked;
 }
 
@@ -103,10 +103,11 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   command->add_option("--task", options->task, "One of: " + Join(tasks))->required();
   command->add_option("--seat", options->seat, "The program's place in a loop: " + Join(seats, "; "));
   CLI::Option* streams = command->add_option("--streams", options->people.streams,
-                                             "Recordings of people to be asked about, as in `etude run --streams`");
+                                             "Recordings of people for the problems, as in `etude run --streams`");
   streams->allow_extra_args(false);
   command
-      ->add_option("--labels", options->people.labels, "Who did what when in them: a file, or a folder of tag streams")
+      ->add_option("--labels", options->people.labels,
+                   "Labels of the recordings (who did what when): a file, or a folder of tag streams")
       ->needs(streams);
   AddStreamReading(*command, options->people.reading);
   command->add_option("--time", options->time_s, "Time limit per problem, or per step of a session, seconds")
@@ -115,7 +116,9 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   command->add_option("--memory", options->memory_mb, "Memory limit, MB")
       ->check(NumberWithin(1, 1e6, "size in MB"))
       ->capture_default_str();
-  command->add_option("--files", options->files, "Files and folders that the fence shows it (default: its own folder)")
+  command
+      ->add_option("--files", options->files,
+                   "Files and folders that it can read inside the fence (default: its own folder)")
       ->allow_extra_args(false);
   command->add_flag("!--no-fence", options->is_fenced, "Run it without a fence, to debug it");
   AddJson(*command, options->as_json);

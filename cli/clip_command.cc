@@ -26,14 +26,15 @@ namespace {
 constexpr const char* kClipExamples =
     "\nA clip is a BVH or DeepMimic file, an animation of a glTF file (dance.glb#Jump; without # all of them), a "
     "pattern of files\n"
-    "('mocap/*.bvh'), or builtin:NAME (builtin:* all moves, builtin:acts, builtin:songs). docs/clips.md tells more.\n\n"
+    "('mocap/*.bvh'), or builtin:NAME (builtin:* all moves, builtin:acts, builtin:songs). docs/clips.md explains "
+    "more.\n\n"
     "Try:\n"
-    "  etude clip info 'mocap/*.bvh'                          what is in these files, and are they understood?\n"
+    "  etude clip info 'mocap/*.bvh'                          what these files contain, and whether it is understood\n"
     "  etude clip render dance.bvh -o dance.png               a contact sheet\n"
     "  etude clip render builtin:clap -o clap.mp4             the bear, as a film\n"
     "  etude clip convert dance.bvh bear.glb --character bear a file for other viewers\n"
-    "  etude clip contacts dance.bvh -o contacts.svg          when its feet stand\n"
-    "  etude clip map odd.bvh -o odd.yaml                     to teach names: edit it, then --joint-map odd.yaml";
+    "  etude clip contacts dance.bvh -o contacts.svg          when its feet are on the floor\n"
+    "  etude clip map odd.bvh -o odd.yaml                     names of joints: edit it, then --joint-map odd.yaml";
 
 struct ClipInfoOptions {
   std::vector<std::string> clips;
@@ -62,9 +63,9 @@ Result<int> ClipInfoCommand(const ClipInfoOptions& options) {
 
 void DefineInfo(CLI::App& clip, Action& action) {
   auto options = std::make_shared<ClipInfoOptions>();
-  CLI::App* command = clip.add_subcommand("info", "Frames, joints, roles, unit, speeds, foot slide");
+  CLI::App* command = clip.add_subcommand("info", "Show frames, joints, roles, unit, speeds and foot slide");
   command->add_option("clips", options->clips, "Clips")->required();
-  command->add_flag("--json", options->as_json, "For programs (docs/schemas/clip-info.schema.json)");
+  command->add_flag("--json", options->as_json, "Print JSON (docs/schemas/clip-info.schema.json)");
   AddClipReading(*command, options->reading);
   command->callback([=, &action] { action = [=] { return Finish(ClipInfoCommand(*options)); }; });
 }
@@ -91,7 +92,7 @@ Result<int> ClipConvertCommand(const ClipConvertOptions& given) {
   ASSIGN_OR_RETURN(const auto trim, ReadTrim(given.trim));
   ASSIGN_OR_RETURN(const auto references, ExpandReferences({given.input}));
   if (references.size() > 1) {
-    return Fail({}, "'{}' stands for {} clips; one file is converted at a time", given.input, references.size());
+    return Fail({}, "'{}' matches {} clips; only one can be converted at a time", given.input, references.size());
   }
   ASSIGN_OR_RETURN(auto clips, ReadClips(references.front(), reading));
 
@@ -120,22 +121,24 @@ Result<int> ClipConvertCommand(const ClipConvertOptions& given) {
 
 void DefineConvert(CLI::App& clip, Action& action) {
   auto options = std::make_shared<ClipConvertOptions>();
-  CLI::App* command = clip.add_subcommand("convert", "To BVH, GLB, TRC, CSV, C3D, NPZ or MOT");
+  CLI::App* command = clip.add_subcommand("convert", "Convert a clip to BVH, GLB, TRC, CSV, C3D, NPZ or MOT");
   command->add_option("input", options->input, "A clip")->required();
   command
       ->add_option(
           "output", options->output,
           "The file to write: .bvh, .glb, .trc (OpenSim's markers), .mot (its angles), .csv, .c3d or .npz (NumPy)")
       ->required();
-  command->add_option("--trim", options->trim, "Only this part, seconds: FROM:TO, such as 1.5:4 or 2:");
-  command->add_option("--rate", options->rate_hz, "Frames per second (default: the clip's; of bodies 30)")
+  command->add_option("--trim", options->trim, "Only the part FROM:TO in seconds, such as 1.5:4 or 2:");
+  command
+      ->add_option("--rate", options->rate_hz,
+                   "Frames per second (default: the clip's rate; with --ground or --retarget, 30)")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
   command->add_flag("--mirror", options->mirror, "Left becomes right");
   command->add_flag("--ground", options->ground, "As a body: twenty joints, metres, Y up, feet on the floor");
   command->add_flag("--retarget", options->retarget, "As a body of the canonical proportions, 1.70 m tall");
   command
       ->add_option("--character", options->character,
-                   "Put on the bear or the mannequin, retargeted (GLB only); none leaves the file's meshes out")
+                   "Retarget to the bear or the mannequin (GLB only); none leaves out the file's meshes")
       ->check(CLI::IsMember({"bear", "mannequin", "none"}));
   AddOverwrite(*command, options->overwrite);
   AddJson(*command, options->as_json);
@@ -159,7 +162,7 @@ Result<int> ClipContactsCommand(const ClipContactsOptions& options) {
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
   ASSIGN_OR_RETURN(const auto clips, LoadClips({options.clip}, {}, reading));
   if (clips.clips.size() != 1) {
-    return Fail({}, "'{}' stands for {} clips; the contacts of one are drawn at a time", options.clip,
+    return Fail({}, "'{}' matches {} clips; the contacts of only one can be drawn at a time", options.clip,
                 clips.clips.size());
   }
   RETURN_IF_ERROR(WriteFileAtomically(options.output, ContactIndexSvg(clips.clips[0].name, clips.clips[0].motion)));
@@ -169,7 +172,8 @@ Result<int> ClipContactsCommand(const ClipContactsOptions& options) {
 
 void DefineContacts(CLI::App& clip, Action& action) {
   auto options = std::make_shared<ClipContactsOptions>();
-  CLI::App* command = clip.add_subcommand("contacts", "When the feet stand: their heights, speeds and contacts (SVG)");
+  CLI::App* command =
+      clip.add_subcommand("contacts", "Draw when the feet stand: their heights, speeds and contacts (SVG)");
   command->add_option("clip", options->clip, "A clip")->required();
   command->add_option("-o,--output", options->output, "The picture: .svg")->required();
   AddOverwrite(*command, options->overwrite);
@@ -189,7 +193,7 @@ void PrintRoles(const Skeleton& skeleton, const JointMap& map) {
   for (const Role role : AllRoles()) {
     const bool composed = std::ranges::find(map.composed, role) != map.composed.end();
     fmt::print("{:<16} {}{}\n", RoleName(role), Quote(skeleton.joints[map[role].joint].name),
-               composed ? " (composed: no joint plays it, a point that rides on this one does)" : "");
+               composed ? " (composed: no joint has this role; it is a point fixed to this joint)" : "");
   }
 }
 
@@ -224,7 +228,7 @@ std::string UnfinishedMapFile(const Skeleton& skeleton) {
     if (found >= 0) {
       text += fmt::format("  {}: {}\n", RoleName(role), QuotedInYaml(skeleton.joints[found].name));
     } else if (proposed >= 0) {
-      text += fmt::format("  # {}: {}  # by its build, confidence {:.2f}\n", RoleName(role),
+      text += fmt::format("  # {}: {}  # by the skeleton's shape, confidence {:.2f}\n", RoleName(role),
                           QuotedInYaml(skeleton.joints[proposed].name), roles.confidence);
     } else {
       text += fmt::format("  # {}:\n", RoleName(role));
@@ -267,7 +271,7 @@ Result<void> WritePreview(const ClipMapOptions& options, const Clip& clip, const
 Result<void> CheckMapOutputs(const ClipMapOptions& options) {
   if (!options.output.empty()) RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   if (options.preview.empty()) return {};
-  if (!options.preview.ends_with(".png")) return Fail({options.preview}, "is no picture's name; allowed: .png");
+  if (!options.preview.ends_with(".png")) return Fail({options.preview}, "is not the name of a picture; allowed: .png");
   return CheckOutput(options.preview, options.overwrite);
 }
 
@@ -308,12 +312,12 @@ Result<int> ClipMapCommand(const ClipMapOptions& options) {
 
 void DefineMap(CLI::App& clip, Action& action) {
   auto options = std::make_shared<ClipMapOptions>();
-  CLI::App* command = clip.add_subcommand("map", "Which joint plays which role");
+  CLI::App* command = clip.add_subcommand("map", "Show which joint plays which role");
   command->add_option("clip", options->clip, "A BVH or glTF file")->required();
   command->add_option("-o,--output", options->output,
-                      "Write it as a joint-map file, to be edited; also when roles are missing");
-  command->add_option("--preview", options->preview, "A picture of the skeleton with names and roles: .png");
-  command->add_option(kJointMapOption, options->joint_map, "Roles that are taught already");
+                      "Write a joint-map file that you can edit, even if roles are missing");
+  command->add_option("--preview", options->preview, "Draw the skeleton with names and roles (.png)");
+  command->add_option(kJointMapOption, options->joint_map, "Roles that you have already assigned");
   AddJson(*command, options->as_json);
   AddOverwrite(*command, options->overwrite);
   command->callback([=, &action] { action = [=] { return Finish(ClipMapCommand(*options)); }; });

@@ -92,7 +92,7 @@ Result<int> ClipGradesCommand(const ClipGradesOptions& options) {
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
   ASSIGN_OR_RETURN(const auto clips, LoadClips(options.clips, {}, reading));
   if (!options.output.empty() && clips.clips.size() != 1) {
-    return Fail({options.output}, "holds the grades of one clip, found {}", clips.clips.size());
+    return Fail({options.output}, "can only hold the grades of one clip, found {}", clips.clips.size());
   }
   std::vector<FuzzyMotion> motions;
   for (const LibraryClip& clip : clips.clips) {
@@ -116,10 +116,10 @@ Result<int> ClipGradesCommand(const ClipGradesOptions& options) {
 
 void DefineGrades(CLI::App& clip, Action& action) {
   auto options = std::make_shared<ClipGradesOptions>();
-  CLI::App* command =
-      clip.add_subcommand("grades", "Fuzzy features, grades, tags and poses of every frame; how alike clips are");
+  CLI::App* command = clip.add_subcommand(
+      "grades", "Show fuzzy features, grades, tags and poses of every frame, and how similar clips are");
   command->add_option("clips", options->clips, "Clips")->required();
-  command->add_option("-o,--output", options->output, "A table (.csv) of one clip, a line per frame");
+  command->add_option("-o,--output", options->output, "A table (.csv) of one clip, one line per frame");
   command->add_option("--fuzzy", options->fuzzy, "Fuzzy system: builtin:NAME or a file")->capture_default_str();
   AddOverwrite(*command, options->overwrite);
   AddJson(*command, options->as_json);

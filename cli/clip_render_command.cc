@@ -44,7 +44,8 @@ Result<Size> ReadSize(const std::string& text, const Size& otherwise) {
                        end == static_cast<int>(text.size());
   const auto fits = [](int side) { return side >= kMinSide && side <= kMaxSide; };
   if (is_size && fits(size.width) && fits(size.height)) return size;
-  return Fail({}, "--size: '{}' is no size; allowed: WIDTHxHEIGHT in pixels, {} to {} each", text, kMinSide, kMaxSide);
+  return Fail({}, "--size: '{}' is not a size; allowed: WIDTHxHEIGHT in pixels, {} to {} each", text, kMinSide,
+              kMaxSide);
 }
 
 std::optional<ActorKind> ActorNamed(const std::string& name) {
@@ -97,7 +98,7 @@ Result<bool> WriteFilm(const ClipRenderOptions& options) {
   if (size.width % 2 != 0 || size.height % 2 != 0) return Fail({}, "--size: films need even numbers of pixels");
   ASSIGN_OR_RETURN(auto actors, Cast(options));
   if (actors.size() > 1) {
-    return Fail({}, "a film shows one clip, these are {}; a contact sheet (.png) shows all", actors.size());
+    return Fail({}, "a film shows one clip, found {}; a contact sheet (.png) shows all of them", actors.size());
   }
   ASSIGN_OR_RETURN(auto* const renderer, SharedRenderer());
   const Interrupt interrupt;
@@ -108,7 +109,8 @@ Result<bool> WriteFilm(const ClipRenderOptions& options) {
 Result<int> ClipRenderCommand(const ClipRenderOptions& options) {
   const std::string extension = std::filesystem::path(options.output).extension().string();
   if (extension != ".png" && extension != ".mp4") {
-    return Fail({options.output}, "is no picture's name; allowed: .png (a contact sheet), .mp4 (a film)");
+    return Fail({options.output},
+                "is not the name of a picture or film; allowed: .png (a contact sheet), .mp4 (a film)");
   }
   RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   if (extension == ".png") {
@@ -125,22 +127,25 @@ Result<int> ClipRenderCommand(const ClipRenderOptions& options) {
 
 void DefineRender(CLI::App& clip, Action& action) {
   auto options = std::make_shared<ClipRenderOptions>();
-  CLI::App* command = clip.add_subcommand("render", "A contact sheet (PNG) of clips, or a film (MP4) of one");
+  CLI::App* command = clip.add_subcommand("render", "Draw a contact sheet (PNG) of clips, or a film (MP4) of one clip");
   command->add_option("clips", options->clips, "Clips")->required();
   command->add_option("-o,--output", options->output, "The picture: .png or .mp4")->required();
   command
       ->add_option("--character", options->character,
-                   "own: the file's meshes; mannequin; bear; body: capsules, left blue and right orange\n"
-                   "(default: own if there are any, else mannequin; bear for built-in clips)")
+                   "The figure: own (the file's meshes), mannequin, bear, or body (capsules, left blue and right "
+                   "orange)\n(default: own if the file has meshes, otherwise mannequin; bear for built-in clips)")
       ->check(CLI::IsMember({"own", "mannequin", "bear", "body"}));
-  command->add_option("--view", options->view, "front, three-quarter or side, of how the clip begins")
+  command->add_option("--view", options->view, "View of the first pose: front, three-quarter or side")
       ->check(CLI::IsMember({"front", "three-quarter", "side"}))
       ->capture_default_str();
-  command->add_option("--size", options->size, "Of the film, or of each picture of a sheet (720x720, 200x260)");
-  command->add_option("--frames", options->frames, "Sheet: pictures of each clip (default: 12 of one, 8 of several)")
+  command->add_option("--size", options->size,
+                      "Size of the film, or of each picture of a sheet (default: 720x720, 200x260)");
+  command
+      ->add_option("--frames", options->frames,
+                   "Sheet: number of pictures of each clip (default: 12 for one clip, 8 for several)")
       ->check(CLI::Range(1, 1000));
-  command->add_option("--columns", options->columns, "Sheet: pictures beside each other")->check(CLI::Range(1, 100));
-  command->add_option("--trim", options->trim, "Only this part, seconds: FROM:TO, such as 1.5:4 or 2:");
+  command->add_option("--columns", options->columns, "Sheet: number of pictures in a row")->check(CLI::Range(1, 100));
+  command->add_option("--trim", options->trim, "Only the part FROM:TO in seconds, such as 1.5:4 or 2:");
   AddJobs(*command, options->jobs);
   AddOverwrite(*command, options->overwrite);
   AddClipReading(*command, options->reading);

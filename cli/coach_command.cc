@@ -52,12 +52,13 @@ struct CoachCommandOptions {
 };
 
 constexpr const char* kCoachExamples =
-    "\nReads a device's skeletons line by line, and writes what to show line by line, as JSON: first the song, its\n"
+    "\nReads a device's skeletons line by line, and writes line by line, as JSON, what a screen should show: first the "
+    "song, its\n"
     "moves and their key poses, then an object for each frame (docs/coach.md explains all keys). The coach waits for\n"
-    "a clap, dances, judges every performance, and interrupts as --policy says: it shakes its head, waves or is\n"
-    "puzzled, shows the move slowly, and goes back to it. It is the program that scenarios of `task: coach` judge.\n\n"
-    "Rows are what `etude clip convert` writes as CSV, or a Kinect's (docs/streams.md). You play the music: a\n"
-    "frame's \"music\" says from where, and when to stop. A line '#music 12.34' in the stream tells the coach where\n"
+    "a clap, dances, judges every performance, and interrupts by the rule --policy: it shakes its head, waves or "
+    "is\npuzzled, shows the move slowly, and returns to it. Scenarios of `task: coach` judge this program.\n\n"
+    "Rows are what `etude clip convert` writes as CSV, or a Kinect's (docs/streams.md). You play the music: a\nframe's "
+    "\"music\" states from where, and when to stop. A line '#music 12.34' in the stream tells the coach where\n"
     "the music is, so that it can slow down or speed up its moves.\n\n"
     "Try:\n"
     "  etude coach warm_up --stream take.csv --brief          what would the coach have said to this recording?\n"
@@ -130,7 +131,7 @@ void TellTiming(std::vector<double> times_ms) {
   const auto at = [&](double share) {
     return times_ms[static_cast<std::size_t>(share * static_cast<double>(times_ms.size() - 1))];
   };
-  fmt::print(stderr, "{} frames; ms a frame: median {:.3f}, p99 {:.3f}, largest {:.3f}\n", times_ms.size(), at(0.5),
+  fmt::print(stderr, "{} frames; ms per frame: median {:.3f}, p99 {:.3f}, largest {:.3f}\n", times_ms.size(), at(0.5),
              at(0.99), times_ms.back());
 }
 
@@ -195,7 +196,7 @@ void DefineCoach(CLI::App& app, Action& action) {
       ->capture_default_str();
   command
       ->add_option("--right-from", options->right_from,
-                   "Lowest evidence of a right performance (default: the recogniser's own)")
+                   "Lowest evidence that counts as a right performance (default: the recogniser's own)")
       ->check(NumberWithin(0.001, 1, "level of evidence"));
   command->add_option("--policy", options->policy, "When the coach interrupts")
       ->check(CLI::IsMember(LivePolicyNames()))
@@ -210,7 +211,8 @@ void DefineCoach(CLI::App& app, Action& action) {
       ->check(CLI::IsMember(FilterNames()))
       ->capture_default_str();
   // How players dance, and how frames are read and printed.
-  command->add_flag("--mirror", options->mirror, "Players mirror the coach: its left is their right");
+  command->add_flag("--mirror", options->mirror,
+                    "Players mirror the coach: they move their right when it moves its left");
   command->add_flag("--now", options->now, "Dance at once, without a clap");
   command->add_flag("--brief", options->brief, "Leave out frames without decisions, and bodies");
   command->add_flag("--timing", options->timing, "Print at the end how long frames took");

@@ -27,7 +27,7 @@ int Complain(const Error& error);
 /// Returns a command's exit code; for an error, complains and returns Complain's code.
 int Finish(const Result<int>& code);
 /// Says that Ctrl-C stopped the work, and what remains of it. Returns kInterrupted.
-int TellStopped(const Error& what_is_left = {{}, "stopped; nothing is kept"});
+int TellStopped(const Error& what_is_left = {{}, "stopped; no files are kept"});
 /// Returns `code`, or, if another run has replaced the folder while files of this run were written into it, complains
 /// and returns kIncompleteRun.
 Result<int> UnlessReplaced(const std::string& folder, const RunData& run, int code);

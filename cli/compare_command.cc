@@ -33,7 +33,7 @@ std::string ScopeSentence(const FinishedRun& run) {
     const std::string_view other = OtherUnits(scenario.study.unit);
     if (std::ranges::find(others, other) == others.end()) others.push_back(other);
   }
-  return fmt::format("All on these worlds; no claim is made about {}.", fmt::join(others, ", "));
+  return fmt::format("All verdicts are about these worlds only; none is about {}.", fmt::join(others, ", "));
 }
 
 Result<int> CompareCommand(const std::string& a, const std::string& b, Sealing sealing, bool as_json) {

@@ -52,7 +52,7 @@ Json Tell(const CrowdCommandOptions& options, Timings timings) {
   const double count = static_cast<double>(options.crowd.characters) * options.crowd.frames;
   fmt::print("{} characters, {} frames at {:g} Hz, gauss-newton in batches of {}\n", options.crowd.characters,
              options.crowd.frames, options.crowd.rate_hz, options.in_float ? "floats" : "doubles");
-  fmt::print("{:.2f} % of all poses meet their targets, after {:.2f} steps\n",
+  fmt::print("{:.2f} % of all poses meet their targets, after {:.2f} steps on average\n",
              100 * static_cast<double>(timings.met) / count, static_cast<double>(timings.steps) / count);
   const double first = timings.times_ms.front();
   std::sort(timings.times_ms.begin() + 1, timings.times_ms.end());
@@ -110,7 +110,7 @@ class FollowedCrowd {
 /// Makes a film of every n-th frame while the crowd is tracked. Returns false if it was stopped.
 Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& followed, const FilmWatch& watch) {
   using Character = CrowdStage::Character;
-  static_assert(std::is_trivially_copyable_v<Character>, "characters go to those who draw as they lie in memory");
+  static_assert(std::is_trivially_copyable_v<Character>, "characters are passed on as they are stored in memory");
   ASSIGN_OR_RETURN(auto* const renderer, SharedRenderer());
   CrowdStage stage(options.crowd.characters, kWidth, kHeight, *renderer);
   // Show at most kFilmRateHz frames per second.
@@ -133,7 +133,7 @@ Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& follow
     const auto met = std::ranges::count(characters, false, &Character::stands_out);
     return stage.Draw(characters,
                       fmt::format("{} characters followed at {:g} Hz, each within its joints' limits", count, rate_hz),
-                      fmt::format("{:.2f} s: {} meet the targets of all four ends; pale: those that do not",
+                      fmt::format("{:.2f} s: {} meet the targets of hands and feet; those that do not are pale",
                                   frame * every / rate_hz, met));
   };
   return EncodeFedFrames(options.output, frames, std::max(1, static_cast<int>(std::lround(rate_hz / every))),
@@ -166,7 +166,7 @@ Result<int> CrowdCommand(const CrowdCommandOptions& given) {
   }
   if (!options.output.empty()) {
     if (std::filesystem::path(options.output).extension() != ".mp4") {
-      return Fail({options.output}, "is not a film's name; allowed: .mp4");
+      return Fail({options.output}, "is not the name of a film; allowed: .mp4");
     }
     RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   }
@@ -183,8 +183,9 @@ Result<int> CrowdCommand(const CrowdCommandOptions& given) {
 
 void DefineCrowd(CLI::App& app, Action& action) {
   auto options = std::make_shared<CrowdCommandOptions>();
-  CLI::App* command = app.add_subcommand("crowd", "Solve the poses of a whole crowd frame by frame, and film it");
-  command->add_option("--characters", options->crowd.characters, "Number of characters, each with a motion of its own")
+  CLI::App* command =
+      app.add_subcommand("crowd", "Solve the poses of a whole crowd frame by frame, and draw a film of it");
+  command->add_option("--characters", options->crowd.characters, "Number of characters; each has its own motion")
       ->check(CLI::Range(1, 10'000))
       ->capture_default_str();
   command->add_option("--seconds", options->seconds, "Duration, seconds")

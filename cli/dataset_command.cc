@@ -40,9 +40,10 @@ int ComplainOfFaults(const ScoreOptions& options, const PredictionFaults& faults
 }
 
 int ExportAll(const ExportOptions& options) {
-  const auto outcome = ExportSuite(options, ProgressOf("parts of worlds (problems made, written, truths)"));
+  const auto outcome =
+      ExportSuite(options, ProgressOf("parts of worlds (problem made, problem written, truth written)"));
   if (!outcome) return Complain(outcome.error());
-  fmt::print("{} problems in {}{}\nNext: give away {}/inputs, then etude score {} PREDICTIONS -o RESULT\n",
+  fmt::print("{} problems in {}{}\nNext: give {}/inputs to the methods, then etude score {} PREDICTIONS -o RESULT\n",
              outcome->problems, options.output,
              outcome->skipped > 0 ? fmt::format(" ({} worlds skipped, see inputs/index.csv)", outcome->skipped) : "",
              options.output, options.output);
@@ -71,7 +72,7 @@ void DefineExport(CLI::App& app, Action& action) {
   auto options = std::make_shared<ExportOptions>();
   options->program_version = ETUDE_VERSION;
   CLI::App* command =
-      app.add_subcommand("export", "Write the problems of scenarios as files, with the truth in a folder of its own");
+      app.add_subcommand("export", "Write the problems of scenarios as files, and the truth into a separate folder");
   command->add_option("scenarios", options->scenarios, "Scenario files, folders of them, or names of shipped scenarios")
       ->required();
   command->add_option("-o,--output", options->output, "Folder of the data set")->required();
@@ -89,13 +90,13 @@ void DefineScore(CLI::App& app, const std::string& command_line, Action& action)
   auto options = std::make_shared<ScoreOptions>();
   options->program_version = ETUDE_VERSION;
   options->command_line = command_line;
-  CLI::App* command = app.add_subcommand("score", "Score a folder of answers into a result folder");
+  CLI::App* command = app.add_subcommand("score", "Score a folder of answers, and write a result folder");
   command->add_option("target", options->target, "An exported data set, or its scenario files")->required();
   command->add_option("predictions", options->predictions, "Folder of answers")->required();
   command->add_option("-o,--output", options->output, "Result folder")->required();
   command->add_option("--name", options->name, "Name of the method")->capture_default_str();
   AddOutsideRules(*command, options->outside);
-  command->add_flag("--alone", options->alone, "Do not run the scenarios' own methods as well");
+  command->add_flag("--alone", options->alone, "Do not run the scenarios' own methods");
   command->add_flag("--allow-missing", options->allow_missing, "Count a world without answer as a failed cell");
   AddJobs(*command, options->jobs);
   AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map, options->clip_facts);

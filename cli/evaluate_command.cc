@@ -74,7 +74,7 @@ Result<std::vector<NamedResult>> ReadColumns(const std::string& file) {
   for (std::size_t at = 0, comma; (comma = heading.find(',', at)) != std::string::npos; at = comma + 1) {
     const std::string column = heading.substr(at, comma - at);
     if (column == "truth" || column == "name") continue;
-    if (!IsPlainName(column)) return Fail({file, 1, 0}, "{} is no name of a method", Quote(column));
+    if (!IsPlainName(column)) return Fail({file, 1, 0}, "{} is not a valid method name", Quote(column));
     results.push_back({column, ""});
   }
   if (results.empty()) return Fail({file, 1, 0}, "has no column of a method; allowed: a heading such as truth,mine");
@@ -89,8 +89,7 @@ Result<std::string> ScenarioOf(const EvaluateOptions& options) {
   }
   ASSIGN_OR_RETURN(const auto results,
                    has_pairs ? ReadColumns(options.pairs) : ReadResults(std::span(options.files).subspan(1)));
-  std::string text =
-      "scenario: evaluate\nquestion: How close do these motions come to their truths?\ntask: evaluation\n";
+  std::string text = "scenario: evaluate\nquestion: How close are these motions to their truths?\ntask: evaluation\n";
   text += has_pairs ? fmt::format("pairs: {}\n", QuotedInYaml(options.pairs))
                     : fmt::format("truth: [{}]\n", QuotedInYaml(options.files.front()));
   if (!options.joints.empty()) text += fmt::format("joints: {}\n", QuotedInYaml(options.joints));
@@ -204,15 +203,19 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
 void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& action) {
   auto options = std::make_shared<EvaluateOptions>();
   options->command_line = command_line;
-  CLI::App* command = app.add_subcommand("evaluate", "Judge the motions of files by their truths");
+  CLI::App* command = app.add_subcommand("evaluate", "Compare the motions of files with their truths");
   command->add_option(
       "files", options->files,
       "The truth, then results, each a file, a folder or a pattern in quotes; NAME=PATTERN for several");
-  command->add_option("--pairs", options->pairs, "A CSV instead: columns truth, one of each method's name, maybe name");
-  command->add_option("--joints", options->joints, "Which joints: a set (etude list keys), same, or roles (default)");
-  command->add_option("--people", options->people, "Which part of a file's name is the person, such as '{person}_*'");
+  command->add_option("--pairs", options->pairs,
+                      "A CSV file instead: a column truth, one column per method, and possibly a column name");
+  command->add_option("--joints", options->joints,
+                      "The joints that are compared: a set (etude list keys), same, or roles (default)");
+  command->add_option("--people", options->people,
+                      "The part of a file's name that is the person, such as '{person}_*'");
   command->add_option("--metric", options->metrics, "A metric to show; all are measured (etude list metrics)");
-  command->add_option(kJointMapOption, options->joint_map, "Which joints play which roles, the unit, the up axis");
+  command->add_option(kJointMapOption, options->joint_map,
+                      "A file that states which joints play which roles, the unit and the up axis");
   command->add_option("-o,--output", options->output, "Result folder (default: out/evaluate-1)");
   AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");
   AddJobs(*command, options->jobs);

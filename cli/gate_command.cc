@@ -99,7 +99,7 @@ Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
   std::optional<Snapshot> baseline;
   if (!options.baseline.empty()) {
     if (std::error_code none; !fs::exists(options.baseline, none)) {
-      return Fail({options.baseline, 0, 0}, "no such file; --update makes it from this run");
+      return Fail({options.baseline, 0, 0}, "does not exist; --update makes it from this run");
     }
     ASSIGN_OR_RETURN(baseline, TakeBaseline(options.baseline, options.sealing));
   }
@@ -133,8 +133,9 @@ Result<int> Update(const GateOptions& options, const FinishedRun& run) {
     return kIncompleteRun;
   }
   if (const auto silent = DescribeSilentMethods(run); !silent.empty()) {
-    PrintList("No baseline is made from a run in which a method has no answer, because nothing could be worse:",
-              silent);
+    PrintList(
+        "No baseline is made from a run in which a method has no answer, because nothing could be worse than that:",
+        silent);
     return kRegression;
   }
   // Check that the baseline can be read back before the old one is replaced.
@@ -159,11 +160,11 @@ std::string RateText(const Rate& rate) {
 
 /// Says whether the gate keeps its promise; a few gates without an alarm are not enough to say it.
 const char* PromiseSentence(const SelfTestReport& report) {
-  if (!report.Holds()) return "The gate does not keep its promise.";
+  if (!report.Holds()) return "The gate exceeds its error limits.";
   if (report.false_alarms.high > kFalseAlarmLimit) {
-    return "Nothing contradicts the gate's promise; more repetitions would show that it is kept.";
+    return "Nothing contradicts the gate's error limits; more repetitions are needed to confirm them.";
   }
-  return "The gate keeps its promise.";
+  return "The gate keeps its error limits.";
 }
 
 Result<int> SelfTest(const GateOptions& options) {
@@ -196,7 +197,7 @@ int VerdictsCommand(int repetitions) {
   fmt::print("{}\n", VerdictRatesMarkdown(rates));
   const auto broken = std::count_if(rates.begin(), rates.end(), [](const auto& one) { return !KeepsPromise(one); });
   fmt::print(
-      "{} of {} designs keep the promise: false alarms at most 5 % (upper end of the 95 % interval 6.5 %), intervals "
+      "{} of {} designs keep the limits: false alarms at most 5 % (upper end of the 95 % interval 6.5 %), intervals "
       "that hold "
       "the truth in at least 93 %.\n",
       rates.size() - static_cast<std::size_t>(broken), rates.size());
@@ -216,7 +217,7 @@ Result<int> GateCommand(const GateOptions& options) {
 
 void DefineGate(CLI::App& app, Action& action) {
   auto options = std::make_shared<GateOptions>();
-  CLI::App* command = app.add_subcommand("gate", "Pass or fail a run, for a CI server");
+  CLI::App* command = app.add_subcommand("gate", "Compare a run with a baseline: pass or fail, for a CI server");
   command->add_option("folder", options->target, "A result folder (with --self-test: a scenario file, or nothing)");
   CLI::Option* baseline =
       command->add_option("--baseline", options->baseline, "The baseline that the run is compared with");
@@ -226,7 +227,8 @@ void DefineGate(CLI::App& app, Action& action) {
   CLI::Option* self_test =
       command->add_flag("--self-test", options->self_test, "Measure the gate's own false alarms and power")
           ->excludes(baseline);
-  command->add_flag("--verdicts", options->verdicts, "Self-test: test the verdicts beyond a run's worlds instead")
+  command
+      ->add_flag("--verdicts", options->verdicts, "Self-test: test the verdicts about other clips and people instead")
       ->needs(self_test);
   command->add_option("--repetitions", options->repetitions, "Self-test: pairs of seeds, or samples of each design")
       ->check(CLI::Range(1, 100000))

@@ -83,7 +83,7 @@ Result<int> ListClips() {
                move.tempo_bpm, move.slowest_bpm, move.fastest_bpm, move.motion.DurationSeconds(),
                move.key_poses.size());
   }
-  fmt::print("Acts of the coach (builtin:acts); builtin:slow_MOVE shows a move slowly:\n");
+  fmt::print("The coach's acts (builtin:acts); builtin:slow_MOVE shows a move slowly:\n");
   for (const std::string& name : BuiltinActNames()) {
     ASSIGN_OR_RETURN(const auto act, LoadBuiltinMove(name));
     fmt::print("  builtin:{:<14} {:.1f} s{}\n", name, act.motion.DurationSeconds(), act.loops ? "" : ", once");
@@ -126,7 +126,8 @@ Result<Json> ScenariosAsJson(const std::string& folder) {
 /// Lists the scenarios that come with the program, one per line, by the names that `etude run` takes.
 Result<int> ListShippedScenarios() {
   const std::vector<std::string> names = ShippedScenarios();
-  if (names.empty()) return Fail({}, "no scenarios came with this program; etude list scenarios FOLDER lists yours");
+  if (names.empty())
+    return Fail({}, "this program was installed without scenarios; etude list scenarios FOLDER lists your own");
   for (const std::string& name : names) {
     SourceTexts texts;
     ASSIGN_OR_RETURN(const auto scenarios, ReadScenarios(FindShipped(name).string(), texts));
@@ -234,7 +235,7 @@ Result<int> ListMetricsCommand(MetricsFormat format) {
 }  // namespace
 
 void DefineList(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("list", "List what a scenario can name");
+  CLI::App* command = app.add_subcommand("list", "List what can be named in a scenario");
   command->require_subcommand(1);
   // Lists without further options.
   const auto list = [&](const char* name, const char* help, Listing what) {
@@ -246,14 +247,14 @@ void DefineList(CLI::App& app, Action& action) {
   };
   list("methods", "Tasks, the keys of their methods, and solvers", Listing::kMethods);
   list("clips", "Built-in clips", Listing::kClips);
-  list("recordings", "The page docs/reference/recordings.md: what recordings hold besides motions",
+  list("recordings", "Print docs/reference/recordings.md: what recordings contain besides motions",
        Listing::kRecordings);
   // Metrics: text, JSON or Markdown.
   auto json = std::make_shared<bool>(false), markdown = std::make_shared<bool>(false);
   CLI::App* metrics = command->add_subcommand("metrics", "Metrics with their definitions");
   CLI::Option* as_json =
       metrics->add_flag("--json", *json, "Print JSON with the test vectors (docs/schemas/metrics.schema.json)");
-  metrics->add_flag("--markdown", *markdown, "The page docs/reference/metrics.md")->excludes(as_json);
+  metrics->add_flag("--markdown", *markdown, "Print docs/reference/metrics.md")->excludes(as_json);
   metrics->callback([=, &action] {
     const MetricsFormat format = *json       ? MetricsFormat::kJson
                                  : *markdown ? MetricsFormat::kMarkdown
@@ -263,8 +264,8 @@ void DefineList(CLI::App& app, Action& action) {
   // Keys of scenario files: text, Markdown or JSON Schema.
   auto as_page = std::make_shared<bool>(false), as_schema = std::make_shared<bool>(false);
   CLI::App* keys = command->add_subcommand("keys", "Every key of a scenario file");
-  CLI::Option* page = keys->add_flag("--markdown", *as_page, "The page docs/reference/keys.md");
-  keys->add_flag("--schema", *as_schema, "The JSON Schema docs/schemas/scenario.schema.json, for editors")
+  CLI::Option* page = keys->add_flag("--markdown", *as_page, "Print docs/reference/keys.md");
+  keys->add_flag("--schema", *as_schema, "Print the JSON Schema docs/schemas/scenario.schema.json, for editors")
       ->excludes(page);
   keys->callback([=, &action] {
     const KeysFormat format = *as_schema ? KeysFormat::kSchema : *as_page ? KeysFormat::kMarkdown : KeysFormat::kText;

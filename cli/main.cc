@@ -36,7 +36,7 @@ namespace {
 
 constexpr const char* kAbout =
     "Etude is a simulator and benchmark for interactive human motion: it makes worlds whose truth is known,\n"
-    "lets methods solve them, and says which method is better, by how much, and how sure that is.\n";
+    "lets methods solve them, and states which method is better, by how much, and with what confidence.\n";
 
 constexpr const char* kExamples =
     "\nTry:\n"
@@ -46,14 +46,14 @@ constexpr const char* kExamples =
     "  etude run quick --resume                       continue after a crash, a kill, a power cut\n"
     "  etude gate out/quick-1 --baseline FILE         pass or fail, for a CI server\n"
     "  etude run paper                                what the papers claim, in their own tables and situations\n"
-    "  etude list methods                             what a scenario can name; also keys, metrics, clips\n"
+    "  etude list methods                             what can be named in a scenario; also keys, metrics, clips\n"
     "  etude clip render '~/mocap/*.bvh' -o mocap.png      what is in these clips; also info, convert, map\n"
-    "  etude bridge '~/mocap/*.bvh' -o tags.xml       where these clips lead into each other, and how well\n"
+    "  etude bridge '~/mocap/*.bvh' -o tags.xml       where these clips can lead into each other, and how well\n"
     "  etude train 'builtin:*' -o mine.yaml           a fuzzy system learnt from clips, for a scenario's fuzzy: key\n"
     "  etude teach takes/*.txt --labels labels.csv -o moves.yaml      moves learnt from recordings of real people\n"
-    "  etude recognise new.txt --moves moves.yaml     which of them a recording, or a device, shows\n"
+    "  etude recognise new.txt --moves moves.yaml     which of these moves a recording or a device shows\n"
     "  etude calibrate left/ right/ -o rig.yaml       cameras from pictures of a board, or from measured points\n"
-    "  etude capture --rig rig.yaml left.mp4 right.mp4 --keypoints json/ -o motion.bvh     films to a motion\n\n"
+    "  etude capture --rig rig.yaml left.mp4 right.mp4 --keypoints json/ -o motion.bvh     a motion from films\n\n"
     "Exit codes: 0 fine, 1 a method has no answer (gate: regression; replay, verify: a difference), 2 bad input\n"
     "(nothing is written), 3 incomplete, 130 interrupted.";
 
@@ -158,7 +158,7 @@ Result<void> TakeStack() {
   limit.rlim_cur = std::min(limit.rlim_max, kUsualStack);
   ::setrlimit(RLIMIT_STACK, &limit);
   if (limit.rlim_cur >= kMinStack) return {};
-  return FailOfMachine("the stack may hold {} KiB; at least {} are needed (ulimit -s)", limit.rlim_cur >> 10,
+  return FailOfMachine("the stack size is limited to {} KiB; at least {} are needed (ulimit -s)", limit.rlim_cur >> 10,
                        kMinStack >> 10);
 }
 
@@ -214,7 +214,7 @@ int main(int argc, char** argv) {
     if (std::fflush(stdout) == 0) return code;
     return etude::Complain(etude::CannotWrite("standard output", "cannot be written", errno).value());
   } catch (const std::bad_alloc&) {
-    return etude::Complain(etude::FailOfMachine("there is no more memory").value());
+    return etude::Complain(etude::FailOfMachine("out of memory").value());
   } catch (const std::filesystem::filesystem_error& error) {
     return etude::Complain({{}, error.what()});
   } catch (const std::system_error& error) {  // thrown by fmt if the output cannot be written

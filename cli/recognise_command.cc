@@ -38,10 +38,10 @@ struct RecogniseCommandOptions {
 };
 
 constexpr const char* kRecogniseExamples =
-    "\nPrints what is spotted as it comes, a line of JSON each. With labels also how well: performances called right "
-    "or\n"
-    "wrong, action points within 333 ms. With --leave-one-person-out each person is recognised by what the others\n"
-    "taught. Recordings and devices: Kinect v1 and v2 rows, MSRC-12, UTKinect, NTU, Azure Kinect, CSV, TRC; rows and "
+    "\nPrints each move as soon as it is spotted, as a line of JSON. With labels it also prints the accuracy: "
+    "performances\ncalled right or wrong, action points within 333 ms. With --leave-one-person-out each person is "
+    "recognised after\nteaching with the recordings of the others. Recordings and devices: Kinect v1 and v2 rows, "
+    "MSRC-12, UTKinect, NTU, Azure Kinect, CSV, TRC; rows and "
     "CSV\n"
     "also live (docs/streams.md).\n\n"
     "Try:\n"
@@ -84,7 +84,7 @@ Result<WatchOptions> OptionsOf(const RecogniseCommandOptions& options, const Rec
   WatchOptions watch;
   watch.recogniser.kind = options.recogniser.empty() ? &recommended : FindRecogniser(options.recogniser);
   if (options.recogniser.empty()) {
-    fmt::print(stderr, "recogniser {}, recommended for what was taught; --recogniser takes another\n",
+    fmt::print(stderr, "recogniser {}, recommended for these moves; --recogniser selects another one\n",
                recommended.name);
   }
   ASSIGN_OR_RETURN(watch.recogniser.settings, ReadSettings(*watch.recogniser.kind, options.settings));
@@ -242,7 +242,8 @@ Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options) {
                watch.recogniser.kind->name, Percent(accuracy), "nearest whole performance", Percent(nearest));
     PrintMistakes(out.verdicts);
   }
-  if (out.untaught_performances > 0) fmt::print("  {} of moves that nobody else did\n", out.untaught_performances);
+  if (out.untaught_performances > 0)
+    fmt::print("  {} of moves that nobody else performed\n", out.untaught_performances);
   if (!out.points.empty()) {
     fmt::print("F-score of {} action points within {:.0f} ms, mean of the moves: {}\n", out.points.size(),
                1000 * kActionPointTolerance, Percent(f_score));
@@ -258,7 +259,7 @@ Result<int> RecogniseCommand(const RecogniseCommandOptions& options) {
   ASSIGN_OR_RETURN(const auto taught, LoadTaught(options));
   const bool is_live = std::ranges::find(options.streams, "-") != options.streams.end();
   if (is_live && (options.streams.size() > 1 || !options.labels.empty())) {
-    return Fail({"-"}, "standard input goes alone, and without labels");
+    return Fail({"-"}, "standard input cannot be combined with other recordings or labels");
   }
   return is_live ? RecogniseLive(options, taught) : RecogniseFiles(options, taught);
 }
@@ -267,34 +268,36 @@ Result<int> RecogniseCommand(const RecogniseCommandOptions& options) {
 
 void DefineRecognise(CLI::App& app, Action& action) {
   auto options = std::make_shared<RecogniseCommandOptions>();
-  CLI::App* command = app.add_subcommand("recognise", "Which moves a recording or a live stream shows");
+  CLI::App* command = app.add_subcommand("recognise", "Recognise moves in a recording or a live stream");
   // The inputs: recordings, taught moves, labels.
   command->add_option("streams", options->streams, "Recordings, patterns, folders; - is standard input, live")
       ->required();
-  auto* moves = command->add_option("--moves", options->moves, "What was taught (etude teach)");
-  auto* labels = command->add_option("--labels", options->labels, "Score by these: a file, or a folder of tag streams");
+  auto* moves = command->add_option("--moves", options->moves, "The taught moves (etude teach)");
+  auto* labels =
+      command->add_option("--labels", options->labels, "Labels to score by: a file, or a folder of tag streams");
   command
       ->add_flag("--leave-one-person-out", options->leave_one_person_out,
-                 "Teach from the labels of all other people, person by person")
+                 "Recognise each person with moves taught by the labels of all other people")
       ->excludes(moves);
   // The recogniser and its settings.
   command
-      ->add_option("--recogniser", options->recogniser,
-                   "How (default: learnt; key-pose if a move has no example; whole-body if one person is left out)")
+      ->add_option(
+          "--recogniser", options->recogniser,
+          "The recogniser (default: learnt; key-pose if a move has no example; whole-body with --leave-one-person-out)")
       ->check(CLI::IsMember(RecogniserNames()));
-  command->add_option("--filter", options->filter, "How joints are smoothed first")
+  command->add_option("--filter", options->filter, "Filter that smooths the joints first")
       ->check(CLI::IsMember(FilterNames()))
       ->capture_default_str();
-  command->add_option("--weights", options->weights, "How much an angle counts: all alike, or by how well it is seen")
+  command->add_option("--weights", options->weights, "Weights of the angles: all equal, or by how well they are seen")
       ->check(CLI::IsMember({"fixed", "adaptive"}))
       ->capture_default_str();
   command
       ->add_option("--threshold", options->threshold,
-                   "Evidence from which on a move is called (default: the recogniser's)")
+                   "Lowest evidence at which a move counts as performed (default: the recogniser's)")
       ->check(NumberWithin(0.001, 1, "threshold"));
   command->add_option("--set", options->settings, "A setting of the recogniser: tolerance_scale=1.2")
       ->allow_extra_args(false);
-  command->add_flag("--json", options->as_json, "Scores for programs, too (docs/schemas/facts.schema.json)")
+  command->add_flag("--json", options->as_json, "Also print the scores as JSON (docs/schemas/facts.schema.json)")
       ->needs(labels);
   AddStreamReading(*command, options->reading);
   command->footer(kRecogniseExamples);

@@ -94,7 +94,7 @@ Result<int> ReplayFile(const std::string& file, const OutsideRules& outside, con
     PrintDifference(*check);
     return kNothingWorked;
   }
-  fmt::print("{}: the same, stage by stage\n", check->cell);
+  fmt::print("{}: all stages are the same\n", check->cell);
   return kSuccess;
 }
 

@@ -34,7 +34,7 @@ Result<int> ReportCommand(const std::string& folder, const std::vector<std::stri
   const Interrupt interrupt;
   options.watch = WatchFilms(interrupt, jobs);
   ASSIGN_OR_RETURN(const bool is_whole, WriteReport(run, folder, options));
-  if (!is_whole) return TellStopped({{folder, 0, 0}, "stopped; the tables are written, the page is not"});
+  if (!is_whole) return TellStopped({{folder, 0, 0}, "stopped; the tables were written, but not the page"});
   ASSIGN_OR_RETURN(const int code, UnlessReplaced(folder, run, kSuccess));
   if (code == kSuccess) TellWritten(folder + "/report/index.html");
   return code;
@@ -42,7 +42,7 @@ Result<int> ReportCommand(const std::string& folder, const std::vector<std::stri
 
 Result<int> RowsCommand(const std::string& folder, const std::string& file, bool overwrite, Sealing sealing) {
   if (file.empty()) {
-    if (OutputWasClosed()) return Fail({"standard output"}, "is closed; -o writes the rows into a file");
+    if (OutputWasClosed()) return Fail({"standard output"}, "was closed; -o writes the rows into a file");
     RETURN_IF_ERROR(WriteRows(folder, sealing, [](std::string_view line) -> Result<void> {
       if (std::fwrite(line.data(), 1, line.size(), stdout) == line.size()) return {};
       return CannotWrite("standard output", "cannot be written", errno);
@@ -63,12 +63,13 @@ void DefineReport(CLI::App& app, Action& action) {
   auto folder = std::make_shared<std::string>();
   auto no_video = std::make_shared<bool>(false);
   auto whole_sessions = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand("report", "Write the page, tables, JUnit and video of a run");
+  CLI::App* command = app.add_subcommand("report", "Write a run's page, tables, JUnit file and video");
   command->add_option("folder", *folder, "A result folder")->required();
   command->add_flag("--no-video", *no_video, "Leave the video out");
-  command->add_flag("--whole-sessions", *whole_sessions, "Film coached sessions whole, not around a correction");
+  command->add_flag("--whole-sessions", *whole_sessions,
+                    "Show whole coached sessions in films, not only the time around a correction");
   auto real = std::make_shared<std::vector<std::string>>();
-  command->add_option("--real", *real, "Add captures of real films: files that `etude capture --distances` wrote");
+  command->add_option("--real", *real, "Add results on real films: files that `etude capture --distances` wrote");
   auto sealing = std::make_shared<Sealing>();
   AddUnsealed(*command, *sealing);
   auto jobs = std::make_shared<int>(0);

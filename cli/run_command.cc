@@ -172,7 +172,8 @@ void TellChanges(const std::vector<LoadedChange>& changes) {
   for (std::size_t i = 0; i < std::min(changes.size(), kShown); ++i) {
     fmt::print("{}: {}\n", changes[i].clip, changes[i].change);
   }
-  if (changes.size() > kShown) fmt::print("… and {} more changes of clips: manifest.json\n", changes.size() - kShown);
+  if (changes.size() > kShown)
+    fmt::print("… and {} more changes of clips, see manifest.json\n", changes.size() - kShown);
 }
 
 /// Prints the facts of a run for programs, and returns `code` if that works.
@@ -275,8 +276,7 @@ void Print(const ScenarioForecast& one) {
     fmt::print("  on these worlds: no verdict; at least {} are needed\n", kMinSample);
   } else {
     fmt::print(
-        "  on these worlds: {} {} a mean difference from {:.2f} standard deviations of the worlds' "
-        "differences\n",
+        "  on these worlds: {} {} a mean difference of {:.2f} or more standard deviations of the worlds' differences\n",
         among, one.comparisons == 1 ? "shows" : "show", MinDetectableDifference(worlds, one.comparisons));
   }
   if (WorldsAreUnits(one.unit)) return;
@@ -327,11 +327,11 @@ int DryRunCommand(const RunOptions& options, bool as_json) {
   }
   if (!options.shard.IsWhole())
     fmt::print("Shard {}: {} of {} cells.\n", ToString(options.shard), forecast->cells, all);
-  fmt::print("{} cells, about {} on {}. Differences that are found with a chance of 80 %. Nothing was written.\n",
-             forecast->cells, Duration(forecast->seconds),
-             CountOf(static_cast<std::size_t>(forecast->workers), "worker"));
+  fmt::print(
+      "{} cells, about {} on {}. The differences below are found with a probability of 80 %. Nothing was written.\n",
+      forecast->cells, Duration(forecast->seconds), CountOf(static_cast<std::size_t>(forecast->workers), "worker"));
   if (!guessed.empty()) {
-    fmt::print("The time is a guess: no costs are kept of {}, whose first worlds were measured just now.\n",
+    fmt::print("The time is an estimate: the costs of {} are not known, so its first worlds were measured just now.\n",
                Join(guessed, ", "));
   }
   return kSuccess;
@@ -371,7 +371,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   });
   AddReuseKey(*command, options->reuse_key);
   // The options for parts of a run, and for continuing one.
-  command->add_option("--shard", *shard, "Run part i of n, written i/n; etude merge makes one run of all parts");
+  command->add_option("--shard", *shard, "Run part i of n, given as i/n; etude merge makes one run of all parts");
   CLI::Option* overwrite = AddOverwrite(*command, options->overwrite, "Replace the run that the folder holds");
   CLI::Option* resume =
       command->add_flag("--resume", options->resume, "Continue the run that the folder holds")->excludes(overwrite);
@@ -383,8 +383,8 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   command->add_option("--sync-mebibytes", options->sync.mebibytes, "Largest amount not yet on the disk, MiB")
       ->check(NumberWithin(0, 1024, "size in MiB"))
       ->capture_default_str();
-  CLI::Option* dry = command->add_flag("--dry-run", *dry_run,
-                                       "Only estimate how long it would take, and what differences it could show");
+  CLI::Option* dry =
+      command->add_flag("--dry-run", *dry_run, "Only estimate the run's time, and the differences that it could show");
   dry->excludes(overwrite, resume);
   AddJson(*command, *as_json);
   // --from repeats a run, so it excludes all options whose values the manifest gives.
@@ -399,7 +399,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   streams->excludes(from, world_options[2]);
   from->excludes(command->add_option(
       "--labels", options->labels,
-      "Labels of --streams or --clips, who did which move when: a file, or a folder of tag streams"));
+      "Labels of --streams or --clips (who did which move when): a file, or a folder of tag streams"));
   // Check combinations that CLI11 cannot express, and start.
   command->callback([=, &action] {
     action = [=] {
@@ -419,8 +419,8 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
 
 void DefineScenario(CLI::App& app, Action& action) {
   auto name = std::make_shared<std::string>(), folder = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("scenario", "Work with the scenarios that come with etude");
-  CLI::App* copy = command->add_subcommand("copy", "Copy a scenario or a suite, to edit it");
+  CLI::App* command = app.add_subcommand("scenario", "Work with the scenarios that are part of etude");
+  CLI::App* copy = command->add_subcommand("copy", "Copy a scenario or a suite so that you can edit it");
   command->require_subcommand(1);
   copy->add_option("scenario", *name, "Its name, such as full/ik_weights or quick (see etude list scenarios)")
       ->required();

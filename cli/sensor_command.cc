@@ -26,8 +26,8 @@ constexpr const char* kSensorExamples =
     "convert writes such files). A reference is the same motion from a trusted system: 17 rigid targets of an optical\n"
     "system a line, or joint CSV. docs/sensor.md explains the formats and each statistic.\n\n"
     "Try:\n"
-    "  etude sensor stats kinect.txt                                        what it says by itself\n"
-    "  etude sensor stats kinect.txt --reference vicon.txt --simulate v2    real beside simulated\n"
+    "  etude sensor stats kinect.txt                                        statistics of the recording alone\n"
+    "  etude sensor stats kinect.txt --reference vicon.txt --simulate v2    compared with a simulated sensor\n"
     "  etude sensor fit kinect.txt --reference vicon.txt -o sensor.yaml     then `sensor: sensor.yaml` in a scenario";
 
 /// Facts about recordings that their files do not state.
@@ -86,11 +86,11 @@ std::string DescribeTurn(const JointRecording& recording) {
   const StreamLevel level = recording.sensor_at ? EstimateLevel(frames, recording.rate_hz) : StreamLevel{};
   if (level.turn_deg != 0) return fmt::format("; the sensor is turned by {} degrees", level.turn_deg);
   if (level.trunk_deg == 0) return "";
-  return fmt::format("; trunks are {:.0f} degrees from up: who lies, or a tilted sensor", level.trunk_deg);
+  return fmt::format("; trunks are {:.0f} degrees from up: a lying person, or a tilted sensor", level.trunk_deg);
 }
 
 std::string DescribeRecording(const JointRecording& recording) {
-  return fmt::format("{} frames at {:g} Hz, {:.1f} s; {:.1f} % of the joints missing{}", recording.frames.size(),
+  return fmt::format("{} frames at {:g} Hz, {:.1f} s; {:.1f} % of the joints are missing{}", recording.frames.size(),
                      recording.rate_hz, recording.DurationSeconds(), 100 * MissingShare(recording),
                      DescribeTurn(recording));
 }
@@ -196,14 +196,14 @@ Result<int> SensorStatsCommand(const SensorStatsOptions& options) {
   }
   fmt::print("\n{}", StatisticsTable(columns, compares));
   if (!has_simulated) return kSuccess;
-  fmt::print("\n{} of {} within {:.0f} % (correlations: {:.2f}); ! marks the others\n", agreement.within,
+  fmt::print("\n{} of {} within {:.0f} % (correlations: {:.2f}); the others are marked with !\n", agreement.within,
              agreement.compared, 100 * kSizeTolerance, kCorrelationTolerance);
   return kSuccess;
 }
 
 void DefineStats(CLI::App& sensor, Action& action) {
   auto options = std::make_shared<SensorStatsOptions>();
-  CLI::App* command = sensor.add_subcommand("stats", "Statistics of a sensor's recordings");
+  CLI::App* command = sensor.add_subcommand("stats", "Compute statistics of a sensor's recordings");
   command->add_option("files", options->files, "Recordings")->required();
   command->add_option("--reference", options->reading.reference, "The same motion from a trusted system");
   command->add_option("--simulate", options->simulate, "Also simulate this sensor: v1, v2 or a sensor file");
@@ -248,7 +248,7 @@ void PrintHalves(const RealRecording& real, const SensorFitOptions& options, Jso
   const auto first = MakeRealRecording(Excerpt(real.recording, 0, frames / 2), real.twin);
   const auto second = MakeRealRecording(Excerpt(real.recording, frames / 2, frames), real.twin);
   if (!first || !second) {
-    fmt::print("\nThe halves are too short to be fitted by themselves.\n");
+    fmt::print("\nThe halves are too short to be fitted separately.\n");
     return;
   }
   fmt::print("\nHow the halves of the recording differ:\n{}",
@@ -277,7 +277,8 @@ Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
   RETURN_IF_ERROR(WriteFileAtomically(options.output, text));
   // Compare it with the recording, and fitted halves with each other.
   Json checks = Json::array();
-  checks.push_back(PrintComparison("Fitted to all of it, compared with other dice:", "real", real, sensor));
+  checks.push_back(PrintComparison(
+      "Fitted to the whole recording, compared with a simulation by other random numbers:", "real", real, sensor));
   PrintHalves(real, fit, checks);
   fmt::print("\n");
   TellWritten(options.output);
@@ -292,13 +293,13 @@ Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
 
 void DefineFit(CLI::App& sensor, Action& action) {
   auto options = std::make_shared<SensorFitCommandOptions>();
-  CLI::App* command = sensor.add_subcommand("fit", "A sensor file for scenarios, fitted to a recording");
+  CLI::App* command = sensor.add_subcommand("fit", "Fit a sensor file for scenarios to a recording");
   command->add_option("file", options->file, "A recording")->required();
   command->add_option("--reference", options->reading.reference, "The same motion from a trusted system")->required();
   command->add_option("-o,--output", options->output, "The sensor file to write (YAML)")->required();
   command
       ->add_option("--base", options->base,
-                   "The sensor that gives all values that are not fitted: v1, v2 or a sensor file")
+                   "The sensor from which all values are taken that are not fitted: v1, v2 or a sensor file")
       ->capture_default_str();
   command->add_option("--worlds", options->worlds, "Simulated recordings per step")
       ->check(CLI::Range(1, 10000))
@@ -315,7 +316,7 @@ void DefineFit(CLI::App& sensor, Action& action) {
 }  // namespace
 
 void DefineSensor(CLI::App& app, Action& action) {
-  CLI::App* sensor = app.add_subcommand("sensor", "Statistics of sensors, and sensors fitted to recordings");
+  CLI::App* sensor = app.add_subcommand("sensor", "Compute statistics of sensors, and fit sensors to recordings");
   sensor->require_subcommand(1);
   sensor->footer(kSensorExamples);
   DefineStats(*sensor, action);

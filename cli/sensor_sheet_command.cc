@@ -39,7 +39,7 @@ Result<void> WriteSheet(const SensorSheetOptions& options) {
 }
 
 Result<int> SensorSheetCommand(const SensorSheetOptions& options) {
-  if (!options.output.ends_with(".png")) return Fail({options.output}, "is not a picture's name; allowed: .png");
+  if (!options.output.ends_with(".png")) return Fail({options.output}, "is not the name of a picture; allowed: .png");
   RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   RETURN_IF_ERROR(WriteSheet(options));
   TellWritten(options.output);
@@ -51,7 +51,7 @@ Result<int> SensorSheetCommand(const SensorSheetOptions& options) {
 void DefineSheet(CLI::App& sensor, Action& action) {
   auto options = std::make_shared<SensorSheetOptions>();
   CLI::App* command = sensor.add_subcommand(
-      "sheet", "A contact sheet of the first world: both cameras, every effect at three strengths");
+      "sheet", "Draw a contact sheet of the first world: both cameras, every effect at three strengths");
   command->add_option("scenario", options->scenario, "A scenario file")->required();
   command->add_option("-o,--output", options->output, "The picture to write (.png)")->required();
   AddSeed(*command, options->seed, "Seed of the world (default: the scenario's, else 1)");

@@ -11,7 +11,7 @@ void AddStreamReading(CLI::App& command, StreamArguments& reading) {
       ->check(CLI::IsMember(StreamFormatNames()));
   command
       .add_option("--rate", reading.rate_hz,
-                  "Frame rate of recordings without a clock, Hz (default: 30); for clips, it replaces their own")
+                  "Frame rate of recordings without a clock, Hz (default: 30); for clips, it replaces their own rate")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
   command.add_option("--body", reading.body, "Which of several bodies is read, counted by first appearance from 0")
       ->check(CLI::Range(0, 1000));

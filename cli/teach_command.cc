@@ -28,10 +28,10 @@ struct TeachCommandOptions {
 };
 
 constexpr const char* kTeachExamples =
-    "\nFinds what recognisers are told of a move: key poses with tolerances, and the performances themselves.\n"
-    "Without labels one file is one move, called by the file's name. Labels are a CSV (clip,from_s,to_s,move,truth "
-    "and,\n"
-    "where it matters, person), MSRC-12's tag streams or UTKinect's action labels: docs/streams.md.\n\n"
+    "\nFinds what recognisers need to know about a move: key poses with tolerances, and the performances "
+    "themselves.\nWithout labels each file is one move with the file's name. Labels are a CSV "
+    "(clip,from_s,to_s,move,truth and,\noptionally, person), MSRC-12's tag streams or UTKinect's action labels: "
+    "docs/streams.md.\n\n"
     "Try:\n"
     "  etude teach wave.csv clap.csv -o moves.yaml\n"
     "  etude teach kinect/*.txt --labels labels.csv -o moves.yaml\n"
@@ -118,7 +118,7 @@ void DefineTeach(CLI::App& app, Action& action) {
   auto options = std::make_shared<TeachCommandOptions>();
   CLI::App* command = app.add_subcommand("teach", "Learn moves from recordings and clips");
   command->add_option("streams", options->streams, "Recordings, clips, patterns, folders")->required();
-  command->add_option("--labels", options->labels, "Who did what when: a file, or a folder of tag streams");
+  command->add_option("--labels", options->labels, "Labels (who did what when): a file, or a folder of tag streams");
   command->add_option("--without", options->without, "Leave this move out")->allow_extra_args(false);
   command->add_option("-o,--output", options->output, "The moves file to write (YAML)")->required();
   AddOverwrite(*command, options->overwrite);

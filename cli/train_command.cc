@@ -51,10 +51,10 @@ struct TrainOptions {
 
 constexpr const char* kTrainExamples =
     "\nPaper A's distance says that two frames match when d < 0.4. The weights of its ten features (S) and the\n"
-    "corners of its membership functions were chosen by hand. This command learns them: it takes pairs of frames\n"
-    "from two clips at a time, calls a pair close when its worst joint is less than 15 cm off (after turning and\n"
-    "moving one onto the other on the floor), and searches for the system whose d < 0.4 finds the close pairs\n"
-    "best. It never learns from the clips held out, which judge the result.\n\n"
+    "corners of its membership functions were chosen by hand. This command learns them: it takes pairs of frames\nfrom "
+    "two clips at a time, calls a pair close if no joint differs by 15 cm or more (after one pose is aligned with\nthe "
+    "other on the floor), and searches for the system whose d < 0.4 finds the close pairs best. It never learns\nfrom "
+    "the clips that are held out, which are used to judge the result.\n\n"
     "A scenario uses the file by `fuzzy: tuned.yaml`; docs/fuzzy-system.md explains it.\n\n"
     "With --recogniser it learns the model of the recogniser `learnt` (docs/detection.md): simulated people dance the\n"
     "labelled clips, right and wrong, and the model learns to tell them apart. With --coached it learns that of\n"
@@ -63,9 +63,9 @@ constexpr const char* kTrainExamples =
     "  etude train 'builtin:*' -o tuned.yaml                           S, by a genetic algorithm\n"
     "  etude train 'builtin:*' -o tuned.yaml --memberships             the membership functions, too\n"
     "  etude train 'builtin:*' -o tuned.yaml --method adaptive         S, by logistic regression\n"
-    "  etude train 'builtin:*' 'mocap/*.bvh' -o tuned.yaml --hold-out 'mass_*'    judge by these\n"
-    "  etude train 'builtin:*' -o learnt.yaml --recogniser             what recogniser learnt knows\n"
-    "  etude train groove sprint warm_up -o coached.yaml --coached     what recogniser coached knows";
+    "  etude train 'builtin:*' 'mocap/*.bvh' -o tuned.yaml --hold-out 'mass_*'    judged by these\n"
+    "  etude train 'builtin:*' -o learnt.yaml --recogniser             the model of recogniser learnt\n"
+    "  etude train groove sprint warm_up -o coached.yaml --coached     the model of recogniser coached";
 
 constexpr std::size_t kMaxTrainingClips = 150;
 
@@ -91,7 +91,7 @@ Result<std::vector<bool>> ChooseHeldOut(const std::vector<std::string>& names, c
       held_out[i] = fnmatch(options.hold_out.c_str(), names[i].c_str(), 0) == 0;
     }
     if (std::find(held_out.begin(), held_out.end(), true) != held_out.end()) return held_out;
-    return Fail({"--hold-out", 0, 0}, "no clip is called {}; the clips: {}", Quote(options.hold_out), Join(names));
+    return Fail({"--hold-out", 0, 0}, "no clip is called {}; known clips: {}", Quote(options.hold_out), Join(names));
   }
   if (!(*share >= 0 && *share < 1)) {
     return Fail({"--hold-out", 0, 0}, "{} is neither a pattern of names nor a share; allowed shares: 0 up to below 1",
@@ -132,7 +132,7 @@ Result<Split> LoadSplit(const TrainOptions& options) {
     (held_out[i] ? split.held_out : split.learnt).push_back(std::move(all.frames[i]));
   }
   if (split.learnt.size() >= 2) return split;
-  return Fail({}, "{} left to learn from, {} held out; pairs need two clips at least",
+  return Fail({}, "{} left to learn from, {} held out; pairs of frames need at least two clips",
               split.learnt.size() == 1 ? "one clip is" : "no clip is", split.held_out.size());
 }
 
@@ -206,7 +206,7 @@ GeneticOptions GeneticOptionsOf(const TrainOptions& options) {
 
 Result<void> CheckOptions(const TrainOptions& options) {
   if (options.memberships && options.method != "genetic") {
-    return Fail({"--memberships", 0, 0}, "the method '{}' learns weights only; allowed with: --method genetic",
+    return Fail({"--memberships", 0, 0}, "the method '{}' only learns weights; allowed with: --method genetic",
                 options.method);
   }
   if (options.method == "genetic") RETURN_IF_ERROR(LoadGeneticSearch());
@@ -216,9 +216,9 @@ Result<void> CheckOptions(const TrainOptions& options) {
 std::string WhyNothing(WeightFitStatus status) {
   switch (status) {
     case WeightFitStatus::kOneClassOnly:
-      return "no pair of frames of two different clips is close, or all pairs are: there is nothing to tell apart";
+      return "no pair of frames of two different clips is close, or all pairs are: there is nothing to distinguish";
     case WeightFitStatus::kNothingCounts:
-      return "no feature tells the close pairs";
+      return "no feature distinguishes the close pairs";
     default:
       return "the regression did not converge";
   }
@@ -241,7 +241,7 @@ Result<int> TrainCommand(const TrainOptions& options) {
                                          {"output", options.output}}));
     return kSuccess;
   }
-  fmt::print("{} clips learnt from, {} held out; how well d < 0.4 tells pairs of frames that look alike:\n",
+  fmt::print("{} clips learnt from, {} held out; how well d < 0.4 finds pairs of frames that look alike:\n",
              split.learnt.size(), split.held_out.size());
   for (const std::string& line : comparison) fmt::print("{}\n", line);
   TellWritten(options.output);
@@ -256,7 +256,7 @@ struct Trained {
 };
 
 constexpr const char* kHeader =
-    "# What the recogniser `{}` knows, by `etude train --{} --sessions {} --seed {}` of\n#   {}\n"
+    "# The model of the recogniser `{}`, made by `etude train --{} --sessions {} --seed {}` of\n#   {}\n"
     "# Trees: measure and limit of each question, then what the answers add to the log-odds of \"right\".\n";
 
 Result<Trained> TrainLearnt(const TrainOptions& options) {
@@ -303,7 +303,7 @@ void DefineTrain(CLI::App& app, Action& action) {
   auto options = std::make_shared<TrainOptions>();
   CLI::App* command = app.add_subcommand("train", "Learn a fuzzy system or a recogniser from clips");
   // The inputs and outputs; then the fuzzy system's options.
-  command->add_option("clips", options->clips, "Clips to learn from and to judge by")->required();
+  command->add_option("clips", options->clips, "Clips to learn from and to judge the result")->required();
   command->add_option("-o,--output", options->output, "The file to write (YAML)")->required();
   command->add_option("--method", options->method, "Learning method")
       ->check(CLI::IsMember({"adaptive", "genetic"}))
@@ -311,7 +311,8 @@ void DefineTrain(CLI::App& app, Action& action) {
   command->add_flag("--memberships", options->memberships, "Also tune the membership functions (genetic)");
   command
       ->add_option("--hold-out", options->hold_out,
-                   "Clips held out for judging: a share drawn by the seed (0: none), or a pattern of names")
+                   "Clips that are not learnt from but used to judge: a share drawn by the seed (0: none), or a "
+                   "pattern of names")
       ->capture_default_str();
   AddSeed(*command, options->seed, "Seed");
   command->add_option("--population", options->population, "Genomes per generation")

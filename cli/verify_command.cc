@@ -57,7 +57,7 @@ std::string CheckSample(const std::string& text) {
 /// Draws an unpredictable seed, with as many bits as every JSON reader keeps.
 Result<std::uint64_t> FreshDice() {
   std::uint64_t dice = 0;
-  if (::getrandom(&dice, sizeof dice, 0) != sizeof dice) return FailOfMachine("gives no random numbers");
+  if (::getrandom(&dice, sizeof dice, 0) != sizeof dice) return FailOfMachine("did not return random numbers");
   return dice >> 11;
 }
 
@@ -74,16 +74,17 @@ std::string SampleInWords(const CellChoice& choice) {
   for (const MissedForgery& one : WhatIsMissed(choice)) {
     const std::string share = ShareInWords(one.chance);
     if (!one.method.empty()) {
-      missed.push_back(fmt::format("{} of those who forge half of {} ({})", share, one.method, one.forged));
+      missed.push_back(fmt::format("{} of forgers who change half of {} ({})", share, one.method, one.forged));
     } else if (missed.empty()) {
-      missed.push_back(fmt::format("{} of those who forge 5 % of the {} cells ({})", share, one.cells, one.forged));
+      missed.push_back(fmt::format("{} of forgers who change 5 % of the {} cells ({})", share, one.cells, one.forged));
     } else {
-      missed.push_back(fmt::format("{} of those who forge one", share));
+      missed.push_back(fmt::format("{} of forgers who change one", share));
     }
   }
   if (missed.empty()) return "Every cell that can be run again was.";
-  return fmt::format("The sample misses {}. --sample all misses none; --sample-seed {} draws this one again.",
-                     Join(missed), choice.dice);
+  return fmt::format(
+      "The sample does not detect {}. --sample all detects every forger; --sample-seed {} draws this sample again.",
+      Join(missed), choice.dice);
 }
 
 /// Lists by method the rows that running cells again cannot verify.
@@ -94,8 +95,8 @@ std::vector<std::string> NotVerified(const CellChoice& choice) {
     if (!method.why_not.empty())
       lines.push_back(fmt::format("{}: all {} cells: {}", name, method.rows, method.why_not));
     for (const auto& [status, rows] : method.by_machine) {
-      lines.push_back(fmt::format("{}: {} of {} cells say {}, as their machine did; another need not", name, rows,
-                                  method.rows, status));
+      lines.push_back(fmt::format("{}: {} of {} cells ended with {} on their machine; they need not on another", name,
+                                  rows, method.rows, status));
     }
   }
   return lines;
@@ -128,7 +129,7 @@ Result<void> AddReport(const std::string& folder, std::vector<Verified>& all, st
   std::ranges::move(gate.not_compared, std::back_inserter(check.not_compared));
   std::ranges::move(check.not_compared, std::back_inserter(not_verified));
   if (check.files > 0 || !check.differences.empty()) {
-    all.push_back({fmt::format("report: {} files, made again", check.files), std::move(check.differences)});
+    all.push_back({fmt::format("report: {} files, which were made again", check.files), std::move(check.differences)});
   }
   return {};
 }
@@ -180,7 +181,7 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
   } else {
     PrintList("Not verified:", not_verified);
     fmt::print("{}\n", choice ? SampleInWords(*choice) : "No cell was run again.");
-    fmt::print("{} of {} agree. Times and machines cannot be verified.\n", agree, all.size());
+    fmt::print("{} of {} agree. Times and the machine cannot be verified.\n", agree, all.size());
   }
   // Sign the run only if everything agrees.
   if (agree < all.size()) return kNothingWorked;
@@ -203,9 +204,11 @@ void DefineVerify(CLI::App& app, Action& action) {
       ->check(CheckSample)
       ->capture_default_str();
   command->add_option("--sample-seed", options->replay.dice,
-                      "Seed that draws them, to repeat a check; a forger must not know it (default: random)");
-  command->add_option("--sign", options->sign, "Sign the run with this secret key if all agrees (minisign -G -W)");
-  command->add_option("--check", options->check, "Check its signature with this public key, or its file (minisign)");
+                      "Seed of the sample, to repeat a check; a forger must not know it (default: random)");
+  command->add_option("--sign", options->sign,
+                      "Sign the run with this secret key if everything agrees (minisign -G -W)");
+  command->add_option("--check", options->check,
+                      "Check its signature with this public key, or with a file of it (minisign)");
   AddSeedFile(*command, options->key_file);
   AddOutsideRules(*command, options->replay.outside);
   AddJobs(*command, options->replay.jobs);

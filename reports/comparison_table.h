@@ -19,15 +19,15 @@ std::string ShortDifference(double difference, const MetricWords& words);
 inline constexpr std::string_view kComparisonLegend =
     "A difference is method − baseline in the same world: the median over worlds, of shares and penalised costs the "
     "mean; "
-    "its 95 % interval is a BCa bootstrap (of shares adjusted Wald; †: percentile, where BCa is undefined). p is of "
-    "Wilcoxon’s signed ranks (where the mean counts, of sign flips), corrected over the scenario’s comparisons (Holm). "
+    "its 95 % interval is a BCa bootstrap (of shares adjusted Wald; †: percentile, where BCa is undefined). p is that "
+    "of Wilcoxon’s signed-rank test (of a sign-flip test where the mean counts), corrected over the scenario’s "
+    "comparisons (Holm). "
     "Effect is the rank-biserial correlation, −1 to +1, + is better. Better or worse needs p ≤ 0.05, an interval on "
     "one "
-    "side of zero, and a difference that matters; no difference, an interval within what matters. Where one method "
-    "alone "
-    "failed, p counts that world as its loss, and the verdict must hold with and without. Beyond these worlds the middle "
-    "of the mean differences of clips, people or libraries decides (their Hodges–Lehmann estimate); with fewer than 6 "
-    "there is no such verdict.";
+    "side of zero, and a difference that matters; no difference, an interval within what matters. A world in which "
+    "only one method failed counts as its loss in p, and the verdict must hold with and without such worlds. The "
+    "verdict about other clips, people or libraries follows from the middle of their mean differences (the "
+    "Hodges–Lehmann estimate); with fewer than 6 of them there is no such verdict.";
 
 /// Counts the comparisons in the tables below: each pair of methods under one metric and condition counts once.
 std::size_t CountComparisons(const ScenarioSummary& scenario);

@@ -127,7 +127,7 @@ std::string RatioClaim(const RatioResult& ratio) {
 }
 
 std::string RatioDetail(const RatioResult& ratio) {
-  if (!ratio.median) return "no world has both times";
+  if (!ratio.median) return "no world has the times of both methods";
   const std::string median = "median " + FormatNumber(*ratio.median);
   const std::string worlds = Plural(ratio.pairs, "world");
   if (!ratio.ci_low) return fmt::format("{} on {}, too few for an interval", median, worlds);
@@ -297,7 +297,7 @@ std::string WriteGateMarkdown(const GateReport& report) {
       fmt::format("## Etude gate of {}: {}\n\n", EscapeMarkdown(report.suite), GateVerdictWords(GateVerdictOf(report)));
   // What was judged, and what failed.
   for (const std::string& sentence : GateSentences(report)) text += "- " + EscapeMarkdown(sentence) + "\n";
-  text += List("**Incomplete**, so there is no verdict on the whole:", report.incomplete);
+  text += List("**Incomplete**, so there is no overall verdict:", report.incomplete);
   text += List("**Methods without an answer:**", report.silent);
   text += List("**Not met:**", ClaimsThatAre(report, ClaimOutcome::kUnmet));
   // Changes: those that fail stay open, all others are folded away.
@@ -306,19 +306,19 @@ std::string WriteGateMarkdown(const GateReport& report) {
   if (!failing.empty()) text += MoveTable(failing);
   text += WorldList("**Worlds that are far worse:**", TailLines(report, true, kMaxWorldsEach, kMaxWorlds));
   if (!others.empty()) {
-    text += fmt::format("\n<details><summary>What else moved ({})</summary>\n{}{}\n</details>\n", others.size(),
+    text += fmt::format("\n<details><summary>What else changed ({})</summary>\n{}{}\n</details>\n", others.size(),
                         MoveTable(others),
                         WorldList("Single worlds that are far worse, too few to fail:",
                                   TailLines(report, false, kMaxWorldsEach, kMaxWorlds)));
   }
   // What could not be decided or compared, and what changed in the scenario.
   text += List("Could not be decided:", ClaimsThatAre(report, ClaimOutcome::kUndecided));
-  text += List("New, not in the baseline (`--update` takes it in):", report.comparison.only_after);
+  text += List("New, not in the baseline (`--update` adds it):", report.comparison.only_after);
   text += List("Settings of the method changed in the scenario:", report.comparison.settings_changed);
   if (!report.baseline_file.empty()) {
     text += fmt::format(
-        "\nBaseline {} (Etude {}), run by Etude {}. p: after Holm's correction. Worlds: "
-        "where the values differ, of those compared.\n",
+        "\nBaseline {} (Etude {}), run by Etude {}. p: after Holm's correction. Worlds: number of worlds in which the "
+        "values differ, of those compared.\n",
         EscapeMarkdown(report.baseline_file), EscapeMarkdown(report.baseline_version),
         EscapeMarkdown(report.program_version));
   }

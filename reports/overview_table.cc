@@ -196,8 +196,8 @@ std::string MissingHtml(const RunData& run, const ScenarioSummary& scenario) {
 }
 
 constexpr std::string_view kLegend =
-    "Apart: the worst joint, once headings and hips are laid onto each other. ✗: called alike, though a joint is more "
-    "than 20 cm off. Beside it what the method measured: the fuzzy distance, or centimetres.";
+    "Apart: the distance of the worst joint after headings and hips are aligned. ✗: called alike although a joint is "
+    "more than 20 cm off. Beside it is the distance that the method measured: the fuzzy distance, or centimetres.";
 
 std::string VerdictOf(const Row& row) {
   const auto alike = ValueOf(row, "called_alike");

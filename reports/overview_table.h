@@ -17,9 +17,10 @@ std::string OverviewTableMarkdown(const ScenarioSummary& scenario);
 
 /// Explains the signs in such tables.
 inline constexpr std::string_view kSigns =
-    "In tables the first sign is of the verdict against the method’s baseline, the second against the strongest other "
-    "method: ▲ better, ▼ worse, = no difference that matters, ? undecided, · not compared; in brackets on these worlds "
-    "only. Figures are medians, or means of shares and scores, with 95 % intervals.";
+    "In tables the first sign is the verdict against the method’s baseline, the second the verdict against the "
+    "strongest other method: ▲ better, ▼ worse, = no difference that matters, ? undecided, · not compared. A sign in "
+    "brackets, such as (=), is a verdict about these worlds only, because there is none about other clips or people. "
+    "Figures are medians, or means of shares and scores, with 95 % intervals.";
 
 /// Returns a table of named pairs of poses: the distance of each pair and each method's verdict. Returns "" unless the
 /// task is `pose-distance` and its worlds are single pairs.

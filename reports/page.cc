@@ -97,20 +97,20 @@ std::string Answers(const RunData& run, const std::vector<ScenarioFindings>& fin
 
 constexpr std::string_view kHowToRead =
     R"(<p>A <b>world</b> is one simulated trial whose truth is known; every method meets the same worlds, so differences are
-taken world by world. In pictures a dot is a world, a thick line the median (of shares the mean), a box the middle half.
-<b>Better</b> and <b>worse</b> mean that the interval of the difference lies clear of zero and
-matters in practice; <b>no difference</b>, that it lies within what would matter; <b>inconclusive</b>, that nothing is
-settled, and never that there is no difference.</p>
+computed world by world. In pictures a dot is a world, a thick line the median (for shares the mean), a box the middle half.
+<b>Better</b> and <b>worse</b> mean that the interval of the difference excludes zero and that the difference matters in
+practice; <b>no difference</b>, that the interval contains only differences that do not matter; <b>inconclusive</b>, that
+the data do not decide, which never means that there is no difference.</p>
 <p>An <b>answer</b> is about <b>success</b> first: which method solves, finds or recovers more, where 5 percentage points
-matter and a failure counts. Where success does not decide, the first headline metric does; where that does not either, the
-<b>tail</b>: the worlds in which a method is far better or far worse. A world is <b>lost</b> to a method if it is worse there by
-as much as matters.</p>
+matter and a failure counts. If success does not decide, the first headline metric does; if that does not either, the
+<b>tail</b> does: the worlds in which a method is far better or far worse. A method <b>loses</b> a world if it is worse
+there by as much as matters.</p>
 <p>Each comparison has two verdicts. <b>On these worlds</b> (these clips, these people): the differences that were
-measured. <b>Beyond them</b> (for other clips, other people): there a clip counts once, however many worlds were drawn
-from it, and with fewer than six clips there is no such verdict. It is about the <b>middle</b> of the clips (the median of the
-means of every two), which one clip that is far off does not move; the mean must have the same sign. A sign in brackets, such
-as (=), holds on these worlds only.</p>
-<p>Status <b>ok</b> means that a cell was measured, not that it reached anything: success has shares of its own. <b>Unsolved</b>: it answered, but missed its goal. Whatever failed is counted and named; a missing value is shown as —, never as zero.</p>
+measured. <b>Beyond them</b> (for other clips, other people): each clip counts once, however many worlds were drawn
+from it, and with fewer than six clips there is no such verdict. It is about the <b>middle</b> of the clips (the median of
+the means of all pairs), which a single unusual clip does not move; the mean must have the same sign. A sign in brackets,
+such as (=), holds on these worlds only.</p>
+<p>Status <b>ok</b> means that a cell was measured, not that it reached its goal: success is reported separately. <b>Unsolved</b>: it answered, but missed its goal. Every failure is counted and named; a missing value is shown as —, never as zero.</p>
 )";
 
 std::string HowToRead() {
@@ -122,8 +122,8 @@ std::string HowToRead() {
 std::string LeftOutSentence(const RunData& run) {
   if (!run.source) return "";
   return fmt::format(
-      " Figures and verdicts are of all cells; dots, curves and why values are missing, of {} of them: "
-      "whole worlds at equal steps.",
+      " Figures and verdicts use all cells; dots, curves and the reasons for missing values use {} of them: whole "
+      "worlds at equal steps.",
       FormatCount(static_cast<long long>(run.rows.size())));
 }
 
@@ -149,11 +149,10 @@ std::string RealTakesSection(const RunData& run, std::span<const RealTake> takes
   if (takes.empty()) return "";
   const std::string html =
       "<section class=\"card\"><h2>On real films</h2><p>How far captures of real films are from a reference "
-      "(<code>etude capture --reference</code>), beside the simulated takes of this run. Of a real take: median and "
-      "95th "
-      "percentile over joints and frames. <b>Error</b> is error as far as the reference itself is right; what comes of "
-      "keypoints is <b>agreement</b> where the reference was made of the same ones. Of simulated takes: the median "
-      "over takes of the mean over joints and frames, from the true joints.</p>";
+      "(<code>etude capture --reference</code>), beside the simulated takes of this run. For a real take: median and "
+      "95th percentile over joints and frames. <b>Error</b> is error as far as the reference itself is right; a result "
+      "from keypoints is only <b>agreement</b> if the reference was made from the same keypoints. For simulated takes: "
+      "the median over takes of the mean distance from the true joints, over joints and frames.</p>";
   Table table{.label = "On real films",
               .columns = {{"Takes"},
                           {"Recovery"},

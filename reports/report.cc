@@ -78,7 +78,7 @@ Result<bool> WriteReport(const RunData& run, const std::filesystem::path& run_fo
                       {.whole_sessions = options.whole_sessions, .watch = options.watch});
     if (options.watch.IsStopped()) return false;
   } else {
-    media.film.why_not = "There is no film: none was asked for.";
+    media.film.why_not = "There is no film, because none was requested.";
   }
   RETURN_IF_ERROR(WriteFileAtomically(folder / kPage, WritePage(run, media, options.real)));
   return true;

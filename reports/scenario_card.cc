@@ -121,7 +121,7 @@ std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scena
   const MetricWords words = WordsFor(*name);
   Chart chart;
   chart.is_wide = follows_motion;
-  chart.caption = Caption(follows_motion ? "Frame by frame: median" : "How fast it gets there: median", words);
+  chart.caption = Caption(follows_motion ? "Frame by frame: median" : "Error by iteration: median", words);
   if (scenario.conditions.size() > 1) {
     chart.caption += follows_motion ? fmt::format("; under {}", ConditionLabel(first)) : "; over all conditions";
   }
@@ -309,7 +309,7 @@ std::string Files(const RunData& run, const ScenarioSummary& scenario, std::size
   link(tables + ".csv", "all numbers");
   link(tables + "-comparisons.csv", "all comparisons");
   link(tables + ".tex", "both for LaTeX");
-  link("../manifest.json", "the scenario’s text, and all that repeats the run");
+  link("../manifest.json", "the scenario’s text, and everything needed to repeat the run");
   std::size_t motions = 0;
   for (const auto& [row, recorded] : RecordedRows(run)) {
     if (row->scenario != scenario.name || row->task != "capture" || ++motions > kMaxListed) continue;
@@ -379,8 +379,7 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
                       EscapeMarkup(scenario.question.empty() ? scenario.name : scenario.question));
   html += "<div class=\"lead\"><div>" + AnswerBlock(findings) + FiguresHtml(findings.figures) + "</div>";
   const std::string picture = LeadPictureHtml(run, scenario);
-  html +=
-      picture.empty() ? "<p class=\"quiet\">No cell gave a value that could be drawn.</p></div>" : picture + "</div>";
+  html += picture.empty() ? "<p class=\"quiet\">No cell has a value that can be drawn.</p></div>" : picture + "</div>";
   html += WatchHtml(run, index);
   const std::string stills = Strip(scenario, media) + Plates(scenario, media);
   html += kMediaBegin;

@@ -106,9 +106,10 @@ std::string Caption(const ScenarioSummary& scenario, const ConditionSummary& con
     if (found.is_compared) answer = fmt::format(" {} ({})", found.sentence, found.BothVerdicts()) + ".";
   }
   return fmt::format(
-      "{}{}{} Medians (of shares means) with their 95 % intervals; n: cells that have the value, of those attempted. "
-      "Difference: method − baseline in the same world, its median (of shares and penalised costs its mean) with its "
-      "95 % interval; a second row compares with the strongest other method. The last columns hold the verdict on {} "
+      "{}{}{} Medians (for shares, means) with their 95 % intervals; n: number of cells that have the value, of those "
+      "attempted. Difference: method − baseline in the same world, its median (for shares and penalised costs, its "
+      "mean) with its 95 % interval; a second row compares with the strongest other method. The last columns hold the "
+      "verdict on {} "
       "and "
       "the one for {} (--: none, with fewer than 6 of them). p is Holm-corrected over this scenario’s {}: ",
       title, label.empty() ? "" : fmt::format(" ({})", label), answer, TheseUnits(scenario.unit),

@@ -94,7 +94,8 @@ Result<void> MusicPosition::Take(std::string_view line, int number) {
   double seconds = 0;
   const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), seconds);
   if (error != std::errc() || !(seconds >= 0 && seconds < 1e6)) {
-    return Fail({"the stream", number, 1}, "'#music' tells seconds into the song, as '#music 12.34'");
+    return Fail({"the stream", number, 1},
+                "'#music' is followed by the seconds from the song's beginning, such as '#music 12.34'");
   }
   if (now_s_) now_s_ = seconds;
   return {};

@@ -62,14 +62,15 @@ struct KeyPoseOptions {
   /// weights have no effect unless one of them is 0.
   double pose_share = 0.8;
   /// The number of consecutive seen frames in which a pose must be reached, ≥ 1. The default of three (ours), 0.1 s at
-  /// 30 Hz, rejects poses that are reached by noise. Change it with the frame rate: each frame more delays every
+  /// 30 Hz, rejects poses that are reached by noise. Change it with the frame rate: each additional frame delays every
   /// detection by one frame, and quick performers do not hold a pose for long.
   int hold_frames = 3;
 };
 
-/// Returns how well this frame matches the pose, in [0, 1]: 1 / (1 + s²), where s is the smallest factor on all
-/// tolerances with which the wanted share of angles is within them. The result is at least ½ exactly if paper A's crisp
-/// rule is fulfilled; a lower threshold means wider tolerances. It is 0 if no angle has a positive weight.
+/// Returns how well this frame matches the pose, in [0, 1]: 1 / (1 + s²), where s is the smallest factor such that,
+/// with all tolerances multiplied by it, the required share of angles is within them. The result is at least ½ exactly
+/// if paper A's crisp rule is fulfilled; a lower threshold means wider tolerances. It is 0 if no angle has a positive
+/// weight.
 double MatchOf(const FeatureFrame& frame, const TaughtPose& pose, const TrackingWeights& weights,
                const KeyPoseOptions& options);
 

@@ -157,13 +157,13 @@ class MeasuringFollower final : public StepFollower {
       std::ranges::copy(window->clock.Measure(usual_.Shift()).All(), measures.begin() + kClockSlice.first);
       std::ranges::copy(window->rigid.Measure(usual_.Shift()), measures.begin() + kRigidSlice.first);
     }
-    // Add each measure's difference from what is usual of this person.
+    // Compare each measure with the usual measures of this person.
     usual_.Relate(measures);
     if (window == nullptr) std::fill(measures.begin() + kClockSlice.first, measures.end(), 0.0);
     return measures;
   }
 
-  /// Returns the cost of holding still in the example's mean pose along the same path. It replaces the cost of other
+  /// Returns the cost of holding still in the example's mean pose along the same path. It replaces the costs of other
   /// moves if only one move was taught.
   static double CostOfHolding(const TaughtExample& example, std::span<const StepPair> path,
                               const std::function<const PoseVector&(int)>& seen) {

@@ -20,9 +20,9 @@ enum class PerformanceOrigin {
 using PerformanceJudge = std::function<double(PerformanceOrigin origin, std::size_t move, const PerformanceMeasures& measures)>;
 
 /// Makes a recogniser that aligns the stream with every example (limb directions, SubsequenceAligner) and lets `judge`
-/// score the measures of the alignments. In every step it judges the asked move, also by the asker's clock
-/// (ClockComparison), and the nearest move as a spotted one. It learns the person's usual measures from the best
-/// alignments of the performances asked for. It ignores examples that show no body.
+/// score the measures of the alignments. In every step it judges the asked move, whose timing it also compares with the
+/// window's (ClockComparison), and the nearest move as a spotted one. It learns the person's usual measures from the
+/// best alignments of the performances asked for. It ignores examples that show no body.
 std::unique_ptr<Recogniser> MakeMeasuringRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
                                                     PerformanceJudge judge);
 

@@ -29,7 +29,7 @@ ClockComparison::ShiftSum ClockComparison::SumOf(Part part, int shift) const {
 }
 
 ClockComparison::Fit ClockComparison::FitOf(Part part, double usual_s) const {
-  constexpr double kMinShare = 0.6;     // of the part; with fewer steps in common there is no fit
+  constexpr double kMinShare = 0.6;     // of the part; a fit needs at least this share of steps in common
   constexpr double kPerSecond2 = 0.02;  // if two shifts fit equally well, take the one nearer to the usual shift
   const double usual = std::clamp(usual_s * kStepsPerSecond, -1.0 * kMaxSteps, 1.0 * kMaxSteps);
   const double length = static_cast<double>(pattern_.size()) * (part == Part::kWhole ? 1 : 0.5);
@@ -110,17 +110,17 @@ LimbMeasures MeasureLimb(const LimbSums& sums) {
   const double covariance = sums.products / w - glm::dot(seen, taught);
   const double seen_variance = std::max(0.0, sums.seen_squares / w - glm::dot(seen, seen));
   const double taught_variance = std::max(0.0, sums.taught_squares / w - glm::dot(taught, taught));
-  constexpr double kStill = 0.02;  // regularises the ratio for a limb that hardly moves in the example
+  constexpr double kStill = 0.02;  // keeps the ratio small for a limb that hardly moves in the example
   return {.error = std::sqrt(sums.gaps / w),
           .centred = std::sqrt(std::max(0.0, seen_variance + taught_variance - 2 * covariance)),
           .missing = 1.0 - (covariance + kStill) / (taught_variance + kStill)};
 }
 
-/// Parts of PoseParts::kLimbs: those of the middle, then pairs.
+/// Parts of PoseParts::kLimbs: those of the body's middle, then pairs of left and right.
 constexpr std::array<std::size_t, 4> kMiddle = {0, 1, 2, 11};
 constexpr std::array<std::array<std::size_t, 2>, 4> kPairs = {{{3, 4}, {5, 6}, {7, 8}, {9, 10}}};
 
-/// Puts the limbs' measures at the beginning, and returns how many there are.
+/// Writes the limbs' measures to the beginning, and returns their number.
 std::size_t PutLimbs(const std::array<LimbMeasures, kPosePartCount>& limbs, std::span<double> measures) {
   std::size_t next = 0;
   for (double LimbMeasures::*what : {&LimbMeasures::error, &LimbMeasures::centred, &LimbMeasures::missing}) {
@@ -204,7 +204,8 @@ PerformanceMeasures Measure(const AlignedPerformance& performance) {
 
 namespace {
 
-/// Calls `relate(own, beyond)` with the index of every measure and the index of its difference from the usual.
+/// Calls `relate(own, difference)` with the index of every measure and the index of its difference from the person's
+/// usual value.
 template <typename Relate>
 void ForEachOwn(const Relate& relate) {
   for (const MeasureSlice& slice : {kOwnMeasures, kClockSlice, kRigidSlice}) {
@@ -220,7 +221,7 @@ int RigidComparison::TaughtAt(int seen, std::size_t pace, int lag) {
 
 void RigidComparison::Update(const PoseVector& seen) {
   const int now = static_cast<int>(seen_.size()), size = static_cast<int>(pattern_.size());
-  // Past the end even at the slowest pace and largest lag.
+  // The pattern ends before this step even at the slowest pace and the largest lag.
   if (TaughtAt(now, kPaces.size() - 1, kLatest) >= size) return;
   seen_.push_back(seen);
   for (std::size_t j = 0; j < pattern_.size(); ++j) distances_[j] = SquaredDistance(seen, pattern_[j]);
@@ -236,7 +237,7 @@ void RigidComparison::Update(const PoseVector& seen) {
 }
 
 std::array<double, kRigidMeasures> RigidComparison::Measure(double usual_s) const {
-  constexpr double kMinShare = 0.6;  // of the example; with fewer steps in common there is no fit
+  constexpr double kMinShare = 0.6;  // of the example; a fit needs at least this share of steps in common
   // If two fits are equally good, prefer the usual lag and the taught pace.
   constexpr double kPerSecond2 = 0.01, kPerLog2 = 0.1;
   constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -299,7 +300,8 @@ void PersonBaseline::Relate(PerformanceMeasures& performance) const {
 }
 
 double PersonBaseline::Shift() const {
-  // A window opens one reaction time after the coach begins, and people follow slightly later than that (ours).
+  // A window opens one reaction time after the coach begins, and people follow slightly later than the window opens
+  // (ours).
   constexpr double kUnknown = -0.1;
   return latest_.empty() ? kUnknown : usual_[kClockSlice.first];
 }

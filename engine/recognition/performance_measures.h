@@ -10,31 +10,31 @@
 
 namespace etude {
 
-/// Measures of how a performance keeps time with whoever asks for it: what is seen since the window opened is compared
-/// with an example that is shifted in time as a whole, never warped. A warped path hides who is late in the middle; and
-/// a move that repeats itself fits anywhere.
+/// Measures of the timing of a performance relative to the window in which it was asked for. The steps since the window
+/// opened are compared with the example shifted in time as a whole, without warping. A warped path would hide a delay
+/// in the middle of a performance, and a move that repeats itself can be aligned anywhere.
 struct ClockMeasures {
-  double shift = 0;   ///< seconds by which the example must come later to fit best
-  double first = 0;   ///< likewise of the example's first half alone
+  double shift = 0;   ///< the delay of the example, in seconds, with which it fits best
+  double first = 0;   ///< the same for the first half of the example
   double second = 0;  ///< of its second half
   double drift = 0;   ///< second − first
-  /// Root mean squared distance at the shift that is usual of this person, and by how much that falls where the example
-  /// is moved: all of it, its first half, its second.
+  /// `off` is the root mean squared distance at this person's usual shift. The gains are the reductions of it at the
+  /// best shift: of the whole example, of its first half and of its second half.
   double off = 0, gain = 0, first_gain = 0, second_gain = 0;
 
   std::array<double, 8> All() const { return {shift, first, second, drift, off, gain, first_gain, second_gain}; }
 };
 constexpr std::size_t kClockMeasures = 8;
 
-/// Gathers the measures step by step.
+/// Computes ClockMeasures step by step.
 class ClockComparison {
  public:
-  /// Compares with `pattern`, of limbs, which must outlive this.
+  /// Compares with `pattern`, in parts of kLimbs, which must outlive this object.
   explicit ClockComparison(std::span<const PoseVector> pattern);
 
-  /// Takes the next step since the window opened.
+  /// Takes the next step of the window.
   void Update(const PoseVector& seen);
-  /// Measures the steps so far. `usual_s` is the shift that is usual of this person.
+  /// Returns the measures of the steps so far. `usual_s` is this person's usual shift.
   ClockMeasures Measure(double usual_s) const;
 
  private:
@@ -56,20 +56,21 @@ class ClockComparison {
   std::array<std::array<ShiftSum, 2 * kMaxSteps + 1>, 2> halves_{};  ///< of the example, by shift
 };
 
-/// The limbs' measures as of a warped path (36), then lag in seconds, logarithm of the pace (below 0: faster than
-/// taught), distance, distance at the taught pace, and the share of the example that was seen.
+/// The limbs' measures as for a warped path (36), then the lag in seconds, the logarithm of the pace (below 0: faster
+/// than taught), the distance, the distance at the taught pace, and the share of the example that was seen.
 constexpr std::size_t kRigidMeasures = 41;
 
-/// Lays what is seen from the window's opening on on an example that is moved and stretched in time as a whole: at the
-/// lag and pace that fit best, limb by limb. What is done too early or too late on the way stays an error.
+/// Compares the steps since the window opened with an example that is shifted and stretched in time as a whole, limb by
+/// limb, at the lag and pace that fit best. Parts of a performance that come too early or too late remain errors.
 class RigidComparison {
  public:
-  /// Compares with `pattern`, of limbs, which must outlive this.
+  /// Compares with `pattern`, in parts of kLimbs, which must outlive this object.
   explicit RigidComparison(std::span<const PoseVector> pattern) : pattern_(pattern), distances_(pattern.size()) {}
 
-  /// Takes the next step since the window opened.
+  /// Takes the next step of the window.
   void Update(const PoseVector& seen);
-  /// Measures the steps so far. `usual_s` is the shift that is usual of this person: of fits alike the nearer counts.
+  /// Returns the measures of the steps so far. `usual_s` is this person's usual shift; of two equally good fits, the
+  /// one nearer to it is taken.
   std::array<double, kRigidMeasures> Measure(double usual_s) const;
 
  private:
@@ -80,7 +81,7 @@ class RigidComparison {
     double distance = 0;
     int count = 0;
   };
-  /// Returns the step taught that goes with a step seen; outside the pattern: none does.
+  /// Returns the taught step that corresponds to a seen step; it may lie outside of the pattern.
   static int TaughtAt(int seen, std::size_t pace, int lag);
 
   std::span<const PoseVector> pattern_;
@@ -89,59 +90,62 @@ class RigidComparison {
   std::array<std::array<Sum, kLatest - kEarliest + 1>, kPaces.size()> sums_{};
 };
 
-/// Neighbouring measures of a performance, by their places.
+/// Consecutive measures of a performance: the index of the first one and their number.
 struct MeasureSlice {
   std::size_t first = 0, count = 0;
 
   constexpr std::size_t end() const { return first + count; }
-  /// The next slice, equally large: how far each measure is beyond the person's usual.
+  /// Returns the next slice, which is equally long: the differences of these measures from the person's usual ones.
   constexpr MeasureSlice Beyond() const { return {end(), count}; }
 };
 
-/// The places of a performance's measures. Models that were learnt name measures by place: whoever moves, adds or takes
-/// one raises kMeasuresVersion, and the shipped models are trained anew (`etude train --recogniser`).
+/// The indices of a performance's measures. Trained models refer to measures by index. If you add, move or remove a
+/// measure, increase kMeasuresVersion and train the shipped models again (`etude train --recogniser`).
 constexpr int kMeasuresVersion = 1;
-/// Per limb how far it is off, how far once its mean direction is forgiven, and what share of its amplitude is missing;
-/// left and right as the larger and the smaller of both.
+/// For each limb: its error, its error after its mean direction is corrected, and the missing share of its amplitude.
+/// Of left and right, the larger value comes first, then the smaller.
 constexpr MeasureSlice kLimbMeasures{0, 36};
-/// The root of the path's cost, then of each third of the example; the worst limb, the mean limb.
+/// The square root of the path's cost and of its parts for each third of the example, then the error of the worst limb
+/// and of the mean limb.
 constexpr MeasureSlice kDistanceMeasures{kLimbMeasures.end(), 6};
-/// Lag, stretch, unsteadiness and worst moment of the path.
+/// Lag, stretch, unsteadiness and largest timing error of the path.
 constexpr MeasureSlice kPathClockMeasures{kDistanceMeasures.end(), 4};
-/// The path's cost as a share of it and of the nearest other move's.
+/// The path's cost divided by the sum of this cost and that of the nearest other move.
 constexpr MeasureSlice kOtherMoveMeasure{kPathClockMeasures.end(), 1};
-/// All four, of one performance against one example, of any move.
+/// These four slices together: the measures of one performance against one example of any move.
 constexpr MeasureSlice kOwnMeasures{0, kOtherMoveMeasure.end()};
-/// How the performance keeps to the clock of who asks for it (ClockMeasures); 0 for what nobody asked for.
+/// The timing relative to the window (ClockMeasures); 0 if the performance was not asked for.
 constexpr MeasureSlice kClockSlice{kOwnMeasures.Beyond().end(), kClockMeasures};
-/// How the performance lies on an example that is moved and stretched in time as a whole (RigidComparison); likewise.
+/// The comparison with an example that is shifted and stretched as a whole (RigidComparison); 0 if the performance was
+/// not asked for.
 constexpr MeasureSlice kRigidSlice{kClockSlice.Beyond().end(), kRigidMeasures};
 constexpr std::size_t kMeasureCount = kRigidSlice.Beyond().end();
 constexpr std::size_t kDistanceMeasure = kDistanceMeasures.first;
 using PerformanceMeasures = std::array<double, kMeasureCount>;
 
-/// A performance as it went along an example.
+/// A performance that was aligned with an example.
 struct AlignedPerformance {
   std::span<const StepPair> path;              ///< at least one pair
   std::function<const PoseVector&(int)> seen;  ///< by StepPair::seen; limbs
   std::span<const PoseVector> pattern;         ///< limbs
   double cost = 0;                             ///< of the path (SubsequenceAligner::Cost)
-  double other_cost = 0;                       ///< of the nearest other move lately; infinite: of none
+  /// The cost of the nearest other move in the last second; infinite if there is none.
+  double other_cost = 0;
 };
 
-/// Measures a performance. The measures beyond the usual are left 0 (PersonBaseline fills them in), and so are those of
-/// the clock.
+/// Measures a performance. Leaves the differences from the person's usual measures (PersonBaseline fills them in) and
+/// the timing measures at 0.
 PerformanceMeasures Measure(const AlignedPerformance& performance);
 
-/// Keeps what is usual of a person: the medians of the measures of their performances so far. People differ in how far
-/// they swing and how late they are; a fault is what they do not do otherwise.
+/// Keeps the usual measures of a person: the medians over their performances so far. People differ in amplitude and in
+/// delay; a fault differs from what the same person usually does.
 class PersonBaseline {
  public:
   /// Adds a performance, right or not; the latest 32 count.
   void Add(const PerformanceMeasures& performance);
-  /// Fills in what is beyond the usual.
+  /// Fills in the differences from the usual measures.
   void Relate(PerformanceMeasures& performance) const;
-  /// Returns the shift by which this person keeps the clock, seconds: by how much windows open too late for them.
+  /// Returns this person's usual delay relative to the window, in seconds.
   double Shift() const;
 
  private:

@@ -10,7 +10,7 @@ namespace {
 
 using enum Role;
 
-/// A part as the vector between two joints; for PoseParts::kJoints it starts at the hip centre.
+/// A part of the body: the vector between two joints. For PoseParts::kJoints, it starts at the hip centre.
 struct Part {
   Role from, to;
 };

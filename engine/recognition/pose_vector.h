@@ -23,7 +23,7 @@ struct PoseVector {
   std::array<double, kPosePartCount> weights{};  ///< weight of each part, in [0, 1]
 };
 
-/// Returns the mean squared distance of the poses' parts, weighted by `seen.weights`, in the parts' unit squared.
+/// Returns the mean squared distance of the poses' parts, weighted by `seen.weights`, in the square of the parts' unit.
 /// Returns 0 if all weights are 0.
 double SquaredDistance(const PoseVector& seen, const PoseVector& taught);
 
@@ -33,8 +33,8 @@ PoseVector MeanOf(std::span<const PoseVector> poses);
 /// Returns the pose with left and right exchanged.
 PoseVector Mirrored(const PoseVector& pose, PoseParts parts);
 
-/// The number of steps per second in which motions are compared. It is fast enough for dances and half the rate of
-/// usual sensors.
+/// The number of steps per second in which motions are compared. This is fast enough for dances, and half the frame
+/// rate of usual sensors.
 constexpr double kStepsPerSecond = 15;
 
 /// Describes a stream frame by frame, causally, and averages the frames in steps of equal length. Heading and trunk

@@ -16,14 +16,15 @@ enum class Weighting {
 
 struct TrackingWeights {
   /// The default is fixed, as in paper A. Use adaptive if a miss costs more than praise for a mistake, especially if
-  /// the body occludes its own far side. Adaptive weights also ignore mistakes in joints that are not seen.
+  /// the body hides its far side from the sensor. Adaptive weights also ignore mistakes in joints that are not seen.
   Weighting weighting = Weighting::kFixed;
   /// The adaptive weight of an angle with an inferred joint, in [0, 1]; a tracked one has weight 1. At 0.3 (ours) three
   /// inferred angles cannot outvote a tracked one. Raise it for a sensor whose inferred joints are accurate; at 1,
   /// inferred joints count like tracked ones.
   double inferred_weight = 0.3;
-  /// The adaptive weight of an angle with a joint that is not tracked, in [0, 1]. It is 0 because such a joint repeats
-  /// its last position. Raise it only for a sensor that still measures joints it reports as not tracked.
+  /// The adaptive weight of an angle with a joint that is not tracked, in [0, 1]. It is 0 because the position of such
+  /// a joint is that of an earlier frame. Raise it only for a sensor that still measures joints it reports as not
+  /// tracked.
   double not_tracked_weight = 0.0;
 
   double Of(TrackingState state) const {

@@ -14,7 +14,8 @@ namespace {
 template <typename Own>
 using TeachWithOwn = std::unique_ptr<Recogniser> (*)(std::span<const TaughtMove>, const TrackingWeights&, const Own&);
 
-// Adds a recogniser's own options to its kind; `table` tells which of them can be set, by which key and in which range.
+// Adds the options of one recogniser to its kind; `table` lists the options that can be set, with their keys and
+// ranges.
 template <typename Own>
 RecogniserKind WithSettings(RecogniserKind kind, TeachWithOwn<Own> teach, const SettingTable<Own>& table) {
   kind.settings = table.Describe();

@@ -13,9 +13,9 @@ namespace etude {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// The units of distance: the median distance between two people who do the same move, joints in metres and limbs as
-/// differences of unit vectors (six people before an OpenNI sensor, each performance against the nearest one by
-/// somebody else). Distances in this file are squared and in these units.
+/// The units of distance: the median distance between two people who do the same move, for joints in metres and for
+/// limbs as differences of unit vectors. They were measured on six people in front of an OpenNI sensor, each
+/// performance against the nearest one by another person. Distances in this file are squared and in these units.
 constexpr double kJointUnit = 0.08, kLimbUnit = 0.15;
 /// The number of nearest examples whose distances are averaged, because a single example may be unusual.
 constexpr std::size_t kNearestExamples = 3;
@@ -63,7 +63,7 @@ double SquaredDistanceOf(const WholePose& seen, const WholePose& taught) {
 }
 
 /// Compares a stream with one example in two ways: by its best passage, as SubsequenceAligner does (without the path),
-/// and as one whole performance that began with the first step.
+/// and as one whole performance that began at the first step.
 class ExampleDistance {
  public:
   ExampleDistance(const WholePattern& pattern, int longest)
@@ -76,7 +76,7 @@ class ExampleDistance {
   double Passage() const { return passage_.back() / static_cast<double>(pattern_->size()); }
   /// Returns the distance of the whole stream so far (symmetric dynamic time warping).
   double Whole() const { return whole_.back() / static_cast<double>(pattern_->size() + count_); }
-  /// Returns the number of seen steps divided by the number of the example's steps.
+  /// Returns the number of seen steps divided by the number of steps in the example.
   double SharePassed() const { return static_cast<double>(count_) / static_cast<double>(pattern_->size()); }
 
  private:
@@ -265,7 +265,7 @@ class WholeBodyFollower final : public MoveFollower {
   }
 
   void Spot() {
-    // 1 of 20 performances by another person is farther than 3.4 (six people before an OpenNI sensor).
+    // 1 of 20 performances by another person is farther than 3.4 (six people in front of an OpenNI sensor).
     constexpr double kMaxOtherDistance = 4;
     for (std::size_t move = 0; move < always_.size(); ++move) {
       double other = kMaxOtherDistance;
@@ -286,7 +286,7 @@ class WholeBodyFollower final : public MoveFollower {
            });
   }
 
-  /// Returns 1 if the examples were nearer than their mirror images so far, else the squared ratio of the two
+  /// Returns 1 if the examples were nearer than their mirror images so far, otherwise the squared ratio of the two
   /// distances.
   double RightSide() const {
     if (!(image_ < right_)) return 1;
@@ -299,7 +299,7 @@ class WholeBodyFollower final : public MoveFollower {
   StepDescriber joints_, limbs_;
   std::vector<std::vector<ExampleDistance>> always_;  // per move
   std::vector<LatelyLowest> lately_;                  // per move
-  std::vector<ExampleDistance> in_window_, images_;   // of the move asked for, if it has sides
+  std::vector<ExampleDistance> in_window_, images_;   // of the asked move, if it has sides
   double right_ = kInfinity, image_ = kInfinity;      // distances of the nearest passages in the window
   double best_ = 0;                                   // evidence of the performance asked for
   std::vector<double> spotted_;

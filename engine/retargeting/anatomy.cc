@@ -28,7 +28,7 @@ glm::dvec3 DirectionOf(const glm::dvec3& v) {
   return length > 0 ? v / length : glm::dvec3(0);
 }
 
-/// The path of joints from one to the farthest end below it, along the bones.
+/// The path from a joint along the bones to the farthest end below it.
 struct Chain {
   std::vector<int> joints;
   double length = 0;  ///< of all its bones
@@ -131,7 +131,7 @@ class AnatomyFinder {
     Limbs best{.pair = &pair};
     double best_rank = 0;
     const std::vector<int>& chain = pair.chains[0].joints;
-    constexpr std::size_t kMaxChain = 20;  // joints beyond are fingers, or not part of a limb
+    constexpr std::size_t kMaxChain = 20;  // joints beyond this number are fingers, or not part of a limb
     const std::size_t count = std::min(chain.size(), kMaxChain);
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t j = i + 1; j < count; ++j) {
@@ -170,7 +170,7 @@ class AnatomyFinder {
     return 0.5 * (tree_.RestOf(limbs.Joint(0, i)) + tree_.RestOf(limbs.Joint(1, i)));
   }
 
-  /// Returns true if a joint that belongs to no limb lies beyond the neck in the direction of the trunk.
+  /// Returns true if there is a joint beyond the neck, in the direction of the trunk, that belongs to no limb.
   bool HasHead(const Limbs& legs, const Limbs& arms, const glm::dvec3& neck, const glm::dvec3& up, double trunk) const {
     for (int joint = 0; joint < tree_.size(); ++joint) {
       const glm::dvec3 from_neck = tree_.RestOf(joint) - neck;
@@ -201,7 +201,8 @@ class AnatomyFinder {
     constexpr double kHeadless = 0.85;
     if (!HasHead(legs, arms, shoulders, up, trunk)) proposal.confidence *= kHeadless;
 
-    // Legs must point away from the trunk, and hips and shoulders be parallel and across it.
+    // Legs must point away from the trunk. Hips and shoulders must be parallel to each other and perpendicular to the
+    // trunk.
     glm::dvec3 toes(0);
     for (std::size_t side = 0; side < 2; ++side) {
       const glm::dvec3 ankle = tree_.RestOf(legs.Joint(side, 2));

@@ -22,9 +22,9 @@ constexpr double kMinAnatomyConfidence = 0.9;
 /// Proposes the limbs by the topology of the tree and the rest pose (ours). Legs and arms are two pairs of siblings
 /// with equally long chains of bones below them. The trunk leads from the legs to the arms, and the legs point the
 /// opposite way. In each chain, the three joints are those whose bones have human proportions. Left is the direction up
-/// × forward, and forward is where the toes point; without toes, the sides are those of a body that faces +Z, with a
-/// lower confidence. The confidence is the product of scores for these criteria: 1 within the range of adults,
-/// decreasing outside.
+/// × forward, where forward is the direction of the toes. Without toes, the body is assumed to face +Z, with a lower
+/// confidence. The confidence is the product of scores for these criteria: 1 within the range of adults, decreasing
+/// outside.
 AnatomyProposal ProposeByAnatomy(const SkeletonTree& tree);
 
 /// A joint map under construction, with the positions of its roles in the rest pose. `tree` must outlive this object.

@@ -16,7 +16,7 @@ namespace {
 
 struct JointLayout {
   std::string_view name;
-  std::vector<std::string_view> joints;  ///< names that FindMarkerBodies knows, or names that it ignores
+  std::vector<std::string_view> joints;  ///< names that FindMarkerBodies recognises or ignores
 };
 
 const std::vector<JointLayout>& Layouts() {

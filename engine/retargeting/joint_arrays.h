@@ -16,15 +16,15 @@ namespace etude {
 /// "body_25", "halpe_26".
 std::vector<std::string> JointLayoutNames();
 
-/// Returns the joints of a layout by name, in its order: a role's name where a joint plays one. `joints` chooses among
-/// layouts of one name. Empty if there is no such layout.
+/// Returns the names of a layout's joints in its order; a joint that plays a role has the role's name. `joints` selects
+/// among layouts of the same name. Empty if there is no such layout.
 std::vector<std::string> JointsOfLayout(std::string_view layout, std::size_t joints);
 
-/// Converts an array T × J × 3 (frames, joints, X Y Z; NaN: not seen) to trajectories at the judged rate, because such
-/// a file contains no rate. `layout` is one of JointLayoutNames(); without it, the layout is that with J joints. The
-/// unit is the metre unless the extent of the joints is that of a person in centimetres or millimetres; `note` states
-/// layout and unit. Fails for other shapes, a layout with another number of joints, 17 joints without a
-/// layout, and positions beyond ±10⁹.
+/// Converts an array T × J × 3 (frames, joints, X Y Z; NaN: not seen) to trajectories. Their rate is the judged rate,
+/// because such a file contains none. `layout` is one of JointLayoutNames(); without it, the layout is the one with J
+/// joints. The unit is the metre, unless the joints extend as far as a person's in centimetres or millimetres. `note`
+/// states layout and unit. Fails for other shapes, a layout with another number of joints, 17 joints without a layout,
+/// and positions beyond ±10⁹.
 Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional<std::string>& layout,
                                    const std::string& file, std::string& note);
 
@@ -35,8 +35,8 @@ std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest);
 
 /// Returns true if the arrays are those of WriteBodyNpz.
 bool IsBodyNpz(const Npz& arrays);
-/// Reads the positions of such arrays. Fails if there are not twenty joints, for a missing rate, and for values that
-/// are not finite.
+/// Reads the positions from arrays that WriteBodyNpz wrote. Fails if there are not twenty joints, if the rate is
+/// missing, or if a value is not finite.
 Result<BodyMotion> ReadBodyNpz(const Npz& arrays, const std::string& file);
 
 }  // namespace etude

@@ -90,7 +90,7 @@ class MapFinder {
       }
     }
     if (missing.empty()) return {};
-    // Take the missing ones from the skeleton's shape if that agrees with the names and is certain enough.
+    // Take the missing joints from the proposal by shape, if it agrees with the names and its confidence is sufficient.
     const AnatomyProposal proposal = ProposeByAnatomy(tree_);
     const bool agrees = std::ranges::all_of(AllRoles(), [&](Role role) {
       return proposal.joints[Index(role)] < 0 || !draft_.Has(role) ||
@@ -261,8 +261,8 @@ class MapFinder {
   const MovingPoses& moving_;
 };
 
-/// Returns how well a pose stands: the cosine between the line from the shoulders to the hips and the thighs and shanks,
-/// for the limb that is worst. Limbs are those that names tell; nullopt if they do not.
+/// Returns how upright a pose is: the cosine of the angle between the line from shoulders to hips and a thigh or shank,
+/// for the limb with the lowest value. Only limbs that are found by name count; nullopt if there are none.
 std::optional<double> StandingOf(const Skeleton& skeleton, const JointNames& names, const LocalPose& pose) {
   const SkeletonTree tree(skeleton, pose);
   std::array<glm::dvec3, kRoleCount> at{};
@@ -297,7 +297,7 @@ std::vector<const LocalPose*> SomeOf(std::span<const LocalPose> frames, const Sk
   return some;
 }
 
-/// Returns the rest pose, or the frame that stands best if the rest pose is no pose.
+/// Returns the rest pose or, if that is not a human pose, the frame that is most upright.
 LocalPose RestOrStanding(const Skeleton& skeleton, const std::vector<const LocalPose*>& frames) {
   constexpr double kPose = 0.5;  // legs within 60° of the trunk's line
   LocalPose rest = RestPose(skeleton);

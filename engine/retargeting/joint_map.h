@@ -14,7 +14,7 @@ namespace etude {
 /// A point that is fixed to a joint.
 struct RolePoint {
   int joint = -1;
-  glm::dvec3 offset{0};  ///< in the joint's frame, the file's unit; zero: the joint itself
+  glm::dvec3 offset{0};  ///< in the joint's frame and the file's unit; zero means the joint itself
 };
 
 /// The points of a clip's own skeleton that play the twenty roles.
@@ -22,7 +22,7 @@ struct JointMap {
   std::array<RolePoint, kRoleCount> points;  ///< by Index(role)
   /// The roles that no joint or end site of the skeleton plays; their points are fixed to a neighbouring joint.
   std::vector<Role> composed;
-  /// The roles that were found not by name but by the skeleton's shape (ProposeByAnatomy), and the confidence of that.
+  /// The roles that were found not by name but by the skeleton's shape (ProposeByAnatomy), and the confidence in them.
   std::vector<Role> by_anatomy = {};
   double confidence = 1;
 
@@ -47,10 +47,11 @@ struct JointMapOverrides;
 ///
 /// Fails for missing limbs (with a list of the file's names), hips without a common ancestor, a knee that does not
 /// descend from its hip and similar errors, and hips that are not on opposite sides of the joint that carries them.
-/// Poses of `frames` are used where the rest pose is no pose: if its legs do not point away from its trunk, the frame that
-/// stands best is taken for it, and tips that are implausible at rest are judged in motion (FindTips). ToBodyMotion checks
-/// on the moving body that left is left. The roles in `taught` are assigned before any name is
-/// searched, and checked like the others; a joint that does not exist is reported at its place in the joint-map file.
+/// Poses of `frames` are used if the rest pose is not a human pose: if its legs do not point away from its trunk, the
+/// most upright frame replaces it, and tips that are implausible at rest are searched in motion (FindTips).
+/// ToBodyMotion checks on the moving body that left and right are not exchanged. The roles in `taught` are assigned
+/// before any name is searched, and checked like the others; a joint that does not exist is reported with its line in
+/// the joint-map file.
 Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file, const JointMapOverrides* taught = nullptr,
                               std::span<const LocalPose> frames = {});
 

@@ -9,8 +9,8 @@ namespace {
 
 using enum Language;
 
-// If a scheme calls the collar bone "shoulder" or a helper "hip", a more specific row must precede the row that would
-// take these for the joint.
+// If a scheme calls the collar bone "shoulder" or a helper "hip", a more specific row must come before the row that
+// would take these for the joint.
 constexpr LimbNames kArmSchemes[] = {
     {{"arm", "forearm", "hand"}},                // MotionBuilder: CMU, LAFAN1, Mixamo, MASS, Rokoko, DeepMotion
     {{"arm", "elbow", "wrist"}},                 // "Shoulder" is the collar bone: MikuMikuDance in English
@@ -20,7 +20,7 @@ constexpr LimbNames kArmSchemes[] = {
     {{"shoulder", "elbow", "wrist"}},            // Biovision, CMU as converted for Poser, Xsens, SMPL, Kinect
     {{"shoulder", "elbow", "hand"}},             // CMU as converted for Daz
     {{"uparm", "lowarm", "hand"}},               // Biovision's own samples
-    {{"upperarm", "lowerarm", "wrist"}},         // KayKit, whose "hand" is a bone further
+    {{"upperarm", "lowerarm", "wrist"}},         // KayKit, whose "hand" is a further bone
     {{"upperarm", "lowerarm", "hand"}},          // Bandai-Namco, VRM, Unreal
     {{"upperarm", "forearm", "hand"}},           // 3ds Max' biped, Blender's rigs
     {{"upperarm", "lowerarm", "palm2"}},         // RobotExpressive of three.js
@@ -77,7 +77,7 @@ constexpr LimbNames kLegSchemes[] = {
     {{"femur", "tibia", "ankle"}},             // seen in hand-made rigs
     {{"femur", "knee", "ankle"}},              // likewise
     {{"femur", "tibia", "talus"}},             // OpenSim's bodies, SKEL
-    {{"femur", "tibia", "calcn"}},             // OpenSim's bodies where the subtalar joint is left out
+    {{"femur", "tibia", "calcn"}},             // OpenSim's bodies without a subtalar joint
     {{"hip", "walkerknee", "ankle"}},          // OpenSim's joints
     {{"upperleg", "lowerleg", "footankle"}},   // Meta Quest
     {{"hip", "knee", "talocrural"}},           // H-Anim 2
@@ -95,7 +95,7 @@ constexpr LimbNames kLegSchemes[] = {
     {{"hanche", "genou", "pied"}, kFrench},
 };
 
-// Kinect, and our own role, name the middle of the shoulders.
+// Kinect's name and our own role's name mean the middle of the shoulders.
 constexpr std::string_view kNeckNames[] = {"shouldercentre",
                                            "shouldercenter",
                                            "spineshoulder",

@@ -21,8 +21,8 @@ struct LimbNames {
   Language language = Language::kEnglish;
 };
 
-/// Lists the schemes of arms: shoulder, elbow, wrist. A scheme counts only if it names all three, because one word
-/// means different joints in different schemes: MotionBuilder's "LeftShoulder" is the collar bone.
+/// Lists the schemes of arms: shoulder, elbow, wrist. A scheme is used only if it names all three, because a word can
+/// mean different joints in different schemes: MotionBuilder's "LeftShoulder" is the collar bone.
 std::span<const LimbNames> ArmSchemes();
 /// Lists the schemes of legs: hip, knee, ankle.
 std::span<const LimbNames> LegSchemes();
@@ -36,8 +36,9 @@ enum class Finger { kMiddle, kIndex, kRing, kLittle, kNotNamed, kThumb };
 /// 3ds Max' biped calls the thumb "Finger0", others begin with the index finger.
 Finger FingerOf(std::string_view name);
 
-/// Returns which joints are end sites: BVH's own, and in formats where tips are nodes the childless joints that are named
-/// after their parent: "Head_End", "Head_end", "HeadNub" below "Head". One skeleton is so read alike from both.
+/// Returns which joints are end sites: BVH's own; in formats without end sites, the joints without children that are
+/// named after their parent, such as "Head_End", "Head_end" or "HeadNub" below "Head". The same skeleton is therefore
+/// read alike from both kinds of formats.
 std::vector<bool> EndSites(const Skeleton& skeleton);
 
 /// A joint that was found by its name.
@@ -48,11 +49,11 @@ struct NamedJoint {
 };
 
 /// The joints of a skeleton, indexed by the words of their names. Words end at punctuation, blanks, capital letters and
-/// numbers; case is ignored. Text before a colon or a bar, words in front, and technical words at the end ("JNT",
-/// "joint", "bone", a number) are optional: "mixamorig:LeftArm", "Character1_LeftArm", "l_arm_JNT" and "LeftArm_09" are
-/// all the left "arm"; "LeftForeArm" is not, because "fore" stands after the side. A side may be written "LeftArm",
-/// "L_Arm", "lArm", "ArmLeft", "Arm.L". Letters beyond ASCII are part of words; Latin letters are compared without
-/// accents ("Épaule" is "epaule"). End sites have no names of their own.
+/// numbers; case is ignored. Text before a colon or a vertical bar, words at the beginning, and technical words at the
+/// end ("JNT", "joint", "bone", a number) are optional: "mixamorig:LeftArm", "Character1_LeftArm", "l_arm_JNT" and
+/// "LeftArm_09" are all the left "arm"; "LeftForeArm" is not, because "fore" comes after the side. A side may be
+/// written "LeftArm", "L_Arm", "lArm", "ArmLeft", "Arm.L". Letters beyond ASCII are part of words; Latin letters are
+/// compared without accents ("Épaule" is "epaule"). End sites have no names of their own.
 class JointNames {
  public:
   explicit JointNames(const Skeleton& skeleton);

@@ -32,7 +32,7 @@ glm::dvec3 SkeletonTree::InFrameOf(int joint, const glm::dvec3& point) const {
 
 namespace {
 
-// Ratings of a result; lower ratings are the number of joints found by name.
+// Ratings of a result. Ratings below these are the number of joints found by name.
 constexpr int kAllNamed = 3;
 constexpr int kLooseChain = 4;
 constexpr int kChain = 5;
@@ -53,7 +53,7 @@ Candidates CandidatesOf(const JointNames& names, const LimbNames& scheme, Side s
     if (taught[i] >= 0) candidates[i] = {{.joint = taught[i], .prefix = "", .suffixes = 0}};
   }
   if (taught == std::array{-1, -1, -1}) return candidates;
-  // A given joint may have any name, so prefixes do not show what belongs together.
+  // A joint given by the user may have any name, so prefixes do not show which joints belong together.
   for (auto& of_joint : candidates) {
     for (NamedJoint& candidate : of_joint) candidate.prefix.clear();
   }

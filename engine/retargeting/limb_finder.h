@@ -28,7 +28,7 @@ inline constexpr std::array<Limb, 4> kLimbs = {{
 }};
 inline constexpr std::span<const Limb, 2> kLegs = std::span(kLimbs).last<2>();
 
-/// The tree of a skeleton's joints with their positions in the rest pose, or in another pose that is taken for it.
+/// The tree of a skeleton's joints with their positions in the rest pose, or in another pose that replaces it.
 /// `skeleton` must outlive this object.
 class SkeletonTree {
  public:

@@ -25,8 +25,8 @@ struct JointMapOverrides {
   std::optional<double> metres_per_unit = {};
   std::optional<UpAxis> up = {};
   std::optional<double> rate_hz = {};  ///< replaces the file's own
-  bool keep_floor = false;             ///< leave bodies at the height that the file says
-  std::string marker_set = "";         ///< of a file of markers: a key of MarkerSets
+  bool keep_floor = false;             ///< leave bodies at the file's own height
+  std::string marker_set = "";         ///< the key in MarkerSets of a marker file's set
 };
 
 /// Reads a unit: m, cm, mm, in, ft, cmu (5.64 cm), or its length in metres.

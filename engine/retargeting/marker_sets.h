@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// A joint is the mean of some markers, all of which must be present.
+/// A joint as the mean of some markers, all of which must be present.
 struct MarkerRule {
   Role role;
   std::vector<std::string> markers;
@@ -23,10 +23,11 @@ struct MarkerSet {
   std::string key;  ///< what --marker-set calls it
   std::vector<MarkerRule> rules;
   std::array<std::string, 4> pelvis = {};  ///< left and right front, left and right back; the hips follow from them
-  /// Knees, ankles and elbows have one marker each, on the skin; wands on thighs and shanks show their planes.
+  /// Knees, ankles and elbows have one marker each, on the skin; further markers on thighs and shanks (wands) show the
+  /// planes in which the limbs bend.
   bool has_skin_limbs = false;
   bool has_skin_shoulders = false;  ///< likewise shoulders, on top
-  int rank = 0;                     ///< of several sets in a file the one of the highest rank is used
+  int rank = 0;                     ///< if a file contains several sets, the one of the highest rank is used
 };
 
 /// Lists the supported conventions.
@@ -46,18 +47,18 @@ inline constexpr std::array kNeededJoints = {Role::kLeftShoulder, Role::kLeftElb
 /// Returns true if a person's markers hold all of these.
 bool HasAll(const MarkerColumns& columns, std::span<const std::string> markers);
 bool HasPelvis(const MarkerSet& set, const MarkerColumns& columns);
-/// Returns true if a set determines a joint by a person's markers.
+/// Returns true if the set determines a joint from a person's markers.
 bool Determines(const MarkerSet& set, const MarkerColumns& columns, Role role);
-/// Lists the needed joints that it does not determine.
+/// Lists the needed joints that the set does not determine.
 std::vector<std::string> MissingFrom(const MarkerSet& set, const MarkerColumns& columns);
 
-/// The set used for one person, and another that the file holds, too.
+/// The set used for one person, and a second one that the file also contains.
 struct ChosenSet {
   const MarkerSet* set = nullptr;
   const MarkerSet* other = nullptr;
 };
-/// Chooses among the complete sets (the wanted one, if a key is given) by rank, then by the number of joints told. Null
-/// if there is none.
+/// Chooses among the complete sets (the wanted one, if a key is given) by rank, then by the number of joints that they
+/// determine. Null if there is none.
 ChosenSet ChooseSet(const MarkerColumns& columns, const std::string& wanted);
 
 }  // namespace etude

@@ -28,11 +28,11 @@ std::string LowerCase(std::string_view text) {
   return lower;
 }
 
-/// Returns true if a position is all zeros, which some programs write for a gap.
+/// Returns true if all coordinates are 0, which some programs write for a gap.
 bool IsZero(const MarkerPosition& place) { return place && *place == glm::dvec3(0); }
 
-/// Removes positions that are all zeros, for markers that are elsewhere in other frames (the root of a root-relative
-/// pose is always at zero). Returns their count.
+/// Removes positions whose coordinates are all 0, for markers that are elsewhere in other frames; the root of a
+/// root-relative pose stays, because it is always at 0. Returns their number.
 int LeaveZerosOut(MarkerMotion& markers) {
   int zeros = 0;
   for (std::size_t marker = 0; marker < markers.names.size(); ++marker) {
@@ -137,7 +137,7 @@ Wands WandsOf(const MarkerColumns& columns, const std::vector<MarkerPosition>& f
   return {.thigh = {at("lthi"), at("rthi")}, .shank = {at("ltib"), at("rtib")}};
 }
 
-/// Completes the joints without markers by rules of proportion. Y points up.
+/// Places the joints without markers by rules of proportion. Y points up.
 BodyPose Complete(const JointPositions& places) {
   constexpr double kHeadAbove = 0.3, kHandBeyond = 0.7, kToesBefore = 0.16, kToesBelow = 0.04;
   BodyPose pose;
@@ -233,7 +233,7 @@ double FloorOf(const std::vector<BodyPose>& poses) {
   return lowest[lowest.size() / 20];
 }
 
-/// Shifts the poses so that the floor is at 0, unless it shall stay.
+/// Shifts the poses so that the floor is at 0, unless the user keeps it.
 void StandOnFloor(bool keeps_floor, bool is_own, MarkerBody& body) {
   constexpr double kMaxOwn = 0.5, kMinTold = 0.001;
   const double floor = FloorOf(body.motion.poses);
@@ -309,8 +309,8 @@ double MiddleStature(const BodyMotion& motion) {
   return LowerPercentile(std::move(statures), 0.5);
 }
 
-/// Makes the body in the file's unit or, if its size is implausible, in the power of ten of it that gives a person,
-/// which the note states. Fails if none does.
+/// Makes the body in the file's unit or, if its size is then implausible, in the power of ten of this unit that gives a
+/// person's size, which the note states. Fails if none does.
 Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const MarkerSet& set, const MarkerColumns& columns,
                                          const MarkerOptions& options, const std::string& file) {
   constexpr double kMinStature = 0.4, kMaxStature = 4, kMinPerson = 1.2, kMaxPerson = 2.3;

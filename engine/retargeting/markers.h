@@ -12,11 +12,11 @@
 
 namespace etude {
 
-/// What is told or known about a file of markers.
+/// What the user or the file states about a file of markers.
 struct MarkerOptions {
   UpRule up = {};
-  bool keep_floor = false;                                ///< leave bodies at the height that the file says
-  std::optional<double> metres_per_unit = std::nullopt;  ///< told by the user, instead of the file's unit
+  bool keep_floor = false;                                ///< leave bodies at the file's own height
+  std::optional<double> metres_per_unit = std::nullopt;  ///< given by the user; replaces the file's unit
   std::string set = "";                                  ///< a key of MarkerSets; "" = chosen by rank
   bool keeps_shown = false;                              ///< also make MarkerBody::shown
 };
@@ -27,11 +27,11 @@ struct MarkerBody {
   BodyMotion motion;  ///< at the file's rate; metres, Y up, feet on the floor
   UpFinding up;       ///< the axis of the file that became Y
   double floor = 0;   ///< the height that became 0, metres
-  /// The marker set, then every correction and change of what the file holds, each for people.
+  /// The name of the marker set, then every correction of the file's data, each as a text for people.
   std::vector<std::string> changes;
-  /// The joints as the markers show them, in all frames of the file and with its gaps: no gap is filled, no joint
-  /// placed by rule, no floor found. First the joints that the set determines, named by role, then the person's other
-  /// markers, by their own names in lower case. Metres, Y up. Its remark names the set, and what was guessed. Empty
+  /// The joints as the markers show them, in all frames of the file: gaps are not filled, no joint is placed by a rule,
+  /// and the floor is not moved. First come the joints that the set determines, named by role, then the person's other
+  /// markers under their own names in lower case. Metres, Y up. Its remark names the set and the assumptions. Empty
   /// unless MarkerOptions asks for it.
   MarkerMotion shown = {};
 
@@ -50,14 +50,14 @@ struct MarkerBody {
 ///   head 0.3 trunk lengths above, hands 0.7 forearm lengths beyond the wrist, toes 16 cm ahead of the ankle and 4 cm
 ///   below.
 /// Gaps of up to a second are interpolated linearly and counted. With longer gaps, only the longest stretch without one
-/// is kept, and the note states it. Positions at 0, 0, 0 count as gaps if the marker is elsewhere in other frames. The
-/// axis that points up is FindUp's by `options.up`. The floor (5th percentile of the lowest joint's height) becomes 0.
-/// Etude's own joints are taken as written: Y up, and their floor where it is unless that is over half a metre from 0.
-/// Of several complete sets in a file, the one of the highest rank is used, then the one that tells most joints; the
-/// note names the other.
+/// is kept, and the note states it. Positions at 0, 0, 0 count as gaps if the marker is elsewhere in other frames.
+/// FindUp finds the axis that points up, by `options.up`. The floor (5th percentile of the lowest joint's height)
+/// becomes 0. For Etude's own joints, Y is up, and the floor stays unless it is over half a metre from 0. Of several
+/// complete sets in a file, the one of the highest rank is used, then the one that determines most joints; the note
+/// names the other.
 ///
 /// If a body is not 0.4 to 4 m tall (median), its unit is assumed to be wrong: the power of ten that makes it 1.2 to
-/// 2.3 m tall is applied, and the note states it; a unit told in `options` is used as it is.
+/// 2.3 m tall is applied, and the note states it; a unit given in `options` is used as it is.
 ///
 /// Fails, naming `file`, if no set is complete in shoulders, elbows, wrists, hips, knees and ankles (the message lists
 /// what the best set lacks), or if no unit gives a plausible size.

@@ -295,7 +295,7 @@ Result<AngleTable> ReadAngleTable(std::string_view bytes, const std::string& fil
   return table;
 }
 
-/// Refuses times that are those of no recording.
+/// Fails for times that cannot belong to a recording.
 Result<void> CheckTimes(const std::vector<double>& times, const std::string& file) {
   if (times.size() < 2) return {};
   constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;

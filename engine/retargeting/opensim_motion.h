@@ -22,18 +22,18 @@ namespace etude {
 /// Limits are those of LimitSet::kAdult; an angle without a limit line has none. Angles are continuous from frame to
 /// frame, without jumps of full turns.
 ///
-/// All rotations are the identity in `rest`. The limbs keep its lengths, not those of the motion, and point where the
-/// motion's do. `name` is written to the header with control characters replaced by '_'.
+/// All rotations are the identity in `rest`. The limbs have the lengths of `rest`, not those of the motion, and the
+/// directions of the motion's limbs. `name` is written to the header with control characters replaced by '_'.
 std::string WriteOpenSimMotion(const BodyMotion& motion, const BodyPose& rest, std::string name);
 
 /// Returns true if these bytes are a .mot file that contains the model of its angles.
 bool HasModelOfAngles(std::string_view bytes);
 
-/// Reads such a .mot file by its own model: the ends of the twenty parts, metres, Y up. Rows are laid on the clock of
-/// their times (`LayOnClock`), and `note` receives what that changed; a single row has 30 Hz. Angles are degrees, or
-/// radians after "inDegrees=no". Fails, with the line, for more than 64 MB, parts that are not the twenty roles (each
-/// once, after its parent), angles or translations without a column, rows of another length, numbers beyond ±10⁹, no
-/// rows, and times that run backwards.
+/// Reads such a .mot file by its own model: the ends of the twenty parts, metres, Y up. Rows are brought to a constant
+/// rate by their times (`LayOnClock`), and `note` states what that changed; a single row has 30 Hz. Angles are degrees,
+/// or radians after "inDegrees=no". Fails, with the line, for more than 64 MB, parts that are not the twenty roles
+/// (each once, after its parent), angles or translations without a column, rows of another length, numbers beyond ±10⁹,
+/// no rows, and times that run backwards.
 Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& file, std::string* note = nullptr);
 
 }  // namespace etude

@@ -77,7 +77,7 @@ double Bend(const glm::dvec3& forward, const glm::dvec3& upper, const glm::dvec3
   return glm::dot(forward, middle - 0.5 * (upper + end)) < 0 ? -angle : angle;
 }
 
-/// Evidence about the sides of a body, in the body's own frame, so the body may lie or turn over.
+/// Evidence about left and right of a body. It is measured in the body's own frame, so the body may lie or turn over.
 struct Sides {
   double shoulders = 0, toes = 0, knees = 0, arms = 0;  ///< sums over frames (and limbs); positive for humans
   std::vector<double> knee_bends;                       ///< Bend of both knees in each frame

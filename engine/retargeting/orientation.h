@@ -22,15 +22,16 @@ glm::dvec3 BodyAxis(const BodyPose& pose);
 /// Returns the mean body axis over the poses; it is short if the body turns over.
 glm::dvec3 MeanBodyAxis(std::span<const BodyPose> poses);
 
-/// Checks that left is left throughout a motion (ours). Returns the mean angle by which its knees are overextended,
-/// radians, or 0 if it is below 3°. Fails, naming `file`, for a left arm on the side of the right leg; for feet that
-/// point backwards; and, if `map` has composed the feet forward, for arms that bend and reach backwards by a quarter of
-/// their length, or knees that bend backwards (straight ones are no evidence). Depth sensors overextend knees: this is
-/// accepted up to 35° (in three of four frames) as long as the arms are in front of the body.
+/// Checks that left and right of a body are not exchanged in a motion (ours). Returns the mean angle by which its knees
+/// are overextended, radians, or 0 if it is below 3°. Fails, naming `file`, if the left arm is on the side of the right
+/// leg, or if feet point backwards. If `map` has composed the feet, which then point forward by definition, it fails if
+/// arms bend and reach backwards by a quarter of their length, or if knees bend backwards; straight arms and knees are
+/// no evidence. Depth sensors overextend knees: this is accepted up to 35° (in three of four frames) as long as the
+/// arms are in front of the body.
 Result<double> CheckSides(std::span<const BodyPose> poses, const JointMap& map, const std::string& file);
 
 /// Fails, naming `file` and the limbs, if two or more of the eight limbs between the trunk, wrists and ankles have no
-/// length (a hundredth of the stature or less) in the median frame: such a skeleton has collapsed.
+/// length (at most a hundredth of the stature) in the median frame, because such a skeleton has collapsed.
 Result<void> CheckLimbs(std::span<const BodyPose> poses, const std::string& file);
 
 }  // namespace etude

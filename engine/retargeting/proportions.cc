@@ -22,7 +22,7 @@ bool IsTurned(const glm::dquat& a, const glm::dquat& b) {
   return half > std::sin(0.5 * kStill);
 }
 
-// A skeleton as used by a clip: the mean translations, the constant rotations, and which joints rotate.
+// A skeleton as a clip uses it: its mean translations, its constant rotations, and the joints that rotate.
 struct Measured {
   LocalPose rest;
   std::vector<bool> turns;
@@ -104,7 +104,7 @@ double LegLength(const BodyPose& pose) {
   return sum / kLegs.size();
 }
 
-/// Returns the median length of the legs, because measured limbs change their lengths.
+/// Returns the median length of the legs, because the lengths of measured limbs vary.
 double UsualLegLength(const BodyMotion& motion) {
   std::vector<double> lengths;
   for (const BodyPose& pose : motion.poses) lengths.push_back(LegLength(pose));
@@ -154,8 +154,8 @@ glm::dvec3 KneeSide(const BodyPose& pose, const glm::dvec3& thigh, const glm::dv
   return unit(glm::mix(unit(front), unit(seen), trust));
 }
 
-/// Two-bone inverse kinematics: brings the ankle to `wanted`, or as near as the leg reaches, with the knee on its
-/// former side. The foot keeps its slope.
+/// Two-bone inverse kinematics: brings the ankle to `wanted`, or as near to it as the leg reaches, with the knee on the
+/// same side as before. The foot keeps its slope.
 void Reach(BodyPose& pose, const Limb& leg, const glm::dvec3& wanted) {
   constexpr double kThere = 1e-9;
   const auto [hip, knee, ankle] = leg.roles;

@@ -16,7 +16,7 @@ namespace etude {
 RestBody MeasureBody(const Clip& clip, const JointMap& map, const BodyConversion& body);
 
 /// Transfers a motion to a body with the limb lengths of `body`: every limb keeps its direction, and the hips' path and
-/// height are scaled by the ratio of leg lengths (the performer's median, because measured limbs change their lengths).
+/// height are scaled by the ratio of leg lengths (the performer's median, because the lengths of measured limbs vary).
 /// Then two-bone inverse kinematics brings the toes to their scaled positions, so that standing feet do not slide
 /// (Gleicher 1998 keeps the same contacts). Feet on the floor stay on the floor; if a leg is too short for that, the
 /// hips are lowered. `body` may be any pose of the target; only its lengths are used.

@@ -49,9 +49,9 @@ namespace {
 using enum Role;
 
 /// For each limb, in the order of kLimbs, a direction in the middle of the upper bone's range, in the axes of chest or
-/// hips. A straight limb has the twist of a hanging one that is rotated to this direction and from there to the pose,
-/// both by the shortest rotation. The twist is discontinuous at one direction, the opposite one, which must lie outside
-/// of the range: inward through the chest, backward through the hips.
+/// hips. A straight limb has the twist that a hanging limb gets when it is rotated to this direction and from there to
+/// the pose, both by the shortest rotation. The twist is discontinuous at one direction, the opposite one, which must
+/// lie outside of the range: inward through the chest, backward through the hips.
 constexpr std::array<glm::dvec3, kLimbs.size()> kMidDirections = {
     {{0.71, 0, 0.71}, {-0.71, 0, 0.71}, {0, -0.87, 0.5}, {0, -0.87, 0.5}}};
 
@@ -78,7 +78,7 @@ glm::dquat ChestOf(const BodyPose& pose) {
   return up_first * glm::angleAxis(-kPi / 2, glm::dvec3(0, 0, 1));
 }
 
-/// Blends from `axis` to the normal of two bones, by the weight `shown`.
+/// Blends from `axis` to the normal of two bones, with the weight `shown`.
 glm::dvec3 Towards(const glm::dvec3& axis, const glm::dvec3& normal, double shown) {
   const double length = glm::length(normal);
   return length > 0 && shown > 0 ? glm::mix(axis, normal / length, shown) : axis;
@@ -92,7 +92,7 @@ glm::dquat UpperOf(const Limb& limb, const glm::dvec3& middle, const glm::dquat&
   const glm::dvec3 hanging_axis(limb.is_arm ? -1 : 1, 0, 0);
   const glm::dquat swing = ShortestTurn(trunk * middle, upper) * trunk * ShortestTurn(glm::dvec3(0, -1, 0), middle);
   glm::dvec3 axis = swing * hanging_axis;
-  // The toes show the facing of the knee, unless they point along the leg. Hands rotate independently of their elbows.
+  // The toes show where the knee faces, unless they point along the leg. Hands rotate independently of their elbows.
   constexpr double kPointed = Radians(20), kAcross = Radians(50);
   if (!limb.is_arm) {
     axis = Towards(axis, glm::cross(tip, lower), Smoothstep(kPointed, kAcross, AngleBetween(lower, tip)));
@@ -120,7 +120,7 @@ std::array<glm::dquat, kRoleCount> Turns(const BodyPose& rest, const BodyPose& p
   turns[Index(kHipCentre)] = to.hips * glm::conjugate(from.hips);
   const glm::dquat chest = to.chest * glm::conjugate(from.chest);
   turns[Index(kSpine)] = turns[Index(kShoulderCentre)] = chest;
-  // No joint shows the facing of the head: it faces as the chest does.
+  // No joint shows where the head faces, so it faces like the chest.
   turns[Index(kHead)] = follow(chest, kShoulderCentre, kHead);
   for (std::size_t i = 0; i < kLimbs.size(); ++i) {
     const auto [root, hinge, end] = kLimbs[i].roles;
@@ -134,7 +134,8 @@ std::array<glm::dquat, kRoleCount> Turns(const BodyPose& rest, const BodyPose& p
   return turns;
 }
 
-/// Chooses the sign of each quaternion next to the frame before, because some programs interpolate their components.
+/// Chooses the sign of each quaternion that is nearer to the previous frame's, because some programs interpolate the
+/// components.
 void KeepSign(const LocalPose& before, LocalPose& frame) {
   for (std::size_t i = 0; i < frame.size(); ++i) {
     if (glm::dot(before[i].rotation, frame[i].rotation) < 0) frame[i].rotation = -frame[i].rotation;

@@ -18,14 +18,14 @@ glm::dquat ShortestTurn(const glm::dvec3& from, const glm::dvec3& to);
 glm::dquat Orientation(const glm::dvec3& x, const glm::dvec3& y);
 
 /// Returns the local transforms that bring BodySkeleton(rest) into `pose`. The orientations of hips and chest follow
-/// from their joints. Each limb rotates by the shortest rotation from where its parent has carried it, except that bent
-/// elbows and knees rotate about their hinge, which determines the twist of the upper limb; a straight leg faces where
-/// its toes point, and a straight arm keeps the twist of a hanging one on the chest. The head faces as the chest does.
-/// Joints are at the positions of `pose`: a change of a limb's length appears in the translations, and nothing is
-/// scaled. The result is continuous over human poses.
+/// from their joints. Each limb follows its parent and then rotates by the shortest rotation, except that bent elbows
+/// and knees rotate about their hinge, which determines the twist of the upper limb. A straight leg faces in the
+/// direction of its toes; a straight arm is twisted like a hanging arm relative to the chest. The head faces like the
+/// chest. Joints are at the positions of `pose`: a change in the length of a limb appears in the translations, not in a
+/// scale. The result is continuous over human poses.
 LocalPose PoseRig(const BodyPose& pose, const BodyPose& rest);
 
-/// Converts a motion to a clip of BodySkeleton(rest) with rotating joints, as other programs expect in BVH and glTF.
+/// Converts a motion to a clip of BodySkeleton(rest) with rotating joints, which other programs expect in BVH and glTF.
 Clip RigClip(const BodyMotion& motion, const BodyPose& rest, std::string name);
 
 }  // namespace etude

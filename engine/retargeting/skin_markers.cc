@@ -18,10 +18,10 @@ using enum Role;
 
 /// A kind of joint whose markers lie on the skin.
 struct SkinJoint {
-  Role left, before;       ///< the joint of the left side, and the one at the limb's other end
-  std::string_view size;   ///< the name of its width in files, without the side
+  Role left, before;       ///< a joint of the left side, and the joint at the other end of its limb
+  std::string_view size;   ///< the name of the joint's width in files, without the side
   double share;            ///< distance from marker to centre over the length between the limb's markers
-  std::string_view where;  ///< for people: "knees {:.1f} cm inside"
+  std::string_view where;  ///< text for people: "knees {:.1f} cm inside"
 };
 constexpr std::array<SkinJoint, 4> kSkinJoints = {{{kLeftKnee, kLeftHip, "KNEEWIDTH", 0.12, "knees"},
                                                    {kLeftAnkle, kLeftKnee, "ANKLEWIDTH", 0.085, "ankles"},
@@ -31,7 +31,7 @@ constexpr std::array<SkinJoint, 4> kSkinJoints = {{{kLeftKnee, kLeftHip, "KNEEWI
 /// The distances from markers to centres, metres, by role.
 struct SkinDepths {
   std::array<double, kRoleCount> metres{};
-  std::vector<std::string> of_file, of_limb;  ///< which kinds of joints have them from where
+  std::vector<std::string> of_file, of_limb;  ///< the kinds of joints whose sizes come from each source
   bool has_elbow_widths = false;
 };
 
@@ -57,8 +57,8 @@ glm::dvec3 Across(const glm::dvec3& v, const glm::dvec3& along) {
   return v - glm::dot(v, unit) * unit;
 }
 
-/// Returns the centre that is `depth` from `marker`, on the side of `inward`, where the lines to the marker and to the
-/// limb's other end are at a right angle.
+/// Returns the centre that is `depth` from `marker`, on the side of `inward`, such that its lines to the marker and to
+/// the limb's other end are perpendicular.
 glm::dvec3 Chord(const glm::dvec3& other_end, const glm::dvec3& marker, const glm::dvec3& inward, double depth) {
   const glm::dvec3 limb = marker - other_end;
   const double length = glm::length(limb);
@@ -68,8 +68,8 @@ glm::dvec3 Chord(const glm::dvec3& other_end, const glm::dvec3& marker, const gl
   return marker - depth * share * limb / length + depth * std::sqrt(1 - share * share) * aside;
 }
 
-/// Blends from `rough`, which always tells, to the normal of a bend, which tells the more it bends. A marker that is
-/// `depth` beside a straight limb seems to bend it, which does not count.
+/// Blends from `rough`, which is always known, to the normal of a bend, which is more reliable the stronger the bend. A
+/// marker that is `depth` beside a straight limb makes it seem bent; this apparent bend is not counted.
 glm::dvec3 Inward(const glm::dvec3& rough, const glm::dvec3& upper, const glm::dvec3& lower, double sign, double depth) {
   constexpr double kCertain = 1.2, kRange = 0.25;  // of sines
   const double a = std::max(glm::length(upper), 1e-9), b = std::max(glm::length(lower), 1e-9);
@@ -116,7 +116,7 @@ SkinDepths DepthsOf(const MarkerSet& set, const std::map<std::string, double>& s
 
 void LowerShoulders(JointPositions& places, const SkinDepths& depths) {
   const auto at = [&](Role role) -> MarkerPosition& { return places[Index(role)]; };
-  // Down along the trunk, by its own markers, else from shoulders to hips.
+  // Downwards along the trunk by its own markers, otherwise from shoulders to hips.
   glm::dvec3 down(0);
   if (at(kShoulderCentre) && at(kSpine)) {
     down = *at(kSpine) - *at(kShoulderCentre);
@@ -133,8 +133,8 @@ glm::dvec3 ByWand(const glm::dvec3& wand, const glm::dvec3& other_end, const glm
   return UnitOr(-Across(wand - other_end, marker - other_end), glm::dvec3(0));
 }
 
-/// Returns the direction inward at a knee by the hips and by its bending: first of the markers, then of the centres that
-/// follow.
+/// Returns the inward direction at a knee, by the hips and by the knee's bending: first the bending of the markers,
+/// then of the resulting centres.
 glm::dvec3 KneeInward(const SideOf& side, const SkinDepths& depths) {
   const glm::dvec3 hip = *side[kLeftHip], skin = *side[kLeftKnee], ankle = *side[kLeftAnkle];
   const double sign = side.is_left() ? -1 : 1, depth = depths.metres[Index(side.On(kLeftKnee))];
@@ -144,7 +144,7 @@ glm::dvec3 KneeInward(const SideOf& side, const SkinDepths& depths) {
   return Inward(rough, knee - hip, centre - knee, sign, depth);
 }
 
-/// The wands that stand beside their limbs, left then right: those before or behind it tell nothing.
+/// The wands that stand beside their limbs, left then right. Wands in front of a limb or behind it are not used.
 struct UsedWands {
   std::array<bool, 2> thigh = {}, shank = {};
 };
@@ -153,7 +153,7 @@ UsedWands FindUsedWands(const std::vector<Wands>& wands, const SkinDepths& depth
   constexpr double kAside = 0.3;
   UsedWands used;
   for (const bool is_left : {true, false}) {
-    // The cosine between the wand's direction and the knee's own, in the median frame.
+    // The cosine between the wand's direction and the knee's axis, in the median frame.
     std::array<std::vector<double>, 2> cosines;
     const std::size_t index = is_left ? 0 : 1;
     for (std::size_t t = 0; t < frames.size(); ++t) {
@@ -187,7 +187,7 @@ void MoveLeg(const SideOf& side, const Wands& wands, const UsedWands& used, cons
 /// Returns the elbow's centre for a marker on its outside.
 glm::dvec3 BesideElbow(const SideOf& side, const SkinDepths& depths) {
   const double depth = depths.metres[Index(side.On(kLeftElbow))];
-  // With Plug-in Gait's widths its rule counts, which takes the plane of the markers as it is.
+  // If Plug-in Gait's widths are known, use its rule, which takes the plane of the markers as it is.
   const double seeming = depths.has_elbow_widths ? 0.3 * depth : depth;
   const glm::dvec3 shoulder = *side[kLeftShoulder], skin = *side[kLeftElbow], wrist = *side[kLeftWrist];
   glm::dvec3 rough = *side[kRightShoulder] - shoulder;
@@ -203,7 +203,8 @@ glm::dvec3 BeforeElbow(const SideOf& side, double depth) {
   return Chord(wrist, skin, *side[kLeftShoulder] - skin, depth);
 }
 
-/// Returns true if the elbows' markers sit on their points: upper arms then keep their length far better.
+/// Returns true if the elbows' markers are on the points of the elbows: the lengths of the upper arms are then far more
+/// constant.
 bool AreOnElbowPoints(std::vector<JointPositions>& frames, const SkinDepths& depths) {
   constexpr std::size_t kMinFrames = 5;
   constexpr double kBetter = 0.5, kVisible = 0.0005;
@@ -234,7 +235,7 @@ std::string MoveToJointCentres(const MarkerSet& set, const std::map<std::string,
                                const std::vector<Wands>& wands, std::vector<JointPositions>& frames) {
   if (!set.has_skin_limbs && !set.has_skin_shoulders) return "";
   const SkinDepths depths = DepthsOf(set, sizes_m, frames);
-  // Shoulders first: elbows hang from them.
+  // Shoulders come first because elbows depend on them.
   if (set.has_skin_shoulders) {
     for (JointPositions& places : frames) LowerShoulders(places, depths);
   }
@@ -249,7 +250,7 @@ std::string MoveToJointCentres(const MarkerSet& set, const std::map<std::string,
       side[kLeftElbow] = is_on_point ? BeforeElbow(side, depth) : BesideElbow(side, depths);
     }
   }
-  // Say what was moved, and by which rule.
+  // State which joints were moved, and by which rule.
   std::string said = "joint centres under the skin, cm from their markers: ";
   if (!depths.of_file.empty()) said += Join(depths.of_file) + " by the file's widths";
   if (!depths.of_file.empty() && !depths.of_limb.empty()) said += "; ";

@@ -15,7 +15,7 @@ namespace {
 
 using enum Role;
 
-// Lengths of the tips relative to the limb before them (an adult's, cm).
+// Lengths of the tips relative to the neighbouring limb (an adult's, cm).
 constexpr double kHandPerForearm = 18.0 / 25.0;
 constexpr double kFootPerShank = 18.0 / 42.0;
 constexpr double kHeadPerTrunk = 25.0 / 50.0;
@@ -27,12 +27,13 @@ struct TipLength {
 };
 // CMU's fingers are half as long as a hand.
 constexpr TipLength kPlausibleHand{0.4, 1.6};
-// The feet of Boxing_Toes are 1.4 times as long as paper B's, those of KayKit's toys 2.6 times as long as paper B's.
+// Compared with paper B's, the feet of Boxing_Toes are 1.4 times as long, and those of KayKit's toy figures 2.6 times.
 constexpr TipLength kPlausibleFoot{0.4, 3.0};
 // A single "Head" joint lies at the skull's base, at 0.2 of the trunk.
 constexpr TipLength kPlausibleHead{0.5, 1.6};
 
-// Tips whose distances differ by less than this share are equally far: files have six decimals, even in metres.
+// Tips whose distances differ by less than this share count as equally far, because files may have only six decimals,
+// in metres.
 constexpr double kEquallyFar = 1e-4;
 
 /// Returns the finger of a joint below `top`: by its own name, or by the name of the next joint above it that names a
@@ -45,9 +46,10 @@ Finger FingerBelow(const SkeletonTree& tree, int joint, int top) {
   return Finger::kNotNamed;
 }
 
-/// Returns the farthest descendant of `top` (or `top` itself) at a plausible distance, which `distance` gives, among
-/// those for which `may_be` is true. Among equally far ones it is that of the most suitable finger by name, else the
-/// skeleton's first; otherwise rounding could choose different ones on the left and on the right.
+/// Returns the farthest descendant of `top` (or `top` itself) at a plausible distance (computed by `distance`), among
+/// those for which `may_be` is true. Of equally far ones, it returns the one with the most suitable finger name,
+/// otherwise the first one of the skeleton, because rounding could otherwise choose different ones on the left and on
+/// the right.
 template <typename Distance, typename MayBe>
 std::optional<int> FarthestTip(const SkeletonTree& tree, int top, double proportion, const TipLength& plausible,
                                Distance distance_of, MayBe may_be) {
@@ -105,12 +107,12 @@ double MedianOf(const JointMapDraft& draft, const MovingPoses& moving, Measure m
   return LowerPercentile(std::move(values), 0.5);
 }
 
-/// Composes a tip on `joint`, `length` beyond the role `base`, in the direction that `direction` gives of a pose; at rest
-/// it is `rest`.
+/// Places a tip on `joint`, at the distance `length` from the role `base`. `direction` returns the tip's direction in a
+/// pose; at rest it is `rest`.
 template <typename Direction>
 void ComposeTip(JointMapDraft& draft, Role tip, int joint, Role base, const glm::dvec3& rest, double length,
                 const MovingPoses& moving, Direction direction) {
-  // Feet point anywhere beside the body's own forward in people who kneel or lie; hands bend by 90° in push-ups.
+  // The feet of people who kneel or lie point in any direction relative to the body; hands bend by 90° in push-ups.
   constexpr double kHeadElsewhere = Radians(60), kHandElsewhere = Radians(100);
   const double elsewhere = tip == kHead ? kHeadElsewhere : kHandElsewhere;
   const bool is_foot = tip == kLeftFoot || tip == kRightFoot;
@@ -147,7 +149,8 @@ void FindLimbTip(JointMapDraft& draft, const Limb& limb, const MovingPoses& movi
     const auto is_no_thumb = [&](int joint) { return FingerBelow(draft.tree(), joint, top) != Finger::kThumb; };
     const auto at_rest = [&](int joint) { return glm::distance(draft.tree().RestOf(joint), end); };
     auto tip = FarthestTip(draft.tree(), top, length, plausible, at_rest, is_no_thumb);
-    // In motion another may be farther: toes that rest folded back. Fingers curl, so hands need none at rest.
+    // In motion another joint may be farther, for example toes that are folded back at rest. This is not tried for
+    // hands with a tip at rest, because fingers curl.
     if ((!tip || !limb.is_arm) && !moving.empty()) {
       constexpr double kFarther = 1.2;
       const auto in_motion = [&, last = last](int joint) {
@@ -177,7 +180,7 @@ void FindHeadTip(JointMapDraft& draft, const MovingPoses& moving) {
     return ComposeTip(draft, kHead, draft.JointOf(kShoulderCentre), kShoulderCentre, above, length, moving, trunk_of);
   }
   const int head = draft.JointOf(kHead);
-  // Eyes, jaws and ears descend from the head, too, but point forward or sideways; the crown continues the trunk.
+  // Eyes, jaws and ears also descend from the head, but lie in front of it or beside it; the crown continues the trunk.
   constexpr double kAside = Radians(30), kAsideInMotion = Radians(45), kUnlike = Radians(25);
   const auto is_straight_on = [&](int joint) {
     return joint == head || AngleBetween(draft.tree().RestOf(joint) - draft.RestOf(kHead), trunk) <= kAside;
@@ -190,7 +193,8 @@ void FindHeadTip(JointMapDraft& draft, const MovingPoses& moving) {
         return glm::distance(body.JointAt(joint), body.At(kShoulderCentre));
       });
     };
-    // An eye points as far aside in motion as at rest; a crown that does not has no rest pose.
+    // An eye is as far from the trunk's line in motion as at rest. If the crown is far from it at rest but not in
+    // motion, the rest pose is not a human pose.
     const auto is_on_in_motion = [&](int joint) {
       const double rest_angle = AngleBetween(draft.tree().RestOf(joint) - draft.RestOf(kHead), trunk);
       const double angle = MedianOf(draft, moving, [&](const PosedBody& body) {

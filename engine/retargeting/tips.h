@@ -8,16 +8,17 @@
 
 namespace etude {
 
-/// Several poses of a skeleton in motion: its joints in each.
+/// The positions of a skeleton's joints in several poses of a clip.
 using MovingPoses = std::vector<std::vector<GlobalTransform>>;
 
-/// Finds hands, feet and head that are not given, after all other roles are known: the farthest descendant of wrist,
-/// ankle and head at a plausible distance at rest, or else in the median of the poses in motion; or else a point composed
-/// in the proportions of paper B's body. A thumb is never the tip of a hand. Among equally far tips (within 10⁻⁴) the
-/// middle finger is taken, then index, ring and little finger, then the skeleton's first, so that both sides agree. A
-/// head joint that was found by name is first assigned to the head; it then becomes the joint that carries the tip. A
-/// point is composed at rest, unless a head or a hand points elsewhere in motion (by over 60° or 100° in the median): then
-/// the rest pose is none, and the point is where the motion has it in the mean.
+/// Finds hands, feet and head that are not given, after all other roles are known: each is the farthest descendant of
+/// wrist, ankle or head at a plausible distance at rest, otherwise in the median of the poses in motion, otherwise a
+/// point composed in the proportions of paper B's body. A thumb is never the tip of a hand. Among equally far tips
+/// (within 10⁻⁴) the middle finger is taken, then index, ring and little finger, then the skeleton's first, so that
+/// both sides agree. A head joint that was found by name is first assigned to the head; it then becomes the joint that
+/// carries the tip. A point is composed from the rest pose. If a head points elsewhere in motion (by over 60° in the
+/// median; a hand by over 100°), the rest pose is not a human pose, and the point is composed from the mean of the
+/// motion.
 void FindTips(JointMapDraft& draft, const std::array<bool, kRoleCount>& is_taught, const MovingPoses& moving = {});
 
 }  // namespace etude

@@ -28,7 +28,7 @@ using enum Role;
 
 constexpr double kMinStature = 1.45;
 constexpr double kMaxStature = 2.1;
-constexpr double kMinSensedStature = 1.2;  // depth sensors write millimetres, and estimate heads too low
+constexpr double kMinSensedStature = 1.2;  // depth sensors measure in millimetres, and too low at the head
 
 struct Unit {
   std::string_view name;
@@ -40,7 +40,7 @@ struct Unit {
 constexpr std::array<Unit, 6> kUnits = {{
     {"metre", 1.0},
     {"foot", 0.3048},
-    {"CMU", 0.0254 / 0.45},  // mocap.cs.cmu.edu: inches times 0.45
+    {"CMU", 0.0254 / 0.45},  // mocap.cs.cmu.edu: an inch divided by 0.45
     {"inch", 0.0254},
     {"centimetre", 0.01},
     {"millimetre", 0.001, kMinSensedStature},
@@ -52,7 +52,7 @@ constexpr double kMaxPoses = 500'000;
 constexpr double kMinToldFloor_cm = 0.1;  // lower ones are rounding
 constexpr double kMinBody = 1e-6;  // in any unit; smaller bodies have no size
 
-/// Returns the axis that is told, else the format's, else the one found.
+/// Returns the up axis given by the user, otherwise the format's, otherwise the one found.
 UpFinding UpOf(const BodyOptions& options, const BodyPose& rest, const UpSamples& samples) {
   if (options.up) return {.axis = AxisOf(*options.up), .evidence = UpEvidence::kTold};
   if (options.found_up) return *options.found_up;
@@ -75,8 +75,8 @@ double WorstGap(const BodyPose& a, const BodyPose& b) {
   return worst;
 }
 
-/// Returns the number of frames at the start that are one T-pose from which the motion jumps: by much more than its
-/// next step, and by more than 5 % of the stature. Returns 0 if there is none.
+/// Returns the number of frames at the start that show one constant T-pose, if the motion then jumps: by much more than
+/// in the step after it, and by more than 5 % of the stature. Returns 0 if there is none.
 std::size_t CountForeignTPose(const Clip& clip, BodySampler& sampler, UpAxis up) {
   constexpr double kStillPerStature = 1e-4;
   constexpr double kJumpPerStature = 0.05;
@@ -103,8 +103,8 @@ std::vector<double> OverFrames(const std::vector<BodyPose>& poses, Measure measu
   return values;
 }
 
-/// Returns the lowest height of all joints, because people lie and sit; finger tips are left out because rigs place
-/// them carelessly.
+/// Returns the height of the lowest joint, because people also lie and sit. Finger tips are left out because rigs place
+/// them inaccurately.
 double LowestPoint(const BodyPose& pose) {
   double lowest = pose[kHipCentre].y;
   for (const Role role : AllRoles()) {
@@ -157,9 +157,9 @@ const Unit* UnitOf(double stature) {
 constexpr double kMaxRatio = 1.25;
 bool AreAlike(double ratio) { return ratio > 1 / kMaxRatio && ratio < kMaxRatio; }
 
-/// Finds the unit by the stature. The rest pose's stature, which all clips of a file share, is used unless the moving
-/// body differs: some files store all offsets in the frames only, others scale the hips in them. `remarks` states it.
-/// Fails, naming `file`, if the given unit is implausible, and names the likely one.
+/// Finds the unit by the stature. Uses the stature of the rest pose, which all clips of a file share, unless that of
+/// the frames differs: some files store all offsets only in the frames, others scale the hips there. `remarks` states
+/// this. Fails, naming `file`, if the given unit is implausible, and names the likely one.
 Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, const BodyOptions& options,
                       const std::string& file, BodyConversion& done, std::vector<std::string>& remarks) {
   const std::optional<double>& given = options.metres_per_unit;
@@ -211,7 +211,7 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
 }
 
 double FindFloor(const std::vector<BodyPose>& poses) {
-  // A percentile, not the minimum: a single frame with a lost marker must not lift the whole clip.
+  // A percentile, not the minimum: a single frame with a lost marker must not raise the whole clip.
   constexpr double kLow = 0.05;
   return LowerPercentile(OverFrames(poses, LowestPoint), kLow);
 }
@@ -243,7 +243,7 @@ std::string LiesAlong(std::span<const BodyPose> poses) {
   return "";
 }
 
-/// Lists the findings and changes, each for people.
+/// Lists the findings and changes as texts for people.
 std::vector<std::string> ChangesOf(const BodyConversion& done, const JointMap& map, const Clip& clip,
                                    const std::string& lies) {
   // Unit, axis and frames.

@@ -19,11 +19,11 @@ namespace etude {
 struct BodyOptions {
   double rate_hz = kJudgedRateHz;
   std::optional<double> metres_per_unit = std::nullopt;
-  std::optional<UpAxis> up = std::nullopt;           ///< told by the user: it overrules all else
+  std::optional<UpAxis> up = std::nullopt;           ///< given by the user; overrules everything else
   std::optional<UpRule> up_rule = std::nullopt;      ///< of the file or its format
-  std::optional<UpFinding> found_up = std::nullopt;  ///< FindGround's, for a clip of several
-  bool keep_floor = false;                           ///< leave the body at the height that the file says
-  std::optional<double> floor = std::nullopt;    ///< its height along the up axis, in the file's unit
+  std::optional<UpFinding> found_up = std::nullopt;  ///< FindGround's result, for one of several clips
+  bool keep_floor = false;                           ///< leave the body at the file's own height
+  std::optional<double> floor = std::nullopt;    ///< the floor's height along the up axis, in the file's unit
   std::optional<double> stature = std::nullopt;  ///< of the moving body, in the file's unit: Ground::stature
   bool drop_t_pose = true;                       ///< drop a leading T-pose from which the motion jumps
 };
@@ -33,11 +33,11 @@ struct BodyConversion {
   double metres_per_unit = 0;
   std::string unit;  ///< "centimetre", "CMU", …; "unknown" (scaled to a human), "scaled", "given"
   UpAxis up = UpAxis::kY;
-  UpFinding found_up = {};         ///< the axis of the file, and what it follows from
+  UpFinding found_up = {};         ///< the axis of the file, and the reason for it
   double floor = 0;                ///< height of the floor in the file's unit, along its up axis
   std::size_t dropped_frames = 0;  ///< number of frames of a T-pose dropped at the beginning
-  /// The findings and every change of what the file holds, each for people: "1 unit = 5.64 cm (CMU)", "dropped a leading
-  /// T-pose".
+  /// The findings and every correction of the file's data, each as a text for people: "1 unit = 5.64 cm (CMU)",
+  /// "dropped a leading T-pose".
   std::vector<std::string> changes = {};
   BodyMotion motion;
 
@@ -59,13 +59,13 @@ struct BodyConversion {
 ///   states if a clip's own median differs.
 /// - Floor: the 5th percentile, over the frames, of the lowest joint's height (finger tips excluded) becomes y = 0.
 ///   Horizontal position and heading stay as in the file. Clips of one file share a floor: pass them FindGround's; a
-///   clip that stays farther from it than its legs are long has another root, and gets its own floor.
+///   clip that stays farther from it than the length of its legs has another root and gets its own floor.
 ///
-/// Fails, naming `file`, for no frames, more than an hour, more than half a million poses, a body without size, limbs
-/// of no length (two of the eight or more, in the median frame), a given unit in which it is not 0.4 to 4 m tall, a left
-/// arm on the side of the right leg, and feet that point backwards (if feet are composed: arms that do, or knees that
-/// bend backwards by more than 35° or together with the arms); left and right are then swapped, or the axes are
-/// left-handed. The note states a smaller overextension of the knees.
+/// Fails, naming `file`, if there are no frames, more than an hour or more than half a million poses; if the body has
+/// no size, two or more of its eight limbs have no length in the median frame, or it is not 0.4 to 4 m tall in a given
+/// unit. It also fails if left and right are swapped or the axes are left-handed, which shows in a left arm on the side
+/// of the right leg or in feet that point backwards (if feet are composed: arms that point backwards, or knees that
+/// bend backwards by more than 35° or together with the arms). The note states a smaller overextension of the knees.
 Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const std::string& file,
                                     const BodyOptions& options = {});
 
@@ -77,15 +77,15 @@ struct Ground {
   UpFinding found_up = {};
 };
 
-/// Finds the ground of all clips of one skeleton in one file, by the rules of ToBodyMotion over all of their frames: a
-/// person who sits in one clip and stands up in another has the same floor in both, and clips share one unit. Values
-/// given in `options` are used. Returns nullopt if no clip has a frame, or if a position is not finite.
+/// Finds the ground of all clips of one skeleton in one file, by the rules of ToBodyMotion applied to all of their
+/// frames, so that a person who sits in one clip and stands up in another has the same floor in both, and all clips
+/// have one unit. Values given in `options` are used. Returns nullopt if no clip has a frame, or if a position is not
+/// finite.
 std::optional<Ground> FindGround(std::span<const Clip> clips, const JointMap& map, const BodyOptions& options = {});
 
 /// Removes from a file's frames the scales that its rest pose does not have, such as one on the hips. This is done if
-/// the body at rest is a person in some unit, the frames show it taller or smaller by a factor of more than 1.25
-/// (median over the clips), and would not without their scales. Returns that factor; nullopt if the clips are
-/// unchanged.
+/// the body at rest has a person's size in some unit, and the frames show it taller or smaller by a factor of more than
+/// 1.25 (median over the clips), but not without their scales. Returns that factor; nullopt if the clips are unchanged.
 std::optional<double> UndoScales(std::span<Clip> clips, const JointMap& map);
 
 /// Returns the transform from the file's unit and axes to the world of ToBodyMotion's result, for the clip's meshes.

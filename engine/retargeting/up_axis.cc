@@ -16,15 +16,15 @@ namespace {
 
 using enum Role;
 
-/// What a motion shows if one axis points up. Lengths are in statures.
+/// Measurements of a motion under the assumption that one axis points up. Lengths are in statures.
 struct Stance {
   double upright = 0;   ///< share of the frames with the trunk upright, the hips above the feet, and the head on top
   double balanced = 0;  ///< share of the frames with the weight over the feet
-  double straight = 0;  ///< share of the frames with trunk, head and legs straight along it, as in static trials
-  double floor = 0;     ///< how far the lowest joint's height varies (5th to 95th percentile)
-  double way = 0;       ///< how far the hips travel across the axis
-  double steps = 0;     ///< share of that travelling during which one ankle stands
-  double on_hands = 0;  ///< share of the frames with a wrist beyond the head, as upside down on the hands
+  double straight = 0;  ///< share of the frames with trunk, head and legs straight along the axis, as in static trials
+  double floor = 0;     ///< range of the lowest joint's height (5th to 95th percentile)
+  double way = 0;       ///< distance that the hips travel perpendicular to the axis
+  double steps = 0;     ///< share of that distance during which one ankle stands still
+  double on_hands = 0;  ///< share of the frames with a wrist beyond the head, as in a handstand
 };
 
 /// A share of the frames that is next to none.
@@ -45,7 +45,7 @@ bool IsUpright(const BodyPose& pose, const glm::dvec3& up) {
          glm::dot(pose[kHead] - pose[kShoulderCentre], up) > 0;
 }
 
-/// Returns true if the body's weight lies over the box around ankles and toes, widened by a heel.
+/// Returns true if the body's weight lies over the box around ankles and toes, which is extended to include the heels.
 bool IsBalanced(const BodyPose& pose, const glm::dvec3& up, double stature) {
   constexpr double kHeel = 0.035, kFootless = 0.09, kAboveFeet = 0.4, kMinFoot = 0.02;
   if (glm::dot(pose[kHipCentre] - MeanAnkle(pose), up) < kAboveFeet * LegLength(pose)) return false;
@@ -84,7 +84,7 @@ double Lowest(const BodyPose& pose, const glm::dvec3& up) {
   return lowest;
 }
 
-/// Frames to measure: the poses at a stride, each with one about a twentieth of a second later.
+/// The frames to measure: every n-th pose, each with a pose about a twentieth of a second later.
 struct Frames {
   std::span<const BodyPose> poses;
   std::size_t stride = 1, later = 1;
@@ -143,10 +143,10 @@ Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
   return stance;
 }
 
-/// Returns true if a motion speaks for `other` as the axis that points up, against the usual one.
+/// Returns true if a motion is sufficient evidence that `other` points up, and not the usual axis.
 bool Overrules(const Stance& other, const Stance& usual, bool is_opposite, const UpRule& rule) {
   constexpr double kMostly = 0.8, kStillFloor = 0.05;
-  // Upside down on the hands: arms stretched beyond the head. A camera's axes point down, but arms then hang.
+  // A handstand: arms stretched beyond the head. In a file whose axes point down, like a camera's, arms usually hang.
   if (is_opposite && other.on_hands > 0.5) return false;
   // The floor is still along the other axis only.
   constexpr double kNow = 0.1, kFloorless = 0.15;
@@ -157,7 +157,7 @@ bool Overrules(const Stance& other, const Stance& usual, bool is_opposite, const
   // It walks.
   if (other.way > 0.5 && other.steps > 0.4) return true;
   if (rule.is_of_rest) return false;
-  // It stands on its feet, and moves or is quite still.
+  // The body stands on its feet, and either moves or stands quite still.
   if (other.balanced > 0.75 && other.floor < kStillFloor && usual.floor > std::max(0.06, 2 * other.floor)) return true;
   return other.straight > 0.9 && other.balanced > 0.9 && other.floor < 0.02;
 }
@@ -180,7 +180,7 @@ UpFinding FindUp(std::span<const BodyPose> all, double rate_hz, const UpRule& ru
     return std::ranges::all_of(pose.joints, [](const glm::dvec3& p) { return std::isfinite(glm::dot(p, p)); });
   });
   if (poses.empty()) return found;
-  // Find the axis that the motion speaks for: among several, the one along which the body is upright most.
+  // Find the axis for which the motion is evidence; among several, the one along which the body is upright most often.
   const Frames frames = FramesOf(poses, rate_hz);
   const Stance usual = MeasureStance(frames, rule.axis);
   const glm::dvec3* best = nullptr;
@@ -213,7 +213,7 @@ UpFinding FindUp(const BodyPose& rest, std::span<const BodyPose> poses, double r
   UpRule rule{.is_y_or_z = true};
   if (std::max(at_rest.y, at_rest.z) > kStanding) rule.source = "the axis along which it stands at rest";
   rule.is_of_rest = at_rest.y > kStanding;
-  // Some exporters write a rest pose along Z and motions along Y, so a rest pose along Z gives way to a still stance.
+  // Some exporters write a rest pose along Z and motions along Y, so a still stance overrules a rest pose along Z.
   if (at_rest.z > kStanding) rule.axis = {0, 0, 1};
   return FindUp(poses, rate_hz, rule);
 }

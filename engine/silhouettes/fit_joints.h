@@ -28,9 +28,9 @@ TreeState FitJoints(const SilhouetteBody& body, const JointTargets& targets,
 /// Makes targets of all twenty joints of `pose` with equal accuracy.
 JointTargets TargetsOf(const BodyPose& pose, double sigma_m = 0.01);
 
-/// Turns the body front to back *(ours)*: its left limbs go where the right ones are in `state`, and the right ones
-/// where the left ones are, as nearly as its joints allow; feet and head are not constrained. The silhouettes of both
-/// poses are nearly the same.
+/// Turns the body front to back *(ours)*: its left limbs move to the places of the right ones in `state`, and the right
+/// ones to those of the left ones, as nearly as its joints allow; feet and head are not constrained. The silhouettes of
+/// both poses are nearly the same.
 TreeState TurnedRound(const SilhouetteBody& body, const TreeState& state);
 
 }  // namespace etude

@@ -82,8 +82,8 @@ struct SilhouetteCostOptions {
   double inside_share = 0.8;
   /// The weight of one sample of the flesh relative to one point of the outline.
   double inside_weight = 2;
-  /// The reach of the same loss for seen joints, in their standard deviations. Beyond it the joint is probably another
-  /// person's, or of the other side.
+  /// The reach of the same loss for seen joints, in their standard deviations. A joint beyond it probably belongs to
+  /// another person or to the other side of the body.
   double joint_reach = 3;
 };
 

@@ -13,8 +13,8 @@ namespace etude {
 namespace {
 
 using Fits = std::vector<std::optional<SilhouetteFit>>;
-// The number of start poses that are followed through the take; the number of frames from which the reversed body is
-// searched; the cost ratio below which the reversed body is taken.
+// The number of start poses that are followed through the take, the number of frames in which the reversed body is
+// searched for, and the ratio of costs below which the reversed body is chosen.
 
 constexpr std::size_t kFollowedAnchors = 2;
 constexpr int kTurnedMoments = 5;
@@ -169,8 +169,8 @@ class Tracker {
 
   // The silhouettes of a body that is turned front to back, with left and right limbs exchanged, are nearly the same.
   // Such a body is searched for in a few frames, from the positions of this one's limbs, and followed through the take.
-  // Its cost, with the angle priors, must be clearly lower: errors of neighbouring frames are correlated, so a sum over
-  // frames is less significant than its size suggests.
+  // Its cost, with the angle priors, must be clearly lower: errors of neighbouring frames are correlated, so a small
+  // difference between sums over frames may be due to chance.
   Fits EitherWayRound(Fits fits) {
     // Find the reversed pose of the lowest trial cost.
     std::optional<Anchor> likeliest;

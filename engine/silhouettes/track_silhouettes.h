@@ -32,9 +32,9 @@ struct SilhouetteTrack {
 
 /// Follows a body through a take by its silhouettes and by the joints seen. The body is found in a few frames by trying
 /// headings and postures, or starts from a known pose. It is fitted from frame to frame forwards, and again backwards
-/// from the end; of both, the poses with the lowest cost and the smallest changes are kept (Viterbi's shortest path).
-/// The same is done for the body turned front to back (`TurnedRound`), which is taken if its cost is clearly lower.
-/// Then lost limbs are searched for, and every frame is fitted once more with its neighbours as a prior.
+/// from the end; in each frame, one of the two poses is kept such that costs and changes are lowest in total (Viterbi's
+/// shortest path). The same is done for the body turned front to back (`TurnedRound`), which is taken if its cost is
+/// clearly lower. Then lost limbs are searched for, and every frame is fitted once more with its neighbours as a prior.
 SilhouetteTrack TrackSilhouettes(const SilhouetteBody& body, const SilhouetteTake& take,
                                  const TrackOptions& options = {});
 

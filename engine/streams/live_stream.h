@@ -21,7 +21,7 @@ class LiveStream {
   LiveStream(std::string name, const StreamReading& reading, const StreamOptions& options);
 
   /// Takes the next line, without its line end, and appends the frames that are now known. Fails, with the line, for
-  /// what ReadStreamRecording and StreamMaker refuse, for formats that do not consist of rows, and after ten minutes
+  /// the errors of ReadStreamRecording and StreamMaker, for formats that do not consist of rows, and after ten minutes
   /// without a body.
   Result<void> Take(std::string_view line, std::vector<SensedFrame>& stream);
   /// Ends the stream: appends the frames of a stream that is shorter than a second.
@@ -29,9 +29,8 @@ class LiveStream {
 
   /// Returns the format, units and clock that were detected; nullopt before the first frames are returned.
   const std::optional<StreamRecording>& Meaning() const { return meaning_; }
-  /// Returns what is to be said of the level that was found: a sensor that was turned back, a trunk that is far from
-  /// up;
-  /// "" if there is nothing or nothing is known yet.
+  /// Returns remarks on the level that was found: that the sensor was turned, or that the trunk is far from up; "" if
+  /// there are none or nothing is known yet.
   std::string RemarkOnLevel() const;
 
  private:

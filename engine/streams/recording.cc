@@ -59,7 +59,7 @@ Result<void> CheckRoles(const StreamRecording& recording, const std::string& fil
   return {};
 }
 
-/// Refuses a TRC file that lacks a joint; the message lists the marker names that are not joints.
+/// Fails for a TRC file that lacks a joint; the message lists the marker names that are not joints.
 Result<void> CheckMarkerNames(const std::vector<std::string>& names, const std::string& file) {
   constexpr int kNamesLine = 4;
   constexpr std::size_t kMaxListed = 8;
@@ -90,7 +90,7 @@ double MiddleDistance(const StreamRecording& recording, Role a, Role b) {
   return UpperMedian(std::move(lengths));
 }
 
-/// Refuses joints that are farther from the sensor than a person can be.
+/// Fails if joints are farther from the sensor than a person can be.
 Result<void> CheckReach(const StreamRecording& recording, const std::string& file) {
   constexpr double kMaxDistance_m = 100;
   for (const RecordedFrame& frame : recording.frames) {
@@ -104,7 +104,7 @@ Result<void> CheckReach(const StreamRecording& recording, const std::string& fil
   return {};
 }
 
-/// Checks that times do not fall. Of frames with the same time only the last one is kept.
+/// Checks that times do not decrease. Of frames with the same time only the last one is kept.
 Result<void> OrderTimes(StreamRecording& recording, const std::string& file) {
   std::vector<RecordedFrame> ordered;
   for (const RecordedFrame& frame : recording.frames) {

@@ -60,9 +60,9 @@ struct StreamReading {
   std::optional<int> body = {};  ///< which of several bodies, by first appearance; otherwise the one in most frames
 };
 
-/// Reads a file of skeletons. Fails, with file, line and column, for: an unknown format, another number of joints,
-/// texts in place of numbers, infinity, a clock that runs backwards, a body that no unit makes human, a file without a
-/// body, and more than 64 MiB of text.
+/// Reads a file of skeletons. Fails, with file, line and column, for: an unknown format, a wrong number of joints, text
+/// in place of a number, infinity, a clock that runs backwards, a body that has no human size in any unit, a file
+/// without a body, and more than 64 MiB of text.
 Result<StreamRecording> ReadStreamRecording(std::string_view text, const std::string& file,
                                             const StreamReading& reading = {});
 

@@ -24,8 +24,8 @@ class Bodies {
            const std::array<TrackingState, kRoleCount>& states);
 
   /// Puts one body into the recording's frames: the requested one, counted by first appearance, otherwise the one in
-  /// most frames, and among those the one that moves most, because files of crowded rooms contain furniture that was
-  /// temporarily taken for a person. Bodies that continue each other are joined before (JoinContinued).
+  /// most frames, and among those the one that moves most, because sensors in crowded rooms temporarily take furniture
+  /// for a person. Bodies that continue each other are joined before (JoinContinued).
   Result<void> Choose(const StreamReading& reading, const std::string& file, StreamRecording& recording);
 
  private:

@@ -96,11 +96,12 @@ glm::dmat3 QuarterTurns(int quarters) {
   return {c, s, 0, -s, c, 0, 0, 0, 1};
 }
 
-/// Returns the quarter turns that set the bodies before a turned sensor upright; 0 if it is not turned.
+/// Returns the number of quarter turns that set bodies upright if the sensor was in portrait or upside down; 0 if it
+/// was not.
 int QuartersOfSensor(std::span<const RecordedFrame> frames) {
   constexpr double kMinShare = 0.7, kHardlyAny = 0.05, kFaces = 0.7;
   std::array<double, 4> upright{};
-  std::vector<double> fronts;  // how far the body faces up or down by the file
+  std::vector<double> fronts;  // the angle by which the body faces up or down in the file's axes
   double all = 0;
   for (const RecordedFrame& frame : frames) {
     const auto &hips = frame.places[Index(kHipCentre)], &neck = frame.places[Index(kShoulderCentre)],

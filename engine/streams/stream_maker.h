@@ -12,33 +12,34 @@
 
 namespace etude {
 
-/// The transform from a recording's space to the world, in which Y points up and the floor is at 0. X and Z are not
+/// The transform from a recording's space to the world, whose Y axis points up and whose floor is at 0. X and Z are not
 /// shifted.
 struct StreamLevel {
   enum class By { kNothing, kFeet, kTrunk };
 
   glm::dmat3 R_WF{1};       ///< rotates the file's directions into the world: the turn, then about a horizontal axis
   double floor_m = 0;       ///< height of the floor after that rotation
-  int turn_deg = 0;         ///< of a sensor in portrait or upside down, about its line of sight: 0, 90, 180, 270
+  int turn_deg = 0;         ///< turn of a sensor in portrait or upside down, about its line of sight: 0, 90, 180, 270
   double tilt_deg = 0;      ///< angle of the rotation about a horizontal axis
   By up_by = By::kNothing;  ///< the evidence for the up direction
-  double trunk_deg = 0;     ///< angle of the trunk from the file's up if that was kept against it, else 0
+  /// Angle between the trunk and the file's up if the file's up was kept nevertheless, otherwise 0.
+  double trunk_deg = 0;
 
   glm::dvec3 Apply(const glm::dvec3& place) const { return R_WF * place - glm::dvec3(0, floor_m, 0); }
 };
 
 /// Estimates gravity and floor from the body alone, because few files contain the tilt of their sensor (ours). Up is
 /// the normal of the plane under standing feet if they determine it (standard deviation of at least 10 cm in both
-/// directions, at most 3 cm off the plane, within 15° of the trunk); otherwise the trunk's median direction, which
-/// takes a constant lean for a tilt of the sensor. Nothing is rotated if the result is more than 30° from the file's
-/// own up. A sensor in portrait or upside down is turned back first: the trunk is then within 30° of another of its
-/// axes in seven frames of ten and of the file's up in hardly any, and, in portrait, the body faces the sensor; that of
-/// who lies faces up or down. The floor is the 10th percentile of the lower foot's height. `rate_hz` > 0 is the frames'
-/// rate.
+/// directions, at most 3 cm off the plane, within 15° of the trunk); otherwise it is the trunk's median direction, so a
+/// constant lean counts as a tilt of the sensor. Nothing is rotated if the result is more than 30° from the file's own
+/// up. A sensor in portrait or upside down is turned back first. It is recognised because the trunk is within 30° of
+/// another of its axes in seven of ten frames and of the file's up in hardly any. In portrait, the body must also face
+/// the sensor, because a lying body faces up or down. The floor is the 10th percentile of the lower foot's height.
+/// `rate_hz` > 0 is the frames' rate.
 StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz);
 
-/// Describes a level: "up by the trunk (6.3 degrees), floor 0.83 m below the sensor"; names a sensor that was turned
-/// back, and a trunk that is far from the up that was kept.
+/// Describes a level: "up by the trunk (6.3 degrees), floor 0.83 m below the sensor"; also states a sensor that was
+/// turned back, and a trunk that is far from the file's up.
 std::string Describe(const StreamLevel& level);
 
 struct StreamOptions {

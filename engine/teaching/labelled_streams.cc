@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// Returns whom the labels of each stream name; "" where they name nobody.
+/// Returns the person whom the labels of each stream name; "" if they name nobody.
 Result<std::vector<std::string>> NamedByLabels(const LabelledStreams& all) {
   std::vector<std::string> names(all.streams.size());
   for (const LabelledPart& part : all.parts) {

@@ -15,17 +15,17 @@ namespace etude {
 
 /// A recording of one person.
 struct NamedStream {
-  std::string name;    ///< the file's, without folder and ending; a clip's
+  std::string name;    ///< the file's name without folder and extension, or the clip's name
   std::string source;  ///< what opens it again
-  std::string person;  ///< as the file's name tells in sets that are known (PersonInName), else ""
+  std::string person;  ///< the person in the file's name, for known data sets (PersonInName); otherwise empty
   SkeletonStream stream;
-  double start_s = 0;                     ///< of its first frame, by the file's own clock
-  std::string description;                ///< one line, for people: format, length, states, level, remarks
-  std::optional<BodyMotion> motion = {};  ///< what was truly done; of clips alone
+  double start_s = 0;                     ///< time of the first frame by the file's own clock
+  std::string description;                ///< one line for people: format, length, states, level, remarks
+  std::optional<BodyMotion> motion = {};  ///< the true motion; known for clips only
 };
 
-/// Returns who was recorded, as file names of known sets have it: NTU's "P003" of "S001C002P003R002A013", MSRC-12's
-/// "p06" of "P1_1_1_p06", UTKinect's "s01" of "joints_s01_e02"; else "".
+/// Returns the person that a file name of a known data set names: NTU's "P003" in "S001C002P003R002A013", MSRC-12's
+/// "p06" in "P1_1_1_p06", UTKinect's "s01" in "joints_s01_e02"; otherwise "".
 std::string PersonInName(std::string_view name);
 
 /// A performance within its recording.
@@ -33,20 +33,20 @@ struct LabelledPart {
   std::size_t stream = 0;  ///< index
   std::string move, fault, person;
   int begin = 0, end = 0;        ///< frames [begin, end)
-  bool is_action_point = false;  ///< `begin` is the frame; `end` one more
+  bool is_action_point = false;  ///< `begin` is the frame of the action point; `end` is one more
   int line = 0;
 
   bool IsRight() const { return fault.empty(); }
 };
 
-/// Finds what the labels mean in these streams, in the order of the streams, then of time. A label of another recording
-/// is left out. Refused, with the label's line: times outside the recording by more than half a second; no label of any
-/// recording.
+/// Finds the frames of these streams to which the labels refer, sorted by stream and then by time. Labels of other
+/// recordings are left out. Fails, with the label's line, if times are outside the recording by more than half a
+/// second, or if no label belongs to any of the recordings.
 Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, const std::string& file,
                                               const std::vector<NamedStream>& streams);
 
-/// Takes each stream without labels for one move, performed right and called by the file's name; of NTU's by its action
-/// ("A013").
+/// Makes each stream without labels a right performance of one move, which has the file's name; for NTU's files it is
+/// the action ("A013").
 std::vector<LabelledPart> WholeStreams(const std::vector<NamedStream>& streams);
 
 /// Returns the frames [begin, end) alone.
@@ -58,22 +58,23 @@ struct RecordedPerson {
   std::vector<std::size_t> streams;  ///< indices
 };
 
-/// Recordings, who is in them, and what was done there.
+/// Recordings, the people in them, and the moves performed.
 struct LabelledStreams {
-  std::string file;  ///< of the labels, for complaints; the recordings' where there are none
+  std::string file;  ///< of the labels, for error messages; the recordings' if there are no labels
   std::vector<NamedStream> streams;
-  std::vector<LabelledPart> parts;     ///< in the order of the streams, then of time
+  std::vector<LabelledPart> parts;     ///< sorted by stream, then by time
   std::vector<RecordedPerson> people;  ///< by name
   std::vector<std::string> moves;      ///< all that labels name, sorted
-  std::string nobody;                  ///< a recording of which nothing says who is in it; "" = there is none
+  std::string nobody;                  ///< a recording whose person is not known; "" if there is none
 };
 
 /// The texts of label files, by path.
 using LabelTexts = std::map<std::string, std::string>;
 
-/// Puts labels and recordings together; without labels one recording is one performance (WholeStreams). A recording
-/// without a label shows nothing that was asked for. Who is in it: its labels say, else its file's name, else it is
-/// somebody of its own. Refused as ReadLabels and MatchLabels do; a recording whose labels name two people.
+/// Combines labels and recordings. Without any labels, each recording is one performance (WholeStreams); otherwise a
+/// recording without a label contains no move. The person of a recording is named by its labels, otherwise by its
+/// file's name; otherwise it is a person of its own. Fails as ReadLabels and MatchLabels do, and if the labels of a
+/// recording name two people.
 Result<LabelledStreams> LabelStreams(std::vector<NamedStream> streams, const LabelTexts& labels);
 
 }  // namespace etude

@@ -16,8 +16,8 @@ struct TeachOptions {
   /// angle of an arm is used, all four angles of both arms are used, as in A's poses, because raising one arm is a
   /// different move from raising both. If one angle of a leg is used, both angles of that leg are.
   double least_range_deg = 25;
-  /// The maximum number of key poses. The first is the pose farthest from the move's mean; the next ones are farthest
-  /// from the chosen ones, as long as their distance is at least half that of the first two.
+  /// The maximum number of key poses. The first is the pose farthest from the move's mean; each further one is the pose
+  /// farthest from the poses chosen so far, as long as its distance is at least half that of the first two.
   int most_poses = 3;
   /// The tolerance, in standard deviations of the examples about their mean; it is limited by the two values below.
   double spread = 2.5;

@@ -8,11 +8,11 @@
 
 namespace etude {
 
-/// Teaches every move of these parts, by name: right ones are examples, wrong ones counter-examples. An action point is
-/// a moment, so the performance is taken to be the time around it: from half-way after the action point before it, at
-/// most two seconds, to at most one second after (ours). Parts for which `takes` says no are left out. Fails as
-/// TeachMove does; without `is_strict` a move without a usable right performance is left out instead, and so is a
-/// performance that cannot be learnt from.
+/// Teaches every move of these parts, by name: right performances are examples, wrong ones counter-examples. An action
+/// point is only a moment, so its performance is taken from half-way after the preceding action point, at most two
+/// seconds before, to at most one second after it (ours). Parts for which `takes` returns false are left out. Fails as
+/// TeachMove does; without `is_strict`, a performance that cannot be used is left out, and so is a move without a
+/// usable right performance.
 Result<std::vector<TaughtMove>> TeachMoves(const std::vector<NamedStream>& streams,
                                            const std::vector<LabelledPart>& parts,
                                            const std::function<bool(const LabelledPart&)>& takes, bool is_strict);

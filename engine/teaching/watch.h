@@ -44,12 +44,12 @@ class StreamWatcher {
 std::vector<Spotting> Watch(const SkeletonStream& stream, const Recogniser& recogniser, std::size_t moves,
                             const WatchOptions& options);
 
-/// Finds the move that the frames [begin, end) show most: the one whose evidence rises highest in them, looked at as if
-/// they were all there is. Returns nothing when none has any.
+/// Finds the move that the frames [begin, end) most likely show: the one whose evidence becomes highest in them,
+/// without regard to other frames. Returns nothing if no move has evidence.
 std::optional<std::size_t> Classify(const SeenStream& seen, int begin, int end, const Recogniser& recogniser,
                                     std::size_t moves);
 
-/// Returns how right the move looks when it is asked for in the frames [begin, end), in [0, 1].
+/// Returns how right the move looks if it is asked for in the frames [begin, end), in [0, 1].
 double JudgeAsked(const SeenStream& seen, int begin, int end, const Recogniser& recogniser, std::size_t move);
 
 }  // namespace etude

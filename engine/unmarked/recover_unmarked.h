@@ -78,7 +78,7 @@ struct UnmarkedOptions {
   std::size_t kept = 5;
   /// Pixels within this distance of the body, in pixels, may be its shadow or rim and are not trusted as room.
   double body_reach_px = 8;
-  /// The standard deviation of a keypoint of confidence 1 from the true joint, pixels.
+  /// The standard deviation of the distance between a keypoint of confidence 1 and the true joint, pixels.
   double keypoint_px = 3;
 };
 
@@ -99,8 +99,8 @@ struct UnmarkedMotion {
 
 /// Recovers a person's motion from silhouettes alone (engine/silhouettes) *(ours)*: without marks, keypoint estimator
 /// or picture of the empty room. The room is first estimated from pixels with little motion. A body tracked in front of
-/// that estimate shows where and when the room is visible, which improves the estimate, and so on. Fails if no frame
-/// shows a person to two cameras.
+/// that estimate shows where and when the room is visible, which improves the estimate; this is repeated. Fails if no
+/// frame shows a person to two cameras.
 Result<UnmarkedMotion> RecoverUnmarked(const UnmarkedTake& take, const UnmarkedOptions& options = {});
 
 }  // namespace etude

@@ -72,7 +72,7 @@ class GatedComparison {
     const Tone b(background), p(pixel);
     const bool hue_b = HasHue(b), hue_p = HasHue(p);
     if (hue_b && hue_p && hues_.Differ(b.chroma, p.chroma)) return true;
-    // If only one pixel has a hue, noise may decide that, so the saturations must differ clearly.
+    // If only one pixel has a hue, that may be due to noise, so the saturations must differ clearly.
     if (hue_b != hue_p && std::abs(b.Saturation() - p.Saturation()) > o_.saturation_threshold) return true;
     return p.sum < o_.darkest_shadow * b.sum || p.sum > o_.brightest_light * b.sum;
   }

@@ -100,8 +100,8 @@ Mask DetectChange(const ColourImage& background, const ColourImage& picture, Seg
 /// The changed components that are taken for the person.
 enum class PersonPieces {
   kLargest,  ///< only the largest one (paper B)
-  /// *Ours*: the largest one and all others near it above a minimal size. Where a sleeve ends, or skin has the wall's
-  /// hue, forearms and feet are components of their own, which kLargest would lose; but a shadow may be included, too.
+  /// *Ours*: the largest one and all others near it above a minimal size. Forearms and feet are separate components
+  /// where a sleeve ends or skin has the wall's hue; kLargest would lose them. However, a shadow may be included.
   kLarge,
 };
 

@@ -27,7 +27,7 @@ struct PictureEvidence {
 };
 
 /// The kind of figure, which determines where joints lie in the visible part of a limb. An observer recognises it at
-/// once, so methods may know it.
+/// first sight, so methods may know it.
 enum class FigureKind {
   /// Paper B's studio: round limbs, the thicker of which ends near the joint; trunk joints lie outside it.
   kCapsules,
@@ -52,7 +52,7 @@ struct FigureLook {
 /// - A tip lies about half a width inside the limb's outer end; the head's point at a given distance below the crown.
 /// All these shares are *ours*, measured on each kind of figure at rest, from the side. A limb that another limb or the
 /// picture's edge cuts off ends there. A limb is left out if it does not show both ends or a quarter of itself in a
-/// clearly long piece, and if it touches nothing known, because its ends cannot be told apart. docs/annotator.md
+/// clearly long piece, and if it touches nothing known, because its ends cannot be distinguished. docs/annotator.md
 /// states, by joint, the error that these rules cause in exact joint centres.
 PictureEvidence FindLimbEvidence(const LimbRegions& regions, const FigureLook& look = {});
 

@@ -88,7 +88,7 @@ Result<BodyConversion> FindUnit(const SourceClip& source, const OpenOptions& opt
     told.unit = "given";
     return told;
   }
-  opened.error().message += "; GLB is in metres: without roles --unit must say what the file is in";
+  opened.error().message += "; GLB is in metres, so --unit must state the file's unit if its roles are unknown";
   return tl::unexpected(std::move(opened.error()));
 }
 
@@ -188,7 +188,7 @@ Result<TimeSpan> ParseTimeSpan(const std::string& text) {
                        ParseSeconds(std::string_view(text).substr(0, colon), span.from_s) &&
                        ParseSeconds(std::string_view(text).substr(colon + 1), span.to_s);
   if (!is_span) {
-    return Fail({}, "{} is no span of time; allowed: FROM:TO in seconds, such as 1.5:4, 2: or :3", Quote(text));
+    return Fail({}, "{} is not a time range; allowed: FROM:TO in seconds, such as 1.5:4, 2: or :3", Quote(text));
   }
   if (span.to_s < span.from_s) return Fail({}, "{} ends before it starts", Quote(text));
   return span;
@@ -210,7 +210,7 @@ Result<MotionFormat> FormatOfName(const std::string& path) {
   if (extension == ".npz") return MotionFormat::kNpz;
   if (extension == ".mot") return MotionFormat::kMot;
   return Fail({path, 0, 0},
-              "is no name of a format that is written; allowed: .bvh, .glb, .trc, .csv, .c3d, .npz, .mot");
+              "is not the name of a format that can be written; allowed: .bvh, .glb, .trc, .csv, .c3d, .npz, .mot");
 }
 
 Result<Converted> ConvertClips(std::vector<SourceClip> clips, MotionFormat format, const ConvertOptions& options) {

@@ -50,7 +50,7 @@ std::string NameOfReader() {
   for (const auto& [name, build] : LoadedLibraries()) {
     if (name.starts_with("libassimp.")) return name + " (" + build.substr(0, kToldDigits) + ")";
   }
-  return "an assimp within the program";
+  return "assimp is part of the program";
 }
 
 /// Returns the address space that this process already uses, bytes. RLIMIT_AS counts it, so it is added to the limit.

@@ -63,7 +63,7 @@ void RootAtHips(Clip& clip, bool has_meshes, std::vector<std::string>& remarks) 
   };
   const int root = has_meshes ? -1 : FindNewRoot(clip.skeleton);
   if (root < 0 || has_scales(RestPose(clip.skeleton)) || std::ranges::any_of(clip.frames, has_scales)) return;
-  remarks.push_back(fmt::format("rooted at {} instead of {}", Quote(clip.skeleton.joints[root].name),
+  remarks.push_back(fmt::format("root moved to {} from {}", Quote(clip.skeleton.joints[root].name),
                                 Quote(clip.skeleton.joints[0].name)));
   clip = WithRootAt(clip, root);
 }
@@ -97,7 +97,8 @@ void TakeScalesOut(ClipFile& file, const std::string& path, const OpenOptions& o
   if (!map) return;
   if (const auto ratio = UndoScales(file.clips, *map)) {
     file.remarks.push_back(fmt::format(
-        "the frames show a body {:.3g} times as tall as the rest pose, by scales that it has not: undone", *ratio));
+        "removed scales of the frames that the rest pose does not have; they made the body {:.3g} times as tall",
+        *ratio));
   }
 }
 
@@ -165,7 +166,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
     for (MarkerMotion& shown : file.shown) shown.rate_hz = *options.roles->rate_hz;
   } else if (!file.has_rate) {
     for (MadeBody& body : file.bodies) {
-      body.changes.push_back(fmt::format("no rate in the file: {:g} Hz are assumed", kJudgedRateHz));
+      body.changes.push_back(fmt::format("the file states no rate; {:g} Hz is assumed", kJudgedRateHz));
     }
   }
   if (is_recording && wanted.animation == "") wanted.animation = options.recorded->OwnTrack(file.clips);
@@ -178,7 +179,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   const bool is_one = !has_animations && !is_recording && file.clips.size() == 1;
   if (is_one) {
     if (wanted.animation && file.format != ClipFormat::kNpy) {
-      return Fail({wanted.path, 0, 0}, "a {} file has one motion; '#{}' chooses one of a glTF file",
+      return Fail({wanted.path, 0, 0}, "a {} file has only one motion; '#{}' can only select a motion of a glTF file",
                   FormatName(file.format), *wanted.animation);
     }
     const std::string source = wanted.path + (wanted.animation ? "#" + *wanted.animation : "");

@@ -87,11 +87,11 @@ std::string NamesOf(const std::vector<Role>& roles) {
 std::vector<std::string> NotesOn(const OpenedClip& opened) {
   const BodyConversion& body = opened.body;
   std::vector<std::string> notes = {fmt::format("1 unit = {:.4g} cm ({})", 100 * body.metres_per_unit, body.unit)};
-  if (body.unit == "unknown" || body.unit == "scaled") notes.back() += ", a guess by the body's stature";
+  if (body.unit == "unknown" || body.unit == "scaled") notes.back() += ", estimated from the body's stature";
   if (body.up == UpAxis::kZ) notes.emplace_back("turned upright from Z up");
   if (!opened.map.composed.empty()) notes.push_back("has no " + NamesOf(opened.map.composed));
   if (!opened.map.by_anatomy.empty()) {
-    notes.push_back("roles told by the skeleton's shape: " + NamesOf(opened.map.by_anatomy));
+    notes.push_back("roles found by the skeleton's shape: " + NamesOf(opened.map.by_anatomy));
   }
   notes.insert(notes.end(), opened.source.remarks.begin(), opened.source.remarks.end());
   return notes;

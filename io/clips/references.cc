@@ -105,7 +105,7 @@ Result<std::vector<std::string>> ExpandReference(const std::string& reference, c
                 "as 'mocap/*.bvh'",
                 reference);
   }
-  if (found.size() > most) return Fail(place, "'{}' stands for more than {} clips", reference, most);
+  if (found.size() > most) return Fail(place, "'{}' matches more than {} clips", reference, most);
   return found;
 }
 

@@ -206,7 +206,7 @@ Film Shoot(Scene& scene, const FilePath& path, const FilmWatch& watch) {
   if (auto mp4 = Encode(scene, path, watch)) {
     film.mp4 = std::move(*mp4);
   } else {
-    film.why_not = "There is no film, only this picture: " + ToString(mp4.error());
+    film.why_not = "No film could be made, only this picture: " + ToString(mp4.error());
   }
   return film;
 }

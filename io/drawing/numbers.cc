@@ -77,8 +77,8 @@ std::string Plural(long long count, std::string_view singular) {
 
 std::string LeftOutWords(std::size_t total, std::size_t shown, std::string_view things, std::string_view where) {
   if (total <= shown) return "";
-  return fmt::format("{} more {} are left out here; {} has all.", FormatCount(static_cast<long long>(total - shown)),
-                     things, where);
+  return fmt::format("{} more {} are not shown here; {} has all of them.",
+                     FormatCount(static_cast<long long>(total - shown)), things, where);
 }
 
 std::string LeftOutHtml(std::size_t total, std::size_t shown, std::string_view things, std::string_view where) {

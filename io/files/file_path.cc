@@ -122,7 +122,7 @@ Result<Descriptor> OpenFile(const FilePath& path, int flags, mode_t mode) {
   struct stat status {};
   if (::fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode)) return Fail({path.string()}, "is no file");
   if (path.is_inside() && (flags & O_ACCMODE) != O_RDONLY && status.st_nlink > 1) {
-    return Fail({path.string()}, "has another name (a hard link), at which it would be written, too");
+    return Fail({path.string()}, "has another name (a hard link), so that file would be overwritten, too");
   }
   if ((flags & O_TRUNC) != 0 && ::ftruncate(file.number(), 0) != 0) {
     return CannotWrite(path.string(), "cannot write this file", errno);
@@ -156,7 +156,7 @@ Result<std::vector<fs::path>> PlainFilesBelow(const FilePath& folder) {
     const fs::file_status status = entry->symlink_status(error);
     if (fs::is_directory(status)) continue;
     if (fs::is_symlink(status)) return RefuseLink(entry->path());
-    if (!fs::is_regular_file(status)) return Fail({entry->path().string()}, "is no file and no folder");
+    if (!fs::is_regular_file(status)) return Fail({entry->path().string()}, "is neither a file nor a folder");
     files.push_back(entry->path().lexically_relative(folder.whole()));
   }
   if (error) return CannotRead(folder.string(), "cannot be read", error.value());
@@ -165,7 +165,7 @@ Result<std::vector<fs::path>> PlainFilesBelow(const FilePath& folder) {
 }
 
 tl::unexpected<Error> RefuseLink(const fs::path& link) {
-  return Fail({link.string()}, "is a link; inside this folder no link is followed");
+  return Fail({link.string()}, "is a link; links inside this folder are not followed");
 }
 
 }  // namespace etude

@@ -107,7 +107,7 @@ Result<PartialFile> PartialFile::Claim(const FilePath& path) {
     if (::ftruncate(file, 0) != 0) return partial.Failure();
     return partial;
   }
-  return Fail(InFile(path), "cannot write this file: too many processes do");
+  return Fail(InFile(path), "cannot write this file: too many processes write it");
 }
 
 PartialFile& PartialFile::operator=(PartialFile&& other) noexcept {
@@ -234,7 +234,7 @@ Result<std::string> ReadWholeFile(const FilePath& path, std::uintmax_t limit) {
   struct stat status {};
   const std::uintmax_t size =
       ::fstat(file.number(), &status) == 0 ? static_cast<std::uintmax_t>(status.st_size) : std::uintmax_t{0};
-  if (size > limit) return Fail(InFile(path), "{} MiB; at most {} MiB are read", size >> 20, limit >> 20);
+  if (size > limit) return Fail(InFile(path), "{} MiB; allowed: at most {} MiB", size >> 20, limit >> 20);
   std::string bytes;
   bytes.reserve(size);
   std::array<char, 1 << 16> chunk{};
@@ -242,7 +242,7 @@ Result<std::string> ReadWholeFile(const FilePath& path, std::uintmax_t limit) {
     ASSIGN_OR_RETURN(const std::size_t count, ReadSome(path, file.number(), chunk));
     if (count == 0) return bytes;
     bytes.append(chunk.data(), count);
-    if (bytes.size() > limit) return Fail(InFile(path), "grows while it is read");
+    if (bytes.size() > limit) return Fail(InFile(path), "became larger while it was read");
   }
 }
 

@@ -113,7 +113,7 @@ int NestingOf(std::string_view text) {
 }
 
 Result<Json> ReadJson(const std::string& text, const std::string& file, int line) {
-  if (NestingOf(text) > kMaxNesting) return Fail({file, line, 0}, "nested more than {} deep", kMaxNesting);
+  if (NestingOf(text) > kMaxNesting) return Fail({file, line, 0}, "nested more than {} levels deep", kMaxNesting);
   // The parser stops at a zero byte and ignores what follows.
   if (text.find('\0') != std::string::npos) return Fail({file, line, 0}, "not valid JSON: a zero byte");
   try {
@@ -130,7 +130,7 @@ Result<Json> ReadJsonFile(const FilePath& path) {
 
 Result<Json> ReadCbor(std::string_view bytes, const std::string& file) {
   if (!IsShallowCbor(bytes))
-    return Fail({file}, "not CBOR as it is written here, or nested more than {} deep", kMaxNesting);
+    return Fail({file}, "not CBOR in the form that Etude writes, or nested more than {} levels deep", kMaxNesting);
   try {
     return Json::from_cbor(bytes);
   } catch (const Json::exception& error) {

@@ -34,7 +34,7 @@ Result<Child> StartReading(const Words& words, const Place& place) {
   child.log.reset(std::tmpfile());
   int ends[2];
   if (!child.log || pipe2(ends, O_CLOEXEC) != 0)
-    return FailOfMachine("{} cannot be talked to: {}", words[0], std::strerror(errno));
+    return FailOfMachine("no connection to {}: {}", words[0], std::strerror(errno));
   const int error = SpawnProgram(words, kNowhere, ends[1], child.log.get(), child.pid);
   close(ends[1]);
   child.output.reset(fdopen(ends[0], "rb"));
@@ -42,7 +42,7 @@ Result<Child> StartReading(const Words& words, const Place& place) {
     return FailOfMachine("{} cannot be started: {}", words[0], std::strerror(error));
   }
   if (error != 0) {
-    return Fail(place, "{} could not be started ({}); the Debian package ffmpeg brings it", words[0],
+    return Fail(place, "{} could not be started ({}); it is in the Debian package ffmpeg", words[0],
                 std::strerror(error));
   }
   return child;
@@ -91,7 +91,7 @@ Result<FilmFacts> ProbeFilm(const std::filesystem::path& path, const std::string
   if (const int status = WaitFor(child.pid);
       !WIFEXITED(status) || WEXITSTATUS(status) != 0 || keys.empty()) {
     const std::string words = FirstLineOf(child.log.get());
-    return Fail(place, "no film that ffmpeg can read{}{}", words.empty() ? "" : ": ", words);
+    return Fail(place, "not a film that ffmpeg can read{}{}", words.empty() ? "" : ": ", words);
   }
   // Check the size before it is converted to integers.
   FilmFacts facts;

@@ -50,7 +50,7 @@ Result<Encoder> Encoder::Start(const FilePath& path, int width, int height, int 
   // A socket instead of a pipe: writing to a closed socket returns an error, writing to a closed pipe raises a signal.
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
-    return FailOfMachine("{} cannot be talked to: {}", program, std::strerror(errno));
+    return FailOfMachine("no connection to {}: {}", program, std::strerror(errno));
   }
   pid_t child = -1;
   const int error =
@@ -61,7 +61,7 @@ Result<Encoder> Encoder::Start(const FilePath& path, int width, int height, int 
     return FailOfMachine("{} cannot be started: {}", program, std::strerror(error));
   }
   if (error != 0) {
-    return Fail(place, "{} could not be started ({}); the Debian package of that name brings it", program,
+    return Fail(place, "{} could not be started ({}); it is in the Debian package of that name", program,
                 std::strerror(error));
   }
   return Encoder(std::move(film), child, ends[0], std::move(log));

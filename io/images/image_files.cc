@@ -136,7 +136,7 @@ void WriteExr(const View& view, const NormalImage& normals, std::span<const Dept
 }  // namespace
 
 std::string EncodePng(const ColourImage& image, double pixels_per_metre) {
-  static_assert(sizeof(Rgb8) == 3, "a picture's bytes are its colours");
+  static_assert(sizeof(Rgb8) == 3, "a picture is written as bytes of its colours");
   return EncodePixels(reinterpret_cast<const std::uint8_t*>(image.pixels.data()), image.width, image.height,
                       PNG_COLOR_TYPE_RGB, pixels_per_metre);
 }

@@ -39,8 +39,8 @@ Result<const KeypointLayout*> LayoutOf(std::size_t count, const std::string& nam
   if (fitting.empty()) {
     return Fail(place, "{} keypoints a person{}; allowed: {}", count, named.empty() ? "" : ", not " + named, counts);
   }
-  return Fail(place, "{} keypoints a person may be {} or {}; tell which one by --layout", count, fitting[0]->name,
-              fitting[1]->name);
+  return Fail(place, "{} keypoints per person may be the layout {} or {}; choose one by --layout", count,
+              fitting[0]->name, fitting[1]->name);
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ std::vector<std::string> TextsOf(const Json* list) {
 
 Result<std::vector<Keypoint>> Triples(const Json* list, const Place& place) {
   if (list == nullptr || !list->is_array() || list->size() % 3 != 0) {
-    return Fail(place, "no list of keypoints; allowed: x, y, confidence of each");
+    return Fail(place, "not a list of keypoints; allowed: x, y and confidence of each");
   }
   std::vector<Keypoint> points;
   for (std::size_t i = 0; i < list->size(); i += 3) {
@@ -223,7 +223,7 @@ Result<PeopleOfFilm> Ordered(std::map<long, std::vector<SeenPerson>> numbered, c
   film.frames.resize(static_cast<std::size_t>(count));
   for (auto& [number, people] : numbered) film.frames[static_cast<std::size_t>(number - first)] = std::move(people);
   if (frames > 0 && lowest > 0 && highest < frames) {
-    film.told = fmt::format("frames {} to {} of {}: taken as counted from 0", lowest, highest, frames);
+    film.told = fmt::format("frames {} to {} of {}: assumed to be counted from 0", lowest, highest, frames);
   }
   return film;
 }
@@ -236,7 +236,8 @@ void MoveFrames(std::span<const std::size_t> indices, std::size_t count, PeopleO
   const std::size_t missing = indices.back() - indices.front() + 1 - indices.size();
   if (missing > 0) {
     film.told += film.told.empty() ? "" : "; ";
-    film.told += fmt::format("{} of {} frames are missing, by their numbers or times: nobody there", missing, count);
+    film.told += fmt::format("{} of {} frames are missing, by their numbers or times; they are taken to show nobody",
+                             missing, count);
   }
   film.frames = std::move(frames);
 }
@@ -343,7 +344,7 @@ Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layou
                              ? FirstMember(frame, {"instances", "people", "pose_landmarks", "landmarks", "keypoints"})
                              : &frame;
     if (people == nullptr) {
-      return Fail(place, "frame {} has none of instances, people, pose_landmarks, landmarks, keypoints", i);
+      return Fail(place, "frame {} has no key instances, people, pose_landmarks, landmarks or keypoints", i);
     }
     ASSIGN_OR_RETURN(numbered[*number], PeopleOfList(*people, layout, names, place));
   }

@@ -158,7 +158,7 @@ Result<PeopleOfFilm> ReadFolder(const fs::path& folder, std::string layout, cons
   std::vector<std::string> names;
   if (layout.empty()) {
     ASSIGN_OR_RETURN(layout, LayoutOf(files));
-    if (!layout.empty()) film.told = "25 keypoints a person, of which one lies between the hips: body_25";
+    if (!layout.empty()) film.told = "25 keypoints per person, one of them between the hips: layout body_25";
   }
   for (const fs::path& file : files) {
     ASSIGN_OR_RETURN(auto frame, ReadFrame(file, layout));
@@ -273,7 +273,7 @@ void Denormalise(const FilmOfKeypoints& of, PeopleOfFilm& film) {
     }
   }
   film.told += film.told.empty() ? "" : "; ";
-  film.told += fmt::format("keypoints within 0 to 1 taken as shares of {} x {} pixels", of.width, of.height);
+  film.told += fmt::format("keypoints between 0 and 1 are taken as shares of {} x {} pixels", of.width, of.height);
 }
 
 Result<PeopleOfFilm> ReadFile(const fs::path& file, const std::string& layout, const FilmOfKeypoints& of) {
@@ -298,7 +298,7 @@ Result<PeopleOfFilm> ReadMarkedPictures(const fs::path& folder) {
   for (const fs::path& file : files) {
     ASSIGN_OR_RETURN(const ColourImage picture, LoadColourPng(file.string()));
     if (film.width != 0 && (picture.width != film.width || picture.height != film.height)) {
-      return Fail({file.string()}, "{} x {} pixels, the pictures before it {} x {}", picture.width, picture.height,
+      return Fail({file.string()}, "{} x {} pixels, but earlier pictures have {} x {}", picture.width, picture.height,
                   film.width, film.height);
     }
     film.width = picture.width;
@@ -322,9 +322,9 @@ Result<fs::path> EntryOfFilm(const fs::path& folder, const std::string& film) {
   }
   std::ranges::sort(found);
   if (error) return Fail({folder.string()}, "{}", error.message());
-  if (found.empty()) return Fail({folder.string()}, "nothing in it begins with the film's name {}", film);
+  if (found.empty()) return Fail({folder.string()}, "no file in it begins with the film's name {}", film);
   if (found.size() > 1) {
-    return Fail({folder.string()}, "both {} and {} begin with the film's name {}", found[0].filename().string(),
+    return Fail({folder.string()}, "{} and {} both begin with the film's name {}", found[0].filename().string(),
                 found[1].filename().string(), film);
   }
   return found.front();

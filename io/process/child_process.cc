@@ -150,7 +150,7 @@ bool SetUpNamespaces(const ExecPlan& child) {
 Result<Descriptor> MakeFile(const std::string& text) {
   Descriptor file(::memfd_create("text", MFD_CLOEXEC));
   if (file.number() < 0 || ::write(file.number(), text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
-    return FailOfMachine("no file in memory can be made: {}", std::strerror(errno));
+    return FailOfMachine("a file in memory cannot be made: {}", std::strerror(errno));
   }
   return file;
 }
@@ -205,7 +205,7 @@ std::string DescribeEnd(int code) {
 Result<std::string> FindProgram(const std::string& name) {
   if (name.find('/') != std::string::npos) {
     if (::access(name.c_str(), F_OK) != 0) return Fail({name, 0, 0}, "no such program: {}", std::strerror(errno));
-    if (!IsProgram(name)) return Fail({name, 0, 0}, "is no program that may be executed");
+    if (!IsProgram(name)) return Fail({name, 0, 0}, "is not an executable program");
     return name;
   }
   const char* variable = ::getenv("PATH");
@@ -242,7 +242,7 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
   const std::vector<char*> argv = Pointers(argument_texts);
   const std::vector<char*> envp = Pointers(environment_texts);
   const Descriptor ourselves(static_cast<int>(::syscall(SYS_pidfd_open, ::getpid(), 0)));
-  if (ourselves.number() < 0) return FailOfMachine("no process can be watched: {}", std::strerror(errno));
+  if (ourselves.number() < 0) return FailOfMachine("the process cannot be watched: {}", std::strerror(errno));
   ExecPlan child{
       .path = path.c_str(),
       .argv = argv.data(),

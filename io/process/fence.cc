@@ -200,14 +200,15 @@ Fence Fence::Find() {
 }
 
 std::string Fence::MemoryDescription() const {
-  return groups_.empty() ? "counted by shares of pages, 50 times a second" : "counted by the kernel (cgroup v2)";
+  return groups_.empty() ? "measured from the processes' memory pages, 50 times a second"
+                         : "counted by the kernel (cgroup v2)";
 }
 
 Result<void> Fence::Try() const {
   if (!IsUp()) return {};
   const std::string said = FirstLineOf(*this, {program_, "--version"});
   if (said.starts_with("bubblewrap ")) return {};
-  return FailOfMachine("nothing can be run in the fence: {}", said.empty() ? "it says nothing" : said);
+  return FailOfMachine("no program can be run in the fence: {}", said.empty() ? "it says nothing" : said);
 }
 
 ScratchUse Fence::MeasureScratch(pid_t inside) const {

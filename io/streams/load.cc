@@ -33,13 +33,13 @@ std::string Describe(const StreamRecording& recording, const MadeStream& made) {
   std::string text =
       fmt::format("{}, {:.1f} s, {} tracking states", StreamFormatName(recording.format),
                   static_cast<double>(frames) / made.stream.rate_hz, recording.records_states ? "with" : "no");
-  if (!recording.records_times) text += fmt::format(", no clock: taken for {:g} Hz", recording.rate_hz);
+  if (!recording.records_times) text += fmt::format(", without a clock: {:g} Hz is assumed", recording.rate_hz);
   if (!recording.is_level) text += ", " + Describe(made.level);
   if (made.lost_frames > 0) text += fmt::format(", nobody in {} of {} frames", made.lost_frames, frames);
   for (const std::string& remark : recording.remarks) text += ", " + remark;
   constexpr double kBackwards = -0.35;  // the same threshold as CheckSides uses for clips
   const auto feet = FeetForward(made.stream);
-  if (feet && *feet < kBackwards) text += ", feet point backwards: mirrored? (--reflect)";
+  if (feet && *feet < kBackwards) text += ", feet point backwards: the stream may be mirrored (--reflect)";
   return text;
 }
 
@@ -153,8 +153,8 @@ Result<LoadedStreams> LoadStreams(const std::vector<std::string>& references, co
   const auto is_clip = [](const NamedStream& stream) { return stream.motion.has_value(); };
   if (is_told && !loaded.streams.empty() && std::ranges::none_of(loaded.streams, is_clip)) {
     return Fail({loaded.streams.front().source},
-                "a recording of a sensor, whose unit and joints are its format's; --joint-map, --unit and --up are of "
-                "clips");
+                "a recording of a sensor, whose format determines unit and joints; --joint-map, --unit and --up are "
+                "only for clips");
   }
   if (!loaded.streams.empty()) return loaded;
   if (!loaded.refused.empty()) return tl::unexpected(loaded.refused.front());

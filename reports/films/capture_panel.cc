@@ -164,7 +164,7 @@ std::vector<Still> CapturePanel::Stills() const {
   for (std::size_t camera = 0; camera < Cameras(); ++camera) {
     const std::string& still = extras_.views[camera].still_jpeg_base64;
     if (still.empty()) continue;
-    stills.push_back({still, fmt::format("{}, as it was taken, {:.1f} s", CameraName(camera),
+    stills.push_back({still, fmt::format("{}, as filmed, {:.1f} s", CameraName(camera),
                                          static_cast<double>(Frames() / 2) / RateHz())});
   }
   return stills;

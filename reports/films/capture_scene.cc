@@ -83,9 +83,9 @@ void DrawMoment(const CapturePanel& capture, Renderer& renderer, const CaptureEx
     draw(canvas);
     row.Add(canvas, caption);
   };
-  over_picture("the person, cut out",
+  over_picture("the person, separated from the background",
                [&](Canvas& canvas) { canvas.DrawMask(Inverse(capture.MaskOf(camera, frame)), panel, kBackdrop); });
-  over_picture("ends and limbs, marked", [&](Canvas& canvas) {
+  over_picture("hands, feet, head and limbs, marked", [&](Canvas& canvas) {
     canvas.FillBox({0, 0, kPictureWidth, kPictureHeight}, kVeil);
     DrawStrokes(canvas, moment.marks[camera], seen_by, panel);
   });
@@ -224,7 +224,7 @@ void DrawErrorLegend(Canvas& canvas, const Box& box) {
   canvas.DrawLine({box.x + 18, y - 6}, {box.x + 46, y - 6}, 8, kTruthBone);
   canvas.DrawText({box.x + 56, y}, "truth", kSize, kSoftInk, 60);
   const double right = box.x + box.width - 18;
-  const std::string upper_words = fmt::format("{:g} cm off and more", kMaxErrorCm);
+  const std::string upper_words = fmt::format("{:g} cm error or more", kMaxErrorCm);
   const double words = canvas.TextWidth(upper_words, kSize);
   canvas.DrawText({right - words, y}, upper_words, kSize, kSoftInk, words + 1);
   const double left = right - words - 12 - kBar;
@@ -272,9 +272,8 @@ std::string CaptureScene::Methods() const {
 std::string CaptureScene::Words() const {
   const CapturePanel& first = captures_.front();
   return fmt::format(
-      "Left: {} as two cameras saw it, what was found tinted, with the skeleton of {}. Right: the truth (grey) and "
-      "what "
-      "{} recovered, coloured by error.",
+      "Left: {} as two cameras saw it; the pixels taken for the person are tinted, and the skeleton of {} is drawn "
+      "over them. Right: the truth (grey) and the skeleton that {} recovered, coloured by error.",
       first.Clip().empty() ? "a performer" : first.Clip(), first.Method(), Methods());
 }
 
@@ -316,7 +315,7 @@ void CaptureScene::DrawSkeletons(Canvas& canvas, const CapturePanel& capture, co
 
 Canvas CaptureScene::Draw(int frame) {
   const CapturePanel& first = captures_.front();
-  Canvas canvas = BeginFrame(fmt::format("{}{:.1f} s · two cameras, and what was recovered from their pictures",
+  Canvas canvas = BeginFrame(fmt::format("{}{:.1f} s · two cameras, and the motion recovered from their pictures",
                                          first.Clip().empty() ? "" : first.Clip() + " · ", frame / first.RateHz()));
   DrawSeen(canvas, frame);
   canvas.FillBox(kSkeletonsBox, kGround, kPanelRadius);

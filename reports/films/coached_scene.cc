@@ -46,7 +46,7 @@ Result<CoachedSessionFacts> ReadCoachedSession(const ShownCell& cell) {
     *motion = *track;
   }
   if (facts.learner.poses.size() != facts.coach.poses.size() || facts.sensed.poses.size() != facts.coach.poses.size()) {
-    return Fail(place, "its tracks are not of one length");
+    return Fail(place, "its tracks differ in length");
   }
   if (!extras) return Fail(place, "its extras are no coached session's: {}", extras.error().message);
   static_cast<CoachExtras&>(facts) = *std::move(extras);
@@ -219,10 +219,10 @@ int CoachedScene::PosterFrame() const {
 
 std::string CoachedScene::Words() const {
   return fmt::format(
-      "A coached session, seconds {} to {} of {}: the coach in its forest, the learner as danced beside it, and as the "
-      "sensor saw it (lower right). Timeline: what the coach does; what every performance truly was; what it was taken "
-      "for. "
-      "{} corrections in the whole session. A click for every beat of the music.",
+      "A coached session, seconds {} to {} of {}: the coach in its forest, beside it the learner's true motion, and at "
+      "the lower right the same as the sensor saw it. The bands of the timeline: what the coach does; whether each "
+      "performance was truly right; how the coach judged it. {} corrections in the whole session. A click for every "
+      "beat of the music.",
       FormatFixed(first_ / kJudgedRateHz, 0), FormatFixed(last_ / kJudgedRateHz, 0),
       FormatFixed(facts_.Frames() / kJudgedRateHz, 0), facts_.corrections.size());
 }

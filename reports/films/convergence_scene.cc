@@ -335,9 +335,9 @@ std::string ConvergenceScene::Words() const {
   };
   return fmt::format(
       "The same start under two methods, {} on the left ({}), {} on the right ({}), in {}, {}. Grey: the true pose{}. "
-      "Beneath: worst errors by iteration, both axes logarithmic. One clock runs for both methods.",
+      "Below: worst errors by iteration, both axes logarithmic. The same clock runs for both methods.",
       left.method, ending(left), right.method, ending(right), race_.world, race_.choice,
-      HasTargets() ? "; rings: where right foot, hands and head are told to be; dots: where they are" : "");
+      HasTargets() ? "; rings: the targets of right foot, hands and head; dots: their positions" : "");
 }
 
 Canvas ConvergenceScene::Draw(int frame) {

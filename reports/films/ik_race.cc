@@ -64,12 +64,13 @@ Result<IkExtras> ReadExtras(const Row& row, const Recording& recording) {
   const std::size_t count = motion->poses.size();
   const std::vector<int>& iterations = extras->iterations;
   if (iterations.size() != count || iterations.front() != 0 || !std::ranges::is_sorted(iterations)) {
-    return Fail(place, "its extras' iterations is no list of {} numbers rising from 0, whole and one per pose", count);
+    return Fail(place, "'iterations' in its extras is not a list of {} increasing whole numbers from 0, one per pose",
+                count);
   }
   for (const auto& [key, errors] : {std::pair{"position_error_max_cm", &extras->position_error_max_cm},
                                     std::pair{"axis_error_max_deg", &extras->axis_error_max_deg}}) {
     if (AreErrors(*errors, count)) continue;
-    return Fail(place, "its extras' {} is no list of {} numbers of at least 0, one per pose", key, count);
+    return Fail(place, "'{}' in its extras is not a list of {} numbers of at least 0, one per pose", key, count);
   }
   return extras;
 }
@@ -115,7 +116,7 @@ Result<IkRace> MakeRace(const std::array<RecordedCell, 2>& cells) {
     race.paths[i] = PathOf(*cells[i].row, *cells[i].recording, std::move(extras));
   }
   if (targets.size() != race.targets.size()) {
-    return Fail({.file = "recording " + cells[0].row->Id()}, "its extras' targets_m is no list of {} places",
+    return Fail({.file = "recording " + cells[0].row->Id()}, "'targets_m' in its extras is not a list of {} positions",
                 race.targets.size());
   }
   std::ranges::copy(targets, race.targets.begin());
@@ -148,9 +149,9 @@ Result<IkRace> FindIkRace(const RunData& run, const ScenarioSummary& scenario) {
   const std::vector<RecordedCell> cells = RecordedCells(run, scenario);
   const std::vector<std::string> methods = MethodsOf(cells, scenario);
   // Two methods must have recordings.
-  if (methods.empty()) return Fail(nowhere, "this run kept no recordings here (the scenario's key video)");
+  if (methods.empty()) return Fail(nowhere, "this run kept no recordings of this scenario (its key 'video')");
   if (methods.size() == 1) {
-    return Fail(nowhere, "this run kept recordings of one method only here; two in the same world are needed");
+    return Fail(nowhere, "this run kept recordings of only one method; two in the same world are needed");
   }
   // Search the first world that both methods recorded, and note the worlds that only one recorded.
   std::vector<std::string> passed_over;
@@ -169,7 +170,7 @@ Result<IkRace> FindIkRace(const RunData& run, const ScenarioSummary& scenario) {
     for (IkPath& path : race->paths) path.method_index = IndexOf(scenario, path.method);
     race->choice = "the first world that kept recordings of both";
     if (!passed_over.empty()) {
-      race->choice += fmt::format("; before it, {} had one of them only, the first: {}",
+      race->choice += fmt::format("; before it, {} had recordings of only one of them, the first: {}",
                                   Plural(static_cast<long long>(passed_over.size()), "world"), passed_over.front());
     }
     return race;

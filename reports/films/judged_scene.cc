@@ -26,14 +26,14 @@ TrackingState StateOf(char letter) {
 
 Result<SkeletonStream> StreamOf(const BodyMotion& motion, const std::vector<std::string>& states, const Place& place) {
   if (states.size() < motion.poses.size()) {
-    return Fail(place, "its extras are no judged session's: joint_states of {} frames; the motion has {}",
+    return Fail(place, "its extras do not fit a judged session: 'joint_states' has {} frames, the motion {}",
                 states.size(), motion.poses.size());
   }
   SkeletonStream stream{.rate_hz = motion.rate_hz, .frames = {}};
   for (std::size_t frame = 0; frame < motion.poses.size(); ++frame) {
     const std::string& letters = states[frame];
     if (letters.size() < kRoleCount) {
-      return Fail(place, "its extras are no judged session's: joint_states[{}] tells of {} joints, not {}", frame,
+      return Fail(place, "its extras do not fit a judged session: 'joint_states[{}]' has {} joints, not {}", frame,
                   letters.size(), kRoleCount);
     }
     SensedFrame& sensed = stream.frames.emplace_back();
@@ -91,7 +91,7 @@ Facts::Judge JudgeIn(const DetectionExtras& extras, const std::string& method) {
 
 Result<DetectionExtras> ExtrasOf(const Recording& recording, const Place& place) {
   auto extras = ReadDetectionExtras(recording.extras_json);
-  if (!extras) return Fail(place, "its extras are no judged session's: {}", extras.error().message);
+  if (!extras) return Fail(place, "its extras do not fit a judged session: {}", extras.error().message);
   return extras;
 }
 
@@ -120,7 +120,7 @@ Result<JudgedSessionFacts> ReadJudgedSession(const RunData& run, const ShownCell
   if (truth == nullptr || sensed == nullptr || sensed->poses.empty()) {
     return Fail(place, "has no tracks 'truth' and 'sensed'");
   }
-  if (truth->poses.size() != sensed->poses.size()) return Fail(place, "its tracks are not of one length");
+  if (truth->poses.size() != sensed->poses.size()) return Fail(place, "its tracks differ in length");
   ASSIGN_OR_RETURN(const auto extras, ExtrasOf(*cell.recording, place));
   ASSIGN_OR_RETURN(const auto stream, StreamOf(*sensed, extras.joint_states, place));
   // Rebuild the sensor's view, the performances and the verdicts.
@@ -220,10 +220,10 @@ int JudgedScene::PosterFrame() const {
 
 std::string JudgedScene::Words() const {
   return fmt::format(
-      "A session before the sensor, seconds {} to {} of {}: the skeleton as the sensor saw it, over the body as it "
-      "moved (pale); the "
-      "angles of the key poses asked for, a pose ticked off when paper A's rule has seen it; the evidence of {}. "
-      "Timeline: what every performance truly was, what it was taken for, and false alarms.",
+      "A session in front of the sensor, seconds {} to {} of {}: the skeleton as the sensor saw it, over the true body "
+      "(pale); the angles of the key poses asked for, where a tick marks a pose that paper A's rule has seen; the "
+      "evidence of {}. The bands of the timeline: whether each performance was truly right, how it was judged, and "
+      "false alarms.",
       FormatFixed(first_ / kJudgedRateHz, 0), FormatFixed(last_ / kJudgedRateHz, 0),
       FormatFixed(facts_.Frames() / kJudgedRateHz, 0), facts_.judges.front().method);
 }
@@ -244,7 +244,7 @@ void JudgedScene::DrawSkeleton(Canvas& canvas, int now) const {
                      state == TrackingState::kInferred ? kWarm : kWrongPaint);
     }
   }
-  DrawTag(canvas, kSeenPanel, sensed.body_seen ? "As the sensor saw it" : "The sensor sees nobody");
+  DrawTag(canvas, kSeenPanel, sensed.body_seen ? "Seen by the sensor" : "The sensor sees nobody");
   canvas.DrawText({kSeenPanel.x + 16, kSeenPanel.y + kSeenPanel.height - 16},
                   "pale: as danced · orange: guessed joint · red: not seen", 16, kSoftInk, kSeenPanel.width - 32);
 }

@@ -68,7 +68,8 @@ Shown ShownAt(int film_frame, int length) {
 Result<CoachPanel> CoachPanel::Make(const ShownCell& cell, int longest) {
   ASSIGN_OR_RETURN(auto facts, ReadTransitionFacts(*cell.recording, cell.row->Id()));
   if (facts.transition_frames.empty()) {
-    return Fail({.file = "recording " + cell.row->Id()}, "its extras lack a whole transition_frame within the motion");
+    return Fail({.file = "recording " + cell.row->Id()},
+                "its extras lack a 'transition_frame' that is a whole number within the motion");
   }
   CoachPanel panel;
   panel.bear_ = BearCharacter();
@@ -169,7 +170,7 @@ int StageScene::PosterFrame() const { return std::min(coach_.FirstPoint() + 4, F
 std::string StageScene::Words() const { return fmt::format("The coach changes moves ({}).", coach_.Title()); }
 
 Canvas StageScene::Draw(int frame) {
-  Canvas canvas = BeginFrame("one coach, every distance measured");
+  Canvas canvas = BeginFrame("one coach; every distance is measured");
   const Shown shown = ShownAt(frame, coach_.Frames());
   coach_.Draw(canvas, kCoachBox, renderer_, shown.frame, shown.before);
   return canvas;

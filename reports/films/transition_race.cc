@@ -67,12 +67,12 @@ Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSumm
     shown = std::move(candidates);
   }
   if (worlds.empty()) {
-    return Fail({}, "this run kept no recordings of transitions here (the scenario's key video)");
+    return Fail({}, "this run kept no recordings of transitions of this scenario (its key 'video')");
   }
   if (shown.size() < 2) return Fail({}, "no world kept recordings of two methods with a transition");
   // Collect the path of each method.
   TransitionRace race{.world = best->Name(), .request = best->Request(), .choice = {}, .paths = {}};
-  race.choice = fmt::format("the first of {} recorded in which most of them have one",
+  race.choice = fmt::format("the first of {} recorded worlds in which most of them have one",
                             Plural(static_cast<long long>(worlds.size()), "world"));
   for (const RecordedTransition* recorded : shown) {
     const BodyMotion& motion = *FindTrack(*recorded->recording, "coach");

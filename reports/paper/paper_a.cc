@@ -133,8 +133,8 @@ std::string FigureHtml(const PaperAFigure& figure, const FuzzySystem& system, bo
 
 std::string RoundTripHtml(const FuzzySystem& system) {
   const std::string_view legend =
-      "Back from the grades: the mean difference between what went in and what each method of defuzzification gives "
-      "back, over the whole axis.";
+      "Back from the grades: the mean difference between a value and the value that each method of defuzzification "
+      "computes from its grades, over the whole axis.";
   Table table{.label = fmt::format("Back from the grades of {}", system.name),
               .style = "printed",
               .columns = {{.head = "feature", .is_row_head = true}}};
@@ -184,16 +184,21 @@ const std::vector<PaperAFigure>& PaperAFigures() {
        "elbow bent",
        "degrees between upper arm and forearm",
        {5, 6},
-       "The grades do not sum to 1: so printed."},
+       "The grades do not sum to 1; they are as printed."},
       {7,
        kPosture,
        "lying to jumping",
        "height of the body's centre, standing = 80",
        {7, 8, 9, 10},
        "Equation 9 is printed as a second “sit”; “stand” is meant."},
-      {8, kTrunk, "trunk bent", "180 degrees less the lean", {12, 11}, "The grades do not sum to 1: so printed."},
+      {8,
+       kTrunk,
+       "trunk bent",
+       "180 degrees less the lean",
+       {12, 11},
+       "The grades do not sum to 1; they are as printed."},
       {9, kRF, "leg spread", "degrees between thigh and down", {13, 14}, ""},
-      {10, kRFK, "knee bent", "degrees inside the knee", {16, 15}, "The grades do not sum to 1: so printed."},
+      {10, kRFK, "knee bent", "degrees inside the knee", {16, 15}, "The grades do not sum to 1; they are as printed."},
   };
   return figures;
 }
@@ -242,7 +247,7 @@ std::string PaperAHtml(const ScenarioSummary& scenario) {
     const bool is_paper = html.empty();
     html += fmt::format("<details{}><summary>{}</summary><p class=\"quiet legend\">{}</p><div class=\"memberships\">",
                         is_paper ? " open" : "",
-                        is_paper ? "Paper A’s figures 5 to 10: how far a pose belongs to a term"
+                        is_paper ? "Paper A’s figures 5 to 10: the grade with which a pose belongs to a term"
                                  : fmt::format("The same features in the system {}", EscapeMarkup(system.name)),
                         is_paper ? EscapeMarkup(std::string(kMisprints)) : "");
     for (const PaperAFigure& figure : PaperAFigures()) html += FigureHtml(figure, system, is_paper);

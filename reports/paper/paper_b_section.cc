@@ -92,8 +92,8 @@ std::string Figure(const std::vector<Panel>& panels, const ScenarioSummary& scen
       panels, [](const Panel& panel) { return std::ranges::any_of(panel.curves, &PlotCurve::faint); });
   const std::string trials =
       has_medians ? fmt::format(
-                        "Thin: trial {}, until its solver stopped. Thick: the median of all trials; where a solver "
-                        "stopped, its trial keeps its last value. At most the first 200 iterations.",
+                        "Thin: trial {}, until its solver stopped. Thick: the median of all trials; a trial whose "
+                        "solver has stopped keeps its last value. At most the first 200 iterations.",
                         trial)
                   : fmt::format("Trial {}, until its solver stopped, at most the first 200 iterations.", trial);
   std::string html =
@@ -142,8 +142,8 @@ std::string SetHtml(const PaperBCondition& condition, const PaperBSet& set, bool
 }
 
 constexpr std::string_view kPrinted =
-    "What paper B prints of its one simulated pose, which it does not give: compare sizes, not figures. As printed, "
-    "the elbow and the wrist of the right arm share a value in 5.2 (d).";
+    "Paper B's printed results for its only simulated pose, which it does not specify: compare magnitudes, not digits. "
+    "In 5.2 (d), the elbow and the wrist of the right arm have the same value, as printed.";
 
 std::string PrintedHtml(bool with_angles) {
   std::string html = fmt::format(
@@ -187,7 +187,7 @@ std::string EffectorCurvesHtml(const RunData& run, const ScenarioSummary& scenar
     if (std::ranges::all_of(panels, [](const Panel& panel) { return panel.curves.empty(); })) continue;
     const std::string label = ConditionLabel(condition.condition);
     html += fmt::format(
-        "<details{}><summary>Paper B’s figure 5.2: how each end effector gets there{}</summary>{}</details>",
+        "<details{}><summary>Paper B’s figure 5.2: how each end effector approaches its target{}</summary>{}</details>",
         html.empty() ? " open" : "", label.empty() ? "" : EscapeMarkup(", " + label),
         Figure(panels, scenario, rows.front()->trial));
   }

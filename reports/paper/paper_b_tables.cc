@@ -187,11 +187,11 @@ class Study {
     set.replay = fmt::format("etude replay RUN --cell '{}'", rows.front()->Id());
     Fill(rows, First, "", set);
     AddAngles(
-        rows, "angle_change_deg", "how far it turned each joint from the start",
+        rows, "angle_change_deg", "the rotation of each joint from the start",
         [](std::vector<double> values) { return std::abs(values.front()); }, set);
     if (!set.angles.empty()) {
       set.angle_note =
-          fmt::format("Hidden angles: how far each joint was turned from the start, without sign; {}", kNoAxis);
+          fmt::format("Hidden angles: the rotation of each joint from the start, without sign; {}", kNoAxis);
     }
     return set;
   }
@@ -201,14 +201,14 @@ class Study {
     set.title = fmt::format("all {}", Plural(TrialCount(), "trial"));
     set.error_note = "Position and orientation errors: the median of their absolute values over the trials.";
     Fill(rows_, MedianSize, ", median", set);
-    AddAngles(rows_, "angle_change_deg", "how far it turned each joint from the start, root mean square",
-              RootMeanSquare, set);
-    AddAngles(rows_, "angle_error_deg", "how far each joint ended from the truth, root mean square", RootMeanSquare,
+    AddAngles(rows_, "angle_change_deg", "the rotation of each joint from the start, root mean square", RootMeanSquare,
               set);
+    AddAngles(rows_, "angle_error_deg", "the final difference of each joint from the truth, root mean square",
+              RootMeanSquare, set);
     if (!set.angles.empty()) {
       set.angle_note = fmt::format(
-          "Hidden angles: root mean square over the trials, as turned from the start and as it differs from the "
-          "truth; {}",
+          "Hidden angles: root mean square over the trials of the rotation from the start and of the difference from "
+          "the truth; {}",
           kNoAxis);
     }
     return set;
@@ -302,7 +302,7 @@ class Study {
       const auto ok = std::ranges::count(rows, Status::kOk, [](const Row* row) { return row->result.status; });
       text = fmt::format("{}: {} of {} ok", method, FormatCount(ok), FormatCount(std::ssize(rows)));
       const auto with = std::ranges::count_if(rows, [&](const Row* row) { return HasErrors(*row); });
-      if (with < std::ssize(rows)) text += fmt::format(", figures of {} of them only", FormatCount(with));
+      if (with < std::ssize(rows)) text += fmt::format(", figures for only {} of them", FormatCount(with));
     }
     const std::string_view median = rows.size() == 1 ? "" : "median ";
     if (const auto iterations = MetricOver(rows, "iterations")) {

@@ -209,11 +209,11 @@ std::string WhatItDoes(const Beyond& beyond, const LeftOut& extreme, double prac
   const double all = *beyond.mean;
   const bool matters = std::abs(all) >= practical;
   const bool still = std::abs(extreme.difference) >= practical && (extreme.difference < 0) == (all < 0);
-  if (matters && !still) return fmt::format("then it no longer matters: this {} carries it", OneOf(unit));
+  if (matters && !still) return fmt::format("then it no longer matters: it depends on this {}", OneOf(unit));
   if (!matters && std::abs(extreme.difference) >= practical) {
-    return fmt::format("then it would matter: this {} hides it", OneOf(unit));
+    return fmt::format("then it would matter: this {} hides the difference", OneOf(unit));
   }
-  return fmt::format("no single {} carries it", OneOf(unit));
+  return fmt::format("the difference does not depend on any single {}", OneOf(unit));
 }
 
 double PracticalOf(const Comparison& c) {
@@ -277,12 +277,12 @@ std::string EstimationLegend(const ScenarioSummary& scenario, const std::string&
   const MetricWords words = WordsFor(metric);
   const MetricInfo* info = FindMetric(metric);
   std::string text =
-      fmt::format("Left both methods, a dot a world, coloured by {}; right their differences with 95 % intervals",
+      fmt::format("Left: both methods, one dot per world, coloured by {}. Right: their differences with 95 % intervals",
                   WorldsAreUnits(scenario.unit)              ? "method"
                   : scenario.unit == SamplingUnit::kClipPair ? "the clip left"
-                                                             : "what it was drawn from");
+                                                             : "its source");
   if (info != nullptr) {
-    text += fmt::format("; shaded: less than {:g}{}, which does not matter", info->practical * words.scale,
+    text += fmt::format("; shaded: differences of less than {:g}{}, which do not matter", info->practical * words.scale,
                         words.difference_suffix);
   }
   return text + ".";
@@ -304,10 +304,10 @@ std::string WithoutEachUnit(const Comparison& c, SamplingUnit unit) {
   const MetricWords words = WordsFor(c.metric);
   const auto [low, high] = std::ranges::minmax_element(beyond.left_out, {}, &LeftOut::difference);
   const LeftOut& extreme = Extreme(beyond, PracticalOf(c));
-  return fmt::format("“{}” against “{}”, mean difference without each {}: {} to {}. Without “{}” {}: {}.", c.method,
-                     c.baseline, OneOf(unit), Amount(low->difference, words), Amount(high->difference, words),
-                     extreme.unit, Amount(extreme.difference, words),
-                     WhatItDoes(beyond, extreme, PracticalOf(c), unit));
+  return fmt::format(
+      "“{}” against “{}”, mean difference if each {} in turn is left out: {} to {}. Without “{}” it is {}: {}.",
+      c.method, c.baseline, OneOf(unit), Amount(low->difference, words), Amount(high->difference, words), extreme.unit,
+      Amount(extreme.difference, words), WhatItDoes(beyond, extreme, PracticalOf(c), unit));
 }
 
 std::string LeftOutStripHtml(const Comparison& c, SamplingUnit unit) {

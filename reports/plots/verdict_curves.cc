@@ -158,7 +158,8 @@ void AddMethod(const ScenarioSummary& scenario, std::size_t method, const Method
   }
   if (const SharePoints by_severity = FoundBySeverity(verdicts.performances); by_severity.size() > 1) {
     curves.found[method] = by_severity;
-    if (const auto half = HalfFoundAt(by_severity)) told += fmt::format("; half found from severity {:.2f}", *half);
+    if (const auto half = HalfFoundAt(by_severity))
+      told += fmt::format("; half of the faults are found from severity {:.2f} on", *half);
     curves.found_words += fmt::format("{}: {:.0f} % of the worst. ", name, 100 * by_severity.back().second);
   }
   if (SharePoints waiting = SurvivalCurve(verdicts.waits); waiting.size() > 1) {
@@ -179,20 +180,21 @@ std::string VerdictPanels(const RunData& run, const ScenarioSummary& scenario, c
   std::string html;
   if (!curves.rocs.empty()) {
     html += SharePanel(prefix +
-                           "right performances called right over wrong ones called right, all thresholds, "
-                           "all people together; the mark is the method's own threshold",
+                           "share of right performances called right over the share of wrong ones called right, for "
+                           "all thresholds and all people together; the mark is the method's own threshold",
                        curves.words, curves.rocs, curves.operated);
-    html += DetPanel(prefix + "the same errors on normal deviates: right ones missed over wrong ones called right",
-                     curves.words, curves.rocs, curves.operated);
+    html += DetPanel(
+        prefix + "the same errors on scales of normal deviates: right performances missed over wrong ones called right",
+        curves.words, curves.rocs, curves.operated);
   }
   if (!curves.found.empty()) {
-    html += SharePanel(prefix + "faulty performances not called right, by how bad the fault is", curves.found_words,
-                       curves.found);
+    html += SharePanel(prefix + "faulty performances not called right, by the severity of the fault",
+                       curves.found_words, curves.found);
   }
   if (!curves.waiting.empty()) {
     html += WaitPanel(prefix +
-                          "right performances still waiting to be called so, by seconds since they were truly right; "
-                          "those never called are censored when their window closes",
+                          "right performances not yet called right, by seconds since they were truly right; those "
+                          "never called right are censored when their window closes",
                       curves.wait_words, curves.waiting);
   }
   if (html.empty()) return "";

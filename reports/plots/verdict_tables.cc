@@ -85,7 +85,7 @@ std::string SessionTable(const RunData& run, const ScenarioSummary& scenario, co
                         EscapeMarkup(SessionName(run, scenario, session.person)), session.missed, session.right,
                         session.praised, session.wrong);
   }
-  return Framed(fmt::format("{}the sessions that {} judged worst", prefix, scenario.methods[method->first]),
+  return Framed(fmt::format("{}the sessions in which {} made the most errors", prefix, scenario.methods[method->first]),
                 Head("session", false) + Head("right ones missed") + Head("wrong ones praised"), body);
 }
 
@@ -120,10 +120,12 @@ std::string Confusions(const ScenarioSummary& scenario, const std::string& prefi
     if (confusion.counts.empty() || confusion.moves.size() > kMaxMoves || method >= kMaxMethods) continue;
     const std::string& name = scenario.methods[method];
     std::string& html = name == asked || asked.empty() ? open : folded;
-    html += ConfusionTable(fmt::format("{}what {} takes moves for, per cent of those danced", prefix, name), confusion);
+    html +=
+        ConfusionTable(fmt::format("{}the moves that {} takes the danced ones for, per cent", prefix, name), confusion);
   }
   if (folded.empty()) return open;
-  return open + "<details><summary>What the other methods take moves for</summary>" + folded + "</details>";
+  return open + "<details><summary>The moves that the other methods take the danced ones for</summary>" + folded +
+         "</details>";
 }
 
 }  // namespace
@@ -189,7 +191,7 @@ std::string VerdictTablesHtml(const RunData& run, const ScenarioSummary& scenari
             Confusions(scenario, prefix, verdicts);
   }
   if (html.empty()) return "";
-  return "<details><summary>Which faults are found, the worst sessions, what moves are taken for</summary>" + html +
+  return "<details><summary>Which faults are found, the worst sessions, which moves are confused</summary>" + html +
          LeftOutHtml(count, kMaxTabled, "conditions", "series/") + "</details>";
 }
 

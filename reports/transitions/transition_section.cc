@@ -79,7 +79,7 @@ std::string WaitOf(const TransitionFacts& facts) {
 }
 
 std::string WaysTable(const RecordedRequest& world) {
-  Table table{.label = "Which way each method took",
+  Table table{.label = "The way that each method took",
               .columns = {{"Method"},
                           {"Branch"},
                           {"Frames, left → entered"},
@@ -135,7 +135,7 @@ TableRow CandidateRow(const CandidateFacts& candidate, const TransitionFacts& fa
 std::string HowMany(const TransitionFacts& facts) {
   const auto listed = static_cast<long long>(facts.candidates.size());
   if (!facts.pairs_seen || *facts.pairs_seen <= listed) return "";
-  return fmt::format("<p class=\"quiet legend\">{} of {} pairs of frames: the taken, and the best of the others.</p>",
+  return fmt::format("<p class=\"quiet legend\">{} of {} pairs of frames: the pair taken, and the best others.</p>",
                      FormatCount(listed), FormatCount(*facts.pairs_seen));
 }
 
@@ -170,8 +170,8 @@ std::string AllCandidates(const RecordedRequest& world) {
   }
   if (html.empty()) return html;
   return html +
-         "<p class=\"quiet legend\">Too far: d is not below the threshold. Later: it matches, but the first match is "
-         "taken. Worse: it matches, but another ranks before it.</p>";
+         "<p class=\"quiet legend\">Too far: d is not below the threshold. Later: it matches, but an earlier match is "
+         "taken. Worse: it matches, but another pair ranks higher.</p>";
 }
 
 std::string WorldHtml(const RecordedRequest& world) {
@@ -240,7 +240,7 @@ std::string DistanceTable::Html() const {
   }
   return TableHtml(table) + fmt::format(
                                 "<p class=\"quiet legend\">They sum to d². A full bar alone reaches the threshold; "
-                                "without one, it is the largest of its row. {}</p>",
+                                "without a threshold, a full bar is the largest of its row. {}</p>",
                                 EscapeMarkup(kFeatureLegend));
 }
 

@@ -15,8 +15,8 @@ constexpr double kMinShownPartial = 0.0005;
 
 /// Explains paper A's abbreviations of the ten features.
 constexpr std::string_view kFeatureLegend =
-    "RH, LH: how far the right and the left arm are raised; RHE, LHE: their elbows; Posture: lying to jumping; Trunk: "
-    "its lean; RF, LF: how far the legs are spread; RFK, LFK: their knees.";
+    "RH, LH: angles by which the right and the left arm are raised; RHE, LHE: their elbows; Posture: from lying to "
+    "jumping; Trunk: its lean; RF, LF: angles by which the legs are spread; RFK, LFK: their knees.";
 
 /// A table of the ten partial distances of transition points, one row per point, each with a bar. A full bar means that
 /// this part alone reaches the threshold. The weights are listed above the table, once for all methods that share them.

@@ -42,12 +42,12 @@ bool MeanTellsMore(const Comparison& c) {
 /// Returns the sentence about one condition, without its units and full stop.
 std::string SentenceFor(const Comparison& c, const std::string& other, const MetricWords& words) {
   if (c.pairs == 0 || !c.difference) {
-    return fmt::format("“{}” could not be compared with {} by {}: no world gave both a value", c.method, other,
+    return fmt::format("“{}” could not be compared with {} by {}: no world has both values", c.method, other,
                        words.label);
   }
   if (!c.ci_low) {
-    return fmt::format("“{}” and {} met in {} only: too few to judge the {}", c.method, other, Plural(c.pairs, "world"),
-                       words.label);
+    return fmt::format("“{}” and {} have values together in {} only: too few to judge the {}", c.method, other,
+                       Plural(c.pairs, "world"), words.label);
   }
   // The difference, and the mean if it tells more.
   std::string figures =
@@ -68,7 +68,8 @@ std::string SentenceFor(const Comparison& c, const std::string& other, const Met
     case Verdict::kInconclusive:
       break;
   }
-  return fmt::format("It is open whether “{}” changes the {} against {}: {}", c.method, words.label, other, figures);
+  return fmt::format("It is undecided whether “{}” changes the {} against {}: {}", c.method, words.label, other,
+                     figures);
 }
 
 // ": 5.1° (95 % CI 4.0–6.2; noise=5) to 12.3° (10.0–14.1; noise=20), on 60 worlds each"
@@ -110,7 +111,7 @@ std::string SentenceOverConditions(const std::vector<Judged>& judged, const Metr
                        others, under, range);
   }
   if (verdict == Verdict::kInconclusive) {
-    return fmt::format("It is open whether “{}” changes the {} against {}{}{}", first.method, words.label, others,
+    return fmt::format("It is undecided whether “{}” changes the {} against {}{}{}", first.method, words.label, others,
                        under, range);
   }
   return fmt::format("“{}” against {} by {} is {}{}", first.method, others, words.label,
@@ -131,7 +132,9 @@ std::string UnpairedWords(const std::vector<Judged>& judged) {
   };
   add(OthersOf(judged), only_baseline);
   add(fmt::format("“{}”", first.method), only_method);
-  return text.empty() ? "" : fmt::format(" Not in this difference, since one of the two has no value there: {}.", text);
+  return text.empty()
+             ? ""
+             : fmt::format(" Not included in this difference, because one of the two has no value there: {}.", text);
 }
 
 // At or above this value, a ratio says more than a difference.

@@ -26,8 +26,8 @@ struct PersonErrors {
 /// size is not used, because it describes crowd workers on pictures of all kinds.
 const std::array<double, kRoleCount>& RelativeDeviations();
 
-/// The shares of a mark's variance *(ours; Bartlett, Bussey and Flyger 2006 show that operators differ from each other
-/// more than from themselves, and from joint to joint)*.
+/// The parts of a mark's variance, as shares *(ours; Bartlett, Bussey and Flyger 2006 show that different operators
+/// differ more than repeated marks of one operator, and that joints differ)*.
 constexpr double kBiasShare = 0.3;         ///< bias of one annotator for one joint, constant over a take
 constexpr double kLastingShare = 0.4;      ///< correlated from frame to frame
 constexpr double kIndependentShare = 0.3;  ///< drawn for each frame

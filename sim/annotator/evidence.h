@@ -50,7 +50,7 @@ Regions FindRegions(const LabelImage& labels, const ColourImage& colours, const 
 
 /// A picture as the annotator sees it; all three images have the same size.
 struct AnnotatedPicture {
-  const LabelImage& labels;    ///< the part at each pixel: the annotator's ability to tell limbs apart
+  const LabelImage& labels;    ///< the part at each pixel: the annotator's ability to distinguish limbs
   const ColourImage& colours;  ///< used only for the contrast of limbs
   const Mask& person;          ///< the segmented person; everything else is not seen
 };

@@ -14,15 +14,17 @@ struct CameraEffects {
 
   // The lens (lens.h).
   double radial_distortion = 0;      ///< shift of the corner as a share of its distance from the axis; < 0 is a barrel
-  double tangential_distortion = 0;  ///< likewise, in a random direction
+  double tangential_distortion = 0;  ///< the same, in a random direction
   double defocus_px = 0;             ///< standard deviation of the Gaussian point spread function
-  double vignette = 0;               ///< 1: natural, cos⁴ of the angle from the axis; in general that to this power
-  double dust = 0;                   ///< share of the light that a speck absorbs at its centre
+  /// Power of the cosine of the angle from the axis, in units of 4: 1 is natural, cos⁴.
+  double vignette = 0;
+  double dust = 0;  ///< share of the light that a speck absorbs at its centre
 
   // Tones: exposure and colours (sensor.h).
-  double exposure_ev = 0;             ///< stops brighter
-  double exposure_drift_ev = 0;       ///< maximum drift of an automatic exposure from that
-  double gain_db = 0;                 ///< amplification: less light for the same picture, and more noise
+  double exposure_ev = 0;        ///< stops brighter
+  double exposure_drift_ev = 0;  ///< largest drift of an automatic exposure from `exposure_ev`
+  /// Amplification: a picture of the same brightness needs less light and has more noise.
+  double gain_db = 0;
   double white_balance_ev = 0;        ///< red over blue, stops: > 0 is too warm
   double white_balance_drift_ev = 0;  ///< its maximum drift
 

@@ -24,8 +24,8 @@ Figure PosedFigure(const Character& character, const BodyPose& pose, bool is_clo
 /// Computes the joints of such a character in `pose`; their axes are scaled to the body's proportions.
 std::vector<GlobalTransform> FilledGlobals(const Character& character, const BodyPose& pose);
 
-/// Finds the part of the body that each joint of a skeleton moves: that of the role in the joint's name, or else that
-/// of the nearest such ancestor (an ear belongs to the head), or else the trunk.
+/// Finds the part of the body that each joint of a skeleton moves: that of the role in the joint's name, otherwise that
+/// of the nearest ancestor with a role (an ear belongs to the head), otherwise the trunk.
 std::vector<Part> PartsOfJoints(const Skeleton& skeleton);
 /// Finds these parts for a file's skeleton whose roles are in `map`. Joints between neck and head belong to the head
 /// unless they carry a shoulder.

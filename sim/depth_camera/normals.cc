@@ -27,7 +27,8 @@ class Points {
     return points_.At(x, y);
   }
 
-  /// Returns the step from here to the next pixel that way, or from the one before: whichever is nearer in depth.
+  /// Returns the step from this pixel to the next one in that direction, or from the one before: the one with the
+  /// smaller change of depth.
   std::optional<glm::dvec3> StepAt(int x, int y, int right, int down) const {
     const auto here = At(x, y), next = At(x + right, y + down), before = At(x - right, y - down);
     if (!here || (!next && !before)) return std::nullopt;

@@ -7,12 +7,13 @@
 
 namespace etude {
 
-/// Directions in the world, unit, out of the surface that a pixel shows; zero where nothing is seen.
+/// Unit normals in the world that point out of the surface at each pixel; zero where there is no surface.
 using NormalImage = Image<glm::vec3>;
 
-/// Computes the normals of surfaces seen at `depth` by `camera` (its lens included), from the points behind
-/// neighbouring pixels: on each axis the neighbour whose depth is nearer, so that edges of things do not bend their
-/// surfaces. A plane's are right to the depths' own rounding; a pixel between two edges has none of its own.
+/// Computes the normals of the surfaces in `depth`, as seen by `camera` (lens included), from the points of
+/// neighbouring pixels. On each axis it uses the neighbour of more similar depth, so that the edges of objects do not
+/// distort their surfaces. For a plane the normals are exact up to the rounding of depths; a pixel between two edges
+/// has no normal.
 NormalImage NormalsOf(const DepthImage& depth, const Camera& camera);
 
 }  // namespace etude

@@ -53,7 +53,7 @@ struct LearnerPerformance {
   bool is_over = false;  ///< true once the coach no longer shows it
   bool is_cut = false;   ///< true if the coach stopped it before its last beat, so it is not judged
   /// The event, with faults, stray and truth from its first frame on. `end_s` is an estimate until the performance is
-  /// over; `first_right_s` is set when that beat is performed.
+  /// over; `first_right_s` is set when its beat is performed.
   SessionEvent event;
 };
 
@@ -64,8 +64,8 @@ struct LearnerPerformance {
 /// skills, one for every fault of every move. The random numbers of a performance are keyed by its move and its attempt
 /// and never by time, so they are the same under every coach. Practice teaches a little, a demonstration more, and a
 /// correction most, but a correction teaches only about the faults of the mistake that it follows. Feedback also
-/// guides: it improves the next performances more than what is retained. Praise for a mistake unteaches. Wrong praise
-/// and a correction without a mistake cost patience; without patience a learner gives up and stands still. The
+/// guides: it improves the next performances more than what is retained. Praise for a mistake removes learning. Wrong
+/// praise and a correction without a mistake cost patience; without patience a learner gives up and stands still. The
 /// constants, with their sources or marked as ours, are in learner.cc.
 class Learner {
  public:
@@ -87,8 +87,9 @@ class Learner {
   bool HasGivenUp() const { return patience_ <= 0; }
   /// Returns the probability that the next performance of this move has no fault.
   double ChanceOfRight(std::size_t move) const;
-  /// Returns that probability without a coach after the time of `performances_later` performances: guidance has ended,
-  /// and what is forgotten by then is forgotten. For a learner who has given up, it is the probability if they danced.
+  /// Returns that probability without a coach after the time of `performances_later` performances: the effect of
+  /// guidance has ended, and part of the learning has been forgotten. For a learner who has given up, it is the
+  /// probability if they danced.
   double RetainedChanceOfRight(std::size_t move, int performances_later) const;
 
  private:

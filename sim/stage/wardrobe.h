@@ -18,8 +18,7 @@ enum class Wardrobe {
 /// Returns the coded suit. Its colours are plain and saturated, and as bright as possible without clipping under the
 /// drifting lamp. Their hues are 18.5° apart, on the 240° of the circle that are at least 20° from the studio's wall
 /// and floor (150–230°). Adjacent limbs differ by 92° or more, and the two limbs of a pair by 120°. Furnished rooms
-/// have objects of any hue, but paler (palette.h).
-/// paler ones (palette.h).
+/// have objects of any hue, but paler ones (palette.h).
 PartColours CodedSuit();
 
 /// Draws the clothes of `who` on the stage of this seed. Builds, cuts and patterns depend on the seed alone; colours

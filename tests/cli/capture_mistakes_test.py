@@ -382,22 +382,22 @@ PADDED = (WIDTH - HEIGHT) / 2
 # What no page names: the rig, a change of every pixel, and what is said of it.
 STRANGERS = {
     "two cameras exchanged": (altered_toml(lambda name, R, T, K: (EXCHANGED.get(name, name), R, T, K)), None,
-                              "mended: films or keypoints of cam1 and cam2 are exchanged"),
+                              "corrected: films or keypoints of cam1 and cam2 are exchanged"),
     "poses from the cameras": (altered_toml(lambda name, R, T, K: (name, R.T, -R.T @ T, K)), None,
-                               "mended: the rig's poses lead from its cameras to the world"),
+                               "corrected: the rig's poses lead from its cameras to the world"),
     "OpenGL's axes": (altered_toml(lambda name, R, T, K: (name, FLIP @ R, FLIP @ T, K)), None,
-                      "mended: the rig's cameras look along -z"),
+                      "corrected: the rig's cameras look along -z"),
     "matrices of Blender": (altered_toml(lambda name, R, T, K: (name, (FLIP @ R).T, -R.T @ T, K)), None,
                             "and these look along -z"),
     "calibrated at twice the size, which is not told": (altered_size(2), None, "taken as of pictures of 1280 x 960 pixels"),
     "calibrated at half of the size, which is not told": (altered_size(0.5), None, "taken as of pictures of 320 x 240 pixels"),
-    "keypoints of halved pictures": (SAME, lambda p: (p + 0.5) / 2 - 0.5, "mended: keypoints are of pictures 0.5 times as large"),
+    "keypoints of halved pictures": (SAME, lambda p: (p + 0.5) / 2 - 0.5, "corrected: keypoints are of pictures 0.5 times as large"),
     "shares of a padded square": (SAME, lambda p: np.array([(p[0] + 0.5) / WIDTH, (p[1] + 0.5 + PADDED) / WIDTH]),
-                                  "mended: keypoints are shares of a square about the picture"),
-    "shares of the longer side": (SAME, lambda p: (p + 0.5) / WIDTH, "mended: keypoints are shares of the picture's longer side"),
-    "x and y exchanged": (SAME, lambda p: p[::-1], "mended: keypoints have x and y exchanged"),
-    "v counted from below": (SAME, lambda p: np.array([p[0], HEIGHT - 1 - p[1]]), "mended: keypoints count v from below"),
-    "all films mirrored": (SAME, lambda p: np.array([WIDTH - 1 - p[0], p[1]]), "mended: keypoints of all films are mirrored"),
+                                  "corrected: keypoints are shares of a square about the picture"),
+    "shares of the longer side": (SAME, lambda p: (p + 0.5) / WIDTH, "corrected: keypoints are shares of the picture's longer side"),
+    "x and y exchanged": (SAME, lambda p: p[::-1], "corrected: keypoints have x and y exchanged"),
+    "v counted from below": (SAME, lambda p: np.array([p[0], HEIGHT - 1 - p[1]]), "corrected: keypoints count v from below"),
+    "all films mirrored": (SAME, lambda p: np.array([WIDTH - 1 - p[0], p[1]]), "corrected: keypoints of all films are mirrored"),
 }
 
 
@@ -493,7 +493,7 @@ class Mistakes(EtudeCase):
                     told, errors, _ = self.capture(mistake=mistake, cameras=cameras)
                     self.check(told, errors, words=words)
                     if mistake == "none":
-                        for word in ("mended", "doubtful", "turned", "exchanged"):
+                        for word in ("corrected", "doubtful", "turned", "exchanged"):
                             self.assertNotIn(word, told)
 
     def test_what_no_page_names_is_told_and_mended(self):
@@ -529,18 +529,18 @@ class Mistakes(EtudeCase):
             with self.subTest(cameras=cameras, noise_px=noise_px):
                 told, _, _ = self.capture(rig, cameras=cameras, pixels=shares, noise_px=noise_px)
                 self.assertRegex(told, r"doubtful: shoulders are 0\.5\d of a leg .* shares of a square about the picture, they are 0\.4|"
-                                       r"mended: keypoints are shares of a square about the picture")
+                                       r"corrected: keypoints are shares of a square about the picture")
 
     def test_a_camera_that_fits_nobody_is_named(self):
         elsewhere = altered_toml(lambda name, R, T, K: (name, R, 1000 * T if name == "cam2" else T, K))
         told, errors, _ = self.capture(elsewhere)
-        self.check(told, errors, words="doubtful: cam2: nobody in its film fits the person of the other cameras")
+        self.check(told, errors, words="doubtful: cam2: nobody in its film fits the person in the other films")
 
     def test_films_and_references_of_other_rates(self):
         reference = self.folder / "reference.trc"
         write_trc(reference, 60, 2 * FRAMES, figure)
         told, errors, _ = self.capture(mistake=SLOW, cameras=2, more=("--reference", reference))
-        self.check(told, errors, words="cam2: 25 frames a second beside 30, its keypoints resampled")
+        self.check(told, errors, words="cam2: 25 frames per second, but 30 in the others, so its keypoints are interpolated")
         self.assertIn("reference: resampled from 60 to 30 Hz", told)
         self.assertLess(float(re.search(r"^all\s+([\d.]+)", told, re.M)[1]), 1, told)
 
@@ -548,14 +548,14 @@ class Mistakes(EtudeCase):
         reference = self.folder / "reference.trc"
         write_trc(reference, 29.97, FRAMES - 10, figure)
         told, errors, _ = self.capture(mistake=NTSC, cameras=2, more=("--reference", reference))
-        self.check(told, errors, words="cam2: 29.97 frames a second beside 30, taken as one rate")
+        self.check(told, errors, words="cam2: 29.97 frames per second, but 30 in the others, taken as the same rate")
         film = re.search(r"cam2: drift measured: ([+-][\d.]+) frames over the film, \+0\.06|"
-                         r"cam2: its frames are .*: ([\d.]+) frames over it; mended", told)
+                         r"cam2: its frames are .*, which adds ([\d.]+) frames over the film; corrected", told)
         self.assertIsNotNone(film, told)
         self.assertAlmostEqual(float(film[1] or film[2]), 0.06, delta=0.02)
-        drift = re.search(r"reference: 29.97 frames a second beside 30, taken as one rate: ([+-][\d.]+) frames of drift", told)
+        drift = re.search(r"reference: 29.97 frames per second, films 30, taken as the same rate: ([+-][\d.]+) frames of drift", told)
         self.assertAlmostEqual(float(drift[1]), -0.06, delta=0.03, msg=told)
-        self.assertIn("reference: 50 frames beside 60: the first 50 are compared", told)
+        self.assertIn("reference: 50 frames, but 60 in the films; the first 50 are compared", told)
 
     # Errors of two pixels hide how late a film is from what mends clocks by itself; not that it is.
     def test_a_late_film_of_keypoints_that_err_is_doubted_and_can_be_set(self):
@@ -571,7 +571,7 @@ class Mistakes(EtudeCase):
         self.check(told, errors)
         text = page.read_text()
         for line in told.splitlines():
-            if line.startswith(("mended", "rig,")) or "; mended" in line:
+            if line.startswith(("corrected", "rig,")) or "; corrected" in line:
                 self.assertIn(line.replace("'", "&#39;"), text)
         self.assertIn("src=\"data:video/mp4;base64,", text)
         self.assertNotRegex(text, r"(src|href)=\"(?!data:|#)")
@@ -607,7 +607,7 @@ class Mistakes(EtudeCase):
                             "--rooms", rooms, "--stature", "1.7", "-o", self.folder / "m.csv", "--report", page, *arguments)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertNotIn("doubtful", result.stdout)
-        self.assertIn("cam3: 30 frames a second beside 15, its nearest pictures taken, off by up to 17 ms", result.stdout)
+        self.assertIn("cam3: 30 frames per second, but 15 in the others, its nearest pictures are used, which differ by up to 17 ms", result.stdout)
         text = page.read_text()
         self.assertIn("stature: 1.70 m", text)
         self.assertIn("src=\"data:video/mp4;base64,", text)
@@ -623,7 +623,7 @@ class Mistakes(EtudeCase):
                  "--stature", "0.7", "-o", self.folder / "small.csv", *arguments]
         refused = self.etude(*small, "--json")
         self.assertEqual(refused.returncode, 1, refused.stderr)
-        self.assertRegex(refused.stderr, r"etude: in \d+ % of \w+'s frames body and outline share less than half; nothing was written "
+        self.assertRegex(refused.stderr, r"etude: in \d+ % of \w+'s frames, body and outline overlap by less than half; nothing was written "
                                          r"\(--accept-doubtful writes it all the same\)\n$")
         facts = json.loads(refused.stdout)
         self.assertIsNone(facts["output"])

@@ -153,7 +153,7 @@ class Convert(Clips):
         [clip] = self.info(part)
         self.assertEqual((clip["frames"], clip["rate_hz"]), (61, 60))
         self.refuses("convert", WALK, part, "--trim", "1:2000", "--overwrite", says=["01_03.bvh: "])
-        self.refuses("convert", WALK, part, "--trim", "soon", "--overwrite", says=["--trim: 'soon' is no span of time"])
+        self.refuses("convert", WALK, part, "--trim", "soon", "--overwrite", says=["--trim: 'soon' is not a time range"])
         for rate in ("nan", "inf", "0", "1001", "fast"):
             self.refuses("convert", WALK, part, "--rate", rate, "--overwrite", says=[f"--rate: '{rate}' is not a rate"])
 

@@ -51,7 +51,7 @@ class Crowd(EtudeCase):
         for arguments, says in ((("--characters", "0"), "--characters"),
                                 (("--seconds", "0.05"), "--seconds: 0.05 s at 60 Hz are 3 frames; allowed: 4 or more"),
                                 (("--seconds", "nan"), "--seconds"),
-                                (("-o", self.folder / "crowd.gif"), "is not a film's name; allowed: .mp4")):
+                                (("-o", self.folder / "crowd.gif"), "is not the name of a film; allowed: .mp4")):
             result = self.etude("crowd", *arguments)
             self.assertEqual(result.returncode, 2, result.stdout)
             self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)

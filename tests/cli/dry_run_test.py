@@ -31,7 +31,7 @@ class DryRun(EtudeCase):
     def test_counts_cells_and_what_could_be_shown(self):
         clips = ["builtin:clap", "builtin:boxing", "builtin:robot", "builtin:sway", "builtin:stretch", "builtin:side_kick"]
         told = self.tell(clips)
-        self.assertTrue(told.endswith("The time is a guess: no costs are kept of s, whose first worlds were measured just now.\n"))
+        self.assertTrue(told.endswith("The time is an estimate: the costs of s are not known, so its first worlds were measured just now.\n"))
         self.assertIn("1 condition × 8 worlds × 2 methods = 16 cells", told)
         # 8 pairs: (t(0.975) + t(0.8)) / √8 of 7 degrees of freedom; 6 clips likewise.
         self.assertIn("1 comparison shows a mean difference from 1.15 standard deviations", told)

@@ -231,7 +231,7 @@ class Formats(MotionFileCase):
         head = ",".join(f"{name}_{axis}_m" for name in self.body("builtin:sway")[0] for axis in "xyz")
         numpy.savetxt(self.folder / "bare.csv", places.reshape(len(places), -1), delimiter=",", header=head, comments="")
         for name in ("poses.npy", "bare.csv"):
-            self.assertIn("no rate in the file: 30 Hz are assumed", self.etude("clip", "info", self.folder / name).stdout)
+            self.assertIn("the file states no rate; 30 Hz is assumed", self.etude("clip", "info", self.folder / name).stdout)
             told = self.etude("clip", "info", self.folder / name, "--rate", 20).stdout
             self.assertIn("at 20 Hz", told)
             self.assertNotIn("assumed", told)
@@ -241,7 +241,7 @@ class Formats(MotionFileCase):
         path = self.folder / "poses.npy"
         numpy.save(path, (1000 * places).astype("f4"))
         told = self.info(path)["clips"][0]
-        self.assertIn("layout etude, 1 unit = 0.1 cm; no rate in the file: 30 Hz are assumed", told["body"]["note"])
+        self.assertIn("layout etude, 1 unit = 0.1 cm; the file states no rate; 30 Hz is assumed", told["body"]["note"])
         self.assert_read_back(path, places)
         order = ["hip_centre", "right_hip", "right_knee", "right_ankle", "left_hip", "left_knee", "left_ankle", "spine",
                  "shoulder_centre", "head", "head", "left_shoulder", "left_elbow", "left_wrist", "right_shoulder",
@@ -350,7 +350,7 @@ class Formats(MotionFileCase):
             path.write_bytes(data[:8] + struct.pack("<II", *sizes) + data[16:20] + text + struct.pack("<I", len(numbers) + len(keys))
                              + data[24 + length:28 + length] + numbers + keys)
             note = self.info(path)["clips"][0]["body"]["note"]
-            self.assertIn(f"the frames show a body {factor:g} times as tall as the rest pose, by scales that it has not: undone", note)
+            self.assertIn(f"removed scales of the frames that the rest pose does not have; they made the body {factor:g} times as tall", note)
             for a, b in zip(before, self.joints(path)):
                 for name in a:
                     numpy.testing.assert_allclose(b[name], a[name], atol=1e-6, err_msg=f"{factor} {name}")

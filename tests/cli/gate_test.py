@@ -235,7 +235,7 @@ class Gate(EtudeCase):
         self.assertIn("no such folder", self.gate(self.folder / "none", expect=2))
         self.make_baseline()
         whole = self.baseline.read_text()
-        self.assertIn("no such file; --update makes it from this run", self.gate(self.out, "--baseline", self.folder / "none.json", expect=2))
+        self.assertIn("does not exist; --update makes it from this run", self.gate(self.out, "--baseline", self.folder / "none.json", expect=2))
         for broken in "", "{}", whole[:len(whole) // 2], whole.replace('"schema":2', '"schema":7'), \
                 whole.replace('"seed":1', '"seed":1,"seed":1'), whole.replace('"trials":12', '"trials":null'), \
                 re.sub('"cells":"[a-z]+"', '"cells":"' + 12 * "f" + '"', whole), \
@@ -255,7 +255,7 @@ class Gate(EtudeCase):
         self.run_now(SCENARIO.replace("[2, 5]", "[2, 7]"))
         same = self.etude("compare", self.out, self.out)
         self.assertEqual(same.returncode, 0, same.stderr)
-        self.assertRegex(same.stdout, r"^\d+ comparisons: \d+ same\nAll on these worlds; no claim is made about other worlds.\n$")
+        self.assertRegex(same.stdout, r"^\d+ comparisons: \d+ same\nAll verdicts are about these worlds only; none is about other worlds.\n$")
         result = self.etude("compare", self.out, self.now)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("Only in A:\n  ik, joint_noise_deg=5, fixed\n  ik, joint_noise_deg=5, least-squares", result.stdout)

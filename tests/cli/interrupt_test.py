@@ -64,7 +64,7 @@ class Interrupts(EtudeCase):
         def is_filming(_):
             return list(video.glob("*.partial.mp4")) if video.exists() else []
 
-        self.assertIn("stopped; the tables are written, the page is not", self.interrupt(["report", self.out], is_filming))
+        self.assertIn("stopped; the tables were written, but not the page", self.interrupt(["report", self.out], is_filming))
         self.assertFalse(page.exists())
         self.assertEqual((self.left(), list(video.iterdir())), ([], []))
         self.assertEqual(self.etude("report", self.out).returncode, 0)
@@ -76,7 +76,7 @@ class Interrupts(EtudeCase):
     def test_a_clip_s_film_likewise(self):
         film = self.folder / "clip.mp4"
         said = self.interrupt(["clip", "render", WALK, "-o", film], lambda _: self.left())
-        self.assertEqual(said, "etude: stopped; nothing is kept\n")
+        self.assertEqual(said, "etude: stopped; no files are kept\n")
         self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_an_export_likewise(self):

@@ -68,7 +68,7 @@ class Recognise(EtudeCase):
             return self.etude("recognise", take, "--moves", *arguments)
         default, learnt = told(moves), told(moves, "--recogniser", "learnt")
         self.assertEqual((default.returncode, default.stdout), (0, learnt.stdout))
-        self.assertIn("recogniser learnt, recommended for what was taught; --recogniser takes another\n", default.stderr)
+        self.assertIn("recogniser learnt, recommended for these moves; --recogniser selects another one\n", default.stderr)
         self.assertNotIn("recommended", learnt.stderr)
         # Moves that are key poses alone have nothing to learn from.
         poses = re.sub(r"(?m)^    right:\n(      .*\n|        .*\n)*", "    right: []\n", moves.read_text())

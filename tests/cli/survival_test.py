@@ -315,7 +315,7 @@ methods:
         shutil.rmtree(self.out)
         replayed = subprocess.run([ETUDE, "replay", pack], cwd="/", capture_output=True, text=True, timeout=60)
         self.assertEqual(replayed.returncode, 0, replayed.stderr)
-        self.assertIn(f"{cell}: the same, stage by stage", replayed.stdout)
+        self.assertIn(f"{cell}: all stages are the same", replayed.stdout)
         pack.write_bytes(pack.read_bytes()[:-20])
         torn = self.etude("replay", pack)
         self.assertEqual(torn.returncode, 2)

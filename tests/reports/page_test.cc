@@ -223,7 +223,7 @@ TEST(Page, OfHundredsOfMethodsCutsItsListsAndSaysSo) {
   }
   const std::string page = WritePage(run, {});
   EXPECT_THAT(page, HasSubstr("465 more methods are left out here"));
-  EXPECT_THAT(page, HasSubstr("more rows are left out here; the CSV file in report/tables has all."));
+  EXPECT_THAT(page, HasSubstr("more rows are not shown here; the CSV file in report/tables has all of them."));
   EXPECT_THAT(page, HasSubstr("more comparisons are left out here"));
 }
 

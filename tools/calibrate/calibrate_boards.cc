@@ -30,7 +30,7 @@ Result<std::vector<Board>> ReadBoards(const std::vector<std::string>& texts) {
     for (const Board& other : boards) {
       if (board.first_code < other.first_code + CountCodes(other) &&
           other.first_code < board.first_code + CountCodes(board)) {
-        return Fail({}, "--board {}: another board has its codes, too; allowed: @{} and more", text,
+        return Fail({}, "--board {}: another board uses the same codes; allowed: @{} and more", text,
                     other.first_code + CountCodes(other));
       }
     }
@@ -131,11 +131,10 @@ Result<BoardViews> SearchFor(const CalibrateOptions& options) {
   if (options.boards.size() > 1)
     return Fail({}, "--board: one chessboard or ChArUco board; there are {}", options.boards.size());
   if (!board.is_charuco && (board.columns + board.rows) % 2 == 0 && options.inputs.size() > 1) {
-    return Fail(
-        {},
-        "--board {}: turned by 180° it looks the same, so two cameras cannot be joined; allowed: columns + rows "
-        "odd",
-        options.boards.front());
+    return Fail({},
+                "--board {}: it looks the same when turned by 180°, so two cameras cannot be related; allowed: an odd "
+                "sum of columns and rows",
+                options.boards.front());
   }
   ASSIGN_OR_RETURN(auto finder, MakePrintedBoardFinder(board));
   return BoardViews(board, std::move(finder));
@@ -183,7 +182,9 @@ Result<RefinedRig> CalibrateWithoutOutliers(const BoardViews& search, const Cali
     }
     if (search.Told().empty() || kept.size() == views.size() || round == kMaxRounds) {
       if (views.size() < all) {
-        options.listener.print(fmt::format("{} of {} pictures of boards left out: three times as far off as most\n", all - views.size(), all));
+        options.listener.print(
+            fmt::format("{} of {} pictures of boards were left out: their residuals are three times the median\n",
+                        all - views.size(), all));
       }
       return rig;
     }
@@ -218,17 +219,20 @@ Result<std::vector<TargetView>> SynchroniseFilms(const CalibrateOptions& options
     const double delay_s = steps.delay_s[i];
     if (delay_s == 0) continue;
     constexpr double kMs = 1000;
-    options.listener.print(fmt::format(
-        "{}: shows a moment {:.0f} ms ({:.2f} frames) {} than {}; mended: its corners are taken between frames\n",
-        seen[i].name, kMs * std::abs(delay_s), std::abs(delay_s) / seen[i].period_s * seen[i].every,
-        delay_s > 0 ? "later" : "earlier", seen.front().name));
+    options.listener.print(
+        fmt::format("{}: shows a moment {:.0f} ms ({:.2f} frames) {} than {}; corrected: its corners are interpolated "
+                    "between frames\n",
+                    seen[i].name, kMs * std::abs(delay_s), std::abs(delay_s) / seen[i].period_s * seen[i].every,
+                    delay_s > 0 ? "later" : "earlier", seen.front().name));
     if (std::abs(delay_s) > max_delay_s - 0.5 * period_s.front()) {
-      options.listener.print(fmt::format("doubtful: that is as far as was looked; --sync {:.1f} looks further\n", 2 * max_delay_s + 0.1));
+      options.listener.print(fmt::format(
+          "doubtful: this is the end of the searched range; --sync {:.1f} searches further\n", 2 * max_delay_s + 0.1));
     }
   }
   if (steps.after_px < steps.before_px) {
-    options.listener.print(fmt::format("residual of all films as if in step {:.3f} px, with these times {:.3f} px\n", steps.before_px,
-               steps.after_px));
+    options.listener.print(
+        fmt::format("residual of all films if they ran in step {:.3f} px, with these times {:.3f} px\n",
+                    steps.before_px, steps.after_px));
   }
   return SynchronisedViews(search.sightings(), period_s, steps.delay_s);
 }
@@ -253,10 +257,10 @@ void TellResiduals(const RefinedRig& rig, const CalibrateOptions& options, std::
     do_disagree = do_disagree || (alone && together > kMinLimitPx && together > kTimes * alone->rms_px);
   }
   if (!do_disagree) return;
-  options.listener.print(fmt::format(
-      "doubtful: cameras explain their boards far better alone than together: films out of step{}, a camera\n"
-      "that moved, or a board that bends\n",
-      seen.front().every > 1 ? " (--every 1 would tell)" : ""));
+  options.listener.print(
+      fmt::format("doubtful: each camera alone fits its boards far better than all cameras together. Films may be out "
+                  "of step{}, a\ncamera may have moved, or the board may bend.\n",
+                  seen.front().every > 1 ? " (--every 1 would tell)" : ""));
 }
 
 /// Returns the digits at the end of a name: "0" for cam_0; "" if there are none.
@@ -273,13 +277,15 @@ constexpr const char* kOpenCv = "opencv";
 /// alone.
 Result<void> CompareWithOpenCv(const CalibrateOptions& options, std::span<const PictureSize> sizes,
                                std::span<const TargetView> views, const std::vector<CameraBoards>& seen) {
-  options.listener.print(fmt::format("\nbeside OpenCV's calibrateCamera, on the same corners, each camera alone:\n"));
+  options.listener.print(
+      fmt::format("\ncompared with OpenCV's calibrateCamera on the same corners, each camera alone:\n"));
   constexpr double kPercent = 100;
   for (std::size_t camera = 0; camera < seen.size(); ++camera) {
     const std::vector<TargetView> own = ViewsOf(camera, views);
     const auto alone = CalibrateFromPlanes(sizes.subspan(camera, 1), own, RefineOptionsOf(options));
     if (!alone) {
-      options.listener.print(fmt::format("  {:<14} not to be calibrated alone: {}\n", seen[camera].name, alone.error().message));
+      options.listener.print(
+          fmt::format("  {:<14} cannot be calibrated alone: {}\n", seen[camera].name, alone.error().message));
       continue;
     }
     ASSIGN_OR_RETURN(const OpenCvCalibration theirs, CalibrateByOpenCv(own, sizes[camera], RefineOptionsOf(options).lens));
@@ -306,13 +312,13 @@ Result<void> CompareBeside(const CalibrateOptions& options, const RefinedRig& ri
     if (same == theirs.end() && !NumberAtEnd(own.name).empty()) {
       same = std::ranges::find(theirs, NumberAtEnd(own.name), [](const NamedCamera& c) { return NumberAtEnd(c.name); });
     }
-    if (same == theirs.end()) return Fail({file}, "no camera {}, nor of that number", own.name);
+    if (same == theirs.end()) return Fail({file}, "no camera {}, by name or by number", own.name);
     cameras.push_back(same->camera);
   }
   // Place the boards for the other calibration, then compare intrinsics, residuals and distances between cameras.
   const auto placed = LocateBoards(cameras, views);
   if (!placed) return Fail({file}, "{}", placed.error().message);
-  options.listener.print(fmt::format("\nbeside {}, on the same corners:\n", file));
+  options.listener.print(fmt::format("\ncompared with {}, on the same corners:\n", file));
   constexpr double kPercent = 100;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     const Intrinsics &a = rig.cameras[i].intrinsics, &b = cameras[i].intrinsics;

@@ -51,7 +51,8 @@ Result<Board> ReadCodedBoard(const std::string& text) {
                         (*numbers)[2] <= 10 && first && first->size() == 1 &&
                         IsWholeWithin(first->front(), 0, kCodeCount);
   if (!is_board) {
-    return Fail({}, "--board {}: no board; allowed: 3 to {} squares a side and their metres, as 8x8x0.2 or 8x8x0.2@32",
+    return Fail({},
+                "--board {}: not a board; allowed: 3 to {} squares a side and their metres, as 8x8x0.2 or 8x8x0.2@32",
                 text, kMaxSquares);
   }
   const Board board{.columns = static_cast<int>((*numbers)[0]),
@@ -163,7 +164,7 @@ std::string PaperFor(const Board& board) {
   for (const Paper& paper : kPapers) {
     if (narrow + kMargins <= paper.narrow_mm && wide + kMargins <= paper.wide_mm) return paper.name;
   }
-  return "larger than A0 paper, for a poster printer; a smaller one is --board 5x7x0.034";
+  return "larger than A0 paper, only for a poster printer; --board 5x7x0.034 is smaller";
 }
 
 }  // namespace
@@ -182,11 +183,11 @@ Result<void> PrintBoard(const CalibrateOptions& options) {
   RETURN_IF_ERROR(WriteFileAtomically(options.print, EncodePng(picture, kSide / board.square)));
   TellWritten(options.listener, options.print);
   constexpr double kMm = 1000;
-  options.listener.print(fmt::format(
-      "{} x {} squares, {:.0f} x {:.0f} mm: {}; print it at 100 %, so that a square is {:g} mm, glue it flat, measure "
-      "it again\n",
-      board.columns, board.rows, kMm * board.columns * board.square, kMm * board.rows * board.square, PaperFor(board),
-      kMm * board.square));
+  options.listener.print(
+      fmt::format("{} x {} squares, {:.0f} x {:.0f} mm: {}; print it at 100 %, so that a square is {:g} mm; glue it "
+                  "onto something flat, then measure a square\n",
+                  board.columns, board.rows, kMm * board.columns * board.square, kMm * board.rows * board.square,
+                  PaperFor(board), kMm * board.square));
   return {};
 }
 
@@ -194,7 +195,7 @@ Result<Calibrated> CalibrateRig(const CalibrateOptions& options) {
   const std::string ending = fs::path(options.inputs.front()).extension().string();
   const bool is_pairs = options.inputs.size() == 1 && (ending == ".csv" || ending == ".yaml" || ending == ".yml");
   if (is_pairs && !(options.picture + options.beside).empty())
-    return Fail({}, "--picture and --beside are of boards; {} has point pairs", options.inputs.front());
+    return Fail({}, "--picture and --beside need pictures of boards; {} has point pairs", options.inputs.front());
   ASSIGN_OR_RETURN(Calibrated rig, is_pairs ? FromPairs(options) : CalibrateFromPictures(options));
   options.listener.print(TextOf(rig));
   RETURN_IF_ERROR(WriteFileAtomically(options.output, WriteRig(rig.cameras)));

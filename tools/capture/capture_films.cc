@@ -34,7 +34,7 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
   // Check the options that exclude each other, and read the reference.
   RETURN_IF_ERROR(FormatOfName(options.output));
   if (options.keypoints.empty() && options.marks.empty() && !options.silhouettes) {
-    return Fail({}, "what shall tell where the person is? allowed: --keypoints DIR, --marks DIR or --silhouettes");
+    return Fail({}, "what shows where the person is? allowed: --keypoints DIR, --marks DIR or --silhouettes");
   }
   std::optional<MarkerMotion> reference;
   if (!options.reference.empty()) {
@@ -42,9 +42,10 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
     ASSIGN_OR_RETURN(reference, ReadTrc(text, options.reference));
     RETURN_IF_ERROR(CheckReference(*reference, options.reference));
   }
-  if (options.silhouettes && options.sync_s > 0) return Fail({}, "--sync: outlines tell no clock; cut the films alike");
+  if (options.silhouettes && options.sync_s > 0)
+    return Fail({}, "--sync: outlines do not show the time; cut the films alike");
   if (options.silhouettes && !options.keypoints.empty() && options.stature_m > 0) {
-    return Fail({}, "--stature: the keypoints tell how tall the person is");
+    return Fail({}, "--stature: the keypoints already determine how tall the person is");
   }
   RETURN_IF_ERROR(CheckPlace(options.place));
   // Open the films, and resample the reference to their frame rate.
@@ -52,8 +53,8 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
   const FilmFacts facts = session.views.front().facts;
   options.listener.print(fmt::format("{} films, {} frames at {:g} Hz\n", session.views.size(), facts.frames, facts.rate_hz));
   if (reference && std::abs(reference->rate_hz - facts.rate_hz) > kSameRateTolerance * facts.rate_hz) {
-    options.listener.print(fmt::format("reference: resampled from {:g} to {:g} Hz, straight between its frames\n", reference->rate_hz,
-               facts.rate_hz));
+    options.listener.print(fmt::format("reference: resampled from {:g} to {:g} Hz, linearly between its frames\n",
+                                       reference->rate_hz, facts.rate_hz));
     reference = AtRate(std::move(*reference), facts.rate_hz);
   }
   // Begin the facts for programs.
@@ -70,7 +71,8 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
     if (!place) return Fail({options.rig}, "{}", place.error().message);
     for (FilmedView& view : session.views) {
       if (view.fit.quarter_turns != 0) {
-        return Fail({view.path.string()}, "its pictures are turned, and outlines do not tell which way; turn the film");
+        return Fail({view.path.string()},
+                    "its pictures are rotated, and outlines do not show in which direction; rotate the film");
       }
       view.camera.camera = Placed(*place, view.camera.camera);
     }

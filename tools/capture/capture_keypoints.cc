@@ -49,9 +49,10 @@ std::string PeopleText(const RecoveredPerson& person, const std::vector<FilmedVi
       const auto frames = std::ranges::count_if(one.seen[i], [](const auto& seen) { return seen.has_value(); });
       if (frames > 0) by += fmt::format("{}{} ({} frames)", by.empty() ? "" : ", ", views[i].camera.name, frames);
     }
-    text += fmt::format("person {}: seen by {}; rays miss by {:.1f} % of the height\n", ++number, by, 100 * one.error);
+    text += fmt::format("person {}: seen by {}; rays miss each other by {:.1f} % of the height\n", ++number, by,
+                        100 * one.error);
   }
-  if (alone > 0) text += fmt::format("{} tracks of people or errors that one camera alone saw\n", alone);
+  if (alone > 0) text += fmt::format("{} tracks that only one camera saw: people or errors\n", alone);
   return text;
 }
 
@@ -253,7 +254,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   const std::size_t chosen = IndexOfPerson(person, recover.person).value_or(0);
   if (options.poses == "bundle" && options.smooth_hz == 0) {
     if (!AdjustPerson(films.cameras, person.people[chosen], AdjustOf(recover), person)) {
-      films.told.Tell("doubtful: no motion explains all keypoints at once; every frame is by itself");
+      films.told.Tell("doubtful: no motion fits all keypoints at once; every frame was fitted separately");
     }
   }
   // Report the people, the repairs, the doubts and the residuals.
@@ -270,10 +271,12 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
     ASSIGN_OR_RETURN(both, WithOutlines(person, chosen, take, options));
     facts["silhouettes"] = {{"stature_m", both->stature_m}, {"cost", both->cost}, {"held_frames", both->held}};
     if (JoinOutlines(films.cameras, person.people[chosen], both->motion, AdjustOf(recover), person)) {
-      films.told.Tell(fmt::format("outlines cost {:.0f} a picture; joints are those of keypoints and outlines together",
-                       both->cost));
+      films.told.Tell(fmt::format(
+          "the cost of the outlines is {:.0f} per picture; the joints follow from keypoints and outlines together",
+          both->cost));
     } else {
-      films.told.Tell("doubtful: no motion explains keypoints and outlines at once; the joints are the keypoints' own");
+      films.told.Tell(
+          "doubtful: no motion fits keypoints and outlines at once; the joints follow from the keypoints alone");
     }
   }
   // Write the motion and the points.
@@ -296,7 +299,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
     } else {
       columns = CompareWithReference(in_time, person, films, recover);
     }
-    RETURN_IF_ERROR(TellColumns(what + " Where it was made of the same keypoints,\nthis is agreement, not error.",
+    RETURN_IF_ERROR(TellColumns(what + " If it was made from the same keypoints,\nthis is agreement, not error.",
                                 columns, views, options));
   }
   // Write the film and the page.

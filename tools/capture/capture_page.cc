@@ -90,7 +90,7 @@ std::string FilmHtml(const CapturePage& page) {
 
 std::string ToldHtml(const CapturePage& page) {
   if (page.told.empty()) return "";
-  std::string html = "<section class=\"card\"><h2>What was found out, and mended</h2><ul>";
+  std::string html = "<section class=\"card\"><h2>What was found and corrected</h2><ul>";
   for (const std::string& line : page.told) {
     const bool is_doubt = line.starts_with("doubtful");
     html += fmt::format("<li>{}{}</li>", is_doubt ? "<span class=\"badge open\">doubtful</span> " : "",

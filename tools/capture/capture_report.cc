@@ -39,12 +39,11 @@ std::vector<TakeCurve> FeetOf(const BodyMotion& motion) {
 
 CameraResiduals ResidualsOf(const std::vector<FilmedView>& views, const RecoveredPerson& person, std::size_t chosen,
                             const SeenFilms& films) {
-  CameraResiduals residuals{
-      .caption =
-          "Distance of a camera's keypoints to the points that all cameras make, px, over seconds: the median "
-          "of each frame",
-      .unit = "px",
-      .cameras = {}};
+  CameraResiduals residuals{.caption =
+                                "Distance of a camera's keypoints from the points triangulated from all cameras, px, "
+                                "over seconds: the median of each frame",
+                            .unit = "px",
+                            .cameras = {}};
   for (std::size_t i = 0; i < views.size(); ++i) {
     CapturedCamera& camera = residuals.cameras.emplace_back();
     camera.name = camera.residual.name = views[i].camera.name;
@@ -77,8 +76,8 @@ CapturePage PageOf(const CaptureFilmsOptions& options, const std::vector<FilmedV
   page.verdict += fmt::format("; {}.", DoubtsOf(films.told.lines));
   // The limb lengths and the fit of the skeleton.
   page.limbs = options.poses == "bundle" && options.smooth_hz == 0
-                   ? "Limbs are as long as explains all keypoints best."
-                   : "Limbs are as long as in the median of what was seen.";
+                   ? "The lengths of the limbs are those that fit all keypoints best."
+                   : "The lengths of the limbs are the medians of those seen.";
   const MarkerMotion points = JointMarkers(person.landmarks, person.motion.rate_hz);
   for (const MarkerAgreement& row : CompareMarkers(JointMarkers(person.motion), points)) {
     if (row.frames > 0) page.fit.emplace_back(row.name, std::array{row.median_mm, row.p95_mm});
@@ -117,12 +116,11 @@ CapturePage BeginPage(const CaptureFilmsOptions& options, const BodyMotion& moti
 
 CameraResiduals ResidualsOfOutlines(const std::vector<FilmedView>& views, const UnmarkedMotion& person) {
   constexpr double kPercent = 100;
-  CameraResiduals residuals{
-      .caption =
-          "Share of what the body or the person's outline covers in a camera's picture that only one of them "
-          "does, %, over seconds",
-      .unit = "%",
-      .cameras = {}};
+  CameraResiduals residuals{.caption =
+                                "Share of the area covered by the body or by the person's outline in a camera's "
+                                "picture that only one of the two covers, %, over seconds",
+                            .unit = "%",
+                            .cameras = {}};
   for (std::size_t i = 0; i < views.size(); ++i) {
     CapturedCamera& camera = residuals.cameras.emplace_back();
     camera.name = camera.residual.name = views[i].camera.name;
@@ -146,7 +144,7 @@ double MedianOf(const CameraResiduals& residuals) {
 
 std::string DoubtsOf(const std::vector<std::string>& told) {
   const auto doubts = std::ranges::count_if(told, [](const std::string& s) { return s.starts_with("doubtful"); });
-  return doubts == 0 ? "nothing is doubtful" : fmt::format("{} told below to be doubtful", doubts);
+  return doubts == 0 ? "nothing is doubtful" : fmt::format("{} marked below as doubtful", doubts);
 }
 
 Result<bool> WritePage(const CaptureFilmsOptions& options, CapturePage page, const std::vector<OverlayView>& overlays,

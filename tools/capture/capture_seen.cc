@@ -30,7 +30,7 @@ Result<SeenPeople> ReadPeople(const CaptureFilmsOptions& options, FilmedView& vi
   }
   const bool is_turned = film.width == view.facts.height && film.height == view.facts.width;
   if (film.width != 0 && !is_turned && (film.width != view.facts.width || film.height != view.facts.height)) {
-    return Fail({entry.string()}, "of pictures of {} x {} pixels, the film {} x {}", film.width, film.height,
+    return Fail({entry.string()}, "made on pictures of {} x {} pixels; the film has {} x {}", film.width, film.height,
                 view.facts.width, view.facts.height);
   }
   view.is_sized = film.width != 0;
@@ -50,7 +50,7 @@ void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<S
   }
   // Find out whether films were exchanged between cameras.
   SessionGuess session = GuessSession(films, names, rig.R_WF, min_confidence);
-  if (!session.mended.empty()) told_lines.Tell("mended: " + session.mended);
+  if (!session.mended.empty()) told_lines.Tell("corrected: " + session.mended);
   for (std::size_t i = 0; i < views.size(); ++i) {
     films[i].camera = views[i].camera.camera = session.cameras[i];
     films[i].people = people[i] = std::move(session.people[i]);
@@ -62,7 +62,7 @@ void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<S
     const PictureGuess& guess = guesses[i];
     std::string told = guess.told;
     if (told.empty() && view.fit.quarter_turns != 0) {
-      told = "pictures turned by 90° clockwise (their size and the other cameras say so)";
+      told = "pictures turned by 90° clockwise, as their size and the other cameras show";
     }
     if (!told.empty()) told_lines.Tell(fmt::format("{}: {}", view.camera.name, told));
     for (auto& frame : people[i]) {
@@ -101,8 +101,9 @@ void Synchronise(const CaptureFilmsOptions& options, const std::vector<FilmedVie
   }
   films.told.Tell(told);
   if (untold.empty()) return;
-  films.told.Tell(fmt::format("no keypoints tell the clock of {}: people hardly move, or it is further off than --sync {:g}",
-                   untold, options.sync_s));
+  films.told.Tell(fmt::format(
+      "the keypoints do not show the clock of {}: people hardly move, or it differs by more than --sync {:g}", untold,
+      options.sync_s));
 }
 
 /// Sets the clocks from the films' frame rates, and reports rates that differ.
@@ -113,8 +114,9 @@ void ClocksOfRates(const std::vector<FilmedView>& views, SeenFilms& films) {
     if (own == rate) continue;
     const bool is_one = std::abs(own - rate) <= kSameRateTolerance * rate;
     if (!is_one) films.clocks[i].drift = rate / own - 1;
-    films.told.Tell(fmt::format("{}: {:g} frames a second beside {:g}, {}", views[i].camera.name, own, rate,
-                     is_one ? "taken as one rate" : "its keypoints resampled by cubics between its frames"));
+    films.told.Tell(fmt::format("{}: {:g} frames per second, but {:g} in the others, {}", views[i].camera.name, own,
+                                rate,
+                                is_one ? "taken as the same rate" : "so its keypoints are interpolated by cubics"));
   }
 }
 
@@ -140,8 +142,8 @@ void TellDrift(const std::vector<FilmedView>& views, std::size_t film, const Fil
   if (own == rate || std::abs(own - rate) > kSameRateTolerance * rate) return;
   const auto over_film = [&](double drift) { return drift * static_cast<double>(frames); };
   films.told.Tell(
-      fmt::format("{}: drift measured: {:+.2f} frames over the film, {:+.2f} if both rates were right; too little said "
-                  "to mend it",
+      fmt::format("{}: drift measured: {:+.2f} frames over the film, {:+.2f} if both rates were right; not enough "
+                  "evidence to correct it",
                   views[film].camera.name, over_film(nearest.drift - taken.drift), over_film(rate / own - 1)));
 }
 
@@ -173,11 +175,12 @@ void CorrectClocks(const std::vector<FilmedView>& views, const RecoverPersonOpti
                     kMsPerSecond * std::abs(late) / rate, late > 0 ? "later" : "earlier", views.front().camera.name);
     constexpr double kHardly = 0.02;
     if (std::abs(drift) > kHardly) {
-      told += fmt::format(" in the middle of the film, and its rate is {:.4f} Hz: {:.2f} frames over it",
-                          rate / (1 + now.drift), std::abs(drift));
+      told +=
+          fmt::format(" in the middle of the film, and its rate is {:.4f} Hz, which adds {:.2f} frames over the film",
+                      rate / (1 + now.drift), std::abs(drift));
     }
-    films.told.Tell(fmt::format("{}: {}; mended (loss {:.2f} to {:.3f})", views[i].camera.name, told, found[i].before,
-                                 found[i].after));
+    films.told.Tell(fmt::format("{}: {}; corrected (loss {:.2f} to {:.3f})", views[i].camera.name, told,
+                                found[i].before, found[i].after));
   }
 }
 
@@ -233,9 +236,10 @@ void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vec
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto is_seen = [](const auto& seen) { return seen.has_value(); };
     if (std::ranges::any_of(person.people[chosen].seen[i], is_seen)) continue;
-    told.Tell(fmt::format("doubtful: {}: nobody in its film fits the person of the other cameras: is it this film, and "
-                     "its camera as the rig says? It is left out",
-                     views[i].camera.name));
+    told.Tell(
+        fmt::format("doubtful: {}: nobody in its film fits the person in the other films; check the film, and its "
+                    "camera in the rig. It was left out",
+                    views[i].camera.name));
   }
   // Repairs: exchanged sides and exchanged people.
   for (const Mend& mend : person.mends) {
@@ -251,13 +255,14 @@ void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vec
         what = "left and right of hips and legs exchanged";
         break;
       case Mend::Kind::kOtherPerson:
-        what = "somebody else's keypoints; the person's own taken";
+        what = "keypoints of another person were replaced by the person's own";
         break;
       case Mend::Kind::kNobody:
-        what = "keypoints that are not this person's left out";
+        what = "keypoints that are not this person's were left out";
         break;
     }
-    told.Tell(fmt::format("mended: {}: {}, frames {}", views[mend.camera].camera.name, what, FramesText(mend.frames)));
+    told.Tell(
+        fmt::format("corrected: {}: {}, frames {}", views[mend.camera].camera.name, what, FramesText(mend.frames)));
   }
   // Cameras that disagree with the others, and large triangulation errors.
   constexpr double kDoubtful = 0.1;
@@ -269,8 +274,9 @@ void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vec
   constexpr double kDoubtfulError = 0.03;
   for (const MatchedPerson& one : person.people) {
     if (one.cameras < 2 || one.error <= kDoubtfulError) continue;
-    told.Tell(fmt::format("doubtful: rays miss by {:.1f} % of a person's height; estimators err by 1 to 2 %",
-                           100 * one.error));
+    told.Tell(fmt::format(
+        "doubtful: rays miss each other by {:.1f} % of a person's height; the usual error of estimators is 1 to 2 %",
+        100 * one.error));
     break;
   }
 }

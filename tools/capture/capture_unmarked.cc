@@ -26,7 +26,7 @@ Result<ColourImage> ReadRoom(const std::string& folder, const FilmedView& view) 
   ASSIGN_OR_RETURN(const fs::path entry, EntryOfFilm(folder, view.path.stem().string()));
   ASSIGN_OR_RETURN(const FilmFacts facts, ProbeFilm(entry));
   if (facts.width != view.facts.width || facts.height != view.facts.height) {
-    return Fail({entry.string()}, "a picture of {} x {} pixels, the film {} {} x {}", facts.width, facts.height,
+    return Fail({entry.string()}, "a picture of {} x {} pixels, but the film {} has {} x {}", facts.width, facts.height,
                 view.path.string(), view.facts.width, view.facts.height);
   }
   ASSIGN_OR_RETURN(auto pictures,
@@ -47,10 +47,11 @@ std::vector<FilmClock> ClocksByRates(const std::vector<FilmedView>& views, Messa
     const double seconds = static_cast<double>(first.frames) / rate;
     const bool is_one = std::abs(own - rate) <= kSameRateTolerance * rate;
     if (!is_one) clocks.back().drift = rate / own - 1;
-    told.Tell(fmt::format("{}: {:g} frames a second beside {:g}, ", view.camera.name, own, rate) +
-                   (is_one ? fmt::format("taken as one rate; were both right, it would be off by {:.0f} ms in the end",
-                                         kMs * seconds * std::abs(own / rate - 1))
-                           : fmt::format("its nearest pictures taken, off by up to {:.0f} ms", 0.5 * kMs / own)));
+    told.Tell(fmt::format("{}: {:g} frames per second, but {:g} in the others, ", view.camera.name, own, rate) +
+              (is_one
+                   ? fmt::format("taken as the same rate; if both were right, the error at the end would be {:.0f} ms",
+                                 kMs * seconds * std::abs(own / rate - 1))
+                   : fmt::format("its nearest pictures are used, which differ by up to {:.0f} ms", 0.5 * kMs / own)));
   }
   return clocks;
 }
@@ -84,7 +85,7 @@ Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vect
     ASSIGN_OR_RETURN(auto film, ReadReduced(view.path, view.facts, view.camera.camera, view.fit,
                                             UnmarkedTake::kPictureSide, view.facts.frames));
     if (film.empty() || film.size() != static_cast<std::size_t>(view.facts.frames)) {
-      return Fail({view.path.string()}, "{} frames, though it tells of {}", film.size(), view.facts.frames);
+      return Fail({view.path.string()}, "{} frames, although its header states {}", film.size(), view.facts.frames);
     }
     take.pictures.push_back(NearestInTime(std::move(film), clocks[take.pictures.size()], views.front().facts.frames));
     if (options.rooms.empty()) continue;
@@ -193,29 +194,32 @@ constexpr double kPercent = 100;
 /// most frames of a camera, body and outline overlap by less than half, or if most frames repeat the last pose.
 std::string TellUnmarked(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
                          const UnmarkedMotion& person, MessageLog& told) {
-  told.Tell(fmt::format("stature: {:.2f} m{}; outlines cost {:.0f} a picture", person.stature_m,
-                         options.stature_m > 0 ? "" : ", found from the outlines", person.cost));
+  told.Tell(fmt::format("stature: {:.2f} m{}; the cost of the outlines is {:.0f} per picture", person.stature_m,
+                        options.stature_m > 0 ? "" : ", found from the outlines", person.cost));
   if (person.held > 0) {
-    told.Tell(fmt::format("doubtful: {} frames show nobody to two cameras and hold the last pose", person.held));
+    told.Tell(fmt::format("doubtful: {} frames show the person in fewer than two cameras and repeat the last pose",
+                          person.held));
   }
   constexpr double kMaxApart = 0.5, kDoubtfulShare = 0.1, kWrongShare = 0.5;
   std::string wrong;
   if (static_cast<double>(person.held) > kWrongShare * static_cast<double>(person.motion.poses.size())) {
-    wrong = fmt::format("{} of {} frames show nobody to two cameras", person.held, person.motion.poses.size());
+    wrong = fmt::format("{} of {} frames show the person in fewer than two cameras", person.held,
+                        person.motion.poses.size());
   }
   for (std::size_t i = 0; i < views.size(); ++i) {
     const std::vector<double> apart = KnownOf(person.apart[i]);
     const auto far = std::ranges::count_if(apart, [](double share) { return share > kMaxApart; });
     const double share = static_cast<double>(far) / static_cast<double>(std::max<std::size_t>(1, apart.size()));
     if (share <= kDoubtfulShare) continue;
-    told.Tell(fmt::format("doubtful: {}: in {:.0f} % of its frames body and outline share less than half",
-                           views[i].camera.name, kPercent * share));
+    told.Tell(fmt::format("doubtful: {}: in {:.0f} % of its frames, body and outline overlap by less than half",
+                          views[i].camera.name, kPercent * share));
     if (share <= kWrongShare || !wrong.empty()) continue;
-    wrong = fmt::format("in {:.0f} % of {}'s frames body and outline share less than half", kPercent * share,
+    wrong = fmt::format("in {:.0f} % of {}'s frames, body and outline overlap by less than half", kPercent * share,
                         views[i].camera.name);
   }
   if (wrong.empty() || !options.rooms.empty()) return wrong;
-  return wrong + "; the room cannot be told from a person who stays in one place: film each room empty (--rooms)";
+  return wrong +
+         "; a person who stays in one place cannot be distinguished from the room: film each room empty (--rooms)";
 }
 
 Result<bool> WriteUnmarkedReport(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
@@ -259,7 +263,7 @@ Result<bool> CaptureUnmarked(const CaptureFilmsOptions& options, const FilmedSes
   if (reference) {
     ASSIGN_OR_RETURN(const auto columns, CompareWithReference(*reference, person, take, options, told));
     RETURN_IF_ERROR(TellColumns(
-        fmt::format("Distance of the joints to {}, median, mm: error, as far as the reference itself is right.",
+        fmt::format("Distance of the joints from {}, median, mm. It is error, as far as the reference itself is right.",
                     options.reference),
         columns, views, options));
   }

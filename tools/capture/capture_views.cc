@@ -46,7 +46,7 @@ Result<NamedCamera> CameraOfFilm(const CaptureFilmsOptions& options, const std::
     if (Bare(camera.name) == Bare(wanted)) return camera;
   }
   if (!options.cameras.empty()) return Fail({options.rig}, "no camera {}; there are {}", wanted, NamesOf(rig));
-  return Fail({options.films[film]}, "the rig has no camera of that name, but {}; tell which by --cameras",
+  return Fail({options.films[film]}, "the rig has no camera of that name; it has {}. Name the cameras by --cameras",
               NamesOf(rig));
 }
 
@@ -71,7 +71,7 @@ Result<RigPaths> RigPathsOf(const fs::path& path) {
   if (is_folder) {
     return Fail({path.string()},
                 "a folder without intri.yml and extri.yml, intrinsics.yml and extrinsics.yml, or "
-                "cameras.txt and images.txt; else name the file");
+                "cameras.txt and images.txt; otherwise name the file");
   }
   return RigPaths{path, {}};
 }
@@ -109,8 +109,8 @@ void FindSize(FilmedView& view, std::vector<std::string>& told) {
   // Report a size that is not the film's.
   if (best != film) {
     told.push_back(
-        fmt::format("{}: the rig tells no size, but a middle at ({:.0f}, {:.0f}): taken as of pictures of {:.0f} "
-                    "x {:.0f} pixels, the film's have {:.0f} x {:.0f}",
+        fmt::format("{}: the rig states no size, but a principal point at ({:.0f}, {:.0f}); it is taken to be for "
+                    "pictures of {:.0f} x {:.0f} pixels, while the film's have {:.0f} x {:.0f}",
                     view.camera.name, in.cx, in.cy, best.x, best.y, film.x, film.y));
   }
   for (double* length : {&in.fx, &in.fy, &in.cx, &in.cy, &in.skew}) *length /= scale;
@@ -124,12 +124,12 @@ Result<void> CheckTogether(const std::vector<FilmedView>& views, bool may_differ
   const FilmedView& first = views.front();
   for (const FilmedView& view : views) {
     if (!(view.facts.rate_hz > 0)) {
-      return Fail({view.path.string()}, "it does not tell how many frames a second it has");
+      return Fail({view.path.string()}, "it does not state its frame rate");
     }
     if (may_differ_in_time) continue;
     const bool is_one_rate = std::abs(view.facts.rate_hz - first.facts.rate_hz) <= kSameRateTolerance * first.facts.rate_hz;
     if (is_one_rate && view.facts.frames != first.facts.frames) {
-      return Fail({view.path.string()}, "{} frames, {} {}; cut them alike, or let keypoints tell the time (--sync)",
+      return Fail({view.path.string()}, "{} frames, {} {}; cut them alike, or use keypoints to find the time (--sync)",
                   view.facts.frames, first.path.string(), first.facts.frames);
     }
     const double seconds = static_cast<double>(view.facts.frames) / view.facts.rate_hz;
@@ -138,8 +138,8 @@ Result<void> CheckTogether(const std::vector<FilmedView>& views, bool may_differ
     constexpr double kFrames = 1.5;
     if (!is_one_rate && std::abs(seconds - wanted) > kFrames * frame) {
       return Fail({view.path.string()},
-                  "{:.3g} s at {:g} frames a second, {} {:.3g} s at {:g} frames a second; cut them alike, or let "
-                  "keypoints tell the time (--sync)",
+                  "{:.3g} s at {:g} frames a second, {} {:.3g} s at {:g} frames a second; cut them alike, or use "
+                  "keypoints to find the time (--sync)",
                   seconds, view.facts.rate_hz, first.path.string(), wanted, first.facts.rate_hz);
     }
   }
@@ -227,8 +227,8 @@ ComparedColumn CompareColumn(std::string heading, const MarkerMotion& markers, c
 MarkerMotion SynchroniseWith(const MarkerMotion& motion, MarkerMotion reference, MessageLog& told) {
   const std::size_t frames = motion.frames.size();
   if (reference.frames.size() != frames) {
-    told.Tell(fmt::format("reference: {} frames beside {}: the first {} are compared", reference.frames.size(), frames,
-                           std::min(reference.frames.size(), frames)));
+    told.Tell(fmt::format("reference: {} frames, but {} in the films; the first {} are compared",
+                          reference.frames.size(), frames, std::min(reference.frames.size(), frames)));
   }
   const double own_rate = reference.rate_hz;
   constexpr double kWritten = 1e-5;  // the file says 29.97 for 30000/1001
@@ -236,13 +236,14 @@ MarkerMotion SynchroniseWith(const MarkerMotion& motion, MarkerMotion reference,
   if (std::abs(own_rate - motion.rate_hz) > kWritten * own_rate) {
     const auto clock = MeasureClock(motion, reference);
     const bool is_mended = clock && clock->after < 0.5 * clock->before;
-    std::string said = "; no marker of both tells how they drift apart";
+    std::string said = "; no marker of both shows how they drift apart";
     if (clock) {
-      said = fmt::format(": {:+.2f} frames of drift measured, {:+.2f} in the middle{}", clock->DriftOver(frames),
-                         clock->at + 0.5 * clock->DriftOver(frames), is_mended ? "; undone" : ", too little to undo");
+      said =
+          fmt::format(": {:+.2f} frames of drift measured, {:+.2f} in the middle{}", clock->DriftOver(frames),
+                      clock->at + 0.5 * clock->DriftOver(frames), is_mended ? "; undone" : ", too little to correct");
     }
-    told.Tell(fmt::format("reference: {:g} frames a second beside {:g}, taken as one rate{}", own_rate, motion.rate_hz,
-                           said));
+    told.Tell(fmt::format("reference: {:g} frames per second, films {:g}, taken as the same rate{}", own_rate,
+                          motion.rate_hz, said));
     if (is_mended) reference = AtClock(reference, *clock, frames, motion.rate_hz);
   }
   return reference;

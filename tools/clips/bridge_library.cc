@@ -101,7 +101,7 @@ Result<void> WriteTags(const BridgeLibrary& loaded, const std::string& path) {
   const BridgeTags tags = TagsOf(loaded);
   ASSIGN_OR_RETURN(const auto text, WriteTagsFile(tags));
   ASSIGN_OR_RETURN(const auto back, ReadTagsFile(text, path));
-  if (!(back == tags)) return Fail({path, 0, 0}, "reads back as other tags; nothing was written");
+  if (!(back == tags)) return Fail({path, 0, 0}, "does not read back as the same tags; nothing was written");
   return WriteFileAtomically(path, text);
 }
 

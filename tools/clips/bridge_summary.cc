@@ -146,8 +146,7 @@ std::string WaysAsText(const BridgeLibrary& loaded, const Coverage& coverage) {
       text += fmt::format("No bridge frame leads into {} from: {}.\n", name, Join(without));
     }
   }
-  if (loaded.corrective.empty())
-    text += "No corrective clip was named (--to), so that ways into one were not sought.\n";
+  if (loaded.corrective.empty()) text += "No corrective clip was named (--to), so ways into one were not searched.\n";
   return text;
 }
 

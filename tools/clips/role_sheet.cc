@@ -96,7 +96,7 @@ std::string MissingRoles(const std::array<RoleOnSheet, kRoleCount>& roles) {
   for (const Role role : AllRoles()) {
     if (roles[Index(role)].joint < 0) missing.emplace_back(RoleName(role));
   }
-  return missing.empty() ? "every role is played" : "no joint for: " + Join(missing);
+  return missing.empty() ? "every role has a joint" : "no joint for: " + Join(missing);
 }
 
 }  // namespace
@@ -113,7 +113,7 @@ Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet
     low = glm::min(low, joints[i].at), high = glm::max(high, joints[i].at);
   }
   const double size = std::max(high.x - low.x, high.y - low.y);
-  if (!std::isfinite(size) || size <= 0) return Fail({}, "a skeleton of no size: there is nothing to draw");
+  if (!std::isfinite(size) || size <= 0) return Fail({}, "the skeleton has no size, so it cannot be drawn");
   // Label the joints with names and roles, and put each label on the side of its joint.
   Label(roles, joints);
 
@@ -149,7 +149,7 @@ Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet
   canvas.DrawText({kEdge, height - 32}, MissingRoles(roles), kLabelSize, kInk, kSheetWidth - 2 * kEdge, true);
   canvas.DrawText(
       {kEdge, height - 12},
-      "blue: found by names, or at the end of such a limb; orange: by the body's build; white: plays no role",
+      "blue: found by its name, or the end of such a limb; orange: found by the skeleton's shape; white: has no role",
       kLabelSize, kSoftInk, kSheetWidth - 2 * kEdge);
   return canvas.Png();
 }

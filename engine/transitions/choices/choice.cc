@@ -106,9 +106,9 @@ TransitionRecord PlanWaitForEnd(const MotionLibrary& library, const TransitionRe
   return record;
 }
 
-/// Plans the reference for unbroken motion, which does not answer the request: the playing clip simply continues. The
-/// record still has one transition point, from the request's frame to the same frame. So every measure evaluates
-/// unbroken motion on the very frames at which the other choices change clips. Every join leaves the clip unchanged.
+/// Plans the reference of unbroken motion, which ignores the request: the playing clip continues, and every join leaves
+/// it unchanged. The record has one transition point, from the request's frame to the same frame, so that measures
+/// evaluate unbroken motion at the same frames at which other choices change clips.
 ///
 /// The record has no segments if the request comes at the clip's last frame, because the clip cannot continue.
 TransitionRecord PlanUnbroken(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules) {
@@ -128,9 +128,9 @@ TransitionRecord PlanUnbroken(const MotionLibrary& library, const TransitionRequ
   return record;
 }
 
-/// Plans what games do according to paper A (section 1: all their clips begin and end standing): leave at once, tween
-/// into a standing pose, and tween from there into the wanted clip's first frame. It ignores the budget; the tweens'
-/// duration follows from their rules.
+/// Plans the method of games according to paper A (section 1: all their clips begin and end standing): it leaves at
+/// once, tweens into a standing pose, and tweens from there into the wanted clip's first frame. It ignores the budget;
+/// the tweens' duration follows from their rules.
 TransitionRecord PlanThroughStanding(const MotionLibrary& library, const TransitionRequest& request,
                                      const MatchRules& rules) {
   const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];

@@ -24,7 +24,7 @@ struct Choice {
   /// Returns the frames that it may take; null for choices that do not compare poses.
   AllowedFrames (*allowed)(const MotionLibrary& library, const TransitionRequest& request,
                            std::span<const double> values) = nullptr;
-  /// Plans a transition. If there is no way, the record has no segments and its `why` tells the reason. The clip
+  /// Plans a transition. If there is no way, the record has no segments, and its `why` states the reason. The clip
   /// `request.to` must have at least two frames.
   TransitionRecord (*plan)(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                            std::span<const double> values) = nullptr;

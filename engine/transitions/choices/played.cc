@@ -107,8 +107,8 @@ std::optional<ThroughClip> FindThroughClip(const MotionLibrary& library, const T
   return nearest;
 }
 
-constexpr int kPairs = 16;          // per round, one for each part of the wait
-constexpr int kRounds = 4;          // maximal number of rounds; another round begins while the best join floats
+constexpr int kPairs = 16;          // per round, one pair for each part of the wait
+constexpr int kRounds = 4;          // largest number of rounds; another round follows if the best join floats
 constexpr int kFloatingFrames = 4;  // number of consecutive unsupported frames at which a join floats
 constexpr int kMinSpacing = 4;      // minimum distance, in frames of the wanted clip, between the pairs of one part
 constexpr std::size_t kMaxCompared = 20'000;  // maximal number of pairs of frames whose features are compared
@@ -178,7 +178,8 @@ PreferredJoin PreferredOf(const PlayedJoin& way, double rate_hz) {
 
 int LastFrameOf(const MotionLibrary& library, int clip) { return library.tagged[clip].FrameCount() - 1; }
 
-/// Plans a way through a clip that stands up or lies down. It is used if no pair of allowed frames can be joined.
+/// Plans a transition through a clip that stands up or lies down. It is used if no pair of allowed frames can be
+/// joined.
 TransitionRecord PlanThroughClip(const MotionLibrary& library, const TransitionRequest& request,
                                  const MatchRules& rules, const PlayedOptions& options, const AllowedFrames& allowed) {
   TransitionRecord record;

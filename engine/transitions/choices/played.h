@@ -42,8 +42,9 @@ const SettingTable<PlayedOptions>& PlayedSettings();
 /// clip in the library the record has no segments. The last segment of the record holds the preferred join
 /// (PreferredJoin).
 ///
-/// Ours; it searches by the result that is shown instead of by similarity, after Kovar, Gleicher and Pighin 2002 and
-/// Bollo 2018. Support is computed as in the evaluation of transitions, but the evaluation's limits are not known here.
+/// This choice is ours. It searches by the motion that results and not by similarity, after Kovar, Gleicher and Pighin
+/// 2002 and Bollo 2018. Support is computed as in the evaluation of transitions, but the evaluation's limits are not
+/// known here.
 TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                             const PlayedOptions& options = {});
 

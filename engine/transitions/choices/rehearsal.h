@@ -33,9 +33,9 @@ struct PlayedRates {
 /// by frame `last` of the wanted clip; only the shortest length may exceed it.
 ///
 /// It uses best-first search (Hart, Nilsson and Raphael 1968): it always continues the join with the lowest cost so
-/// far. That cost first holds only the time, then the limbs frame by frame, then the feet and the support that
-/// FindSupport reports. So most joins are never played to their end. Since planting the feet can raise or lower a cost,
-/// the limbs' cost counts only three fifths before.
+/// far. That cost at first contains only the time, then the limbs frame by frame, then the feet and the support that
+/// FindSupport reports, so most joins are never played to their end. Planting the feet can raise or lower a cost, so
+/// before it only three fifths of the limbs' cost count.
 std::vector<PlayedJoin> PlayJoins(const MotionLibrary& library, const TransitionRequest& request,
                                 const PlayedRates& rates, const std::vector<FramePair>& pairs, int last);
 

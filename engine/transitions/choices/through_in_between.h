@@ -15,7 +15,7 @@ namespace etude {
 /// there; the transition is then forced, and its distance may exceed the threshold.
 ///
 /// A way always exists and takes at most the budget plus LongestInBetween. The record has no segments only if the
-/// library has no keys. The clip `request.to` must have at least two frames. `why_not` tells why there is no direct
+/// library has no keys. The clip `request.to` must have at least two frames. `why_not` states why there is no direct
 /// way, and `pairs_seen` is the number of pairs that were compared to find that out.
 TransitionRecord ThroughInBetween(const MotionLibrary& library, const TransitionRequest& request,
                                   const MatchRules& rules, const std::string& why_not, std::int64_t pairs_seen);

@@ -288,7 +288,7 @@ void PutLeg(const JoinWindow& window, const LegRoles& leg, const LegPath& path, 
   const auto carried = [&](const BodyPose& own) {
     return CarriedOffset(KneeOffset(own[leg.hip], own[leg.knee], own[leg.ankle]), own[leg.ankle] - own[leg.hip], line);
   };
-  // A straight leg does not tell where its knee points; then it points forwards.
+  // A straight leg does not show where its knee points, so forwards is assumed.
   constexpr double kForwards = 1e-3;
   const glm::dvec3 pole = glm::mix(carried(old), carried(next), share) + kForwards * Facing(pose);
   const Leg solved = SolveLeg(pose[leg.hip], path.ankle, thigh, shin, pole);

@@ -21,9 +21,9 @@ constexpr std::array<LegRoles, 2> kLegs = {
 
 /// Returns the floor move that aligns the new motion with the old one so that feet which stand in both motions at the
 /// same time stand at the same positions. It is a least-squares fit of toe tips and ankles and, with a lower weight, of
-/// the hips and shoulders at the point. If no foot stands in both, hips and shoulders alone decide. The feet may rotate
-/// the body by at most 30°, which is 190° per second in the shortest join. `old` and `next` hold at least one frame
-/// each, from the point on.
+/// the hips and shoulders at the point. If no foot stands in both, only hips and shoulders are used. The feet may
+/// rotate the body by at most 30°, which is 190° per second in the shortest join. `old` and `next` hold at least one
+/// frame each, from the point on.
 FloorMove AlignOnPlantedFeet(std::span<const BodyPose> old, std::span<const BodyPose> next, double rate_hz);
 
 /// The step that takes a foot from the old motion's path to the new one's. Before the step the foot follows the old
@@ -45,8 +45,8 @@ struct FootPlan {
   int unplanted_frames = 0;  ///< number of frames in which a foot stands in one of the motions, but none by this plan
 };
 
-/// Plans a step for each foot within the window (ours). Long steps are preferred, because they need little
-/// acceleration, and steps one after the other, because one foot then supports the body while the other moves.
+/// Plans a step for each foot within the window (ours). It prefers long steps, because they need little acceleration,
+/// and steps one after the other, because one foot then supports the body while the other moves.
 FootPlan PlanSteps(const JoinWindow& window);
 
 /// Moves the feet of `played` (from PlayMinimumJerk) to their paths, and lowers the pelvis if a leg is too short. Limbs

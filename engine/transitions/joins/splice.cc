@@ -88,7 +88,7 @@ Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment
                        .floor_move = {},
                        .blend = {}};
     if (!segments[i].in_place) next.floor_move = Lay(join, old, left, next, rate_hz);
-    // The gap at the point is that of the clips, not of the joined motion, so that it measures only the choice of
+    // The gap at the point is that of the clips, not of the joined motion, so that it depends only on the choice of
     // frames.
     const PlacedPoint point{.frame = static_cast<int>(shown.size()) - 1,
                             .leaving_before = old.Before(left),

@@ -68,7 +68,7 @@ std::string MembershipsDigest(const FuzzySystem& system);
 BridgeTags CollectTags(const TaggedLibrary& library, std::span<const std::string> sources, const FuzzySystem& system,
                        const TagRules& tag_rules, const MatchRules& match_rules);
 
-/// The maximal size of a tags file in bytes; a larger file is refused before memory is allocated.
+/// The maximal size of a tags file in bytes; a larger file is rejected before memory is allocated.
 constexpr std::size_t kMaxTagsFileBytes = 512'000'000;
 
 /// Writes the tags as XML of docs/schemas/bridge-tags.xsd. The same tags give the same bytes, and numbers have the
@@ -78,7 +78,7 @@ Result<std::string> WriteTagsFile(const BridgeTags& tags);
 
 /// Reads what WriteTagsFile writes, bit for bit; error messages name it `file`. It validates the text against the
 /// schema and checks its consistency: frames lie within their clips and rise, times and tags follow from frames and
-/// grades, clip names are unique, keys are bridge frames. A document type declaration is refused, and no entity is
+/// grades, clip names are unique, keys are bridge frames. A document type declaration is an error, and no entity is
 /// loaded or expanded.
 Result<BridgeTags> ReadTagsFile(std::string_view text, const std::string& file);
 

@@ -21,7 +21,7 @@ namespace etude {
 namespace {
 
 /// Reads an XML document element by element and validates each element against a schema first. It loads nothing outside
-/// the text, expands no entities, and refuses a document type declaration.
+/// the text, expands no entities, and rejects a document type declaration.
 class XmlReader {
  public:
   static Result<XmlReader> Open(std::string_view text, std::string_view schema, const std::string& file);
@@ -63,7 +63,7 @@ int LineOf(std::string_view text, std::size_t at) {
   return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
 }
 
-/// Refuses documents that libxml2 would expand or parse in quadratic time.
+/// Rejects documents that libxml2 would expand or would need quadratic time for.
 Result<void> CheckBeforeParsing(std::string_view text, const std::string& file) {
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     return Fail({file, 0, 0}, "is empty; etude bridge writes tags files");

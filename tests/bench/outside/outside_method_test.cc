@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(
                   R"(said something that is not JSON: 'loading model \x1b[1m100%\x1b[0m')"},
         Hostility{"answers_nan", Status::kBadOutput, "said something that is not JSON near byte 68: '"},
         Hostility{"answers_beyond_doubles", Status::kBadOutput, "said a number that is too large: '"},
-        Hostility{"answers_deeply", Status::kBadOutput, "said something nested more than 32 deep: '[[[["},
+        Hostility{"answers_deeply", Status::kBadOutput, "said something nested more than 32 levels deep: '[[[["},
         Hostility{"answers_a_key_twice", Status::kBadOutput, "named the key 'number' twice in one object: '"},
         Hostility{"answers_bytes", Status::kBadOutput, "said something that is not JSON: "},
         Hostility{"answers_behind_a_zero_byte", Status::kBadOutput, "said something that is not JSON: a zero byte"},

@@ -48,7 +48,7 @@ TEST(Json, DoesNotEndAtAZeroByte) {
 
 TEST(Json, RefusesDeepNestingBeforeItTakesTheStack) {
   const std::string deep(1'000'000, '[');
-  EXPECT_THAT(ToString(ReadJson(deep, "a.json", 7).error()), HasSubstr("a.json:7: nested more than 100 deep"));
+  EXPECT_THAT(ToString(ReadJson(deep, "a.json", 7).error()), HasSubstr("a.json:7: nested more than 100 levels deep"));
   EXPECT_TRUE(ReadJson(std::string(100, '[') + std::string(100, ']'), "a.json"));
   EXPECT_FALSE(ReadJson(std::string(101, '[') + std::string(101, ']'), "a.json"));
 }

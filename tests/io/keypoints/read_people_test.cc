@@ -65,7 +65,7 @@ TEST_F(ReadPeople, FramesWithoutAFileAreFramesWithoutPeople) {
         EXPECT_EQ(film->frames[k][0][Landmark::kNose].pixel.x, static_cast<double>(k) + 0.5);
       }
     }
-    EXPECT_EQ(film->told, "15 of 60 frames are missing, by their numbers or times: nobody there");
+    EXPECT_EQ(film->told, "15 of 60 frames are missing, by their numbers or times; they are taken to show nobody");
   }
   // Of a film with as many frames as files, each file is a frame; of one with 60, the numbers tell which.
   EXPECT_EQ(ReadKeypoints(folder_.path() / "a", "", {.frames = 45})->frames.size(), 45u);
@@ -89,7 +89,7 @@ TEST_F(ReadPeople, FramesAreLaidOnTheirTimes) {
     ASSERT_EQ(film->frames.size(), 60u) << key;
     EXPECT_TRUE(film->frames[27].empty());
     EXPECT_EQ(film->frames[35][0][Landmark::kNose].pixel.x, 35.5);
-    EXPECT_EQ(film->told, "15 of 60 frames are missing, by their numbers or times: nobody there");
+    EXPECT_EQ(film->told, "15 of 60 frames are missing, by their numbers or times; they are taken to show nobody");
     EXPECT_EQ(ReadKeypoints(list(key, unit), "", {.frames = 45})->frames.size(), 45u);
   }
 }
@@ -138,7 +138,7 @@ TEST_F(ReadPeople, TakesWhatPythonWritesOfKeypointsThatWereNotSeen) {
 
 TEST_F(ReadPeople, AsksWhichOrderTwentyFiveKeypointsHave) {
   Write("a/1.json", OpenPose(25));
-  EXPECT_THAT(Reason(folder_.path() / "a"), HasSubstr("body_25 or body_25b; tell which one by --layout"));
+  EXPECT_THAT(Reason(folder_.path() / "a"), HasSubstr("body_25 or body_25b; choose one by --layout"));
   EXPECT_EQ(Reason(folder_.path() / "a", "body_25"), "no complaint");
   EXPECT_THAT(Reason(folder_.path() / "a", "coco"), HasSubstr("25 keypoints a person, not coco; allowed: coco (17)"));
 }

@@ -96,8 +96,8 @@ TEST(ChildProcess, AProgramThatCannotBeStartedIsAnError) {
     return child ? "" : ToString(child.error());
   };
   EXPECT_EQ(complaint("/no/such/program"), "/no/such/program: no such program: No such file or directory");
-  EXPECT_EQ(complaint("/etc/passwd"), "/etc/passwd: is no program that may be executed");
-  EXPECT_EQ(complaint("/tmp"), "/tmp: is no program that may be executed");
+  EXPECT_EQ(complaint("/etc/passwd"), "/etc/passwd: is not an executable program");
+  EXPECT_EQ(complaint("/tmp"), "/tmp: is not an executable program");
   EXPECT_THAT(complaint("no-such-program"), HasSubstr("no program 'no-such-program' in PATH ("));
   const std::string script = ::testing::TempDir() + "no_interpreter";
   std::ofstream(script) << "#!/no/such/interpreter\n";

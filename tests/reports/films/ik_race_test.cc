@@ -37,7 +37,8 @@ TEST(IkRace, SaysWhichWorldItPassedOver) {
                                   {"quick", 1, 1, EveryIteration(8)}}));
   ASSERT_TRUE(race.has_value()) << ToString(race.error());
   EXPECT_EQ(race->world, "trial 1");
-  EXPECT_THAT(race->choice, HasSubstr("1 world had one of them only, the first: trial 0 (quick: crashed)"));
+  EXPECT_THAT(race->choice,
+              HasSubstr("1 world had recordings of only one of them, the first: trial 0 (quick: crashed)"));
 }
 
 TEST(IkRace, TakesTheFirstTwoOfTheMethodsThatWereRecorded) {

@@ -64,7 +64,8 @@ TEST(Estimation, DrawsEveryWorldTwiceAndItsDifferenceOnce) {
   EXPECT_EQ(CountOf(html, " data-t="), static_cast<int>(3 * pairs.worlds.size()));
   EXPECT_THAT(html, HasSubstr("<title>trial 5 · clip-1: "));
   EXPECT_THAT(html, HasSubstr("class=\"band\""));
-  EXPECT_THAT(EstimationLegend(capture, "mpjpe_mm"), HasSubstr("shaded: less than 1 mm, which does not matter"));
+  EXPECT_THAT(EstimationLegend(capture, "mpjpe_mm"),
+              HasSubstr("shaded: differences of less than 1 mm, which do not matter"));
   EXPECT_THAT(html, HasSubstr("data-s=\"capture\" data-c=\"-\" data-a=\"before-ik\" data-b=\"ccd-adaptive\""));
   EXPECT_THAT(UnitLegendHtml(pairs), HasSubstr("clip-3"));
 }
@@ -159,17 +160,18 @@ Comparison Differing(double all, std::vector<double> without) {
 
 TEST(LeftOutStrip, NamesTheClipThatCarriesTheDifference) {
   EXPECT_EQ(WithoutEachUnit(Differing(-4, {-0.3, -5, -6.7}), SamplingUnit::kClip),
-            "“adaptive” against “fixed”, mean difference without each clip: −6.70 mm to −0.300 mm. Without “a” −0.300 "
-            "mm: then it no longer matters: this clip carries it.");
+            "“adaptive” against “fixed”, mean difference if each clip in turn is left out: −6.70 mm to −0.300 mm. "
+            "Without “a” it is −0.300 "
+            "mm: then it no longer matters: it depends on this clip.");
   // Nearer to the whole, and yet the one that counts, though another is farther off on the other side.
   EXPECT_THAT(WithoutEachUnit(Differing(2.4, {0.7, 2.2, 9}), SamplingUnit::kClip), HasSubstr("Without “a” 0.700 mm"));
   EXPECT_THAT(WithoutEachUnit(Differing(-2, {1.5, -3, -4}), SamplingUnit::kLibrary),
-              EndsWith("this library carries it."));
+              EndsWith("it depends on this library."));
 }
 
 TEST(LeftOutStrip, SaysThatNoneCarriesIt) {
   EXPECT_THAT(WithoutEachUnit(Differing(-4, {-3, -4, -5}), SamplingUnit::kClip),
-              EndsWith("Without “a” −3.00 mm: no single clip carries it."));
+              EndsWith("Without “a” it is −3.00 mm: the difference does not depend on any single clip."));
 }
 
 TEST(LeftOutStrip, NamesTheClipThatHidesOne) {

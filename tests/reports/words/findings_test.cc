@@ -61,7 +61,7 @@ TEST(Answer, CountsTheWorldsLostWhenWorse) {
 
 TEST(Answer, ClaimsNothingThatIsNotSettled) {
   const std::string open = AnswerTo(Figures(20, -0.2, -0.9, 0.5, 0.5, Verdict::kInconclusive));
-  EXPECT_THAT(open, HasSubstr("It is open whether"));
+  EXPECT_THAT(open, HasSubstr("It is undecided whether"));
   EXPECT_THAT(open, Not(HasSubstr("lowers")));
   const std::string same = AnswerTo(Figures(20, 0.01, -0.02, 0.03, 0.5, Verdict::kNoDifference));
   EXPECT_THAT(same, HasSubstr("makes no difference that matters"));
@@ -87,9 +87,10 @@ TEST(Answer, TellsOfTheWorldsThatOnlyOneSurvived) {
   EXPECT_THAT(AnswerTo(lossy), Not(HasSubstr("Not in this difference")));
   lossy.only_baseline = 13;
   lossy.only_method = 1;
-  EXPECT_THAT(AnswerTo(lossy),
-              HasSubstr("Not in this difference, since one of the two has no value there: only “fixed” in 13 "
-                        "worlds, only “adaptive” in 1 world."));
+  EXPECT_THAT(
+      AnswerTo(lossy),
+      HasSubstr("Not included in this difference, because one of the two has no value there: only “fixed” in 13 "
+                "worlds, only “adaptive” in 1 world."));
 }
 
 TEST(Answer, AdmitsThatNothingCouldBeCompared) {
@@ -187,8 +188,9 @@ TEST(Findings, GiveAFewFiguresOfTheMethodItsBaselineAndTheStrongestOther) {
   EXPECT_EQ(figures.methods[0].name, "wait-for-end");
   EXPECT_EQ(figures.methods[1].name, "now");
   EXPECT_EQ(figures.methods[2].name, "gate-inertialised");
-  EXPECT_EQ(figures.labels, (std::vector<std::string>{"jump at the transition point", "ended ok", "processor time",
-                                                      "worlds lost to “wait-for-end”"}));
+  EXPECT_EQ(figures.labels,
+            (std::vector<std::string>{"jump at the transition point", "ended ok", "processor time",
+                                      "worlds in which “wait-for-end” is better by as much as matters"}));
   EXPECT_EQ(figures.methods[2].values[0], "6.40 cm");
   EXPECT_EQ(figures.methods[1].values[2], "250 ms");
   EXPECT_EQ(figures.methods[2].values[2], "2.00 s");

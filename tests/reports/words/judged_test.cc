@@ -79,7 +79,7 @@ TEST(Beyond, CountsConditions) {
 
 TEST(Beyond, SaysTheSameOnlyOnceWhereEveryWorldIsItsOwnUnit) {
   EXPECT_EQ(InWords({OnClips(Verdict::kWorse, Verdict::kWorse, 20)}, SamplingUnit::kWorld).words,
-            "for other worlds drawn alike: the same");
+            "for other worlds of the same kind: the same");
   EXPECT_THAT(InWords({OnClips(Verdict::kWorse, Verdict::kInconclusive, 20)}, SamplingUnit::kPerson).words,
               HasSubstr("for other people: inconclusive"));
 }
@@ -120,9 +120,10 @@ TEST(Yardstick, IsNobodyWhereNothingIsCompared) {
 
 TEST(LeftOut, IsSaidOnlyWhenSomethingIs) {
   EXPECT_EQ(LeftOutWords(40, 40, "methods", "a file"), "");
-  EXPECT_EQ(LeftOutWords(1240, 40, "methods", "a file"), "1,200 more methods are left out here; a file has all.");
+  EXPECT_EQ(LeftOutWords(1240, 40, "methods", "a file"),
+            "1,200 more methods are not shown here; a file has all of them.");
   EXPECT_EQ(LeftOutHtml(41, 40, "methods", "<a>"),
-            "<p class=\"quiet legend\">1 more methods are left out here; &lt;a&gt; has all.</p>");
+            "<p class=\"quiet legend\">1 more methods are not shown here; &lt;a&gt; has all of them.</p>");
 }
 
 }  // namespace

@@ -13,15 +13,15 @@ namespace etude::sim {
 /// Returns the names of the songs that come with Etude.
 ETUDE_API std::vector<std::string> SongNames();
 
-/// A dance that comes with Etude, and its moves as they look when they are right.
+/// A dance that is part of Etude, and its moves as they look when they are danced right.
 struct BuiltinDance {
   engine::Dance dance;
   std::vector<engine::TaughtMove> moves;
 };
-/// Throws engine::BadInput for a song that there is not.
+/// Throws engine::BadInput for an unknown song.
 ETUDE_API BuiltinDance DanceOfSong(const std::string& song);
 
-/// The body that performs a scenario's clips: for answers that are those of its cells.
+/// Returns the body that performs the clips of scenarios; use it to get the same results as a scenario's cells.
 ETUDE_API engine::BodyProportions ScenarioProportions();
 
 }  // namespace etude::sim

@@ -12,38 +12,40 @@
 namespace etude::sim {
 
 struct StudioOptions {
-  /// The furnishing of the room, 0 to 1; 0: a bare studio and a person of capsules in warm colours, 1: a room that
-  /// people live in, and a dressed person.
+  /// The furnishing of the room, 0 to 1. At 0 it is a bare studio with a person of capsules in warm colours, at 1 a
+  /// lived-in room with a dressed person.
   double scene = 0;
-  std::uint64_t seed = 1;  ///< of the room, its things and the person's clothes
+  std::uint64_t seed = 1;  ///< of the room, its objects and the person's clothes
 };
 
 struct Picture {
   int width = 0, height = 0;
-  std::vector<std::uint8_t> colour;  ///< three bytes a pixel: red, green, blue; row after row from the top
-  std::vector<std::uint8_t> person;  ///< one byte a pixel: 1 where it shows the person, else 0
+  std::vector<std::uint8_t> colour;  ///< three bytes per pixel: red, green, blue; row by row from the top
+  std::vector<std::uint8_t> person;  ///< one byte per pixel: 1 where the person is visible, otherwise 0
 };
 
-/// Returns two cameras side by side, as people set them up before a body that moves so: 640 × 480 pixels, their axes
-/// about parallel, some centimetres from where they should stand by the dice of `seed`, the motion in both pictures as
-/// far as lenses allow. Throws BadInput for a baseline that is not 0.05 to 2 m, and a motion without frames.
+/// Returns two cameras side by side, as people set them up in front of a body that performs this motion: 640 × 480
+/// pixels, with nearly parallel axes, a few centimetres from the exact positions (random, by `seed`), and with the
+/// motion in both pictures as far as the lenses allow. Throws BadInput for a baseline that is not 0.05 to 2 m, and for
+/// a motion without frames.
 ETUDE_API std::vector<engine::Camera> StereoCameras(const engine::Motion& motion, double baseline_m = 0.6,
                                                     std::uint64_t seed = 1);
 
-/// A room in which a person moves before cameras, all of them faultless and taking each picture at once. It looks the
-/// same whenever it is drawn. One thread at a time may draw, with whichever studio.
+/// A room in which a person moves in front of cameras without errors, which take each picture in an instant. The same
+/// picture is always drawn alike. Only one thread at a time may draw, even with different studios.
 class ETUDE_API Studio {
  public:
-  /// Throws BadInput for a motion without frames, no camera, pictures of more than 4096 pixels a side, a lens that
-  /// distorts, a scene out of range, and where nothing can be drawn (OSMesa or EGL is opened when it is needed).
+  /// Throws BadInput for a motion without frames, no cameras, pictures of more than 4096 pixels a side, a lens with
+  /// distortion, or a scene out of range. It also throws if drawing is impossible; OSMesa or EGL is loaded when it is
+  /// needed.
   Studio(const engine::Motion& motion, std::span<const engine::Camera> cameras, const StudioOptions& options = {});
   Studio(Studio&&) noexcept;
   Studio& operator=(Studio&&) noexcept;
   ~Studio();
 
-  /// Takes the picture of a frame of the motion. Throws BadInput for a camera or frame that there is not.
+  /// Takes the picture of a frame of the motion. Throws BadInput if the camera or the frame does not exist.
   Picture Shoot(std::size_t camera, std::size_t frame) const;
-  /// Takes a picture before the person came in. What moves by itself stands elsewhere then.
+  /// Takes a picture from before the person came in. Objects that move are at other positions in it.
   Picture ShootEmpty(std::size_t camera) const;
 
  private:
