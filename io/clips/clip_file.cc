@@ -36,7 +36,7 @@ class CappedReader {
     std::error_code not_there;  // on an error here; ReadWholeFile reports a missing file better
     const std::uintmax_t size = fs::file_size(path, not_there);
     if (!not_there && size > left_) {
-      return Fail({path.string(), 0, 0}, "{} MB; at most {} MB of a clip are read", (size + 999'999) / 1'000'000,
+      return Fail({path.string(), 0, 0}, "{} MB; allowed: clips of at most {} MB", (size + 999'999) / 1'000'000,
                   kMaxClipFileBytes / 1'000'000);
     }
     auto bytes = ReadWholeFile(path);
@@ -171,7 +171,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   if (options.recorded != nullptr && options.recorded->IsRecording(bytes)) return options.recorded->Read(bytes, path);
   // Text formats of bodies: OpenSim's angles and DeepMimic's motions.
   if (first.text == "Coordinates" && HasModelOfAngles(bytes)) {
-    std::string note = "angles of the model in the file's head";
+    std::string note = "angles of the model in the file's header";
     ASSIGN_OR_RETURN(const auto motion, ReadOpenSimMotion(bytes, path, &note));
     return FileOfBody(ClipFormat::kMot, motion, path, note);
   }
@@ -195,7 +195,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     auto read = ReadGltf(
         is_fbx ? fbx.glb : bytes, path, [&](const std::string& uri) { return ReadBeside(path, uri, reader); },
         DecodeTexture);
-    if (!read && is_fbx) return Fail({path}, "an FBX file whose motion is refused: {}", read.error().message);
+    if (!read && is_fbx) return Fail({path}, "an FBX file whose motion cannot be used: {}", read.error().message);
     ASSIGN_OR_RETURN(auto content, std::move(read));
     for (std::string& remark : content.remarks) file.remarks.push_back(std::move(remark));
     file.figure = std::move(content.character);

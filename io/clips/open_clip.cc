@@ -124,8 +124,8 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
     opened.body.changes.push_back(DescribeTurn(opened.body.found_up));
   }
   if (!IsOfMarkers(opened.source.format) && (options.metres_per_unit || (is_ours && options.up))) {
-    opened.body.changes.emplace_back(is_ours ? "unit and up axis are its own, not those told"
-                                             : "its unit is its own, not the one told");
+    opened.body.changes.emplace_back(is_ours ? "the file's own unit and up axis are used, not the given ones"
+                                             : "the file's own unit is used, not the given one");
   }
   constexpr double kSameRate = 1e-6;  // relative; a rate that was computed from a column of times is rounded
   const bool keeps_rate = std::abs(opened.source.clip.rate_hz / options.rate_hz - 1) < kSameRate;
