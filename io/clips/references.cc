@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/names.h"
+#include "engine/base/utf8.h"
 #include "sim/choreography/song.h"
 
 namespace etude {
@@ -106,6 +107,9 @@ Result<std::vector<std::string>> ExpandReference(const std::string& reference, c
                 reference);
   }
   if (found.size() > most) return Fail(place, "'{}' matches more than {} clips", reference, most);
+  for (const std::string& file : found) {
+    if (!CheckUtf8(file, "")) return Fail(place, "{} has a name that is not UTF-8 text", Quote(file));
+  }
   return found;
 }
 
