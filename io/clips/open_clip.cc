@@ -12,6 +12,7 @@
 #include "engine/formats/bvh.h"
 #include "engine/formats/deepmimic.h"
 #include "engine/formats/gltf/gltf.h"
+#include "engine/formats/kimodo.h"
 #include "engine/formats/npz.h"
 #include "engine/formats/text_scanner.h"
 #include "engine/motion/edit.h"
@@ -188,8 +189,8 @@ void RootAtHips(Clip& clip, bool has_meshes, std::vector<std::string>& remarks) 
 /// says which are missing.
 std::optional<Ground> GroundOf(const ClipFile& file, const std::string& path, const OpenOptions& options) {
   if (file.clips.size() < 2) return std::nullopt;
-  const auto map = FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles),
-                                file.clips.front().frames);
+  const auto map =
+      FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles), file.clips.front().frames);
   BodyOptions told = options.body;
   told.up = ToldUp(options);
   told.up_rule = UpRuleOf(file.format);
@@ -208,8 +209,8 @@ void TakeScalesOut(ClipFile& file, const std::string& path, const OpenOptions& o
     });
   };
   if (std::ranges::none_of(file.clips, has_scales)) return;
-  const auto map = FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles),
-                                file.clips.front().frames);
+  const auto map =
+      FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles), file.clips.front().frames);
   if (!map) return;
   if (const auto ratio = UndoScales(file.clips, *map)) {
     file.remarks.push_back(fmt::format(
@@ -287,6 +288,13 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     if (IsBodyNpz(arrays)) {
       ASSIGN_OR_RETURN(const auto motion, ReadBodyNpz(arrays, path));
       return FileOfBody(ClipFormat::kNpz, motion, path, "Etude's own arrays");
+    }
+    if (IsKimodoNpz(arrays)) {
+      ASSIGN_OR_RETURN(auto clip, ReadKimodo(arrays, path));
+      file = FileOfOne(ClipFormat::kNpz, std::move(clip));
+      file.roles = JointMapOverrides{.joints = {}, .metres_per_unit = 1, .up = UpAxis::kY};
+      file.remarks.push_back("Kimodo's arrays, which tell no rate: 30 Hz is its model's");
+      return file;
     }
     ASSIGN_OR_RETURN(auto clip, ReadAmass(arrays, path));
     return FileOfOne(ClipFormat::kAmass, std::move(clip));
@@ -426,8 +434,8 @@ Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options)
   told.up_rule = UpRuleOf(source.format);
   if (is_body) return UnderstandBuiltin(std::move(source), told);
   RootAtHips(source.clip, source.character != nullptr, source.remarks);
-  ASSIGN_OR_RETURN(auto map, FindJointMap(source.clip.skeleton, source.source, TaughtBy(options, source.roles),
-                                            source.clip.frames));
+  ASSIGN_OR_RETURN(
+      auto map, FindJointMap(source.clip.skeleton, source.source, TaughtBy(options, source.roles), source.clip.frames));
   // The ground of the whole file overrides what one clip would show.
   if (source.ground) {
     if (!told.up) told.found_up = source.ground->found_up;

@@ -11,8 +11,8 @@ namespace etude {
 /// Converts a clip to what its file holds: every frame at the file's own rate, on the file's own floor, with its gaps,
 /// in metres and Y up. A leading T-pose stays. Of a skeleton, all joints; of markers, the joints that their set
 /// determines and all other markers. Joints that a reader places by rule are left out: they play no role here. The hip
-/// centre is midway between the hips, unless the file's own joint plays it. Fails as UnderstandClip does: without
-/// roles, unit and up axis are unknown.
+/// centre is midway between the hips, unless the file's own joint plays it. Contacts are those of an .npz that tells them
+/// (ReadFootContacts). Fails as UnderstandClip does: without roles, unit and up axis are unknown.
 Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options);
 
 /// Returns the digest of the bytes of the file that a reference names; of a built-in clip, that of its name. Files that
