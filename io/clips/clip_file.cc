@@ -11,6 +11,7 @@
 #include "engine/formats/bvh.h"
 #include "engine/formats/deepmimic.h"
 #include "engine/formats/gltf/gltf.h"
+#include "engine/formats/kimodo.h"
 #include "engine/formats/npz.h"
 #include "engine/formats/text_scanner.h"
 #include "engine/retargeting/joint_arrays.h"
@@ -153,6 +154,13 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     if (IsBodyNpz(arrays)) {
       ASSIGN_OR_RETURN(const auto motion, ReadBodyNpz(arrays, path));
       return FileOfBody(ClipFormat::kNpz, motion, path, "Etude's own arrays");
+    }
+    if (IsKimodoNpz(arrays)) {
+      ASSIGN_OR_RETURN(auto clip, ReadKimodo(arrays, path));
+      file = FileOfOne(ClipFormat::kNpz, std::move(clip));
+      file.roles = JointMapOverrides{.joints = {}, .metres_per_unit = 1, .up = UpAxis::kY};
+      file.remarks.push_back("Kimodo's arrays, which tell no rate: 30 Hz is its model's");
+      return file;
     }
     ASSIGN_OR_RETURN(auto clip, ReadAmass(arrays, path));
     return FileOfOne(ClipFormat::kAmass, std::move(clip));

@@ -72,8 +72,8 @@ void RootAtHips(Clip& clip, bool has_meshes, std::vector<std::string>& remarks) 
 /// says which are missing.
 std::optional<Ground> GroundOf(const ClipFile& file, const std::string& path, const OpenOptions& options) {
   if (file.clips.size() < 2) return std::nullopt;
-  const auto map = FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles),
-                                file.clips.front().frames);
+  const auto map =
+      FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles), file.clips.front().frames);
   BodyOptions told = options.body;
   told.up = ToldUp(options);
   told.up_rule = UpRuleOf(file.format);
@@ -92,8 +92,8 @@ void TakeScalesOut(ClipFile& file, const std::string& path, const OpenOptions& o
     });
   };
   if (std::ranges::none_of(file.clips, has_scales)) return;
-  const auto map = FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles),
-                                file.clips.front().frames);
+  const auto map =
+      FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles), file.clips.front().frames);
   if (!map) return;
   if (const auto ratio = UndoScales(file.clips, *map)) {
     file.remarks.push_back(fmt::format(
@@ -221,8 +221,8 @@ Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options)
   told.up_rule = UpRuleOf(source.format);
   if (is_body) return UnderstandBuiltin(std::move(source), told);
   RootAtHips(source.clip, source.character != nullptr, source.remarks);
-  ASSIGN_OR_RETURN(auto map, FindJointMap(source.clip.skeleton, source.source, TaughtBy(options, source.roles),
-                                            source.clip.frames));
+  ASSIGN_OR_RETURN(
+      auto map, FindJointMap(source.clip.skeleton, source.source, TaughtBy(options, source.roles), source.clip.frames));
   // The ground of the whole file overrides what one clip would show.
   if (source.ground) {
     if (!told.up) told.found_up = source.ground->found_up;
