@@ -38,7 +38,7 @@ Result<FoundFrames> ReadFrames(const Json& list, const std::string& path, std::s
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const int frame = static_cast<int>(numbers[i]);
     if (frame != numbers[i]) return Fail({}, "{}[{}]: {} is not a whole number", path, i, numbers[i]);
-    if (!seen.insert(frame).second) return Fail({}, "{}[{}]: frame {} stands there twice", path, i, frame);
+    if (!seen.insert(frame).second) return Fail({}, "{}[{}]: frame {} appears twice", path, i, frame);
     found.push_back(frame);
   }
   return found;

@@ -41,7 +41,8 @@ const FieldTable<SearchOptions>& SearchConditionFields() {
        Key::Number("threshold", &Options::threshold, {0, 6},
                    "Frames match if their fuzzy distance is smaller; for `first` and `within`."),
        Key::Name("query", &Options::question, Questions(),
-                 "The first matching frame, all of them, or the one or ten of smallest distance; for all methods."),
+                 "What a query returns: the first matching frame, all matching frames, or the one or ten frames of "
+                 "smallest distance; for all methods."),
        FuzzyField<Options>()}};
   return table;
 }

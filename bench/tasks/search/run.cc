@@ -167,8 +167,8 @@ std::string DescribeMistakes(const std::vector<FoundFrames>& found, const std::v
   if (first.first == found.end()) return "";
   std::ptrdiff_t wrong = 0;
   for (std::size_t query = 0; query < truth.size(); ++query) wrong += found[query] != truth[query];
-  return fmt::format("{} of {} queries not answered as by a loop over all frames, the first of them query {}", wrong,
-                     truth.size(), first.first - found.begin());
+  return fmt::format("{} of {} queries have another answer than a loop over all frames, the first of them query {}",
+                     wrong, truth.size(), first.first - found.begin());
 }
 
 }  // namespace
@@ -183,7 +183,7 @@ CellResult ScoreSearch(const SearchLibrary& library, std::span<const Grades> que
   cell.digests = {{"library", library.digest}, {"queries", DigestOf(queries)}, {"answers", FoundDigest(answer.found)}};
   cell.MeasureOr("search_agreement", SearchAgreement(answer.found, truth), "there is no query");
   cell.MeasureOr("matches_per_query", MatchesPerQuery(answer.found), "there is no query");
-  const char* const untold = "the method does not tell";
+  const char* const untold = "the method does not report it";
   if (answer.distances) {
     cell.MeasureOr("distances_per_query", MeanPerQuery(*answer.distances), "there is no query");
   } else {
@@ -192,7 +192,7 @@ CellResult ScoreSearch(const SearchLibrary& library, std::span<const Grades> que
   if (answer.boxes) {
     cell.MeasureOr("boxes_per_query", MeanPerQuery(*answer.boxes), "there is no query");
   } else {
-    cell.Missing("boxes_per_query", answer.distances ? "brute force has no boxes" : untold);
+    cell.Missing("boxes_per_query", answer.distances ? "brute force uses no boxes" : untold);
   }
   cell.series.push_back(AlongQueries("matches_per_query", SizesOf(answer.found)));
   if (answer.distances) cell.series.push_back(AlongQueries("distances_per_query", *answer.distances));

@@ -70,13 +70,13 @@ Result<std::string_view> TakeChunk(std::string_view bytes, std::size_t& at, std:
 }
 
 Result<GltfContainer> OpenGlb(std::string_view bytes, const Place& place) {
-  if (bytes.size() < kHeaderBytes) return Fail(place, "a GLB of {} bytes; its header alone has 12", bytes.size());
+  if (bytes.size() < kHeaderBytes) return Fail(place, "a GLB of {} bytes, but its header alone has 12", bytes.size());
   if (const std::uint32_t version = Number(bytes, 4); version != 2) {
     return Fail(place, "found GLB version {}; allowed: 2", version);
   }
   const std::size_t length = Number(bytes, 8);
   if (length > bytes.size() || length < kHeaderBytes) {
-    return Fail(place, "the GLB announces {} bytes; the file holds {}", length, bytes.size());
+    return Fail(place, "the GLB announces {} bytes; the file has {}", length, bytes.size());
   }
   bytes = bytes.substr(0, length);
   std::size_t at = kHeaderBytes;
@@ -111,7 +111,7 @@ class JsonShape {
         case '[':
           if (depth_ == 2 && json[i] == '{' && key_ == "buffers") ++buffers_;
           ++values_;
-          if (++depth_ > kMaxNesting) return Fail(place, "JSON nested deeper than {} levels", kMaxNesting);
+          if (++depth_ > kMaxNesting) return Fail(place, "JSON nested more than {} levels deep", kMaxNesting);
           break;
         case '}':
         case ']':
@@ -136,8 +136,8 @@ class JsonShape {
 };
 
 /// Finds the parts of a .gltf or .glb file. Refuses files that would make a JSON parser use excessive memory:
-/// inconsistent sizes, more than 256 MB, JSON nested deeper than 64 levels or with more than a million values, and many
-/// buffers that each get a copy of the binary part. The syntax of the JSON is checked by the parser.
+/// inconsistent sizes, more than 256 MB, JSON nested more than 64 levels deep or with more than a million values, and
+/// many buffers that each get a copy of the binary part. The syntax of the JSON is checked by the parser.
 Result<GltfContainer> OpenGltfContainer(std::string_view bytes, const std::string& file) {
   const Place place{file};
   if (static_cast<double>(bytes.size()) > kMaxGltfBytes) {
@@ -241,7 +241,8 @@ Result<void> ReadOnlyThrough(Fetcher& fetcher, Parser& parser) {
   if constexpr (std::is_void_v<decltype(parser.SetFsCallbacks(callbacks))>) {
     parser.SetFsCallbacks(callbacks);
   } else if (!parser.SetFsCallbacks(callbacks)) {
-    return Fail({fetcher.file}, "this tinygltf does not take Etude's way to read files; no glTF is read");
+    return Fail({fetcher.file},
+                "this version of tinygltf does not accept Etude's functions for reading files, so glTF cannot be read");
   }
   return {};
 }
@@ -438,7 +439,7 @@ Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const
   if (!is_read || !complaint.empty()) {
     // A file that could not be fetched is an error only if it was needed.
     if (fetcher.complaint) return tl::unexpected(*fetcher.complaint);
-    return tl::unexpected(NotGltf(file, complaint.empty() ? "the parser gave up" : complaint));
+    return tl::unexpected(NotGltf(file, complaint.empty() ? "the parser failed" : complaint));
   }
   if (!model->asset.version.starts_with("2.")) {
     return Fail({file}, "asset.version: found {}; allowed: 2.0", Quote(model->asset.version));
@@ -489,10 +490,10 @@ Result<GltfContent> ReadGltf(std::string_view bytes, const std::string& file, co
   if (std::ranges::find(model->extensionsRequired, kDraco) == model->extensionsRequired.end()) {
     RETURN_IF_ERROR(ReadGltfMeshes(parsed, nodes, decode, content.character));
   } else {
-    content.remarks.emplace_back("meshes left out, which are compressed (Draco)");
+    content.remarks.emplace_back("compressed meshes (Draco) were left out");
   }
   const bool has_pointers = std::ranges::count(model->extensionsUsed, "KHR_animation_pointer") > 0;
-  if (has_pointers) content.remarks.emplace_back("what KHR_animation_pointer moves is not read");
+  if (has_pointers) content.remarks.emplace_back("animations by KHR_animation_pointer are not read");
   ASSIGN_OR_RETURN(auto clips, ReadGltfClips(parsed, nodes));
   content.clips = std::move(clips);
   for (const auto& [bone, node] : BoneTable(*model)) {
