@@ -81,7 +81,7 @@ class NewFolder {
     const fs::path partial = PartialOf(path);
     RETURN_IF_ERROR(MakeFolder(Inside(partial.parent_path()) / partial.filename()));
     NewFolder folder(path, Lock(partial));
-    if (folder.lock_ < 0) return Fail(place, "another export is writing it; choose another folder with -o");
+    if (folder.lock_ < 0) return Fail(place, "another export is writing into it; choose another folder with -o");
     // Empty the folder that a killed export left; refuse a folder with other contents.
     for (fs::directory_iterator entry(folder.partial_, error), end; !error && entry != end; entry.increment(error)) {
       if (IsOfExport(entry->path().filename())) continue;

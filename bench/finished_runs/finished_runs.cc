@@ -87,8 +87,8 @@ Result<void> CheckMetricVersions(const Json& manifest, const Place& place) {
   for (const auto& [id, version] : versions.items()) {
     const MetricInfo* metric = FindMetric(id);
     if (metric != nullptr && version != metric->version) {
-      return Fail(place, "was measured with version {} of {}; this program has version {}: run it anew", version.dump(),
-                  id, metric->version);
+      return Fail(place, "was measured with version {} of {}, but this program has version {}: repeat the run",
+                  version.dump(), id, metric->version);
     }
   }
   return {};
@@ -210,8 +210,7 @@ namespace {
 Result<FinishedRun> ReadFinishedRun(const fs::path& folder, Sealing sealing) {
   FinishedRun run;
   if (Exists(Inside(folder) / kJournalFile)) {
-    run.incomplete.push_back(
-        fmt::format("the run did not come to its end, or is still under way ({} is there)", kJournalFile));
+    run.incomplete.push_back(fmt::format("the run was not finished, or is still running ({} exists)", kJournalFile));
     return run;
   }
   ASSIGN_OR_RETURN(run.data, LoadRun(folder, sealing));
@@ -219,7 +218,7 @@ Result<FinishedRun> ReadFinishedRun(const fs::path& folder, Sealing sealing) {
   RETURN_IF_ERROR(CheckStillThere(folder, run.data));
   RETURN_IF_ERROR(CheckRows(run, {(folder / "cells.jsonl").string(), 0, 0}));
   if (run.data.cpu_seconds.empty() && std::any_of(run.scenarios.begin(), run.scenarios.end(), WantsTimes)) {
-    return Fail({(folder / "timings.jsonl").string(), 0, 0}, "tells no times, which a gate of this run needs");
+    return Fail({(folder / "timings.jsonl").string(), 0, 0}, "contains no times, which a gate of this run needs");
   }
   return run;
 }

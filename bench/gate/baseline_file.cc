@@ -104,7 +104,7 @@ class BaselineReader {
     ASSIGN_OR_RETURN(snapshot_.program_version, head.Text("etude"));
     RETURN_IF_ERROR(ForEach(head, "scenarios",
                             [this](const Json& entry, const Place& place) { return ReadScenario(entry, place); }));
-    if (snapshot_.scenarios.empty()) return Fail(head.place(), "holds no scenario; allowed: one or more");
+    if (snapshot_.scenarios.empty()) return Fail(head.place(), "contains no scenario; allowed: one or more");
     RETURN_IF_ERROR(CountLines(head));
     MakeSlots();
     RETURN_IF_ERROR(ForEach(head, "statuses",
@@ -127,14 +127,14 @@ class BaselineReader {
     if (!head.Has("seal")) {
       snapshot_.unsealed = file_ + ": has no seal because an older version wrote it; gate --update makes one";
       if (seal_ == BaselineSeal::kMayBreak) return {};
-      return Fail({}, "{}; --unsealed reads it all the same", snapshot_.unsealed);
+      return Fail({}, "{}; --unsealed reads it nevertheless", snapshot_.unsealed);
     }
     ASSIGN_OR_RETURN(const auto told, head.Text("seal"));
     ASSIGN_OR_RETURN(const auto found, SealOf(json));
     if (told == found) return {};
     snapshot_.unsealed = file_ + ": was changed after gate --update wrote it: its seal does not match";
     if (seal_ == BaselineSeal::kMayBreak) return {};
-    return Fail({}, "{}; --unsealed reads it all the same", snapshot_.unsealed);
+    return Fail({}, "{}; --unsealed reads it nevertheless", snapshot_.unsealed);
   }
 
   Place PlaceOf(const std::string& list, std::size_t entry) const {
@@ -213,8 +213,8 @@ class BaselineReader {
     ASSIGN_OR_RETURN(const Json* statuses, head.List("statuses"));
     ASSIGN_OR_RETURN(const Json* values, head.List("values"));
     if (statuses->size() == cells && values->size() == lists) return {};
-    return Fail(head.place(), "{} lines of statuses and {} of values; its scenarios have {} and {}", statuses->size(),
-                values->size(), cells, lists);
+    return Fail(head.place(), "{} lines of statuses and {} of values, but its scenarios have {} and {}",
+                statuses->size(), values->size(), cells, lists);
   }
 
   void MakeSlots() {

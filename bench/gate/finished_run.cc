@@ -32,7 +32,7 @@ Result<void> CheckRowsInOrder(const FinishedRun& run, const Place& place) {
   });
   if (wrong) return tl::unexpected(*wrong);
   if (next == wanted.size() && scenario == run.scenarios.size()) return {};
-  return Fail(place, "holds {} rows; the manifest makes more", CountRows(run.data));
+  return Fail(place, "has {} rows, but the manifest requires more", CountRows(run.data));
 }
 
 class ScenarioTaker {
@@ -96,7 +96,7 @@ Result<void> CheckRows(FinishedRun& run, const Place& place) {
   if (run.data.source) return CheckRowsInOrder(run, place);
   std::set<std::string> rows;
   for (const Row& row : run.data.rows) {
-    if (!rows.insert(row.Id()).second) return Fail(place, "holds the cell {} twice", row.Id());
+    if (!rows.insert(row.Id()).second) return Fail(place, "contains the cell {} twice", row.Id());
   }
   for (const FinishedScenario& one : run.scenarios) {
     const std::vector<std::string> wanted = CellsOf(one.study);
@@ -108,7 +108,7 @@ Result<void> CheckRows(FinishedRun& run, const Place& place) {
     run.incomplete.push_back(fmt::format("{}: {} of {} rows are missing, the first is {}", one.study.scenario,
                                          missing.size(), wanted.size(), missing.front()));
   }
-  if (!rows.empty()) return Fail(place, "holds the cell {}, which no scenario of the manifest asks for", *rows.begin());
+  if (!rows.empty()) return Fail(place, "contains the cell {}, which is in no scenario of the manifest", *rows.begin());
   return {};
 }
 

@@ -102,7 +102,7 @@ std::vector<std::string> WhyIncomplete(const FinishedRun& run) {
   });
   std::vector<std::string> sentences;
   for (const auto& [key, found] : ends) {
-    sentences.push_back(fmt::format("{}: {} × {}, which depends on the machine; the first is {}", key.first,
+    sentences.push_back(fmt::format("{}: {} × {}, a status that depends on the machine; the first is {}", key.first,
                                     found.cells, key.second, found.first));
   }
   if (all_skipped && !why_skipped.empty()) sentences.push_back("every cell was skipped; the first is " + why_skipped);
@@ -134,7 +134,7 @@ std::vector<std::string> DescribeSilentMethods(const FinishedRun& run) {
     if (cells.has_answer) continue;
     std::vector<std::pair<std::string, int>> causes(cells.causes.begin(), cells.causes.end());
     std::ranges::stable_sort(causes, std::greater(), &std::pair<std::string, int>::second);
-    std::string text = fmt::format("{}: none of the {} cells of {} is ok or unsolved; the first is {}", name.first,
+    std::string text = fmt::format("{}: none of the {} cells of {} is ok or unsolved; the first has {}", name.first,
                                    cells.attempted, name.second, cells.first);
     for (std::size_t i = 0; i < std::min(causes.size(), kMaxShownCauses); ++i) {
       text += fmt::format("; {} × {}", causes[i].second, causes[i].first);
@@ -170,7 +170,7 @@ Result<GateReport> JudgeRun(const FinishedRun& run, const Snapshot* baseline, co
   RETURN_IF_ERROR(RequireComparable(*baseline, now, baseline_file));
   report.comparison = CompareSnapshots(*baseline, now, ExactScenarios(run), TailRulesOf(run));
   for (const std::string& name : report.comparison.only_before) {
-    report.incomplete.push_back("the baseline holds what the run does not: " + name);
+    report.incomplete.push_back("the baseline contains rows that the run does not: " + name);
   }
   return report;
 }

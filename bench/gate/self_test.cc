@@ -141,7 +141,8 @@ Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions) {
   report.false_alarms = gates.Result();
   report.false_alarm_comparisons = comparisons.Result();
   for (std::size_t k = 0; k < kSizes.size(); ++k) {
-    report.injected.push_back({fmt::format("{} worse by {} × what matters", target, kSizes[k]), injected[k].Result()});
+    report.injected.push_back(
+        {fmt::format("{} worse by {} × the difference that matters", target, kSizes[k]), injected[k].Result()});
   }
   for (std::size_t m = 1; m < methods.size(); ++m) {
     report.real.push_back(
@@ -167,13 +168,13 @@ void InjectedTails::Try(const Snapshot& first, const std::string& target, std::u
   if (needed > 0) counts.insert(needed);
   for (const int count : counts) {
     if (count > present) break;
-    Count(fmt::format("{} in {} of {} worlds worse by {} × what matters", target, count, present,
+    Count(fmt::format("{} in {} of {} worlds worse by {} × the difference that matters", target, count, present,
                       kBeyondRule * rule.times),
           needed > 0 && count >= needed, compare(static_cast<std::size_t>(count), worse_by(kBeyondRule)));
   }
   // The gate must not find worlds that stay just within the rule, but must find a lost value.
   if (needed > 0 && needed <= present) {
-    Count(fmt::format("{} in {} of {} worlds worse by {} × what matters", target, needed, present,
+    Count(fmt::format("{} in {} of {} worlds worse by {} × the difference that matters", target, needed, present,
                       kWithinRule * rule.times),
           false, compare(static_cast<std::size_t>(needed), worse_by(kWithinRule)));
   }

@@ -49,7 +49,7 @@ Result<void> AddMetric(MetricInfo metric) {
   if (is_new) return {};
   const std::string difference = FindDifference(known->second, metric);
   if (difference.empty()) return {};
-  return Fail({}, "the metric '{}' is told of in two ways: {}; values of two definitions never mix", metric.id,
+  return Fail({}, "the metric '{}' is defined in two ways: {}; values of two definitions are never mixed", metric.id,
               difference);
 }
 

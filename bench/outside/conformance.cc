@@ -150,10 +150,10 @@ class ConformanceTest {
     CheckSettings();
     CheckLongLines();
     Report("answers every question once", repeated_ == 0,
-           repeated_ == 0 ? "no answer came twice" : fmt::format("{} answers were repeated", repeated_));
+           repeated_ == 0 ? "gives no answer twice" : fmt::format("{} answers were repeated", repeated_));
     const std::string end = method_.End(kMaxEndingMs);
     Report("ends when its input ends", end == "exit code 0",
-           end == "signal 9 (Killed)" ? fmt::format("was still running {} s later", kMaxEndingMs / 1000) : end);
+           end == "signal 9 (Killed)" ? fmt::format("it was still running {} s later", kMaxEndingMs / 1000) : end);
     if (solves_nothing_ && specimens_[0].has_plain_method) CheckAgainstPlain();
     return all_passed_;
   }
@@ -247,8 +247,8 @@ class ConformanceTest {
     if (plain == 0) return;
     const std::string unit =
         in_radians == 0 ? ""
-                        : fmt::format("; taken for radians, its angles solve {}: degrees are asked for", in_radians);
-    Report("solves what a plain method solves", false,
+                        : fmt::format("; if its angles are radians, they solve {}: degrees are needed", in_radians);
+    Report("solves the problems that a simple method solves", false,
            fmt::format("solves none of {}; damped-least-squares solves {}{}", first_.size(), plain, unit));
   }
 
@@ -270,7 +270,7 @@ class ConformanceTest {
 
   void CheckOneProblemTwice() {
     const std::size_t last = first_.size() - 1;
-    ReportDifference("answers a repeated problem alike", Compare(Ask(specimens_[0].problems[last]), last));
+    ReportDifference("gives the same answer to a repeated problem", Compare(Ask(specimens_[0].problems[last]), last));
   }
 
   void CheckOrder() {
@@ -279,7 +279,7 @@ class ConformanceTest {
     for (std::size_t i = first_.size(); i-- > 0 && difference.empty();) {
       difference = Compare(Ask(specimens_[0].problems[i]), i);
     }
-    ReportDifference("answers alike after a restart and in another order", difference);
+    ReportDifference("gives the same answers after a restart and in another order", difference);
   }
 
   void CheckSettings() {
@@ -287,15 +287,17 @@ class ConformanceTest {
     for (const SpecimenProblem& problem : specimens_[1].problems) {
       if (fault.empty()) fault = Ask(problem).fault;
     }
-    Report("answers under another setting", fault.empty(), fault.empty() ? "answers that can be scored" : fault);
+    Report("answers problems with another setting", fault.empty(),
+           fault.empty() ? "answers that can be scored" : fault);
     if (fault.empty()) {
-      ReportDifference("answers alike when the first setting returns", Compare(Ask(specimens_[0].problems[0]), 0));
+      ReportDifference("gives the same answers when the first setting returns",
+                       Compare(Ask(specimens_[0].problems[0]), 0));
     }
   }
 
   void CheckLongLines() {
     const std::string id = "a \"long\" one, größer";
-    ReportDifference("accepts long lines, unknown keys and ids of any text", Compare(AskAtLength(id), 0));
+    ReportDifference("accepts long lines, unknown keys and ids with any characters", Compare(AskAtLength(id), 0));
   }
 
   /// Sends the first problem with additional keys that the program does not know.
@@ -325,7 +327,7 @@ Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::
   const TaskKind* kind = FindTaskKind(task);
   if (kind == nullptr) return Fail({}, "{}", UnknownName("task", task, NamesOf(Recipes(), &Recipe::task)));
   if (kind->seats.empty() && !seat.empty()) return Fail({}, "task {} has no seats", task);
-  if (!kind->has_problems && kind->seats.empty()) return Fail({}, "task {} asks no program", task);
+  if (!kind->has_problems && kind->seats.empty()) return Fail({}, "task {} takes no programs", task);
   if (seat.empty() && !kind->has_problems) {
     return Fail({}, "task {} needs a seat: {}", task, fmt::join(kind->seats, ", "));
   }

@@ -15,25 +15,25 @@ constexpr std::size_t kMaxNameLength = 200;
 /// Parses a line: an object with a text `type`.
 Result<Json> ReadMessage(const std::string& line) {
   if (NestingOf(line) > kMaxReplyDepth) {
-    return Fail({}, "said something nested more than {} deep: {}", kMaxReplyDepth, Printable(line));
+    return Fail({}, "wrote something nested more than {} levels deep: {}", kMaxReplyDepth, Printable(line));
   }
-  if (line.find('\0') != std::string::npos) return Fail({}, "said something that is not JSON: a zero byte");
+  if (line.find('\0') != std::string::npos) return Fail({}, "wrote something that is not JSON: a zero byte");
   JsonText parsed = ParseJsonText(line);
   if (parsed.fault && parsed.fault->is_large_number)
-    return Fail({}, "said a number that is too large: {}", Printable(line));
+    return Fail({}, "wrote a number that is too large: {}", Printable(line));
   if (parsed.fault) {
     const std::size_t start = parsed.fault->byte > 40 ? parsed.fault->byte - 40 : 0;
     const std::string where = start == 0 ? "" : fmt::format(" near byte {}", parsed.fault->byte);
-    return Fail({}, "said something that is not JSON{}: {}", where,
+    return Fail({}, "wrote something that is not JSON{}: {}", where,
                 Printable(std::string_view(line).substr(std::min(start, line.size()))));
   }
   // JSON parsers differ in which of two equal keys they use, so equal keys are refused.
   if (parsed.repeated_key) {
-    return Fail({}, "named the key {} twice in one object: {}", Printable(*parsed.repeated_key), Printable(line));
+    return Fail({}, "wrote the key {} twice in one object: {}", Printable(*parsed.repeated_key), Printable(line));
   }
   Json message = std::move(parsed.value);
   if (!message.is_object() || !message.contains("type") || !message["type"].is_string()) {
-    return Fail({}, "said something that is no message with a \"type\": {}", Printable(line));
+    return Fail({}, "wrote something that is not a message with a \"type\": {}", Printable(line));
   }
   return message;
 }
@@ -82,7 +82,7 @@ Result<std::string> StepLine(const std::string& id, int number, const Json& cont
 Result<HelloReply> ReadHello(const std::string& line) {
   ASSIGN_OR_RETURN(const auto message, ReadMessageOfType(line, "hello"));
   if (!message.contains("protocol") || message["protocol"] != kProtocolVersion) {
-    return Fail({}, "does not speak protocol {}: {}", kProtocolVersion, Printable(line));
+    return Fail({}, "does not support protocol {}: {}", kProtocolVersion, Printable(line));
   }
   ASSIGN_OR_RETURN(const auto name, TextOf(message, "name", line));
   ASSIGN_OR_RETURN(const auto version, TextOf(message, "version", line));
@@ -99,7 +99,7 @@ Result<Json> ReadAnswer(const std::string& line, const std::string& id) {
   if (!message) return message;
   const bool is_answer = (*message)["type"] == "answer";
   if (!is_answer && (*message)["type"] != "no_answer") {
-    return Fail({}, "said no 'answer' and no 'no_answer': {}", Printable(line));
+    return Fail({}, "wrote neither 'answer' nor 'no_answer': {}", Printable(line));
   }
   ASSIGN_OR_RETURN(const auto said_id, TextOf(*message, "id", line));
   if (said_id != id) return Fail({}, "answered {} when asked {}", Printable(said_id), Printable(id));

@@ -174,7 +174,7 @@ std::string WatchedProgram::CureOfStart() const {
   if (unseen.empty()) return "";
   std::string names;
   for (const auto& path : unseen) names += (names.empty() ? "" : " and ") + path.string();
-  return fmt::format("; its fence does not show it {}: give it {}", names, FilesThatShow(unseen, view_));
+  return fmt::format("; {} cannot be read inside its fence: give it {}", names, FilesThatShow(unseen, view_));
 }
 
 void WatchedProgram::Receive() { child_->Receive(kMaxReplyBytes); }
@@ -238,13 +238,13 @@ OutsideFailure WatchedProgram::HowItEnded() {
   const std::string part = WithoutFolder(std::string(child_->PartOfLine().substr(0, 1000))).substr(0, 100);
   if (child_->PartOfLine().size() > kMaxReplyBytes) {
     return {Status::kBadOutput,
-            fmt::format("said a line of more than {} MiB: {}", kMaxReplyBytes >> 20, Printable(part))};
+            fmt::format("wrote a line of more than {} MiB: {}", kMaxReplyBytes >> 20, Printable(part))};
   }
   if (child_->broken_by() != 0) {
-    return {Status::kFailed, fmt::format("cannot be talked to: {}", std::strerror(child_->broken_by())), false};
+    return {Status::kFailed, fmt::format("no connection to it: {}", std::strerror(child_->broken_by())), false};
   }
   for (int i = 0; i < kMaxDyingMs && !child_->HasEnded(); ++i) ::usleep(1000);
-  if (!child_->HasEnded()) return {Status::kBadOutput, "closed its output, but went on running"};
+  if (!child_->HasEnded()) return {Status::kBadOutput, "closed its output, but continued to run"};
   const std::string end = child_->Finish(0);
   if (group_.IsUp() && group_.WasFull()) return TooMuchMemory().value();
   std::string reason = "ended with " + end;

@@ -95,7 +95,7 @@ struct Codec<PerFeature> {
     for (std::size_t k = 0; k < kFeatureCount; ++k) {
       const std::string name(FeatureName(AllFeatures()[k]));
       const auto found = json.find(name);
-      if (found == json.end() || !found->is_number()) return Fail({}, ".{}: no number is there", name);
+      if (found == json.end() || !found->is_number()) return Fail({}, ".{}: a number is missing", name);
       values[k] = found->get<double>();
     }
     return {};
@@ -169,7 +169,8 @@ void RecordFields::Format(std::string_view name, int version) {
     if (written_ != nullptr) Added(key) = value;
     const Json* found = Find(key, /*must=*/true, "of the recording");
     if (found != nullptr && *found != value) {
-      Note(key, Fail({}, ": {}; allowed: {}", ShowJson(*found), value.dump()), "the only one that this program reads");
+      Note(key, Fail({}, ": {}; allowed: {}", ShowJson(*found), value.dump()),
+           "the only version that this program reads");
     }
   };
   constant("format", name);
@@ -183,7 +184,7 @@ std::string RecordFields::TextOf(const Json& json) { return json.dump(); }
 Result<void> RecordFields::ReadObject(const std::string& text, const std::function<void(RecordFields&)>& describe) {
   const auto json = ReadJson(text, "");
   if (!json) return Fail({}, "not a JSON object: {}", json.error().message);
-  if (!json->is_object()) return Fail({}, "not a JSON object, but {}", ShowJson(*json));
+  if (!json->is_object()) return Fail({}, "not a JSON object but {}", ShowJson(*json));
   RecordFields fields(nullptr, &*json, nullptr);
   describe(fields);
   auto done = fields.Finish();

@@ -22,7 +22,7 @@ static void Describe(RecordFields& fields, TransitionExtras::Point& point) {
   fields.Tolerated("from_frame", point.from_frame, "the last frame of that clip that is shown");
   fields.Tolerated("to", point.to, "the clip entered");
   fields.Tolerated("to_frame", point.to_frame, "the frame of that clip that is aligned with `from_frame`");
-  fields.Tolerated("distance", point.distance, "fuzzy distance of the two frames");
+  fields.Tolerated("distance", point.distance, "fuzzy distance between the two frames");
   fields.Tolerated("partials", point.partials, "by feature, S_k Δ_k², which sum to the distance's square");
 }
 
@@ -32,7 +32,7 @@ static void Describe(RecordFields& fields, TransitionExtras::Candidate& candidat
   fields.Required("to_frame", candidate.to_frame, "frame of the clip entered there");
   fields.Required("distance", candidate.distance, "fuzzy distance of the two frames");
   fields.Tolerated("partials", candidate.partials, "like those of a transition point");
-  fields.Tolerated("cost", candidate.cost, "what the choice ranks by; null if that is the distance");
+  fields.Tolerated("cost", candidate.cost, "the cost by which the choice ranks; null if that is the distance");
   fields.Tolerated("outcome", candidate.outcome, "`taken`, `too far`, `later` or `worse`");
 }
 
@@ -42,12 +42,12 @@ static void Describe(RecordFields& fields, TransitionExtras& extras) {
                        "the last frames of the recording before each change of clip");
   fields.Tolerated("from", extras.from, "the clip left");
   fields.Tolerated("to", extras.to, "the clip wanted");
-  fields.Tolerated("branch", extras.branch, "which way was taken: `front half`, `in-between`, …");
-  fields.Tolerated("why", extras.why, "why this way won, one sentence");
+  fields.Tolerated("branch", extras.branch, "the way that was taken: `front half`, `in-between`, …");
+  fields.Tolerated("why", extras.why, "why this way was taken, one sentence");
   fields.Tolerated("request_frame", extras.request_frame,
                    "frame of the request, in the recording; negative: before it begins");
   fields.Tolerated("wait_s", extras.wait_s, "from the request until the wanted clip plays");
-  fields.Tolerated("threshold", extras.threshold, "frames match if their distance is below it");
+  fields.Tolerated("threshold", extras.threshold, "the threshold: frames match if their distance is below it");
   fields.Tolerated("natural_limit_cm", extras.natural_limit_cm, "the largest jump that counts as natural");
   fields.Tolerated("distance", extras.distance, "distance of the worst transition point");
   fields.Tolerated("weights", extras.weights, "by feature, S_k");
@@ -62,7 +62,7 @@ static void Describe(RecordFields& fields, TransitionExtras& extras) {
 static void Describe(RecordFields& fields, DetectionExtras::Target& target) {
   fields.Required("feature", target.feature, "one of paper A's ten");
   fields.Required("degrees", target.degrees, "the angle wanted");
-  fields.Required("tolerance_deg", target.tolerance_deg, "largest deviation that still counts");
+  fields.Required("tolerance_deg", target.tolerance_deg, "largest deviation that is accepted");
 }
 
 static void Describe(RecordFields& fields, DetectionExtras::Move& move) {
@@ -71,7 +71,7 @@ static void Describe(RecordFields& fields, DetectionExtras::Move& move) {
 }
 
 static void Describe(RecordFields& fields, DetectionExtras::Event& event) {
-  fields.Required("move", event.move, "the one asked for");
+  fields.Required("move", event.move, "the move asked for");
   fields.Required("truth", event.truth, "`right`, `grey` or `wrong`");
   fields.Required("fault", event.fault, "`none`, or names");
   fields.Required("danced", event.danced, "the move danced; empty if none");
@@ -103,7 +103,7 @@ static void Describe(RecordFields& fields, CoachExtras::Mode& mode) {
 }
 
 static void Describe(RecordFields& fields, CoachExtras::Performance& performance) {
-  fields.Required("move", performance.move, "the one asked for");
+  fields.Required("move", performance.move, "the move asked for");
   fields.Required("begin_frame", performance.begin_frame, "the first of its window");
   fields.Required("end_frame", performance.end_frame, "the first after its window");
   fields.Required("truth", performance.truth, "`right`, `grey` or `wrong`");
@@ -128,7 +128,7 @@ static void Describe(RecordFields& fields, CoachExtras& extras) {
   fields.Format("etude-coach", 1);
   fields.Required("song", extras.song, "the dance's title");
   fields.List("modes", extras.modes, "what the coach did, from the first frame on");
-  fields.List("performances", extras.performances, "those that were asked for");
+  fields.List("performances", extras.performances, "the performances that were asked for");
   fields.List("words", extras.words, "what the screen shows, whenever it changes");
   fields.List("decisions", extras.decisions, "decisions of the coach's policy");
   fields.List("corrections", extras.corrections, "frames in which a correction was decided on");

@@ -22,7 +22,7 @@ std::vector<MethodRows> MethodsOf(const ReplayOptions& options, const PreparedRu
       rows.method = method.name;
       const bool asks = !method.exec.empty() || !one.scenario().outside_metrics.empty();
       if (scored && method.name == scored->name) {
-        rows.why_not = "answers that were scored, not run";
+        rows.why_not = "they are answers that were scored, not run";
       } else if (options.without_programs && asks) {
         rows.why_not = "they run programs (--allow-exec allows it)";
       }
@@ -102,7 +102,8 @@ Result<CellChoice> ChooseCells(const ReplayOptions& options, const RunData& run,
       ++choice.drawable;
     }
   });
-  if (unexpected) return Fail({options.folder}, "holds the cell {}, which its manifest does not ask for", *unexpected);
+  if (unexpected)
+    return Fail({options.folder}, "contains the cell {}, which its manifest does not contain", *unexpected);
   // Selection sampling (Knuth, volume 2, algorithm S): take each row with probability (number still to draw) / (number
   // of rows left).
   choice.dice = options.dice.value_or(run.seed);

@@ -46,7 +46,7 @@ Result<Json> SummaryOf(const FinishedRun& run, int jobs) {
 }
 
 Result<Verified> VerifySummary(const FilePath& folder, const FinishedRun& run, int jobs) {
-  Verified verified{fmt::format("summary.json: computed again from {} rows", CountRows(run.data)), {}};
+  Verified verified{fmt::format("summary.json: the same when computed again from {} rows", CountRows(run.data)), {}};
   ASSIGN_OR_RETURN(const auto then, ReadJsonFile(folder / "summary.json"));
   ASSIGN_OR_RETURN(const auto now, SummaryOf(run, jobs));
   ASSIGN_OR_RETURN(const auto text, WriteJson(now));
@@ -90,7 +90,7 @@ Result<std::set<fs::path>> FilesOfRun(const FilePath& folder, const FinishedRun&
 
 Result<Verified> VerifyFiles(const FilePath& folder, const FinishedRun& run) {
   ASSIGN_OR_RETURN(const auto allowed, FilesOfRun(folder, run));
-  Verified verified{"files: those that such a run leaves", {}};
+  Verified verified{"files: those that such a run writes", {}};
   std::error_code error;
   for (fs::recursive_directory_iterator entry(folder.given(), error), end; !error && entry != end;
        entry.increment(error)) {
@@ -98,7 +98,7 @@ Result<Verified> VerifyFiles(const FilePath& folder, const FinishedRun& run) {
     if (IsMadeFromResults(name.string())) {
       entry.disable_recursion_pending();
     } else if (!fs::is_directory(entry->symlink_status(error)) && !allowed.contains(name)) {
-      verified.differences.push_back(name.generic_string() + " belongs to no run of this manifest");
+      verified.differences.push_back(name.generic_string() + " does not belong to a run of this manifest");
     }
   }
   if (error) return Fail({folder.string()}, "cannot be read: {}", error.message());
@@ -134,7 +134,7 @@ Result<void> CompareLines(const FilePath& file, const std::function<Result<std::
 /// Checks the text files for content that this program ignores but other programs may use: duplicate keys, further rows
 /// or curves.
 Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
-  Verified verified{"texts: nothing that this program does not read", {}};
+  Verified verified{"texts: only those that this program reads", {}};
   // Keys must not occur twice.
   std::vector<FilePath> files = {folder / "manifest.json", folder / "host.json"};
   for (const FinishedScenario& scenario : run.scenarios) {
@@ -218,14 +218,14 @@ Result<Verified> VerifyColumns(const FilePath& folder, const FinishedRun& run) {
       if (*name.begin() != kColumnsFolder || !Exists(folder / name)) continue;
       const bool is_made = fs::exists(again.path() / name);
       ASSIGN_OR_RETURN(const bool same, is_made ? AreSame(folder / name, again.path() / name) : Result<bool>(false));
-      if (!same) verified.differences.push_back(name.generic_string() + " holds what belongs to no row");
+      if (!same) verified.differences.push_back(name.generic_string() + " contains data that belong to no row");
     }
   }
   return verified;
 }
 
 Verified VerifyWorlds(const FinishedRun& run, const Plan& plan) {
-  Verified verified{"worlds: every row has the clips and units that the dice chose", {}};
+  Verified verified{"worlds: every row has the clips and units that the random numbers select", {}};
   ForEachRow(run.data, [&](const Row& row, std::size_t place) {
     if (!verified.differences.empty()) return;
     const Row now = plan.IdentityOf(place);
@@ -249,9 +249,9 @@ Verified VerifyCells(const ReplayOutcome& replayed) {
   for (const CellCheck& check : replayed.checks) {
     if (check.same) continue;
     const bool is_of_machine = check.stage == "status" && (IsOfMachine(check.then) || IsOfMachine(check.now));
-    verified.differences.push_back(
-        fmt::format("{}: {} was {} and is {}{}", check.cell, check.stage, check.then, check.now,
-                    is_of_machine ? "; either the machines differ or it was forged: these cannot be told apart" : ""));
+    verified.differences.push_back(fmt::format(
+        "{}: {} was {} and is {}{}", check.cell, check.stage, check.then, check.now,
+        is_of_machine ? "; either the machines differ or the run was forged: these cannot be distinguished" : ""));
   }
   return verified;
 }
@@ -262,7 +262,7 @@ Result<VerifyOutcome> VerifyFolder(const ReplayOptions& options, bool replays) {
   // The rows come first: without them, no other check makes sense.
   VerifyOutcome outcome;
   std::vector<Verified>& all = outcome.checks;
-  all.push_back({"seal.json: every file is as it was sealed", {}});
+  all.push_back({"seal.json: every file is unchanged since it was sealed", {}});
   if (!run.data.unsealed.empty()) all.back().differences.push_back(run.data.unsealed);
   all.push_back(VerifyRows(run));
   if (!all.back().differences.empty()) return outcome;

@@ -141,7 +141,7 @@ class ScenarioColumns {
     const Place place{ColumnFile(folder, name).string()};
     const std::size_t found = file.template Numbers<Number>().size();
     if (found != index_.row_count())
-      return Fail(place, "holds {} numbers; its run has {} rows", found, index_.row_count());
+      return Fail(place, "has {} numbers, but its run has {} rows", found, index_.row_count());
     // This reader ignores the shape, but NumPy uses it.
     if (!file.HasShape(kNpyType<Number>, index_.shape()))
       return Fail(place, "is not an array of condition, trial, method");
@@ -161,7 +161,8 @@ class ScenarioColumns {
     const Place place{folder.string()};
     // Kinds, statuses and texts must exist.
     for (const std::uint32_t kind : kind_->Numbers<std::uint32_t>()) {
-      if (kind >= kinds_.size()) return Fail(place, "kind.npy holds {}; there are {} kinds", kind, kinds_.size());
+      if (kind >= kinds_.size())
+        return Fail(place, "kind.npy contains {}, but there are {} kinds", kind, kinds_.size());
     }
     for (const std::uint8_t status : status_->Numbers<std::uint8_t>()) {
       if (status >= kStatuses.size()) return Fail(place, "status.npy holds {}", status);
@@ -182,7 +183,7 @@ class ScenarioColumns {
         last = end;
       }
       if (last != values[0] || !curve.HasShape(kNpyType<double>, values)) {
-        return Fail(place, "holds values of {} that belong to no curve", name);
+        return Fail(place, "contains values of {} that belong to no curve", name);
       }
     }
     return {};
@@ -197,7 +198,7 @@ class ScenarioColumns {
       ASSIGN_OR_RETURN(const auto list, ReadJson(index_.texts[text], folder.string()));
       const auto is_text = [](const Json& unit) { return unit.is_string(); };
       if (!list.is_array() || list.empty() || !std::ranges::all_of(list, is_text)) {
-        return Fail({folder.string()}, "'{}' is no list of units", index_.texts[text]);
+        return Fail({folder.string()}, "'{}' is not a list of units", index_.texts[text]);
       }
       units_[text] = list.template get<std::vector<std::string>>();
     }

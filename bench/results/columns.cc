@@ -74,10 +74,11 @@ Result<ColumnIndex> Decode(const Json& json, const Place& place) {
         kind.why.push_back(why.is_null() ? std::nullopt : std::optional(why.get<int>()));
         const int text = kind.why.back().value_or(0);
         if (text < ColumnIndex::kOwnReason || text >= static_cast<int>(index.texts.size())) {
-          return Fail(place, "names a text that is not there");
+          return Fail(place, "names a text that does not exist");
         }
       }
-      if (kind.why.size() != kind.metrics.size()) return Fail(place, "does not tell of every metric why it is missing");
+      if (kind.why.size() != kind.metrics.size())
+        return Fail(place, "does not state for every metric why it is missing");
       kind.stages = entry.at("stages").get<std::vector<std::string>>();
       for (const Json& curve : entry.at("series")) {
         kind.series.push_back({curve.at("name").get<std::string>(), curve.at("axis").get<std::string>(), {}, {}});
@@ -87,10 +88,10 @@ Result<ColumnIndex> Decode(const Json& json, const Place& place) {
   } catch (const Json::exception& error) {
     return Fail(place, "not an index of columns: {}", error.what());
   }
-  if (index.conditions.empty() || index.trials < 1 || index.methods.empty()) return Fail(place, "tells of no cells");
-  if (index.texts.empty()) return Fail(place, "holds no texts, the first of which is empty");
+  if (index.conditions.empty() || index.trials < 1 || index.methods.empty()) return Fail(place, "contains no cells");
+  if (index.texts.empty()) return Fail(place, "contains no texts; the first must be empty");
   // Other programs may use keys that this one ignores, so all keys must be right.
-  if (nlohmann::json(Encode(index)) != nlohmann::json(json)) return Fail(place, "is not written as a run writes it");
+  if (nlohmann::json(Encode(index)) != nlohmann::json(json)) return Fail(place, "differs from what a run writes");
   return index;
 }
 

@@ -126,7 +126,7 @@ Result<void> LoadManifest(const FilePath& folder, RunData& run) {
     }
     run.wall_seconds = host.at("wall_seconds").get<double>();
   } catch (const Json::exception& error) {
-    return Fail(place, "is not as a run writes it: {}", error.what());
+    return Fail(place, "differs from what a run writes: {}", error.what());
   }
   return {};
 }
@@ -223,19 +223,19 @@ Result<RunData> ReadOutline(const fs::path& path, Sealing sealing) {
   if (!fs::is_directory(path, error)) return Fail(place, "no such folder; a run writes one (etude run)");
   if (Exists(folder / kJournalFile)) {
     return Fail(place,
-                "this run did not come to its end, is still under way, or is a shard ({} is there); etude run --resume "
+                "this run was not finished, is still running, or is a shard ({} exists); etude run --resume "
                 "continues it, etude merge makes a run of shards",
                 kJournalFile);
   }
   if (!Exists(folder / "manifest.json")) {
-    return Fail(place, "is no run, for it holds no manifest.json; a run writes one (etude run)");
+    return Fail(place, "is not a run, because it contains no manifest.json, which etude run writes");
   }
   // The manifest, and the seal over all files.
   run.seal = SealText(folder);
   RETURN_IF_ERROR(LoadManifest(folder, run));
   if (auto sealed = CheckSeal(path); !sealed) {
     if (sealing == Sealing::kRequired) {
-      sealed.error().message += "; --unsealed reads the run all the same";
+      sealed.error().message += "; --unsealed reads the run nevertheless";
       return tl::unexpected(sealed.error());
     }
     run.unsealed = ToString(sealed.error());
@@ -327,7 +327,7 @@ Result<void> CheckRowsAgainstSummary(const fs::path& folder, const RunData& run)
   const Place place{(folder / (run.source ? kColumnsFolder : kCellsFile)).string(), 0, 0};
   std::set<std::string> ids;
   for (const Row& row : run.rows) {
-    if (!ids.insert(row.Id()).second) return Fail(place, "holds the cell {} twice", row.Id());
+    if (!ids.insert(row.Id()).second) return Fail(place, "contains the cell {} twice", row.Id());
   }
   std::map<std::string, std::size_t> found;
   ForEachRow(run, [&](const Row& row, std::size_t) { ++found[row.scenario]; });
@@ -339,8 +339,8 @@ Result<void> CheckRowsAgainstSummary(const fs::path& folder, const RunData& run)
       }
     }
     if (found[scenario.name] != summed) {
-      return Fail(place, "holds {} rows of scenario {}; summary.json sums up {}", found[scenario.name], scenario.name,
-                  summed);
+      return Fail(place, "has {} rows of scenario {}, but summary.json summarises {}", found[scenario.name],
+                  scenario.name, summed);
     }
   }
   return {};

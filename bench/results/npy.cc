@@ -45,14 +45,14 @@ Result<NpyFile> NpyFile::Open(const FilePath& path, std::string_view type) {
   const bool is_large = ::fstat(file.number(), &status) == 0 && static_cast<std::size_t>(status.st_size) >= kNpyHead;
   const auto size = is_large ? static_cast<std::size_t>(status.st_size) : 0;
   void* const memory = is_large ? ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.number(), 0) : MAP_FAILED;
-  if (!is_large) return Fail(place, "is no column: it is too short");
+  if (!is_large) return Fail(place, "is not a column: it is too short");
   if (memory == MAP_FAILED) return CannotRead(path.string(), "cannot read this file", errno);
   NpyFile opened(static_cast<const char*>(memory), size);
   const std::string_view head(opened.data_, kNpyHead);
   const std::string wanted = NpyHead(type, {});
   if (!head.starts_with(std::string_view(wanted).substr(0, wanted.find("), }"))) ||
       (size - kNpyHead) % SizeOf(type) != 0) {
-    return Fail(place, "is no column of numbers of type {}", type);
+    return Fail(place, "is not a column of numbers of type {}", type);
   }
   return opened;
 }

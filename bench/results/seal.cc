@@ -39,7 +39,7 @@ Result<Digests> DigestsOf(const fs::path& folder) {
       RETURN_IF_ERROR(ReadInChunks(Inside(folder) / name, [&](std::string_view bytes) { digest.Add(bytes); }));
       digests[name.generic_string()] = digest.Hex();
     } else if (!fs::is_directory(status)) {
-      return Fail({entry->path().string()}, "is no file and no folder; a run writes nothing else");
+      return Fail({entry->path().string()}, "is neither a file nor a folder; a run writes nothing else");
     } else if (fs::is_empty(entry->path(), error)) {
       digests[name.generic_string() + "/"] = "empty";
     }
@@ -50,7 +50,7 @@ Result<Digests> DigestsOf(const fs::path& folder) {
 
 Result<Digests> ReadSeal(const FilePath& path) {
   if (!Exists(path)) {
-    return Fail({path.string()}, "is missing: an older program wrote this run, or somebody took its seal away");
+    return Fail({path.string()}, "is missing: an older program wrote this run, or its seal was removed");
   }
   ASSIGN_OR_RETURN(const auto json, ReadJsonFile(path));
   try {
@@ -89,8 +89,8 @@ Result<void> CheckSeal(const fs::path& folder) {
   for (const auto& [name, digest] : sealed) {
     const auto file = found.find(name);
     const Place place{(folder / name).string()};
-    if (file == found.end()) return Fail(place, "is missing: the run wrote it");
-    if (file->second != digest) return Fail(place, "is not as the run wrote it");
+    if (file == found.end()) return Fail(place, "is missing, although the run wrote it");
+    if (file->second != digest) return Fail(place, "was changed after the run wrote it");
   }
   for (const auto& [name, digest] : found) {
     if (!sealed.contains(name)) return Fail({(folder / name).string()}, "was not written by the run");

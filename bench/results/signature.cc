@@ -116,12 +116,12 @@ Result<void> SignRun(const fs::path& folder, const std::string& secret_key) {
   // The secret key.
   Bytes key = Decode(lines.size() < 2 ? "" : lines[1], kSecretSize);
   if (key.empty() || key[0] != 'E' || key[1] != 'd') {
-    return Fail({secret_key}, "is no secret key of minisign; minisign -G -W makes one");
+    return Fail({secret_key}, "is not a secret key of minisign; minisign -G -W makes one");
   }
   if (key[2] != 0 || key[3] != 0) {
     return Fail({secret_key},
-                "is a secret key with a password, which nobody here can be asked for; "
-                "minisign -G -W makes one without");
+                "is a secret key with a password, which this program cannot ask for; minisign -G -W makes one without "
+                "a password");
   }
   // Sign the digest of signed.b2, then that signature together with the trusted comment.
   ASSIGN_OR_RETURN(const auto digests, ListDigests(folder));
@@ -155,7 +155,7 @@ Result<std::string> CheckSignature(const fs::path& folder, const std::string& pu
   }
   const Bytes key = Decode(key_text, kPublicSize);
   if (key.empty() || key[0] != 'E' || key[1] != 'd') {
-    return Fail({public_key}, "is no public key of minisign, and no file of one");
+    return Fail({public_key}, "is neither a public key of minisign nor a file with one");
   }
   // The signature; it must be of this key.
   const FilePath path = Inside(folder) / kSignatureFile;
@@ -165,11 +165,11 @@ Result<std::string> CheckSignature(const fs::path& folder, const std::string& pu
   const Bytes over_all = Decode(lines.size() < 4 ? "" : lines[3], crypto_sign_BYTES);
   if (signature.empty() || over_all.empty() || !lines[2].starts_with(kTrusted) ||
       !std::ranges::equal(kHashed, std::span(signature).first(2))) {
-    return Fail({path.string()}, "is no signature as minisign 0.10 and later write them");
+    return Fail({path.string()}, "is not a signature in the format of minisign 0.10 and later");
   }
   const std::span<const unsigned char> number = std::span(key).subspan(2, kNumber);
   if (!std::ranges::equal(number, std::span(signature).subspan(2, kNumber))) {
-    return Fail({path.string()}, "is of key {}; the key given is {}",
+    return Fail({path.string()}, "was made with key {}, but the given key is {}",
                 NumberOf(std::span(signature).subspan(2, kNumber)), NumberOf(number));
   }
   // Both signatures must hold.
@@ -179,7 +179,7 @@ Result<std::string> CheckSignature(const fs::path& folder, const std::string& pu
   const unsigned char* const holder = key.data() + 2 + kNumber;
   if (crypto_sign_verify_detached(signature.data() + 2 + kNumber, digest.data(), digest.size(), holder) != 0 ||
       crypto_sign_verify_detached(over_all.data(), all.data(), all.size(), holder) != 0) {
-    return Fail({path.string()}, "does not hold: {} or it was changed", kSignedFile);
+    return Fail({path.string()}, "does not match: {} or it was changed", kSignedFile);
   }
   // The files must be the signed ones; else name the first that differs.
   ASSIGN_OR_RETURN(const auto found, ListDigests(folder));
@@ -188,7 +188,7 @@ Result<std::string> CheckSignature(const fs::path& folder, const std::string& pu
   const auto differs = std::ranges::mismatch(then, now);
   const std::string& line = differs.in1 != then.end() && !differs.in1->empty() ? *differs.in1 : *differs.in2;
   return Fail({(folder / line.substr(std::min(line.size(), 2 * sizeof(Blake) + 2))).string()},
-              "is not as it was signed");
+              "was changed after it was signed");
 }
 
 }  // namespace etude

@@ -238,7 +238,7 @@ std::optional<CellLineHead> ReadCellLineHead(std::string_view line) {
 }
 
 Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const Place& place) {
-  if (!HasRightSum(line)) return Fail(place, "is not as it was written");
+  if (!HasRightSum(line)) return Fail(place, "was changed after it was written");
   FinishedCell cell{std::move(identity), {}};
   CellResult& result = cell.row.result;
   LineReader reader(line.substr(0, line.size() - kSumSize));

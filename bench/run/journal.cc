@@ -40,7 +40,7 @@ Result<JournalHead> DecodeHead(const std::string& line, const Place& place) {
     if (!shard) return Fail(place, "{}", shard.error().message);
     head.shard = *shard;
   } catch (const Json::exception& error) {
-    return Fail(place, "not the head of a journal: {}", error.what());
+    return Fail(place, "not the header of a journal: {}", error.what());
   }
   return head;
 }
@@ -104,7 +104,7 @@ Result<std::string_view> CellTable::ReadLine(std::size_t cell) {
     return place.offset >= source.begin && place.offset + place.length <= source.begin + source.part.size();
   };
   if (!has_line()) RETURN_IF_ERROR(ReadPart(source, place));
-  if (!has_line()) return Fail(PlaceOf(cell), "was cut while it was read");
+  if (!has_line()) return Fail(PlaceOf(cell), "was shortened while it was read");
   return std::string_view(source.part).substr(place.offset - source.begin, place.length);
 }
 
@@ -204,7 +204,7 @@ Result<JournalHead> ReadHead(FileLines lines, const std::string& path) {
     if (HasRightSum(line)) return DecodeHead(line, {path, read, 0});
   }
   if (read == 0) return Fail({path, 0, 0}, "cannot be read, or is empty");
-  return Fail({path, 1, 0}, "not the head of a journal, and no copy of it follows");
+  return Fail({path, 1, 0}, "not the header of a journal, and no copy of a header follows");
 }
 
 }  // namespace

@@ -36,14 +36,14 @@ Result<void> TryRendererInACopy() {
   const int status = copy.Wait();
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
   if (WIFEXITED(status) && WEXITSTATUS(status) == kNotLoaded) RETURN_IF_ERROR(LoadRenderer());
-  return Fail({}, "nothing can be drawn: Mesa gets no memory, or gives no context");
+  return Fail({}, "drawing is impossible: Mesa gets no memory, or provides no context");
 }
 
 /// Fails if the fence is missing only for lack of processes, memory or files.
 Result<void> CheckFence(const Fence& fence) {
   for (const int shortage : {EAGAIN, ENOMEM, EMFILE, ENFILE}) {
     if (!fence.IsUp() && fence.description().find(std::strerror(shortage)) != std::string::npos) {
-      return Fail({}, "nothing can be run in the fence: {}", fence.description());
+      return Fail({}, "no program can be run in the fence: {}", fence.description());
     }
   }
   return {};
@@ -56,7 +56,7 @@ Result<void> Try(std::span<const PreparedScenario> scenarios, const Fence& fence
   for (const PreparedScenario& scenario : scenarios) {
     for (const auto& [program, role] : ProgramsIn(scenario.scenario())) {
       if (auto found = FindProgram(program->exec.front()); !found) {
-        return Fail({}, "{} {} of scenario {} cannot be asked: {}", role, program->name, scenario.scenario().name,
+        return Fail({}, "{} {} of scenario {} cannot be run: {}", role, program->name, scenario.scenario().name,
                     ToString(found.error()));
       }
       if (!std::exchange(is_first, false)) continue;

@@ -32,9 +32,9 @@ Result<void> CheckManifest(const fs::path& folder, const JournalHead& head, bool
   ASSIGN_OR_RETURN(const auto now, ReadJsonFile(Inside(folder) / "manifest.json"));
   const std::vector<JsonDifference> found = CompareManifests(then, now);
   const Place place{folder.string()};
-  if (found.empty()) return Fail(place, "its manifest.json is not the one that it was begun with");
+  if (found.empty()) return Fail(place, "its manifest.json differs from the one with which it began");
   if (!AreOfLibraries(found))
-    return Fail(place, "is a shard of another run than the shards before: {}", InWords(found));
+    return Fail(place, "is a shard of a different run than the shards before: {}", InWords(found));
   if (!other_libraries) {
     return Fail(place,
                 "ran with other libraries than the shards before: {}; --other-libraries merges anyway and records it",
@@ -58,7 +58,7 @@ Result<void> AddShard(const fs::path& folder, const std::string& build, bool oth
     return Fail(place, "is shard {}, but the shards before are of {}", ToString(head.shard), shards.count);
   }
   const auto [other, is_new] = shards.folders.emplace(head.shard.index, folder);
-  if (!is_new) return Fail(place, "is shard {}, and so is {}", ToString(head.shard), other->second.string());
+  if (!is_new) return Fail(place, "is shard {}, but so is {}", ToString(head.shard), other->second.string());
   ASSIGN_OR_RETURN(const auto recorded, OtherLibrariesOf(folder));
   shards.other_libraries.insert(shards.other_libraries.end(), recorded.begin(), recorded.end());
   return {};
@@ -70,7 +70,7 @@ Result<Shards> FindShards(const std::vector<std::string>& folders, bool other_li
   Shards shards;
   for (const std::string& folder : folders) {
     ASSIGN_OR_RETURN(const auto state, LookAtFolder(folder));
-    if (state == FolderState::kFinished) return Fail({folder, 0, 0}, "is a whole run already, not a shard");
+    if (state == FolderState::kFinished) return Fail({folder, 0, 0}, "is already a whole run, not a shard");
     if (state == FolderState::kFree) {
       shards.missing.push_back(folder + " holds no shard");
     } else if (auto added = AddShard(folder, build, other_libraries, shards); !added) {
@@ -132,7 +132,7 @@ Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(d
     hosts.push_back(host);
   }
   if (!shards.missing.empty()) {
-    return Fail({}, "not all {} shards are there and finished (etude run --shard i/{} --resume continues one): {}",
+    return Fail({}, "not all {} shards exist and are finished (etude run --shard i/{} --resume continues one): {}",
                 shards.count, shards.count, Join(shards.missing, "; "));
   }
   // Write the whole run.

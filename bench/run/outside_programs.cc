@@ -27,7 +27,7 @@ Result<void> CheckPrograms(const std::string& file, std::span<const PreparedScen
                            const OutsideRules& rules) {
   const std::vector<std::string> programs = ProgramsOf(scenarios);
   if (programs.empty() || rules.allow_exec) return {};
-  return Fail({file, 0, 0}, "would run programs, which --allow-exec allows: {}", fmt::join(programs, "; "));
+  return Fail({file, 0, 0}, "would run programs, which needs --allow-exec: {}", fmt::join(programs, "; "));
 }
 
 namespace {
@@ -115,8 +115,8 @@ Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const Outsid
       if (!is_secret || !rules.is_fenced) continue;
       if (!fence.IsUp()) {
         return Fail({scenario.setup().file},
-                    "its worlds are secret, and there is no fence around methods outside: {}; --no-fence runs them "
-                    "without one, and the page says so",
+                    "its worlds are secret, but external methods cannot be fenced: {}; --no-fence runs them without a "
+                    "fence, which the page states",
                     fence.description());
       }
       RETURN_IF_ERROR(CheckShown(scenario, program, ViewOf(command, program.entry->files), folder, key));

@@ -50,13 +50,13 @@ Result<void> CheckManifest(const fs::path& folder, const std::string& manifest, 
   ASSIGN_OR_RETURN(const auto now, ReadJson(manifest, ""));
   const bool was_secret = then.is_object() && then.value("seed", Json()).is_string();
   if (was_secret && now.at("seed").is_number()) {
-    return Fail({path.string()}, "its worlds are secret; to resume it, name its key again (--seed-file)");
+    return Fail({path.string()}, "its worlds are secret; to resume it, give its key again (--seed-file)");
   }
   const Json version = was_secret ? then.value("secret_worlds", Json(1)) : Json();
   if (version.is_number_integer()) RETURN_IF_ERROR(CheckSecretWorlds(version.get<int>(), {path.string()}));
   const std::vector<JsonDifference> differences = CompareManifests(then, now);
   if (!AreOfLibraries(differences)) {
-    return Fail({path.string()}, "is of another run: {}; only the same run can be resumed", InWords(differences));
+    return Fail({path.string()}, "belongs to another run: {}; only the same run can be resumed", InWords(differences));
   }
   if (other_libraries) return RecordOtherLibraries(folder, differences);
   return Fail({path.string()}, "libraries have changed since: {}; --other-libraries resumes anyway and records it",
@@ -66,10 +66,11 @@ Result<void> CheckManifest(const fs::path& folder, const std::string& manifest, 
 Result<void> CheckHead(const fs::path& folder, const JournalHead& found, const JournalHead& wanted) {
   const Place place{(folder / kJournalFile).string(), 1, 0};
   if (found.build != wanted.build) {
-    return Fail(place, "was written by build {} of etude, this is build {}; run it anew", found.build, wanted.build);
+    return Fail(place, "was written by build {} of etude, but this is build {}; start a new run", found.build,
+                wanted.build);
   }
   if (found.shard != wanted.shard) {
-    return Fail(place, "is of shard {}, not {}", ToString(found.shard), ToString(wanted.shard));
+    return Fail(place, "belongs to shard {}, not {}", ToString(found.shard), ToString(wanted.shard));
   }
   return {};
 }
@@ -262,7 +263,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   if (!whole) {
     Error failure = whole.error();
     const bool is_kept = progress.cells_done + progress.cells_answered > 0;
-    if (is_kept) failure.message += "; what was done is kept; --resume continues it";
+    if (is_kept) failure.message += "; finished cells are kept; --resume continues the run";
     return tl::unexpected(std::move(failure));
   }
   RunOutcome outcome{.folder = folder,

@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-constexpr const char* kAllowed = "64 hexadecimal digits, or 32 bytes as they are";
+constexpr const char* kAllowed = "64 hexadecimal digits, or 32 bytes";
 
 /// Returns the first digits of a digest, which suffice to tell keys apart.
 std::string Short(const Seed& seed) { return seed.Digest().substr(0, 16) + "…"; }
@@ -50,11 +50,10 @@ Result<std::optional<SecretKey>> FindSecretKey(const std::string& file) {
 
 Result<void> CheckSecretWorlds(int version, const Place& place) {
   if (version == kSecretWorldsVersion) return {};
-  return Fail(
-      place,
-      "its secret worlds are of version {}, this program makes version {}, in which every condition has dice of "
-      "its own; allowed: the program that made them",
-      version, kSecretWorldsVersion);
+  return Fail(place,
+              "its secret worlds are of version {}, but this program makes version {}, in which every condition has "
+              "its own random numbers; use the program that made them",
+              version, kSecretWorldsVersion);
 }
 
 Result<void> OpenSeeds(const std::optional<SecretKey>& key, const Place& place, SuiteSetup& suite) {
@@ -65,7 +64,7 @@ Result<void> OpenSeeds(const std::optional<SecretKey>& key, const Place& place, 
   if (!key) return Fail(place, "its worlds are secret: --seed-file names their key, of digest {}", Short(suite.seed));
   const Seed seed = Seed::Secret(key->words);
   if (seed.WithoutKey() != suite.seed.WithoutKey()) {
-    return Fail(place, "its worlds are of the key with digest {}, not of that with digest {}", Short(suite.seed),
+    return Fail(place, "its worlds belong to the key with digest {}, not to the key with digest {}", Short(suite.seed),
                 Short(seed));
   }
   RETURN_IF_ERROR(CheckSecretWorlds(suite.secret_worlds, place));

@@ -159,8 +159,9 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
     for (const Json& scenario : json.at("scenarios")) {
       ASSIGN_OR_RETURN(const int trials, TrialsOf(scenario, place));
       ASSIGN_OR_RETURN(const Seed seed, DecodeSeed(scenario.at("seed"), place));
-      if (!setup.seed.IsPlain() && seed != setup.seed) return Fail(place, "its scenarios are of another secret seed");
-      if (setup.seed.IsPlain() && !seed.IsPlain()) return Fail(place, "some of its seeds are secret, others are not");
+      if (!setup.seed.IsPlain() && seed != setup.seed) return Fail(place, "its scenarios have a different secret seed");
+      if (setup.seed.IsPlain() && !seed.IsPlain())
+        return Fail(place, "some of its seeds are secret and others are not");
       setup.scenarios.push_back({scenario.at("file").get<std::string>(), scenario.at("name").get<std::string>(), seed,
                                  trials, scenario.at("clips").get<std::vector<std::string>>(),
                                  scenario.value("joint_map", ""), scenario.at("digest").get<std::string>()});
@@ -211,7 +212,9 @@ Result<void> FindFiles(const Scenario& scenario, const SourceTexts& texts, Scena
     ASSIGN_OR_RETURN(const auto named_texts, NamedTextsOf(condition, kind, texts));
     ASSIGN_OR_RETURN(auto of_condition, kind.find_files(condition.node, NodesInTask(scenario), named_texts));
     if (!found.worlds.empty() && of_condition.worlds != found.worlds) {
-      return Fail(condition.node.place, "conditions of task {} judge the same files; only how can be swept", kind.name);
+      return Fail(condition.node.place,
+                  "all conditions of task {} judge the same files; only keys that change the judgement can be swept",
+                  kind.name);
     }
     found = std::move(of_condition);
   }
@@ -278,7 +281,7 @@ Result<Scenario> ParsedSuite::Find(const ScenarioSetup& setup) {
     }
   }
   const auto named = std::ranges::find(file->second, setup.name, &Scenario::name);
-  if (named == file->second.end()) return Fail({setup.file, 0, 0}, "holds no scenario named '{}'", setup.name);
+  if (named == file->second.end()) return Fail({setup.file, 0, 0}, "contains no scenario named '{}'", setup.name);
   Scenario scenario = *named;
   scenario.trials = setup.trials;
   if (setup.keeps_motions) {

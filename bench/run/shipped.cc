@@ -69,7 +69,7 @@ tl::unexpected<Error> NotShipped(const std::string& path) {
   names.insert(names.end(), std::begin(kSuites), std::end(kSuites));
   const std::string nearest = NearestName(path, names);
   return Fail({path},
-              "no such scenario file or folder, and none of that name comes with etude{} (etude list scenarios)",
+              "no such scenario file or folder, and etude has no scenario of that name{} (etude list scenarios)",
               nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
 }
 
@@ -88,11 +88,10 @@ std::vector<Error> WhichIsMeant(const std::vector<std::string>& paths) {
     const fs::path shipped = FindShipped(path);
     std::error_code error;
     if (shipped.empty() || !fs::exists(path, error) || fs::equivalent(path, shipped, error)) continue;
-    told.push_back(
-        {{path},
-         FindScenario(path) == shipped
-             ? "this folder holds no scenario (*.yaml); the scenario of that name that comes with etude is used"
-             : "this file or folder is used, not the scenario of that name that comes with etude"});
+    told.push_back({{path},
+                    FindScenario(path) == shipped
+                        ? "this folder contains no scenario (*.yaml); etude's own scenario of that name is used"
+                        : "this file or folder is used, not etude's own scenario of that name"});
   }
   return told;
 }
@@ -107,7 +106,7 @@ Result<std::vector<fs::path>> CopyShipped(const std::string& name, const fs::pat
   const std::vector<fs::path> files = is_suite ? ScenarioFilesIn(found) : std::vector<fs::path>{found};
   for (const fs::path& file : files) {
     const fs::path copy = into / file.filename();
-    if (fs::exists(copy, error)) return Fail({copy.string()}, "is there already; nothing was copied");
+    if (fs::exists(copy, error)) return Fail({copy.string()}, "already exists; nothing was copied");
   }
   for (const fs::path& file : files) {
     ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));

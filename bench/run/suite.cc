@@ -94,7 +94,7 @@ Result<std::vector<std::string>> OnlyUnderstood(const std::vector<std::string>& 
     }
   }
   if (!references.empty() && understood.empty()) {
-    return Fail(place, "--skip-refused: none of its {} clips is understood, the first because {}", refused.size(),
+    return Fail(place, "--skip-refused: none of its {} clips can be read, the first because {}", refused.size(),
                 refused.empty() ? "there is none" : refused.front().why);
   }
   return understood;
@@ -199,7 +199,8 @@ Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const s
   RETURN_IF_ERROR(FindFiles(scenario, sources, setup));
   if (!setup.files.empty()) {  // each pair of files is one trial; --trials takes the first of them
     if (options.key)
-      return Fail({file, 0, 0}, "--seed-file: scenario {} draws no dice, it judges files", scenario.name);
+      return Fail({file, 0, 0}, "--seed-file: scenario {} uses no random numbers, because it judges files",
+                  scenario.name);
     setup.trials = std::min(options.trials.value_or(static_cast<int>(kMaxCells)), static_cast<int>(setup.files.size()));
     setup.files.resize(static_cast<std::size_t>(setup.trials));
   }
@@ -238,7 +239,7 @@ Result<std::vector<std::string>> FindScenarioFiles(const std::vector<std::string
         if (entry->path().extension() == ".yaml") inside.push_back(entry->path().string());
       }
       if (error) return Fail({path, 0, 0}, "cannot be read: {}", error.message());
-      if (inside.empty()) return Fail({path, 0, 0}, "holds no scenario (*.yaml)");
+      if (inside.empty()) return Fail({path, 0, 0}, "contains no scenario (*.yaml)");
       std::sort(inside.begin(), inside.end());
       files.insert(files.end(), inside.begin(), inside.end());
     } else {
@@ -281,7 +282,7 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
       for (const NamedClips& library : libraries) {
         if (std::ranges::find(scenario.libraries, library.name, &NamedClips::name) == scenario.libraries.end())
           continue;
-        return Fail({file, 0, 0}, "--library: scenario {} has a library '{}' of its own", scenario.name, library.name);
+        return Fail({file, 0, 0}, "--library: scenario {} already has a library '{}'", scenario.name, library.name);
       }
       if (uses_clips) AddLibraries(libraries, scenario);
       const auto [other, is_new] = file_of_name.emplace(scenario.name, file);
@@ -303,11 +304,11 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
   // Refuse options that no scenario can use.
   if (!options.clips.empty() || !options.libraries.empty()) {
     RETURN_IF_ERROR(CheckThatUsed(options.scenarios, users.clips,
-                                  "--clips or --library: no task of its scenarios makes its worlds of clips"));
+                                  "--clips or --library: no task of its scenarios makes worlds from clips"));
   }
   if (!options.streams.empty() || !options.labels.empty()) {
     RETURN_IF_ERROR(CheckThatUsed(options.scenarios, users.recordings,
-                                  "--streams or --labels: no task of its scenarios makes its worlds of recordings"));
+                                  "--streams or --labels: no task of its scenarios makes worlds from recordings"));
   }
   return suite;
 }
@@ -315,10 +316,9 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
 Result<void> RefuseFiles(const SuiteSetup& suite) {
   for (const ScenarioSetup& setup : suite.scenarios) {
     if (setup.files.empty()) continue;
-    return Fail(
-        {setup.file, 0, 0},
-        "scenario {} judges files: there are no problems to export or score; etude run or etude evaluate does it",
-        setup.name);
+    return Fail({setup.file, 0, 0},
+                "scenario {} judges files: there are no problems to export or score; use etude run or etude evaluate",
+                setup.name);
   }
   return {};
 }

@@ -235,7 +235,7 @@ class Supervisor {
       const bool alive = worker.process.Receive();
       for (auto line = worker.process.NextLine(); line && !worker.dismissed; line = worker.process.NextLine()) {
         ASSIGN_OR_RETURN(auto taken, Take(worker, *line));
-        if (!taken) return Replace(worker, Status::kBadOutput, "its worker answered with something else");
+        if (!taken) return Replace(worker, Status::kBadOutput, "its worker sent an unexpected answer");
       }
       if (worker.dismissed) return {};
       if (!alive) return ReplaceEnded(worker);
@@ -246,7 +246,7 @@ class Supervisor {
     if (now > worker.deadline) {
       Measure(worker);
       return Replace(worker, {},
-                     fmt::format("a worker was given {:.1f} s of processor time before its time by the clock was over",
+                     fmt::format("a worker used {:.1f} s of processor time before its limit of elapsed time",
                                  worker.cpu_s - worker.cpu_began));
     }
     if (!worker.orders.empty() && now - worker.measured >= std::chrono::milliseconds(kPollMilliseconds)) {
@@ -309,11 +309,11 @@ class Supervisor {
   /// Replaces a worker that ended by itself or whose pipes are broken.
   Result<void> ReplaceEnded(Worker& worker) {
     if (const int reason = worker.process.broken_by(); reason != 0) {
-      return Replace(worker, {}, fmt::format("a worker cannot be talked to: {}", std::strerror(reason)));
+      return Replace(worker, {}, fmt::format("no connection to a worker: {}", std::strerror(reason)));
     }
     const std::string end = worker.process.Finish();
     const int code = worker.process.exit_code();
-    if (code == kCannotGoOn) return Replace(worker, {}, "a worker could not go on");
+    if (code == kCannotGoOn) return Replace(worker, {}, "a worker could not continue");
     if (code == 128 + SIGXCPU) return Replace(worker, {}, "the limit of processor time is reached (ulimit -t)");
     return Replace(worker, Status::kCrashed, "its worker ended with " + end);
   }

@@ -180,8 +180,8 @@ Result<void> NoteRepeat(const SecretKey& key, const KeyUse& use) {
   auto keys = UsedKeys::Open(list);
   if (!keys) {
     return Fail({list.string()},
-                "cannot be written, so it could not be recorded that programs of this run saw worlds of the key; "
-                "allowed: a key in a folder that you may write to");
+                "cannot be written, so it cannot be recorded that programs of this run saw worlds of the key; allowed: "
+                "a key in a folder that you may write to");
   }
   return keys->HasKeyOf(line) ? Result<void>() : keys->Add(line);
 }

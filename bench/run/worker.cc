@@ -48,7 +48,7 @@ Result<void> Measure(const std::string& line, const Plan& plan, std::span<const 
                      std::ostream& out) {
   const Place place{"a worker's orders"};
   const auto head = ReadCellLineHead(line);
-  if (!head || head->cell >= plan.cell_count()) return Fail(place, "not the line of a cell");
+  if (!head || head->cell >= plan.cell_count()) return Fail(place, "not a line of a cell");
   ASSIGN_OR_RETURN(auto answered, DecodeCellLine(line, plan.IdentityOf(head->cell), place));
   const World& world = plan.world(plan.WorldOf(head->cell));
   CellRunner& runner = *runners[static_cast<std::size_t>(world.scenario)];
@@ -99,7 +99,7 @@ Result<void> Work(std::istream& in, std::ostream& out) {
     ASSIGN_OR_RETURN(const auto order, ReadJson(line, "a worker's orders"));
     RETURN_IF_ERROR(Execute(order, runners, out));
   }
-  if (&in == &std::cin && std::ferror(stdin) != 0) return FailOfMachine("a worker's orders cannot be read");
+  if (&in == &std::cin && std::ferror(stdin) != 0) return FailOfMachine("a worker's instructions cannot be read");
   return {};
 }
 
@@ -117,7 +117,7 @@ int RunWorker(std::istream& in, std::ostream& out) {
     const auto done = Work(in, out);
     return done ? 0 : GiveUp(done.error());
   } catch (const std::bad_alloc&) {
-    return GiveUp(FailOfMachine("there is no more memory for a worker").value());
+    return GiveUp(FailOfMachine("there is not enough memory for a worker").value());
   } catch (const std::exception& error) {
     return GiveUp({{"a worker's orders"}, error.what()});
   }

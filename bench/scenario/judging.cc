@@ -126,10 +126,10 @@ FieldTable<Expectation> ExpectationFields(const Scenario& scenario, const std::v
                      "The metric that is judged."),
            KnownName("of", &Expectation::of, "a method", methods, "The method whose values are judged."),
            KnownName("below", &Expectation::below, "a method", methods,
-                     "`of` must have lower values than this method in the same worlds.")
+                     "The method of `of` must have lower values than this method in the same worlds.")
                .WhenAbsent(another),
            KnownName("above", &Expectation::above, "a method", methods,
-                     "`of` must have higher values than this method in the same worlds.")
+                     "The method of `of` must have higher values than this method in the same worlds.")
                .WhenAbsent(another),
            Key::Number("at_most", &Expectation::at_most, {}, "Upper bound of the statistic.").WhenAbsent(another),
            Key::Number("at_least", &Expectation::at_least, {}, "Lower bound of the statistic.").WhenAbsent(another),
@@ -157,7 +157,7 @@ std::vector<std::string> SuccessMetricsOf(const TaskKind& kind, const Scenario& 
 }
 
 FieldTable<Scenario> SuccessFields(const std::vector<std::string>& metrics) {
-  return {{KnownName("metric", &Scenario::success, "a share that the task reports, of which more is better", metrics,
+  return {{KnownName("metric", &Scenario::success, "a share that the task reports and of which more is better", metrics,
                      "A share of cells, or of each cell.")
                .WhenAbsent("(the task's)"),
            Field<Scenario>::Number("matters", &Scenario::success_matters, {0.001, 1},
@@ -183,8 +183,8 @@ FieldTable<TailRule> TailFields() {
        Key::Number("worlds", &TailRule::worlds, kWorlds,
                    "This many far worse worlds of one comparison are a regression; 0: never."),
        Key::Number("share", &TailRule::share, {0, 1},
-                   "Minimum share of the compared worlds that must be far worse, too: of many worlds, rounding "
-                   "alone moves some."),
+                   "Minimum share of the compared worlds that must also be far worse, because among many worlds "
+                   "rounding alone changes some."),
        Key::Number("lost", &TailRule::lost, kWorlds,
                    "This many worlds of one comparison that lost their value or answer are a regression; 0: never.")}};
 }
@@ -200,7 +200,7 @@ FieldTable<GateRules> GateFields(const Scenario& scenario, const std::vector<std
            Key::Name("rule", &GateRules::exact, {{"threshold", false}, {"exact", true}},
                      "threshold: only a difference that matters is a regression; exact: every difference is."),
            {{"tail", MappingKind("a mapping", TailFields().Describe()), "{}",
-             "When single worlds are a regression, whatever the whole comparison says; not with `exact`."},
+             "When single worlds are a regression, whatever the verdict of the whole comparison; not with `exact`."},
             [](Fields& gate, GateRules& rules) { ReadNested(gate, "tail", TailFields(), rules.tail); }},
            {{"time_ratios", ListKind("a list of ratios", MappingKind("", TimeRatioFields(scenario).Describe())), "[]",
              "Bounds on ratios of processor times within the run."},

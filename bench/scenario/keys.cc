@@ -42,7 +42,7 @@ std::string Cell(const std::string& text) {
 std::vector<KeyGroup> AllKeyGroups() {
   const Scenario any;
   std::vector<KeyGroup> groups = {
-      Group("", "A file of several scenarios", FileKeys()),
+      Group("", "A file with several scenarios", FileKeys()),
       Group("scenarios[]", "A scenario of any task", CommonScenarioKeys()),
       Group("sweep", "A sweep, beside the task's parameters", SweepKeys()),
       Group("sweep.PARAMETER", "A range of values", RangeFields(kMaxConditions).Describe()),
@@ -66,10 +66,9 @@ std::vector<KeyGroup> AllKeyGroups() {
 std::string KeysAsMarkdown() {
   std::string page =
       "# Every key of a scenario file\n\n"
-      "Written by `etude list keys --markdown`; a test compares the two. How they go together: "
-      "[scenarios.md](../scenarios.md).\n"
-      "A default in (parentheses) says what happens without the key; every other default could be written as it "
-      "stands.\n";
+      "Written by `etude list keys --markdown`; a test compares the two. [scenarios.md](../scenarios.md) explains how "
+      "they fit together.\nA default in (parentheses) describes what happens without the key; every other default is a "
+      "value that could be written.\n";
   for (const KeyGroup& group : AllKeyGroups()) {
     page += fmt::format("\n## {}{}\n\n| key | allowed | default | meaning |\n|---|---|---|---|\n", group.title,
                         group.path.empty() ? "" : fmt::format(": `{}`", group.path));
@@ -227,7 +226,7 @@ std::string KeysAsSchema() {
   Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
               {"title", "A scenario file of Etude"},
               {"description",
-               "Written by `etude list keys --schema`. A file that it accepts may still be refused: the program also "
+               "Written by `etude list keys --schema`. A file that it accepts may still have errors: the program also "
                "checks which methods, conditions and files exist."}};
   schema.update(ScenarioSchema());
   schema["definitions"] = std::move(definitions);

@@ -42,7 +42,7 @@ void ReadProgram(Fields& method, MethodEntry& entry) {
 void CheckKeysOfBuiltIn(Fields& method, const TaskKind& kind) {
   for (const char* key : {"options", "files", "time_s"}) {
     const Node* value = method.Raw(key);
-    if (value != nullptr) method.Complain(value->place, fmt::format("'{}' is for methods with 'exec'", key));
+    if (value != nullptr) method.Complain(value->place, fmt::format("'{}' is only for methods with 'exec'", key));
   }
   for (const KeyInfo& key : kind.method_keys) method.Raw(key.key);
 }
@@ -63,7 +63,7 @@ Result<MethodEntry> ReadSeated(const Node& node, const TaskKind& kind) {
   MethodEntry entry;
   OutsideMethodFields().ReadKeys(method, entry);
   if (kind.seats.empty()) {
-    return Fail(node.Find("exec")->place, "task {} asks no program: 'exec' has no use in it", kind.name);
+    return Fail(node.Find("exec")->place, "task {} takes no programs, so 'exec' is not allowed", kind.name);
   }
   entry.seat = method.Choice("seat", kind.seats, "");
   if (entry.seat.empty() && method.ok()) {
@@ -85,7 +85,7 @@ Result<MethodEntry> ReadMethod(const Node& node, const TaskKind& kind) {
                                             : ReadMapping(node, "a method with 'exec'", OutsideMethodFields());
   if (!entry) return entry;
   if (entry->exec.empty() && node.Find("seat") != nullptr) {
-    return Fail(node.Find("seat")->place, "'seat' is for methods with 'exec'");
+    return Fail(node.Find("seat")->place, "'seat' is only for methods with 'exec'");
   }
   // The task reads the mapping without the keys that are read here.
   entry->node = node;

@@ -144,19 +144,20 @@ const FieldTable<OutsideMetric>& OutsideMetricFields() {
                     {"neither", Direction::kNeither}},
                    "Which values are better."),
          Key::Number("version", info(&MetricInfo::version), {1, 1e6},
-                     "Raise it with every change of the metric: values of two versions never mix."),
+                     "Increase it with every change of the metric: values of two versions are never mixed."),
          {{"practical", NumberKind({1e-12, 1e12}), "(1; without a unit 0.01)", "The smallest difference that matters."},
           [](Fields& metric, OutsideMetric& own) {
             own.info.practical = metric.Number("practical", own.info.unit.empty() ? 0.01 : 1, {1e-12, 1e12});
           }},
          Key::Name("aggregate", info(&MetricInfo::aggregate),
-                   {{"median", Aggregate::kMedian}, {"mean", Aggregate::kMean}}, "How a run sums up its cells."),
+                   {{"median", Aggregate::kMedian}, {"mean", Aggregate::kMean}},
+                   "How a run aggregates the values of its cells."),
          Key::Name("reads", info(&MetricInfo::reading),
                    {{"amount", Reading::kAmount},
                     {"yes-no", Reading::kYesNo},
                     {"share", Reading::kShare},
                     {"score", Reading::kScore}},
-                   "The kind of value: all but an amount are 0…1 and shown in per cent."),
+                   "The kind of value: all kinds except an amount are between 0 and 1 and shown in per cent."),
          Key::Text("label", info(&MetricInfo::label), "a text", "Its name for people.").WhenAbsent("(`name`)"),
          Key::Text("definition", info(&MetricInfo::definition), "a text", "What it measures, in one sentence.")
              .WhenAbsent("(none)"),
@@ -195,14 +196,14 @@ std::vector<std::string> ReadHeadline(Fields& fields, const TaskKind& kind, std:
       fields.Complain(item.place,
                       fmt::format("cells of task {} record no motion that a metric could measure", kind.name));
     }
-    auto read = ReadMapping(item, "a metric of your own", OutsideMetricFields());
+    auto read = ReadMapping(item, "your own metric", OutsideMetricFields());
     if (!read) {
       fields.Complain(read.error().place, read.error().message);
       continue;
     }
     MetricInfo& info = read->info;
     if (info.label.empty()) info.label = info.id;
-    info.domain = "Of the run's own";
+    info.domain = "A metric of the run's own";
     if (auto added = AddMetric(info); !added) fields.Complain(item.place, added.error().message);
     known.push_back(info.id);
     NoteMetric(fields, kind.name, known, info.id, item.place, names);

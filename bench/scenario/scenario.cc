@@ -158,24 +158,24 @@ const FieldTable<Scenario>& ScenarioFields() {
        {{"task", NameKind(NamesOf(AllTaskKinds())), "", "The task that the methods solve."},
         [](Fields& fields, Scenario& s) { s.task = fields.Choice("task", NamesOf(AllTaskKinds()), ""); }},
        Key::Texts("clips", &Scenario::clips, "a list of `builtin:NAME`, `builtin:*`, motion files, patterns",
-                  "The clips that worlds are made of; trials take them in turn."),
-       Key::Texts(
-           "streams", Path(&Scenario::streams, &StreamSource::files),
-           "a list of recordings of skeletons, patterns and folders (docs/streams.md)",
-           "Recordings that replace `clips` and simulated people, one trial each; `etude run --streams` names others."),
+                  "The clips from which worlds are made; trials take them in turn."),
+       Key::Texts("streams", Path(&Scenario::streams, &StreamSource::files),
+                  "a list of recordings of skeletons, patterns and folders (docs/streams.md)",
+                  "Recordings that replace `clips` and simulated people, one trial each; `etude run --streams` "
+                  "replaces them."),
        Key::Text("labels", Path(&Scenario::streams, &StreamSource::labels), "a file, or a folder of tag streams",
                  "Who did which move when in `streams`, or in `clips`, whose people then replace simulated ones.")
            .WhenAbsent("(a recording is one performance, named by its file)"),
        {{"reading", MappingKind("a mapping", ReadingFields().Describe()), "{}", "How `streams` are read."},
         [](Fields& fields, Scenario& s) { ReadNested(fields, "reading", ReadingFields(), s.streams); }},
        Key::Text("joint_map", &Scenario::joint_map, "a file",
-                 "Says which joints of the clips play which roles, where names do not tell.")
+                 "Assigns the clips' joints to roles if their names do not determine the roles.")
            .WhenAbsent("(names tell)"),
        Key::Number("trials", &Scenario::trials, {1, kTrials.highest}, "Worlds per condition."),
        Key::Number("seed", &Scenario::seed, {0, kMaxSeed}, "Seed of all worlds; `etude run --seed` overrides it.")
            .WhenAbsent("1"),
        {{"unit", NameKind(NamesOf(kSamplingUnits)), "(the task's)",
-         "What worlds are drawn from; claims beyond these worlds count such units."},
+         "The units from which worlds are drawn; verdicts beyond these worlds count each unit once."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) { s.unit = ReadUnit(fields, kind); })},
        {{"sweep",
          {"a mapping of the task's parameters to lists or ranges", R"({"type":"object"})"},
@@ -197,7 +197,8 @@ const FieldTable<Scenario>& ScenarioFields() {
          "The methods compared, on the same worlds."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) { s.methods = ReadMethods(fields, kind); })},
        {{"across", ListKind("a list of swept parameters", TextKind("")), "[]",
-         "Swept assumptions of the simulation: a verdict counts only if it is the same under all their values."},
+         "Swept parameters that are assumptions of the simulation: a verdict counts only if it is the same under all "
+         "their values."},
         when_right([](Fields& fields, Scenario& s, const TaskKind&) {
           std::vector<std::string> swept;
           for (const SweptValue& value : s.conditions.front().swept) swept.push_back(value.key);
@@ -209,13 +210,14 @@ const FieldTable<Scenario>& ScenarioFields() {
           s.rival = fields.Choice("rival", MethodNames(s), "");
         })},
        {{"metrics", HeadlineKind(), "(the task's)",
-         "The headline metrics, most important first. A mapping is a metric of your own; where there are only such, "
+         "The headline metrics, most important first. A mapping defines your own metric; if there are only your own, "
          "the task's come first."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
           s.metrics = ReadHeadline(fields, kind, s.outside_metrics);
         })},
        {{"success", MappingKind("a mapping", SuccessFields({}).Describe()), "{}",
-         "What a cell is to reach. A verdict is about it first, then about the first other headline metric."},
+         "What counts as success of a cell. A verdict is about success first, then about the first other headline "
+         "metric."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
           s.success = kind.success;
           ReadNested(fields, "success", SuccessFields(SuccessMetricsOf(kind, s)), s);
@@ -233,10 +235,10 @@ const FieldTable<Scenario>& ScenarioFields() {
           if (fields.Raw("video") != nullptr) s.recordings = selection;
         })},
        {{"limits", MappingKind("a mapping", LimitFields().Describe()), "{}",
-         "What a cell, or building a world, may take before it is stopped."},
+         "Limits of time and memory for a cell, or for building a world, after which it is stopped."},
         [](Fields& fields, Scenario& s) { ReadNested(fields, "limits", LimitFields(), s.limits); }},
        {{"gate", MappingKind("a mapping", GateFields(unread, {}).Describe()), "{}",
-         "What `etude gate` compares with a baseline."},
+         "The rules by which `etude gate` compares the run with a baseline."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
           s.gate.metrics = s.metrics;
           ReadNested(fields, "gate", GateFields(s, MetricsOf(kind, s)), s.gate);

@@ -47,8 +47,8 @@ class Collector {
     const Node* list = top.Find("scenarios");
     if (list == nullptr && top.Find("defaults") != nullptr) {
       return Fail(top.place,
-                  "no scenario, only 'defaults'; move files that others include to a folder of their own, such as "
-                  "shared/, which a run of this folder leaves out");
+                  "no scenario, only 'defaults'; move files that others include to a separate folder, such as shared/, "
+                  "which a run of this folder does not read");
     }
     ASSIGN_OR_RETURN(auto defaults, DefaultsOf(top, file));
     // A file with a single scenario.
@@ -76,7 +76,7 @@ class Collector {
     for (const Node& item : list->items) {
       for (const Node::Entry& entry : item.entries) {
         if (!IsKeyOfFiles(entry.key)) continue;
-        return Fail(entry.place, "'{}' belongs at the top of a file, not in one of its scenarios", entry.key);
+        return Fail(entry.place, "'{}' belongs at the top level of a file, not in one of its scenarios", entry.key);
       }
       scenarios.push_back(WithDefaults(item, defaults));
     }

@@ -171,24 +171,25 @@ std::string WhyOpenBeyond(const Beyond& beyond, const MetricInfo& metric, Sampli
   if (beyond.units < kMinUnits) {
     return fmt::format("{}: no verdict beyond them; at least {} are needed", CountUnits(beyond.units, unit), kMinUnits);
   }
-  if (!beyond.low) return "every world shows the same clip: no verdict beyond it";
+  if (!beyond.low) return "all worlds show the same clip: no verdict beyond it";
   if (beyond.verdict != Verdict::kInconclusive) return "";
   const bool within = *beyond.low >= -metric.practical && *beyond.high <= metric.practical;
   if (within && beyond.differing < kMinUnits) {
-    return fmt::format("{} of {} differ: too few to exclude rare ones that do", beyond.differing,
+    return fmt::format("{} of {} differ: too few to exclude rare differences", beyond.differing,
                        CountUnits(beyond.units, unit));
   }
-  if (within) return "the middle lies within what matters, but whether the mean does is open";
-  if (!IsOnOneSide(beyond)) return "the interval holds zero, and differences that matter";
+  if (within) return "the middle is too small to matter, but whether the mean is remains open";
+  if (!IsOnOneSide(beyond)) return "the interval contains zero and differences that matter";
   if (!MeanAgrees(beyond))
-    return "the middle differs, but the mean does not differ the same way: few outweigh the others";
+    return "the middle differs, but the mean does not differ in the same direction: a few outweigh the others";
   if (*beyond.p_holm > kAlpha) {
     return *beyond.test.p > kAlpha
                ? "the interval excludes zero, but the test does not confirm it"
                : fmt::format("p = {:.2g} alone, but not among {} comparisons (Holm)", *beyond.test.p, comparisons);
   }
-  if (std::abs(*beyond.difference) < metric.practical) return "it differs, but whether by as much as matters is open";
-  return "it differs, but neither way is better";
+  if (std::abs(*beyond.difference) < metric.practical)
+    return "it differs, but it is open whether by as much as matters";
+  return "it differs, but neither direction is better";
 }
 
 }  // namespace etude

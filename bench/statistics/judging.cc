@@ -43,7 +43,7 @@ std::string DescribeWhatMedianHides(const Comparison& c) {
   const int tied = c.pairs - c.differing;
   const long better = std::lround(c.share_better * c.pairs - 0.5 * tied);  // ties count half
   const std::string ties = 2 * tied > c.pairs ? "in most worlds the same, " : "";
-  return fmt::format("the median lies within what matters, but the mean may not: {}in {} of {} better, in {} worse",
+  return fmt::format("the median is too small to matter, but the mean may not be: {}in {} of {} better, in {} worse",
                      ties, better, c.pairs, c.differing - better);
 }
 
@@ -51,7 +51,7 @@ std::string DescribeWhatMedianHides(const Comparison& c) {
 /// verdict is clear.
 std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int comparisons) {
   if (c.verdict != Verdict::kInconclusive) return "";
-  if (c.pairs == 0) return "no world gave both a value";
+  if (c.pairs == 0) return "no world has both values";
   // The interval lies within ± threshold, but differences that it cannot show may matter.
   const int needed = PairsNeeded(comparisons, kAlpha);
   const bool within = c.ci_low && *c.ci_low >= -metric.practical && *c.ci_high <= metric.practical;
@@ -73,7 +73,7 @@ std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int compariso
   if (!c.ci_low) return fmt::format("too few worlds: no interval below {}", kMinSample);
   // Interval and test do not agree.
   const bool beyond_zero = *c.ci_low > 0 || *c.ci_high < 0;
-  if (!beyond_zero && *c.p_holm > kAlpha) return "the interval holds zero, and differences that matter";
+  if (!beyond_zero && *c.p_holm > kAlpha) return "the interval contains zero and differences that matter";
   if (!beyond_zero) {
     return fmt::format("the test finds a difference (p = {:.2g} among {}), but the interval of its {} reaches zero",
                        *c.p_holm, comparisons, metric.aggregate == Aggregate::kMedian ? "median" : "mean");
@@ -84,8 +84,8 @@ std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int compariso
     return fmt::format("p = {:.2g} alone, but not among {} comparisons (Holm)", p, comparisons);
   }
   // Both find a difference, but it is too small, or the metric has no direction.
-  if (std::abs(*c.difference) < metric.practical) return "it differs, but whether by as much as matters is open";
-  return "it differs, but neither way is better";
+  if (std::abs(*c.difference) < metric.practical) return "it differs, but it is open whether by as much as matters";
+  return "it differs, but neither direction is better";
 }
 
 /// Returns a note if the mean difference exceeds the threshold and the median difference does not; else "".

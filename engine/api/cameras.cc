@@ -13,8 +13,8 @@ Camera FromEngineCamera(std::string name, const etude::Camera& camera) {
   const Intrinsics& in = camera.intrinsics;
   const Distortion& lens = camera.distortion;
   if (lens != Distortion{lens.k1, lens.k2, lens.p1, lens.p2, lens.k3}) {
-    throw BadInput(
-        fmt::format("camera '{}': a lens of another model; allowed: Brown and Conrady's (k1, k2, p1, p2, k3)", name));
+    throw BadInput(fmt::format(
+        "camera '{}': a lens model that is not supported; allowed: Brown and Conrady's (k1, k2, p1, p2, k3)", name));
   }
   return {.name = std::move(name),
           .width = in.width,
@@ -66,8 +66,8 @@ CalibratedCamera Calibrate(std::span<const PointPair> pairs, int width, int heig
 std::optional<TriangulatedPoint> Triangulate(std::span<const Camera> cameras,
                                              std::span<const std::optional<glm::dvec2>> pixels) {
   if (pixels.size() != cameras.size()) {
-    throw BadInput(
-        fmt::format("{} pixels; allowed: one or nothing for each of {} cameras", pixels.size(), cameras.size()));
+    throw BadInput(fmt::format("{} pixels; allowed: one entry, which may be empty, for each of {} cameras",
+                               pixels.size(), cameras.size()));
   }
   std::vector<Sighting> sightings;
   for (std::size_t i = 0; i < cameras.size(); ++i) {

@@ -36,13 +36,14 @@ const KeypointLayout& LayoutNamed(const std::string& name) {
 
 void CheckSizes(std::span<const Camera> cameras, std::span<const SeenPeople> seen, const CaptureOptions& options) {
   if (cameras.size() < 2 || seen.size() != cameras.size()) {
-    throw BadInput(
-        fmt::format("{} cameras, and what {} saw; allowed: two or more, and as many", cameras.size(), seen.size()));
+    throw BadInput(fmt::format("{} cameras, but keypoints of {}; allowed: at least two cameras, and keypoints of each",
+                               cameras.size(), seen.size()));
   }
   for (const SeenPeople& frames : seen) {
     if (frames.empty() || frames.size() != seen.front().size()) {
-      throw BadInput(fmt::format("{} frames of one camera, {} of the first; allowed: as many, and not none",
-                                 frames.size(), seen.front().size()));
+      throw BadInput(
+          fmt::format("{} frames of one camera, but {} of the first; allowed: the same number for all, at least one",
+                      frames.size(), seen.front().size()));
     }
   }
   if (!(options.rate_hz >= 1 && options.rate_hz <= 1000)) {

@@ -32,7 +32,7 @@ std::vector<etude::TaughtMove> MovesOfDance(const etude::Dance& dance, std::span
   for (const TaughtMove& move : moves) {
     const std::string& wanted = dance.moves[taught.size()].name;
     if (move.name != wanted) {
-      throw BadInput(fmt::format("move {}: '{}'; allowed: the dance's, '{}'", taught.size(), move.name, wanted));
+      throw BadInput(fmt::format("move {}: '{}'; allowed: the dance's move, '{}'", taught.size(), move.name, wanted));
     }
     taught.push_back(ToEngineMove(move));
   }

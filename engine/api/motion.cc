@@ -76,7 +76,8 @@ Motion MotionOfMarkers(const MarkerMotion& markers, const std::string& file, dou
   const std::vector<MarkerBody> bodies = OrThrow(FindMarkerBodies(
       markers, file,
       {.up = rule, .keep_floor = options.keep_floor, .metres_per_unit = UnitOf(options), .set = options.marker_set}));
-  if (bodies.size() != 1) throw BadInput(fmt::format("{}: markers of {} people; allowed: of one", file, bodies.size()));
+  if (bodies.size() != 1)
+    throw BadInput(fmt::format("{}: markers of {} people; allowed: markers of one person", file, bodies.size()));
   const MarkerBody& body = bodies.front();
   Motion motion = FromBodyMotion(Resampled(body.motion, rate_hz));
   motion.changes = body.changes;
@@ -149,7 +150,7 @@ BodyMotion ToBodyMotion(const Motion& motion) {
   for (const Pose& pose : motion.poses) {
     for (const glm::dvec3& joint : pose.joints) {
       if (std::isfinite(joint.x + joint.y + joint.z)) continue;
-      throw BadInput(fmt::format("frame {}: a joint's place is not finite", made.poses.size()));
+      throw BadInput(fmt::format("frame {}: a joint's position is not finite", made.poses.size()));
     }
     made.poses.push_back({pose.joints});
   }
@@ -163,8 +164,8 @@ std::vector<BodyMotion> ToBodyMotions(std::span<const Motion> clips) {
     const auto number = motions.size();
     if (clip.poses.empty()) throw BadInput(fmt::format("clip {}: no frames", number));
     if (clip.rate_hz != clips.front().rate_hz) {
-      throw BadInput(
-          fmt::format("clip {}: {} Hz; allowed: that of clip 0, {} Hz", number, clip.rate_hz, clips.front().rate_hz));
+      throw BadInput(fmt::format("clip {}: {} Hz; allowed: the rate of clip 0, {} Hz", number, clip.rate_hz,
+                                 clips.front().rate_hz));
     }
     motions.push_back(ToBodyMotion(clip));
   }

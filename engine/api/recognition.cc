@@ -27,7 +27,7 @@ SensedFrame ToEngineFrame(const SensedPose& frame) {
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     const glm::dvec3& place = frame.pose.joints[i];
     for (int axis = 0; axis < 3; ++axis) {
-      if (!std::isfinite(place[axis])) throw BadInput(fmt::format("joint {}: a place that is not finite", i));
+      if (!std::isfinite(place[axis])) throw BadInput(fmt::format("joint {}: a position that is not finite", i));
     }
     sensed.joints[i] = {place, static_cast<TrackingState>(frame.seen[i])};
   }

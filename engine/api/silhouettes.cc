@@ -40,8 +40,8 @@ std::vector<ProjectionMatrix> PinholesOf(std::span<const Camera> cameras) {
   for (const Camera& camera : cameras) {
     const etude::Camera told = ToEngineCamera(camera);
     if (!told.distortion.IsNone()) {
-      throw BadInput(fmt::format("camera '{}' has a lens that bends; allowed: pinholes, with pictures made straight",
-                                 camera.name));
+      throw BadInput(fmt::format(
+          "camera '{}' has a lens with distortion; allowed: pinhole cameras, with undistorted pictures", camera.name));
     }
     const ProjectionMatrix& matrix = matrices.emplace_back(MatrixOf(told));
     for (const auto& row : matrix.h) {
@@ -82,8 +82,8 @@ std::vector<std::optional<Pose>> TrackSilhouettes(std::span<const Camera> camera
                                                   std::span<const std::vector<PersonMask>> masks,
                                                   const SilhouetteOptions& options) {
   if (cameras.size() < 2 || masks.size() != cameras.size()) {
-    throw BadInput(
-        fmt::format("{} cameras, and masks of {}; allowed: two or more, and as many", cameras.size(), masks.size()));
+    throw BadInput(fmt::format("{} cameras, but masks of {}; allowed: at least two cameras, and masks of each",
+                               cameras.size(), masks.size()));
   }
   if (!(options.rate_hz >= 1 && options.rate_hz <= 1000)) {
     throw BadInput(fmt::format("a rate of {} Hz; allowed: 1 to 1000", options.rate_hz));
@@ -93,8 +93,9 @@ std::vector<std::optional<Pose>> TrackSilhouettes(std::span<const Camera> camera
   std::vector<std::vector<Silhouette>> silhouettes;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     if (masks[i].empty() || masks[i].size() != masks.front().size()) {
-      throw BadInput(fmt::format("{} masks of one camera, {} of the first; allowed: as many, and not none",
-                                 masks[i].size(), masks.front().size()));
+      throw BadInput(
+          fmt::format("{} masks of one camera, but {} of the first; allowed: the same number for all, at least one",
+                      masks[i].size(), masks.front().size()));
     }
     const double scale = kFittedSide / std::max({1, cameras[i].width, cameras[i].height});
     for (std::size_t row : {0, 1}) {

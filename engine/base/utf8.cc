@@ -44,7 +44,7 @@ Result<void> CheckUtf8(std::string_view text, const std::string& file) {
   while (!text.empty()) {
     const auto [code, length] = FirstCharacter(text);
     if (length == 0 || code == 0) {
-      return Fail({file, line, column}, "byte 0x{:02x} is no UTF-8 text; save it as UTF-8",
+      return Fail({file, line, column}, "byte 0x{:02x} is not UTF-8 text; save the file as UTF-8",
                   static_cast<std::uint8_t>(text.front()));
     }
     column = code == '\n' ? 1 : column + 1;

@@ -14,11 +14,11 @@ constexpr const char* kModule = "etude_boards_opencv.so";  // found beside the p
 Result<OpenCvBoards> OpenBoardModule() {
   void* module = ::dlopen(kModule, RTLD_NOW | RTLD_LOCAL);
   if (module == nullptr) {
-    return Fail({}, "OpenCV's detectors of boards are not there ({}); scripts/setup --boards, and build again",
+    return Fail({}, "OpenCV's board detectors are missing ({}); run scripts/setup --boards and build again",
                 ::dlerror());
   }
   const void* symbol = ::dlsym(module, "etude_boards_opencv");
-  if (symbol == nullptr) return Fail({}, "{} is no module of this program", kModule);
+  if (symbol == nullptr) return Fail({}, "{} is not a module of this program", kModule);
   return *static_cast<const OpenCvBoards*>(symbol);
 }
 
@@ -58,7 +58,7 @@ std::optional<Result<PrintedBoard>> ReadPrintedBoard(std::string_view text) {
   if (!is_read || !rest.empty() || !is_side(numbers[0]) || !is_side(numbers[1]) || !(numbers[2] >= 0.001) ||
       !(numbers[2] <= 10)) {
     return Result<PrintedBoard>(
-        Fail({}, "--board {}: no board; allowed: {} to 64 squares a side and their metres, as chess:9x6x0.025", text,
+        Fail({}, "--board {}: not a board; allowed: {} to 64 squares a side and their metres, as chess:9x6x0.025", text,
              min_squares));
   }
   board.columns = static_cast<int>(numbers[0]);

@@ -32,10 +32,10 @@ Result<CameraParameters> Decompose(const ProjectionMatrix& matrix) {
   constexpr double kParallel = 1e-12;
   if (!(glm::length(n1) > kParallel * glm::length(a1)) || !(glm::length(n2) > kParallel * glm::length(a2)) ||
       !(glm::length(glm::cross(n1, n2)) > kParallel * glm::length(n1) * glm::length(n2))) {
-    return Fail({}, "a camera matrix that shows the world on one line");
+    return Fail({}, "a camera matrix that projects the world onto one line");
   }
   if (!(glm::dot(a1, glm::cross(a2, a3)) > 0)) {
-    return Fail({}, "a camera matrix of a mirrored picture; is an axis of the world or of the pixels turned round?");
+    return Fail({}, "a camera matrix of a mirrored picture; an axis of the world or of the pixels may be reversed");
   }
   // Intrinsics and rotation from dot and cross products of the rows.
   CameraParameters p;

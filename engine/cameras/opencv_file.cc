@@ -97,7 +97,8 @@ Result<Camera> CameraOf(const OpenCvParameters& p) {
   const std::vector<double>& K = p.camera_matrix;
   if (K.size() != 9) return Fail({}, "the camera matrix has {} numbers; allowed: 9", K.size());
   if (!AreFinite(p)) return Fail({}, "a number that is not finite");
-  if (!(K[0] > 0) || !(K[4] > 0)) return Fail({}, "focal lengths of {:g} and {:g}; allowed: above 0", K[0], K[4]);
+  if (!(K[0] > 0) || !(K[4] > 0))
+    return Fail({}, "focal lengths of {:g} and {:g}; allowed: numbers above 0", K[0], K[4]);
   if (K[3] != 0 || K[6] != 0 || K[7] != 0 || K[8] != 1) {
     return Fail({}, "the camera matrix must end in rows 0 fy cy, 0 0 1");
   }

@@ -154,7 +154,8 @@ Result<Intrinsics> IntrinsicsFromPlanes(std::span<const glm::dmat3> homographies
   const Eigen::Vector2d focal = unit * ab.cwiseSqrt().cwiseInverse();
   constexpr double kMaxFocal = 50;  // in picture widths; longer lenses are implausible for filming a person
   if (!(ab.minCoeff() > 0) || !focal.allFinite() || focal.maxCoeff() > kMaxFocal * unit) {
-    return Fail({}, "the boards face the camera straight on, which does not tell its focal length; tilt some of them");
+    return Fail({},
+                "the boards face the camera straight on, which does not determine its focal length; tilt some of them");
   }
   return Intrinsics{width, height, focal[0], focal[1], width / 2.0, height / 2.0, 0};
 }
@@ -211,7 +212,9 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
   for (std::size_t camera = 0; camera < sizes.size(); ++camera) {
     const auto& pose_CW = places.cameras_[camera];
     if (!pose_CW) {
-      return Fail({}, "camera {} sees no board at the same time as the cameras before it; show it to both", camera + 1);
+      return Fail({},
+                  "camera {} never sees a board at the same time as one of the cameras before it; show a board to both",
+                  camera + 1);
     }
     guess.cameras[camera].R_CW = pose_CW->R_WT;
     guess.cameras[camera].p_WC = -(glm::transpose(pose_CW->R_WT) * pose_CW->p_WT);

@@ -84,7 +84,7 @@ Result<NamedCamera> ReadTable(const std::string& name, const Keys& keys, int lin
     const auto found = keys.find(key);
     if (found == keys.end()) return Fail(place, "camera {} has no {}", name, key);
     const auto numbers = NumbersOf(found->second);
-    if (!numbers) return Fail(place, "camera {}: {} is no list of numbers: {}", name, key, found->second);
+    if (!numbers) return Fail(place, "camera {}: {} is not a list of numbers: {}", name, key, found->second);
     if (count != 0 && numbers->size() != count) {
       return Fail(place, "camera {}: {} has {} numbers; allowed: {}", name, key, numbers->size(), count);
     }
@@ -157,7 +157,8 @@ Result<std::vector<NamedCamera>> ReadPose2SimCalibration(std::string_view text) 
       table_line = line;
       continue;
     }
-    if (equals == std::string_view::npos) return Fail({{}, line, 1}, "neither a table nor a key: {}", here);
+    if (equals == std::string_view::npos)
+      return Fail({{}, line, 1}, "this line is neither a table nor a key: {}", here);
     std::string& value = keys[std::string(Trimmed(here.substr(0, equals)))];
     value = Trimmed(here.substr(equals + 1));
     // A list may continue over several lines.

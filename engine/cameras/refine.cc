@@ -158,7 +158,7 @@ class Bundle {
     ceres::Solver::Summary summary;
     ceres::Solve(o, &problem_, &summary);
     if (summary.termination_type == ceres::FAILURE) {
-      return Fail({}, "the first guess of the cameras does not show every point; are pairs mixed up?");
+      return Fail({}, "the first estimate of the cameras does not see every point; point pairs may be mixed up");
     }
     return {};
   }
@@ -322,9 +322,10 @@ class Bundle {
   tl::unexpected<Error> Undetermined(std::size_t column) const {
     const Column& of = columns_[column];
     if (of.camera >= intrinsics_.size())
-      return Fail({}, "the views do not determine where board {} was", of.camera - intrinsics_.size() + 1);
+      return Fail({}, "the views do not determine the position of board {}", of.camera - intrinsics_.size() + 1);
     const char* const what = of.intrinsic < 0 ? "place" : kIntrinsicsNames[static_cast<std::size_t>(of.intrinsic)];
-    return Fail({}, "camera {}: the points do not determine its {}; they must fill a volume, boards be tilted",
+    return Fail({},
+                "camera {}: the points do not determine its {}; they must fill a volume, or the boards must be tilted",
                 of.camera + 1, what);
   }
 
@@ -346,7 +347,7 @@ Result<void> CheckViews(const RigGuess& guess, std::span<const TargetView> views
   std::vector<std::size_t> points(guess.cameras.size());
   for (const TargetView& view : views) {
     if (view.camera >= guess.cameras.size() || view.target >= guess.targets.size()) {
-      return Fail({}, "a view of a camera or board that there is not");
+      return Fail({}, "a view names a camera or board that does not exist");
     }
     points[view.camera] += view.pairs.size();
     for (const PointPair& pair : view.pairs) {
@@ -396,7 +397,9 @@ Result<RefinedRig> RefineRig(const RigGuess& guess, std::span<const TargetView> 
   }
   AddRms(views, rig);
   if (!std::isfinite(rig.rms_px)) {
-    return Fail({}, "the best fit folds the picture back within the points: too few of them, or pairs mixed up");
+    return Fail({},
+                "the best fit has a lens that folds the picture within the points: there are too few of them, or pairs "
+                "are mixed up");
   }
   rig.deviations = std::move(deviations);
   return rig;

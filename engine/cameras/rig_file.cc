@@ -206,7 +206,7 @@ Result<std::vector<NamedCamera>> ReadOwnRig(const Node& root) {
   std::vector<NamedCamera> rig;
   for (const std::string& name : cameras) {
     const Node* node = root.Find(name);
-    if (node == nullptr) return Fail(names->place, "camera {} is listed, and not told of below", name);
+    if (node == nullptr) return Fail(names->place, "camera {} is listed, but not described below", name);
     const auto camera = ReadCamera(*node);
     if (!camera) return Fail(camera.error().place, "camera {}: {}", name, camera.error().message);
     rig.push_back({name, *camera});
@@ -242,7 +242,7 @@ Result<RigFile> Read(std::string_view text, const std::string& file) {
     for (const char* key : {"names", "M1", "R1"}) {
       if (root.Find(key) == nullptr) continue;
       return Fail({},
-                  "half of a calibration; beside it needed: EasyMocap's intri.yml and extri.yml, or OpenCV's "
+                  "half of a calibration; also needed: EasyMocap's intri.yml and extri.yml, or OpenCV's "
                   "intrinsics.yml and extrinsics.yml");
     }
     ASSIGN_OR_RETURN(const Camera camera, ReadOpenCvCamera(text));
@@ -256,9 +256,10 @@ Result<RigFile> Read(std::string_view text, const std::string& file) {
         text.find("[cameras.") != std::string_view::npos ? "Caliscope" : "TOML of Pose2Sim, Anipose or FreeMoCap",
         kYUpOfZUp};
   }
-  return Fail({},
-              "no calibration; allowed: a rig of etude calibrate, YAML of OpenCV, TOML of Pose2Sim, Anipose, FreeMoCap "
-              "or Caliscope, XML of Qualisys; EasyMocap's, OpenCV's or COLMAP's pair of files");
+  return Fail(
+      {},
+      "not a calibration; allowed: a rig of etude calibrate, YAML of OpenCV, TOML of Pose2Sim, Anipose, FreeMoCap "
+      "or Caliscope, XML of Qualisys; EasyMocap's, OpenCV's or COLMAP's pair of files");
 }
 
 /// Applies the checks that all formats share.

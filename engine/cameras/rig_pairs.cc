@@ -165,7 +165,7 @@ const std::map<std::string, ColmapModel, std::less<>>& ColmapModels() {
 Result<OpenCvParameters> InsideOf(const ColmapLine& line) {
   const Place place{{}, line.number, 0};
   constexpr std::size_t kBefore = 4;
-  if (line.words.size() < kBefore) return Fail(place, "no camera; allowed: CAMERA_ID MODEL WIDTH HEIGHT PARAMS");
+  if (line.words.size() < kBefore) return Fail(place, "not a camera; allowed: CAMERA_ID MODEL WIDTH HEIGHT PARAMS");
   const auto model = ColmapModels().find(line.words[1]);
   if (model == ColmapModels().end()) {
     std::string names;
@@ -213,8 +213,9 @@ Result<RigFile> ReadColmap(std::string_view cameras, std::string_view images) {
     const Place place{{}, line.number, 0};
     constexpr std::size_t kWords = 10;
     if (line.words.size() < kWords) {
-      return Fail(place,
-                  "no image; allowed: IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME, and its points on the next line");
+      return Fail(
+          place,
+          "not an image; allowed: IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME, and its points on the next line");
     }
     const auto camera = inside.find(line.words[8]);
     if (camera == inside.end()) return Fail(place, "camera {} is not in cameras.txt", line.words[8]);

@@ -44,8 +44,8 @@ Result<void> CheckTags(const Dance& dance) {
   const MusicTag* before = nullptr;
   for (const MusicTag& tag : dance.tags) {
     if (!std::isfinite(tag.music_s) || tag.frame >= dance.motion.poses.size()) {
-      return Fail({}, "dance '{}': a music-time tag at frame {}, {} s; the dance has {} frames", dance.title, tag.frame,
-                  tag.music_s, dance.motion.poses.size());
+      return Fail({}, "dance '{}': a music-time tag at frame {}, {} s, but the dance has {} frames", dance.title,
+                  tag.frame, tag.music_s, dance.motion.poses.size());
     }
     if (before != nullptr && (tag.frame <= before->frame || tag.music_s <= before->music_s)) {
       return Fail({}, "dance '{}': music-time tags must ascend; frame {}, {} s comes after frame {}, {} s", dance.title,

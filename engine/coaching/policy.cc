@@ -16,7 +16,7 @@ struct AfterOptions {
 const SettingTable<AfterOptions>& AfterSettings() {
   static const SettingTable<AfterOptions> table({
       {"mistakes", &AfterOptions::mistakes, 1, 100,
-       "Number of successive mistakes in a move from which on it is corrected."},
+       "Number of successive mistakes in a move after which the coach corrects it."},
   });
   return table;
 }
@@ -38,7 +38,7 @@ struct FadingOptions {
 const SettingTable<FadingOptions>& FadingSettings() {
   static const SettingTable<FadingOptions> table({
       {"mistakes_per_correction", &FadingOptions::mistakes_per_correction, 0, 10,
-       "Number of further successive mistakes that pass for every correction that the move has had."},
+       "Number of additional successive mistakes without a correction, for every correction of the move so far."},
   });
   return table;
 }
@@ -46,7 +46,7 @@ const SettingTable<FadingOptions>& FadingSettings() {
 PolicyDecision AfterMistakes(const PolicyInput& input, int wanted) {
   if (input.verdict != WindowVerdict::kWrong) return {false, "no mistake"};
   const int found = input.move.mistakes_in_row;
-  return {found >= wanted, fmt::format("{} mistakes in a row of this move; corrects from {} on", found, wanted)};
+  return {found >= wanted, fmt::format("{} mistakes in a row in this move; corrects after {}", found, wanted)};
 }
 
 PolicyDecision Never(const PolicyInput& /*input*/, Values /*values*/) { return {false, "never corrects"}; }
@@ -60,8 +60,9 @@ PolicyDecision AfterN(const PolicyInput& input, Values values) {
 PolicyDecision Confident(const PolicyInput& input, Values values) {
   if (input.verdict != WindowVerdict::kWrong) return {false, "no mistake"};
   const double sure = ConfidenceSettings().Apply(values).sure_below * input.right_from;
-  return {input.evidence < sure || input.evidence == 0,
-          fmt::format("evidence {:.2f} of a right performance; sure of a mistake below {:.2f}", input.evidence, sure)};
+  return {
+      input.evidence < sure || input.evidence == 0,
+      fmt::format("evidence {:.2f} of a right performance; below {:.2f} a mistake is certain", input.evidence, sure)};
 }
 
 PolicyDecision Fading(const PolicyInput& input, Values values) {
@@ -70,25 +71,25 @@ PolicyDecision Fading(const PolicyInput& input, Values values) {
 }
 
 PolicyDecision AtMoments(const PolicyInput& /*input*/, Values /*values*/) {
-  return {false, "corrects at given moments only"};
+  return {false, "corrects only at given moments"};
 }
 
 }  // namespace
 
 std::span<const Policy> AllPolicies() {
   static const std::vector<Policy> policies = {
-      {.name = "at-first-mistake", .description = "every mistake is corrected (paper A)", .decide = AtFirst},
-      {.name = "never", .description = "the dance goes on whatever the player does", .decide = Never},
+      {.name = "at-first-mistake", .description = "corrects every mistake (paper A)", .decide = AtFirst},
+      {.name = "never", .description = "never corrects: the dance goes on whatever the player does", .decide = Never},
       {.name = "after-n",
-       .description = "after several successive mistakes in a move",
+       .description = "corrects after several successive mistakes in a move",
        .settings = AfterSettings().Describe(),
        .decide = AfterN},
       {.name = "confidence",
-       .description = "only where the recogniser is sure of a mistake",
+       .description = "corrects only if the recogniser is certain of a mistake",
        .settings = ConfidenceSettings().Describe(),
        .decide = Confident},
       {.name = "fading",
-       .description = "guidance decreases: after every correction of a move, more mistakes pass",
+       .description = "corrects less and less: after every correction of a move, more mistakes are left uncorrected",
        .settings = FadingSettings().Describe(),
        .decide = Fading},
       {.name = "oracle",
@@ -96,7 +97,8 @@ std::span<const Policy> AllPolicies() {
        .asks_truth = true,
        .decide = AtFirst},
       {.name = "yoked",
-       .description = "corrects at the moments of another person's session, whatever its own player does",
+       .description =
+           "control of the timing: corrects at the moments of another person's session, whatever its own player does",
        .takes_moments = true,
        .decide = AtMoments},
   };

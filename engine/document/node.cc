@@ -80,7 +80,7 @@ class Builder {
   Result<Node> Build(const YAML::Node& yaml, int depth) {
     Node node;
     node.place = At(yaml.Mark());
-    if (depth > kMaxNesting) return Fail(node.place, "nested deeper than {} levels", kMaxNesting);
+    if (depth > kMaxNesting) return Fail(node.place, "nested more than {} levels deep", kMaxNesting);
     switch (yaml.Type()) {
       case YAML::NodeType::Scalar:
         node.kind = Node::Kind::kScalar;
@@ -103,7 +103,7 @@ class Builder {
           if (!pair.first.IsScalar()) return Fail(key_place, "a key must be plain text");
           const std::string key = pair.first.Scalar();
           RETURN_IF_ERROR(CheckControls(key, key_place));
-          if (node.Find(key) != nullptr) return Fail(key_place, "the key '{}' stands here twice", key);
+          if (node.Find(key) != nullptr) return Fail(key_place, "the key '{}' appears twice here", key);
           auto value = Build(pair.second, depth + 1);
           if (!value) return value;
           // For an empty value, yaml-cpp reports the position of the next token.
@@ -162,11 +162,11 @@ const Node* Node::Find(std::string_view key) const {
 Result<Node> ParseYaml(std::string_view text, const std::string& file, std::size_t max_bytes) {
   const Place whole{file, 0, 0};
   if (text.size() > max_bytes) {
-    return Fail(whole, "{} bytes of YAML; at most {} are read", text.size(), max_bytes);
+    return Fail(whole, "{} bytes of YAML; allowed: at most {}", text.size(), max_bytes);
   }
   if (auto utf8 = CheckUtf8(text, file); !utf8) return tl::unexpected(utf8.error());
   RETURN_IF_ERROR(CheckLineEnds(text, file));
-  if (EstimateNesting(text) > kMaxNesting) return Fail(whole, "nested deeper than {} levels", kMaxNesting);
+  if (EstimateNesting(text) > kMaxNesting) return Fail(whole, "nested more than {} levels deep", kMaxNesting);
   Builder builder(file);
   try {
     // Check the events first, then load.
@@ -174,9 +174,10 @@ Result<Node> ParseYaml(std::string_view text, const std::string& file, std::size
     DocumentCheck survey;
     YAML::Parser parser(events);
     parser.HandleNextDocument(survey);
-    if (!survey.alias.is_null()) return Fail(builder.At(survey.alias), "aliases (*name) are not read; write it out");
-    if (survey.values > kMaxValues) return Fail(whole, "{} values; at most {} are read", survey.values, kMaxValues);
-    if (parser.HandleNextDocument(survey)) return Fail(whole, "more than one document (---); one is read");
+    if (!survey.alias.is_null())
+      return Fail(builder.At(survey.alias), "aliases (*name) are not supported; write the value out");
+    if (survey.values > kMaxValues) return Fail(whole, "{} values; allowed: at most {}", survey.values, kMaxValues);
+    if (parser.HandleNextDocument(survey)) return Fail(whole, "more than one document (---); allowed: one");
     return builder.Build(YAML::Load(std::string(text)), 0);
   } catch (const YAML::Exception& error) {
     return Fail(builder.At(error.mark), "not valid YAML: {}", error.msg);

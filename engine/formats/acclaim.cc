@@ -202,7 +202,7 @@ class SkeletonReader {
     }
     // Check and store the bone.
     if (bone.name.empty()) return Fail(place, "a bone without a name");
-    if (FindBone(bone.name)) return Fail(place, "the bone {} stands here twice", Quote(bone.name));
+    if (FindBone(bone.name)) return Fail(place, "the bone {} appears twice here", Quote(bone.name));
     if (bones_.size() > kMaxBones) return Fail(place, "more than {} bones", kMaxBones);
     bone.end = direction * length;
     bones_.push_back(std::move(bone));
@@ -212,7 +212,7 @@ class SkeletonReader {
   Result<bool> ReadBones() {
     while (lines_.Next()) {
       if (lines_.IsSection()) return true;
-      if (!lines_.Is("begin")) return Fail(lines_.At(), "{}; allowed: 'begin', then what is told of a bone", Found());
+      if (!lines_.Is("begin")) return Fail(lines_.At(), "{}; allowed: 'begin', then the properties of a bone", Found());
       RETURN_IF_ERROR(ReadBone());
     }
     return false;
@@ -230,9 +230,9 @@ class SkeletonReader {
       std::vector<std::size_t> named;
       for (std::size_t i = 0; i < lines_.words.size(); ++i) {
         const auto bone = FindBone(lines_.words[i].text);
-        if (!bone) return Fail(lines_.At(i), "no bone is called {}", Quote(lines_.words[i].text));
+        if (!bone) return Fail(lines_.At(i), "there is no bone {}", Quote(lines_.words[i].text));
         if (i > 0 && (*bone == 0 || !parent_of_.emplace(*bone, named.front()).second)) {
-          return Fail(lines_.At(i), "the bone {} hangs on something already", Quote(lines_.words[i].text));
+          return Fail(lines_.At(i), "the bone {} already has a parent", Quote(lines_.words[i].text));
         }
         named.push_back(*bone);
       }
@@ -275,7 +275,7 @@ class SkeletonReader {
     if (joint_of.size() == bones_.size()) return made;
     const auto lost =
         std::ranges::find_if(bones_, [&](const AcclaimBone& bone) { return !joint_of.contains(*FindBone(bone.name)); });
-    return Fail({file_}, "the bone {} hangs on nothing; allowed: a :hierarchy that leads from the root to every bone",
+    return Fail({file_}, "the bone {} has no parent; allowed: a :hierarchy that leads from the root to every bone",
                 Quote(lost->name));
   }
 
@@ -291,7 +291,7 @@ Result<LocalTransform> ReadTransform(const Lines& lines, const AcclaimSkeleton& 
                                      bool in_degrees) {
   const auto& channels = skeleton.channels[joint];
   if (lines.words.size() != channels.size() + 1) {
-    return Fail(lines.At(), "{} numbers of bone {}; allowed: {}, as its skeleton says", lines.words.size() - 1,
+    return Fail(lines.At(), "{} numbers of bone {}; allowed: {}, by its skeleton", lines.words.size() - 1,
                 Quote(lines.words.front().text), channels.size());
   }
   LocalTransform local = skeleton.skeleton.joints[joint].rest;
@@ -347,7 +347,7 @@ Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& ske
       if (joint == joint_of.end()) {
         return Fail(lines.At(), "the skeleton has no bone {}", Quote(lines.words.front().text));
       }
-      if (clip.frames.empty()) return Fail(lines.At(), "a bone before the first frame's number");
+      if (clip.frames.empty()) return Fail(lines.At(), "a bone precedes the first frame's number");
       ASSIGN_OR_RETURN(clip.frames.back()[joint->second], ReadTransform(lines, skeleton, joint->second, in_degrees));
     }
   }

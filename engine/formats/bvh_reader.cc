@@ -98,7 +98,7 @@ class HierarchyReader {
       const Token token = scanner_.Next();
       Result<void> ok;
       if (token.text == "}") {
-        if (!has_offset) return Unexpected(token, "OFFSET: every joint has one");
+        if (!has_offset) return Unexpected(token, "OFFSET, which every joint needs");
         return {};
       } else if (SameWord(token.text, "OFFSET") && !has_offset) {
         has_offset = true;
@@ -133,7 +133,7 @@ class HierarchyReader {
   Result<int> AddJoint(const std::string& name, int parent, const Token& place, int depth) {
     auto& joints = hierarchy_.skeleton.joints;
     if (depth > kMaxNesting) {
-      return Fail(scanner_.At(place), "joints nested deeper than {} levels", kMaxNesting);
+      return Fail(scanner_.At(place), "joints nested more than {} levels deep", kMaxNesting);
     }
     if (joints.size() >= kMaxJoints) {
       return Fail(scanner_.At(place), "more than {} joints and end sites", kMaxJoints);
@@ -166,7 +166,7 @@ class HierarchyReader {
         return Unexpected(token, fmt::format("{} channels out of {}", count, fmt::join(kChannelNames, ", ")));
       }
       const int kind = static_cast<int>(known - kChannelNames.begin());
-      if (seen[kind]) return Fail(scanner_.At(token), "channel {} stands twice in one joint", *known);
+      if (seen[kind]) return Fail(scanner_.At(token), "channel {} appears twice in one joint", *known);
       seen[kind] = true;
       hierarchy_.channels.push_back({.joint = joint, .is_rotation = kind >= 3, .axis = kind % 3});
     }
@@ -370,17 +370,17 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
     remark(fmt::format("{} rows where {} frames are announced: the last row was dropped", announced + 1, announced));
   }
   if (clip.frames.size() != announced) {
-    return Fail(scanner.At(header.frames_place), "{} frames announced; the file holds {}", announced,
+    return Fail(scanner.At(header.frames_place), "{} frames announced; the file contains {}", announced,
                 clip.frames.size());
   }
   if (AreRelativeToOffsets(clip.skeleton, hierarchy.channels, clip.frames)) {
     AddOffsets(hierarchy.channels, clip);
-    remark("the joints' positions are relative to their OFFSETs: added");
+    remark("the joints' positions are relative to their OFFSETs, which were added");
   }
   // Offsets of 0 beside positions do not define a rest pose.
   if (const std::size_t taken = TakeOffsetsFromFrame(clip.frames.front(), clip.skeleton); taken > 0) {
-    remark(
-        fmt::format("{} joints with positions have an OFFSET of 0: they rest where the first frame has them", taken));
+    remark(fmt::format(
+        "{} joints with positions have an OFFSET of 0: their rest positions are taken from the first frame", taken));
   }
   return clip;
 }

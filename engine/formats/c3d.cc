@@ -107,7 +107,7 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   const std::size_t parameters_at = (static_cast<unsigned char>(bytes[0]) - std::size_t{1}) * kC3dBlock;
   const unsigned machine = C3dBytes(bytes, C3dMachine::kIntel).Byte(parameters_at + 3);
   if (machine < 84 || machine > 86) {
-    return Fail({file}, "written by a machine of kind {}; allowed: 84 (Intel), 85 (DEC), 86 (MIPS)", machine);
+    return Fail({file}, "written by processor type {}; allowed: 84 (Intel), 85 (DEC), 86 (MIPS)", machine);
   }
   const C3dBytes all(bytes, static_cast<C3dMachine>(machine));
   const C3dParameters parameters(all, parameters_at);
@@ -116,7 +116,7 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   Layout layout{.points = static_cast<std::size_t>(parameters.Number("POINT:USED").value_or(all.Word(2)))};
   const double scale = parameters.Number("POINT:SCALE").value_or(all.Float(12));
   const double rate = parameters.Number("POINT:RATE").value_or(all.Float(20));
-  if (layout.points == 0) return Fail({file}, "holds no points (rotations and analogue channels are not read)");
+  if (layout.points == 0) return Fail({file}, "contains no points (rotations and analogue channels are not read)");
   if (layout.points > kMaxPoints) return Fail({file}, "{} points; allowed: {}", layout.points, kMaxPoints);
   if (!(rate > 0 && rate < kMaxValue)) return Fail({file}, "a rate of {} Hz; allowed: above 0", rate);
   if (!(std::abs(scale) < kMaxValue) || scale == 0) return Fail({file}, "POINT:SCALE is {}; allowed: not 0", scale);
@@ -142,9 +142,9 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   layout.begin = (std::max<std::size_t>(data_block, 1) - 1) * kC3dBlock;
   layout.frame_bytes = (4 * layout.points + all.Word(4)) * (layout.has_floats ? 4 : 2);
   const std::size_t frames = CountFrames(all, parameters);
-  if (frames == 0) return Fail({file}, "its header tells of no frames, or of more than 10⁷");
+  if (frames == 0) return Fail({file}, "its header states no frames, or more than 10⁷");
   const std::size_t there = bytes.size() > layout.begin ? (bytes.size() - layout.begin) / layout.frame_bytes : 0;
-  if (there < frames) return Fail({file}, "is cut short: {} of {} frames are there", there, frames);
+  if (there < frames) return Fail({file}, "is cut short: it contains {} of {} frames", there, frames);
   // Read the points.
   read.markers.frames.reserve(frames);
   for (std::size_t frame = 0; frame < frames; ++frame) {
@@ -160,7 +160,7 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   const std::size_t padded = (end + kC3dBlock - 1) / kC3dBlock * kC3dBlock;
   if (data_end >= padded + layout.frame_bytes &&
       bytes.substr(padded, data_end - padded).find_first_not_of('\0') != std::string_view::npos) {
-    read.markers.remark = fmt::format("data of {} more frames follow the {} that its header tells: not read",
+    read.markers.remark = fmt::format("data of {} more frames follow the {} that its header states; they were not read",
                                       (data_end - end) / layout.frame_bytes, frames);
   }
   return read;

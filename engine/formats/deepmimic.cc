@@ -119,10 +119,11 @@ Result<Clip> ReadFrames(const Json& frames, const std::string& file) {
                     kMaxDuration_s);
       }
     } else if (i + 1 < frames.size() && std::abs(numbers[0] - duration) > kRounding * duration) {
-      return Fail(place, "Frames[{}][0]: a frame of {} s; allowed: that of the first, {} s", i, numbers[0], duration);
+      return Fail(place, "Frames[{}][0]: a frame of {} s; allowed: the duration of the first, {} s", i, numbers[0],
+                  duration);
     }
     auto pose = PoseOf(numbers);
-    if (!pose) return Fail(place, "Frames[{}]: a quaternion of no length", i);
+    if (!pose) return Fail(place, "Frames[{}]: a quaternion of length 0", i);
     clip.frames.push_back(*std::move(pose));
   }
   clip.rate_hz = 1 / duration;

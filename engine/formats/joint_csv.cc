@@ -81,7 +81,7 @@ Result<JointCsvColumns> FindColumns(const NumberRows& table, const std::string& 
   for (const Role role : AllRoles()) {
     const auto& [x, y, z] = columns.joints[Index(role)];
     if (x.has_value() == y.has_value() && y.has_value() == z.has_value()) continue;
-    return Fail({file, 1}, "'{}' has not all of its three coordinates", RoleName(role));
+    return Fail({file, 1}, "'{}' lacks some of its three coordinates", RoleName(role));
   }
   return columns;
 }

@@ -32,7 +32,7 @@ Result<std::vector<KinectV2Frame>> ReadKinectV2Text(std::string_view text, const
       if (std::isnan(place.x + place.y + place.z) || place == glm::dvec3(0)) continue;
       if (glm::length(place) > kMaxDistance) {
         return Fail({file, table.lines[t]},
-                    "joint {} is {:.1f} away; allowed: places in metres, at most {} m from the sensor", j,
+                    "joint {} is {:.1f} away; allowed: positions in metres, at most {} m from the sensor", j,
                     glm::length(place), kMaxDistance);
       }
       frames[t][j] = place;

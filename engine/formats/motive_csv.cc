@@ -97,7 +97,8 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
   auto rate = MotiveNumber(ValueBehind(facts, "Export Frame Rate"));
   if (!rate) rate = MotiveNumber(ValueBehind(facts, "Capture Frame Rate"));
   constexpr double kMaxRateHz = 10'000;
-  if (!rate || *rate <= 0 || *rate > kMaxRateHz) return Fail(first, "no Export Frame Rate from 0 to {:g}", kMaxRateHz);
+  if (!rate || *rate <= 0 || *rate > kMaxRateHz)
+    return Fail(first, "no Export Frame Rate above 0 and up to {:g}", kMaxRateHz);
 
   // Read the headings, which end with the line of axes.
   std::vector<std::string_view> types, names, kinds, axes;

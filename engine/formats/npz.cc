@@ -78,7 +78,7 @@ std::vector<double> InOrderOfC(const std::vector<double>& values, const std::vec
 /// Reads an .npy file; nullopt if it does not hold plain numbers.
 Result<std::optional<NumberArray>> ReadMember(std::string_view bytes, const std::string& file) {
   const Place place{file};
-  if (!bytes.starts_with(kNpyMagic) || bytes.size() < 12) return Fail(place, "is no .npy file");
+  if (!bytes.starts_with(kNpyMagic) || bytes.size() < 12) return Fail(place, "is not a .npy file");
   const bool is_first = bytes[6] == 1;  // later versions give the header's length in four bytes
   const std::size_t length_bytes = is_first ? 2 : 4, head = 8 + length_bytes;
   std::size_t length = 0;
@@ -93,14 +93,14 @@ Result<std::optional<NumberArray>> ReadMember(std::string_view bytes, const std:
     std::size_t size = 0;
     const auto [end, error] = std::from_chars(shape.data() + at, shape.data() + shape.size(), size);
     if (error != std::errc() || size > kMaxUnpacked) return Fail(place, "its shape is {}", Quote(shape));
-    if (size != 0 && count > kMaxUnpacked / size) return Fail(place, "is larger than it can be");
+    if (size != 0 && count > kMaxUnpacked / size) return Fail(place, "is larger than possible");
     array.shape.push_back(size);
     count *= size;
     at = static_cast<std::size_t>(end - shape.data());
   }
   auto values = NumbersOf(ValueOf(header, "'descr': '", '\''), data);
   if (!values) return std::optional<NumberArray>();
-  if (values->size() != count) return Fail(place, "holds {} numbers; its shape says {}", values->size(), count);
+  if (values->size() != count) return Fail(place, "has {} numbers; its shape requires {}", values->size(), count);
   const bool is_fortran = ValueOf(header, "'fortran_order': ", ',') == "True";
   array.values = is_fortran ? InOrderOfC(*values, array.shape) : std::move(*values);
   return std::optional(std::move(array));
@@ -115,9 +115,9 @@ Result<std::string> Unpack(zip_t* archive, zip_uint64_t member, std::uint64_t& l
   if (zip_stat_index(archive, member, 0, &status) != 0 || (status.valid & ZIP_STAT_SIZE) == 0) {
     return Fail({file}, "member {} has no size", member);
   }
-  if (status.size > left) return Fail({file}, "unpacks to more than {} MiB", kMaxUnpacked >> 20);
+  if (status.size > left) return Fail({file}, "is more than {} MiB when unpacked", kMaxUnpacked >> 20);
   if ((status.valid & ZIP_STAT_COMP_SIZE) != 0 && status.size / kMaxDeflateRatio > status.comp_size) {
-    return Fail({file}, "member {} says that it unpacks {} bytes to {}", member, status.comp_size, status.size);
+    return Fail({file}, "member {} states that its {} bytes unpack to {}", member, status.comp_size, status.size);
   }
   left -= status.size;
   std::string bytes(status.size, '\0');
@@ -136,7 +136,7 @@ bool IsNpy(std::string_view bytes) { return bytes.starts_with(kNpyMagic); }
 
 Result<NumberArray> ReadNpy(std::string_view bytes, const std::string& file) {
   ASSIGN_OR_RETURN(auto array, ReadMember(bytes, file));
-  if (!array) return Fail({file}, "holds no plain numbers; allowed: floats and whole numbers, little-endian");
+  if (!array) return Fail({file}, "does not contain plain numbers; allowed: floats and whole numbers, little-endian");
   return *std::move(array);
 }
 
@@ -149,7 +149,7 @@ Result<Npz> ReadNpz(std::string_view bytes, const std::string& file) {
   Archive archive(source == nullptr ? nullptr : zip_open_from_source(source, ZIP_RDONLY, &error), &zip_discard);
   if (!archive) {
     if (source != nullptr) zip_source_free(source);
-    auto failed = Fail({file}, "no ZIP file that can be read: {}", zip_error_strerror(&error));
+    auto failed = Fail({file}, "not a readable ZIP file: {}", zip_error_strerror(&error));
     zip_error_fini(&error);
     return failed;
   }
@@ -178,7 +178,7 @@ Result<Npz> ReadNpz(std::string_view bytes, const std::string& file) {
     }
   }
   if (!others.empty() && read.arrays.empty() && read.skipped.empty()) {
-    return Fail({file}, "a ZIP file that begins with {} and holds no arrays (.npy): unpack it", Quote(others));
+    return Fail({file}, "a ZIP file that begins with {} and contains no arrays (.npy); unpack it", Quote(others));
   }
   return read;
 }

@@ -26,7 +26,8 @@ struct Npz {
 bool IsZip(std::string_view bytes);
 
 /// Reads an .npz file, stored or deflated, also ZIP64, with floats and whole numbers of any size, little-endian.
-/// Returns an error if the file is damaged, has more than 1,000 members, or unpacks to more than 512 MiB in total.
+/// Returns an error if the file is damaged, has more than 1,000 members, or has more than 512 MiB in total when
+/// unpacked.
 Result<Npz> ReadNpz(std::string_view bytes, const std::string& file);
 
 /// Returns true if bytes begin like an .npy file.

@@ -79,7 +79,7 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
     // Every row must have as many numbers as the first.
     if (table.columns == 0) table.columns = words.size();
     if (words.size() != table.columns) {
-      return Fail({file, line_number}, "{} values; the rows before have {}", words.size(), table.columns);
+      return Fail({file, line_number}, "{} values, but earlier rows have {}", words.size(), table.columns);
     }
     table.lines.push_back(line_number);
     for (std::size_t i = 0; i < words.size(); ++i) {

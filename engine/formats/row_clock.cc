@@ -57,7 +57,7 @@ Result<std::vector<std::size_t>> CountingRows(std::span<const double> times, std
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < times.size(); ++i) {
     const Place place{file, lines.empty() ? 0 : lines[i]};
-    if (std::isnan(times[i])) return Fail(place, "no time, although other rows tell one");
+    if (std::isnan(times[i])) return Fail(place, "no time, although other rows have one");
     if (rows.empty()) {
       rows.push_back(i);
       continue;
@@ -68,8 +68,8 @@ Result<std::vector<std::size_t>> CountingRows(std::span<const double> times, std
                   before);
     }
     if (times[i] - before > kMaxStep_s) {
-      return Fail(place, "time {:.6g} s after {:.6g} s; allowed: a clock that goes on, at most {} s at once", times[i],
-                  before, kMaxStep_s);
+      return Fail(place, "time {:.6g} s after {:.6g} s; allowed: a clock that increases, by at most {} s per row",
+                  times[i], before, kMaxStep_s);
     }
     if (times[i] == before) rows.pop_back();
     rows.push_back(i);
@@ -89,7 +89,7 @@ std::string DescribeGrid(const RowGrid& grid, std::size_t twice) {
   }
   std::vector<std::string> said;
   if (holes > 0) {
-    said.push_back(fmt::format("by their times {} of {} frames are missing, in {} {} of at most {:.3g} s", holes,
+    said.push_back(fmt::format("by their times, {} of {} frames are missing, in {} {} of at most {:.3g} s", holes,
                                grid.frames.size(), places, places == 1 ? "gap" : "gaps",
                                static_cast<double>(longest + 1) / grid.rate_hz));
   }
@@ -97,7 +97,7 @@ std::string DescribeGrid(const RowGrid& grid, std::size_t twice) {
     said.push_back(
         fmt::format("uneven times: {} frames are interpolated at even steps of {:.4g} s", between, 1 / grid.rate_hz));
   }
-  if (twice > 0) said.push_back(fmt::format("{} rows under the time of another, of which the last counts", twice));
+  if (twice > 0) said.push_back(fmt::format("{} rows have the same time as another; the last of these is used", twice));
   return Join(said, "; ");
 }
 
@@ -152,7 +152,8 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
   const double slack = tolerance(grid.rate_hz), count = std::floor(span * grid.rate_hz + slack) + 1;
   const double added = (count - static_cast<double>(rows.size())) * static_cast<double>(width);
   if (!(added <= kMaxAddedValues)) {
-    return Fail({file}, "{} rows in {:.6g} s, mostly {:.3g} s apart; allowed: holes of {:g} values in all, {} a frame",
+    return Fail({file},
+                "{} rows in {:.6g} s, mostly {:.3g} s apart; allowed: gaps of {:g} values in total, {} per frame",
                 rows.size(), span, 1 / grid.rate_hz, kMaxAddedValues, width);
   }
   // Every frame is on a row, between two rows, or in a hole.
@@ -194,7 +195,7 @@ Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
   ASSIGN_OR_RETURN(const auto grid, GridOfRows(rows.times_s, rows.lines, told, markers.names.size(), file));
   if (!grid) return std::move(markers);
   if (told && grid->rate_hz != *told) {
-    AddRemark(markers.remark, fmt::format("{} says {:g} Hz, but the column Time runs at {:g} Hz, which counts",
+    AddRemark(markers.remark, fmt::format("{} states {:g} Hz, but the column Time runs at {:g} Hz, which is used",
                                           rows.rate_name, *told, grid->rate_hz));
   }
   markers.rate_hz = grid->rate_hz;

@@ -94,7 +94,7 @@ Result<TrcHeader> ReadHeader(std::string_view names, std::string_view values, co
   if (!rate || !frames || !markers || !(*rate > 0) || !(*frames >= 0 && *frames <= kMaxFrames) ||
       !(*markers >= 1 && *markers <= kMaxMarkers)) {
     return Fail(place,
-                "no header of a TRC file; allowed: DataRate, NumFrames, NumMarkers (to 1000) and Units with "
+                "not the header of a TRC file; allowed: DataRate, NumFrames, NumMarkers (to 1000) and Units with "
                 "their values in the next line, between tabs");
   }
   const std::string_view unit = of("Units");

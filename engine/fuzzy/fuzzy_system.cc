@@ -47,7 +47,7 @@ Result<std::vector<Feature>> ReadGroup(const Node::Entry& entry) {
     if (feature == nullptr) return Fail(entry.place, "{}", UnknownName("feature", name, FeatureNames()));
     group.push_back(*feature);
     if (TermNames(*feature) != TermNames(group.front())) {
-      return Fail(entry.place, "{} and {} have other terms ({}; {}), so they cannot stand together",
+      return Fail(entry.place, "{} and {} have different terms ({}; {}), so they cannot be in one list",
                   FeatureName(group.front()), name, Join(TermNames(group.front())), Join(TermNames(*feature)));
     }
     if (comma == std::string_view::npos) return group;
@@ -73,7 +73,7 @@ class FeaturesReader {
     ASSIGN_OR_RETURN(const auto group, ReadGroup(entry));
     for (Feature feature : group) {
       bool& seen = seen_[static_cast<std::size_t>(feature)];
-      if (seen) return Fail(entry.place, "the feature {} stands here twice", FeatureName(feature));
+      if (seen) return Fail(entry.place, "the feature {} appears twice here", FeatureName(feature));
       seen = true;
     }
     // Read the settings under them.
@@ -222,8 +222,8 @@ Result<void> ReadRule(const Node& node, RuleBase& base) {
   }
   if (!IsPoseName(pose)) {
     return Fail(fields.Raw("then")->place,
-                "{} is no pose's name: at most {} letters, digits, spaces, '-', a letter first", Quote(pose),
-                kMaxPoseNameBytes);
+                "{} is not a valid name of a pose; allowed: at most {} letters, digits, spaces, '-', a letter first",
+                Quote(pose), kMaxPoseNameBytes);
   }
   // Translate the names to indices.
   Rule rule;
@@ -292,8 +292,9 @@ Result<FuzzySystem> ReadFuzzySystem(std::string_view text, const std::string& fi
   Fields fields(document, "a fuzzy system");
   const std::string name = fields.RequiredText("system");
   if (fields.ok() && !IsPlainName(name)) {
-    fields.Complain(fields.Raw("system")->place, fmt::format("{} is no name: at most {} letters, digits, '-', '_', '.'",
-                                                             Quote(name), kMaxNameBytes));
+    fields.Complain(fields.Raw("system")->place,
+                    fmt::format("{} is not a valid name; allowed: at most {} letters, digits, '-', '_', '.'",
+                                Quote(name), kMaxNameBytes));
   }
   const Node* features_node = fields.Raw("features");
   if (features_node == nullptr) fields.Complain(document.place, "a fuzzy system needs 'features'");

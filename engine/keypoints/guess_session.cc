@@ -255,7 +255,7 @@ glm::dvec2 OfSquare(const glm::dvec2& p, const glm::dvec2& size, double padded) 
 }
 
 constexpr std::array kReadings = {
-    Reading{"keypoints count v from below",
+    Reading{"keypoints count v from the picture's bottom",
             [](const glm::dvec2& p, const glm::dvec2& size) { return glm::dvec2(p.x, size.y - p.y); }},
     Reading{"keypoints have x and y exchanged",
             [](const glm::dvec2& p, const glm::dvec2&) { return glm::dvec2(p.y, p.x); }},
@@ -338,9 +338,10 @@ class SessionGuesser {
 
   void TryPoses() {
     for (const auto& [is_inverse, is_opengl, told] :
-         {std::tuple(true, false, "the rig's poses lead from its cameras to the world"),
+         {std::tuple(true, false, "the rig's poses transform from its cameras to the world"),
           {false, true, "the rig's cameras look along -z, y up"},
-          {true, true, "the rig's poses lead from its cameras to the world, and these look along -z, y up"}}) {
+          {true, true,
+           "the rig's poses transform from its cameras to the world, and the cameras look along -z, y up"}}) {
       Films films = films_;
       for (PictureOfFilm& film : films) film.camera = WithPose(film.camera, R_WF_, is_inverse, is_opengl);
       Try(std::move(films), told);

@@ -41,8 +41,8 @@ Result<PixelFit> FitPictures(FitMode mode, const glm::dvec2& rig, const glm::dve
   if (rig == film) return PixelFit{};
   switch (mode) {
     case FitMode::kNone:
-      return Fail({}, "{:g} x {:g} pixels, the rig's camera {:g} x {:g}; tell how they were fitted (--fit)", film.x,
-                  film.y, rig.x, rig.y);
+      return Fail({}, "{:g} x {:g} pixels, but the rig's camera has {:g} x {:g}; state how they were fitted (--fit)",
+                  film.x, film.y, rig.x, rig.y);
     case FitMode::kLetterbox: {
       const double scale = std::min(film.x / rig.x, film.y / rig.y);
       return PixelFit{.scale = glm::dvec2(scale), .shift = 0.5 * (film - scale * rig)};

@@ -140,11 +140,11 @@ Result<double> UnitOf(const RigFile& rig, double file_units, const PlacementOpti
           {}, "in {} the person would be {:.3g} m tall; allowed: {:g} to {:g} m; for one of {:g} m: --rig-unit {:.4g}",
           UnitText(metres), stature, kMinStature, kMaxStature, kUsualStature, factor);
     }
-    told = fmt::format("lengths in {} (as you say: a person of {:.2f} m)", UnitText(metres), stature);
+    told = fmt::format("lengths in {} (as given; a person of {:.2f} m)", UnitText(metres), stature);
     return metres;
   }
   if (!rig.has_unit) {
-    return Fail({}, "{}'s lengths have no unit; tell one by --rig-unit: for a person of {:g} m it is {:.4g} m",
+    return Fail({}, "{}'s lengths have no unit; give one by --rig-unit: for a person of {:g} m it is {:.4g} m",
                 rig.format, kUsualStature, factor);
   }
   // Keep the format's unit if it gives a plausible stature.
@@ -157,11 +157,11 @@ Result<double> UnitOf(const RigFile& rig, double file_units, const PlacementOpti
   const LengthUnit* likely = LikelyUnit(file_units);
   if (likely == nullptr) {
     return Fail({},
-                "the person is {:.4g} units tall: no person in m, cm, mm, inch or foot; for one of {:g} m tell "
-                "--rig-unit {:.4g}",
+                "the person is {:.4g} units tall, which is no person's height in m, cm, mm, inch or foot; for one of "
+                "{:g} m use --rig-unit {:.4g}",
                 file_units, kUsualStature, factor);
   }
-  told = fmt::format("lengths in {} (found: a person of {:.2f} m; in {} it were {:.4g} m)", likely->name,
+  told = fmt::format("lengths in {} (found: a person of {:.2f} m; in {} it would be {:.4g} m)", likely->name,
                      likely->metres * file_units, UnitText(rig.unit_m), usual);
   return likely->metres;
 }
@@ -189,10 +189,11 @@ Result<ChosenUp> UpOf(const RigFile& rig, const glm::dvec3& person, const FoundU
     const glm::dvec3 up = rig.R_WF * AxisOf(options.up)->direction;
     const double off = Degrees(AngleBetween(up, found.up));
     if (off > kUpsideDown) {
-      return Fail({}, "with {} up all hangs head down ({:.0f}° off); up is known from {}", options.up, off, found.by);
+      return Fail({}, "with {} up, everything would be upside down ({:.0f}° off); up is known from {}", options.up, off,
+                  found.by);
     }
     return ChosenUp{up, false,
-                    fmt::format("up is {} (as you say; the person leans {:.0f}° from it)", options.up, lean_from(up))};
+                    fmt::format("up is {} (as given; the person leans {:.0f}° from it)", options.up, lean_from(up))};
   }
   const std::string camera = CameraOfTheWorld(rig);
   const double tilt = Degrees(AngleBetween(usual, found.up)), accuracy = Degrees(found.deviation);
@@ -204,8 +205,8 @@ Result<ChosenUp> UpOf(const RigFile& rig, const glm::dvec3& person, const FoundU
   if (options.up == "auto" && camera.empty() && rig.has_unit && tilt < std::max(kFar, within) && is_level) {
     std::string told = fmt::format("up is {} (the person leans {:.0f}° from it)", usual_name(), lean_from(usual));
     if (tilt > std::max(kSure * accuracy, kTold)) {
-      told += fmt::format(", though {} say that it is {:.0f}° off level; if they are right, give --rig-up floor",
-                          found.by, tilt);
+      told += fmt::format(", although by {} it is {:.0f}° off level; if these are right, give --rig-up floor", found.by,
+                          tilt);
     }
     return ChosenUp{usual, false, told};
   }
@@ -221,10 +222,11 @@ Result<ChosenUp> UpOf(const RigFile& rig, const glm::dvec3& person, const FoundU
   constexpr double kMaxDoubt = 35;
   const std::string world = camera.empty() ? "" : fmt::format(" (the world was {}'s own frame)", camera);
   if (within > kMaxDoubt) {
-    return Fail({}, "{} tell which way is up to {:.0f}° only{}; tell the file's axis by --rig-up (level cameras: -y)",
+    return Fail({},
+                "{} determine the up direction only to {:.0f}°{}; give the file's axis by --rig-up (level cameras: -y)",
                 found.by, within, world);
   }
-  return ChosenUp{found.up, true, fmt::format("up is known from {}, to within {:.1f}°{}", found.by, within, world)};
+  return ChosenUp{found.up, true, fmt::format("up is found from {}, to within {:.1f}°{}", found.by, within, world)};
 }
 
 }  // namespace
@@ -254,7 +256,7 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositi
   const auto stature = StatureOf(points);
   const auto person = PersonsUp(points);
   if (!stature || !person)
-    return Fail({}, "no frame shows hips, knees, ankles and shoulders: nothing tells the rig's unit and up");
+    return Fail({}, "no frame shows hips, knees, ankles and shoulders, so the rig's unit and up axis cannot be found");
   RigPlacement place;
   // Unit, then up axis.
   std::string unit_told;
@@ -265,7 +267,7 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositi
   place.R = Upright(chosen.up);
   place.stature_m = place.scale * *stature;
   // The floor.
-  std::string floor_told = ", the floor as the file has it";
+  std::string floor_told = ", the floor as in the file";
   const bool at_feet = options.floor == "feet" || (options.floor == "auto" && chosen.from_the_take);
   if (const auto height = WholeNumber(options.floor)) {
     place.shift.y = -*height;
@@ -284,12 +286,12 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, const PlacementOptions& option
   if (options.unit != "auto") {
     place.scale = *MetresOf(options.unit) / rig.unit_m;
   } else if (!rig.has_unit) {
-    return Fail({}, "{}'s lengths have no unit; tell metres in one unit by --rig-unit", rig.format);
+    return Fail({}, "{}'s lengths have no unit; give the metres in one unit by --rig-unit", rig.format);
   }
   if (const FileAxis* axis = AxisOf(options.up)) {
     place.R = Upright(rig.R_WF * axis->direction);
   } else if (const std::string camera = CameraOfTheWorld(rig); !camera.empty() || options.up == "floor") {
-    return Fail({}, "no keypoints tell which way is up{}; tell the file's axis by --rig-up",
+    return Fail({}, "the keypoints do not show which direction is up{}; give the file's axis by --rig-up",
                 camera.empty() ? "" : fmt::format(" in {}'s own frame", camera));
   }
   if (const auto height = WholeNumber(options.floor)) place.shift.y = -*height;

@@ -95,7 +95,8 @@ Result<CaptureBody> MedianBody(std::span<const LandmarkPositions> frames) {
   std::array<double, kRoleCount> lengths{};
   for (const Bone& bone : AllBones()) {
     const auto length = MedianBone(joints, bone);
-    if (!length) return Fail({}, "no frame shows how far {} is from {}", RoleName(bone.child), RoleName(bone.parent));
+    if (!length)
+      return Fail({}, "no frame shows the distance of {} from {}", RoleName(bone.child), RoleName(bone.parent));
     lengths[Index(bone.child)] = *length;
   }
   return BodyOfBones(lengths);
@@ -167,9 +168,9 @@ Result<RecoveredPerson> LocatePerson(std::span<const ProjectionMatrix> cameras, 
     if (person.people[i].cameras >= 2) in_space.push_back(i);
   }
   if (in_space.empty()) {
-    return Fail(
-        {},
-        "no person is seen alike by two cameras; do the films belong to these cameras of the rig, and run together?");
+    return Fail({},
+                "no person is seen consistently by two cameras; check that the films belong to these cameras of the "
+                "rig and are synchronised");
   }
   if (options.person >= in_space.size()) {
     return Fail({}, "person {}: {} seen by two cameras or more", options.person + 1, in_space.size());

@@ -183,7 +183,7 @@ class RigChecker {
     if (best->film && cameras_.size() == 2) {
       whose += fmt::format(" (or {:.3f} times {}'s)", 1 / best->gain, names_[1 - *best->film]);
     }
-    return fmt::format("{} rays would miss by {:.2f} px instead of {:.2f}{}", whose,
+    return fmt::format("{} the residual of the rays would be {:.2f} px instead of {:.2f}{}", whose,
                        MedianMiss(Gains(best->film, best->gain), AsDeclared), miss,
                        best->film ? " (or the camera was moved)" : "");
   }
@@ -245,8 +245,8 @@ class RigChecker {
       if (share == 0 || !(strange(share) < strange(said)) || !(miss_read < least)) continue;
       least = miss_read;
       told = fmt::format(
-          "shoulders are {:.2f} of a leg ({:.2f} is usual); if keypoints are shares of {}, they are {:.2f}, and rays "
-          "miss by {:.2f} px instead of {:.2f}",
+          "shoulders are {:.2f} of a leg ({:.2f} is usual); if keypoints are shares of {}, they are {:.2f}, and the "
+          "residual of the rays is {:.2f} px instead of {:.2f}",
           said, kUsual, square.told, share, miss_read, miss);
     }
     return told;

@@ -96,7 +96,7 @@ KinematicTree MakeBodyTree(const LimbLengths& lengths) {
   KinematicTree tree;
   tree.standing_root = rows[0].R_WJ;
   for (const JointRow& row : rows) {
-    assert(row.self == static_cast<int>(tree.joints.size()) && "the rows stand in the order of BodyTreeJoint");
+    assert(row.self == static_cast<int>(tree.joints.size()) && "the rows are in the order of BodyTreeJoint");
     const glm::dmat3 R_PJ = row.parent < 0 ? glm::dmat3(1) : glm::transpose(rows[row.parent].R_WJ) * row.R_WJ;
     tree.joints.push_back(
         {row.name, row.parent, row.p_PJ, R_PJ, tree.dof_count(), static_cast<int>(row.limits_deg.size())});

@@ -388,7 +388,7 @@ class Builder {
 
 Result<CaptureBody> FittedBody(const RestBody& rest) {
   Parts parts(rest);
-  if (!parts.AreConnected()) return Fail({}, "a part of the body does not hang on its pelvis");
+  if (!parts.AreConnected()) return Fail({}, "a part of the body is not connected with its pelvis");
   parts.Simplify();
   return Builder(parts).Build();
 }

@@ -174,7 +174,7 @@ double EffectorError::MeanAxisAngle(const glm::dvec3& axis_weights) const {
 }
 
 std::string_view FindTreeFault(const KinematicTree& tree) {
-  if (!IsATree(tree)) return "the joints are no tree with its root first";
+  if (!IsATree(tree)) return "the joints are not a tree that begins with its root";
   for (const TreeJoint& joint : tree.joints) {
     if (joint.parent < 0) continue;
     // A joint may coincide with the root, which lets the whole tree turn.
@@ -208,7 +208,8 @@ std::string_view FindProblemFault(const KinematicTree& tree, const IkProblem& pr
   if (problem.start.angles.size() != dofs || problem.limits.size() != dofs)
     return "angles or limits do not fit the tree";
   if (problem.targets.size() != tree.effectors.size()) return "targets do not fit the tree";
-  if (!IsSane(problem.start.root_position) || !IsAFrame(problem.start.root_frame)) return "the root is no finite frame";
+  if (!IsSane(problem.start.root_position) || !IsAFrame(problem.start.root_frame))
+    return "the root is not a finite frame";
   bool are_angles_sane = true, are_limits_good = true, are_targets_good = true;
   for (const double angle : problem.start.angles) are_angles_sane &= IsSane(angle);
   if (!are_angles_sane) return "a start angle is not finite";
@@ -217,7 +218,7 @@ std::string_view FindProblemFault(const KinematicTree& tree, const IkProblem& pr
   }
   if (!are_limits_good) return "a limit is inverted";
   for (const EffectorTarget& target : problem.targets) are_targets_good &= IsGood(target);
-  if (!are_targets_good) return "a target is no finite frame with weights";
+  if (!are_targets_good) return "a target is not a finite frame with weights";
   return {};
 }
 

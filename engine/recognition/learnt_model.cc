@@ -277,8 +277,8 @@ Result<LearntModel> ReadLearntModel(std::string_view text, const std::string& fi
   const auto version = static_cast<int>(fields.OptionalWhole("measures", {1, 1e6}).value_or(kUnsaid));
   if (version != kMeasuresVersion) {
     return Fail(fields.Raw("measures")->place,
-                "a model of version {} of the measures; this program's are of version {}: train it anew", version,
-                kMeasuresVersion);
+                "a model for version {} of the measures, but this program has version {}: train the model again",
+                version, kMeasuresVersion);
   }
   LearntModel model;
   ASSIGN_OR_RETURN(model.asked, ReadTrees(fields, "asked"));

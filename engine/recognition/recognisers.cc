@@ -97,8 +97,8 @@ std::span<const RecogniserKind> AllRecognisers() {
           MakeDtwRecogniser,
           {{{"half_at_cm", &DtwOptions::half_at_cm, 1, 100, "The distance at which the evidence is one half."}}}),
       {.name = "nearest",
-       .description =
-           "nearest neighbour of joints: examples against their mirror image, their half, other moves, standing",
+       .description = "nearest neighbour of joints: examples compared with their mirror image, their first half, other "
+                      "moves and standing",
        .needs_examples = true,
        .teach = [](std::span<const TaughtMove> taught,
                    const RecogniserOptions& options) { return MakeNearestRecogniser(taught, options.weights); }},
@@ -118,8 +118,8 @@ std::span<const RecogniserKind> AllRecognisers() {
              return MakeLearntRecogniser(taught, options.weights, BuiltinCoachedModel());
            }},
       {.name = "whole-body",
-       .description =
-           "ours, for recorded people: judges as `learnt`; finds sides and names by the three nearest whole bodies",
+       .description = "ours, for recorded people: judges like `learnt`, and finds sides and moves by the three nearest "
+                      "whole bodies",
        .needs_examples = true,
        .teach = [](std::span<const TaughtMove> taught, const RecogniserOptions& options) {
          return MakeWholeBodyRecogniser(taught, options.weights,

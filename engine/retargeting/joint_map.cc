@@ -106,8 +106,8 @@ class MapFinder {
     std::string guess;
     if (agrees && proposal.confidence > 0) {
       guess = fmt::format(
-          "by its build {} could be {} (confidence {:.2f}; used from {:.1f} on): etude clip map writes "
-          "that to be edited; ",
+          "by the skeleton's shape {} could be {} (confidence {:.2f}; used from {:.1f} on): etude clip map writes a "
+          "file with this proposal, which you can edit; ",
           RoleName(missing_roles[0]), Quote(tree_.NameOf(proposal.joints[Index(missing_roles[0])])),
           proposal.confidence, kMinAnatomyConfidence);
     }
@@ -118,7 +118,7 @@ class MapFinder {
     if (draft_.Has(kHipCentre)) return {};
     const int pelvis = tree_.CommonAncestor(draft_.JointOf(kLeftHip), draft_.JointOf(kRightHip));
     if (pelvis < 0) {
-      return Fail({file_}, "{} and {}, the hips, hang from no common joint", Quote(draft_.NameOf(kLeftHip)),
+      return Fail({file_}, "{} and {}, the hips, have no common ancestor", Quote(draft_.NameOf(kLeftHip)),
                   Quote(draft_.NameOf(kRightHip)));
     }
     draft_.Set(kHipCentre, pelvis);
@@ -214,7 +214,7 @@ class MapFinder {
 
   Result<void> CheckDescends(Role child, Role parent) const {
     if (tree_.DescendsFrom(draft_.JointOf(child), draft_.JointOf(parent))) return {};
-    return Fail({file_}, "{} is played by {}, which does not descend from {}, the {}", RoleName(child),
+    return Fail({file_}, "the role {} has the joint {}, which does not descend from {}, the {}", RoleName(child),
                 Quote(draft_.NameOf(child)), Quote(draft_.NameOf(parent)), RoleName(parent));
   }
 
@@ -235,7 +235,8 @@ class MapFinder {
     }
     for (const Role role : {kSpine, kShoulderCentre, kHead}) {
       if (IsFree(draft_, role)) continue;
-      return Fail({file_}, "{} is played by {}, which is part of a limb", RoleName(role), Quote(draft_.NameOf(role)));
+      return Fail({file_}, "the role {} has the joint {}, which is part of a limb", RoleName(role),
+                  Quote(draft_.NameOf(role)));
     }
     return {};
   }

@@ -46,7 +46,7 @@ Result<double> ReadUnit(std::string_view text, const Place& place) {
   if (error == std::errc() && end == text.data() + text.size() && metres >= kMin_m && metres <= kMax_m) {
     return metres;
   }
-  return Fail(place, "{} is no unit; allowed: m, cm, mm, in, ft, cmu (5.64 cm), or how many metres one unit has",
+  return Fail(place, "{} is not a unit; allowed: m, cm, mm, in, ft, cmu (5.64 cm), or the metres in one unit",
               Quote(text));
 }
 
@@ -88,13 +88,13 @@ Result<JointMapOverrides> ReadJointMapFile(std::string_view yaml, const std::str
 }
 
 std::string WriteJointMapFile(const Skeleton& skeleton, const JointMap& map) {
-  std::string text = "# Which joint plays which role. Roles that are left out are found by themselves.\nroles:\n";
+  std::string text = "# Which joint plays which role. Roles that are left out are found automatically.\nroles:\n";
   for (const Role role : AllRoles()) {
     const int joint = map[role].joint;
     const std::string& name = skeleton.joints[joint].name;
     const bool is_composed = std::ranges::find(map.composed, role) != map.composed.end();
     if (is_composed) {
-      text += fmt::format("  # {}: no joint; a point that rides on {}\n", RoleName(role), QuotedInYaml(name));
+      text += fmt::format("  # {}: no joint; a point fixed to {}\n", RoleName(role), QuotedInYaml(name));
     } else if (skeleton.Find(name) != joint) {
       text +=
           fmt::format("  # {}: the joint {} that is not the first of this name\n", RoleName(role), QuotedInYaml(name));

@@ -184,7 +184,8 @@ UpFinding FindUpOf(const std::vector<JointPositions>& frames, double rate_hz, co
 MarkerMotion AsShown(double scale, const MarkerMotion& markers, const MarkerSet& set, const MarkerColumns& columns,
                      const std::vector<JointPositions>& seen, const glm::dvec3& up) {
   MarkerMotion shown{.rate_hz = markers.rate_hz, .names = {}, .frames = {}, .remark = set.name};
-  if (scale != 1) shown.remark += fmt::format("; taken for {:g} times the file's unit, by the body's stature", scale);
+  if (scale != 1)
+    shown.remark += fmt::format("; its unit is taken to be {:g} times the file's, by the body's stature", scale);
   if (!markers.remark.empty()) shown.remark += "; " + markers.remark;
   std::vector<Role> roles;
   for (const Role role : AllRoles()) {
@@ -282,10 +283,10 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   if (begin == end) return std::nullopt;
   for (std::size_t t = begin; t < end; ++t) body.motion.poses.push_back(Complete(frames[t]));
   // Describe the corrections.
-  if (filled > 0) body.changes.push_back(fmt::format("{} places bridged over gaps", filled));
+  if (filled > 0) body.changes.push_back(fmt::format("{} positions interpolated in gaps", filled));
   if (end - begin < frames.size()) {
-    body.changes.push_back(fmt::format("frames {} to {} of {} (elsewhere joints are lost for over {:g} s)", begin + 1,
-                                       end, frames.size(), kMaxGap_s));
+    body.changes.push_back(fmt::format("only frames {} to {} of {} (elsewhere joints are lost for over {:g} s)",
+                                       begin + 1, end, frames.size(), kMaxGap_s));
   }
   if (!centres.empty()) body.changes.push_back(centres);
   std::vector<std::string> guessed;
@@ -318,7 +319,7 @@ Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const Mark
   auto body = BodyAt(told_scale, markers, set, columns, options);
   if (!body) return body;
   if (told_scale != 1) {
-    body->changes.push_back(fmt::format("1 unit = {:.4g} cm (told), instead of the file's {:.4g} cm",
+    body->changes.push_back(fmt::format("1 unit = {:.4g} cm (given), instead of the file's {:.4g} cm",
                                         100 * *options.metres_per_unit, 100 * markers.metres_per_unit));
   }
   const double told = MiddleStature(body->motion);
@@ -332,11 +333,12 @@ Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const Mark
     if (!scaled) continue;
     const double stature = MiddleStature(scaled->motion);
     if (stature < kMinPerson || stature > kMaxPerson) continue;
-    scaled->changes.push_back(
-        fmt::format("in the file's unit the body is {:.3g} m tall: taken for {:g} times that", told, scale));
+    scaled->changes.push_back(fmt::format(
+        "in the file's unit the body would be {:.3g} m tall: it is taken to be {:g} times as tall", told, scale));
     return scaled;
   }
-  return Fail({file}, "its markers show a body {:.3g} m tall; allowed: {:g} to {:g} m; is their unit another?", told,
+  return Fail({file},
+              "its markers show a body {:.3g} m tall; allowed: {:g} to {:g} m; their unit may be a different one", told,
               kMinStature, kMaxStature);
 }
 
@@ -345,7 +347,7 @@ Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const Mark
 Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std::string& file,
                                                  const MarkerOptions& options) {
   if (const int zeros = LeaveZerosOut(markers); zeros > 0) {
-    markers.remark += fmt::format("{}{} places at 0, 0, 0 taken for gaps", markers.remark.empty() ? "" : "; ", zeros);
+    markers.remark += fmt::format("{}{} positions at 0, 0, 0 taken as gaps", markers.remark.empty() ? "" : "; ", zeros);
   }
   // Choose the marker set of each person, and make the body from it.
   std::vector<MarkerBody> bodies;
@@ -364,8 +366,8 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std
     if (!body) continue;
     body->name = prefix;
     if (chosen.other != nullptr) {
-      body->changes.front() += fmt::format(", not {}, which the file holds, too (--marker-set {})", chosen.other->name,
-                                           chosen.other->key);
+      body->changes.front() += fmt::format(", not {}, which the file also contains (--marker-set {})",
+                                           chosen.other->name, chosen.other->key);
     }
     bodies.push_back(std::move(*body));
   }
@@ -374,11 +376,10 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std
   if (fewest == 0) return Fail({file}, "no frame shows all joints of a body at once");
   std::vector<std::string> names(markers.names.begin(),
                                  markers.names.begin() + std::min<std::size_t>(markers.names.size(), 12));
-  return Fail(
-      {file},
-      "its markers ({}{}) are of no set known here: {}; known: Etude's joints, OpenPose BODY_25, HALPE_26, COCO, "
-      "Motive's and HumanIK's bones, OpenCap's augmented markers, Plug-in Gait",
-      Join(names), markers.names.size() > names.size() ? ", …" : "", nearest);
+  return Fail({file},
+              "its markers ({}{}) are not of a known set: {}; known: Etude's joints, OpenPose BODY_25, HALPE_26, COCO, "
+              "Motive's and HumanIK's bones, OpenCap's augmented markers, Plug-in Gait",
+              Join(names), markers.names.size() > names.size() ? ", …" : "", nearest);
 }
 
 }  // namespace etude

@@ -209,7 +209,7 @@ Result<ReadPart> ReadPartLine(TextScanner& scanner, const std::vector<ReadPart>&
   const bool is_first = read.empty() && after.text == "ground";
   if (after_word.text != "after" || !(is_first || (part.after && ends_at(*part.after)))) {
     return Fail(scanner.At(after_word),
-                "after {}; allowed: 'after ground' of the first part, then one that stands above", Quote(after.text));
+                "after {}; allowed: 'after ground' for the first part, then a part above this line", Quote(after.text));
   }
   // The bone, then three angles with their axes.
   const Token bone = scanner.NextInLine();
@@ -286,7 +286,7 @@ Result<AngleTable> ReadAngleTable(std::string_view bytes, const std::string& fil
     std::vector<double>& row = table.rows.emplace_back();
     const Token begin = word;
     for (; !word.text.empty() && row.size() <= columns; word = scanner.NextInLine()) {
-      ASSIGN_OR_RETURN(const double number, scanner.Number(word, "an angle or a place"));
+      ASSIGN_OR_RETURN(const double number, scanner.Number(word, "an angle or a position"));
       row.push_back(number);
     }
     if (row.size() != columns) return Fail(scanner.At(begin), "{} numbers under {} names", row.size(), columns);

@@ -108,23 +108,23 @@ Sides MeasureSides(std::span<const BodyPose> poses) {
 Result<double> CheckSides(std::span<const BodyPose> poses, const JointMap& map, const std::string& file) {
   const Sides sides = MeasureSides(poses);
   if (sides.shoulders < 0) {
-    return Fail({file}, "the left arm is on the side of the right leg; left and right are mixed up");
+    return Fail({file}, "the left arm is on the side of the right leg: left and right are exchanged");
   }
   // Thresholds are per limb and frame. The feet of a lying body point slightly backwards.
   constexpr double kBackwards = 0.35;
   const auto count = static_cast<double>(2 * poses.size());
   const bool has_feet = std::ranges::find(map.composed, kLeftFoot) == map.composed.end();
   if (has_feet && sides.toes < -kBackwards * count) {
-    return Fail({file}, "the feet point backwards: left and right are swapped, or the axes are left-handed");
+    return Fail({file}, "the feet point backwards: left and right are exchanged, or the axes are left-handed");
   }
   constexpr double kArmsBackwards = 0.25;
   if (!has_feet && sides.arms < -kArmsBackwards * count) {
-    return Fail({file}, "the arms bend and reach backwards: left and right are swapped, or the axes are left-handed");
+    return Fail({file}, "the arms bend and reach backwards: left and right are exchanged, or the axes are left-handed");
   }
   constexpr double kMinBendOffset = 0.01, kMaxOverextension = Radians(35);
   const bool are_backwards = LowerPercentile(sides.knee_bends, 0.25) < -kMaxOverextension || sides.arms < 0;
   if (!has_feet && sides.knees < -kMinBendOffset * count && are_backwards) {
-    return Fail({file}, "the knees bend backwards: left and right are swapped, or the axes are left-handed");
+    return Fail({file}, "the knees bend backwards: left and right are exchanged, or the axes are left-handed");
   }
   constexpr double kMinReported = Radians(3);
   double mean = 0;

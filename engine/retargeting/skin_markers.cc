@@ -251,11 +251,12 @@ std::string MoveToJointCentres(const MarkerSet& set, const std::map<std::string,
     }
   }
   // State which joints were moved, and by which rule.
-  std::string said = "joint centres under the skin, cm from their markers: ";
+  std::string said = "joint centres moved under the skin, distances from their markers in cm: ";
   if (!depths.of_file.empty()) said += Join(depths.of_file) + " by the file's widths";
   if (!depths.of_file.empty() && !depths.of_limb.empty()) said += "; ";
   if (!depths.of_limb.empty()) said += Join(depths.of_limb) + " by the lengths of the limbs";
-  if (is_on_point) said += "; elbow markers sit on the elbow's point, so upper arms keep their length";
+  if (is_on_point)
+    said += "; elbow markers taken to be on the point of the elbow, because upper arms then keep their length";
   return said;
 }
 

@@ -137,7 +137,7 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
     const double frame = std::min(static_cast<double>(i) * clip.rate_hz / rate_hz, frames);
     poses.push_back(Upright(sampler.At(static_cast<double>(first) + frame), up));
     if (!IsFinite(poses.back())) {
-      return Fail({file}, "in frame {:.0f} joints lie beyond all measure", static_cast<double>(first) + frame);
+      return Fail({file}, "in frame {:.0f} joints are too far away to be a body's", static_cast<double>(first) + frame);
     }
   }
   return poses;
@@ -168,13 +168,13 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
   const double ratio = moving / at_rest;
   const bool is_alike = AreAlike(ratio);
   if (!AreAlike(own / moving)) {
-    remarks.push_back(
-        fmt::format("its frames show a body {:.3g} times as tall as those of all the file's clips", own / moving));
+    remarks.push_back(fmt::format(
+        "its frames show a body {:.3g} times as tall as the frames of all clips of the file together", own / moving));
   }
   const std::vector<double> statures = OverFrames(poses, Stature);
   const double least = LowerPercentile(statures, 0.05), most = LowerPercentile(statures, 0.95);
   if (!AreAlike(most / least))
-    remarks.push_back(fmt::format("its size changes: {:.2g} times from frame to frame", most / least));
+    remarks.push_back(fmt::format("its size changes between frames by a factor of {:.2g}", most / least));
   const double stature = is_alike ? at_rest : moving;
   if (stature < kMinBody) return Fail({file}, "the body's joints all lie in one point; it needs a size");
   const Unit* const unit = UnitOf(stature);
@@ -271,9 +271,9 @@ std::vector<std::string> ChangesOf(const BodyConversion& done, const JointMap& m
     for (const Role role : roles) names.emplace_back(RoleName(role));
     return Join(names);
   };
-  if (!map.composed.empty()) changes.push_back("not in the file, composed: " + names_of(map.composed));
+  if (!map.composed.empty()) changes.push_back("joints that are not in the file, composed: " + names_of(map.composed));
   if (!map.by_anatomy.empty()) {
-    changes.push_back(fmt::format("told by the skeleton's build, not by names (confidence {:.2f}): {}", map.confidence,
+    changes.push_back(fmt::format("found by the skeleton's shape, not by names (confidence {:.2f}): {}", map.confidence,
                                   names_of(map.by_anatomy)));
   }
   return changes;
@@ -358,8 +358,8 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   std::string lies = !options.up && done.up == UpAxis::kY ? LiesAlong(samples.poses) : "";
   if (!lies.empty()) {
     const bool at_rest = LiesAlong(std::span(&rest, 1)) == lies;
-    lies = fmt::format("the body lies along {}{}: Y is taken for up", lies, at_rest ? ", at rest, too" : "");
-    if (at_rest) lies += ", and a file with another axis must be turned first";
+    lies = fmt::format("the body lies along {}{}: Y is assumed to be up", lies, at_rest ? ", at rest, too" : "");
+    if (at_rest) lies += "; a file with another up axis must be rotated first";
   }
   if (options.drop_t_pose) done.dropped_frames = CountForeignTPose(clip, sampler, done.up);
 
@@ -370,7 +370,7 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   std::vector<std::string> remarks;
   RETURN_IF_ERROR(FindUnit(rest, poses, options, file, done, remarks));
   if (overstretch > 0)
-    remarks.push_back(fmt::format("the knees overstretch by {:.0f}° on the average", Degrees(overstretch)));
+    remarks.push_back(fmt::format("the knees are overextended by {:.0f}° on average", Degrees(overstretch)));
   done.floor = options.keep_floor ? 0 : FloorOf(poses, options.floor);
   PlaceOnFloor(poses, done);
   done.motion = {.rate_hz = options.rate_hz, .poses = std::move(poses)};

@@ -197,11 +197,11 @@ UpFinding FindUp(std::span<const BodyPose> all, double rate_hz, const UpRule& ru
   if (best != nullptr && rule.evidence == UpEvidence::kPosture) {
     found.axis = *best;
     found.source = "its posture";
-    found.doubt = fmt::format("{} is taken for up by posture alone: {}", AxisName(*best), usually);
+    found.doubt = fmt::format("{} is assumed to be up only because of the posture: {}", AxisName(*best), usually);
   } else if (best != nullptr) {
     found.doubt = fmt::format("the body stands along {}, but {}", AxisName(*best), usually);
   } else if (rule.evidence == UpEvidence::kPosture && usual.upright < kHardlyEver) {
-    found.doubt = fmt::format("the body never stands for sure: {}, and taken for up", usually);
+    found.doubt = fmt::format("the posture never shows clearly which axis is up: {}, so it is assumed", usually);
   }
   if (!found.doubt.empty()) found.doubt += "; --up overrules that";
   return found;
@@ -222,7 +222,7 @@ UpRule TrcUp() { return {.source = "the usual axis of TRC files"}; }
 
 UpRule C3dUp(char axis, bool is_negative) {
   if (axis == 0) return {.axis = {0, 0, 1}, .source = "the usual axis of C3D files"};
-  UpRule rule{.axis = glm::dvec3(0), .evidence = UpEvidence::kFile, .source = "the word of its Y_SCREEN"};
+  UpRule rule{.axis = glm::dvec3(0), .evidence = UpEvidence::kFile, .source = "its Y_SCREEN entry"};
   rule.axis[axis - 'X'] = is_negative ? -1 : 1;
   return rule;
 }
@@ -253,7 +253,7 @@ glm::dvec3 AxisOf(UpAxis up) { return up == UpAxis::kZ ? glm::dvec3(0, 0, 1) : g
 std::string DescribeTurn(const UpFinding& up) {
   if (up.axis == glm::dvec3(0, 1, 0)) return "";
   return fmt::format("turned upright from {} up ({})", AxisName(up.axis),
-                     up.evidence == UpEvidence::kTold ? "told" : up.source);
+                     up.evidence == UpEvidence::kTold ? "given" : up.source);
 }
 
 glm::dvec3 TurnedUp(const glm::dvec3& p, const glm::dvec3& up) {

@@ -119,7 +119,7 @@ Result<RecordedFrame> TimedFrame(std::span<const double> row, Place place, const
   RecordedFrame frame = FrameOf(row, layout, recording.records_states);
   frame.line = place.line;
   const double count = recording.records_times ? row[0] : static_cast<double>(index);
-  if (std::isnan(count)) return Fail(std::move(place), "no time, although other rows tell one");
+  if (std::isnan(count)) return Fail(std::move(place), "no time, although other rows have one");
   frame.time_s = count * recording.seconds_per_count;
   return frame;
 }
@@ -149,7 +149,8 @@ Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string&
   recording.rate_hz = reading.rate_hz.value_or(kJudgedRateHz);
   const auto unit =
       recording.records_times ? SecondsPerCount(table, recording.remarks) : std::optional(1 / recording.rate_hz);
-  if (!unit) return Fail({file, table.lines.front(), 1}, "a first column that is no clock and counts no frames");
+  if (!unit)
+    return Fail({file, table.lines.front(), 1}, "a first column that is neither a clock nor a count of frames");
   recording.seconds_per_count = *unit;
   // Convert every row.
   for (std::size_t t = 0; t < table.RowCount(); ++t) {
@@ -165,7 +166,7 @@ Result<RecordedFrame> ReadKinectRow(std::string_view row, const std::string& fil
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows("row\n" + std::string(row), file, kMaxClock));
   const RowLayout* layout = FindLayout(recording.format, table.columns);
   if (layout == nullptr || (layout->first == 0 && recording.records_times)) {
-    return Fail({file, 1}, "{} numbers in a row, other than in the rows before", table.columns);
+    return Fail({file, 1}, "{} numbers in a row, which differs from the rows before", table.columns);
   }
   return TimedFrame(table.Row(0), {file, 1, 1}, *layout, recording, index);
 }

@@ -131,7 +131,8 @@ Result<std::vector<Label>> ReadCsv(Lines lines, const std::string& file) {
       if (cell(i).text.empty()) continue;
       ASSIGN_OR_RETURN((i == 1 ? label.from_s : label.to_s), NumberIn(cell(i), file, number, kMaxTime_s));
     }
-    if (label.to_s && !label.from_s) return Fail({file, number, cell(2).column}, "an end without a beginning");
+    if (label.to_s && !label.from_s)
+      return Fail({file, number, cell(2).column}, "an end of a label without its beginning");
     if (label.to_s && *label.to_s <= *label.from_s) {
       return Fail({file, number, cell(2).column}, "ends at {} s, begins at {} s; allowed: later", *label.to_s,
                   *label.from_s);

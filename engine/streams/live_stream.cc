@@ -65,7 +65,7 @@ Result<void> LiveStream::Start(bool at_end, std::vector<SensedFrame>& stream) {
   const bool is_rows = format && (*format == StreamFormat::kEtudeCsv || *format == StreamFormat::kKinectV1 ||
                                   *format == StreamFormat::kKinectV2);
   if (!is_rows) {
-    return Fail({name_, 1}, "no rows of skeletons; allowed as they come: {}, {}, {}",
+    return Fail({name_, 1}, "not rows of skeletons; allowed in live streams: {}, {}, {}",
                 StreamFormatName(StreamFormat::kEtudeCsv), StreamFormatName(StreamFormat::kKinectV1),
                 StreamFormatName(StreamFormat::kKinectV2));
   }
@@ -74,7 +74,7 @@ Result<void> LiveStream::Start(bool at_end, std::vector<SensedFrame>& stream) {
   const auto shown = std::ranges::count_if(recording.frames, ShowsTrunk);
   if (!recording.is_level && shown < (at_end ? 1 : wanted / 2)) {
     if (!at_end && rows_ < kMaxWaitRows) return {};
-    return Fail({name_, line_}, "nobody to be seen so far");
+    return Fail({name_, line_}, "nobody is visible so far");
   }
   if (!recording.is_level) RETURN_IF_ERROR(ToMetres(recording, name_));
   // Estimate the level, then convert the lines so far.
@@ -117,7 +117,7 @@ Result<RecordedFrame> LiveStream::Read(std::string_view line) {
   ASSIGN_OR_RETURN(const JointCsvRow row, ReadJointCsvRow(line, *columns_, name_));
   RecordedFrame frame{.places = row.places};
   frame.time_s = meaning_->records_times ? row.time_s : static_cast<double>(frames_) / meaning_->rate_hz;
-  if (std::isnan(frame.time_s)) return Fail({name_}, "no time, although other rows tell one");
+  if (std::isnan(frame.time_s)) return Fail({name_}, "no time, although other rows have one");
   return frame;
 }
 

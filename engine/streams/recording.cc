@@ -75,7 +75,7 @@ Result<void> CheckMarkerNames(const std::vector<std::string>& names, const std::
   unknown.resize(unknown.size() - more);
   const std::string rest = more > 0 ? fmt::format(" and {} more", more) : "";
   return Fail({file, kNamesLine},
-              "unknown marker names {}{}; needed, and not here: {} (`etude clip convert` knows other sets of markers)",
+              "unknown marker names {}{}; needed but missing: {} (`etude clip convert` knows other sets of markers)",
               Join(unknown), rest, Join(missing));
 }
 
@@ -116,7 +116,8 @@ Result<void> OrderTimes(StreamRecording& recording, const std::string& file) {
     ordered.push_back(frame);
   }
   if (const std::size_t twice = recording.frames.size() - ordered.size(); twice > 0) {
-    recording.remarks.push_back(fmt::format("{} frames under the time of another, of which the last counts", twice));
+    recording.remarks.push_back(
+        fmt::format("{} frames have the same time as another; the last of these is used", twice));
   }
   recording.frames = std::move(ordered);
   return {};
@@ -205,7 +206,7 @@ Result<StreamRecording> ReadStreamRecording(std::string_view text, const std::st
     const std::size_t columns = FirstRowColumns(text);
     const std::string found = columns == 0 ? "no rows of numbers" : fmt::format("{} numbers in its first row", columns);
     return Fail({file, 1},
-                "no skeletons known here ({}); allowed: {}; a Kinect v2's rows have 75, 100 or 175 numbers, "
+                "not a known format of skeletons ({}); allowed: {}; a Kinect v2's rows have 75, 100 or 175 numbers, "
                 "a Kinect v1's 60, 61, 80 or 81",
                 found, Join(StreamFormatNames()));
   }
@@ -231,7 +232,7 @@ Result<StreamRecording> ReadEtudeCsv(std::string_view text, const std::string& f
     if (!recording.records_times && !counted.empty()) frame.time_s = counted[t];
     frame.line = csv.lines[t];
     frame.places = csv.frames[t];
-    if (std::isnan(frame.time_s)) return Fail({file, frame.line}, "no time, although other rows tell one");
+    if (std::isnan(frame.time_s)) return Fail({file, frame.line}, "no time, although other rows have one");
   }
   return recording;
 }

@@ -119,7 +119,7 @@ void Bodies::JoinContinued(StreamRecording& recording) {
     Body body = std::move(bodies_[a]);
     for (auto b = next[a]; b; b = next[*b]) {
       const Body& later = bodies_[*b];
-      recording.remarks.push_back(fmt::format("body {} goes on as body {} from frame {} on: taken for one person",
+      recording.remarks.push_back(fmt::format("body {} continues as body {} from frame {} on: taken to be one person",
                                               body.id, later.id, begin_of(later)));
       body.frames.insert(body.frames.end(), later.frames.begin(), later.frames.end());
       body.id = later.id;
@@ -144,7 +144,7 @@ Result<void> Bodies::Choose(const StreamReading& reading, const std::string& fil
     }
   }
   if (bodies_.size() > 1) {
-    recording.remarks.push_back(fmt::format("{} bodies, of which body {}{}", bodies_.size(), chosen,
+    recording.remarks.push_back(fmt::format("{} bodies, of which body {} is read{}", bodies_.size(), chosen,
                                             reading.body ? "" : ", in the most frames"));
   }
   // Copy its joints to the recording.
@@ -257,7 +257,7 @@ Result<StreamRecording> ReadAzureKinect(std::string_view text, const std::string
   try {
     return AzureReader(root, file).Read(reading);
   } catch (const Json::exception& error) {
-    return Fail({file}, "JSON of another shape than the offline processor's: {}", error.what());
+    return Fail({file}, "JSON that differs from the offline processor's: {}", error.what());
   }
 }
 

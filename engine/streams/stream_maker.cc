@@ -176,15 +176,16 @@ StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz)
 std::string Describe(const StreamLevel& level) {
   const char* by = level.up_by == StreamLevel::By::kFeet    ? "by the feet"
                    : level.up_by == StreamLevel::By::kTrunk ? "by the trunk"
-                                                            : "as the file has it";
+                                                            : "as in the file";
   const std::string turn =
       level.turn_deg == 0
           ? ""
-          : fmt::format("sensor turned by {} degrees, turned back (--level none: as it is), ", level.turn_deg);
+          : fmt::format("sensor rotated by {} degrees, rotated back (--level none keeps it), ", level.turn_deg);
   const std::string how =
       level.trunk_deg == 0
           ? fmt::format("{:.1f} degrees", level.tilt_deg)
-          : fmt::format("though trunks are {:.0f} degrees from it: who lies, or a tilted sensor", level.trunk_deg);
+          : fmt::format("although trunks are {:.0f} degrees from it: a lying person, or a tilted sensor",
+                        level.trunk_deg);
   return fmt::format("{}up {} ({}), floor {:.2f} m below the sensor", turn, by, how, -level.floor_m);
 }
 
@@ -238,7 +239,7 @@ Result<void> StreamMaker::Add(const RecordedFrame& frame, std::vector<SensedFram
     start_s_ = frame.time_s;
   } else if (frame.time_s <= before_->time_s || frame.time_s - before_->time_s > kMaxLoss_s) {
     return Fail({file_, frame.line},
-                "time {:.6g} s after {:.6g} s; allowed: a clock that goes on, at most {} s at once", frame.time_s,
+                "time {:.6g} s after {:.6g} s; allowed: a clock that increases, by at most {} s per row", frame.time_s,
                 before_->time_s, kMaxLoss_s);
   }
   // Make every frame of the stream up to this one: the nearest recorded frame, an interpolation, or no body.

@@ -18,7 +18,7 @@ Result<std::vector<std::string>> NamedByLabels(const LabelledStreams& all) {
   for (const LabelledPart& part : all.parts) {
     std::string& name = names[part.stream];
     if (!name.empty() && !part.person.empty() && name != part.person) {
-      return Fail({all.file, part.line}, "{} shows {}, and {} before; a recording shows one person",
+      return Fail({all.file, part.line}, "{} shows {}, but {} in an earlier label; a recording shows one person",
                   all.streams[part.stream].name, part.person, name);
     }
     if (name.empty()) name = part.person;
@@ -51,8 +51,8 @@ Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, 
       const double shift = label.by_own_clock ? stream.start_s : 0;
       const double from = label.from_s ? *label.from_s - shift : 0, to = label.to_s ? *label.to_s - shift : length;
       if (from < -kOutside || from > length || to > length + kOutside) {
-        return Fail({file, label.line}, "from {:.3f} to {:.3f} s of {}; allowed: its {:.3f} s", from, to, stream.name,
-                    length);
+        return Fail({file, label.line}, "from {:.3f} to {:.3f} s of {}; allowed: within its {:.3f} s", from, to,
+                    stream.name, length);
       }
       LabelledPart& part = parts.emplace_back();
       part.stream = s;
@@ -66,7 +66,8 @@ Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, 
       part.end = std::max(part.begin + 1, frames.end);
     }
   }
-  if (parts.empty()) return Fail({file}, "none of the labels is of a recording here, such as {}", streams.front().name);
+  if (parts.empty())
+    return Fail({file}, "none of the labels belongs to a recording that was given, such as {}", streams.front().name);
   std::ranges::stable_sort(parts, [](const LabelledPart& a, const LabelledPart& b) {
     return a.stream != b.stream ? a.stream < b.stream : a.begin < b.begin;
   });

@@ -236,7 +236,8 @@ Result<TaughtMove> TeachMove(const std::string& name, std::vector<SkeletonStream
       return Fail({}, "a performance of '{}' shows a body for {:.2f} s; needed: {} s", name, seen, kMinSeconds);
     }
     if (SecondsOf(stream) > kMaxSpan) {
-      return Fail({}, "a performance of '{}' lasts {:.1f} s; allowed: {} s; labels tell where each begins and ends",
+      return Fail({},
+                  "a performance of '{}' lasts {:.1f} s; allowed: {} s; use labels to mark where each begins and ends",
                   name, SecondsOf(stream), kMaxSpan);
     }
     longest = std::max(longest, SecondsOf(stream));

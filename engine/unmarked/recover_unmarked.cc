@@ -276,8 +276,8 @@ class Recovery {
     result.stature_m = stature_;
     const auto first = std::ranges::find_if(track.frames, [](const auto& fit) { return fit.has_value(); });
     if (first == track.frames.end()) {
-      return Fail({}, "in no frame do two films show anybody who moves{}",
-                  take_.rooms.empty() ? "; the room cannot be told from a person who never moves" : "");
+      return Fail({}, "there is no frame in which two films show a moving person{}",
+                  take_.rooms.empty() ? "; a person who never moves cannot be distinguished from the room" : "");
     }
     // Poses and cost; untracked frames repeat the last pose.
     BodyPose last = ToBodyPose(track.body, (*first)->state);

@@ -129,7 +129,7 @@ Mask DetectChange(const ColourImage& background, const ColourImage& picture, Seg
       break;
     case Segmenter::kRunning:
     case Segmenter::kLikelihood:
-      assert(false && "it needs the pictures before: PersonFinder");
+      assert(false && "it needs earlier pictures: use PersonFinder");
       break;
   }
   return mask;

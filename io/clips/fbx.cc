@@ -106,7 +106,7 @@ int ReadFilesInChild(int socket) {
     missing = std::string("an FBX file, for which assimp is not there (") + ::dlerror() +
               "); install Debian's libassimp-dev, and build again";
   } else if (const void* symbol = ::dlsym(module, "etude_clips_assimp"); symbol == nullptr) {
-    missing = std::string(kModule) + " is no module of this program";
+    missing = std::string(kModule) + " is not a module of this program";
   } else {
     read = *static_cast<GlbOfFbxBytes* const*>(symbol);
     name = NameOfReader() + "\n";

@@ -25,7 +25,7 @@ etude::Camera CameraToDraw(const engine::Camera& camera) {
                          kMaxPictureSide));
   }
   const etude::Camera made = engine::ToEngineCamera(camera);
-  if (!made.distortion.IsNone()) complain("a lens that distorts; allowed: none (k1, k2, p1, p2, k3 = 0)");
+  if (!made.distortion.IsNone()) complain("a lens with distortion; allowed: none (k1, k2, p1, p2, k3 = 0)");
   return made;
 }
 

@@ -92,7 +92,7 @@ LensWarp::LensWarp(const Camera& camera)
     for (int x = 0; x < width_; ++x) {
       const glm::dvec2 here(x + 0.5, y + 0.5);
       const auto point = UndistortPixel(camera, here);
-      assert(point && "so strong a distortion has no picture");
+      assert(point && "the distortion is too strong to give a picture");
       points.push_back(point.value_or(here));
       low = glm::min(low, points.back());
       high = glm::max(high, points.back());

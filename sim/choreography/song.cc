@@ -63,7 +63,7 @@ Result<Move> MoveOf(const SongPart& part, double tempo_bpm, const Place& place) 
   if (!move) return move;
   const double danced_bpm = PaceOf(part) * tempo_bpm;
   if (danced_bpm < move->slowest_bpm || danced_bpm > move->fastest_bpm) {
-    return Fail(place, "'{}' at {} beats a minute; it suits {} to {}{}", part.move, danced_bpm, move->slowest_bpm,
+    return Fail(place, "'{}' at {} beats per minute; it suits {} to {}{}", part.move, danced_bpm, move->slowest_bpm,
                 move->fastest_bpm, part.half_time ? "" : " ('half_time: true' halves it)");
   }
   return CurvesAtTempo(*move, danced_bpm, place);

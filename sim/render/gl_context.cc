@@ -27,7 +27,7 @@ Result<GLuint> CompileShader(const GlFunctions& gl, GLenum stage, const std::str
   gl.GetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
   log.resize(static_cast<std::size_t>(length));
   gl.DeleteShader(shader);
-  return Fail({}, "this GL refuses one of Etude's shaders: {}", log);
+  return Fail({}, "this GL does not compile one of Etude's shaders: {}", log);
 }
 
 }  // namespace

@@ -384,7 +384,7 @@ STRANGERS = {
     "two cameras exchanged": (altered_toml(lambda name, R, T, K: (EXCHANGED.get(name, name), R, T, K)), None,
                               "corrected: films or keypoints of cam1 and cam2 are exchanged"),
     "poses from the cameras": (altered_toml(lambda name, R, T, K: (name, R.T, -R.T @ T, K)), None,
-                               "corrected: the rig's poses lead from its cameras to the world"),
+                               "corrected: the rig's poses transform from its cameras to the world"),
     "OpenGL's axes": (altered_toml(lambda name, R, T, K: (name, FLIP @ R, FLIP @ T, K)), None,
                       "corrected: the rig's cameras look along -z"),
     "matrices of Blender": (altered_toml(lambda name, R, T, K: (name, (FLIP @ R).T, -R.T @ T, K)), None,
@@ -396,7 +396,7 @@ STRANGERS = {
                                   "corrected: keypoints are shares of a square about the picture"),
     "shares of the longer side": (SAME, lambda p: (p + 0.5) / WIDTH, "corrected: keypoints are shares of the picture's longer side"),
     "x and y exchanged": (SAME, lambda p: p[::-1], "corrected: keypoints have x and y exchanged"),
-    "v counted from below": (SAME, lambda p: np.array([p[0], HEIGHT - 1 - p[1]]), "corrected: keypoints count v from below"),
+    "v counted from below": (SAME, lambda p: np.array([p[0], HEIGHT - 1 - p[1]]), "corrected: keypoints count v from the picture's bottom"),
     "all films mirrored": (SAME, lambda p: np.array([WIDTH - 1 - p[0], p[1]]), "corrected: keypoints of all films are mirrored"),
 }
 

@@ -235,7 +235,7 @@ class Capture(EtudeCase):
         still = [make_film(self.folder / f"{camera}.avi", rate=10, frames=4, what="color=c=gray:", coding=("-c:v", "ffv1"))
                  for camera in PLACES]
         alone = ["capture", "--rig", self.rig, *still, "--silhouettes", "-o", self.folder / "m.bvh"]
-        self.assertIn("in no frame do two films show anybody who moves", self.refusal(*alone))
+        self.assertIn("there is no frame in which two films show a moving person", self.refusal(*alone))
         self.assertIn("no keypoints to write", self.refusal(*alone, "--points", self.folder / "p.trc"))
         self.assertIn("20 frames, the film", self.refusal(*alone, "--keypoints", self.keypoints))
         self.assertIn("--stature requires --silhouettes", self.refusal(*self.capture("-o", "m.bvh", "--stature", "1.8")))
@@ -267,7 +267,7 @@ class Capture(EtudeCase):
             return [make_film(self.folder / name / "left.mp4", size, rate, frames, coding=()), *self.films[1:]]
 
         small = self.refusal(*self.capture("-o", out, films=film("small", "160x120", RATE, FRAMES)))
-        self.assertIn("160 x 120 pixels, the rig's camera 320 x 240; tell how they were fitted (--fit)", small)
+        self.assertIn("160 x 120 pixels, but the rig's camera has 320 x 240; state how they were fitted (--fit)", small)
         slow = self.refusal(*self.capture("-o", out, films=film("slow", "320x240", 25, FRAMES)))
         self.assertIn("30 frames a second", slow)
         short = self.refusal(*self.capture("-o", out, films=film("short", "320x240", RATE, 18)))

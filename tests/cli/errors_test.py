@@ -31,7 +31,7 @@ class Errors(EtudeCase):
 
     def test_missing_files(self):
         self.refuses("run", "no/such.yaml", "-o", self.out, says=["no/such.yaml: no such scenario file or folder"])
-        self.refuses("run", self.folder, "-o", self.out, says=["holds no scenario (*.yaml)"])
+        self.refuses("run", self.folder, "-o", self.out, says=["contains no scenario (*.yaml)"])
         self.refuses("report", self.folder / "nothing", says=["nothing: no such folder"])
         self.refuses("report", self.folder, says=[f"{self.folder}: is no run, for it holds no manifest.json"])
 
@@ -68,7 +68,7 @@ class Errors(EtudeCase):
             ("limit_set: AMA\n", ":8:12: unknown limit_set 'AMA'; did you mean 'ama'? Allowed: adult, aaos"),
             ("record: effector_errors\n", ":8:9: 'record': expected a list, found 'effector_errors'"),
             ("record: [angle_changes, nonsense]\n", ":8:25: unknown record 'nonsense'. Allowed: effector_errors, "),
-            ("record: []\nrecord: []\n", ":9:1: the key 'record' stands here twice"),
+            ("record: []\nrecord: []\n", ":9:1: the key 'record' appears twice here"),
         ]
         for lines, says in cases:
             self.refuses_scenario(one + lines, says=[says])

@@ -216,7 +216,7 @@ class Formats(MotionFileCase):
         for name in ("time.csv", "frame.csv", "a.trc"):
             told = self.info(self.folder / name)["clips"][0]
             self.assertEqual((told["frames"], told["rate_hz"]), (60, 30), name)
-            self.assertIn("by their times 15 of 60 frames are missing, in 1 gap of at most 0.533 s", told["body"]["note"])
+            self.assertIn("by their times, 15 of 60 frames are missing, in 1 gap of at most 0.533 s", told["body"]["note"])
             read = self.joints(self.folder / name)
             self.assertEqual(len(read), 60)
             floor = read[0]["head"][1] - whole[0]["head"][1]
@@ -322,7 +322,7 @@ class Formats(MotionFileCase):
             size = struct.pack("<II", 12 + 8 + len(text) + len(rest), len(text))
             path.write_bytes(data[:8] + size[:4] + size[4:] + data[16:20] + text + rest)
             body = self.info(path)["clips"][0]["body"]
-            self.assertNotIn("by the skeleton's build", body["note"])
+            self.assertNotIn("by the skeleton's shape", body["note"])
             for role in bones:
                 self.assertEqual(body["roles"][role]["joint"], f"X{nodes[role]}")
             self.assertAlmostEqual(body["stature_m"], before["stature_m"], places=5)
@@ -365,7 +365,7 @@ class Formats(MotionFileCase):
         text = json.dumps(scene).encode()
         text += b" " * (-len(text) % 4)
         path.write_bytes(data[:8] + struct.pack("<II", len(data) - length + len(text), len(text)) + data[16:20] + text + data[20 + length:])
-        self.assertIn("what KHR_animation_pointer moves is not read", self.info(path)["clips"][0]["body"]["note"])
+        self.assertIn("animations by KHR_animation_pointer are not read", self.info(path)["clips"][0]["body"]["note"])
 
     def turned(self, name, unit=1.0):
         """A BVH of the sway in another unit."""

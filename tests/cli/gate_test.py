@@ -168,7 +168,7 @@ class Gate(EtudeCase):
         self.assertEqual(ran.returncode, 1, ran.stderr)
         self.assertIn("24 × failed: ended with exit code 1; its last words: 'ValueError", ran.stdout)
         text = self.gate(self.now, expect=1)
-        self.assertIn("ik: none of the 24 cells of own is ok or unsolved; the first is ik/joint_noise_deg=2/000/own; 24 × "
+        self.assertIn("ik: none of the 24 cells of own is ok or unsolved; the first has ik/joint_noise_deg=2/000/own; 24 × "
                       "failed: ended with exit code 1; its last words: 'ValueError: math domain error'", text)
         self.assertIn("Gate: regression", text)
         self.assertIn("none of the 24", (self.now / "report" / "gate.md").read_text())
@@ -210,7 +210,7 @@ class Gate(EtudeCase):
         cells = self.out / "cells.jsonl"
         lines = cells.read_text().splitlines(keepends=True)
         cells.write_text("".join(lines[:-3]))
-        self.assertIn("is not as the run wrote it", self.gate(self.out, "--baseline", self.baseline, expect=2))
+        self.assertIn("was changed after the run wrote it", self.gate(self.out, "--baseline", self.baseline, expect=2))
         text = self.gate(self.out, "--baseline", self.baseline, "--unsealed", expect=3)
         self.assertIn("3 of 48 rows are missing", text)
         before = self.baseline.read_text()
@@ -278,7 +278,7 @@ class Gate(EtudeCase):
         self.assertEqual(share("reruns of the same seed, rule exact"), 0)
         self.assertEqual(share("worse by 4 × what matters"), 1)
         self.assertEqual(share("reruns of the same seed, tail rule"), 0)
-        self.assertEqual(share("in 5 of 30 worlds worse by 40 × what matters"), 1)
+        self.assertEqual(share("in 5 of 30 worlds worse by 40 × the difference that matters"), 1)
         self.assertEqual(share("lost in 1 of 30 worlds"), 1)
         self.assertGreaterEqual(share("within-30-deg in place of reference"), 0.8)
         self.assertLessEqual(share("gates between two seeds"), 0.05)

@@ -45,14 +45,14 @@ class Installed(EtudeCase):
         (empty / "quick" / "notes.txt").touch()
         told = run("run", "quick", "--dry-run")
         self.assertEqual(told.returncode, 0, told.stderr)
-        self.assertEqual("etude: quick: this folder holds no scenario (*.yaml); the scenario of that name that comes with etude is used\n",
+        self.assertEqual("etude: quick: this folder contains no scenario (*.yaml); etude's own scenario of that name is used\n",
                          told.stderr)
         self.assertEqual(run("scenario", "copy", SUITE, "quick").returncode, 0)
         wins = run("run", "quick", "--trials", 6, "-o", "mine")
-        self.assertIn("quick: this file or folder is used, not the scenario of that name that comes with etude", wins.stderr)
+        self.assertIn("quick: this file or folder is used, not etude's own scenario of that name", wins.stderr)
         twice = run("scenario", "copy", SUITE, "quick")
         self.assertEqual(twice.returncode, 2)
-        self.assertIn("is there already; nothing was copied", twice.stderr)
+        self.assertIn("already exists; nothing was copied", twice.stderr)
         unknown = run("run", "ful/ik_weights")
         self.assertEqual(unknown.returncode, 2)
         self.assertIn("did you mean 'full/ik_weights'?", unknown.stderr)

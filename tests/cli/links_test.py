@@ -136,7 +136,7 @@ class Links(EtudeCase):
             answer.symlink_to(truth)
         done = self.etude("score", data, answers, "-o", self.folder / "scored")
         self.assertEqual(done.returncode, 2, done.stdout)
-        self.assertIn("ik/joint_noise_deg=2/000.json: is a link; an answer is a file of its own", done.stderr)
+        self.assertIn("ik/joint_noise_deg=2/000.json: is a link; each answer must be a separate file", done.stderr)
         self.assertFalse((self.folder / "scored").exists())
         shutil.rmtree(answers)
         (answers / "ik").mkdir(parents=True)

@@ -99,7 +99,7 @@ class Machine(EtudeCase):
             codes.append(ended.returncode)
             self.assertIn(ended.returncode, (0, 3), ended.stderr)
             if "not run" in ended.stderr:
-                self.assertRegex(ended.stderr, "memory ended below the 4096 MB that the scenario allows|could not go on")
+                self.assertRegex(ended.stderr, "the machine's memory ran out below the 4096 MB that the scenario allows|could not go on")
                 self.assertFalse((self.out / "cells.jsonl").exists())
             self.run_suite(self.capture, "--resume")
             self.assert_same_results(whole, self.out)
@@ -165,7 +165,7 @@ class Machine(EtudeCase):
             ("no OSMesa", self.capture, "OSMesa cannot be loaded",
              {"environment": {"ETUDE_GL": "osmesa"},
               "wrapped": ["bwrap", "--dev-bind", "/", "/", "--ro-bind", "/dev/null", os.path.realpath(LIBRARIES[0])]}),
-            ("no program", self.outside, "method outside of scenario t cannot be asked: ", {}),
+            ("no program", self.outside, "method outside of scenario t cannot be run: ", {}),
         ]
         for name, scenario, cause, how in settings:
             with self.subTest(name):

@@ -229,7 +229,7 @@ class Motions(MotionFileCase):
         take = self.write("take.txt", kinect(arms(100)))
         self.assertIn("--unit and --up are of clips", self.refuses("teach", take, "--unit", "cm", "-o", moves))
         roles = self.write("roles.yaml", "roles:\n  left_hand: RightHand\n")
-        self.assertIn("left_hand is played by", self.refuses("teach", CMU, "--map", roles, "-o", moves))
+        self.assertIn("the role left_hand has the joint", self.refuses("teach", CMU, "--map", roles, "-o", moves))
 
     def test_a_picture_of_roles_also_where_some_are_missing(self):
         def pixels(path):  # of the two colours of roles: found by names, found by the build

@@ -21,7 +21,7 @@ LIMITS = "limits: {time_s: 20, memory_mb: 300}\n"
 REASONS = {
     "crashes": ("crashed", "ended with signal 11 (Segmentation fault); its last words: 'about to fall'"),
     "hangs": ("timeout", "took longer than 0.5 s"),
-    "prints_garbage": ("bad_output", "said something that is not JSON: 'loading model \\x1b[1m100%\\x1b[0m'"),
+    "prints_garbage": ("bad_output", "wrote something that is not JSON: 'loading model \\x1b[1m100%\\x1b[0m'"),
     "answers_nan": ("bad_output", "said something that is not JSON near byte "),
     "eats_memory": ("out_of_memory", "held more than 300 MB of memory"),
 }
@@ -122,7 +122,7 @@ class OutsideMethods(EtudeCase):
                       ["replay", self.out, "--sample", "1"], ["replay", pack]):
             refused = self.etude(*words)
             self.assertEqual(refused.returncode, 2)
-            self.assertIn(f"would run programs, which --allow-exec allows: {program} --fast (ik/mine)", refused.stderr)
+            self.assertIn(f"would run programs, which needs --allow-exec: {program} --fast (ik/mine)", refused.stderr)
             self.assertEqual(refused.stderr.count("\n"), 1)
             self.assertFalse(mark.exists())
         allowed = self.etude("replay", pack, "--allow-exec", "--no-fence")
@@ -161,8 +161,8 @@ class OutsideMethods(EtudeCase):
         for command, code, words in [
                 ([EXAMPLES / "ik_dls.py"], 0, "9 of 9 checks passed"),
                 ([HOSTILE, "crashes"], 1, "FAILED  gives answers that can be scored: crashed: ended with signal 11"),
-                ([self.radians()], 1, "FAILED  solves what a plain method solves: solves none of 3; damped-least-squares "
-                 "solves 3; taken for radians, its angles solve 3: degrees are asked for"),
+                ([self.radians()], 1, "FAILED  solves the problems that a simple method solves: solves none of 3; damped-least-squares "
+                 "solves 3; if its angles are radians, they solve 3: degrees are needed"),
                 ([HOSTILE, "answers_twice", json.dumps({"angles_deg": [0] * 29})], 1, "FAILED  answers every question once")]:
             result = self.etude("check-method", "--task", "ik", "--", "python3", *command)
             self.assertEqual(result.returncode, code, result.stdout + result.stderr)

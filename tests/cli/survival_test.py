@@ -98,7 +98,7 @@ class Survival(EtudeCase):
         run.kill()
         run.wait()
         for arguments, complaint in ((["--seed", "9"], "seed was 1 and is 9"), (["--trials", "41"], "scenarios[0].trials was 40 and is 41"),
-                                     (["--shard", "1/2"], "is of shard 1/1, not 1/2")):
+                                     (["--shard", "1/2"], "belongs to shard 1/1, not 1/2")):
             result = self.etude("run", self.scenario, "-o", self.out, "--resume", *arguments)
             self.assertEqual(result.returncode, 2)
             self.assertIn(complaint, result.stderr)
@@ -233,7 +233,7 @@ class Survival(EtudeCase):
         folders = self.shards()
         other = self.folder / "other"
         self.etude("run", self.scenario, "-o", other, "--shard", "3/3", "--seed", "2")
-        for shards, complaint in ((folders[:2], "not all 3 shards are there and finished (etude run --shard i/3 --resume continues one): 3/3"),
+        for shards, complaint in ((folders[:2], "not all 3 shards exist and are finished (etude run --shard i/3 --resume continues one): 3/3"),
                                   ([*folders[:2], folders[1]], "is shard 2/3, and so is"),
                                   ([*folders[:2], other], "is a shard of another run than"),
                                   ([*folders, self.whole], "is a whole run already"),
@@ -278,7 +278,7 @@ methods:
         rows = [json.loads(line) for line in cells.read_text().splitlines()]
         rows[7]["digest_solution"] = "0123456789abcdef"
         cells.write_text("".join(json.dumps(row) + "\n" for row in rows))
-        self.assertIn("cells.jsonl: is not as the run wrote it", self.etude("replay", self.whole).stderr)
+        self.assertIn("cells.jsonl: was changed after the run wrote it", self.etude("replay", self.whole).stderr)
         result = self.etude("replay", self.whole, "--unsealed")
         self.assertEqual(result.returncode, 1)
         self.assertIn(f"differs: {rows[7]['cell']}\n  first at solution: 0123456789abcdef then,", result.stdout)
@@ -324,8 +324,8 @@ methods:
     def test_a_result_with_a_row_missing_or_twice_is_not_reported(self):
         cells = self.whole / "cells.jsonl"
         lines = cells.read_text().splitlines(keepends=True)
-        for changed, complaint in ((lines[:-1], "holds 159 rows of scenario ik; summary.json sums up 160"),
-                                   (lines[:-1] + lines[:1], "holds the cell ik/joint_noise_deg=2/000/fixed twice")):
+        for changed, complaint in ((lines[:-1], "has 159 rows of scenario ik, but summary.json summarises 160"),
+                                   (lines[:-1] + lines[:1], "contains the cell ik/joint_noise_deg=2/000/fixed twice")):
             cells.write_text("".join(changed))
             result = self.etude("report", self.whole, "--no-video", "--unsealed")
             self.assertEqual(result.returncode, 2)

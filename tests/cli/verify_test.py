@@ -60,7 +60,7 @@ class Verify(EtudeCase):
     def test_a_run_that_nobody_touched_agrees_line_by_line(self):
         text = self.verify(expect=0)
         for said in ("seal.json", "rows: exactly those", "files: those that", "texts: nothing", "host.json: no keys", "manifest.json: what",
-                     "worlds: every row", "summary.json: computed again from 24 rows", "20 of 20 cells and 4 that left a recording, run again",
+                     "worlds: every row", "summary.json: the same when computed again from 24 rows", "20 of 20 cells and 4 that left a recording, run again",
                      "report: "):
             self.assertRegex(text, f"(?m)^agrees   .*{re.escape(said)}")
         self.assertRegex(text, r"10 of 10 agree")
@@ -71,7 +71,7 @@ class Verify(EtudeCase):
         forge(self.out / "host.json", '"jobs":', '"jobs":1')
         found, text = self.differences("--sample", 0)
         self.assertEqual(found, ["seal.json"])
-        self.assertIn("host.json: is not as the run wrote it", text)
+        self.assertIn("host.json: was changed after the run wrote it", text)
 
     def forgeries(self):
         """Name, the forgery, what finds it, and what is said of it."""
@@ -180,7 +180,7 @@ class Verify(EtudeCase):
         self.verify("--sample", 0, expect=0)
         found, text = self.differences("--sample", 0, "--check", public)
         self.assertEqual(found, ["signature"])
-        self.assertIn("seal.json: is not as it was signed", text)
+        self.assertIn("seal.json: was changed after it was signed", text)
         forge(self.out / "signed.b2", "0", "1")
         self.assertIn("does not hold", self.differences("--sample", 0, "--check", public)[1])
 

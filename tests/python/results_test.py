@@ -159,7 +159,7 @@ class Results(PythonCase):
         (copy / "cells.jsonl").write_text(text.replace('"status":"ok"', '"status":"failed"', 1))
         with self.assertRaises(etude.EtudeError) as raised:
             etude.load(copy)
-        self.assertIn("is not as the run wrote it", raised.exception.text)
+        self.assertIn("was changed after the run wrote it", raised.exception.text)
         self.assertEqual(raised.exception.exit_code, 2)
         self.assertEqual(len(etude.load(copy, unsealed=True)["ik"]), 48)
 

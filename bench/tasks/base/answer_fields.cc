@@ -34,7 +34,7 @@ std::optional<std::string> IntegerComplaint(const Json& json, int lowest, int hi
   if (!json.is_number() || json.get<double>() != std::floor(json.get<double>())) {
     return fmt::format("{} is not a whole number", ShowJson(json));
   }
-  if (highest < lowest) return fmt::format("{}; nothing is allowed here", ShowJson(json));
+  if (highest < lowest) return fmt::format("{} is not allowed here", ShowJson(json));
   if (!IsIn(json.get<double>(), {static_cast<double>(lowest), static_cast<double>(highest)})) {
     return fmt::format("{}; allowed: {}…{}", ShowJson(json), lowest, highest);
   }
@@ -95,7 +95,7 @@ std::string AnswerFields::Text(std::string_view key, std::size_t longest) {
     return "";
   }
   const std::string& text = value->get_ref<const std::string&>();
-  if (text.size() > longest) Complain(key, fmt::format("{} bytes; at most {} are allowed", text.size(), longest));
+  if (text.size() > longest) Complain(key, fmt::format("{} bytes; allowed: at most {}", text.size(), longest));
   return text;
 }
 

@@ -26,7 +26,7 @@ std::vector<Field<StudioOptions>> CameraFields() {
       Effect("radial_distortion", &E::radial_distortion, {-0.12, 0.25},
              "Shift of the picture's corner as a share of its distance from the centre; below 0 is barrel distortion."),
       Effect("tangential_distortion", &E::tangential_distortion, {0, 0.05},
-             "The same shift by a lens that is not parallel to the sensor."),
+             "The same shift, caused by a lens that is not parallel to the sensor."),
       Effect("defocus_px", &E::defocus_px, {0, 10}, "Standard deviation of the Gaussian blur of a point."),
       Effect("vignette", &E::vignette, {0, 4},
              "Darkness of the corners: 1 is natural, the cosine of the angle from the axis to the fourth power."),
@@ -86,13 +86,12 @@ FieldTable<StudioOptions> MakeConditionFields() {
                     "Heights of the cameras: one per angle; in other rigs the cameras take them in turn."),
        Key::Number("camera_distance_m", Path(&Options::rig, &RigOptions::distance_m), {2, 10},
                    "Distance to the middle of the performer's path, as far as the room allows."),
-       Key::Name(
-           "figure", &Options::figure, {{"staged", PerformerFigure::kStaged}, {"own", PerformerFigure::kOwn}},
-           "Who is drawn: the stage's own people, or the meshes and textures that the clips' files bring (glTF)."),
+       Key::Name("figure", &Options::figure, {{"staged", PerformerFigure::kStaged}, {"own", PerformerFigure::kOwn}},
+                 "The figure: the stage's own people, or the meshes and textures in the clips' files (glTF)."),
        Key::Name("clothes", &Options::clothes,
                  {{"studio", Clothes::kStudio}, {"everyday", Clothes::kEveryday}, {"coded", Clothes::kCoded}},
                  "Clothes of the stage's people: colours unlike the room's; a grey shirt and trousers of the floor's "
-                 "hue; or a suit with a colour of its own for every limb."),
+                 "hue; or a suit with a different colour for every limb."),
        Key::Number("scene", &Options::scene, {0, 1},
                    "How much the set resembles a lived-in room: 0 = the studio, 1 = furniture, clutter, a second "
                    "person, similar hues."),

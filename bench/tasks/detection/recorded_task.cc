@@ -128,7 +128,8 @@ Result<void> CheckRecordings(const LabelledStreams& set, bool are_taught) {
   for (const LabelledPart& part : set.parts) {
     if (part.is_action_point) continue;
     if (before != nullptr && before->stream == part.stream && before->begin == part.begin) {
-      return Fail({set.file, part.line}, "two performances of {} begin at once", set.streams[part.stream].name);
+      return Fail({set.file, part.line}, "two performances of {} begin at the same time",
+                  set.streams[part.stream].name);
     }
     before = &part;
   }
@@ -282,7 +283,7 @@ Result<void> CheckFaults(const Node& condition, std::span<const Fault> faults, c
 Result<void> RefuseKeys(const Node& condition, std::span<const std::string_view> keys, std::string_view why) {
   for (const std::string_view key : keys) {
     const Node* named = condition.Find(key);
-    if (named != nullptr) return Fail(named->place, "'{}' is not used here: {}", key, why);
+    if (named != nullptr) return Fail(named->place, "'{}' cannot be used here: {}", key, why);
   }
   return {};
 }
@@ -296,7 +297,7 @@ Result<std::unique_ptr<Task>> MakeRecordedTask(TaskInput& input, const Detection
   RETURN_IF_ERROR(RefuseKeys(condition, PeopleKeys(), "people were recorded, nobody is simulated"));
   // Keys and oracles that do not apply.
   const bool are_sensed = std::ranges::any_of(set.streams, [](const NamedStream& s) { return s.motion.has_value(); });
-  if (!are_sensed) RETURN_IF_ERROR(RefuseKeys(condition, SensingKeys(), "a recording is what its sensor saw"));
+  if (!are_sensed) RETURN_IF_ERROR(RefuseKeys(condition, SensingKeys(), "a recording contains what its sensor saw"));
   if (options.has_cameras) {
     return Fail(condition.Find("sensor")->place, "cameras film simulated people; allowed here: v1, v2, a sensor file");
   }

@@ -38,7 +38,7 @@ bool HasFault(const DetectionEvent& event) { return event.HasFault(); }
 
 void ScoreNames(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire,
                 CellResult& result) {
-  if (verdict.named.empty()) return result.Missing("move_named", "the method names no moves");
+  if (verdict.named.empty()) return result.Missing("move_named", "the method does not name moves");
   std::vector<NamedMove> performances;
   for (std::size_t i = 0; i < verdict.named.size(); ++i) {
     const std::string& danced = world.events[i].danced;
@@ -133,7 +133,7 @@ void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, co
   result.MeasureOr("right_spotted", ShareSpotted(world, verdict, repertoire), "no performance was right");
   ScoreNames(world, verdict, repertoire, result);
   if (world.points.empty()) {
-    result.Missing("action_point_f", "no label is an action point");
+    result.Missing("action_point_f", "there are no action points among the labels");
   } else {
     result.MeasureOr("action_point_f", PointFScore(world, verdict, repertoire), "");
   }

@@ -35,7 +35,7 @@ Result<Payload> SessionWorld::MakeSetting() { return set_ ? set_() : TaskWorld::
 
 Result<Payload> SessionWorld::MakeProblem() {
   if (world_.cameras == nullptr) return SessionPayload(world_);
-  return Fail({}, "before cameras every method makes skeletons of its own: there is no stream that could be told");
+  return Fail({}, "with cameras, every method makes its own skeletons, so there is no common stream to send");
 }
 
 Result<Payload> SessionWorld::MakeTruth() { return TruthPayload(world_); }

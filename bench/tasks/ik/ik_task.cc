@@ -75,7 +75,8 @@ Result<std::unique_ptr<Task>> MakeIkTask(TaskInput& input) {
 
 TaskKind MakeIkTaskKind() {
   return {.name = "ik",
-          .question = "How near do the end effectors come to their targets, and how far do the hidden angles stray?",
+          .question =
+              "How near do the end effectors come to their targets, and how far are the hidden angles from the truth?",
           .default_metrics = {"orientation_error_deg", "position_error_cm", "hidden_angle_error_deg",
                               "solved_practical", "iterations"},
           .success = "solved_practical",

@@ -15,7 +15,7 @@ KeyInfo PosesKey() {
   return {"poses",
           {"{uniform: 0…1}, or 0…1 alone", fmt::format(R"({{"anyOf":[{},{}]}})", share.schema, mapping.schema)},
           "{uniform: 0.5}",
-          "The share of every joint's range, about its middle, from which the true pose is drawn.",
+          "The true pose is drawn from this share of every joint's range, about its middle.",
           {"start", {"disturbed", "middle"}}};
 }
 
@@ -80,7 +80,7 @@ const FieldTable<IkCondition>& IkConditionFields() {
                    "Moves one target away from the root, this far beyond the reach of all limbs together.")
            .With("start", {"disturbed", "middle"}),
        Key{{"targets", NameKind(std::vector<std::string>{"both", "position", "orientation"}), "both",
-            "What effectors must meet of their targets for a world to be solved."},
+            "Which parts of their targets effectors must meet for a world to be solved."},
            ReadTargets},
        Key::Flags("record",
                   {{"effector_errors", Path(&IkCondition::records, &IkRecords::effector_errors)},

@@ -23,7 +23,7 @@ std::string DigestOf(const IkSolution& solution) {
 /// Returns why the solver stopped. The text is the same for all cells that ended alike, so that a report can count
 /// them.
 std::string WhyItStopped(const IkMethod& method, const IkSolution& solution, const IkTargetParts& asked) {
-  if (asked.axes && !method.solver->uses_axes) return "the solver sees positions only, and axes are asked for";
+  if (asked.axes && !method.solver->uses_axes) return "the solver uses only positions, but axes are asked for";
   switch (solution.status) {
     case IkStatus::kStalled:
       return "stalled before the targets were met";
@@ -79,7 +79,7 @@ void AddCost(const char* id, const char* penalised_id, const std::optional<int>&
     cell.Measure(id, *spent);
     cell.Measure(penalised_id, PenalisedCost(*spent, limit, solved && *spent <= limit));
   } else {
-    for (const char* missing : {id, penalised_id}) cell.Missing(missing, "the method did not say what it took");
+    for (const char* missing : {id, penalised_id}) cell.Missing(missing, "the method did not report its iterations");
   }
 }
 

@@ -90,7 +90,7 @@ Result<std::unique_ptr<Task>> MakePoseDistanceTask(TaskInput& input) {
 
 TaskKind MakePoseDistanceTaskKind() {
   return {.name = "pose-distance",
-          .question = "How well does a distance know that two poses look alike?",
+          .question = "How well does a distance show that two poses look alike?",
           .default_metrics = {"called_alike", "fuzzy_distance", "joint_distance_cm", "pose_gap_cm", "close_auc",
                               "close_f1"},
           .success = "close_f1",

@@ -22,7 +22,7 @@ const FieldTable<TrackingOptions>& TrackingConditionFields() {
   static const FieldTable<Options> table{
       {Key::Number("duration_s", &Options::duration_s, {0.1, 60}, "Length of the window of the clip that is followed."),
        Key::Number("rate_hz", &Options::rate_hz, {1, kJudgedRateHz},
-                   "Frames a second: fewer frames are farther apart."),
+                   "Frames per second; with fewer frames, successive poses differ more."),
        Key::Number("target_noise_cm", Path(&Options::target_noise, &TargetNoise::position_cm), {0, 100},
                    "Standard deviation of every target's position, along each axis, drawn anew in every frame."),
        Key::Number("target_noise_deg", Path(&Options::target_noise, &TargetNoise::orientation_deg), {0, 180},
@@ -43,7 +43,7 @@ const FieldTable<TrackingMethod>& TrackingMethodFields() {
         "start", &TrackingMethod::start, {{"warm", FrameStart::kWarm}, {"cold", FrameStart::kCold}},
         "Whether a frame starts from the answer to the previous frame, or where the first frame started."));
     made.fields.push_back(
-        ToleranceField(&TrackingMethod::options, "Largest change of an angle from its frame's start."));
+        ToleranceField(&TrackingMethod::options, "Largest change of an angle from its start in a frame."));
     return made;
   }();
   return table;

@@ -138,7 +138,7 @@ void AddIterations(const std::optional<std::vector<int>>& iterations, CellResult
     cell.series.push_back({"iterations", "frame", {iterations->begin(), iterations->end()}});
   } else {
     for (const char* id : {"iterations_per_frame", "iterations_per_frame_p95"}) {
-      cell.Missing(id, "the method did not say what it took");
+      cell.Missing(id, "the method did not report its iterations");
     }
   }
 }
@@ -181,7 +181,7 @@ CellResult ScoreTracking(const TrackingWorld& world, double rate_hz, const Track
   cell.Measure("orientation_error_deg", MeanOf(orientation));
   cell.Measure("hidden_angle_error_deg", HiddenAngleDifferenceDeg(Concatenate(answer.angles), Concatenate(truth)));
   cell.Measure("mpjpe_mm", poses.mpjpe_mm);
-  cell.MeasureOr("angle_jerk_ratio", AngleJerkRatio(answer.angles, truth), "the true angles have no jerk");
+  cell.MeasureOr("angle_jerk_ratio", AngleJerkRatio(answer.angles, truth), "the true angles are without jerk");
   // Curves, recording and status.
   cell.series = {
       AlongFrames("solved_practical", outcome.frames, [](const auto& frame) { return IsFrameSolved(frame); }), position,

@@ -90,7 +90,7 @@ Result<std::unique_ptr<Task>> MakeTrackingTask(TaskInput& input) {
 
 TaskKind MakeTrackingTaskKind() {
   return {.name = "tracking",
-          .question = "Does a solver keep up with a motion, frame by frame?",
+          .question = "Can a solver follow a motion, frame by frame?",
           .default_metrics = {"frames_solved", "mpjpe_mm", "orientation_error_deg", "position_error_cm",
                               "angle_jerk_ratio", "iterations_per_frame"},
           .success = "frames_solved",

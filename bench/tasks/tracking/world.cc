@@ -138,7 +138,8 @@ Result<TrackingWorld> MakeTrackingWorld(const KinematicTree& body, const Trackin
   std::vector<AngleRange> ranges = world.tree.limits;
   for (std::size_t k = 0; k < window.size(); ++k) {
     auto state = FindStartState(world.tree, window[k], ranges);
-    if (!state) return Fail({}, "frame {} of the window of clip {} gives no pose of the body", k, clip.name);
+    if (!state)
+      return Fail({}, "frame {} of the window of clip {} cannot be converted to a pose of the body", k, clip.name);
     if (open) state = open->Slide(*state, ranges, static_cast<double>(k) / options.rate_hz);
     ranges = WithinReach(world.tree, state->angles, kMaxJointSpeed / options.rate_hz);
     world.truth.push_back(*std::move(state));

@@ -39,10 +39,10 @@ const FieldTable<TransitionCondition>& TransitionConditionFields() {
            .Unit("seconds"),
        Key::Flag("explain", &Options::explain,
                  "Whether every cell keeps the ten partial distances of its transition points and candidates as "
-                 "series; filmed cells are explained in the report in any case."),
+                 "series; the report always explains cells that have films."),
        Key::Name("asked_for", Path(&Options::stage, &StageRules::asks_for_acts), {{"any", false}, {"acts", true}},
-                 "Which clips are asked for: any other clip, or, while other clips play, one of the coach's acts if "
-                 "there are any."),
+                 "Which clips are requested: any other clip, or one of the coach's acts, if there are any, while other "
+                 "clips play."),
        Key::Number("min_clips", Path(&Options::stage, &StageRules::min_clips), {1, 1000},
                    "Minimum number of clips in which a bridge frame's ten tags must occur together."),
        Key::Number("most_per_class", Path(&Options::stage, &StageRules::most_per_class), {0, 100000},
@@ -67,7 +67,7 @@ const FieldTable<TransitionMethod>& TransitionMethodFields() {
         {Key::Name("choice", Path(&TransitionMethod::way, &TransitionWay::choice), ChoiceNames(), FindChoice,
                    "Which frames a transition takes, and when: paper A's bridge frames, or an alternative."),
          Key::Name("join", Path(&TransitionMethod::way, &TransitionWay::join), JoinNames(), FindJoin,
-                   "How the clips are joined: by a cut, or by a smooth change from the old motion to the new one."),
+                   "The join of two clips: a cut, or a smooth change from the old motion to the new one."),
          Key::Name("weights", &TransitionMethod::weights, WeightSourceNames(), FindWeightSource,
                    "Weights of the fuzzy features: the fuzzy system's, or learnt on all clips but the two judged, by "
                    "logistic regression or a genetic algorithm."),

@@ -20,7 +20,7 @@ TransitionRecord RecordOf(const TransitionAnswer& answer, const Stage& stage, co
   record.request_frame = request.request_frame;
   record.segments = answer.segments;
   record.wait_s = WaitOf(record.segments, kJudgedRateHz);
-  record.why = "a method outside the program says so";
+  record.why = "an external method states this";
   for (std::size_t i = 0; i + 1 < record.segments.size(); ++i) {
     const Segment &old = record.segments[i], &next = record.segments[i + 1];
     record.distances.push_back(

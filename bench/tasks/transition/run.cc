@@ -106,7 +106,7 @@ bool ScorePoints(const TransitionOutcome& outcome, const Stage& stage, CellResul
   // Smoothness of the joints' mean speed around the points, and the remaining metrics.
   const FrameWindow second = AroundPoints(splice, 1);
   const std::vector<double> speed = MeanJointSpeed(splice.motion, second.first, second.last);
-  constexpr const char* kStill = "nothing moves around the point, or too shortly";
+  constexpr const char* kStill = "nothing moves around the transition point, or not long enough";
   result.MeasureOr("sparc", SpectralArcLength(speed, splice.motion.rate_hz), kStill);
   result.MeasureOr("ldlj", LogDimensionlessJerk(speed), kStill);
   result.Measure("wait_s", WaitSeconds(StaysOf(outcome.record), splice.motion.rate_hz));
@@ -147,7 +147,7 @@ void ScoreJoin(const TransitionOutcome& outcome, const Stage& stage, bool natura
   result.Measure("live", clean.live);
   result.Measure("unsupported_frames", UnsupportedFrames(support));
   result.Measure("supported_share", clean.supported ? 1 : 0);
-  result.MeasureOr("balance_cm", BalanceCm(view, support), "nothing bears the body");
+  result.MeasureOr("balance_cm", BalanceCm(view, support), "the body has no support");
   result.Measure("skipped_s", SkippedSeconds(skipped));
   result.Measure("skipped_share", clean.skipped_share);
   result.Measure("calm_natural_share", clean.calmly_natural ? 1 : 0);

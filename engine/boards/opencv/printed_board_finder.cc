@@ -316,7 +316,7 @@ Result<OpenCvCalibration> CalibrateCamera(std::span<const TargetView> views, con
     case LensModel::kRadial3:
       break;
     case LensModel::kAsInCamera:
-      return Fail({}, "OpenCV's calibrateCamera holds no lens as it is");
+      return Fail({}, "OpenCV's calibrateCamera keeps no lens parameter fixed");
   }
   // Convert the views; OpenCV's pixel centres are at whole numbers, ours at halves.
   std::vector<std::vector<cv::Point3f>> object_points;

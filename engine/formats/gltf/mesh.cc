@@ -213,7 +213,7 @@ class MeshReader {
     }
     bindings_ += bindings.size() * mesh.primitives.size();  // every surface gets a copy
     if (bindings_ > kMaxBindings) {
-      return file_.Refuse(where, "with it surfaces hang on {} joints; allowed: {}", bindings_, kMaxBindings);
+      return file_.Refuse(where, "with it, surfaces depend on {} joints; allowed: {}", bindings_, kMaxBindings);
     }
     // Read each primitive as a mesh.
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {

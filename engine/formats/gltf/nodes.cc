@@ -72,7 +72,7 @@ class NodeReader {
     for (int above = parents_[node]; above != kNoIndex; above = parents_[above]) {
       if (++steps > count_) return file_.Refuse(NodeName(node), "hangs below its own descendants; allowed: a tree");
     }
-    return file_.Refuse(NodeName(node), "nested deeper than {} levels", kMaxLevels);
+    return file_.Refuse(NodeName(node), "nested more than {} levels deep", kMaxLevels);
   }
 
   Result<void> MarkScene() {

@@ -107,7 +107,8 @@ Result<void> ReadOnlyThrough(Fetcher& fetcher, Parser& parser) {
   if constexpr (std::is_void_v<decltype(parser.SetFsCallbacks(callbacks))>) {
     parser.SetFsCallbacks(callbacks);
   } else if (!parser.SetFsCallbacks(callbacks)) {
-    return Fail({fetcher.file}, "this tinygltf does not take Etude's way to read files; no glTF is read");
+    return Fail({fetcher.file},
+                "this version of tinygltf does not accept Etude's functions for reading files, so glTF cannot be read");
   }
   return {};
 }
@@ -304,7 +305,7 @@ Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const
   if (!is_read || !complaint.empty()) {
     // A file that could not be fetched is an error only if it was needed.
     if (fetcher.complaint) return tl::unexpected(*fetcher.complaint);
-    return tl::unexpected(NotGltf(file, complaint.empty() ? "the parser gave up" : complaint));
+    return tl::unexpected(NotGltf(file, complaint.empty() ? "the parser failed" : complaint));
   }
   if (!model->asset.version.starts_with("2.")) {
     return Fail({file}, "asset.version: found {}; allowed: 2.0", Quote(model->asset.version));
@@ -355,10 +356,10 @@ Result<GltfContent> ReadGltf(std::string_view bytes, const std::string& file, co
   if (std::ranges::find(model->extensionsRequired, kDraco) == model->extensionsRequired.end()) {
     RETURN_IF_ERROR(ReadGltfMeshes(parsed, nodes, decode, content.character));
   } else {
-    content.remarks.emplace_back("meshes left out, which are compressed (Draco)");
+    content.remarks.emplace_back("compressed meshes (Draco) were left out");
   }
   const bool has_pointers = std::ranges::count(model->extensionsUsed, "KHR_animation_pointer") > 0;
-  if (has_pointers) content.remarks.emplace_back("what KHR_animation_pointer moves is not read");
+  if (has_pointers) content.remarks.emplace_back("animations by KHR_animation_pointer are not read");
   ASSIGN_OR_RETURN(auto clips, ReadGltfClips(parsed, nodes));
   content.clips = std::move(clips);
   for (const auto& [bone, node] : BoneTable(*model)) {

@@ -78,7 +78,7 @@ class Unprepared final : public PreparedIkSolver {
 IkSolver GaussNewton() {
   IkSolver solver = WithSetting(
       {.name = "gauss-newton",
-       .description = "Gauss-Newton steps that stay near the start, with sweeps where they get stuck (the default)",
+       .description = "Gauss-Newton steps that stay near the start, with sweeps if they get stuck (the default)",
        .step = "steps"},
       SolveWithOwn<GaussNewtonOptions>(SolveGaussNewton), &SolverSettings::first_sweeps,
       &GaussNewtonOptions::first_sweeps, Between("first_sweeps", 0, 100, "Sweeps before the first Gauss-Newton step."));
@@ -150,12 +150,13 @@ std::span<const IkSolver> AllIkSolvers() {
        .uses_axes = false,
        .step = "passes",
        .solve = SolveFabrik},
-      WithSetting(
-          {.name = "jacobian-pinv",
-           .description = "paper B's Jacobian pseudo-inverse, the start as preferred posture, limits by clamping",
-           .step = "steps"},
-          SolveWithOwn<JacobianPinvOptions>(SolveJacobianPinv), &SolverSettings::pinv_damping,
-          &JacobianPinvOptions::damping, Between("pinv_damping", 0, 100, "Damping of the inverse; 0 is paper B's.")),
+      WithSetting({.name = "jacobian-pinv",
+                   .description =
+                       "paper B's Jacobian pseudo-inverse, with the start as preferred posture and limits by clamping",
+                   .step = "steps"},
+                  SolveWithOwn<JacobianPinvOptions>(SolveJacobianPinv), &SolverSettings::pinv_damping,
+                  &JacobianPinvOptions::damping,
+                  Between("pinv_damping", 0, 100, "Damping of the inverse; 0 is paper B's.")),
       WithSetting({.name = "jacobian-transpose",
                    .description = "the Jacobian transpose, with the step length that is best to first order",
                    .step = "steps"},

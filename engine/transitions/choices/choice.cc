@@ -117,14 +117,14 @@ TransitionRecord PlanUnbroken(const MotionLibrary& library, const TransitionRequ
   TransitionRecord record;
   record.request_frame = frame;
   if (frame >= last) {
-    record.why = fmt::format("{} has no frame left to go on with", library.names[request.from]);
+    record.why = fmt::format("{} has no frame left to continue with", library.names[request.from]);
     return record;
   }
   record.branch = Branch::kUnbroken;
   record.segments = {{.clip = request.from, .first = frame, .last = frame, .own = {}},
                      {.clip = request.from, .first = frame, .last = last, .own = {}}};
   record.distances = {ComputeDistance(playing.grades[frame], playing.grades[frame], rules.weights)};
-  record.why = fmt::format("{} goes on: no transition, for comparison", library.names[request.from]);
+  record.why = fmt::format("{} continues: no transition, for comparison", library.names[request.from]);
   return record;
 }
 
@@ -201,34 +201,34 @@ Choice Ranked(const char* name, const char* description, bool uses_fuzzy) {
 std::span<const Choice> Table() {
   static const std::array kChoices = {
       Choice{.name = "fuzzy-bridge",
-             .description = "paper A's: the first bridge frames that match, else through an in-between",
+             .description = "paper A's: the first bridge frames that match, otherwise through an in-between",
              .matches_poses = true,
              .uses_fuzzy = true,
              .allowed = BridgeFrames,
              .plan = PlanBy<PlanFuzzyBridge>},
       Ranked<PlanFuzzyKovar, PointCloudSettings>(
-          "fuzzy-kovar", "among all frames that match, those with the least point-cloud distance (Kovar 2002)", true),
+          "fuzzy-kovar", "of all frames that match, those with the smallest point-cloud distance (Kovar 2002)", true),
       Ranked<PlanFuzzyWindow, FuzzyWindowSettings>(
-          "fuzzy-window", "among all frames that match, those with the least mean fuzzy distance around them", true),
-      Ranked<PlanPointCloud, PointCloudSettings>("point-cloud",
-                                                 "the frames with the least point-cloud distance (Kovar 2002)", false),
+          "fuzzy-window", "of all frames that match, those with the smallest mean fuzzy distance around them", true),
+      Ranked<PlanPointCloud, PointCloudSettings>(
+          "point-cloud", "the frames with the smallest point-cloud distance (Kovar 2002)", false),
       Ranked<PlanMotionMatching, MotionMatchingSettings>(
           "motion-matching",
           "the frames with the most similar positions and velocities of hands, feet and hips (Clavet 2016)", false),
       Choice{
           .name = "played",
-          .description = "the frames and blend length whose transition, when played, costs least time and acceleration",
+          .description = "the frames and the length of the join whose transition costs the least time and acceleration",
           .settings = PlayedSettings().Describe(),
           .plan = PlanWith<PlanPlayed, PlayedSettings>},
       Choice{.name = "through-standing",
-             .description = "at once, by a standing pose into the clip's first frame",
+             .description = "leaves at once, and goes through a standing pose into the clip's first frame",
              .plan = PlanBy<PlanThroughStanding>},
-      Choice{.name = "now", .description = "at once, into the clip's first frame", .plan = PlanBy<PlanNow>},
+      Choice{.name = "now", .description = "leaves at once, into the clip's first frame", .plan = PlanBy<PlanNow>},
       Choice{.name = "wait-for-end",
-             .description = "after the playing clip's last frame, into the clip's first",
+             .description = "goes from the playing clip's last frame into the clip's first frame",
              .plan = PlanBy<PlanWaitForEnd>},
       Choice{.name = "unbroken",
-             .description = "no transition: the playing clip goes on, for comparison",
+             .description = "no transition: the playing clip continues, for comparison",
              .plan = PlanBy<PlanUnbroken>},
   };
   return kChoices;

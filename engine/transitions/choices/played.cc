@@ -194,12 +194,12 @@ TransitionRecord PlanThroughClip(const MotionLibrary& library, const TransitionR
                        stance.is_down ? "lies, sits or kneels" : "stands", stance.hips);
   };
   const std::string why = fmt::format(
-      "{} all the while that it may be left, {} where it may be entered: no join can {} a body on nothing",
+      "{} in all frames in which it may be left, {} where it may be entered: no join can {} a body without support",
       describe(request.from, left), describe(request.to, wanted), wanted.hips > left.hips ? "raise" : "lower");
   // Find a clip that changes the stance.
   const auto through = FindThroughClip(library, request, allowed, options.most_through_s);
   if (!through) {
-    record.why = fmt::format("{}; and no clip shows within {:g} s how it is done", why, options.most_through_s);
+    record.why = fmt::format("{}; and no clip shows such a movement within {:g} s", why, options.most_through_s);
     return record;
   }
   // Choose the join into that clip.
@@ -252,7 +252,7 @@ const SettingTable<PlayedOptions>& PlayedSettings() {
        {"most_skipped_s", &PlayedOptions::most_skipped_s, 0, 60,
         "Maximum time of the wanted clip that may be skipped, in seconds; never more than its first third."},
        {"most_through_s", &PlayedOptions::most_through_s, 0, 60,
-        "Maximum time, in seconds, of a clip that stands up or lies down to show on the way, after the wait."}});
+        "Maximum time, in seconds, for which a clip that stands up or lies down is shown on the way."}});
   return kSettings;
 }
 
@@ -280,9 +280,9 @@ TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionReques
   }
   record.candidates =
       ListCandidates(library, request, rules, ranked(best), std::move(others), CandidateOutcome::kWorse);
-  record.why = fmt::format("least cost of the transitions played: {}, joined within {:.2f} s by {}, {:.2f} s in all",
+  record.why = fmt::format("lowest cost of the transitions tried: {}, joined within {:.2f} s by {}, {:.2f} s in total",
                            DescribePair(library, request, best.pair.leave, best.pair.enter), preferred.blend_s,
-                           preferred.way == JoinStyle::kFades ? "a fade" : "movements of least jerk", best.cost_s);
+                           preferred.way == JoinStyle::kFades ? "a fade" : "minimum-jerk movements", best.cost_s);
   return record;
 }
 

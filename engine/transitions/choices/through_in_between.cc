@@ -124,7 +124,7 @@ std::string Explain(const MotionLibrary& library, const TransitionRequest& reque
     const bool is_near = key_point.distance.value < threshold;
     return fmt::format("{} (d = {:.2f}{})", key_point.frame, key_point.distance.value,
                        key_point.matches ? ""
-                       : is_near         ? ", but no bridge frame that may be taken"
+                       : is_near         ? ", but it has no bridge frame that may be taken"
                                          : fmt::format(", not below {}", threshold));
   };
   return fmt::format("left at {} {} for the key pose {}, entered from the key pose {} at {} {}",

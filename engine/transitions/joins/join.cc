@@ -26,7 +26,8 @@ Blend BeginWith(const JoinInput& input, std::span<const double> values) {
 // This is a function so that the table is initialised after the strings it uses.
 std::span<const JoinKind> Table() {
   static const std::array kJoins = {
-      JoinKind{.name = "cut", .description = "paper A's: the next frame shown is the new clip's", .begin = CutOver},
+      JoinKind{
+          .name = "cut", .description = "paper A's: a cut; the next frame shown is the new clip's", .begin = CutOver},
       JoinKind{.name = "crossfade",
                .description = "the old motion fades into the new one (Kovar 2002)",
                .settings = CrossfadeSettings().Describe(),
@@ -39,11 +40,11 @@ std::span<const JoinKind> Table() {
                .description = "the offset decays like a critically damped spring (Holden 2020)",
                .begin = SpringDefaults},
       JoinKind{.name = "minimum-jerk",
-               .description = "the offset decays along the quintic of least jerk, whatever its velocity",
+               .description = "the offset decays along the minimum-jerk quintic, for any velocity",
                .settings = MinimumJerkSettings().Describe(),
                .begin = BeginWith<MinimumJerk, MinimumJerkSettings>},
       JoinKind{.name = "planted-feet",
-               .description = "the same, and each foot changes from the old motion's path to the new one's in a step",
+               .description = "the same, and each foot changes from the old motion's path to the new one's in one step",
                .settings = MinimumJerkSettings().Describe(),
                .begin = BeginWith<PlantedFeet, MinimumJerkSettings>,
                .align = AlignOnPlantedFeet},

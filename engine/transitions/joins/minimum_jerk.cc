@@ -15,9 +15,9 @@ const SettingTable<MinimumJerkOptions>& MinimumJerkSettings() {
       {{"blend_s", &MinimumJerkOptions::blend_s, 0, 5,
         "Seconds after the transition point until the new motion is shown alone, unless the choice sets it."},
        {"fades", &MinimumJerkOptions::fades, 0, 1,
-        "1: the old motion goes on and fades out; 0: its offset from the new motion decays."},
+        "1: the old motion continues and fades out; 0: its offset from the new motion decays."},
        {"direct", &MinimumJerkOptions::direct, 0, 1,
-        "1: each limb moves with least jerk to its place in the new motion at the end; 0: as `fades` says."}});
+        "1: each limb moves with minimum jerk to its pose in the new motion at the end; 0: as `fades` states."}});
   return kSettings;
 }
 

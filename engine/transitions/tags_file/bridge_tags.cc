@@ -88,7 +88,7 @@ void CompareClips(const ClipTags& file, const ClipTags& now, TagsComparison& com
   for (const TaggedFrame& frame : file.bridge_frames) {
     const auto found = frames_now.find(frame.frame);
     if (found == frames_now.end()) {
-      comparison.differences.push_back(fmt::format("clip {}: frame {} is no bridge frame now", name, frame.frame));
+      comparison.differences.push_back(fmt::format("clip {}: frame {} is not a bridge frame now", name, frame.frame));
       continue;
     }
     ++comparison.bridge_frames;
@@ -109,7 +109,7 @@ TagsComparison CompareTags(const BridgeTags& file, const BridgeTags& now) {
   TagsComparison comparison;
   // Compare the rules.
   const auto compare = [&](const char* what, const auto& in_file, const auto& found) {
-    if (in_file != found) comparison.differences.push_back(fmt::format("{} is another one now", what));
+    if (in_file != found) comparison.differences.push_back(fmt::format("{} is a different one now", what));
   };
   compare("the fuzzy system's name", file.system, now.system);
   compare("the set of membership functions", file.memberships_digest, now.memberships_digest);

@@ -69,8 +69,7 @@ Result<void> CheckBeforeParsing(std::string_view text, const std::string& file) 
     return Fail({file, 0, 0}, "is empty; etude bridge writes tags files");
   }
   if (const std::size_t at = text.find("<!DOCTYPE"); at != std::string_view::npos) {
-    return Fail({file, LineOf(text, at), 0},
-                "a document type declaration; a tags file has none (entities are not expanded)");
+    return Fail({file, LineOf(text, at), 0}, "a document type declaration; allowed: none (entities are not expanded)");
   }
   // The limit allows two names of 4096 bytes written as &quot; entities. It is needed because libxml2 takes quadratic
   // time in the number of a tag's attributes.
@@ -78,7 +77,7 @@ Result<void> CheckBeforeParsing(std::string_view text, const std::string& file) 
   for (std::size_t start = 0; start < text.size();) {
     const std::size_t next = std::min(text.find('<', start + 1), text.size());
     if (next - start > kMaxTagBytes) {
-      return Fail({file, LineOf(text, start), 0}, "{} bytes without a new tag; a tags file has up to {}", next - start,
+      return Fail({file, LineOf(text, start), 0}, "{} bytes without a new tag; allowed: up to {}", next - start,
                   kMaxTagBytes);
     }
     start = next;
@@ -226,7 +225,7 @@ class TagsReader {
     T value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) {
-      Complain("{} is {}; written is a plain number", name, Quote(text));
+      Complain("{} is {}; allowed: a plain number", name, Quote(text));
     }
     return value;
   }
@@ -238,7 +237,7 @@ class TagsReader {
     const Feature expected = AllFeatures()[weights_read_++];
     const std::string name = xml_.Attribute("feature");
     if (name != FeatureName(expected)) {
-      return Complain("the weight of {}; in this place stands that of {}", name, FeatureName(expected));
+      return Complain("the weight of {}; the weight of {} belongs here", name, FeatureName(expected));
     }
     tags_.weights[static_cast<std::size_t>(expected)] = Number("value");
   }
@@ -267,16 +266,17 @@ class TagsReader {
     for (Feature feature : AllFeatures()) {
       const std::string tag = xml_.Attribute(FeatureName(feature));
       if (tag != TagName(frame.tags, feature)) {
-        return Complain("{} is tagged {}, but by its grades it is {}", FeatureName(feature), Quote(tag),
+        return Complain("{} is tagged {}, but its grades give {}", FeatureName(feature), Quote(tag),
                         TagName(frame.tags, feature));
       }
     }
     // The frame must lie in the clip and after the previous one, and its time must follow from its index.
     if (frame.frame >= clip.frames) {
-      return Complain("frame {} of a clip that has {}; they count from 0", frame.frame, clip.frames);
+      return Complain("frame {} of a clip that has {}; frames count from 0", frame.frame, clip.frames);
     }
     if (!clip.bridge_frames.empty() && frame.frame <= clip.bridge_frames.back().frame) {
-      return Complain("frame {} after frame {}; bridge frames rise", frame.frame, clip.bridge_frames.back().frame);
+      return Complain("frame {} after frame {}; bridge frames must ascend", frame.frame,
+                      clip.bridge_frames.back().frame);
     }
     const double time_s = Number("time-s"), expected_s = frame.frame / clip.rate_hz;
     constexpr double kRoundingOfFile = 1e-6;
@@ -307,7 +307,7 @@ class TagsReader {
     const bool is_bridge_frame = std::any_of(of_clip.bridge_frames.begin(), of_clip.bridge_frames.end(), is_it);
     // In a library without bridge frames, any frame may be a key.
     if (has_bridge_frames ? !is_bridge_frame : key.frame >= of_clip.frames) {
-      return Complain("a key at frame {} of clip {}, which is no bridge frame", key.frame, Quote(key.clip));
+      return Complain("a key at frame {} of clip {}, which is not a bridge frame", key.frame, Quote(key.clip));
     }
     tags_.keys.push_back(key);
   }
@@ -323,7 +323,7 @@ class TagsReader {
 
 Result<BridgeTags> ReadTagsFile(std::string_view text, const std::string& file) {
   if (text.size() > kMaxTagsFileBytes) {
-    return Fail({file, 0, 0}, "{} bytes; a tags file has up to {}", text.size(), kMaxTagsFileBytes);
+    return Fail({file, 0, 0}, "{} bytes; allowed: up to {}", text.size(), kMaxTagsFileBytes);
   }
   ASSIGN_OR_RETURN(auto xml, XmlReader::Open(text, TagsFileSchemas().front().text, file));
   TagsReader reader(xml);

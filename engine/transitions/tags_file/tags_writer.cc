@@ -44,7 +44,8 @@ Result<void> CheckName(const std::string& name) {
   bool fits = !name.empty() && name.size() <= 4096 && xmlCheckUTF8(reinterpret_cast<const xmlChar*>(name.c_str()));
   for (char c : name) fits = fits && static_cast<unsigned char>(c) >= ' ';
   if (fits) return {};
-  return Fail({}, "a clip is called {}; a tags file holds names of UTF-8, without control characters, up to 4096 bytes",
+  return Fail({},
+              "the name of a clip is {}; allowed in a tags file: UTF-8 without control characters, up to 4096 bytes",
               Quote(name));
 }
 

@@ -118,8 +118,9 @@ TEST_F(Predictions, ThatAreLinksOrNoFilesAreBrokenAndNotOpened) {
   fs::create_symlink(folder_.path() / "truth.json", folder_.path() / "answers/.note");
   const auto files = Find({});
   ASSERT_TRUE(files);
-  EXPECT_THAT(faults_.broken, ElementsAre("ik/joint_noise_deg=2/001.json: is a link; an answer is a file of its own",
-                                          "ik/joint_noise_deg=5: is a link; an answer is a file of its own"));
+  EXPECT_THAT(faults_.broken,
+              ElementsAre("ik/joint_noise_deg=2/001.json: is a link; each answer must be a separate file",
+                          "ik/joint_noise_deg=5: is a link; each answer must be a separate file"));
   EXPECT_TRUE((*files)[0]);
   EXPECT_FALSE((*files)[1]);
   EXPECT_FALSE((*files)[2]);

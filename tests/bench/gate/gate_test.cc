@@ -78,7 +78,7 @@ TEST(Gate, RefusesRowsThatAreThereTwiceOrThatNobodyAskedFor) {
   FinishedRun twice = Steady();
   twice.data.rows.push_back(twice.data.rows[3]);
   EXPECT_THAT(ToString(CheckRows(twice, {"cells.jsonl", 0, 0}).error()),
-              HasSubstr("holds the cell s/joint_noise_deg=1/001/b twice"));
+              HasSubstr("contains the cell s/joint_noise_deg=1/001/b twice"));
   FinishedRun stranger = Steady();
   stranger.data.rows[3].method = "c";
   EXPECT_THAT(ToString(CheckRows(stranger, {}).error()), HasSubstr("/c, which no scenario of the manifest asks for"));
@@ -102,7 +102,7 @@ TEST(Gate, FailsAMethodThatGaveNoAnswerAnywhere) {
   }
   const auto report = JudgeRun(run, nullptr, "");
   EXPECT_EQ(GateVerdictOf(*report), GateVerdict::kRegressed);
-  EXPECT_THAT(report->silent, ElementsAre("s: none of the 48 cells of b is ok or unsolved; the first is "
+  EXPECT_THAT(report->silent, ElementsAre("s: none of the 48 cells of b is ok or unsolved; the first has "
                                           "s/joint_noise_deg=1/000/b; 48 × failed: ended with exit code 1"));
   run.data.rows.back().result = CellResult::Ended(Status::kUnsolved, "too far");  // b's, which is an answer
   EXPECT_EQ(GateVerdictOf(*JudgeRun(run, nullptr, "")), GateVerdict::kPassed);

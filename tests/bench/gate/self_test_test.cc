@@ -45,9 +45,9 @@ TEST(SelfTest, FindsNoAlarmBetweenEqualSeedsAndEveryLargeChange) {
     EXPECT_EQ(tail.found.of, 20);
     tails[tail.change] = tail.found.count;
   }
-  EXPECT_EQ(tails.at("position_error_cm in 3 of 24 worlds worse by 40 × what matters"), 0);
-  EXPECT_EQ(tails.at("position_error_cm in 4 of 24 worlds worse by 40 × what matters"), 20);
-  EXPECT_EQ(tails.at("position_error_cm in 4 of 24 worlds worse by 18 × what matters"), 0);
+  EXPECT_EQ(tails.at("position_error_cm in 3 of 24 worlds worse by 40 × the difference that matters"), 0);
+  EXPECT_EQ(tails.at("position_error_cm in 4 of 24 worlds worse by 40 × the difference that matters"), 20);
+  EXPECT_EQ(tails.at("position_error_cm in 4 of 24 worlds worse by 18 × the difference that matters"), 0);
   EXPECT_EQ(tails.at("position_error_cm lost in 1 of 24 worlds"), 20);
   EXPECT_TRUE(report->Holds());
 }

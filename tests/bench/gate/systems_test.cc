@@ -28,7 +28,7 @@ TEST(CompareSystems, NamesBothAndWhatWasMeasuredBetweenThem) {
   EXPECT_THAT(CompareSystems(kDebian12, kDebian13, worlds, worlds),
               ElementsAre("A: GCC 12.2.0, glibc 2.36, Ceres 2.1.0, Mesa 22.3.6, by OSMesa (Debian 12)",
                           "B: GCC 14.2.0, glibc 2.41, Ceres 2.2.0, Mesa 25.0.7-2+deb13u1, by EGL (Debian 13)",
-                          "Measured between these: none of the quick suite's 2192 cells differs."));
+                          "Measured between these systems: none of the quick suite's 2192 cells differs."));
 }
 
 TEST(CompareSystems, FindsASystemThatDrewNothingByTheRest) {
@@ -40,7 +40,7 @@ TEST(CompareSystems, FindsASystemThatDrewNothingByTheRest) {
 TEST(CompareSystems, TellsWhatIsMoreThanMeasured) {
   const auto lines = CompareSystems(kDebian12, kDebian13, ThreeWorlds({1, 2, 3}), ThreeWorlds({1, 1.75, 3.125}));
   ASSERT_EQ(lines.size(), 4u);
-  EXPECT_EQ(lines[3], "These differ more than measured: jump_cm by 0.25.");
+  EXPECT_EQ(lines[3], "The differences here are larger than measured: jump_cm by 0.25.");
 }
 
 TEST(CompareSystems, SaysThatNothingIsKnownOfOtherSystems) {

@@ -101,16 +101,17 @@ TEST_P(Misfits, AreFoundOut) {
 
 INSTANTIATE_TEST_SUITE_P(
     Conformance, Misfits,
-    ::testing::Values(
-        Misfit{"speaks_another_protocol", "starts and greets", "does not speak protocol 1"},
-        Misfit{"prints_garbage", "gives answers that can be scored",
-               "bad_output: said something that is not JSON: 'loading"},
-        Misfit{"answers_large", "gives answers that can be scored", "its answer cannot be scored: "},
-        Misfit{"counts_its_problems", "answers a repeated problem alike", "first '"},
-        Misfit{"remembers_the_first_problem", "answers alike after a restart and in another order", "first '"},
-        Misfit{"refuses_what_it_does_not_know", "accepts long lines, unknown keys and ids of any text", "not JSON"},
-        Misfit{"answers_twice", "answers every question once", "answers were repeated"},
-        Misfit{"stays_after_the_end", "ends when its input ends", "was still running 2 s later"}),
+    ::testing::Values(Misfit{"speaks_another_protocol", "starts and greets", "does not speak protocol 1"},
+                      Misfit{"prints_garbage", "gives answers that can be scored",
+                             "bad_output: wrote something that is not JSON: 'loading"},
+                      Misfit{"answers_large", "gives answers that can be scored", "its answer cannot be scored: "},
+                      Misfit{"counts_its_problems", "gives the same answer to a repeated problem", "first '"},
+                      Misfit{"remembers_the_first_problem",
+                             "gives the same answers after a restart and in another order", "first '"},
+                      Misfit{"refuses_what_it_does_not_know",
+                             "accepts long lines, unknown keys and ids with any characters", "not JSON"},
+                      Misfit{"answers_twice", "answers every question once", "answers were repeated"},
+                      Misfit{"stays_after_the_end", "ends when its input ends", "it was still running 2 s later"}),
     [](const auto& tested) { return tested.param.behaviour; });
 
 TEST(Conformance, TellsWhenThereIsNothingToExamine) {

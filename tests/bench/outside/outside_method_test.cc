@@ -122,27 +122,28 @@ INSTANTIATE_TEST_SUITE_P(
                   "ended with signal 11 (Segmentation fault); its last words: 'about to fall'"},
         Hostility{"exits", Status::kFailed, R"(ended with exit code 3, amid the line '{"type": "ans')"},
         Hostility{"prints_garbage", Status::kBadOutput,
-                  R"(said something that is not JSON: 'loading model \x1b[1m100%\x1b[0m')"},
-        Hostility{"answers_nan", Status::kBadOutput, "said something that is not JSON near byte 68: '"},
-        Hostility{"answers_beyond_doubles", Status::kBadOutput, "said a number that is too large: '"},
-        Hostility{"answers_deeply", Status::kBadOutput, "said something nested more than 32 levels deep: '[[[["},
-        Hostility{"answers_a_key_twice", Status::kBadOutput, "named the key 'number' twice in one object: '"},
-        Hostility{"answers_bytes", Status::kBadOutput, "said something that is not JSON: "},
-        Hostility{"answers_behind_a_zero_byte", Status::kBadOutput, "said something that is not JSON: a zero byte"},
-        Hostility{"answers_without_end", Status::kBadOutput, "said a line of more than 16 MiB: 'xxx"},
+                  R"(wrote something that is not JSON: 'loading model \x1b[1m100%\x1b[0m')"},
+        Hostility{"answers_nan", Status::kBadOutput, "wrote something that is not JSON near byte 68: '"},
+        Hostility{"answers_beyond_doubles", Status::kBadOutput, "wrote a number that is too large: '"},
+        Hostility{"answers_deeply", Status::kBadOutput,
+                  "wrote something nested more than 32 levels levels deep: '[[[["},
+        Hostility{"answers_a_key_twice", Status::kBadOutput, "wrote the key 'number' twice in one object: '"},
+        Hostility{"answers_bytes", Status::kBadOutput, "wrote something that is not JSON: "},
+        Hostility{"answers_behind_a_zero_byte", Status::kBadOutput, "wrote something that is not JSON: a zero byte"},
+        Hostility{"answers_without_end", Status::kBadOutput, "wrote a line of more than 16 MiB: 'xxx"},
         Hostility{"answers_another_question", Status::kBadOutput, "answered 'another' when asked 'p"},
         Hostility{"answers_a_list", Status::kBadOutput, "its 'answer' has no object \"answer\": "},
         Hostility{"eats_memory", Status::kOutOfMemory, "held more than 200 MB of memory"},
         Hostility{"lets_a_child_eat_memory", Status::kOutOfMemory, "held more than 200 MB of memory"},
         Hostility{"leaves_a_child_at_its_output", Status::kFailed, "ended with exit code 5"},
-        Hostility{"speaks_another_protocol", Status::kBadOutput, "in its start: does not speak protocol 1: "}),
+        Hostility{"speaks_another_protocol", Status::kBadOutput, "in its start: does not support protocol 1: "}),
     [](const auto& tested) { return tested.param.behaviour; });
 
 TEST(OutsideMethod, ClosingItsOutputIsNoWayToLiveOn) {
   OutsideMethod method(Behaving("closes_its_output"));
   const OutsideReply reply = Ask(method);
   EXPECT_EQ(reply.status, Status::kBadOutput);
-  EXPECT_EQ(reply.reason, "closed its output, but went on running");
+  EXPECT_EQ(reply.reason, "closed its output, but continued to run");
 }
 
 TEST(OutsideMethod, TakingTooLongIsATimeout) {
@@ -258,7 +259,7 @@ TEST(OutsideMethod, AStartThatTheFencePreventsIsToldWithItsCure) {
   EXPECT_FALSE(reply.was_asked);
   EXPECT_THAT(reply.reason, StartsWith("in its start: ended with exit code 127"));
   const std::string whole = (home / "manager").string(), mine = (home / "mine").string();
-  EXPECT_THAT(reply.reason, HasSubstr("; its fence does not show it " + whole + ": give it files: ["));
+  EXPECT_THAT(reply.reason, HasSubstr("; " + whole + " cannot be read inside its fence: give it files: ["));
   EXPECT_THAT(reply.reason, HasSubstr(mine));
   // The cure works.
   options.files = {mine, whole};
@@ -430,7 +431,7 @@ INSTANTIATE_TEST_SUITE_P(
         Hostility{"dies_in_a_session", Status::kFailed, "ended with exit code 1; its last words: 'out of luck'"},
         Hostility{"hangs_in_a_session", Status::kTimeout, "took longer than 0.1 s"},
         Hostility{"prints_garbage_in_a_session", Status::kBadOutput,
-                  "at step 2: said something that is not JSON: 'loading model"},
+                  "at step 2: wrote something that is not JSON: 'loading model"},
         Hostility{"answers_another_step", Status::kBadOutput, "at step 2: answered another step than 2: "},
         Hostility{"answers_the_next_step_as_well", Status::kBadOutput, "answered before it was asked"},
         Hostility{"gives_up_in_a_session", Status::kUnsolved, "gave no answer: 'no way\\x0aout'"}),

@@ -73,7 +73,7 @@ TEST(DetectionExtras, AreRefusedNamingThePlaceWhatWasFoundAndWhatItMeans) {
   EXPECT_EQ(with("0.25", R"("high")"),
             R"(events[1].score: "high" is not a number (the method's confidence that it was right))");
   EXPECT_EQ(with("20.5", "null"),
-            "moves[0].key_poses[0][0].tolerance_deg: null is not a number (largest deviation that still counts)");
+            "moves[0].key_poses[0][0].tolerance_deg: null is not a number (largest deviation that is accepted)");
   EXPECT_THAT(with(R"("end_frame":9)", R"("end":9)"), HasSubstr("events[1].end_frame: it is missing (the first after"));
   EXPECT_THAT(with(R"("end_frame":9)", R"("end_frame":9.5)"),
               HasSubstr("events[1].end_frame: 9.5 is not a whole number"));
@@ -83,7 +83,7 @@ TEST(DetectionExtras, AreRefusedNamingThePlaceWhatWasFoundAndWhatItMeans) {
   EXPECT_THAT(with(R"("version":1)", R"("version":2)"), HasSubstr("version: 2; allowed: 1"));
   EXPECT_THAT(with("etude-detection", "etude-coach"),
               HasSubstr(R"(format: "etude-coach"; allowed: "etude-detection")"));
-  EXPECT_EQ(ComplaintOfExtras(ReadDetectionExtras, "[1]"), "not a JSON object, but a list of 1");
+  EXPECT_EQ(ComplaintOfExtras(ReadDetectionExtras, "[1]"), "not a JSON object but a list of 1");
   EXPECT_THAT(ComplaintOfExtras(ReadDetectionExtras, "{"), HasSubstr("not a JSON object: not valid JSON"));
 }
 

@@ -175,20 +175,20 @@ TEST_F(ColumnsTest, ThatAreNotAsTheyWereWrittenAreRefused) {
     std::string changed = text;
     change(changed);
     EXPECT_TRUE(WriteFileAtomically(file, changed));
-    EXPECT_THAT(ToString(LoadRun(folder()).error()), HasSubstr("is not as the run wrote it"));
+    EXPECT_THAT(ToString(LoadRun(folder()).error()), HasSubstr("was changed after the run wrote it"));
     const std::string complaint = Complaint();
     EXPECT_TRUE(WriteFileAtomically(file, text));
     return complaint;
   };
   EXPECT_EQ(Complaint(), "");
   EXPECT_THAT(with(own / "status.npy", [](std::string& text) { text.pop_back(); }),
-              HasSubstr("status.npy: holds 15 numbers; its run has 16 rows"));
+              HasSubstr("status.npy: has 15 numbers, but its run has 16 rows"));
   EXPECT_THAT(with(own / "status.npy", [](std::string& text) { text.resize(20); }), HasSubstr("it is too short"));
   EXPECT_THAT(with(own / "status.npy", [](std::string& text) { text.back() = 8; }), HasSubstr("status.npy holds 8"));
   EXPECT_THAT(with(own / "kind.npy", [](std::string& text) { text.back() = 1; }), HasSubstr("kind.npy holds"));
   EXPECT_THAT(with(own / "reason.npy", [](std::string& text) { text.back() = 1; }), HasSubstr("names text"));
   EXPECT_THAT(with(own / "position_error_cm.npy", [](std::string& text) { text[14] = 'X'; }),
-              HasSubstr("is no column of numbers of type <f8"));
+              HasSubstr("is not a column of numbers of type <f8"));
   EXPECT_THAT(with(own / "series" / "position_error_cm.ends.npy", [](std::string& text) { text.back() = 1; }),
               HasSubstr("do not follow each other"));
   // NumPy would take the two methods of a trial for two trials of a method.
@@ -203,15 +203,15 @@ TEST_F(ColumnsTest, ThatAreNotAsTheyWereWrittenAreRefused) {
       text = index.dump();
     });
   };
-  EXPECT_THAT(with_index("/trials", -1), HasSubstr("tells of no cells"));
-  EXPECT_THAT(with_index("/methods", nlohmann::json::array()), HasSubstr("tells of no cells"));
-  EXPECT_THAT(with_index("/texts", nlohmann::json::array()), HasSubstr("names a text that is not there"));
-  EXPECT_THAT(with_index("/kinds/0/why/0", -2), HasSubstr("names a text that is not there"));
+  EXPECT_THAT(with_index("/trials", -1), HasSubstr("contains no cells"));
+  EXPECT_THAT(with_index("/methods", nlohmann::json::array()), HasSubstr("contains no cells"));
+  EXPECT_THAT(with_index("/texts", nlohmann::json::array()), HasSubstr("names a text that does not exist"));
+  EXPECT_THAT(with_index("/kinds/0/why/0", -2), HasSubstr("names a text that does not exist"));
   const auto texts = nlohmann::json::parse(*ReadWholeFile(folder() / "columns" / "clips" / "index.json")).at("texts");
   for (std::size_t i = 0; i < texts.size(); ++i) {
     if (!texts[i].get<std::string>().starts_with('[')) continue;
     const std::string key = fmt::format("/texts/{}", i);
-    EXPECT_THAT(with_index(key.c_str(), "[1]", "clips"), HasSubstr("'[1]' is no list of units"));
+    EXPECT_THAT(with_index(key.c_str(), "[1]", "clips"), HasSubstr("'[1]' is not a list of units"));
     EXPECT_THAT(with_index(key.c_str(), "[", "clips"), HasSubstr("clips"));
   }
   fs::remove(own / "digest_world.npy");

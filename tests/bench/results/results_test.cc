@@ -248,7 +248,7 @@ TEST(Seal, HoldsUntilAnythingTheRunWroteChanges) {
   EXPECT_TRUE(CheckSeal(folder));
 
   ASSERT_TRUE(WriteFileAtomically(series, "twp\n"));
-  EXPECT_THAT(ToString(CheckSeal(folder).error()), HasSubstr("ik.jsonl: is not as the run wrote it"));
+  EXPECT_THAT(ToString(CheckSeal(folder).error()), HasSubstr("ik.jsonl: was changed after the run wrote it"));
   std::filesystem::remove(series);
   EXPECT_THAT(ToString(CheckSeal(folder).error()), HasSubstr("ik.jsonl: is missing"));
   ASSERT_TRUE(WriteFileAtomically(series, "two\n"));

@@ -194,7 +194,7 @@ TEST_F(JournalTest, KnowsWhatItBelongsToAsLongAsOneCopyOfItsHeadIsGood) {
   std::string changed = text;
   changed[5] = changed[line + 5] = 'x';
   Rewrite(changed);
-  EXPECT_THAT(Complaint(), HasSubstr("not the head of a journal, and no copy of it follows"));
+  EXPECT_THAT(Complaint(), HasSubstr("not the header of a journal, and no copy of a header follows"));
 }
 
 TEST_F(JournalTest, RefusesACellOfAnotherShard) {

@@ -144,7 +144,7 @@ TEST_F(SupervisorTest, AWorkerThatTalksNonsenseGivesBadOutput) {
     const auto whole =
         RunWith(std::string("echo ready\nread -r order\necho built\necho \"") + nonsense + "\"\nread -r more\n");
     ASSERT_TRUE(whole && *whole);
-    ExpectAll(Status::kBadOutput, "its worker answered with something else");
+    ExpectAll(Status::kBadOutput, "its worker sent an unexpected answer");
   }
 }
 
@@ -304,7 +304,7 @@ TEST_F(SupervisorTest, AnAnswerForAnotherCellIsNotTaken) {
   const std::string row = EncodeCellLine(plan_.cell_count(), FinishedCell());
   const auto whole = RunWith("echo ready\nread -r order\necho built\ncat <<'END'\n" + row + "\nEND\nread -r more\n");
   ASSERT_TRUE(whole && *whole);
-  ExpectAll(Status::kBadOutput, "its worker answered with something else");
+  ExpectAll(Status::kBadOutput, "its worker sent an unexpected answer");
 }
 
 TEST_F(SupervisorTest, AWorkerIsGivenWorldsAheadAndLosesOnlyTheOneThatItWasAt) {

@@ -73,7 +73,7 @@ TEST(Keys, OfEveryScenarioAreThoseThatAreRead) {
     Names read;
   };
   const std::vector<Mapping> cases = {
-      {"", "A file of several scenarios", AllowedBy(Complaint("scenarios: [{}]\nzzzz: 1\n"))},
+      {"", "A file with several scenarios", AllowedBy(Complaint("scenarios: [{}]\nzzzz: 1\n"))},
       {"sweep.PARAMETER", "A range of values", complaint_of("sweep: {poses: {from: 0, to: 1, zzzz: 1}}")},
       {"expect[]", "An expectation", complaint_of("expect: [{metric: iterations, of: a, zzzz: 1}]")},
       {"video", "Recordings for films", complaint_of("video: {zzzz: 1}")},

@@ -87,8 +87,8 @@ TEST(Scenario, TellsWhatIsWrongWithAnotherProgram) {
   EXPECT_THAT(complaint("exec: [x], options: [1]"), HasSubstr("'options' must be a mapping"));
   EXPECT_THAT(complaint("exec: [x], options: {a: \"\\xff\"}"), testing::Eq(""));  // an escape gives a character
   EXPECT_THAT(complaint("exec: [x], time_s: 0"), HasSubstr("'time_s': 0 is out of range"));
-  EXPECT_THAT(complaint("options: {a: 1}"), HasSubstr("s.yaml:4:30: 'options' is for methods with 'exec'"));
-  EXPECT_THAT(complaint("time_s: 1"), HasSubstr("'time_s' is for methods with 'exec'"));
+  EXPECT_THAT(complaint("options: {a: 1}"), HasSubstr("s.yaml:4:30: 'options' is only for methods with 'exec'"));
+  EXPECT_THAT(complaint("time_s: 1"), HasSubstr("'time_s' is only for methods with 'exec'"));
 }
 
 TEST(Scenario, ReadsLimitsAndWhatTheGateHoldsAgainstABaseline) {

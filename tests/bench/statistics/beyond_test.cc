@@ -147,7 +147,7 @@ TEST(MeasureBeyond, KnowsNothingBeyondWhatEveryWorldShows) {
   EXPECT_EQ(always.units, 7);
   EXPECT_EQ(always.left_out.size(), 6u);
   EXPECT_FALSE(always.verdict);
-  EXPECT_EQ(always.why_open, "every world shows the same clip: no verdict beyond it");
+  EXPECT_EQ(always.why_open, "all worlds show the same clip: no verdict beyond it");
   EXPECT_EQ(Judged({}).units, 0);
 }
 

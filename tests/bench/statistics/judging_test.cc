@@ -101,7 +101,7 @@ TEST(JudgeFamily, SaysWhyADifferenceIsNotYetAVerdict) {
   for (double& difference : small) difference = dice.Normal(-0.95, 0.6);
   const Comparison open = JudgedAmong(1, Compared(small, "jump_cm"));
   EXPECT_EQ(open.verdict, Verdict::kInconclusive);
-  EXPECT_EQ(open.why_open, "it differs, but whether by as much as matters is open");
+  EXPECT_EQ(open.why_open, "it differs, but it is open whether by as much as matters");
 }
 
 TEST(JudgeFamily, TellsATestThatFoundSomethingFromOneThatDidNot) {

@@ -179,7 +179,7 @@ TEST(ApiMotion, ReadsEtudesOwnTablesAsWrittenAndSaysEveryChange) {
     EXPECT_THAT(read.changes, ::testing::ElementsAre("Etude's joints"));
   }
   const Motion turned = ReadMotion(WriteJointCsv(raised), "a.csv", 60, {.keep_floor = true, .up = 'z'});
-  EXPECT_THAT(turned.changes, ::testing::ElementsAre("Etude's joints", "turned upright from Z up (told)",
+  EXPECT_THAT(turned.changes, ::testing::ElementsAre("Etude's joints", "turned upright from Z up (given)",
                                                      "resampled from 30 to 60 Hz"));
   EXPECT_THAT(Complaint([&] { ReadMotion(WriteJointCsv(raised), "a.csv", 30, {.up = 'w'}); }), HasSubstr("allowed: y, z"));
   EXPECT_THAT(Complaint([&] { ReadMotion(WriteJointCsv(raised), "a.csv", 30, {.marker_set = "opencup"}); }),
@@ -226,7 +226,7 @@ TEST(ApiFuzzy, BridgesLeaveClipsWherePosesMatch) {
   EXPECT_THAT(Complaint([&] { Bridges(clips, {.threshold = 0}); }), HasSubstr("above 0, up to 6"));
   std::vector<Motion> mixed = clips;
   mixed[1].rate_hz = 60;
-  EXPECT_THAT(Complaint([&] { Bridges{mixed}; }), HasSubstr("clip 1: 60 Hz; allowed: that of clip 0, 30 Hz"));
+  EXPECT_THAT(Complaint([&] { Bridges{mixed}; }), HasSubstr("clip 1: 60 Hz; allowed: the rate of clip 0, 30 Hz"));
 }
 
 Dance ApiDance() {
@@ -295,7 +295,7 @@ TEST(ApiCoach, RefusesWhatIsNotOfTheDance) {
   EXPECT_EQ(refusal({}, moves), "");
   EXPECT_THAT(refusal({}, std::span(moves).first(1)), HasSubstr("1 moves; allowed: the 2 of the dance"));
   EXPECT_THAT(refusal({}, std::vector{moves[1], moves[0]}),
-              HasSubstr("move 0: 'second'; allowed: the dance's, 'first'"));
+              HasSubstr("move 0: 'second'; allowed: the dance's move, 'first'"));
   EXPECT_THAT(refusal({.policy = "sometimes"}, moves), HasSubstr("policy 'sometimes'; allowed: "));
   EXPECT_THAT(refusal({.choice = "none"}, moves), HasSubstr("choice 'none'; allowed: "));
   EXPECT_THAT(refusal({.right_from = 0.0}, moves), HasSubstr("above 0, up to 1"));

@@ -165,10 +165,10 @@ TEST(RefineRig, SaysWhatIsWrongWithViews) {
     return rig ? std::string("none") : rig.error().message;
   };
   EXPECT_EQ(reason({{0, 0, pairs}, {1, 1, pairs}, {0, 1, pairs}}), "none");
-  EXPECT_EQ(reason({{0, 0, pairs}, {2, 0, pairs}}), "a view of a camera or board that there is not");
-  EXPECT_EQ(reason({{0, 0, pairs}, {1, 2, pairs}}), "a view of a camera or board that there is not");
+  EXPECT_EQ(reason({{0, 0, pairs}, {2, 0, pairs}}), "a view names a camera or board that does not exist");
+  EXPECT_EQ(reason({{0, 0, pairs}, {1, 2, pairs}}), "a view names a camera or board that does not exist");
   EXPECT_EQ(reason({{0, 0, pairs}, {0, 1, pairs}}), "camera 2 has no point");
-  EXPECT_EQ(reason({{0, 0, pairs}, {1, 0, pairs}, {1, 1, two}}), "the views do not determine where board 2 was");
+  EXPECT_EQ(reason({{0, 0, pairs}, {1, 0, pairs}, {1, 1, two}}), "the views do not determine the position of board 2");
   EXPECT_EQ(reason({{0, 0, two}, {1, 1, two}}), "4 points give 8 equations for 34 unknowns; more points are needed");
   EXPECT_EQ(reason({{0, 0, two}, {1, 1, two}}, {.hold_intrinsics = true}),
             "4 points give 8 equations for 18 unknowns; more points are needed");
@@ -177,7 +177,7 @@ TEST(RefineRig, SaysWhatIsWrongWithViews) {
   EXPECT_EQ(reason({{0, 0, pairs}, {1, 1, broken}}), "camera 2: a point pair is not finite");
   broken[3].world = TrueCamera().p_WC + glm::dvec3(5, 0, 5);
   EXPECT_EQ(reason({{0, 0, broken}, {1, 0, pairs}, {1, 1, pairs}}),
-            "the first guess of the cameras does not show every point; are pairs mixed up?");
+            "the first estimate of the cameras does not see every point; point pairs may be mixed up");
 }
 
 }  // namespace

@@ -114,7 +114,7 @@ TEST(RigFile, RefusedWithPlaceAndReason) {
   const std::string good = WriteRig(cameras);
   EXPECT_EQ(reason(good), "no complaint");
   EXPECT_THAT(reason(""), HasSubstr("nothing in it"));
-  EXPECT_THAT(reason("hello"), HasSubstr("no calibration; allowed: a rig of etude calibrate"));
+  EXPECT_THAT(reason("hello"), HasSubstr("not a calibration; allowed: a rig of etude calibrate"));
   EXPECT_THAT(reason(Changed(good, "\nright:", "\nwrong:")), HasSubstr("right is listed, and not told of"));
   EXPECT_THAT(reason(Changed(good, "\"right\"", "\"left\"")), HasSubstr("two cameras of the name left"));
   EXPECT_THAT(reason(Changed(good, "image_width: 1088", "image_width: -3")), HasSubstr("-3 x 1920 pixels"));
@@ -308,9 +308,9 @@ TEST(RigPair, OfColmapIsRefusedWithLineAndReason) {
   EXPECT_THAT(reason(camera, image + "\n" + image), HasSubstr("two cameras of the name a"));
   EXPECT_THAT(reason("\n1 PIN 640 480 600\n", image), HasSubstr("2: camera model PIN; allowed: FULL_OPENCV, OPENCV"));
   EXPECT_THAT(reason("1 PINHOLE 640 480 600 320 240\n", image), HasSubstr("3 parameters of PINHOLE; allowed: 4"));
-  EXPECT_THAT(reason("1 PINHOLE\n", image), HasSubstr("no camera; allowed: CAMERA_ID MODEL WIDTH HEIGHT PARAMS"));
+  EXPECT_THAT(reason("1 PINHOLE\n", image), HasSubstr("not a camera; allowed: CAMERA_ID MODEL WIDTH HEIGHT PARAMS"));
   EXPECT_THAT(reason("1 PINHOLE 640 480 600 6oo 320 240\n", image), HasSubstr("'6oo' is not a number"));
-  EXPECT_THAT(reason(camera, "1 1 0 0 0 0 0 3 1\n"), HasSubstr("no image; allowed: IMAGE_ID"));
+  EXPECT_THAT(reason(camera, "1 1 0 0 0 0 0 3 1\n"), HasSubstr("not an image; allowed: IMAGE_ID"));
   EXPECT_THAT(reason(camera, "1 1 0 0 0 0 0 3 2 a.png\n"), HasSubstr("camera 2 is not in cameras.txt"));
   EXPECT_THAT(reason(camera, "# none\n"), HasSubstr("no image in images.txt"));
 }

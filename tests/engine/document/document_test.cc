@@ -65,7 +65,7 @@ TEST(Document, AsksWhetherANearbyKeyWasMeantToBeTheMissingOne) {
     fields.RequiredText("question");
     return ToString(fields.Finish().error());
   };
-  EXPECT_EQ(complaint("a: 1\nQestion: q\n"), "t.yaml:2:1: a test needs 'question'; is 'Qestion' meant to be it?");
+  EXPECT_EQ(complaint("a: 1\nQestion: q\n"), "t.yaml:2:1: a test needs 'question'; did you mean it by 'Qestion'?");
   EXPECT_EQ(complaint("a: 1\n"), "t.yaml:1:1: a test needs 'question'");
   EXPECT_EQ(complaint("a: 1\nquestion:\n"), "t.yaml:2:1: 'question' must be text, found nothing");
   EXPECT_EQ(complaint("question: ''\n"), "t.yaml:1:11: a test needs 'question'");
@@ -94,14 +94,14 @@ TEST(Document, RefusesControlCharactersThatATerminalWouldObey) {
 
 TEST(Document, RefusesBrokenOrHostileText) {
   EXPECT_THAT(Complaint("a: [1, 2\n"), HasSubstr("not valid YAML"));
-  EXPECT_THAT(Complaint("speed: 1\nspeed: 2\n"), HasSubstr("t.yaml:2:1: the key 'speed' stands here twice"));
+  EXPECT_THAT(Complaint("speed: 1\nspeed: 2\n"), HasSubstr("t.yaml:2:1: the key 'speed' appears twice here"));
   EXPECT_THAT(Complaint("a: &x 1\nb: *x\n"), HasSubstr("t.yaml:2:4: aliases (*name) are not read"));
-  EXPECT_THAT(Complaint(std::string(200000, '[')), HasSubstr("nested deeper than 32 levels"));
-  EXPECT_THAT(Complaint(std::string(200000, '{')), HasSubstr("nested deeper than 32 levels"));
+  EXPECT_THAT(Complaint(std::string(200000, '[')), HasSubstr("nested more than 32 levels deep"));
+  EXPECT_THAT(Complaint(std::string(200000, '{')), HasSubstr("nested more than 32 levels deep"));
   for (const char* marker : {"- ", "? "}) {
     std::string markers;
     for (int i = 0; i < 50000; ++i) markers += marker;
-    EXPECT_THAT(Complaint(markers), HasSubstr("nested deeper than 32 levels"));
+    EXPECT_THAT(Complaint(markers), HasSubstr("nested more than 32 levels deep"));
   }
   EXPECT_THAT(Complaint(std::string(2 << 20, 'x')), HasSubstr("at most 1048576 are read"));
 }
@@ -130,11 +130,11 @@ TEST(Document, ReadsThirtyTwoLevelsAndNotOneMore) {
     return node ? "" : node.error().message;
   };
   EXPECT_EQ(complaint(keys(32)), "");
-  EXPECT_EQ(complaint(keys(33)), "nested deeper than 32 levels");
+  EXPECT_EQ(complaint(keys(33)), "nested more than 32 levels deep");
   EXPECT_EQ(complaint(markers(32)), "");
-  EXPECT_EQ(complaint(markers(33)), "nested deeper than 32 levels");
+  EXPECT_EQ(complaint(markers(33)), "nested more than 32 levels deep");
   EXPECT_EQ(complaint(brackets(32)), "");
-  EXPECT_EQ(complaint(brackets(33)), "nested deeper than 32 levels");
+  EXPECT_EQ(complaint(brackets(33)), "nested more than 32 levels deep");
   EXPECT_EQ(complaint(closed(100)), "");
 }
 

@@ -88,10 +88,10 @@ TEST(Acclaim, RefusesWhatIsNoneByItsPlace) {
               HasSubstr("a.asf:19:12: channel 'l'; allowed: rx"));
   EXPECT_THAT(AcclaimComplaint(Without("axis 0 0 90 XYZ", "axis 0 0 90 XQZ")), HasSubstr("a.asf:18:17: axes 'XQZ'"));
   EXPECT_THAT(AcclaimComplaint(Without("    name lower", "    name upper")),
-              HasSubstr("the bone 'upper' stands here twice"));
+              HasSubstr("the bone 'upper' appears twice here"));
   EXPECT_THAT(AcclaimComplaint(Without("    upper lower\n", "")), HasSubstr("the bone 'lower' hangs on nothing"));
   EXPECT_THAT(AcclaimComplaint(Without("root upper", "root upper upper")), HasSubstr("hangs on something already"));
-  EXPECT_THAT(AcclaimComplaint(Without("root upper", "root arm")), HasSubstr("no bone is called 'arm'"));
+  EXPECT_THAT(AcclaimComplaint(Without("root upper", "root arm")), HasSubstr("there is no bone 'arm'"));
   EXPECT_THAT(AcclaimComplaint(Without("length 2", "length nan")), HasSubstr("a.asf:17:12: "));
   EXPECT_THAT(AcclaimComplaint(Without("direction 1 0 0", "direction 1 0")), HasSubstr("a number is missing"));
   const auto skeleton = ReadAcclaimSkeleton(kSkeleton, "a.asf");
@@ -100,7 +100,7 @@ TEST(Acclaim, RefusesWhatIsNoneByItsPlace) {
            {":DEGREES\n", "a.amc: no frames"},
            {":DEGREES\n1\nroot 1 2 3 4 5\n", "a.amc:3:1: 5 numbers of bone 'root'; allowed: 6"},
            {":DEGREES\n1\nleg 3\n", "a.amc:3:1: the skeleton has no bone 'leg'"},
-           {":DEGREES\nupper 1 2 3\n", "a.amc:2:1: a bone before the first frame's number"},
+           {":DEGREES\nupper 1 2 3\n", "a.amc:2:1: a bone precedes the first frame's number"},
            {":DEGREES\n1\nupper 1 2 3\n3\n", "a.amc:4:1: frame 3 after frame 1; allowed: the next one"},
            {":DEGREES\n1\nupper 1 2 1e99\n", "a.amc:3:11: "}}) {
     const auto clip = ReadAcclaimMotion(motion, *skeleton, "a.amc");

@@ -52,7 +52,7 @@ constexpr Broken kBroken[] = {
     {"no frames", "Frames: 2", "Frames: 0", 17, 9, "found '0' frames; allowed: a whole number from 1"},
     {"half a frame", "Frames: 2", "Frames: 1.5", 17, 9, "allowed: a whole number from 1"},
     {"more frames than memory", "Frames: 2", "Frames: 900000000", 17, 9, "900000000 frames of 3 joints take 216000 MB; allowed: 1000 MB"},
-    {"fewer frames than announced", "Frames: 2", "Frames: 3", 17, 9, "3 frames announced; the file holds 2"},
+    {"fewer frames than announced", "Frames: 2", "Frames: 3", 17, 9, "3 frames announced; the file contains 2"},
     {"more frames than announced", "Frames: 2\nFrame Time: .0083333", "Frames: 1\nFrame Time: .0083333\n1 2 3 0 0 0 0 0 0", 21, 1, "more lines than the 1 frames announced on line 17"},
     {"frame time of zero", ".0083333", "0", 18, 13, "found a frame time of 0 s; allowed: 0.0001 to 10 s"},
     {"negative frame time", ".0083333", "-.01", 18, 13, "found a frame time of -.01 s"},
@@ -106,7 +106,7 @@ TEST(BrokenBvh, IsRefusedWhenNestedDeeperThanAnyBody) {
   EXPECT_TRUE(ReadBvh(Nested(128), "deep.bvh"));
   const auto clip = ReadBvh(Nested(129), "deep.bvh");
   ASSERT_FALSE(clip);
-  EXPECT_EQ(ToString(clip.error()), "deep.bvh:258:7: joints nested deeper than 128 levels");
+  EXPECT_EQ(ToString(clip.error()), "deep.bvh:258:7: joints nested more than 128 levels deep");
 }
 
 TEST(BrokenBvh, IsRefusedWithMoreJointsThanAnyBody) {

@@ -140,8 +140,9 @@ TEST(BvhHabits, IncludePlacesInTheChannelsAlone) {
   ASSERT_TRUE(clip) << ToString(clip.error());
   EXPECT_EQ(clip->skeleton.joints[1].rest.translation, glm::dvec3(0, 10, 1));
   EXPECT_EQ(clip->frames[1][1].translation, glm::dvec3(0, 11, 1));
-  EXPECT_EQ(remarks, (std::vector<std::string>{
-                         "1 joints with positions have an OFFSET of 0: they rest where the first frame has them"}));
+  EXPECT_EQ(remarks,
+            (std::vector<std::string>{
+                "1 joints with positions have an OFFSET of 0: their rest positions are taken from the first frame"}));
 }
 
 TEST(BvhHabits, IncludePlacesRelativeToTheOffset) {
@@ -154,7 +155,8 @@ TEST(BvhHabits, IncludePlacesRelativeToTheOffset) {
   EXPECT_EQ(relative->frames[1][0].translation, glm::dvec3(1, 2, 3)) << "the root's places are the world's";
   EXPECT_EQ(relative->frames[1][1].translation, glm::dvec3(0, 10.5, 0));
   EXPECT_EQ(relative->frames[1][2].translation, glm::dvec3(5, 0, .1));
-  EXPECT_EQ(remarks, (std::vector<std::string>{"the joints' positions are relative to their OFFSETs: added"}));
+  EXPECT_EQ(remarks,
+            (std::vector<std::string>{"the joints' positions are relative to their OFFSETs, which were added"}));
   // The control: absolute places replace the OFFSETs, also those of a joint that moves a little.
   const auto absolute = ReadBvh(head + "1 2 3 0 10 0 5 0 0\n1 2 3 0 10.5 0 5 0 .1\n", "absolute.bvh", &remarks);
   ASSERT_TRUE(absolute);

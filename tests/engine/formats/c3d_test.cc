@@ -87,7 +87,7 @@ TEST(C3d, TellsOfDataBeyondTheLastFrame) {
   const auto read = ReadC3d(writer.Write(), "a.c3d");
   ASSERT_TRUE(read) << ToString(read.error());
   EXPECT_EQ(read->markers.frames.size(), 40u);
-  EXPECT_EQ(read->markers.remark, "data of 60 more frames follow the 40 that its header tells: not read");
+  EXPECT_EQ(read->markers.remark, "data of 60 more frames follow the 40 that its header states; they were not read");
   writer.header_frames = 100;
   std::string padded = writer.Write();
   padded.resize(padded.size() + 2000, '\0');
@@ -115,7 +115,7 @@ TEST(C3d, TakesNoMoreNamesThanThereArePoints) {
 TEST(C3d, RefusesWhatIsDamaged) {
   const std::string good = C3dWriter(kIntel, true).Write();
   EXPECT_EQ(C3dComplaint("HIERARCHY"), "a.c3d: no C3D file");
-  EXPECT_EQ(C3dComplaint(good.substr(0, good.size() - 20)), "a.c3d: is cut short: 2 of 3 frames are there");
+  EXPECT_EQ(C3dComplaint(good.substr(0, good.size() - 20)), "a.c3d: is cut short: it contains 2 of 3 frames");
   std::string other = good;
   other[512 + 3] = 7;
   EXPECT_THAT(C3dComplaint(other), HasSubstr("a machine of kind 7; allowed: 84 (Intel), 85 (DEC), 86 (MIPS)"));

@@ -101,7 +101,7 @@ TEST(DeepMimic, RefusesWhatItIsNot) {
   EXPECT_THAT(DeepMimicComplaint(Motion({Standing(0)})), HasSubstr("a frame of 0 s; allowed: 0.0001 to 1 s"));
   std::vector<double> flat = Standing();
   flat[4] = 0;
-  EXPECT_THAT(DeepMimicComplaint(Motion({flat})), HasSubstr("a quaternion of no length"));
+  EXPECT_THAT(DeepMimicComplaint(Motion({flat})), HasSubstr("a quaternion of length 0"));
   flat[4] = 1e12;
   EXPECT_THAT(DeepMimicComplaint(Motion({flat})), HasSubstr("Frames[0][4]"));
   EXPECT_THAT(DeepMimicComplaint("{\"Frames\": [[\"one\"]]}"), HasSubstr("1 numbers"));

@@ -63,8 +63,8 @@ TEST(JointCsv, RefusesUnknownHeadingsHalfJointsAndRaggedRows) {
     return read ? std::string("(read)") : ToString(read.error());
   };
   EXPECT_NE(complaint("hed_x_m,head_y_m,head_z_m\n1,2,3\n").find("head_x_m"), std::string::npos);
-  EXPECT_EQ(complaint("head_x_m,head_y_m\n1,2\n"), "m.csv:1: 'head' has not all of its three coordinates");
-  EXPECT_EQ(complaint("head_x_m,head_y_m,head_z_m\n1,2,3\n1,2\n"), "m.csv:3: 2 values; the rows before have 3");
+  EXPECT_EQ(complaint("head_x_m,head_y_m\n1,2\n"), "m.csv:1: 'head' lacks some of its three coordinates");
+  EXPECT_EQ(complaint("head_x_m,head_y_m,head_z_m\n1,2,3\n1,2\n"), "m.csv:3: 2 values, but earlier rows have 3");
   EXPECT_EQ(complaint("1,2,3\n"), "m.csv:1: 0 headings over 3 columns");
   const std::string timed = "time_s,head_x_m,head_y_m,head_z_m\n";
   EXPECT_EQ(complaint((timed + "0.2,1,2,3\n0.1,1,2,3\n0,1,2,3\n").c_str()),

@@ -85,12 +85,12 @@ TEST(Npy, RefusesWhatIsDamagedOrNoNumbers) {
   EXPECT_EQ(reason(good), "(read)");
   EXPECT_TRUE(IsNpy(good));
   EXPECT_FALSE(IsNpy(good.substr(1)));
-  EXPECT_THAT(reason(good.substr(1)), HasSubstr("is no .npy file"));
-  EXPECT_THAT(reason(good.substr(0, 11)), HasSubstr("is no .npy file"));
+  EXPECT_THAT(reason(good.substr(1)), HasSubstr("is not a .npy file"));
+  EXPECT_THAT(reason(good.substr(0, 11)), HasSubstr("is not a .npy file"));
   EXPECT_THAT(reason(good.substr(0, 40)), HasSubstr("its header is cut short"));
-  EXPECT_THAT(reason(good.substr(0, good.size() - 8)), HasSubstr("holds 1 numbers; its shape says 2"));
+  EXPECT_THAT(reason(good.substr(0, good.size() - 8)), HasSubstr("has 1 numbers; its shape requires 2"));
   EXPECT_THAT(reason(NpyOf<double>("<f8", "two", {1, 2})), HasSubstr("its shape is 'two'"));
-  EXPECT_THAT(reason(NpyOf<double>("<f8", "536870912, 2", {1, 2})), HasSubstr("is larger than it can be"));
+  EXPECT_THAT(reason(NpyOf<double>("<f8", "536870912, 2", {1, 2})), HasSubstr("is larger than possible"));
   for (const char* type : {"|O", ">f8", "<U4"}) {
     EXPECT_THAT(reason(NpyOf<double>(type, "2,", {1, 2})), HasSubstr("holds no plain numbers")) << type;
   }
@@ -211,7 +211,7 @@ TEST(MotiveCsv, RefusesWithLineAndReason) {
   EXPECT_THAT(reason("Centimeters", "Inches"), HasSubstr("1: Length Units 'Inches'; allowed: Meters"));
   EXPECT_THAT(reason("Global", "Local"), HasSubstr("Coordinate Space 'Local'; allowed: Global"));
   EXPECT_THAT(reason("Export Frame Rate,60.0", "Export Frame Rate,20000"),
-              HasSubstr("no Export Frame Rate from 0 to 10000"));
+              HasSubstr("no Export Frame Rate above 0 and up to 10000"));
   EXPECT_THAT(reason("X,X,Y,Z,X,Y,Z", "X,X,Y,W,X,Y,W"),
               HasSubstr("0 bones or markers with a Position; allowed: 1 to 1000"));
   EXPECT_THAT(reason("9,10,20", "9,10,2O"), HasSubstr("8: '2O' is not a number"));

@@ -117,7 +117,7 @@ TEST(RowClock, TheRateThatAHeaderTellsYieldsToTheTimes) {
   const auto other = LayOnClock(RowsAt(TimesAt(29.97, 300), 30), "a");
   ASSERT_TRUE(other);
   EXPECT_NEAR(other->rate_hz, 29.97, 1e-9);
-  EXPECT_EQ(other->remark, "DataRate says 30 Hz, but the column Time runs at 29.97 Hz, which counts");
+  EXPECT_EQ(other->remark, "DataRate states 30 Hz, but the column Time runs at 29.97 Hz, which is used");
   EXPECT_LT(FarthestFromCurve(*other), 1e-9);
   const auto missing = LayOnClock(RowsAt(TimesAt(30, 60, 20, 35), 30), "a");
   ASSERT_TRUE(missing);
@@ -133,7 +133,7 @@ TEST(RowClock, OfEqualTimesTheLastCounts) {
   ASSERT_TRUE(laid) << ToString(laid.error());
   EXPECT_EQ(laid->frames.size(), 40u);
   EXPECT_LT(FarthestFromCurve(*laid), 1e-9);
-  EXPECT_EQ(laid->remark, "1 rows under the time of another, of which the last counts");
+  EXPECT_EQ(laid->remark, "1 rows have the same time as another; the last of these is used");
 }
 
 TEST(RowClock, RefusesWhatIsNoClock) {
@@ -146,8 +146,9 @@ TEST(RowClock, RefusesWhatIsNoClock) {
   };
   const double nan = std::nan("");
   EXPECT_EQ(reason({0, 0.1, 0.05}), "a:4: time 0.05 s after 0.1 s; allowed: a clock that does not run backwards");
-  EXPECT_EQ(reason({0, nan, 0.1}), "a:3: no time, although other rows tell one");
-  EXPECT_EQ(reason({0, 0.1, 700}), "a:4: time 700 s after 0.1 s; allowed: a clock that goes on, at most 600 s at once");
+  EXPECT_EQ(reason({0, nan, 0.1}), "a:3: no time, although other rows have one");
+  EXPECT_EQ(reason({0, 0.1, 700}),
+            "a:4: time 700 s after 0.1 s; allowed: a clock that increases, by at most 600 s per row");
   EXPECT_THAT(reason({0, 1e-4, 2e-4, 500}, 3), HasSubstr("allowed: holes of 1e+07 values in all, 3 a frame"));
   EXPECT_EQ(reason({nan, nan, nan}), "no complaint");
   EXPECT_EQ(reason({4, 4, 4}), "no complaint") << "a column that tells nothing";

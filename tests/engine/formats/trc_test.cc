@@ -81,7 +81,7 @@ TEST(ReadTrc, TakesTheRateOfItsTimesWhereDataRateIsAnother) {
   const auto read = ReadTrc(AtFiftyHertz(100, 60), "a.trc");
   ASSERT_TRUE(read) << ToString(read.error());
   EXPECT_EQ(read->rate_hz, 50);
-  EXPECT_EQ(read->remark, "DataRate says 100 Hz, but the column Time runs at 50 Hz, which counts");
+  EXPECT_EQ(read->remark, "DataRate states 100 Hz, but the column Time runs at 50 Hz, which is used");
   const auto alike = ReadTrc(AtFiftyHertz(51, 60), "a.trc"), brief = ReadTrc(AtFiftyHertz(100, 20), "a.trc");
   EXPECT_EQ(alike->rate_hz, 50) << "at the end they are a frame apart";
   EXPECT_EQ(brief->rate_hz, 100) << "so few times tell no rate";

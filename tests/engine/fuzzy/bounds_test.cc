@@ -21,7 +21,8 @@ TEST(FuzzySystem, TakesWhatIsAtABoundAndNothingBeyond) {
   const auto shaped = [](const std::string& shape) { return ComplaintOf("{triangular: [20, 90, 180]}", shape); };
   EXPECT_EQ(named(std::string(80, 'a')), "none");
   EXPECT_EQ(named(std::string(81, 'a')),
-            "f.yaml:1:9: '" + std::string(40, 'a') + "…' is no name: at most 80 letters, digits, '-', '_', '.'");
+            "f.yaml:1:9: '" + std::string(40, 'a') +
+                "…' is not a valid name; allowed: at most 80 letters, digits, '-', '_', '.'");
   EXPECT_EQ(named("azAZ09-_."), "none");
   for (const char* bad : {"a/", "a:", "a@", "a[", "a`", "a{", "a "}) EXPECT_NE(named(bad), "none") << bad;
   EXPECT_EQ(posed("azAZ09 -x"), "none");

@@ -57,7 +57,7 @@ TEST(MedianBody, SaysWhichBoneNobodySaw) {
   for (LandmarkPositions& frame : frames) frame[Index(Landmark::kRightElbow)].reset();
   const auto body = MedianBody(frames);
   ASSERT_FALSE(body);
-  EXPECT_THAT(body.error().message, HasSubstr("no frame shows how far right_elbow is from right_shoulder"));
+  EXPECT_THAT(body.error().message, HasSubstr("no frame shows the distance of right_elbow from right_shoulder"));
 }
 
 TEST(FitPerson, GivesAKnownMotionBack) {

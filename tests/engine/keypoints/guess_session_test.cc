@@ -159,7 +159,7 @@ TEST(GuessSession, LeavesASessionThatIsAsSaid) {
 TEST(GuessSession, ReadsKeypointsAsTheyWereMeant) {
   const double side = 1280, bar = 0.5 * (1280 - 720);
   const std::vector<std::pair<std::string, std::function<glm::dvec2(glm::dvec2)>>> mistakes = {
-      {"keypoints count v from below", [](glm::dvec2 p) { return glm::dvec2(p.x, 720 - p.y); }},
+      {"keypoints count v from the picture's bottom", [](glm::dvec2 p) { return glm::dvec2(p.x, 720 - p.y); }},
       {"keypoints have x and y exchanged", [](glm::dvec2 p) { return glm::dvec2(p.y, p.x); }},
       {"keypoints of all films are mirrored", [](glm::dvec2 p) { return glm::dvec2(1280 - p.x, p.y); }},
       {"keypoints are shares of a square about the picture",
@@ -191,9 +191,10 @@ TEST(GuessSession, ReadsPosesOfOtherConventions) {
   const glm::dmat3 R_WF(0, 0, 1, 1, 0, 0, 0, 1, 0);  // Z up in the file
   const glm::dmat3 opengl(1, 0, 0, 0, -1, 0, 0, 0, -1);
   for (const auto& [is_inverse, is_opengl, told] :
-       {std::tuple(true, false, "the rig's poses lead from its cameras to the world: "),
+       {std::tuple(true, false, "the rig's poses transform from its cameras to the world: "),
         {false, true, "the rig's cameras look along -z, y up: "},
-        {true, true, "the rig's poses lead from its cameras to the world, and these look along -z, y up: "}}) {
+        {true, true,
+         "the rig's poses transform from its cameras to the world, and the cameras look along -z, y up: "}}) {
     auto films = FilmedWalker();
     for (PictureOfFilm& film : films) {
       Camera& camera = film.camera;  // p_C = R p_F + t, as another convention has it

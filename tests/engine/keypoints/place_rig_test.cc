@@ -95,7 +95,7 @@ TEST(PlaceRig, TakesTheUnitThatIsToldAndNoOtherPersonThanOne) {
   const auto told = PlaceRig(rig, points, kPlaceRate, {.unit = "0.3"});
   ASSERT_TRUE(told) << ToString(told.error());
   EXPECT_DOUBLE_EQ(told->scale, 0.3);
-  EXPECT_THAT(told->told, HasSubstr("lengths in units of 0.3 m (as you say: a person of 2.04 m)"));
+  EXPECT_THAT(told->told, HasSubstr("lengths in units of 0.3 m (as given; a person of 2.04 m)"));
   for (const char* unit : {"mm", "0.4"}) {
     const auto wrong = PlaceRig(rig, points, kPlaceRate, {.unit = unit});
     ASSERT_FALSE(wrong) << unit;
@@ -154,7 +154,8 @@ TEST(PlaceRig, RefusesAPersonUpsideDownAndFramesWithoutOne) {
   const auto points = Stander([](glm::dvec3 p) { return p; });
   const auto down = PlaceRig(SomeRig(), points, kPlaceRate, {.up = "-y"});
   ASSERT_FALSE(down);
-  EXPECT_THAT(down.error().message, HasSubstr("with -y up all hangs head down (180° off); up is known from "));
+  EXPECT_THAT(down.error().message,
+              HasSubstr("with -y up, everything would be upside down (180° off); up is known from "));
   const auto side = PlaceRig(SomeRig(), points, kPlaceRate, {.up = "x"});
   ASSERT_TRUE(side) << "lying is allowed";
   EXPECT_LT(glm::distance(side->R * glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)), 1e-12);

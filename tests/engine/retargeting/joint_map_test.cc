@@ -102,7 +102,7 @@ TEST(JointMap, RefusesTwoHalvesWithoutACommonJoint) {
   halves.joints[halves.Find("RightUpLeg")].parent = -1;
   const auto map = FindJointMap(halves, "halves.bvh");
   ASSERT_FALSE(map);
-  EXPECT_EQ(map.error().message, "'LeftUpLeg' and 'RightUpLeg', the hips, hang from no common joint");
+  EXPECT_EQ(map.error().message, "'LeftUpLeg' and 'RightUpLeg', the hips, have no common ancestor");
 }
 
 TEST(JointMap, RefusesAKneeThatDoesNotHangFromItsHip) {
@@ -111,7 +111,7 @@ TEST(JointMap, RefusesAKneeThatDoesNotHangFromItsHip) {
   const auto map = FindJointMap(crossed, "crossed.bvh");
   ASSERT_FALSE(map);
   EXPECT_EQ(map.error().message,
-            "right_knee is played by 'RightLeg', which does not descend from 'RightUpLeg', the right_hip");
+            "the role right_knee has the joint 'RightLeg', which does not descend from 'RightUpLeg', the right_hip");
 }
 
 TEST(JointMap, RefusesTwoHipsOnOneSide) {
@@ -455,7 +455,7 @@ TEST(JointMap, TakesFeetThatHangFromControlsInsteadOfTheLegs) {
   const auto refused = FindJointMap(crossed, "crossed.glb");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().message,
-            "right_ankle is played by 'RightFoot', which does not descend from 'RightLeg', the right_knee");
+            "the role right_ankle has the joint 'RightFoot', which does not descend from 'RightLeg', the right_knee");
 }
 
 TEST(JointMap, TakesTaughtJointsBeforeAnyName) {
@@ -467,7 +467,7 @@ TEST(JointMap, TakesTaughtJointsBeforeAnyName) {
   const auto refused = FindJointMap(horse, "horse.bvh", &taught);
   ASSERT_FALSE(refused) << "taught joints are checked as well";
   EXPECT_EQ(refused.error().message,
-            "left_hand is played by 'LeftHand', which does not descend from 'LeftHand', the left_wrist");
+            "the role left_hand has the joint 'LeftHand', which does not descend from 'LeftHand', the left_wrist");
 
   const JointMapOverrides better{{{kLeftElbow, {"Hoof", {}}}, {kRightAnkle, {"Wheel", {}}}, {kHead, {"Head", {}}}}};
   const auto map = FindJointMap(horse, "horse.bvh", &better);
@@ -483,8 +483,8 @@ TEST(JointMap, RefusesATaughtHeadOrSpineThatIsPartOfALimb) {
     const JointMapOverrides taught{{{role, {joint, {}}}}};
     const auto refused = FindJointMap(person, "person.bvh", &taught);
     ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().message,
-              std::string(RoleName(role)) + " is played by '" + joint + "', which is part of a limb");
+    EXPECT_EQ(refused.error().message, std::string("the role ") + std::string(RoleName(role)) + " has the joint '" +
+                                           joint + "', which is part of a limb");
   }
 }
 

@@ -103,7 +103,7 @@ TEST(JointMapFile, ListsWhatIsComposedAndWhatIsNotUsed) {
   person.joints[person.Find("LeftHand_End")].rest.translation = {0, 0, 0};
   const std::string text = WriteJointMapFile(person, *FindJointMap(person, "person.bvh"));
   EXPECT_THAT(text, HasSubstr("\n  left_elbow: \"LeftForeArm\"\n"));
-  EXPECT_THAT(text, HasSubstr("\n  # left_hand: no joint; a point that rides on \"LeftHand\"\n"));
+  EXPECT_THAT(text, HasSubstr("\n  # left_hand: no joint; a point fixed to \"LeftHand\"\n"));
   EXPECT_THAT(text, HasSubstr("\n#   \"LeftShoulder\"\n"));
   EXPECT_THAT(text, Not(HasSubstr("#   \"LeftForeArm\"")));
 }

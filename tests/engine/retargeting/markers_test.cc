@@ -245,8 +245,9 @@ TEST(MarkersUp, OfPeopleWhoStandOrWalkIsTheirAxisAndItsDoubtIsSaid) {
     EXPECT_LT(OffUp(zup->front(), poses), 1e-9) << zup->front().Note();
     EXPECT_LT(OffUp(yup->front(), poses), 1e-9) << yup->front().Note();
     EXPECT_EQ(zup->front().up.evidence, UpEvidence::kPosture);
-    EXPECT_EQ(zup->front().up.doubt,
-              "Z is taken for up by posture alone: Y is the usual axis of TRC files; --up overrules that");
+    EXPECT_EQ(
+        zup->front().up.doubt,
+        "Z is assumed to be up only because of the posture: Y is the usual axis of TRC files; --up overrules that");
     EXPECT_THAT(zup->front().Note(), HasSubstr("turned upright from Z up (its posture)"));
   }
 }
@@ -290,8 +291,10 @@ TEST(Markers, OfTwoSetsTheBetterCountAndTheOtherCanBeChosen) {
   ASSERT_TRUE(best) << ToString(best.error());
   EXPECT_THAT(
       best->front().Note(),
-      HasSubstr("OpenCap's augmented markers, not OpenPose BODY_25, which the file holds, too (--marker-set body_25)"));
-  EXPECT_THAT(best->front().Note(), HasSubstr("joint centres under the skin, cm from their markers: shoulders"));
+      HasSubstr(
+          "OpenCap's augmented markers, not OpenPose BODY_25, which the file also contains (--marker-set body_25)"));
+  EXPECT_THAT(best->front().Note(),
+              HasSubstr("joint centres moved under the skin, distances from their markers in cm: shoulders"));
   for (const Role role : {kLeftShoulder, kLeftElbow, kRightWrist, kLeftKnee, kRightAnkle}) {
     EXPECT_LT(glm::distance(best->front().motion.poses[3][role], poses[3][role] - glm::dvec3(0, 0.02, 0)), 0.002)
         << RoleName(role);
@@ -310,7 +313,7 @@ TEST(Markers, TakeTheUnitThatIsTold) {
   const auto told = FindMarkerBodies(take, "a.trc", {.metres_per_unit = 0.002});
   ASSERT_TRUE(told);
   EXPECT_NEAR(told->front().motion.poses[0][Role::kHipCentre].y, 0.88, 1e-9);
-  EXPECT_THAT(told->front().Note(), HasSubstr("1 unit = 0.2 cm (told), instead of the file's 0.1 cm"));
+  EXPECT_THAT(told->front().Note(), HasSubstr("1 unit = 0.2 cm (given), instead of the file's 0.1 cm"));
   EXPECT_THAT(ToString(FindMarkerBodies(take, "a.trc", {.metres_per_unit = 1}).error()),
               HasSubstr("a.trc: in the unit given (1 unit = 100 cm) the body is"));
 }
@@ -321,7 +324,8 @@ TEST(Markers, AtZeroAreGapsUnlessTheyAreAlwaysThere) {
   const auto bridged = FindMarkerBodies(take, "a.trc");
   ASSERT_TRUE(bridged) << ToString(bridged.error());
   EXPECT_LT(FurthestJoint(bridged->front().motion), 1e-12);
-  EXPECT_EQ(bridged->front().Note(), "Etude's joints; 4 places bridged over gaps; 4 places at 0, 0, 0 taken for gaps");
+  EXPECT_EQ(bridged->front().Note(),
+            "Etude's joints; 4 positions interpolated in gaps; 4 positions at 0, 0, 0 taken as gaps");
   MarkerMotion rooted = OwnJoints();
   for (auto& frame : rooted.frames) {
     const glm::dvec3 root = *frame[Index(Role::kHipCentre)];
@@ -394,7 +398,9 @@ TEST(Markers, OfPlugInGaitGiveJointsInsideTheLimbs) {
   ASSERT_TRUE(bodies) << ToString(bodies.error());
   const MarkerBody& body = bodies->front();
   EXPECT_EQ(body.name, "Me");
-  EXPECT_THAT(body.Note(), HasSubstr("Plug-in Gait; joint centres under the skin, cm from their markers: knees "));
+  EXPECT_THAT(
+      body.Note(),
+      HasSubstr("Plug-in Gait; joint centres moved under the skin, distances from their markers in cm: knees "));
   EXPECT_THAT(body.Note(), HasSubstr("by the lengths of the limbs; placed by rule: hip_centre"));
   EXPECT_THAT(body.Note(), HasSubstr("the floor was at 2 cm: moved to 0"));
   const BodyPose& pose = body.motion.poses.front();
@@ -451,9 +457,9 @@ TEST(Markers, GapsAreBridgedAndLongOnesCutOff) {
   ASSERT_TRUE(bodies);
   EXPECT_EQ(bodies->front().motion.poses.size(), 25u);
   EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12) << "the sway is straight";
-  EXPECT_EQ(
-      bodies->front().Note(),
-      "Etude's joints; 4 places bridged over gaps; frames 1 to 25 of 40 (elsewhere joints are lost for over 1 s)");
+  EXPECT_EQ(bodies->front().Note(),
+            "Etude's joints; 4 positions interpolated in gaps; only frames 1 to 25 of 40 (elsewhere joints are lost "
+            "for over 1 s)");
 }
 
 TEST(Markers, OfTwoPeopleAreTwoBodies) {

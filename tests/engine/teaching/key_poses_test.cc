@@ -74,7 +74,7 @@ TEST(TeachMove, TakesTheShortestAndTheLongestAndSaysWhatIsBeyond) {
   EXPECT_EQ(complaint(50, 2), "span 60.000000");
   EXPECT_EQ(complaint(60, 2), "span 60.000000");
   EXPECT_EQ(complaint(60.5, 2),
-            "a performance of 'm' lasts 60.5 s; allowed: 60 s; labels tell where each begins and ends");
+            "a performance of 'm' lasts 60.5 s; allowed: 60 s; use labels to mark where each begins and ends");
   EXPECT_EQ(TeachMove("m", {}).error().message, "move 'm' has no right performance to learn from");
 }
 
@@ -86,7 +86,8 @@ TEST(MovesFile, ComplaintsAreWhole) {
   const auto framed = [&](const std::string& line) {
     return complaint("right:\n      - rate_hz: 30\n        frames: |\n          " + line);
   };
-  EXPECT_EQ(complaint("key_poses: [{RH: 3}]"), "m.yaml:3:18: no tolerance_deg, neither of this angle nor of its pose");
+  EXPECT_EQ(complaint("key_poses: [{RH: 3}]"),
+            "m.yaml:3:18: no tolerance_deg, neither for this angle nor for its pose");
   EXPECT_EQ(complaint("key_poses: [{tolerance_deg: 400, RH: 3}]"),
             "m.yaml:3:33: tolerance_deg 400; allowed: 0.1 to 360");
   EXPECT_EQ(complaint("key_poses: [3]"), "m.yaml:3:17: a key pose is a mapping, found '3'");

@@ -130,7 +130,8 @@ TEST(RecoverUnmarked, SeesNobodyWhereNothingMoves) {
       RecoverUnmarked({.cameras = film.cameras, .pictures = film.pictures, .rooms = {}, .stature_m = {}});
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().message,
-            "in no frame do two films show anybody who moves; the room cannot be told from a person who never moves");
+            "there is no frame in which two films show a moving person; a person who never moves cannot be "
+            "distinguished from the room");
 }
 
 }  // namespace

@@ -127,7 +127,7 @@ TEST_F(OpenClipTest, WhatIsTaughtComesBeforeWhatIsFound) {
   options.roles = *taught;
   const auto swapped = LoadClips({real}, {}, options);
   ASSERT_FALSE(swapped) << "a left hand on the right arm";
-  EXPECT_THAT(ToString(swapped.error()), HasSubstr("left_hand is played by 'RightHand'"));
+  EXPECT_THAT(ToString(swapped.error()), HasSubstr("the role left_hand has the joint 'RightHand'"));
 }
 
 class ClipFileTest : public ClipFolder {

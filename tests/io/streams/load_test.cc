@@ -54,10 +54,10 @@ TEST(MatchLabels, CutsByTimeAndShiftsClocks) {
 TEST(MatchLabels, RefusesTimesOutsideAndLabelsOfNothing) {
   const auto late = ReadLabels("clip,from_s,to_s,move,truth\na,1,2,m,right\na,2,9,m,right\n", "l");
   EXPECT_EQ(ToString(MatchLabels(*late, "l", TwoStreams()).error()),
-            "l:3: from 2.000 to 9.000 s of a; allowed: its 3.000 s");
+            "l:3: from 2.000 to 9.000 s of a; allowed: within its 3.000 s");
   const auto other = ReadLabels("clip,from_s,to_s,move,truth\nz,1,2,m,right\n", "l");
   EXPECT_EQ(ToString(MatchLabels(*other, "l", TwoStreams()).error()),
-            "l: none of the labels is of a recording here, such as a");
+            "l: none of the labels belongs to a recording that was given, such as a");
 }
 
 TEST(PerformancesOf, AnActionPointIsTheTimeAroundIt) {
@@ -141,7 +141,7 @@ TEST(LoadStreams, KneesThatASensorOverstretchesAreToldAndThoseThatBendBackwardsR
   EXPECT_NE(ToString(bent.error()).find("the knees bend backwards"), std::string::npos);
   ASSERT_TRUE(overstretched) << ToString(overstretched.error());
   EXPECT_EQ(overstretched->front().stream.frames.size(), 30u);
-  EXPECT_NE(overstretched->front().description.find("the knees overstretch by 11° on the average"), std::string::npos)
+  EXPECT_NE(overstretched->front().description.find("the knees are overextended by 11° on average"), std::string::npos)
       << overstretched->front().description;
 }
 

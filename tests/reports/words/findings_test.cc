@@ -95,7 +95,7 @@ TEST(Answer, TellsOfTheWorldsThatOnlyOneSurvived) {
 
 TEST(Answer, AdmitsThatNothingCouldBeCompared) {
   EXPECT_THAT(AnswerTo(Figures(0, std::nullopt, std::nullopt, std::nullopt, 0, Verdict::kInconclusive)),
-              HasSubstr("no world gave both a value"));
+              HasSubstr("no world has both values"));
 }
 
 TEST(Answer, SaysThatItDependsWhenConditionsDisagree) {

@@ -204,7 +204,8 @@ TEST_F(RecordedPeopleTest, RefusesWhatHasNoUseOrCannotBeJudged) {
   EXPECT_THAT(ComplaintAbout(method, unnamed), HasSubstr("the person of take is unknown"));
   set.parts[1].begin = set.parts[0].begin;
   set.parts[1].line = 7;
-  EXPECT_THAT(ComplaintAbout(method, set), HasSubstr("labels.csv:7: two performances of person-0 begin at once"));
+  EXPECT_THAT(ComplaintAbout(method, set),
+              HasSubstr("labels.csv:7: two performances of person-0 begin at the same time"));
 }
 
 /// A recording without errors of a built-in move, and its label.

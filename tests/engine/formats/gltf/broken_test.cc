@@ -251,7 +251,7 @@ TEST(BrokenGltf, IsRefusedForJsonThatWouldTakeTooMuchMemory) {
   const auto extras = [](const std::string& json) { return Replaced(kSmallGltf, "{", R"({"extras":)" + json + ","); };
   EXPECT_EQ(GlbComplaint(Glb(extras(std::string(60, '[') + std::string(60, ']')), SmallBinary())),
             "read without complaint");
-  EXPECT_THAT(GlbComplaint(extras(std::string(100'000, '['))), HasSubstr("JSON nested deeper than 64 levels"));
+  EXPECT_THAT(GlbComplaint(extras(std::string(100'000, '['))), HasSubstr("JSON nested more than 64 levels deep"));
   std::string many = "[0";
   for (int i = 0; i < 1'000'000; ++i) many += ",0";
   EXPECT_THAT(GlbComplaint(extras(many + "]")), HasSubstr("JSON of more than 1000000 values"));
@@ -279,7 +279,7 @@ TEST(BrokenGltf, IsRefusedForMoreOrDeeperJointsThanAnyBodyHas) {
   for (int i = 1; i < 1024; ++i) crowd += "{},";
   EXPECT_EQ(GlbComplaint(file(chain + "{}")), "read without complaint");
   EXPECT_THAT(GlbComplaint(file(chain + R"({"children":[128]},{})")),
-              HasSubstr("nodes[128]: nested deeper than 128 levels"));
+              HasSubstr("nodes[128]: nested more than 128 levels deep"));
   EXPECT_EQ(GlbComplaint(file(crowd + "{}")), "read without complaint");
   EXPECT_THAT(GlbComplaint(file(crowd + "{},{}")), HasSubstr("nodes: found 1025 joints; allowed: 1024"));
 }
