@@ -37,8 +37,8 @@ std::optional<std::string> WorldOf(const fs::path& name) {
   return is_number ? TrialName(trial) : stem;
 }
 
-/// Lists all files below `folder`, sorted by name, relative to it. Entries that are neither files nor folders go into
-/// `faults`.
+/// Lists all files below `folder`, sorted by name, relative to it. Entries that are neither folders nor files of one
+/// name go into `faults`: a hard link may be the truth.
 Result<std::vector<fs::path>> AnswersBelow(const fs::path& folder, PredictionFaults& faults) {
   const Place place{folder.string(), 0, 0};
   std::error_code error;
@@ -49,10 +49,10 @@ Result<std::vector<fs::path>> AnswersBelow(const fs::path& folder, PredictionFau
     const fs::path name = entry->path().lexically_relative(folder);
     if (name.filename().string().starts_with('.')) {
       if (fs::is_directory(status)) entry.disable_recursion_pending();
-    } else if (fs::is_regular_file(status)) {
+    } else if (fs::is_regular_file(status) && entry->hard_link_count(error) == 1) {
       files.push_back(name);
     } else if (!fs::is_directory(status)) {
-      const char* const what = fs::is_symlink(status) ? "is a link" : "is no file";
+      const char* const what = fs::is_symlink(status) || fs::is_regular_file(status) ? "is a link" : "is no file";
       faults.broken.push_back(fmt::format("{}: {}; each answer must be a separate file", name.generic_string(), what));
     }
   }

@@ -28,9 +28,13 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
             return os.fspath(motion)
         if names is None or rate_hz is None:
             raise TypeError(f"the array of {name} needs names and rate_hz")
+        if not re.fullmatch(r"[A-Za-z0-9_][A-Za-z0-9_.-]*", name):
+            raise ValueError(f"{name!r} is no name of a method")  # it names a file
+        text = _trc(motion, list(names), rate_hz, name)
         path = pathlib.Path(f"{output}.motions") / f"{name}.trc"
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(_trc(motion, list(names), rate_hz, name), encoding="utf-8")
+        with path.open("w" if overwrite else "x", encoding="utf-8") as file:  # an earlier run needs its arrays
+            file.write(text)
         return str(path)
 
     arguments = ["evaluate"]

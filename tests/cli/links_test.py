@@ -1,5 +1,6 @@
 """Nothing is followed below a folder that somebody else filled: no command writes, reads or tells through a link in it."""
 import os
+import pathlib
 import shutil
 import unittest
 
@@ -130,15 +131,17 @@ class Links(EtudeCase):
     def test_are_no_answers(self):
         scenario, data, answers = self.write("t.yaml", IK), self.folder / "data", self.folder / "answers"
         self.assertEqual(self.etude("export", scenario, "-o", data).returncode, 0)
-        for truth in sorted((data / "truth").rglob("truth.json")):
-            answer = answers / truth.parent.relative_to(data / "truth").with_suffix(".json")
-            answer.parent.mkdir(parents=True, exist_ok=True)
-            answer.symlink_to(truth)
-        done = self.etude("score", data, answers, "-o", self.folder / "scored")
-        self.assertEqual(done.returncode, 2, done.stdout)
-        self.assertIn("ik/joint_noise_deg=2/000.json: is a link; each answer must be a separate file", done.stderr)
-        self.assertFalse((self.folder / "scored").exists())
-        shutil.rmtree(answers)
+        for link in pathlib.Path.symlink_to, pathlib.Path.hardlink_to:
+            with self.subTest(link.__name__):
+                for truth in sorted((data / "truth").rglob("truth.json")):
+                    answer = answers / truth.parent.relative_to(data / "truth").with_suffix(".json")
+                    answer.parent.mkdir(parents=True, exist_ok=True)
+                    link(answer, truth)
+                done = self.etude("score", data, answers, "-o", self.folder / "scored")
+                self.assertEqual(done.returncode, 2, done.stdout)
+                self.assertIn("ik/joint_noise_deg=2/000.json: is a link; each answer must be a separate file", done.stderr)
+                self.assertFalse((self.folder / "scored").exists())
+                shutil.rmtree(answers)
         (answers / "ik").mkdir(parents=True)
         (answers / "ik" / "joint_noise_deg=2").symlink_to(data / "truth" / "ik" / "joint_noise_deg=2")
         done = self.etude("score", data, answers, "-o", self.folder / "scored", "--allow-missing")

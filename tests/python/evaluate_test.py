@@ -28,6 +28,17 @@ class Evaluate(PythonCase):
         self.assertAlmostEqual(row["mpjpe_root_mm"], 0, 12)
         self.assertAlmostEqual(row["seen_share"], 1 - 1 / (20 * len(NAMES)), 12)
 
+    def test_arrays_are_written_nowhere_else_and_over_none(self):
+        given = {"truth": standing(3), "names": NAMES, "rate_hz": 30, "output": self.folder / "run", "progress": False}
+        with self.assertRaises(ValueError):
+            etude.evaluate(**given, **{"../../mine": standing(3)})
+        self.assertEqual(list(self.folder.rglob("mine*")), [])
+        etude.evaluate(**given, mine=standing(3), overwrite=True)  # over the truth of the call that failed
+        kept = (self.folder / "run.motions" / "mine.trc").read_bytes()
+        with self.assertRaises(FileExistsError):
+            etude.evaluate(**given, mine=standing(3, across=1))
+        self.assertEqual((self.folder / "run.motions" / "mine.trc").read_bytes(), kept)
+
     def test_what_is_missing_is_told(self):
         for wrong, arguments in [(TypeError, {"truth": standing(3), "mine": standing(3)}),
                                  (TypeError, {"truth": "a.bvh"}),

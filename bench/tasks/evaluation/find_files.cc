@@ -174,6 +174,20 @@ Result<std::vector<JudgedFiles>> ReadPairs(const std::string& text, const std::s
   return pairs;
 }
 
+/// Fails if an answer is its truth under another name, such as a link.
+Result<void> RefuseTruths(const JudgedFiles& files, const Place& place) {
+  const SplitReference truth = Split(files.truth);
+  for (const std::string& reference : files.answers) {
+    const SplitReference answer = Split(reference);
+    std::error_code none;
+    if (reference == files.truth || answer.animation != truth.animation || answer.path == truth.path ||
+        !fs::equivalent(answer.path, truth.path, none))
+      continue;
+    return Fail(place, "'{}' is the truth '{}' under another name", reference, files.truth);
+  }
+  return {};
+}
+
 /// Makes the pairs of files of one name.
 Result<FoundFiles> PairByName(const EvaluationOptions& options, std::span<const EvaluationMethod> methods,
                               const Place& place) {
@@ -276,6 +290,7 @@ Result<FoundFiles> FindEvaluatedFiles(const Node& condition, std::span<const Nod
   }
   // Find the person of each.
   for (JudgedFiles& world : found.worlds) {
+    RETURN_IF_ERROR(RefuseTruths(world, condition.place));
     if (options.people.empty()) continue;
     const auto person = PersonIn(options.people, world.name);
     if (!person) {

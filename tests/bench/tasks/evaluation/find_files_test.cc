@@ -59,9 +59,9 @@ TEST_F(FindFilesTest, OneTruthAndOneAnswerAreAPairWhateverTheirNames) {
 }
 
 TEST_F(FindFilesTest, AnswersThatAreLinksMustBeNamed) {
-  Make({"t/a.bvh", "t/b.bvh", "m/a.bvh"});
-  std::filesystem::create_symlink(In("t/b.bvh"), In("m/b.bvh"));
-  std::filesystem::create_symlink(In("t"), In("s"));
+  Make({"t/a.bvh", "t/b.bvh", "u/b.bvh", "m/a.bvh"});
+  std::filesystem::create_symlink(In("u/b.bvh"), In("m/b.bvh"));
+  std::filesystem::create_symlink(In("u"), In("s"));
   const auto with = [&](const std::string& answers) { return "{name: m, answers: ['@/" + answers + "']}"; };
   for (const char* found : {"m", "m/*", "m/[b].bvh"}) {
     EXPECT_THAT(Complaint("truth: ['@/t']", {with(found)}), HasSubstr("m/b.bvh' is a link")) << found;
@@ -71,6 +71,16 @@ TEST_F(FindFilesTest, AnswersThatAreLinksMustBeNamed) {
     EXPECT_TRUE(Find("truth: ['@/t']", {with(named)})) << named;
   }
   EXPECT_TRUE(Find("truth: ['@/m']", {with("t")})) << "a truth is the judge's own";
+}
+
+TEST_F(FindFilesTest, AnAnswerIsNotTheTruthUnderAnotherName) {
+  Make({"t/a.bvh", "t/b.bvh", "m/b.bvh"});
+  std::filesystem::create_hard_link(In("t/a.bvh"), In("m/a.bvh"));
+  const std::string both = "truth: ['@/t']";
+  EXPECT_THAT(Complaint(both, {"{name: m, answers: ['@/m']}"}), HasSubstr("m/a.bvh' is the truth"));
+  EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth,m\n@/t/a.bvh,@/m/a.bvh\n"), HasSubstr("is the truth"));
+  EXPECT_TRUE(Find(both, {"{name: m, answers: ['@/t']}"})) << "who judges the truth by itself says so";
+  EXPECT_TRUE(Find("pairs: p.csv", {"{name: m}"}, "truth,m\n@/t/a.bvh#x,@/m/a.bvh#y\n")) << "two motions of one file";
 }
 
 TEST_F(FindFilesTest, NamesMustBeText) {
