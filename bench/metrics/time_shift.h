@@ -22,11 +22,13 @@ constexpr double kMaxTimeShift_s = 2;
 ///
 /// For each pair of joints the answer's distance f is fitted by α + β s, s: the truth's, β ≥ 0. First the whole number
 /// of the truth's frames within ±kMaxTimeShift_s at which these fits explain most of the variance of f. Then Newton's
-/// steps to the shift at which Σ w β v · (f − α − β s) = 0 over pairs and frames. v is the rate of s (central
-/// differences) without what 1 and s explain of it. w = 1 / (the pair's mean squared rest + 1 mm²), so that pairs that
-/// fit decide, such as those of one limb where a spine differs. The truth's rate, not the answer's, so that the
-/// answer's noise does not pull the shift towards half frames. The interval is the jackknife's over ten equal parts of
-/// the motion (Student's t), because errors of one frame and the next are alike.
+/// steps to the shift at which Σ w β v · (f − α − β s) = 0 over pairs and frames. v is the truth's rate, of s, by
+/// central differences, without what 1 and s explain of it; with the answer's own rate its noise would pull the shift
+/// towards half frames. w = 1 / (the pair's mean squared rest + 1 mm²), so that pairs that fit decide, such as those of
+/// one limb where a spine differs.
+///
+/// The interval is the jackknife's over ten equal parts of the motion (Student's t), because errors of one frame and
+/// the next are alike. It knows nothing of what joints that lie elsewhere add.
 ///
 /// Nothing if fewer than five frames are seen by both, if the best shift lies at the end of the range, or if no
 /// distance changes: the truth stands or glides.
