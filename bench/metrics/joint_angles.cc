@@ -169,14 +169,20 @@ std::optional<AgreementSums> DecodeSums(std::span<const double> v) {
 
 AgreementSums SumAgreement(const AngleTracks& found, const AngleTracks& truth, std::size_t column) {
   assert(found.degrees.size() == truth.degrees.size());
-  AgreementSums sums;
-  double before = kUnknown;
+  // The truth's circular mean over the frames in which both are known.
+  std::vector<std::size_t> places;
+  double sine = 0, cosine = 0;
   for (std::size_t at = column; at < truth.degrees.size(); at += truth.names.size()) {
     if (std::isnan(truth.degrees[at]) || std::isnan(found.degrees[at])) continue;
-    const double t = std::isnan(before) ? truth.degrees[at] : Near(truth.degrees[at], before);
-    const double f = Near(found.degrees[at], t);
-    before = t;
-    // Welford's steps.
+    places.push_back(at);
+    sine += std::sin(Radians(truth.degrees[at]));
+    cosine += std::cos(Radians(truth.degrees[at]));
+  }
+  const double middle = Degrees(std::atan2(sine, cosine));
+  // Welford's sums.
+  AgreementSums sums;
+  for (const std::size_t at : places) {
+    const double t = Near(truth.degrees[at], middle), f = Near(found.degrees[at], t);
     sums.count += 1;
     const double off_t = t - sums.mean_truth, off_f = f - sums.mean_found;
     sums.mean_truth += off_t / sums.count;
@@ -222,7 +228,8 @@ std::optional<double> IccOf(const AgreementSums& sums) {
   const double columns = n * bias * bias / 2;
   const double rest = (sums.square_truth + sums.square_found - 2 * sums.product) / 2 / (n - 1);
   const double all = rows + rest + 2 / n * (columns - rest);
-  if (!(all > 0)) return std::nullopt;
+  constexpr double kRounding = 1e-12;  // degrees²
+  if (!(all > kRounding)) return std::nullopt;
   return (rows - rest) / all;
 }
 

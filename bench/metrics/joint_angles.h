@@ -42,8 +42,8 @@ inline constexpr const char* kAgreementAxis = "agreement sums";
 std::vector<double> EncodeSums(const AgreementSums& sums);
 std::optional<AgreementSums> DecodeSums(std::span<const double> values);
 
-/// Returns the sums of one column of angles over the frames in which both are known. The truth's angles are made
-/// continuous in time, and the answer's differ from them by at most 180°.
+/// Returns the sums of one column of angles over the frames in which both are known. The truth's angles are taken within
+/// 180° of their circular mean, and the answer's within 180° of the truth's.
 AgreementSums SumAgreement(const AngleTracks& found, const AngleTracks& truth, std::size_t column);
 
 /// Returns a's sums and b's together.
@@ -54,7 +54,7 @@ std::optional<double> RmsOf(const AgreementSums& sums);
 /// Returns found − truth; nothing without frames.
 std::optional<double> BiasOf(const AgreementSums& sums);
 /// Returns ICC(A,1) of McGraw and Wong 1996: two-way random, absolute agreement, single measure; a frame is a subject,
-/// truth and answer are the two raters. Nothing with fewer than two frames, or if nothing varies.
+/// truth and answer are the two raters. Nothing with fewer than two frames, or if nothing varies by more than rounding.
 std::optional<double> IccOf(const AgreementSums& sums);
 
 }  // namespace etude

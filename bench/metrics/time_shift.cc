@@ -1,19 +1,15 @@
 #include "bench/metrics/time_shift.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "bench/metrics/pose_error.h"
-
 namespace etude {
 namespace {
 
 constexpr double kNotShown = std::numeric_limits<double>::quiet_NaN();
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
+constexpr std::size_t kMinFrames = 5;
 
 /// Returns a joint's position at a time in frames; NaN where one of the four frames around it is not seen.
 glm::dvec3 CubicAt(const PointTracks& tracks, double at, std::size_t joint) {
@@ -31,16 +27,47 @@ glm::dvec3 CubicAt(const PointTracks& tracks, double at, std::size_t joint) {
                 u * u * u * (3.0 * p(1) - p(0) - 3.0 * p(2) + p(3)));
 }
 
-/// The points of the truth that have a velocity and, at one shift, a partner in the answer.
-struct ShiftedPoints {
-  std::vector<glm::dvec3> found, truth, velocity;
-  std::vector<std::size_t> frames;  ///< of each
+/// Distances between two joints: per frame of the truth its rate, and the answer's at the shifted time; all three are
+/// known.
+struct Distances {
+  std::vector<double> truth, rate, found;
+  std::vector<std::size_t> frames;
 };
+
+/// The line through the answer's distances over the truth's.
+struct Line {
+  double slope = 0, mean_truth = 0, mean_found = 0;
+  double square_truth = 0;
+  double explained = 0, all = 0;  ///< of the answer's squares
+};
+
+Line FitLine(const Distances& pair) {
+  Line line;
+  const double n = static_cast<double>(pair.truth.size());
+  for (std::size_t i = 0; i < pair.truth.size(); ++i) {
+    line.mean_truth += pair.truth[i] / n;
+    line.mean_found += pair.found[i] / n;
+  }
+  double product = 0;
+  for (std::size_t i = 0; i < pair.truth.size(); ++i) {
+    const double s = pair.truth[i] - line.mean_truth, f = pair.found[i] - line.mean_found;
+    line.square_truth += s * s;
+    line.all += f * f;
+    product += s * f;
+  }
+  if (line.square_truth > 0) line.slope = std::max(0.0, product / line.square_truth);
+  line.explained = line.slope * product;
+  return line;
+}
 
 class ShiftFinder {
  public:
   ShiftFinder(const PointTracks& truth, double truth_rate_hz, const PointTracks& answer, double answer_rate_hz)
-      : truth_(truth), answer_(answer), truth_rate_hz_(truth_rate_hz), answer_rate_hz_(answer_rate_hz) {}
+      : truth_(truth), answer_(answer), truth_rate_hz_(truth_rate_hz), answer_rate_hz_(answer_rate_hz) {
+    constexpr std::size_t kMaxJoints = 20;
+    const std::size_t count = std::min(truth.points, kMaxJoints);
+    for (std::size_t i = 0; i < count; ++i) joints_.push_back(i * truth.points / count);
+  }
 
   std::optional<TimeShift> Find() const {
     const auto whole = FindWholeFrames();
@@ -48,149 +75,142 @@ class ShiftFinder {
   }
 
  private:
-  /// Collects the points of every `stride`-th frame.
-  ShiftedPoints PointsAt(double shift_s, std::size_t stride) const {
-    ShiftedPoints points;
+  /// Collects the distances of all pairs of joints in every `stride`-th frame but the first and the last.
+  std::vector<Distances> DistancesAt(double shift_s, std::size_t stride) const {
+    const std::size_t n = joints_.size();
+    std::vector<Distances> pairs(n * (n - 1) / 2);
+    std::vector<glm::dvec3> found(n);
     for (std::size_t f = 1; f + 1 < truth_.FrameCount(); f += stride) {
       const double at = (static_cast<double>(f) / truth_rate_hz_ + shift_s) * answer_rate_hz_;
-      for (std::size_t j = 0; j < truth_.points; ++j) {
-        const glm::dvec3 found = CubicAt(answer_, at, j), truth = truth_.Frame(f)[j];
-        const glm::dvec3 velocity = 0.5 * truth_rate_hz_ * (truth_.Frame(f + 1)[j] - truth_.Frame(f - 1)[j]);
-        if (std::isnan(found.x + truth.x + velocity.x)) continue;
-        points.found.push_back(found);
-        points.truth.push_back(truth);
-        points.velocity.push_back(velocity);
-        points.frames.push_back(f);
+      for (std::size_t j = 0; j < n; ++j) found[j] = CubicAt(answer_, at, joints_[j]);
+      std::size_t pair = 0;
+      for (std::size_t a = 0; a < n; ++a) {
+        for (std::size_t b = 0; b < a; ++b, ++pair) {
+          const auto distance = [&](std::size_t frame) {
+            return glm::distance(truth_.Frame(frame)[joints_[a]], truth_.Frame(frame)[joints_[b]]);
+          };
+          const double s = distance(f), rate = 0.5 * truth_rate_hz_ * (distance(f + 1) - distance(f - 1));
+          const double of_found = glm::distance(found[a], found[b]);
+          if (std::isnan(s + rate + of_found)) continue;
+          pairs[pair].truth.push_back(s);
+          pairs[pair].rate.push_back(rate);
+          pairs[pair].found.push_back(of_found);
+          pairs[pair].frames.push_back(f);
+        }
       }
     }
-    return points;
+    return pairs;
   }
 
-  /// Moves the answer's points onto the truth's as a whole, and returns what is left of each.
-  static std::vector<glm::dvec3> Rests(const ShiftedPoints& points) {
-    Similarity fit = AlignSimilarity(points.found, points.truth);
-    glm::dvec3 of_found(0), of_truth(0);
-    for (std::size_t i = 0; i < points.found.size(); ++i) {
-      of_found += points.found[i];
-      of_truth += points.truth[i];
-    }
-    fit.scale = 1;
-    fit.translation = (of_truth - fit.rotation * of_found) / static_cast<double>(points.found.size());
-    std::vector<glm::dvec3> rests;
-    for (std::size_t i = 0; i < points.found.size(); ++i) {
-      rests.push_back(fit.Apply(points.found[i]) - points.truth[i]);
-    }
-    return rests;
+  static std::size_t CountOf(const std::vector<Distances>& pairs) {
+    std::size_t count = 0;
+    for (const Distances& pair : pairs) count += pair.truth.size();
+    return count;
   }
 
   /// Returns the shift in whole frames of the truth that fits best, unless it is the largest.
   std::optional<int> FindWholeFrames() const {
     constexpr std::size_t kMaxCompared = 1000;  // frames
     const std::size_t stride = 1 + truth_.FrameCount() / kMaxCompared;
-    const std::size_t least = std::max<std::size_t>(kMinPoints, PointsAt(0, stride).found.size() / 2);
+    const std::size_t fewest = std::max(CountOf(DistancesAt(0, stride)) / 2, kMinFrames);
     const int reach = static_cast<int>(std::floor(kMaxTimeShift_s * truth_rate_hz_));
     std::optional<int> best;
-    double smallest = std::numeric_limits<double>::infinity();
+    double largest = 0;
     // From the smallest shift on: of two that fit alike, the smaller is taken.
     for (int at = 0; at <= 2 * reach; ++at) {
       const int shift = at % 2 == 0 ? -at / 2 : (at + 1) / 2;
-      const ShiftedPoints points = PointsAt(shift / truth_rate_hz_, stride);
-      if (points.found.size() < least) continue;
-      double sum = 0;
-      for (const glm::dvec3& rest : Rests(points)) sum += glm::dot(rest, rest);
-      const double mean = sum / static_cast<double>(points.found.size());
-      if (mean < smallest) best = shift;
-      smallest = std::min(mean, smallest);
+      const std::vector<Distances> pairs = DistancesAt(shift / truth_rate_hz_, stride);
+      if (CountOf(pairs) < fewest) continue;
+      double explained = 0, all = 0;
+      for (const Distances& pair : pairs) {
+        const Line line = FitLine(pair);
+        explained += line.explained;
+        all += line.all;
+      }
+      if (!(explained > largest * all)) continue;
+      best = shift;
+      largest = explained / all;
     }
     if (!best || std::abs(*best) == reach) return std::nullopt;
     return best;
   }
 
-  /// Takes out of the velocities what a movement as a whole explains. Returns nothing if little is left.
-  static std::optional<std::vector<glm::dvec3>> OwnVelocities(const ShiftedPoints& points) {
-    constexpr double kMinLeft = 1e-6;  // of the squares
-    glm::dvec3 centre(0);
-    for (const glm::dvec3& p : points.truth) centre += p / static_cast<double>(points.truth.size());
-    // Least squares: velocity = rate of translation + rotation × arm.
-    const auto jacobian = [&](std::size_t i) {
-      const glm::dvec3 arm = points.truth[i] - centre;
-      Eigen::Matrix<double, 3, 6> rows = Eigen::Matrix<double, 3, 6>::Zero();
-      rows.leftCols<3>().setIdentity();
-      rows.rightCols<3>() << 0, arm.z, -arm.y, -arm.z, 0, arm.x, arm.y, -arm.x, 0;
-      return rows;
-    };
-    const auto column = [](const glm::dvec3& v) { return Eigen::Vector3d(v.x, v.y, v.z); };
-    Matrix6 normal = Matrix6::Zero();
-    Vector6 right = Vector6::Zero();
-    double before = 0, after = 0;
-    for (std::size_t i = 0; i < points.truth.size(); ++i) {
-      const auto rows = jacobian(i);
-      normal += rows.transpose() * rows;
-      right += rows.transpose() * column(points.velocity[i]);
-      before += glm::dot(points.velocity[i], points.velocity[i]);
+  /// What one Newton step sums up.
+  struct Step {
+    double square = 0;             ///< Σ w (β v)² over all pairs
+    std::vector<double> products;  ///< by frame: Σ w β v · rest
+    double motion = 0;             ///< Σ (β v)²
+    double count = 0;
+  };
+
+  Step StepAt(double shift_s) const {
+    Step step;
+    step.products.assign(truth_.FrameCount(), 0.0);
+    for (const Distances& pair : DistancesAt(shift_s, 1)) {
+      if (pair.truth.size() < kMinFrames) continue;
+      const Line line = FitLine(pair);
+      constexpr double kExact_m2 = 1e-6;  // 1 mm²
+      const double n = static_cast<double>(pair.truth.size());
+      const double weight = 1 / (std::max(0.0, line.all - line.explained) / n + kExact_m2);
+      // Take out of the rate what 1 and s explain.
+      double mean = 0, product = 0;
+      for (const double rate : pair.rate) mean += rate / n;
+      for (std::size_t i = 0; i < pair.rate.size(); ++i) {
+        product += (pair.rate[i] - mean) * (pair.truth[i] - line.mean_truth);
+      }
+      const double along = line.square_truth > 0 ? product / line.square_truth : 0;
+      for (std::size_t i = 0; i < pair.rate.size(); ++i) {
+        const double s = pair.truth[i] - line.mean_truth, f = pair.found[i] - line.mean_found;
+        const double own = line.slope * (pair.rate[i] - mean - along * s);
+        step.products[pair.frames[i]] += weight * own * (f - line.slope * s);
+        step.square += weight * own * own;
+        step.motion += own * own;
+      }
+      step.count += n;
     }
-    const Vector6 movement = normal.ldlt().solve(right);
-    std::vector<glm::dvec3> own;
-    for (std::size_t i = 0; i < points.truth.size(); ++i) {
-      const Eigen::Vector3d left = column(points.velocity[i]) - jacobian(i) * movement;
-      own.emplace_back(left.x(), left.y(), left.z());
-      after += left.squaredNorm();
-    }
-    if (!(after > kMinLeft * before)) return std::nullopt;
-    return own;
+    return step;
   }
 
   std::optional<TimeShift> Refine(double shift_s) const {
     constexpr int kMaxSteps = 50;
-    constexpr double kSettled_s = 1e-10;
+    constexpr double kSettled_s = 1e-10, kMinRate_mps = 1e-4, kMaxWay = 2;  // frames
     const double start_s = shift_s;
-    for (int step = 0; step < kMaxSteps; ++step) {
-      const ShiftedPoints points = PointsAt(shift_s, 1);
-      if (points.found.size() < kMinPoints) return std::nullopt;
-      const auto own = OwnVelocities(points);
-      if (!own) return std::nullopt;
-      const std::vector<glm::dvec3> rests = Rests(points);
-      double product = 0, square = 0;
-      for (std::size_t i = 0; i < rests.size(); ++i) {
-        product += glm::dot((*own)[i], rests[i]);
-        square += glm::dot((*own)[i], (*own)[i]);
-      }
-      const double change_s = -product / square;
+    for (int count = 0; count < kMaxSteps; ++count) {
+      const Step step = StepAt(shift_s);
+      if (!(step.motion > kMinRate_mps * kMinRate_mps * step.count)) return std::nullopt;
+      double product = 0;
+      for (const double of_frame : step.products) product += of_frame;
+      const double change_s = -product / step.square;
       shift_s += change_s;
-      if (std::abs(shift_s - start_s) > 2 / truth_rate_hz_) return std::nullopt;  // leaves the best whole frame
-      if (std::abs(change_s) < kSettled_s) return TimeShift{shift_s, HalfWidth(points, *own, rests, square)};
+      if (std::abs(shift_s - start_s) > kMaxWay / truth_rate_hz_) return std::nullopt;
+      if (std::abs(change_s) < kSettled_s) return TimeShift{shift_s, HalfWidth(step)};
     }
     return std::nullopt;
   }
 
   /// Returns half the width of the jackknife's interval over equal parts of the motion.
-  static std::optional<double> HalfWidth(const ShiftedPoints& points, const std::vector<glm::dvec3>& own,
-                                         const std::vector<glm::dvec3>& rests, double square) {
-    constexpr std::size_t kParts = 10, kMinFrames = 3;  // a part has at least three
-    constexpr double kStudent = 2.2621571628;           // t, 97.5 %, nine degrees of freedom
-    const std::size_t first = points.frames.front(), frames = points.frames.back() - first + 1;
-    if (frames < kParts * kMinFrames) return std::nullopt;
-    std::array<double, kParts> products{};
-    for (std::size_t i = 0; i < rests.size(); ++i) {
-      products[(points.frames[i] - first) * kParts / frames] += glm::dot(own[i], rests[i]);
-    }
+  static std::optional<double> HalfWidth(const Step& step) {
+    constexpr std::size_t kParts = 10, kMinPart = 3;  // frames
+    constexpr double kStudent = 2.2621571628;         // t, 97.5 %, nine degrees of freedom
+    const std::size_t frames = step.products.size();
+    if (frames < kParts * kMinPart) return std::nullopt;
+    std::array<double, kParts> parts{};
+    for (std::size_t f = 0; f < frames; ++f) parts[f * kParts / frames] += step.products[f];
     double variance = 0;
-    for (const double product : products) variance += product * product / (square * square);
+    for (const double part : parts) variance += part * part / (step.square * step.square);
     return kStudent * std::sqrt(variance * kParts / (kParts - 1));
   }
 
-  static constexpr std::size_t kMinPoints = 15;  // five frames of three joints
-
   const PointTracks &truth_, &answer_;
   const double truth_rate_hz_, answer_rate_hz_;
+  std::vector<std::size_t> joints_;
 };
 
 }  // namespace
 
 std::optional<TimeShift> FindTimeShift(const PointTracks& truth, double truth_rate_hz, const PointTracks& answer,
                                        double answer_rate_hz) {
-  constexpr std::size_t kMinJoints = 3;
-  if (truth.points < kMinJoints || truth.points != answer.points) return std::nullopt;
+  if (truth.points < 2 || truth.points != answer.points) return std::nullopt;
   return ShiftFinder(truth, truth_rate_hz, answer, answer_rate_hz).Find();
 }
 

@@ -15,18 +15,23 @@ struct TimeShift {
 /// The largest shift that is sought, either way.
 constexpr double kMaxTimeShift_s = 2;
 
-/// Finds the time shift of an answer, to a fraction of a frame. Its first frame belongs to the truth's first. A frame
-/// of the truth is compared with the answer at a shifted time, between frames by the cubic of Catmull and Rom through
-/// four of them; the answer may also be moved as a whole, rotation and translation.
+/// Finds the time shift of an answer, to a fraction of a frame, from the distances between its joints: so neither
+/// another place, turn or size of the answer nor joints that lie a little elsewhere pull it. Of more than twenty
+/// joints, twenty evenly chosen ones count. The answer's first frame belongs to the truth's first. A frame of the truth
+/// is compared with the answer at a shifted time, between frames by the cubic of Catmull and Rom through four of them.
 ///
-/// First the whole number of the truth's frames within ±kMaxTimeShift_s that leaves the least mean squared distance.
-/// Then Gauss–Newton: the shift at which Σ v · e = 0, where e is the rest after the best movement and v the truth's
-/// velocity (central differences) without its own best movement. The truth's velocity, not the answer's, so that noise
-/// of the answer does not pull the shift towards half frames. The interval is the jackknife's over ten equal parts of
-/// the motion (Student's t), because errors of one frame and the next are alike.
+/// For each pair of joints the answer's distance f is fitted by α + β s, s: the truth's, β ≥ 0. First the whole number
+/// of the truth's frames within ±kMaxTimeShift_s at which these fits explain most of the variance of f. Then Newton's
+/// steps to the shift at which Σ w β v · (f − α − β s) = 0 over pairs and frames. v is the truth's rate, of s, by
+/// central differences, without what 1 and s explain of it; with the answer's own rate its noise would pull the shift
+/// towards half frames. w = 1 / (the pair's mean squared rest + 1 mm²), so that pairs that fit decide, such as those of
+/// one limb where a spine differs.
 ///
-/// Nothing if fewer than five frames or three joints are seen by both, if the best shift lies at the end of the range,
-/// or if the truth's motion cannot be told from a movement as a whole: it stands, or glides evenly.
+/// The interval is the jackknife's over ten equal parts of the motion (Student's t), because errors of one frame and
+/// the next are alike. It knows nothing of what joints that lie elsewhere add.
+///
+/// Nothing if fewer than five frames are seen by both, if the best shift lies at the end of the range, or if no
+/// distance changes: the truth stands or glides.
 std::optional<TimeShift> FindTimeShift(const PointTracks& truth, double truth_rate_hz, const PointTracks& answer,
                                        double answer_rate_hz);
 

@@ -182,7 +182,7 @@ Result<MatchedMotions> Match(const RawMotion& truth, const RawMotion& answer, st
     matched.lag = FindTimeShift(matched.pair.truth, rate_hz, Columns(answer, of_answer), answer.rate_hz);
     if (!matched.lag) {
       return Fail({answer.name},
-                  "no lag within ±{:g} s is found: the motion is too short, stands, glides evenly, or "
+                  "no lag within ±{:g} s is found: the motion is too short, stands or glides, or "
                   "fits best at the end of that range",
                   kMaxTimeShift_s);
     }

@@ -13,7 +13,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
 sys.path[:0] = [str(ROOT / "tests" / "cli"), str(ROOT / "tests" / "support")]
 import second_implementation as second  # noqa: E402
-from independent import capture, coach, common, detection, ik, pose_distance  # noqa: E402
+from independent import capture, coach, common, detection, evaluation, ik, pose_distance  # noqa: E402
 from independent import support, tracking, transition  # noqa: E402
 from etude_case import IK, EtudeCase  # noqa: E402
 from json_schema import complaints, load_schema, own_complaints  # noqa: E402
@@ -132,6 +132,14 @@ MUTANTS = {
     "several detections of one point": (detection, {"most_pairs": lambda points, detections: sum(
         any(abs(d - p) <= 0.333 for p in points) for d in detections)}, ["action_point_f"]),
     "ties lost": (detection, {"tie_credit": lambda: 0.0}, ["roc_auc"]),
+    "beats within five frames": (evaluation, {"BEAT_SIGMA": 5}, ["beat_alignment@bailando", "beat_alignment@mint"]),
+    "speeds as they are": (evaluation, {"SMOOTHING": 1}, ["beat_alignment@bailando"]),
+    "beats of two frames": (evaluation, {"MINT_ORDER": 2}, ["beat_alignment@mint"]),
+    "quaternions as they are read": (evaluation, {"continuous": lambda quaternions, start: list(quaternions)}, [
+        "l2q@lafan1", "npss@lafan1", "npss"]),
+    "linear between frames": (evaluation, {"cubic": lambda frames, at: None if not 0 <= at <= len(frames) - 1 else [
+        [a + (at - int(at)) * (b - a) for a, b in zip(p, q)]
+        for p, q in zip(frames[int(at)], frames[min(int(at) + 1, len(frames) - 1)])]}, ["lag_ms"]),
     "misses left out": (detection, {"kaplan_meier_median": lambda waits: or_nothing(statistics.median)(
         [seconds for seconds, called in waits if called])}, ["latency_s"]),
 }

@@ -250,18 +250,16 @@ def continuous(quaternions, start):
 
 
 def curves(given):
-    """Of each angle the pairs (answer, truth) in which both are known, the truth without jumps, the answer near it."""
+    """Of each angle the pairs (answer, truth) in which both are known, the truth near its circular mean, the answer near
+    the truth."""
+    def near(angle, other):
+        while abs(angle - other) > 180:
+            angle += 360 if angle < other else -360
+        return angle
     for found, truth in zip(zip(*given["found_angles"]), zip(*given["true_angles"])):
-        pairs = []
-        for a, t in zip(found, truth):
-            if a is None or t is None:
-                continue
-            while pairs and abs(t - pairs[-1][1]) > 180:
-                t += 360 if t < pairs[-1][1] else -360
-            while abs(a - t) > 180:
-                a += 360 if a < t else -360
-            pairs.append((a, t))
-        yield pairs
+        pairs = [(a, t) for a, t in zip(found, truth) if a is not None and t is not None]
+        middle = math.degrees(cmath.phase(sum(cmath.exp(1j * math.radians(t)) for _, t in pairs)))
+        yield [(near(a, near(t, middle)), near(t, middle)) for a, t in pairs]
 
 
 def over_angles(measure):
@@ -290,7 +288,7 @@ def icc_a1(pairs):
     of_columns = n * math.fsum((c - grand) ** 2 for c in columns)
     error = math.fsum((x - r - c + grand) ** 2 for pair, r in zip(pairs, rows) for x, c in zip(pair, columns)) / (n - 1)
     below = of_rows + error + 2 / n * (of_columns - error)
-    return (of_rows - error) / below if below > 0 else None
+    return (of_rows - error) / below if below > 1e-12 else None
 
 
 def rotations(given):
@@ -360,61 +358,70 @@ def cubic(frames, at):
             for j in range(len(frames[first]))]
 
 
-def rest(given, shift_s):
-    """What is left of each seen joint after the best movement, with its true place and velocity."""
+def paired_distances(given, shift_s):
+    """Of each pair of joints, per frame: the answer's distance, the true one, and its rate."""
     rate, truth = given["rate_hz"], given["truth"]
-    points = []
+    joints = range(len(truth[0]))
+    pairs = {(i, j): [] for j in joints for i in range(j)}
     for f in range(1, len(truth) - 1):
         found = cubic(given["found"], (f / rate + shift_s) * given["found_rate_hz"])
-        if found:
-            points += [(p, t, [rate / 2 * (c - a) for a, c in zip(before, after)])
-                       for p, t, before, after in zip(found, truth[f], truth[f - 1], truth[f + 1])]
-    moved = fit([(p, t) for p, t, _ in points], False)
-    return [(minus(moved(p), t), t, v) for p, t, v in points]
+        for i, j in pairs if found else ():
+            before, now, after = (distance(frame[i], frame[j]) for frame in truth[f - 1:f + 2])
+            pairs[i, j].append((distance(found[i], found[j]), now, rate * (after - before) / 2))
+    return [rows for rows in pairs.values() if rows]
 
 
-def solve(rows):
-    """Gauss's elimination of a matrix with its right side as the last column."""
-    n = len(rows)
-    for i in range(n):
-        pivot = max(range(i, n), key=lambda r: abs(rows[r][i]))
-        rows[i], rows[pivot] = rows[pivot], rows[i]
-        for r in range(n):
-            if r != i:
-                factor = rows[r][i] / rows[i][i]
-                rows[r] = [x - factor * y for x, y in zip(rows[r], rows[i])]
-    return [rows[i][n] / rows[i][i] for i in range(n)]
+def line(ys, xs):
+    """Slope and intercept of the least squares."""
+    mean_x, mean_y = common.mean(xs), common.mean(ys)
+    square = math.fsum((x - mean_x) ** 2 for x in xs)
+    slope = math.fsum((x - mean_x) * (y - mean_y) for x, y in zip(xs, ys)) / square if square > 0 else 0.0
+    return slope, mean_y - slope * mean_x
+
+
+def explained(given, shift_s):
+    """The number of distances, and the share of the variance of the answer's that rising lines explain."""
+    left = total = count = 0
+    for rows in paired_distances(given, shift_s):
+        found, truth, _ = zip(*rows)
+        slope, start = line(found, truth)
+        mean = common.mean(found)
+        all_squares = math.fsum((f - mean) ** 2 for f in found)
+        left += math.fsum((f - start - slope * t) ** 2 for f, t in zip(found, truth)) if slope > 0 else all_squares
+        total += all_squares
+        count += len(rows)
+    return count, 1 - left / total if total > 0 else 0.0
 
 
 def ahead(given, shift_s):
-    """Σ v · e, with the truth's velocities without their best movement as a whole."""
-    left = rest(given, shift_s)
-    centre = [common.mean([t[k] for _, t, _ in left]) for k in range(3)]
-    fields = []  # by point: how each of six movements moves it
-    for _, t, _ in left:
-        x, y, z = minus(t, centre)
-        fields.append([[1, 0, 0], [0, 1, 0], [0, 0, 1], [0, -z, y], [z, 0, -x], [-y, x, 0]])
-    rows = [[math.fsum(dot(field[a], field[b]) for field in fields) for b in range(6)] +
-            [math.fsum(dot(field[a], v) for field, (_, _, v) in zip(fields, left))] for a in range(6)]
-    movement = solve(rows)
-    return math.fsum(dot(e, minus(v, [math.fsum(m * part[k] for m, part in zip(movement, field)) for k in range(3)]))
-                     for field, (e, _, v) in zip(fields, left))
+    """Σ w β v · e: positive where the answer is taken too late."""
+    total = 0
+    for rows in paired_distances(given, shift_s):
+        found, truth, rates = zip(*rows)
+        (slope, start), (along, level) = line(found, truth), line(rates, truth)
+        mean, slope = common.mean(found), max(slope, 0)
+        start = start if slope else mean
+        rests = [f - start - slope * t for f, t in zip(found, truth)]
+        weight = 1 / (common.mean([r * r for r in rests]) + 1e-6)
+        total += weight * slope * math.fsum((v - level - along * t) * r for r, t, v in zip(rests, truth, rates))
+    return total
 
 
 def lag(given):
-    if len(given["truth"]) < 5 or len(given["truth"][0]) < FEWEST or given["truth"][0] == given["truth"][-1]:
-        return None
     rate = given["rate_hz"]
-    whole = range(-int(2 * rate), int(2 * rate) + 1)
-    all_points = len(rest(given, 0))
-    squares = {k: common.mean([dot(e, e) for e, _, _ in points]) for k in whole
-               if len(points := rest(given, k / rate)) >= max(15, all_points // 2)}
-    best = min(sorted(squares, key=abs), key=squares.get) / rate
+    if len(given["truth"]) < 5 or given["truth"][0] == given["truth"][-1]:
+        return None
+    least = explained(given, 0)[0] // 2
+    shares = {}
+    for k in sorted(range(-int(2 * rate), int(2 * rate) + 1), key=abs):
+        count, share = explained(given, k / rate)
+        if count >= max(least, 5):
+            shares[k] = share
+    best = max(shares, key=shares.get) / rate
     low, high = best - 0.6 / rate, best + 0.6 / rate
-    rising = ahead(given, high) > 0
-    for _ in range(60):
+    for _ in range(50):
         middle = (low + high) / 2
-        low, high = (low, middle) if (ahead(given, middle) > 0) == rising else (middle, high)
+        low, high = (low, middle) if ahead(given, middle) > 0 else (middle, high)
     return common.MM * (low + high) / 2
 
 
