@@ -28,6 +28,14 @@ class Evaluate(PythonCase):
         self.assertAlmostEqual(row["mpjpe_root_mm"], 0, 12)
         self.assertAlmostEqual(row["seen_share"], 1 - 1 / (20 * len(NAMES)), 12)
 
+    def test_joints_of_any_names_are_judged_by_name(self):
+        names = [f"Gelenk {i} ü" for i in range(len(NAMES))]
+        run = etude.evaluate(standing(5), mine=standing(5, across=0.01), names=names, rate_hz=60, joints="same",
+                             output=self.folder / "same", progress=False)
+        row, = run["evaluate"].rows()
+        self.assertAlmostEqual(row["mpjpe_unaligned_mm"], 10, 12)
+        self.assertIsNone(row["mpjpe_root_mm"])
+
     def test_what_is_missing_is_told(self):
         for wrong, arguments in [(TypeError, {"truth": standing(3), "mine": standing(3)}),
                                  (TypeError, {"truth": "a.bvh"}),
