@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bench/keys/field_table.h"
+#include "bench/tasks/evaluation/spoil.h"
 
 namespace etude {
 
@@ -12,6 +13,7 @@ struct EvaluationOptions {
   std::vector<std::string> truth;  ///< files, patterns, folders
   std::string pairs;               ///< the name of a CSV file; "" = pairs are made by name
   std::string joints = "roles";    ///< one of JointSetNames()
+  double noise_mm = 0;             ///< of all controls' answers
   std::string people;              ///< a pattern for names, such as "{person}_*"; "" = each pair counts for itself
 };
 
@@ -20,10 +22,12 @@ const FieldTable<EvaluationOptions>& EvaluationConditionFields();
 /// Fails unless the condition names its files in one way, and no trials.
 Result<void> CheckFiles(const Node& condition, const EvaluationOptions& options);
 
-/// A method of task evaluation: answers that something outside gave.
+/// A method of task evaluation: answers that something outside gave, or a control of the metrics.
 struct EvaluationMethod {
   std::string name;
   std::vector<std::string> answers;  ///< files, patterns, folders; empty where `pairs` names them
+  bool is_control = false;           ///< its answer is the truth, spoilt
+  Spoiler spoiler;                   ///< of a control
 };
 
 const FieldTable<EvaluationMethod>& EvaluationMethodFields();
