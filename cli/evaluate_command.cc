@@ -28,6 +28,7 @@ struct EvaluateOptions {
   std::vector<std::string> metrics;
   std::string output;
   bool overwrite = false;
+  bool keeps_motions = false;
   int jobs = 0;
   bool as_json = false;
   std::string command_line;
@@ -234,6 +235,7 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   run.joint_map = options.joint_map;
   run.output = options.output;
   run.overwrite = options.overwrite;
+  run.keeps_motions = options.keeps_motions;
   run.jobs = options.jobs;
   run.command_line = options.command_line;
   run.program_version = ETUDE_VERSION;
@@ -284,6 +286,11 @@ void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& acti
                       "A file that states which joints play which roles, the unit and the up axis");
   command->add_option("-o,--output", options->output, "Result folder (default: out/evaluate-1)");
   AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");
+  command
+      ->add_option_function<std::string>(
+          "--keep", [options](const std::string&) { options->keeps_motions = true; },
+          "motions: record both motions of every pair, for the page's pictures and its viewer")
+      ->check(CLI::IsMember({"motions"}));
   AddJobs(*command, options->jobs);
   AddJson(*command, options->as_json);
   command->callback([=, &action] { action = [=] { return Finish(EvaluateCommand(*options)); }; });

@@ -19,6 +19,7 @@
 #include "reports/page_check.h"
 #include "reports/paper/paper_a.h"
 #include "reports/paper/paper_b_section.h"
+#include "reports/plots/pairs.h"
 #include "reports/plots/plot_section.h"
 #include "reports/transitions/transition_section.h"
 #include "reports/viewer/recorded_worlds.h"
@@ -185,7 +186,7 @@ std::string Folded(const std::string& title, const std::string& html, std::strin
 }
 
 std::string OtherPictures(const RunData& run, const ScenarioSummary& scenario, std::size_t index) {
-  std::string html = PlotSectionHtml(run, scenario);
+  std::string html = PlotSectionHtml(run, scenario) + PairsHtml(run, scenario);
   if (const auto chart = CurveChart(run, scenario)) {
     html += fmt::format("<div class=\"charts\">{}</div>", ChartFigure(*chart, fmt::format("chart-{}-curves", index)));
   }

@@ -36,29 +36,6 @@ struct EvaluatedPair {
   std::vector<bool> found_contacts, true_contacts;
 };
 
-/// What is taken out of the answer before it is compared: a movement or, with `_scaled`, a similarity, found from the
-/// joints that both show. Reflections are never taken out.
-enum class Alignment {
-  kNone,
-  kRoot,         ///< in each frame, root onto root
-  kRootScaled,   ///< … and the one scale of that frame with the least squared error (N-MPJPE)
-  kFirst,        ///< the movement that fits the first frame best
-  kFirstScaled,  ///< …
-  kTake,         ///< the movement that fits all frames best
-  kTakeScaled,   ///< …
-  kFrame,        ///< in each frame, the movement that fits it best
-  kFrameScaled,  ///< … (PA-MPJPE)
-};
-
-/// Returns the answer's positions after the alignment; NaN where the answer or its truth is not seen, and in frames in
-/// which the alignment is not determined: without root, or with fewer than three joints seen by both.
-PointTracks Aligned(const EvaluatedPair& pair, Alignment alignment);
-/// The same for segments of `length` frames, each fitted by its first `fitted` frames alone, as similarities (W-MPJPE,
-/// WA-MPJPE). The last segment may be shorter.
-PointTracks AlignedBySegments(const EvaluatedPair& pair, std::size_t length, std::size_t fitted);
-
-/// Returns the distance of each joint from its truth, frames × joints, millimetres; NaN where either is not seen.
-std::vector<double> JointErrorsMm(const PointTracks& aligned, const PointTracks& truth);
 /// Returns the mean of the values that are not NaN; nothing if there are none.
 std::optional<double> MeanOfSeen(std::span<const double> values);
 /// Returns the share of values below `limit_mm`, among those that are not NaN.

@@ -16,7 +16,7 @@ constexpr double kLow_m = 0.05;
 /// Returns the length of the horizontal step of a column from frame f to the next.
 double FloorStep(const PointTracks& feet, std::size_t f, std::size_t column) {
   const glm::dvec3 step = feet.Frame(f + 1)[column] - feet.Frame(f)[column];
-  return std::hypot(step.x, step.z);
+  return std::sqrt(step.x * step.x + step.z * step.z);
 }
 
 /// Returns, for each step between frames, whether the toes skate.

@@ -14,12 +14,6 @@ namespace {
 
 constexpr double kMmPerMetre = 1000;
 
-glm::dvec3 MeanOf(std::span<const glm::dvec3> points) {
-  glm::dvec3 sum(0);
-  for (const glm::dvec3& p : points) sum += p;
-  return sum / static_cast<double>(points.size());
-}
-
 glm::dmat3 ToGlm(const Eigen::Matrix3d& m) {
   glm::dmat3 result;
   for (int row = 0; row < 3; ++row) {
@@ -46,16 +40,44 @@ double AngleErrorsDeg(const BodyPose& found, const BodyPose& truth, int& count) 
 
 }  // namespace
 
-Similarity AlignSimilarity(std::span<const glm::dvec3> points, std::span<const glm::dvec3> targets) {
-  assert(points.size() == targets.size() && !points.empty());
-  // Covariance of the centred points.
-  const glm::dvec3 mean = MeanOf(points), target_mean = MeanOf(targets);
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  double scatter = 0;
+void PointMoments::Add(const PointMoments& other) {
+  if (other.count == 0) return;
+  const double both = count + other.count, weight = count * other.count / both;
+  const glm::dvec3 apart = other.mean - mean, targets_apart = other.target_mean - target_mean;
+  covariance += other.covariance + weight * glm::outerProduct(targets_apart, apart);
+  scatter += other.scatter + weight * glm::dot(apart, apart);
+  mean += other.count / both * apart;
+  target_mean += other.count / both * targets_apart;
+  count = both;
+}
+
+PointMoments MomentsOf(std::span<const glm::dvec3> points, std::span<const glm::dvec3> targets) {
+  assert(points.size() == targets.size());
+  PointMoments moments;
+  const auto are_seen = [&](std::size_t i) { return !std::isnan(points[i].x) && !std::isnan(targets[i].x); };
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const glm::dvec3 p = points[i] - mean, t = targets[i] - target_mean;
-    covariance += Eigen::Vector3d(t.x, t.y, t.z) * Eigen::RowVector3d(p.x, p.y, p.z);
-    scatter += glm::dot(p, p);
+    if (!are_seen(i)) continue;
+    moments.mean += points[i];
+    moments.target_mean += targets[i];
+    ++moments.count;
+  }
+  if (moments.count == 0) return moments;
+  moments.mean /= moments.count;
+  moments.target_mean /= moments.count;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!are_seen(i)) continue;
+    const glm::dvec3 p = points[i] - moments.mean, t = targets[i] - moments.target_mean;
+    moments.covariance += glm::outerProduct(t, p);
+    moments.scatter += glm::dot(p, p);
+  }
+  return moments;
+}
+
+Similarity AlignSimilarity(const PointMoments& moments) {
+  assert(moments.count > 0);
+  Eigen::Matrix3d covariance;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) covariance(row, column) = moments.covariance[column][row];
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
   // Forbid reflections: a mirrored body must not count as a good one, so the last singular vector is flipped instead.
@@ -63,9 +85,13 @@ Similarity AlignSimilarity(std::span<const glm::dvec3> points, std::span<const g
   const Eigen::Vector3d signs(1, 1, sign);
   Similarity similarity;
   similarity.rotation = ToGlm(svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose());
-  if (scatter > 0) similarity.scale = svd.singularValues().dot(signs) / scatter;
-  similarity.translation = target_mean - similarity.scale * (similarity.rotation * mean);
+  if (moments.scatter > 0) similarity.scale = svd.singularValues().dot(signs) / moments.scatter;
+  similarity.translation = moments.target_mean - similarity.scale * (similarity.rotation * moments.mean);
   return similarity;
+}
+
+Similarity AlignSimilarity(std::span<const glm::dvec3> points, std::span<const glm::dvec3> targets) {
+  return AlignSimilarity(MomentsOf(points, targets));
 }
 
 double FrameMpjpeMm(const BodyPose& found, const BodyPose& truth) {

@@ -18,8 +18,22 @@ struct Similarity {
   glm::dvec3 Apply(const glm::dvec3& p) const { return scale * (rotation * p) + translation; }
 };
 
-/// Returns the similarity that maps `points` to `targets` with the least squared error (Procrustes; Umeyama 1991). It
-/// is never a reflection. If all points coincide, the scale is 1. Both spans have the same size, at least one.
+/// Sums over points and their targets, enough for the best similarity.
+struct PointMoments {
+  double count = 0;
+  glm::dvec3 mean{0}, target_mean{0};
+  glm::dmat3 covariance{0};  ///< Σ (target − its mean) (point − its mean)ᵀ
+  double scatter = 0;        ///< Σ ‖point − its mean‖²
+
+  /// Adds the sums of other points (Chan et al. 1979).
+  void Add(const PointMoments& other);
+};
+/// Leaves out points that are NaN or whose targets are. Both spans have the same size.
+PointMoments MomentsOf(std::span<const glm::dvec3> points, std::span<const glm::dvec3> targets);
+
+/// Returns the similarity that maps points to their targets with the least squared error (Procrustes; Umeyama 1991). It
+/// is never a reflection. If all points coincide, the scale is 1. There must be at least one point.
+Similarity AlignSimilarity(const PointMoments& moments);
 Similarity AlignSimilarity(std::span<const glm::dvec3> points, std::span<const glm::dvec3> targets);
 
 /// Returns the mean joint error (MPJPE) of one frame, millimetres.

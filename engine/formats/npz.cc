@@ -31,10 +31,13 @@ std::string_view ValueOf(std::string_view header, std::string_view key, char end
 
 template <typename Number>
 void Append(std::string_view bytes, std::vector<double>& values) {
-  for (std::size_t at = 0; at + sizeof(Number) <= bytes.size(); at += sizeof(Number)) {
+  values.resize(bytes.size() / sizeof(Number));
+  const char* at = bytes.data();
+  for (double& value : values) {
     Number number;
-    std::memcpy(&number, bytes.data() + at, sizeof number);
-    values.push_back(static_cast<double>(number));
+    std::memcpy(&number, at, sizeof number);
+    value = static_cast<double>(number);
+    at += sizeof number;
   }
 }
 
@@ -75,8 +78,12 @@ std::vector<double> InOrderOfC(const std::vector<double>& values, const std::vec
   return ordered;
 }
 
-/// Reads an .npy file; nullopt if it does not hold plain numbers.
-Result<std::optional<NumberArray>> ReadMember(std::string_view bytes, const std::string& file) {
+/// The two parts of an .npy file: a Python dictionary, and the values.
+struct NpyParts {
+  std::string_view header, data;
+};
+
+Result<NpyParts> SplitNpy(std::string_view bytes, const std::string& file) {
   const Place place{file};
   if (!bytes.starts_with(kNpyMagic) || bytes.size() < 12) return Fail(place, "is not a .npy file");
   const bool is_first = bytes[6] == 1;  // later versions give the header's length in four bytes
@@ -85,7 +92,30 @@ Result<std::optional<NumberArray>> ReadMember(std::string_view bytes, const std:
   for (std::size_t i = 0; i < length_bytes; ++i)
     length |= std::size_t{static_cast<unsigned char>(bytes[8 + i])} << (8 * i);
   if (length > bytes.size() - head) return Fail(place, "its header is cut short");
-  const std::string_view header = bytes.substr(head, length), data = bytes.substr(head + length);
+  return NpyParts{bytes.substr(head, length), bytes.substr(head + length)};
+}
+
+std::string_view TypeOf(const NpyParts& parts) { return ValueOf(parts.header, "'descr': '", '\''); }
+
+/// Returns texts of fixed lengths, four bytes a letter; none if the type is another.
+std::vector<std::string> TextsOf(const NpyParts& parts) {
+  const std::string_view type = TypeOf(parts);
+  std::size_t letters = 0;
+  if (type.starts_with("<U")) std::from_chars(type.data() + 2, type.data() + type.size(), letters);
+  if (letters == 0) return {};
+  std::vector<std::string> texts(parts.data.size() / 4 / letters);
+  for (std::size_t i = 0; i < texts.size() * letters; ++i) {
+    std::uint32_t letter = 0;
+    std::memcpy(&letter, parts.data.data() + 4 * i, sizeof letter);
+    if (letter != 0) texts[i / letters] += letter < 128 ? static_cast<char>(letter) : '?';
+  }
+  return texts;
+}
+
+/// Reads an .npy file; nothing when it holds no plain numbers.
+Result<std::optional<NumberArray>> NumbersIn(const NpyParts& parts, const std::string& file) {
+  const Place place{file};
+  const auto [header, data] = parts;
   NumberArray array;
   std::size_t count = 1;
   const std::string_view shape = ValueOf(header, "'shape': (", ')');
@@ -98,7 +128,7 @@ Result<std::optional<NumberArray>> ReadMember(std::string_view bytes, const std:
     count *= size;
     at = static_cast<std::size_t>(end - shape.data());
   }
-  auto values = NumbersOf(ValueOf(header, "'descr': '", '\''), data);
+  auto values = NumbersOf(TypeOf(parts), data);
   if (!values) return std::optional<NumberArray>();
   if (values->size() != count) return Fail(place, "has {} numbers; its shape requires {}", values->size(), count);
   const bool is_fortran = ValueOf(header, "'fortran_order': ", ',') == "True";
@@ -135,7 +165,8 @@ Result<std::string> Unpack(zip_t* archive, zip_uint64_t member, std::uint64_t& l
 bool IsNpy(std::string_view bytes) { return bytes.starts_with(kNpyMagic); }
 
 Result<NumberArray> ReadNpy(std::string_view bytes, const std::string& file) {
-  ASSIGN_OR_RETURN(auto array, ReadMember(bytes, file));
+  ASSIGN_OR_RETURN(const auto parts, SplitNpy(bytes, file));
+  ASSIGN_OR_RETURN(auto array, NumbersIn(parts, file));
   if (!array) return Fail({file}, "does not contain plain numbers; allowed: floats and whole numbers, little-endian");
   return *std::move(array);
 }
@@ -170,11 +201,13 @@ Result<Npz> ReadNpz(std::string_view bytes, const std::string& file) {
     }
     key.resize(key.size() - kEnding.size());
     ASSIGN_OR_RETURN(const auto unpacked, Unpack(archive.get(), i, left, file));
-    ASSIGN_OR_RETURN(auto array, ReadMember(unpacked, file + "/" + key));
+    ASSIGN_OR_RETURN(const auto parts, SplitNpy(unpacked, file + "/" + key));
+    ASSIGN_OR_RETURN(auto array, NumbersIn(parts, file + "/" + key));
     if (array) {
       read.arrays[key] = std::move(*array);
     } else {
       read.skipped.push_back(key);
+      if (auto texts = TextsOf(parts); !texts.empty()) read.texts[key] = std::move(texts);
     }
   }
   if (!others.empty() && read.arrays.empty() && read.skipped.empty()) {

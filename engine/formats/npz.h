@@ -19,6 +19,7 @@ struct NumberArray {
 /// The arrays of an .npz file (NumPy's format: a ZIP of .npy files), by name.
 struct Npz {
   std::map<std::string, NumberArray> arrays;
+  std::map<std::string, std::vector<std::string>> texts;  ///< lists of texts, '?' for each letter beyond ASCII
   std::vector<std::string> skipped;  ///< names of members without plain numbers: texts, pickled objects
 };
 

@@ -184,25 +184,55 @@ std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest) {
 
 bool IsBodyNpz(const Npz& arrays) { return arrays.arrays.contains("positions") && arrays.arrays.contains("rate_hz"); }
 
-Result<BodyMotion> ReadBodyNpz(const Npz& arrays, const std::string& file) {
+Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file) {
   const NumberArray &positions = arrays.arrays.at("positions"), &rate = arrays.arrays.at("rate_hz");
-  const bool is_body = positions.shape.size() == 3 && positions.shape[0] > 0 && positions.shape[1] == kRoleCount &&
-                       positions.shape[2] == 3;
-  if (!is_body) {
-    return Fail({file}, "positions of {}; allowed: frames × 20 × 3", ShapeOf(positions));
+  const auto& shape = positions.shape;
+  if (shape.size() != 3 || shape[0] == 0 || shape[1] == 0 || shape[2] != 3) {
+    return Fail({file}, "positions of {}; allowed: frames × joints × 3", ShapeOf(positions));
   }
   constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;
   if (rate.values.size() != 1 || !(rate.values[0] >= kMinRate_hz && rate.values[0] <= kMaxRate_hz)) {
     return Fail({file}, "rate_hz: allowed: one number from {:g} to {:g}", kMinRate_hz, kMaxRate_hz);
   }
-  BodyMotion motion{.rate_hz = rate.values[0], .poses = std::vector<BodyPose>(positions.shape[0])};
-  for (std::size_t i = 0; i < positions.values.size(); ++i) {
+  RawMotion motion;
+  motion.name = file;
+  motion.rate_hz = rate.values[0];
+  // Names, and the roles of those that are a role's.
+  if (const auto names = arrays.texts.find("names"); names != arrays.texts.end()) {
+    motion.joints = names->second;
+  } else if (shape[1] == kRoleCount) {
+    for (const Role role : AllRoles()) motion.joints.emplace_back(RoleName(role));
+  }
+  const std::size_t joints = motion.joints.size();
+  if (joints != shape[1]) return Fail({file}, "{} joints and {} names; allowed: one name for each", shape[1], joints);
+  for (std::size_t j = 0; j < joints; ++j) {
+    if (const auto role = FindRole(motion.joints[j])) motion.roles[Index(*role)] = static_cast<int>(j);
+  }
+  // Positions; a joint with a NaN is not seen.
+  motion.positions.resize(shape[0] * joints);
+  for (std::size_t i = 0; i < positions.values.size(); i += 3) {
+    const glm::dvec3 at(positions.values[i], positions.values[i + 1], positions.values[i + 2]);
     constexpr double kMaxAbsolute = 1e9;
-    if (!(std::abs(positions.values[i]) <= kMaxAbsolute)) {
-      return Fail({file}, "positions of frame {}: {} is beyond ±{:g}", i / (3 * kRoleCount), positions.values[i],
-                  kMaxAbsolute);
+    const double largest = std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)});
+    if (largest > kMaxAbsolute) {
+      return Fail({file}, "positions of frame {}: {:g} is beyond ±{:g}", i / (3 * joints), largest, kMaxAbsolute);
     }
-    motion.poses[i / (3 * kRoleCount)].joints[i / 3 % kRoleCount][static_cast<int>(i % 3)] = positions.values[i];
+    motion.positions[i / 3] = std::isnan(at.x + at.y + at.z) ? NotSeen() : at;
+  }
+  return motion;
+}
+
+Result<BodyMotion> ReadBodyNpz(const Npz& arrays, const std::string& file) {
+  ASSIGN_OR_RETURN(const auto raw, ReadRawNpz(arrays, file));
+  if (raw.joints.size() != kRoleCount) {
+    return Fail({file}, "positions of {}; allowed: frames × 20 × 3", ShapeOf(arrays.arrays.at("positions")));
+  }
+  BodyMotion motion{.rate_hz = raw.rate_hz, .poses = std::vector<BodyPose>(raw.FrameCount())};
+  for (std::size_t i = 0; i < raw.positions.size(); ++i) {
+    if (!IsSeen(raw.positions[i])) {
+      return Fail({file}, "positions of frame {}: nan; only etude evaluate reads gaps", i / kRoleCount);
+    }
+    motion.poses[i / kRoleCount].joints[i % kRoleCount] = raw.positions[i];
   }
   return motion;
 }

@@ -9,6 +9,7 @@
 #include "engine/formats/npz.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/body.h"
+#include "engine/motion/raw_motion.h"
 
 namespace etude {
 
@@ -35,6 +36,10 @@ std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest);
 
 /// Returns true if the arrays are those of WriteBodyNpz.
 bool IsBodyNpz(const Npz& arrays);
+/// Reads the positions of such arrays as they are: any joints, with their names in `names` (the twenty without), a
+/// joint NaN where it was not seen. A joint named like a role plays it. Fails for a missing rate, another number of
+/// names, and values beyond ±10⁹.
+Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file);
 /// Reads the positions from arrays that WriteBodyNpz wrote. Fails if there are not twenty joints, if the rate is
 /// missing, or if a value is not finite.
 Result<BodyMotion> ReadBodyNpz(const Npz& arrays, const std::string& file);

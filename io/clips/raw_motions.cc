@@ -1,11 +1,13 @@
 #include "io/clips/raw_motions.h"
 
 #include <algorithm>
+#include <fstream>
 
 #include "engine/base/digest.h"
 #include "engine/base/names.h"
 #include "engine/formats/kimodo.h"
 #include "engine/formats/npz.h"
+#include "engine/retargeting/joint_arrays.h"
 #include "engine/retargeting/orientation.h"
 #include "io/clips/references.h"
 #include "io/files/files.h"
@@ -163,6 +165,25 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options) {
   return raw;
 }
 
+namespace {
+
+/// Returns true if a reference is the name of a ZIP file, as .npz files are.
+bool BeginsAsZip(const std::string& reference) {
+  std::string head(4, '\0');
+  std::ifstream file(reference, std::ios::binary);
+  return file.read(head.data(), static_cast<std::streamsize>(head.size())) && IsZip(head);
+}
+
+/// Converts arrays of positions, with no character in between.
+Result<RawMotion> OfArrays(const Npz& arrays, const std::string& reference, const OpenOptions& options) {
+  ASSIGN_OR_RETURN(auto raw, ReadRawNpz(arrays, reference));
+  if (options.roles && options.roles->rate_hz) raw.rate_hz = *options.roles->rate_hz;
+  AddHipCentre(raw);
+  return raw;
+}
+
+}  // namespace
+
 Result<std::string> DigestOfFile(const std::string& reference, const OpenOptions& options) {
   if (reference.starts_with(kBuiltinPrefix)) return Digest().Add(std::string_view(reference)).Hex();
   SplitReference wanted = Split(reference);
@@ -174,6 +195,11 @@ Result<std::string> DigestOfFile(const std::string& reference, const OpenOptions
 }
 
 Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions& options) {
+  if (BeginsAsZip(reference)) {
+    ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(reference, kMaxClipFileBytes));
+    ASSIGN_OR_RETURN(const auto arrays, ReadNpz(bytes, reference));
+    if (IsBodyNpz(arrays)) return OfArrays(arrays, reference, options);
+  }
   OpenOptions how = options;
   how.keeps_shown = true;
   ASSIGN_OR_RETURN(auto clips, ReadClips(reference, how));

@@ -1,8 +1,11 @@
 """Judges motions, in files or arrays, by their truth (`etude evaluate`)."""
+import array
+import io
 import json
 import os
 import pathlib
 import re
+import zipfile
 
 from etude.program import EtudeError, call
 from etude.results import load
@@ -14,8 +17,8 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
 
     truth, and each answer by its method's name: a motion file, a folder or a pattern; or an array of positions, frames
     × joints × 3 in metres with Y up, NaN where a joint was not seen. Arrays need `names` of their joints and `rate_hz`;
-    they are kept as TRC files in the folder `output` + ".motions". pairs: a CSV of pairs instead. joints, people, lag,
-    statistics, music_beats, metrics: as the options of `etude evaluate`.
+    a joint named like a role plays it. They are kept as .npz files in the folder `output` + ".motions". pairs: a CSV of
+    pairs instead. joints, people, lag, statistics, music_beats, metrics: as the options of `etude evaluate`.
 
     Raises EtudeError, also if a method has no answer that can be judged; its `run` is then set.
     """
@@ -30,11 +33,11 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
             raise TypeError(f"the array of {name} needs names and rate_hz")
         if not re.fullmatch(r"[A-Za-z0-9_][A-Za-z0-9_.-]*", name):
             raise ValueError(f"{name!r} is no name of a method")  # it names a file
-        text = _trc(motion, list(names), rate_hz, name)
-        path = pathlib.Path(f"{output}.motions") / f"{name}.trc"
+        content = _npz(motion, list(names), rate_hz, name)
+        path = pathlib.Path(f"{output}.motions") / f"{name}.npz"
         path.parent.mkdir(parents=True, exist_ok=True)
-        with path.open("w" if overwrite else "x", encoding="utf-8") as file:  # an earlier run needs its arrays
-            file.write(text)
+        with path.open("wb" if overwrite else "xb") as file:  # an earlier run needs its arrays
+            file.write(content)
         return str(path)
 
     arguments = ["evaluate"]
@@ -55,20 +58,19 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
     return found
 
 
-def _trc(positions, names, rate_hz, name):
-    """Returns the text of a TRC file in metres that holds every digit."""
-    frames = [[[float(x) for x in point] for point in frame] for frame in positions]
-    if not frames or any(len(frame) != len(names) or any(len(point) != 3 for point in frame) for frame in frames):
-        raise ValueError(f"the array of {name} must be frames × {len(names)} joints × 3")
-    wrong = [each for each in names if not re.fullmatch(r"[^\t\r\n]+", each)]
-    if wrong:
-        raise ValueError(f"{wrong[0]!r} is no name of a joint")
-    lines = [f"PathFileType\t4\t(X/Y/Z)\t{name}.trc",
-             "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames",
-             f"{rate_hz!r}\t{rate_hz!r}\t{len(frames)}\t{len(names)}\tm\t{rate_hz!r}\t1\t{len(frames)}",
-             "Frame#\tTime\t" + "\t\t\t".join(names) + "\t\t",
-             "\t\t" + "\t".join(f"{axis}{i + 1}" for i in range(len(names)) for axis in "XYZ"), ""]
-    for f, frame in enumerate(frames):
-        cells = ["" if any(x != x for x in point) else repr(x) for point in frame for x in point]
-        lines.append(f"{f + 1}\t{f / rate_hz!r}\t" + "\t".join(cells))
-    return "\n".join(lines) + "\n"
+def _npz(positions, names, rate_hz, title):
+    """Returns positions, names and rate as the bytes of an .npz file, with every digit."""
+    frames = len(positions)
+    if not frames or any(len(frame) != len(names) or any(len(point) != 3 for point in frame) for frame in positions):
+        raise ValueError(f"the array of {title} must be frames × {len(names)} joints × 3")
+    numbers = array.array("d", (x for frame in positions for point in frame for x in point))
+    width = max(map(len, names))
+    letters = "".join(name.ljust(width, "\0") for name in names)
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w") as archive:
+        for name, kind, shape, data in [("positions", "<f8", (frames, len(names), 3), numbers.tobytes()),
+                                        ("rate_hz", "<f8", (), array.array("d", [rate_hz]).tobytes()),
+                                        ("names", f"<U{width}", (len(names),), letters.encode("utf-32-le"))]:
+            head = f"{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}\n".encode()
+            archive.writestr(f"{name}.npy", b"\x93NUMPY\1\0" + len(head).to_bytes(2, "little") + head + data)
+    return content.getvalue()

@@ -25,9 +25,10 @@ std::vector<RecordedWorld> RecordedWorlds(const RunData& run) {
   std::map<std::string_view, const Recording*> recordings;
   // Find the recordings that hold motions.
   for (const CellRecording& recorded : run.recordings) {
-    const bool moves =
-        std::ranges::any_of(recorded.recording.tracks, [](const Track& track) { return !track.motion.poses.empty(); });
-    if (moves) recordings.emplace(recorded.cell, &recorded.recording);
+    const std::vector<Track>& tracks = recorded.recording.tracks;
+    const bool moves = std::ranges::any_of(tracks, [](const Track& track) { return !track.motion.poses.empty(); });
+    // Without tracks, the motions are in the extras: EvaluationExtras.
+    if (moves || tracks.empty()) recordings.emplace(recorded.cell, &recorded.recording);
   }
   std::vector<RecordedWorld> worlds;
   if (recordings.empty()) return worlds;

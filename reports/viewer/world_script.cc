@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string_view>
 
+#include "bench/recordings/evaluation_extras.h"
 #include "bench/recordings/task_extras.h"
 #include "engine/base/base64.h"
 #include "engine/motion/support.h"
@@ -44,6 +46,8 @@ const std::vector<TrackLook>& Looks() {
       {"coach", "coach", "coach", "partner"},
       {"coach", "truth", "learner", "ghost", {}, true},
       {"coach", "sensed", "learner as sensed", "shown", {"truth"}},
+      {"evaluation", "truth", "truth", "ghost"},
+      {"evaluation", "answer", "", "shown", {"truth"}},
   };
   return looks;
 }
@@ -57,19 +61,34 @@ TrackLook LookOf(const std::string& task, const std::string& track) {
 /// Returns what the distance between a joint and its reference means for a task, and the unit of the task's headline
 /// metric.
 std::pair<std::string_view, std::string_view> ErrorOf(const std::string& task) {
-  if (task == "capture") return {"distance from the true joint", "mm"};
+  if (task == "capture" || task == "evaluation") return {"distance from the true joint", "mm"};
   if (task == "ik") return {"distance from the true joint", "cm"};
   if (task == "transition") return {"distance from the clip played", "cm"};
   return {"error of the sensor", "cm"};
 }
 
-bool AreEqual(const BodyPose& a, const BodyPose& b) { return a.joints == b.joints; }
+/// A named motion of any joints: its points, joint by joint and frame by frame.
+struct TrackPoints {
+  std::string track;
+  std::size_t joints = kRoleCount;
+  std::vector<glm::dvec3> points;
 
-/// Returns a motion without the frames at its end that repeat the one before them; the viewer keeps the last one.
-std::span<const BodyPose> UntilItRests(const BodyMotion& motion) {
-  std::span<const BodyPose> poses = motion.poses;
-  while (poses.size() > 1 && AreEqual(poses.back(), poses[poses.size() - 2])) poses = poses.first(poses.size() - 1);
-  return poses;
+  std::size_t FrameCount() const { return points.size() / joints; }
+  /// Drops the frames at the end that repeat the one before them; the viewer keeps the last one.
+  void CutWhereItRests() {
+    const auto frame = static_cast<std::ptrdiff_t>(joints);
+    while (points.size() > joints && std::equal(points.end() - frame, points.end(), points.end() - 2 * frame)) {
+      points.resize(points.size() - joints);
+    }
+  }
+};
+
+TrackPoints PointsOf(const Track& track) {
+  TrackPoints motion{.track = track.name, .points = {}};
+  for (const BodyPose& pose : track.motion.poses) {
+    motion.points.insert(motion.points.end(), pose.joints.begin(), pose.joints.end());
+  }
+  return motion;
 }
 
 Json ContactsOf(const BodyMotion& motion) {
@@ -111,7 +130,10 @@ class Writer {
                                 {"reason", cell.row->result.reason}});
       const int begin = AddExtras(cell.row->method, *cell.recording);
       for (const Track& track : cell.recording->tracks) {
-        if (!track.motion.poses.empty()) AddTrack(cell, track, track.name == "wanted" ? begin + wanted_ : begin);
+        if (track.motion.poses.empty()) continue;
+        Json members = Json::object();
+        if (LookOf(task_, track.name).has_contacts) members["contacts"] = ContactsOf(track.motion);
+        AddBody(cell, PointsOf(track), track.name == "wanted" ? begin + wanted_ : begin, members);
       }
     }
     // Resolve the references of errors, and let the world start at frame 0.
@@ -123,8 +145,7 @@ class Writer {
 
  private:
   struct Body {
-    std::string track;
-    const BodyMotion* motion;
+    TrackPoints motion;
     int begin;
     std::size_t cell;
   };
@@ -136,47 +157,48 @@ class Writer {
     return kJudgedRateHz;
   }
 
-  void AddTrack(const RecordedCell& cell, const Track& track, int begin) {
-    const TrackLook look = LookOf(task_, track.name);
+  /// Adds a body with these further members.
+  void AddBody(const RecordedCell& cell, TrackPoints motion, int begin, const Json& members) {
+    const TrackLook look = LookOf(task_, motion.track);
+    const std::size_t frames = motion.FrameCount();
+    motion.CutWhereItRests();
     // Share a body that another method has recorded identically.
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      if (bodies_[i].track != track.name || bodies_[i].begin != begin || look.label.empty()) continue;
-      if (!std::ranges::equal(UntilItRests(*bodies_[i].motion), UntilItRests(track.motion), AreEqual)) continue;
+      const Body& body = bodies_[i];
+      if (body.motion.track != motion.track || body.begin != begin || look.label.empty()) continue;
+      if (body.motion.joints != motion.joints || body.motion.points != motion.points) continue;
       json_["bodies"][i]["cell"] = -1;
       return;
     }
     // Quantise the joints and encode them in Base64.
-    bodies_.push_back({track.name, &track.motion, begin, cell_});
-    BodyMotion moving{.rate_hz = track.motion.rate_hz, .poses = {}};
-    const std::span<const BodyPose> poses = UntilItRests(track.motion);
-    moving.poses.assign(poses.begin(), poses.end());
-    const QuantisedMotion motion = Quantise(moving);
+    const QuantisedMotion quantised = Quantise(motion.points);
     std::string bytes;
-    for (const std::uint16_t step : motion.steps)
+    for (const std::uint16_t step : quantised.steps)
       bytes += {static_cast<char>(step & 255), static_cast<char>(step >> 8)};
     // Track the lowest joint, which is the floor of the ik task.
-    for (const BodyPose& pose : poses) {
-      for (const glm::dvec3& joint : pose.joints) lowest_ = std::min(lowest_, joint.y);
-    }
-    json_["bodies"].push_back({{"label", look.label.empty() ? cell.row->method : std::string(look.label)},
-                               {"cell", cell_},
-                               {"kind", look.kind},
-                               {"begin", begin},
-                               {"frames", track.motion.poses.size()},
-                               {"against", Json::array()},
-                               {"low_m", {motion.low.x, motion.low.y, motion.low.z}},
-                               {"step_m", motion.step},
-                               {"data", Base64(bytes)},
-                               {"contacts", look.has_contacts ? ContactsOf(track.motion) : Json::array()}});
+    for (const glm::dvec3& point : motion.points) lowest_ = std::min(lowest_, point.y);
+    Json body = {{"label", look.label.empty() ? cell.row->method : std::string(look.label)},
+                 {"cell", cell_},
+                 {"kind", look.kind},
+                 {"begin", begin},
+                 {"frames", frames},
+                 {"against", Json::array()},
+                 {"low_m", {quantised.low.x, quantised.low.y, quantised.low.z}},
+                 {"step_m", quantised.step},
+                 {"data", Base64(bytes)},
+                 {"contacts", Json::array()}};
+    body.update(members);
+    json_["bodies"].push_back(std::move(body));
+    bodies_.push_back({std::move(motion), begin, cell_});
   }
 
   // A shared body is a reference for every method.
   void FindReferences() {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      for (const std::string_view track : LookOf(task_, bodies_[i].track).against) {
+      for (const std::string_view track : LookOf(task_, bodies_[i].motion.track).against) {
         for (std::size_t j = 0; j < bodies_.size(); ++j) {
           const bool shared = json_["bodies"][j]["cell"] == -1;
-          if (bodies_[j].track == track && (shared || bodies_[j].cell == bodies_[i].cell)) {
+          if (bodies_[j].motion.track == track && (shared || bodies_[j].cell == bodies_[i].cell)) {
             json_["bodies"][i]["against"].push_back(j);
           }
         }
@@ -208,10 +230,20 @@ class Writer {
       json_["notes"].push_back(fmt::format("The marks of {} cannot be read: {}", method, extras.error().message));
       return 0;
     };
+    if (task_ == "evaluation") return add(ReadEvaluationExtras(recording.extras_json));
     if (task_ == "ik") return add(ReadIkExtras(recording.extras_json));
     if (task_ == "transition") return add(ReadTransitionFacts(recording, method));
     if (task_ == "detection") return add(ReadDetectionExtras(recording.extras_json));
     if (task_ == "coach") return add(ReadCoachExtras(recording.extras_json));
+    return 0;
+  }
+
+  int Add(const std::string&, const EvaluationExtras& extras) {
+    json_["rate_hz"] = extras.truth.rate_hz;
+    for (const auto& [track, motion] : {std::pair("truth", &extras.truth), {"answer", &extras.answer}}) {
+      AddBody(world_.cells[cell_], {track, motion->joints.size(), motion->positions}, 0,
+              {{"joints", motion->joints}, {"parents", motion->parents}});
+    }
     return 0;
   }
 
@@ -309,31 +341,30 @@ class Writer {
 
 }  // namespace
 
-glm::dvec3 QuantisedMotion::At(std::size_t frame, Role role) const {
-  const std::size_t at = 3 * (kRoleCount * frame + Index(role));
-  return low + step * glm::dvec3(steps[at], steps[at + 1], steps[at + 2]);
+glm::dvec3 QuantisedMotion::At(std::size_t point) const {
+  const std::uint16_t* at = &steps[3 * point];
+  return *at == kNoStep ? NotSeen() : low + step * glm::dvec3(at[0], at[1], at[2]);
 }
 
-QuantisedMotion Quantise(const BodyMotion& motion) {
-  if (motion.poses.empty()) return {};
-  QuantisedMotion quantised{.low = motion.poses.front().joints.front(), .step = 0, .steps = {}};
-  glm::dvec3 high = quantised.low;
-  for (const BodyPose& pose : motion.poses) {
-    for (const glm::dvec3& joint : pose.joints) {
-      quantised.low = glm::min(quantised.low, joint);
-      high = glm::max(high, joint);
-    }
+QuantisedMotion Quantise(std::span<const glm::dvec3> points) {
+  // The box of all points that are seen.
+  glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+  for (const glm::dvec3& point : points) {
+    if (!IsSeen(point)) continue;
+    low = glm::min(low, point);
+    high = glm::max(high, point);
   }
-  const glm::dvec3 range = high - quantised.low;
-  constexpr double kMaxStep = 65535;
-  quantised.step = std::max({range.x, range.y, range.z}) / kMaxStep;
-  quantised.steps.reserve(3 * kRoleCount * motion.poses.size());
-  for (const BodyPose& pose : motion.poses) {
-    for (const glm::dvec3& joint : pose.joints) {
-      for (int axis = 0; axis < 3; ++axis) {
-        const double steps = quantised.step > 0 ? (joint[axis] - quantised.low[axis]) / quantised.step : 0;
-        quantised.steps.push_back(static_cast<std::uint16_t>(std::clamp(std::round(steps), 0.0, kMaxStep)));
-      }
+  const bool is_seen = low.x <= high.x;
+  if (!is_seen) low = high = glm::dvec3(0);
+  const glm::dvec3 range = high - low;
+  constexpr double kMaxStep = QuantisedMotion::kNoStep - 1;
+  QuantisedMotion quantised{.low = low, .step = std::max({range.x, range.y, range.z}) / kMaxStep, .steps = {}};
+  quantised.steps.reserve(3 * points.size());
+  for (const glm::dvec3& point : points) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double steps = quantised.step > 0 ? (point[axis] - low[axis]) / quantised.step : 0;
+      quantised.steps.push_back(IsSeen(point) ? static_cast<std::uint16_t>(std::clamp(std::round(steps), 0.0, kMaxStep))
+                                              : QuantisedMotion::kNoStep);
     }
   }
   return quantised;

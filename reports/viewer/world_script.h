@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,17 +11,20 @@
 
 namespace etude {
 
-/// A motion in 16-bit steps: joint j of frame f is at low + step · steps[60 f + 3 j + axis], metres.
+/// A motion in 16-bit steps: point i, joint by joint and frame by frame, is at low + step · steps[3 i + axis], metres;
+/// a point that is not seen has the steps kNoStep, which no other has.
 struct QuantisedMotion {
+  static constexpr std::uint16_t kNoStep = 65535;
+
   glm::dvec3 low{0};
   double step = 0;  ///< the same for all axes; a position is off by at most half of it, plus the rounding of doubles
   std::vector<std::uint16_t> steps;
 
-  glm::dvec3 At(std::size_t frame, Role role) const;
+  glm::dvec3 At(std::size_t point) const;
 };
-/// Quantises a motion. The step is the range of the widest axis divided by 65,535, the finest that 16 bits allow; it is
-/// 0 if the motion stands still.
-QuantisedMotion Quantise(const BodyMotion& motion);
+/// Quantises points. The step is the range of the widest axis divided by 65,534, the finest that 16 bits allow; it is 0
+/// if the motion stands still.
+QuantisedMotion Quantise(std::span<const glm::dvec3> points);
 
 /// Writes the motions of one world as the script beside the page that the viewer loads: `etudeMotion({…});`, in ASCII.
 ///
@@ -30,7 +34,8 @@ QuantisedMotion Quantise(const BodyMotion& motion);
 ///      "bodies": [{"label", "cell": index into cells or -1 (all of them), "kind": "shown", "ghost" or "partner",
 ///                  "begin": frame of the world, "frames": as many, the last one lasts, "against": [bodies, the last
 ///                  that is there counts], "low_m": [x, y, z], "step_m", "data": Base64 of the steps, little-endian,
-///                  "contacts": [[side, begin, end]]}],
+///                  "contacts": [[side, begin, end]], "joints": [names], "parents": [indices, −1: none] (both
+///                  absent for the twenty)}],
 ///      "targets_m": [[x, y, z]], "steps": [{"cell", "iterations", "off_cm", "off_deg"}],
 ///      "marks": [{"lane", "frame", "end", "kind", "text"}]}
 std::string WorldScript(const RunData& run, const RecordedWorld& world);

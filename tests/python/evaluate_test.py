@@ -34,10 +34,18 @@ class Evaluate(PythonCase):
             etude.evaluate(**given, **{"../../mine": standing(3)})
         self.assertEqual(list(self.folder.rglob("mine*")), [])
         etude.evaluate(**given, mine=standing(3), overwrite=True)  # over the truth of the call that failed
-        kept = (self.folder / "run.motions" / "mine.trc").read_bytes()
+        kept = (self.folder / "run.motions" / "mine.npz").read_bytes()
         with self.assertRaises(FileExistsError):
             etude.evaluate(**given, mine=standing(3, across=1))
-        self.assertEqual((self.folder / "run.motions" / "mine.trc").read_bytes(), kept)
+        self.assertEqual((self.folder / "run.motions" / "mine.npz").read_bytes(), kept)
+
+    def test_joints_of_any_names_are_judged_by_name(self):
+        names = [f"Gelenk {i} ü" for i in range(len(NAMES))]
+        run = etude.evaluate(standing(5), mine=standing(5, across=0.01), names=names, rate_hz=60, joints="same",
+                             output=self.folder / "same", progress=False)
+        row, = run["evaluate"].rows()
+        self.assertAlmostEqual(row["mpjpe_unaligned_mm"], 10, 12)
+        self.assertIsNone(row["mpjpe_root_mm"])
 
     def test_what_is_missing_is_told(self):
         for wrong, arguments in [(TypeError, {"truth": standing(3), "mine": standing(3)}),

@@ -1,3 +1,5 @@
+#include "bench/model/recording.h"
+#include "bench/recordings/evaluation_extras.h"
 #include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/evaluation/find_files.h"
@@ -19,11 +21,23 @@ struct EvaluationStudy {
   EvaluationSideData side;
 };
 
+/// Keeps both motions, on the joints judged.
+Recording RecordingOf(const MatchedMotions& matched) {
+  EvaluationExtras extras;
+  extras.truth.rate_hz = matched.pair.rate_hz;
+  extras.truth.joints = matched.joints;
+  extras.truth.parents = matched.parents;
+  extras.answer = extras.truth;
+  extras.truth.positions = matched.pair.truth.positions;
+  extras.answer.positions = matched.pair.found.positions;
+  return {{}, WriteEvaluationExtras(extras)};
+}
+
 /// One pair of files. The truth is read when the world is made, each answer when it is judged.
 class EvaluationWorld final : public TaskWorld {
  public:
-  EvaluationWorld(const EvaluationStudy& study, const JudgedFiles& files)
-      : study_(study), files_(files), truth_(OpenRawMotion(files.truth, study.opening)) {}
+  EvaluationWorld(const EvaluationStudy& study, const JudgedFiles& files, bool keeps_motion)
+      : study_(study), files_(files), keeps_motion_(keeps_motion), truth_(OpenRawMotion(files.truth, study.opening)) {}
 
   std::optional<std::string> WhySkipped() const override {
     if (truth_) return std::nullopt;
@@ -31,13 +45,15 @@ class EvaluationWorld final : public TaskWorld {
   }
 
   CellResult Run(std::size_t method) override {
+    if (const EvaluationMethod& control = study_.methods[method]; control.is_control) {
+      const RawMotion noisy = Spoilt(*truth_, {.noisy_mm = study_.options.noise_mm}, files_.name);
+      return Judged(Spoilt(noisy, control.spoiler, files_.name + ", control"));
+    }
     const std::string& reference = files_.answers[method];
     if (reference.empty()) return CellResult::Ended(Status::kFailed, "the method has no answer of this name");
     const auto answer = OpenRawMotion(reference, study_.opening);
     if (!answer) return CellResult::Ended(Status::kFailed, ToString(answer.error()));
-    const auto matched = Match(*truth_, *answer, study_.options.joints, study_.options.lag);
-    if (!matched) return CellResult::Ended(Status::kFailed, ToString(matched.error()));
-    return JudgeMotion(*matched, study_.side);
+    return Judged(*answer);
   }
 
   Result<Payload> MakeProblem() override { return Refused(); }
@@ -45,10 +61,19 @@ class EvaluationWorld final : public TaskWorld {
   Result<CellResult> Judge(const Json&) override { return Refused(); }
 
  private:
+  CellResult Judged(const RawMotion& answer) const {
+    const auto matched = Match(*truth_, answer, study_.options.joints, study_.options.lag);
+    if (!matched) return CellResult::Ended(Status::kFailed, ToString(matched.error()));
+    CellResult result = JudgeMotion(*matched, study_.side);
+    if (keeps_motion_) result.recording = RecordingOf(*matched);
+    return result;
+  }
+
   static tl::unexpected<Error> Refused() { return Fail({}, "task evaluation judges files and asks no program"); }
 
   const EvaluationStudy& study_;
   const JudgedFiles& files_;
+  const bool keeps_motion_;
   const Result<RawMotion> truth_;
 };
 
@@ -56,8 +81,8 @@ class EvaluationTask final : public Task {
  public:
   explicit EvaluationTask(EvaluationStudy study) : study_(std::move(study)) {}
 
-  std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool /*keeps_motion*/) const override {
-    return std::make_unique<EvaluationWorld>(study_, study_.files[static_cast<std::size_t>(key.trial)]);
+  std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool keeps_motion) const override {
+    return std::make_unique<EvaluationWorld>(study_, study_.files[static_cast<std::size_t>(key.trial)], keeps_motion);
   }
 
   std::vector<std::string> ClipsOf(const WorldKey& key) const override {

@@ -198,6 +198,10 @@ Result<FoundFiles> PairByName(const EvaluationOptions& options, std::span<const 
     found.worlds.push_back({.name = name, .unit = "", .truth = truth, .answers = {}});
   }
   for (const EvaluationMethod& method : methods) {
+    if (method.is_control) {
+      for (JudgedFiles& world : found.worlds) world.answers.push_back(world.truth);
+      continue;
+    }
     if (method.answers.empty()) return Fail(place, "method {} has no 'answers'", Quote(method.name));
     ASSIGN_OR_RETURN(const auto files, Expand(method.answers, Links::kRefused, place));
     // One truth and one answer belong together whatever their names.

@@ -41,31 +41,31 @@ std::vector<CommonJoint> FindCommon(const RawMotion& truth, const RawMotion& ans
   return common;
 }
 
-/// Returns the positions of some joints in all frames.
-PointTracks Columns(const RawMotion& motion, const std::vector<int>& joints) {
-  PointTracks tracks{joints.size(), {}};
-  tracks.positions.reserve(joints.size() * motion.FrameCount());
-  for (std::size_t f = 0; f < motion.FrameCount(); ++f) {
-    for (const int joint : joints) tracks.positions.push_back(motion.At(f, static_cast<std::size_t>(joint)));
+/// Returns the positions of some joints in the first frames.
+PointTracks Columns(const RawMotion& motion, const std::vector<int>& joints, std::size_t frames) {
+  PointTracks tracks{joints.size(), std::vector<glm::dvec3>(joints.size() * frames)};
+  glm::dvec3* out = tracks.positions.data();
+  for (std::size_t f = 0; f < frames; ++f) {
+    for (const int joint : joints) *out++ = motion.At(f, static_cast<std::size_t>(joint));
   }
   return tracks;
 }
 
-/// Returns the rotations of some joints in all frames; none if the motion has none.
-std::vector<glm::dquat> TurnsOf(const RawMotion& motion, const std::vector<int>& joints) {
+/// Returns the rotations of some joints in the first frames; none if the motion has none.
+std::vector<glm::dquat> TurnsOf(const RawMotion& motion, const std::vector<int>& joints, std::size_t frames) {
   std::vector<glm::dquat> turns;
-  for (std::size_t f = 0; f < motion.FrameCount() && !motion.rotations.empty(); ++f) {
+  for (std::size_t f = 0; f < frames && !motion.rotations.empty(); ++f) {
     for (const int joint : joints) turns.push_back(motion.rotations[f * motion.joints.size() + joint]);
   }
   return turns;
 }
 
 /// Returns the columns of these roles; none if one of them is missing.
-PointTracks RoleColumns(const RawMotion& motion, std::initializer_list<Role> roles) {
+PointTracks RoleColumns(const RawMotion& motion, std::initializer_list<Role> roles, std::size_t frames) {
   std::vector<int> joints;
   for (const Role role : roles) joints.push_back(motion.roles[Index(role)]);
   const bool has_all = std::ranges::none_of(joints, [](int joint) { return joint < 0; });
-  return has_all ? Columns(motion, joints) : PointTracks{};
+  return has_all ? Columns(motion, joints, frames) : PointTracks{};
 }
 
 /// Finds the knees and elbows whose three joints are among those judged.
@@ -115,6 +115,31 @@ void MatchAngles(const RawMotion& truth, const RawMotion& sampled, MatchedMotion
   if (common.empty()) return;
   matched.true_angles = Chosen(of_truth, common);
   matched.found_angles = Chosen(of_found, common);
+}
+
+/// Returns the parent of each joint among those judged: by the roles, else by the truth's skeleton; −1: none.
+std::vector<int> FindParents(const std::vector<CommonJoint>& joints, const RawMotion& truth) {
+  const auto place_of = [&](int joint) {
+    const auto found = std::ranges::find(joints, joint, &CommonJoint::truth);
+    return joint < 0 || found == joints.end() ? -1 : static_cast<int>(found - joints.begin());
+  };
+  std::vector<int> parents;
+  for (const CommonJoint& joint : joints) {
+    int parent = -1;
+    const auto role = std::ranges::find(AllRoles(), joint.truth, [&](Role one) { return truth.roles[Index(one)]; });
+    if (role != AllRoles().end()) {
+      for (auto above = ParentOf(*role); above && parent < 0; above = ParentOf(*above)) {
+        parent = place_of(truth.roles[Index(*above)]);
+      }
+    }
+    for (int above = joint.truth; !truth.parents.empty() && parent < 0;) {
+      above = truth.parents[static_cast<std::size_t>(above)];
+      if (above < 0) break;
+      parent = place_of(above);
+    }
+    parents.push_back(parent);
+  }
+  return parents;
 }
 
 /// Names at most eight joints.
@@ -173,13 +198,14 @@ Result<MatchedMotions> Match(const RawMotion& truth, const RawMotion& answer, st
     of_truth.push_back(joint.truth);
     of_answer.push_back(joint.answer);
   }
-  // Sample the answer at the truth's times.
   const std::size_t frames = truth.FrameCount();
-  const double rate_hz = HaveSameRate(truth, answer) ? answer.rate_hz : truth.rate_hz;
+  const bool is_same_rate = HaveSameRate(truth, answer);
+  const double rate_hz = is_same_rate ? answer.rate_hz : truth.rate_hz;
   matched.pair.rate_hz = truth.rate_hz;
-  matched.pair.truth = Columns(truth, of_truth);
+  matched.pair.truth = Columns(truth, of_truth, frames);
   if (lag == Lag::kFind) {
-    matched.lag = FindTimeShift(matched.pair.truth, rate_hz, Columns(answer, of_answer), answer.rate_hz);
+    const PointTracks found = Columns(answer, of_answer, answer.FrameCount());
+    matched.lag = FindTimeShift(matched.pair.truth, rate_hz, found, answer.rate_hz);
     if (!matched.lag) {
       return Fail({answer.name},
                   "no lag within ±{:g} s is found: the motion is too short, stands or glides, or "
@@ -187,21 +213,28 @@ Result<MatchedMotions> Match(const RawMotion& truth, const RawMotion& answer, st
                   kMaxTimeShift_s);
     }
   }
+  // Sample the answer at the truth's times; frames of one rate are taken as they are.
   const double start_s = matched.lag ? matched.lag->shift_s : 0;
-  const RawMotion sampled = Sampled(answer, rate_hz, start_s, frames);
-  matched.pair.found = Columns(sampled, of_answer);
-  matched.pair.true_turns = TurnsOf(truth, of_truth);
-  matched.pair.found_turns = TurnsOf(sampled, of_answer);
-  const PointTracks true_root = RoleColumns(truth, {Role::kHipCentre});
-  const PointTracks found_root = RoleColumns(sampled, {Role::kHipCentre});
+  RawMotion resampled;
+  if (!is_same_rate || matched.lag || answer.FrameCount() != frames) {
+    resampled = Sampled(answer, rate_hz, start_s, frames);
+  }
+  const RawMotion& sampled = resampled.joints.empty() ? answer : resampled;
+  matched.pair.found = Columns(sampled, of_answer, frames);
+  matched.pair.true_turns = TurnsOf(truth, of_truth, frames);
+  matched.pair.found_turns = TurnsOf(sampled, of_answer, frames);
+  const PointTracks true_root = RoleColumns(truth, {Role::kHipCentre}, frames);
+  const PointTracks found_root = RoleColumns(sampled, {Role::kHipCentre}, frames);
   if (true_root.points > 0 && found_root.points > 0) {
     matched.pair.true_root = true_root.positions;
     matched.pair.found_root = found_root.positions;
   }
-  matched.pair.feet = RoleColumns(sampled, {Role::kLeftAnkle, Role::kLeftFoot, Role::kRightAnkle, Role::kRightFoot});
+  matched.pair.feet =
+      RoleColumns(sampled, {Role::kLeftAnkle, Role::kLeftFoot, Role::kRightAnkle, Role::kRightFoot}, frames);
   matched.pair.true_contacts = truth.contacts;
   matched.pair.found_contacts = sampled.contacts;
   matched.bends = FindBends(common, truth);
+  matched.parents = FindParents(common, truth);
   MatchAngles(truth, sampled, matched);
   // Count the frames before the answer's beginning and behind its end.
   for (std::size_t f = 0; f < frames; ++f) {

@@ -17,6 +17,7 @@ namespace etude {
 struct MatchedMotions {
   EvaluatedPair pair;
   std::vector<std::string> joints;                ///< the joints judged
+  std::vector<int> parents;                       ///< of each, the next of them towards the root; −1: none
   std::vector<std::string> lacking;               ///< joints of the set that one of both has not
   std::vector<std::array<std::size_t, 3>> bends;  ///< knees and elbows among them: above, middle, below
   AngleTracks true_angles, found_angles;  ///< the angles that both have, by name; empty: one of both has no rotations

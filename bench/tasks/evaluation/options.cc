@@ -55,6 +55,8 @@ const FieldTable<EvaluationOptions>& EvaluationConditionFields() {
         [](Fields& fields, EvaluationOptions& options) {
           options.joints = fields.Choice("joints", JointSetNames(), options.joints);
         }},
+       Key::Number("noise_mm", &EvaluationOptions::noise_mm, {0, 1000},
+                   "White noise, each axis, that every control's answer has before it is spoilt."),
        Key::Text("people", &EvaluationOptions::people, "a pattern such as '{person}_*'",
                  "Which part of a pair's name is the person: what claims beyond these files count.")
            .WhenAbsent("(each pair counts for itself)"),
@@ -78,12 +80,46 @@ Result<void> CheckFiles(const Node& condition, const EvaluationOptions& options)
   return Fail(trials->place, "'trials' has no use in task evaluation: each pair is judged once");
 }
 
+namespace {
+
+/// Refuses what would be ignored.
+void CheckControl(Fields& fields, EvaluationMethod& method) {
+  if (method.is_control && !method.answers.empty()) fields.Complain(fields.node().place, "a control has no 'answers'");
+  if (!method.is_control && method.spoiler != Spoiler{})
+    fields.Complain(fields.node().place, "only 'control: true' is spoilt");
+}
+
+}  // namespace
+
 const FieldTable<EvaluationMethod>& EvaluationMethodFields() {
-  static const FieldTable<EvaluationMethod> table{
-      {Field<EvaluationMethod>::Texts("answers", &EvaluationMethod::answers,
-                                      "a list of motion files, patterns, folders",
-                                      "The answers, named like their truths.")
-           .WhenAbsent("(`pairs` names them)")}};
+  using Method = EvaluationMethod;
+  using Key = Field<Method>;
+  const auto part = [](auto member) { return Path(&Method::spoiler, member); };
+  static const FieldTable<Method> table{
+      {Key::Texts("answers", &Method::answers, "a list of motion files, patterns, folders",
+                  "The answers, named like their truths.")
+           .WhenAbsent("(`pairs` names them)"),
+       Key::Flag("control", &Method::is_control,
+                 "The answer is the truth, spoilt as the other keys say, in their order: does a metric notice?"),
+       Key::Number("noisy_mm", part(&Spoiler::noisy_mm), {0, 1000},
+                   "Standard deviation of white noise, each axis, each joint for itself."),
+       Key::Number("smoothed_ms", part(&Spoiler::smoothed_ms), {0, 10'000}, "Length of a centred moving mean."),
+       Key::Number("faded_percent", part(&Spoiler::faded_percent), {0, 100},
+                   "How much of its way from its mean each joint loses."),
+       Key::Number("scaled_percent", part(&Spoiler::scaled_percent), {-90, 1000}, "Growth about the world's origin."),
+       Key::Number("moved_cm", part(&Spoiler::moved_cm), {-1e5, 1e5}, "Shift along X."),
+       Key::Number("lifted_cm", part(&Spoiler::lifted_cm), {-1e5, 1e5}, "Shift upwards."),
+       Key::Number("gliding_cm_s", part(&Spoiler::gliding_cm_s), {-1000, 1000}, "Speed of a shift along X."),
+       Key::Number("feet_locked_cm", part(&Spoiler::feet_locked_cm), {0, 100},
+                   "While its toes are lower than this, a foot's ankle and toes rest where they were."),
+       Key::Number("mirrored_share", part(&Spoiler::mirrored_share), {0, 1},
+                   "Share of the take, at its end, in which each side moves like the other, reflected."),
+       Key::Number("kept_frames", part(&Spoiler::kept_frames), {1, 1000},
+                   "Keeps one of so many frames, with straight lines in between."),
+       Key::Number("late_ms", part(&Spoiler::late_ms), {0, 60'000}, "Delay; the first pose stands until then."),
+       Key::Number("frozen_share", part(&Spoiler::frozen_share), {0, 1},
+                   "Share of the take, at its end, that stands still.")},
+      CheckControl};
   return table;
 }
 

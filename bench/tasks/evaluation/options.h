@@ -5,6 +5,7 @@
 
 #include "bench/keys/field_table.h"
 #include "bench/tasks/evaluation/match.h"
+#include "bench/tasks/evaluation/spoil.h"
 
 namespace etude {
 
@@ -13,6 +14,7 @@ struct EvaluationOptions {
   std::vector<std::string> truth;  ///< files, patterns, folders
   std::string pairs;               ///< the name of a CSV file; "" = pairs are made by name
   std::string joints = "roles";    ///< one of JointSetNames()
+  double noise_mm = 0;             ///< of all controls' answers
   std::string people;              ///< a pattern for names, such as "{person}_*"; "" = each pair counts for itself
   Lag lag = Lag::kNone;
   std::string statistics;   ///< the name of a file that ReadJointStatistics reads; "" = L2P has no value
@@ -24,10 +26,12 @@ const FieldTable<EvaluationOptions>& EvaluationConditionFields();
 /// Fails unless the condition names its files in one way, and no trials.
 Result<void> CheckFiles(const Node& condition, const EvaluationOptions& options);
 
-/// A method of task evaluation: answers that something outside gave.
+/// A method of task evaluation: answers that something outside gave, or a control of the metrics.
 struct EvaluationMethod {
   std::string name;
   std::vector<std::string> answers;  ///< files, patterns, folders; empty where `pairs` names them
+  bool is_control = false;           ///< its answer is the truth, spoilt
+  Spoiler spoiler;                   ///< of a control
 };
 
 const FieldTable<EvaluationMethod>& EvaluationMethodFields();

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bench/metrics/alignment.h"
 #include "bench/metrics/beat_alignment.h"
 #include "engine/base/digest.h"
 
@@ -36,8 +37,14 @@ std::optional<double> Times(double factor, std::optional<double> value) {
 
 std::string DigestOf(const PointTracks& tracks) {
   Digest digest;
-  for (const glm::dvec3& p : tracks.positions) {
-    std::isnan(p.x) ? digest.Add(std::string_view("unseen")) : digest.Add(p.x).Add(p.y).Add(p.z);
+  const auto& points = tracks.positions;
+  for (std::size_t at = 0; at < points.size();) {
+    // The points up to the next that is not seen.
+    std::size_t end = at;
+    while (end < points.size() && !std::isnan(points[end].x)) ++end;
+    if (end > at) digest.Add(std::span(&points[at].x, 3 * (end - at)));
+    if (end < points.size()) digest.Add(std::string_view("unseen"));
+    at = end + 1;
   }
   return digest.Hex();
 }
@@ -52,9 +59,9 @@ std::vector<double> CurveOf(const std::vector<double>& errors, std::size_t joint
   return curve;
 }
 
-void MeasureErrors(const EvaluatedPair& pair, CellResult& result) {
+void MeasureErrors(const EvaluatedPair& pair, const PairFits& fits, CellResult& result) {
   for (const AlignedError& error : kErrors) {
-    const std::vector<double> errors = JointErrorsMm(Aligned(pair, error.alignment), pair.truth);
+    const std::vector<double> errors = JointErrorsMm(pair, fits.Of(error.alignment));
     result.MeasureOr(error.id, MeanOfSeen(errors), error.why_missing);
     const bool is_drawn = error.alignment == Alignment::kNone || error.alignment == Alignment::kRoot;
     if (is_drawn && MeanOfSeen(errors))
@@ -65,7 +72,7 @@ void MeasureErrors(const EvaluatedPair& pair, CellResult& result) {
     result.MeasureOr("auc_150mm@mpi_inf_3dhp", AucTo150(errors), kNoRoot);
   }
   const auto by_segments = [&](std::size_t fitted) {
-    return MeanOfSeen(JointErrorsMm(AlignedBySegments(pair, kSegmentFrames, fitted), pair.truth));
+    return MeanOfSeen(JointErrorsMm(pair, fits.OfSegments(kSegmentFrames, fitted)));
   };
   result.MeasureOr("w_mpjpe_mm@wham", by_segments(2), kNoFit);
   result.MeasureOr("wa_mpjpe_mm@wham", by_segments(kSegmentFrames), kNoFit);
@@ -73,14 +80,14 @@ void MeasureErrors(const EvaluatedPair& pair, CellResult& result) {
                    "fewer than three roots are seen by both, or the true root stands");
 }
 
-void MeasureMovement(const EvaluatedPair& pair, CellResult& result) {
+void MeasureMovement(const EvaluatedPair& pair, const PairFits& fits, CellResult& result) {
   const double rate = pair.rate_hz;
   constexpr const char* kTooShort = "no joint is seen by both in three frames in a row";
   constexpr double kToMm = 1000;
   const auto acceleration = AccelerationError(pair.found, pair.truth);
   result.MeasureOr("accel_error_mm@human_dynamics", Times(kToMm, acceleration), kTooShort);
   result.MeasureOr("accel_error_mps2", Times(rate * rate, acceleration), kTooShort);
-  const auto of_root = AccelerationError(Aligned(pair, Alignment::kRoot), pair.truth, 1);
+  const auto of_root = AccelerationError(Aligned(pair, fits.Of(Alignment::kRoot)), pair.truth, 1);
   result.MeasureOr("accel_error_mps2@wham", Times(rate * rate, of_root),
                    "no joint and root are seen by both in five frames");
   result.MeasureOr("jitter@wham", Jitter(pair.found, rate), "no joint is seen in four frames in a row");
@@ -215,8 +222,9 @@ std::vector<std::string> EvaluationMetrics() {
 CellResult JudgeMotion(const MatchedMotions& matched, const EvaluationSideData& side) {
   CellResult result = CellResult::Ended(Status::kOk, matched.note);
   result.digests = {{"truth", DigestOf(matched.pair.truth)}, {"answer", DigestOf(matched.pair.found)}};
-  MeasureErrors(matched.pair, result);
-  MeasureMovement(matched.pair, result);
+  const PairFits fits(matched.pair);
+  MeasureErrors(matched.pair, fits, result);
+  MeasureMovement(matched.pair, fits, result);
   MeasureFeet(matched.pair, result);
   result.MeasureOr("bend_error_deg", BendErrorDeg(matched.pair.found, matched.pair.truth, matched.bends),
                    "no knee or elbow with its neighbours is seen by both");

@@ -4,7 +4,10 @@ const JOINTS = ['hip centre', 'spine', 'shoulder centre', 'head', ...['shoulder 
   ['left', 'right'].flatMap((side) => limb.split(' ').map((joint) => `${side} ${joint}`)))];
 const PARENT = [-1, 0, 1, 2, 2, 4, 5, 6, 2, 8, 9, 10, 0, 12, 13, 14, 0, 16, 17, 18];
 const ARM = [.052, .042, .034, .026], LEG = [.075, .054, .04, .03], RADIUS = [.085, .085, .055, .05, ...ARM, ...ARM, ...LEG, ...LEG];
-const HEAD = 3, HEAD_RADIUS = .1, COUNT = 20;
+const HEAD = 3, HEAD_RADIUS = .1, THIN = .022;
+// The joints of a body: the twenty, or its own, which are drawn as thin lines.
+const BODY = {joints: JOINTS, parents: PARENT};
+const treeOf = (body) => body.joints ? {joints: body.joints.map((name) => name.replaceAll('_', ' ')), parents: body.parents} : BODY;
 // Blue, pale, red: so that readers who cannot tell green from red can read it.
 const SCALE = [[45, 100, 180], [125, 180, 220], [248, 232, 175], [236, 140, 72], [178, 28, 40]];
 
@@ -28,26 +31,29 @@ const prepare = (world) => {
   world.frames = 1;
   for (const body of world.bodies) {
     const bytes = Uint8Array.from(atob(body.data), (c) => c.charCodeAt(0)), view = new DataView(bytes.buffer);
-    body.stored = bytes.length / 6 / COUNT;
-    body.places = new Float32Array(body.stored * 3 * COUNT);
+    body.tree = treeOf(body);
+    body.count = body.tree.joints.length;
+    body.stored = bytes.length / 6 / body.count;
+    body.places = new Float32Array(body.stored * 3 * body.count);
     for (let i = 0; i < body.places.length; ++i) {
-      body.places[i] = body.low_m[i % 3] + body.step_m * view.getUint16(2 * i, true);
+      const steps = view.getUint16(2 * i, true);
+      body.places[i] = steps === 65535 ? NaN : body.low_m[i % 3] + body.step_m * steps;  // NaN: not seen
     }
     world.frames = Math.max(world.frames, body.begin + body.frames);
   }
   for (const body of world.bodies) {
     if (!body.against.length) continue;
     // NaN, never 0, if there is nothing to compare with.
-    body.errors = new Float32Array(body.frames * COUNT).fill(NaN);
+    body.errors = new Float32Array(body.frames * body.count).fill(NaN);
     for (let f = 0; f < body.frames; ++f) {
       const t = f + body.begin;
       const other = body.against.map((i) => world.bodies[i]).filter((b) => isThere(b, t)).pop();
       if (!other) continue;
       const a = place(body, t), b = place(other, t);
-      for (let j = 0; j < COUNT; ++j) {
+      for (let j = 0; j < body.count; ++j) {
         const e = scale * Math.hypot(a[3 * j] - b[3 * j], a[3 * j + 1] - b[3 * j + 1], a[3 * j + 2] - b[3 * j + 2]);
-        body.errors[f * COUNT + j] = e;
-        everyError.push(e);
+        body.errors[f * body.count + j] = e;
+        if (e >= 0) everyError.push(e);
       }
     }
   }
@@ -59,16 +65,16 @@ const prepare = (world) => {
 };
 const isThere = (body, t) => t > body.begin - 1e-6 && t < body.begin + body.frames - 1 + 1e-6;
 // Returns the joints at frame t, interpolated linearly.
-const place = (body, t, steps = false, out = new Float32Array(3 * COUNT)) => {
+const place = (body, t, steps = false, out = new Float32Array(3 * body.count)) => {
   const at = Math.min(Math.max(t - body.begin, 0), body.stored - 1), f = Math.floor(at + 1e-6);
-  const part = steps ? 0 : at - f, p = body.places, from = f * 3 * COUNT, to = Math.min(f + 1, body.stored - 1) * 3 * COUNT;
-  for (let i = 0; i < out.length; ++i) out[i] = p[from + i] + part * (p[to + i] - p[from + i]);
+  const part = steps ? 0 : at - f, p = body.places, from = f * out.length, to = Math.min(f + 1, body.stored - 1) * out.length;
+  for (let i = 0; i < out.length; ++i) out[i] = part ? p[from + i] + part * (p[to + i] - p[from + i]) : p[from + i];
   return out;
 };
 const errorsAt = (body, t) => {
   if (!body.errors || !isThere(body, t)) return null;
   const f = Math.min(Math.max(Math.round(t - body.begin), 0), body.frames - 1);
-  return body.errors.subarray(f * COUNT, (f + 1) * COUNT);
+  return body.errors.subarray(f * body.count, (f + 1) * body.count);
 };
 const load = (file) => new Promise((resolve, reject) => {
   if (worlds[file]) return resolve(worlds[file]);
@@ -131,8 +137,8 @@ const rigged = (body, rest, t) => {
 };
 const NAMES = JOINTS.map((name) => name.replace(' ', '_'));
 const timesOf = (body) => Array.from({length: body.frames}, (_, f) => body.begin + f);
-const csvOf = (world, body) => [['frame', 'time_s', ...JOINTS.flatMap((_, j) => [...'xyz'].map((a) => `${NAMES[j]}_${a}_m`))].join(),
-  ...timesOf(body).map((t, f) => [f, f / world.rate_hz, ...Array.from(place(body, t), (x) => x.toFixed(5))].join())].join('\n') + '\n';
+const csvOf = (world, body) => [['frame', 'time_s', ...(body.joints ?? NAMES).flatMap((name) => [...'xyz'].map((a) => `${name}_${a}_m`))].join(),
+  ...timesOf(body).map((t, f) => [f, f / world.rate_hz, ...Array.from(place(body, t), (x) => x === x ? x.toFixed(5) : '')].join())].join('\n') + '\n';
 const bvhOf = (world, body) => {
   const rest = restOf(body), order = [], digits = (x) => x.toFixed(5);
   const joint = (j) => {
@@ -191,7 +197,7 @@ const glbOf = (world, body) => {
 };
 const writers = {BVH: bvhOf, GLB: glbOf, CSV: csvOf};
 
-// ---- Drawing. A scene: {items: [{places, colours, ghost}], spots: [{at, radius, colour, squash}], floor, page, line}.
+// ---- Drawing. A scene: {items: [{places, colours, ghost, tree}], spots: [{at, radius, colour, squash}], floor, page, line}.
 const cameraOf = (view, width, height) => {
   const {yaw, pitch, distance, target} = view, c = Math.cos(pitch);
   const eye = [target[0] + distance * c * Math.sin(yaw), target[1] + distance * Math.sin(pitch), target[2] + distance * c * Math.cos(yaw)];
@@ -210,7 +216,11 @@ const cameraOf = (view, width, height) => {
 };
 // Returns sixteen numbers per limb: start, radius, end, radius, start's colour, opacity, end's colour,
 // flatness.
-const limbsOf = (scene, ghosts) => [...scene.items.filter((item) => item.ghost === ghosts).flatMap(({places: p, colours: c}) => PARENT.map((parent, j) => {
+const limbsOf = (scene, ghosts) => [...scene.items.filter((item) => item.ghost === ghosts).flatMap(({places: p, colours: c, tree}) => tree !== BODY ?
+  tree.parents.map((parent, j) => {
+    const from = parent < 0 ? j : parent;
+    return [...jointOf(p, from), THIN, ...jointOf(p, j), THIN, ...jointOf(c, from), ghosts ? .3 : 1, ...jointOf(c, j), 1];
+  }).filter((limb) => limb.every((x) => x === x)) : PARENT.map((parent, j) => {
   const from = j ? parent : HEAD, to = j || HEAD, wide = ghosts ? 1.14 : 1, ends = j === HEAD ? [RADIUS[HEAD], RADIUS[HEAD]] : j ? [RADIUS[from], RADIUS[to]] : [HEAD_RADIUS, HEAD_RADIUS];
   return [...jointOf(p, from), wide * ends[0], ...jointOf(p, to), wide * ends[1], ...jointOf(c, from), ghosts ? .1 : 1, ...jointOf(c, to), 1];
 })), ...ghosts ? [] : scene.spots.map(({at, radius, colour, squash}) => [...at, radius, ...at, radius, ...colour, 1, ...colour, squash])];
@@ -413,7 +423,10 @@ const show = (world, cells) => {
     const low = [1e9, 1e9, 1e9], high = [-1e9, -1e9, -1e9];
     for (const i of chosen) {
       const {places} = world.bodies[i];
-      for (let k = 0; k < places.length; ++k) { low[k % 3] = Math.min(low[k % 3], places[k]); high[k % 3] = Math.max(high[k % 3], places[k]); }
+      for (let k = 0; k < places.length; ++k) {
+        if (places[k] < low[k % 3]) low[k % 3] = places[k];
+        if (places[k] > high[k % 3]) high[k % 3] = places[k];
+      }
     }
     return low[0] > high[0] ? {low: [-1, 0, -1], high: [1, 1.8, 1]} : {low, high};
   };
@@ -499,12 +512,13 @@ const show = (world, cells) => {
     cellsNow = [];
     table.replaceChildren();
     if (!bodies.length) { table.append('No error is known of what is shown.'); return; }
-    const rows = [...JOINTS.map((name, j) => [name, [j]]), ['all joints', JOINTS.map((_, j) => j)]].map(([name, joints]) =>
+    const rows = [...new Set(bodies.flatMap((body) => body.tree.joints)), 'all joints'].map((name) =>
       make('tr', {}, make('th', {scope: 'row'}, name), ...bodies.flatMap((body) => {
+        const joints = body.tree.joints.flatMap((joint, j) => joint === name || name === 'all joints' ? [j] : []);
         let sum = 0, count = 0, worst = NaN;
         for (let f = 0; f < body.frames; ++f) {
           for (const j of joints) {
-            const e = body.errors[f * COUNT + j];
+            const e = body.errors[f * body.count + j];
             if (e >= 0) { sum += e; ++count; worst = e > worst || count === 1 ? e : worst; }
           }
         }
@@ -520,7 +534,8 @@ const show = (world, cells) => {
   const tellNow = () => {
     for (const {now, body, joints} of cellsNow) {
       const errors = errorsAt(body, state.t);
-      now.textContent = short(errors ? joints.reduce((sum, j) => sum + errors[j], 0) / joints.length : NaN);
+      const seen = errors ? joints.map((j) => errors[j]).filter((e) => e >= 0) : [];
+      now.textContent = short(seen.reduce((sum, e) => sum + e, 0) / seen.length);
     }
   };
 
@@ -552,7 +567,7 @@ const show = (world, cells) => {
       make('div', {}, stage, make('div', {class: 'controls'}, play, time, speed, apart, byError, nearer, farther), lanes, caption),
       make('div', {}, boxes, ...failed, ...world.notes.map((note) => make('p', {}, note)), table, moments,
           make('div', {class: 'controls'}, 'Save', of, ...Object.keys(writers).map((format) =>
-            button(format, () => download(format)))),
+            button(format, () => download(format), {disabled: format !== 'CSV' && world.bodies.some((body) => body.joints)}))),
           make('details', {}, make('summary', {}, 'Keys'), make('p', {}, KEYS)))));
 
   const colours = {page: rgb('--page'), ghost: rgb('--quiet'), accent: rgb('--accent'), methods: world.cells.map((c) => rgb(`--m${c.colour % 8}`))};
@@ -589,14 +604,14 @@ const show = (world, cells) => {
     for (const i of chosen) {
       const body = world.bodies[i], there = isThere(body, state.t);
       if (!there && body.kind === 'ghost' && body.stored > 1) continue;
-      const errors = state.byError && there ? errorsAt(body, state.t) : null, tints = new Float32Array(3 * COUNT);
+      const errors = state.byError && there ? errorsAt(body, state.t) : null, tints = new Float32Array(3 * body.count);
       const plain = body.kind === 'ghost' || !there ? colours.ghost : body.cell >= 0 ? colours.methods[body.cell] : colours.accent;
-      for (let j = 0; j < COUNT; ++j) tints.set(errors && errors[j] >= 0 ? scaled(errors[j] / world.most) : errors ? colours.ghost : plain, 3 * j);
+      for (let j = 0; j < body.count; ++j) tints.set(errors && errors[j] >= 0 ? scaled(errors[j] / world.most) : errors ? colours.ghost : plain, 3 * j);
       const standing = body.contacts.filter(([, begin, end]) => state.t >= begin + body.begin && state.t < end + body.begin);
       for (const dx of offsetsOf(body)) {
         const places = place(body, state.t, world.steps.length > 0);
-        for (let j = 0; j < COUNT; ++j) places[3 * j] += dx;
-        items.push({places, colours: tints, ghost: body.kind === 'ghost'});
+        for (let j = 0; j < body.count; ++j) places[3 * j] += dx;
+        items.push({places, colours: tints, ghost: body.kind === 'ghost', tree: body.tree});
         if (body.kind !== 'ghost') shown.push({body, places});
         for (const [side] of standing) {
           const foot = side ? 18 : 14, at = [0, 1, 2].map((k) => (places[3 * foot + k] + places[3 * foot + 3 + k]) / 2);
@@ -610,7 +625,9 @@ const show = (world, cells) => {
     const {project} = cameraOf(view, stage.clientWidth, stage.clientHeight);
     shown.forEach(({body, places}, k) => {
       const name = names[k] ??= stage.appendChild(make('span', {class: 'name'}));
-      const [x, y] = project([places[3 * HEAD], places[3 * HEAD + 1] + .17, places[3 * HEAD + 2]]);
+      let head = HEAD;  // of other joints, the highest
+      if (body.tree !== BODY) body.tree.joints.forEach((_, j) => { if (!j || !(places[3 * head + 1] >= places[3 * j + 1])) head = j; });
+      const [x, y] = project([places[3 * head], places[3 * head + 1] + .17, places[3 * head + 2]]);
       name.hidden = false;
       tell(name, labelOf(body));
       name.style.transform = `translate(${Math.max(0, x).toFixed(1)}px, ${Math.max(0, state.apart ? y : y - 18 * k).toFixed(1)}px) translate(-50%, -100%)`;
@@ -683,7 +700,7 @@ const show = (world, cells) => {
   play.focus();
   before = performance.now();
   ticking = requestAnimationFrame(tick);
-  opened = {world, state, view, dialog};
+  opened = {world, state, view, dialog, seek: (t) => { stop(); seek(t); }};
 };
 
 window.etudeViewer = {
@@ -701,10 +718,10 @@ window.etudeViewer = {
   flat: false,
 };
 document.addEventListener('click', (event) => {
-  const cell = event.target.closest?.('button[data-cell]')?.dataset.cell;
+  const {cell, frame} = event.target.closest?.('button[data-cell]')?.dataset ?? {};
   if (cell === undefined || opened || !window.etudeViewer.has(cell)) return;
   event.preventDefault();
-  window.etudeViewer.open(cell);
+  window.etudeViewer.open(cell).then((isOpen) => { if (isOpen && frame !== undefined) opened.seek(Number(frame)); });
 });
 // Adds a button to the card of a dot or a row with a recorded motion.
 document.addEventListener('etude:cells', ({detail: {cells, card}}) => {

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "bench/metrics/alignment.h"
 #include "bench/metrics/beat_alignment.h"
 #include "bench/metrics/evaluation.h"
 #include "bench/metrics/joint_angles.h"
@@ -43,21 +44,21 @@ EvaluatedPair PairOf(const Json& in, bool has_roots = false) {
 
 std::vector<double> RootErrors(const Json& in) {
   const EvaluatedPair pair = PairOf(in, true);
-  return JointErrorsMm(Aligned(pair, Alignment::kRoot), pair.truth);
+  return JointErrorsMm(pair, PairFits(pair).Of(Alignment::kRoot));
 }
 
 template <Alignment alignment>
 Value Mpjpe(const Json& in) {
   const bool by_root = alignment == Alignment::kRoot || alignment == Alignment::kRootScaled;
   const EvaluatedPair pair = PairOf(in, by_root);
-  return MeanOfSeen(JointErrorsMm(Aligned(pair, alignment), pair.truth));
+  return MeanOfSeen(JointErrorsMm(pair, PairFits(pair).Of(alignment)));
 }
 
 template <bool by_first_two>
 Value SegmentMpjpe(const Json& in) {
   const EvaluatedPair pair = PairOf(in);
   const auto length = in.at("segment").get<std::size_t>();
-  return MeanOfSeen(JointErrorsMm(AlignedBySegments(pair, length, by_first_two ? 2 : length), pair.truth));
+  return MeanOfSeen(JointErrorsMm(pair, PairFits(pair).OfSegments(length, by_first_two ? 2 : length)));
 }
 
 Value Times(double factor, Value value) { return value ? Value(factor * *value) : std::nullopt; }
@@ -71,7 +72,8 @@ Value AccelerationMps2(const Json& in) {
 
 Value RootAccelerationMps2(const Json& in) {
   const EvaluatedPair pair = PairOf(in, true);
-  return Times(RateOf(in) * RateOf(in), AccelerationError(Aligned(pair, Alignment::kRoot), pair.truth, 1));
+  return Times(RateOf(in) * RateOf(in),
+               AccelerationError(Aligned(pair, PairFits(pair).Of(Alignment::kRoot)), pair.truth, 1));
 }
 
 Value Rte(const Json& in) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "bench/recordings/evaluation_extras.h"
 #include "bench/recordings/task_extras.h"
 #include "io/drawing/assets/assets.h"
 #include "tests/reports/support/example_run.h"
@@ -28,6 +29,12 @@ BodyMotion Walk(int frames = 300) {
     motion.poses.push_back(pose);
   }
   return motion;
+}
+
+std::vector<glm::dvec3> PointsOf(const BodyMotion& motion) {
+  std::vector<glm::dvec3> points;
+  for (const BodyPose& pose : motion.poses) points.insert(points.end(), pose.joints.begin(), pose.joints.end());
+  return points;
 }
 
 nlohmann::json JsonOf(const std::string& script) {
@@ -54,26 +61,29 @@ double DecodedAt(const nlohmann::json& body, std::size_t frame, std::size_t join
 }
 
 TEST(WorldScript, QuantisesWithinHalfAStepAndTenSecondsInThirtySixKilobytes) {
-  const BodyMotion motion = Walk();
-  const QuantisedMotion quantised = Quantise(motion);
+  std::vector<glm::dvec3> points = PointsOf(Walk());
+  const QuantisedMotion quantised = Quantise(points);
   double worst = 0;
-  for (std::size_t f = 0; f < motion.poses.size(); ++f) {
-    for (const Role role : AllRoles()) {
-      const glm::dvec3 off = glm::abs(quantised.At(f, role) - motion.poses[f][role]);
-      worst = std::max({worst, off.x, off.y, off.z});
-    }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const glm::dvec3 off = glm::abs(quantised.At(i) - points[i]);
+    worst = std::max({worst, off.x, off.y, off.z});
   }
   EXPECT_LE(worst, quantised.step / 2 + 1e-12);
   EXPECT_GT(worst, quantised.step / 4) << "the bound is that of this motion";
   EXPECT_LT(quantised.step, 0.0001) << "a tenth of a millimetre";
   EXPECT_LE(quantised.steps.size() * sizeof(quantised.steps[0]), 36'000u);
+  // A point that is not seen stays one, and moves no other.
+  points[7] = NotSeen();
+  const QuantisedMotion gap = Quantise(points);
+  EXPECT_FALSE(IsSeen(gap.At(7)));
+  EXPECT_LE(glm::distance(gap.At(8), points[8]), gap.step);
 }
 
 TEST(WorldScript, QuantisesWhatStandsStillAndNothingAtAll) {
   BodyMotion still = Walk(1);
   for (glm::dvec3& joint : still.poses[0].joints) joint = {1, 2, 3};
-  const QuantisedMotion quantised = Quantise(still);
-  EXPECT_EQ(quantised.At(0, Role::kHead), glm::dvec3(1, 2, 3));
+  const QuantisedMotion quantised = Quantise(PointsOf(still));
+  EXPECT_EQ(quantised.At(Index(Role::kHead)), glm::dvec3(1, 2, 3));
   EXPECT_TRUE(Quantise({}).steps.empty());
 }
 
@@ -170,6 +180,25 @@ TEST(WorldScript, WritesSharedBodiesOnceAndStillOnesAsOneFrame) {
   EXPECT_EQ(shared.at("data").get<std::string>().size(), 160u);  // 120 bytes
 }
 
+TEST(WorldScript, MotionsOfAnyJointsBringTheirTree) {
+  RunData run = ExampleRun();
+  EvaluationExtras extras;
+  extras.truth = {.name = "", .rate_hz = 60, .joints = {"root", "tail"}, .parents = {-1, 0}};
+  extras.truth.positions = {{0, 1, 0}, {0, 1, -1}, {0, 2, 0}, NotSeen()};
+  extras.answer = extras.truth;
+  Row& row = run.rows.front();
+  row.task = "evaluation";
+  run.recordings = {{row.Id(), Recording({}, WriteEvaluationExtras(extras))}};
+  const nlohmann::json json = JsonOf(WorldScript(run, RecordedWorlds(run).front()));
+  EXPECT_EQ(json.at("rate_hz"), 60);
+  ASSERT_EQ(json.at("bodies").size(), 2u);
+  const nlohmann::json& body = json.at("bodies").at(1);
+  EXPECT_EQ(body.at("joints"), nlohmann::json({"root", "tail"}));
+  EXPECT_EQ(body.at("parents"), nlohmann::json({-1, 0}));
+  EXPECT_EQ(body.at("frames"), 2);
+  EXPECT_EQ(body.at("against"), nlohmann::json({0}));
+}
+
 TEST(WorldScript, ExtrasThatCannotBeReadLeaveTheMotionAndAreTold) {
   RunData run = ExampleRun();
   for (const Row& row : run.rows) {
@@ -215,7 +244,7 @@ TEST(WorldScript, PagesWithoutRecordingsCarryNoViewer) {
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) EXPECT_EQ(WatchHtml(run, i), "");
 }
 
-TEST(WorldScript, TheViewersScriptIsSmall) { EXPECT_LE(ViewerJs().size(), 40'000u); }
+TEST(WorldScript, TheViewersScriptIsSmall) { EXPECT_LE(ViewerJs().size(), 42'000u); }
 
 }  // namespace
 }  // namespace etude

@@ -1,0 +1,180 @@
+#include "bench/metrics/alignment.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace etude {
+namespace {
+
+constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
+constexpr double kMinFitted = 3;  // fewer points do not determine a rotation
+
+bool BothSeen(const glm::dvec3& a, const glm::dvec3& b) { return !std::isnan(a.x) && !std::isnan(b.x); }
+
+/// Returns the similarity of AlignSimilarity without a singular value decomposition, where that is safe; else nothing.
+/// The rotation is the eigenvector of the largest eigenvalue of Horn's 4 × 4 matrix (Horn 1987), which Newton's method
+/// finds as a root of the characteristic polynomial (Theobald 2005).
+std::optional<Similarity> AlignByQuaternion(const PointMoments& moments) {
+  const glm::dmat3& s = moments.covariance;  // s[a][b] = Σ point_a target_b
+  const glm::dvec3 skew(s[1][2] - s[2][1], s[2][0] - s[0][2], s[0][1] - s[1][0]);
+  const double xy = s[0][1] + s[1][0], yz = s[1][2] + s[2][1], zx = s[2][0] + s[0][2];
+  const double trace = s[0][0] + s[1][1] + s[2][2];
+  double rows[4][4] = {{trace, skew.x, skew.y, skew.z},
+                       {skew.x, 2 * s[0][0] - trace, xy, zx},
+                       {skew.y, xy, 2 * s[1][1] - trace, yz},
+                       {skew.z, zx, yz, 2 * s[2][2] - trace}};
+  // The minors of the two lower rows, and the first row's cofactors.
+  const auto minor = [&](int i, int j) { return rows[2][i] * rows[3][j] - rows[2][j] * rows[3][i]; };
+  const auto cofactors = [&] {
+    const double m01 = minor(0, 1), m02 = minor(0, 2), m03 = minor(0, 3);
+    const double m12 = minor(1, 2), m13 = minor(1, 3), m23 = minor(2, 3);
+    const double* r = rows[1];
+    return glm::dvec4(r[1] * m23 - r[2] * m13 + r[3] * m12, r[2] * m03 - r[0] * m23 - r[3] * m02,
+                      r[0] * m13 - r[1] * m03 + r[3] * m01, r[1] * m02 - r[0] * m12 - r[2] * m01);
+  };
+  // λ⁴ + c₂λ² + c₁λ + c₀; the start is above every root, so the steps only descend.
+  const double square = glm::dot(s[0], s[0]) + glm::dot(s[1], s[1]) + glm::dot(s[2], s[2]);
+  const double c2 = -2 * square, c1 = -8 * glm::determinant(s);
+  const double c0 = glm::dot(glm::dvec4(rows[0][0], rows[0][1], rows[0][2], rows[0][3]), cofactors());
+  double lambda = std::sqrt(3 * square);
+  constexpr int kMaxSteps = 50;
+  constexpr double kSettled = 1e-15;
+  for (int i = 0; i < kMaxSteps; ++i) {
+    const double value = ((lambda * lambda + c2) * lambda + c1) * lambda + c0;
+    const double step = value / ((4 * lambda * lambda + 2 * c2) * lambda + c1);
+    lambda -= step;
+    if (!(std::abs(step) > kSettled * lambda)) break;
+  }
+  for (int i = 0; i < 4; ++i) rows[i][i] -= lambda;
+  const glm::dvec4 vector = cofactors();
+  // Small cofactors: another rotation fits nearly as well, or this one turns by nearly 180°.
+  constexpr double kSafe = 0.01;
+  const double length = glm::length(vector);
+  if (!(length > kSafe * lambda * lambda * lambda)) return std::nullopt;
+  Similarity similarity;
+  similarity.rotation = glm::mat3_cast(glm::dquat(vector.x, vector.y, vector.z, vector.w) / length);
+  similarity.scale = lambda / moments.scatter;
+  similarity.translation = moments.target_mean - similarity.scale * (similarity.rotation * moments.mean);
+  return similarity;
+}
+
+/// Returns the movement or similarity of a fit with scale.
+std::optional<Similarity> WithScale(const std::optional<Similarity>& fit, const PointMoments& moments,
+                                    bool with_scale) {
+  if (!fit || with_scale) return fit;
+  return Similarity{
+      .scale = 1, .rotation = fit->rotation, .translation = moments.target_mean - fit->rotation * moments.mean};
+}
+
+}  // namespace
+
+std::optional<Similarity> Fit(const PointMoments& moments, bool with_scale) {
+  if (moments.count < kMinFitted) return std::nullopt;
+  const auto fast = AlignByQuaternion(moments);
+  return WithScale(fast ? *fast : AlignSimilarity(moments), moments, with_scale);
+}
+
+PairFits::PairFits(const EvaluatedPair& pair) : pair_(pair) {
+  assert(pair.found.points == pair.truth.points && pair.found.positions.size() == pair.truth.positions.size());
+  const std::size_t frames = pair.found.FrameCount();
+  moments_.reserve(frames);
+  each_frame_.reserve(frames);
+  for (std::size_t f = 0; f < frames; ++f) {
+    moments_.push_back(MomentsOf(pair.found.Frame(f), pair.truth.Frame(f)));
+    each_frame_.push_back(Fit(moments_.back(), true));
+  }
+}
+
+FrameFits PairFits::Of(Alignment alignment) const {
+  using enum Alignment;
+  const std::size_t frames = moments_.size();
+  switch (alignment) {
+    case kNone:
+      return FrameFits(frames, Similarity{});
+    case kRoot:
+    case kRootScaled:
+      return ByRoot(alignment == kRootScaled);
+    case kFirst:
+    case kFirstScaled: {
+      const auto first = std::ranges::find_if(moments_, [](const auto& of) { return of.count >= kMinFitted; });
+      if (first == moments_.end()) return FrameFits(frames);
+      return FrameFits(frames, WithScale(each_frame_[first - moments_.begin()], *first, alignment == kFirstScaled));
+    }
+    case kTake:
+    case kTakeScaled: {
+      PointMoments all;
+      for (const PointMoments& of_frame : moments_) all.Add(of_frame);
+      return FrameFits(frames, Fit(all, alignment == kTakeScaled));
+    }
+    case kFrame:
+    case kFrameScaled:
+      break;
+  }
+  FrameFits fits = each_frame_;
+  for (std::size_t f = 0; f < frames; ++f) fits[f] = WithScale(fits[f], moments_[f], alignment == kFrameScaled);
+  return fits;
+}
+
+FrameFits PairFits::ByRoot(bool with_scale) const {
+  FrameFits fits(moments_.size());
+  if (pair_.found_root.empty()) return fits;
+  for (std::size_t f = 0; f < fits.size(); ++f) {
+    const glm::dvec3 &root = pair_.found_root[f], &onto = pair_.true_root[f];
+    if (!BothSeen(root, onto)) continue;
+    // The scale with the least squared error about the roots.
+    double product = 0, square = 0;
+    const auto found = pair_.found.Frame(f), truth = pair_.truth.Frame(f);
+    for (std::size_t j = 0; with_scale && j < found.size(); ++j) {
+      if (!BothSeen(found[j], truth[j])) continue;
+      product += glm::dot(found[j] - root, truth[j] - onto);
+      square += glm::dot(found[j] - root, found[j] - root);
+    }
+    const double scale = square > 0 ? product / square : 1;
+    fits[f] = Similarity{.scale = scale, .rotation = glm::dmat3(1), .translation = onto - scale * root};
+  }
+  return fits;
+}
+
+FrameFits PairFits::OfSegments(std::size_t length, std::size_t fitted) const {
+  FrameFits fits;
+  fits.reserve(moments_.size());
+  while (fits.size() < moments_.size()) {
+    const std::size_t begin = fits.size(), end = std::min(begin + length, moments_.size());
+    PointMoments sums;
+    for (std::size_t f = begin; f < std::min(begin + fitted, end); ++f) sums.Add(moments_[f]);
+    fits.insert(fits.end(), end - begin, Fit(sums, true));
+  }
+  return fits;
+}
+
+PointTracks Aligned(const EvaluatedPair& pair, const FrameFits& fits) {
+  PointTracks out{pair.found.points, {}};
+  out.positions.reserve(pair.found.positions.size());
+  for (std::size_t f = 0; f < fits.size(); ++f) {
+    for (const glm::dvec3& p : pair.found.Frame(f)) {
+      out.positions.push_back(fits[f] ? fits[f]->Apply(p) : glm::dvec3(kUnseen));
+    }
+  }
+  return out;
+}
+
+std::vector<double> JointErrorsMm(const EvaluatedPair& pair, const FrameFits& fits) {
+  constexpr double kToMillimetres = 1000;
+  std::vector<double> errors(pair.found.positions.size(), kUnseen);
+  double* error = errors.data();
+  for (std::size_t f = 0; f < fits.size(); ++f, error += pair.found.points) {
+    if (!fits[f]) continue;
+    const auto found = pair.found.Frame(f), truth = pair.truth.Frame(f);
+    const glm::dmat3 turn = fits[f]->scale * fits[f]->rotation;
+    const glm::dvec3 move = fits[f]->translation;
+    // NaN spreads: a joint that either does not show has the error NaN.
+    for (std::size_t j = 0; j < found.size(); ++j) {
+      error[j] = kToMillimetres * glm::length(turn * found[j] + move - truth[j]);
+    }
+  }
+  return errors;
+}
+
+}  // namespace etude

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "engine/motion/raw_motion.h"
+
+namespace etude {
+
+/// What spoils a truth, in this order, so that metrics meet an answer whose fault is known; 0 leaves it as it is.
+struct Spoiler {
+  double noisy_mm = 0;        ///< standard deviation of white noise, each axis, each joint for itself
+  double smoothed_ms = 0;     ///< length of a centred moving mean
+  double faded_percent = 0;   ///< of every joint's way from its mean
+  double scaled_percent = 0;  ///< about the world's origin
+  double moved_cm = 0;        ///< along X
+  double lifted_cm = 0;
+  double gliding_cm_s = 0;    ///< along X
+  double feet_locked_cm = 0;  ///< ankles and toes rest where the toes came below this height, until they leave it
+  double mirrored_share = 0;  ///< of the take's end: the motion of the other side, about the body's middle
+  int kept_frames = 1;        ///< one of so many frames, with straight lines in between
+  double late_ms = 0;         ///< the first pose stands until then
+  double frozen_share = 0;    ///< of the take's end, which stands still
+
+  bool operator==(const Spoiler&) const = default;
+};
+
+/// Returns a truth spoilt. The noise depends on `seed_name` alone. Rotations stay as far as the spoilt motion has any:
+/// what changes single joints leaves them out.
+RawMotion Spoilt(const RawMotion& truth, const Spoiler& spoiler, const std::string& seed_name);
+
+}  // namespace etude

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "bench/model/run_data.h"
+
+namespace etude {
+
+/// Returns true if the scenario judges pairs of files.
+bool ShowsPairs(const ScenarioSummary& scenario);
+
+/// Returns, for each pair of files, the error in every frame as curves and, if its motions were recorded, the worst
+/// frames as pictures; the pair with the largest error comes first. "" for other scenarios.
+std::string PairsHtml(const RunData& run, const ScenarioSummary& scenario);
+
+}  // namespace etude
