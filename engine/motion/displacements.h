@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/motion/body.h"
+#include "engine/motion/support.h"
 
 namespace etude {
 
@@ -31,14 +33,22 @@ struct Pop {
   double size = 0;  ///< metres
 };
 
+/// A change of the velocity of all joints alike, along the floor, that happens from one frame to the next.
+struct VelocityStep {
+  int frame = 0;         ///< the last frame with the velocity before
+  glm::dvec2 change{0};  ///< x and z, metres per second
+};
+
 /// The displacements in a motion: what its frames show beside the movement of a body.
 struct Displacements {
   std::vector<FrameRange> frozen;    ///< frames that repeat their predecessor, with that one, for 0.9 s or more
   std::vector<Displacement> common;  ///< not those with which a frozen body catches up
   std::vector<Pop> pops;             ///< likewise
+  std::vector<VelocityStep> steps;   ///< likewise
 };
 
 /// Finds displacements by third differences, as FindMotionFaults states. The motion must have at least eight frames.
-Displacements FindDisplacements(const BodyMotion& motion);
+/// `unseen`: FaultOptions::unseen.
+Displacements FindDisplacements(const BodyMotion& motion, std::span<const JointSet> unseen = {});
 
 }  // namespace etude

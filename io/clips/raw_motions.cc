@@ -141,11 +141,8 @@ Result<std::string> DigestOfFile(const std::string& reference, const OpenOptions
 }
 
 Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions& options) {
-  ASSIGN_OR_RETURN(auto clips, ReadClips(reference, options));
-  if (clips.size() == 1) return RawMotionOf(std::move(clips.front()), options);
-  std::vector<std::string> names;
-  for (const SourceClip& clip : clips) names.push_back(clip.source);
-  return Fail({reference}, "holds {} motions; name one of them: {}", clips.size(), Join(names));
+  ASSIGN_OR_RETURN(auto clip, ReadOneClip(reference, options));
+  return RawMotionOf(std::move(clip), options);
 }
 
 }  // namespace etude
