@@ -96,12 +96,12 @@ struct ClipLibrary;
 struct LabelledStreams;
 struct OpenOptions;
 
-/// A world of a task that judges files: a truth, and an answer of each method.
+/// A world of a task that judges files: an answer of each method, and maybe a truth.
 struct JudgedFiles {
   std::string name;   ///< identifies the world, whatever other files there are
   std::string unit;   ///< what the world counts for beyond itself, such as a person; "" = its name
-  std::string truth;  ///< a reference to a motion (io/clips/references.h)
-  std::vector<std::string> answers;  ///< likewise, by method; "" = the method has none for this truth
+  std::string truth;  ///< a reference to a motion (io/clips/references.h); "" = the task knows no truths
+  std::vector<std::string> answers;  ///< likewise, by method; "" = the method has none of this name
   friend bool operator==(const JudgedFiles&, const JudgedFiles&) = default;
 };
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bench/tasks/base/task.h"
 
@@ -20,6 +21,17 @@ constexpr std::size_t kMaxPairs = 100'000;
 /// than kMaxPairs; and for a CSV that is none. An answer without truth is left out.
 Result<FoundFiles> FindEvaluatedFiles(const Node& condition, std::span<const Node> methods,
                                       const std::map<std::string, std::string>& texts);
+
+/// Lists the files that references stand for, in their order; a folder stands for the motion files in it. Fails at
+/// `place` if one stands for none, or for more than kMaxPairs.
+Result<std::vector<std::string>> ExpandFiles(const std::vector<std::string>& references, const Place& place);
+
+/// Returns the name of a reference: its file's without folder and extension, and the clip behind '#'.
+std::string NameOfReference(const std::string& reference);
+
+/// Sets the unit of each world to the person in its name (PersonIn); `people` must not be empty. Fails at `place` for a
+/// name without one.
+Result<void> FindPeople(const std::string& people, const Place& place, std::vector<JudgedFiles>& worlds);
 
 /// Returns the part of `name` that "{person}" stands for in a pattern whose '*' stand for any text: the leftmost, then
 /// shortest. Nothing if the name does not match.
