@@ -13,7 +13,9 @@
 #include "bench/statistics/agreement.h"
 #include "bench/tasks/registry.h"
 #include "cli/commands.h"
+#include "cli/evaluate_alone.h"
 #include "cli/facts.h"
+#include "cli/named_results.h"
 #include "engine/base/names.h"
 #include "engine/retargeting/map_file.h"
 #include "io/files/files.h"
@@ -31,42 +33,9 @@ struct EvaluateOptions {
   bool keeps_motions = false;
   int jobs = 0;
   bool as_json = false;
+  AloneOptions alone;
   std::string command_line;
 };
-
-/// A method and the pattern of its answers.
-struct NamedResult {
-  std::string name, pattern;
-};
-
-/// Returns a plain name for a pattern: that of its folder if it has wildcards, else that of its file.
-std::string NameFor(const std::string& pattern) {
-  const std::filesystem::path path = pattern.ends_with('/') ? pattern.substr(0, pattern.size() - 1) : pattern;
-  const bool is_pattern = path.filename().string().find_first_of("*?[") != std::string::npos;
-  std::string name = (is_pattern ? path.parent_path().filename() : path.stem()).string();
-  std::ranges::replace_if(
-      name, [](char c) { return !IsPlainName(std::string(1, c)) && c != '-' && c != '.'; }, '_');
-  return IsPlainName(name) ? name : "result";
-}
-
-/// Reads RESULT or NAME=PATTERN, one for each method. Fails if several have no names: the shell may have replaced a
-/// pattern by file names.
-Result<std::vector<NamedResult>> ReadResults(std::span<const std::string> arguments) {
-  std::vector<NamedResult> results;
-  for (const std::string& argument : arguments) {
-    const std::size_t equals = argument.find('=');
-    std::error_code none;
-    const bool is_named = equals != std::string::npos && IsPlainName(argument.substr(0, equals)) &&
-                          !std::filesystem::exists(argument, none);
-    if (!is_named && arguments.size() > 1) {
-      return Fail({}, "{}: several results need names, NAME=PATTERN, with the pattern in quotes if it has a '*'",
-                  Quote(argument));
-    }
-    results.push_back(is_named ? NamedResult{argument.substr(0, equals), argument.substr(equals + 1)}
-                               : NamedResult{NameFor(argument), argument});
-  }
-  return results;
-}
 
 /// Returns the columns of a CSV of pairs that name methods.
 Result<std::vector<NamedResult>> ReadColumns(const std::string& file) {
@@ -77,14 +46,14 @@ Result<std::vector<NamedResult>> ReadColumns(const std::string& file) {
     const std::string column = heading.substr(at, comma - at);
     if (column == "truth" || column == "name") continue;
     if (!IsPlainName(column)) return Fail({file, 1, 0}, "{} is not a valid method name", Quote(column));
-    results.push_back({column, ""});
+    results.push_back({column, {}});
   }
   if (results.empty()) return Fail({file, 1, 0}, "has no column of a method; allowed: a heading such as truth,mine");
   return results;
 }
 
-/// Returns the text of the scenario that the options describe.
-Result<std::string> ScenarioOf(const EvaluateOptions& options) {
+/// Returns the text of the scenario of pairs of files.
+Result<std::string> ScenarioOfPairs(const EvaluateOptions& options) {
   const bool has_pairs = !options.pairs.empty();
   if (has_pairs != options.files.empty() || options.files.size() == 1) {
     return Fail({}, "etude evaluate needs a truth and results, or --pairs FILE.csv (one of the two)");
@@ -99,17 +68,26 @@ Result<std::string> ScenarioOf(const EvaluateOptions& options) {
   if (!options.statistics.empty()) text += fmt::format("statistics: {}\n", QuotedInYaml(options.statistics));
   if (!options.music_beats.empty()) text += fmt::format("music_beats: {}\n", QuotedInYaml(options.music_beats));
   if (options.lag == "find") text += "sweep: {lag: [none, find]}\n";
-  text += "methods:\n";
-  for (const NamedResult& result : results) {
-    text += fmt::format("  - {{name: {}{}}}\n", QuotedInYaml(result.name),
-                        has_pairs ? "" : fmt::format(", answers: [{}]", QuotedInYaml(result.pattern)));
-  }
-  if (!options.metrics.empty()) {
-    std::vector<std::string> quoted;
-    for (const std::string& metric : options.metrics) quoted.push_back(QuotedInYaml(metric));
-    text += fmt::format("metrics: [{}]\n", Join(quoted));
-  }
+  text += MethodsInYaml(results);
   return text;
+}
+
+/// Returns the text of the scenario that the options describe.
+Result<std::string> ScenarioOf(const EvaluateOptions& options) {
+  const AloneOptions& alone = options.alone;
+  for (const auto& [name, value] : {std::pair{"--pairs", &options.pairs},
+                                    {"--joints", &options.joints},
+                                    {"--lag", &options.lag},
+                                    {"--statistics", &options.statistics}}) {
+    if (alone.is_alone && !value->empty()) return Fail({}, "{} has no use with --alone: there is no truth", name);
+  }
+  if (!alone.is_alone && (alone.floor_m || !alone.limits.empty())) return Fail({}, "--floor and --limits need --alone");
+  ASSIGN_OR_RETURN(auto text,
+                   alone.is_alone ? ScenarioOfMotions(options.files, alone, options.people) : ScenarioOfPairs(options));
+  if (options.metrics.empty()) return text;
+  std::vector<std::string> quoted;
+  for (const std::string& metric : options.metrics) quoted.push_back(QuotedInYaml(metric));
+  return text + fmt::format("metrics: [{}]\n", Join(quoted));
 }
 
 /// Returns the agreement of every angle that both files of a pair have, for programs.
@@ -247,18 +225,25 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   const ScenarioSummary& summary = data.scenarios.front();
   const bool has_silent = std::ranges::any_of(summary.conditions.front().methods,
                                               [](const MethodSummary& method) { return method.ok == 0; });
-  const int code = has_silent ? kNothingWorked : kSuccess;
+  const Triage triage = options.alone.is_alone ? TriageOf(data) : Triage{};
+  const int code = has_silent || !triage.beyond_limits.empty() ? kNothingWorked : kSuccess;
   const std::string folder = outcome->folder.string();
   const std::vector<AngleAgreement> angles = AgreementByAngle(data);
   if (options.as_json) {
-    RETURN_IF_ERROR(PrintFacts("evaluate", FactsOf(summary, angles, folder)));
+    Json facts = FactsOf(summary, angles, folder);
+    if (triage.has_limits) facts["beyond_limits"] = triage.beyond_limits;
+    RETURN_IF_ERROR(PrintFacts("evaluate", std::move(facts)));
     return code;
   }
-  PrintTable(summary);
-  PrintAngles(summary, angles);
-  PrintNotes(data);
+  if (options.alone.is_alone) {
+    PrintTriage(triage);
+  } else {
+    PrintTable(summary);
+    PrintAngles(summary, angles);
+    PrintNotes(data);
+  }
   fmt::print("{} of {} cells ok, all {} metrics in {}\nNext: etude report {}\n", outcome->cells_ok, outcome->cells,
-             FindTaskKind("evaluation")->metrics.size(), folder, folder);
+             FindTaskKind(summary.task)->metrics.size(), folder, folder);
   return code;
 }
 
@@ -267,10 +252,15 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
 void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& action) {
   auto options = std::make_shared<EvaluateOptions>();
   options->command_line = command_line;
-  CLI::App* command = app.add_subcommand("evaluate", "Compare the motions of files with their truths");
+  CLI::App* command = app.add_subcommand("evaluate", "Compare the motions of files with their truths, or judge them alone");
   command->add_option(
       "files", options->files,
       "The truth, then results, each a file, a folder or a pattern in quotes; NAME=PATTERN for several");
+  command->add_flag("--alone", options->alone.is_alone,
+                    "There is no truth: find what no person does in each motion (FILE, FILE#CLIP, folder, pattern)");
+  command->add_option("--floor", options->alone.floor_m, "Alone: height of the floor, metres (default: 0, or found)");
+  command->add_option("--limits", options->alone.limits,
+                      "Alone: a file of limits, or 'recorded'; exit code 1 if a clip exceeds them");
   command->add_option("--pairs", options->pairs,
                       "A CSV file instead: a column truth, one column per method, and possibly a column name");
   command->add_option("--joints", options->joints,

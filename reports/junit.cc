@@ -5,6 +5,7 @@
 #include <set>
 
 #include "io/drawing/escape.h"
+#include "reports/faulty_clips.h"
 #include "reports/words/findings.h"
 
 namespace etude {
@@ -68,6 +69,7 @@ std::vector<JunitCase> CasesOf(const RunData& run, const ScenarioSummary& scenar
   for (const ExpectationResult& e : scenario.expectations) {
     cases.push_back({e.text, e.ruling, e.detail, fmt::format("judged on {}", TheseUnits(scenario.unit))});
   }
+  for (JunitCase& clip : LimitCases(run, scenario.name)) cases.push_back(std::move(clip));
   return cases;
 }
 

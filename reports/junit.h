@@ -26,8 +26,8 @@ struct JunitSuite {
 std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>& suites, const std::string& version);
 
 /// Returns the run as JUnit XML, one suite per scenario. Its cases are: one per expectation (failed if unmet, skipped
-/// if undecided), one that holds if every cell has a row, and one that holds if no cell crashed, failed, timed out or
-/// gave an invalid answer.
+/// if undecided), one that holds if every cell has a row, one that holds if no cell crashed, failed, timed out or gave
+/// an invalid answer, and one per clip that has limits.
 std::string WriteJunit(const RunData& run);
 
 }  // namespace etude

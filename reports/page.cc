@@ -10,6 +10,7 @@
 #include "io/drawing/table.h"
 #include "reports/badge.h"
 #include "reports/comparison_table.h"
+#include "reports/faulty_clips.h"
 #include "reports/overview_table.h"
 #include "reports/page_check.h"
 #include "reports/paper/paper_a.h"
@@ -186,6 +187,7 @@ std::string WritePage(const RunData& run, const Media& media, std::span<const Re
   html += Answers(run, findings);
   html += fmt::format("{}{}{}", kMediaBegin, FilmElement(media.film, true), kMediaEnd);
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) html += WriteScenarioCard(run, i, findings[i], media);
+  html += FaultyClipsSection(run);
   html += RealTakesSection(run, real);
   html += HowToRead();
   html += Footer(run);

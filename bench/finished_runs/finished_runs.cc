@@ -94,15 +94,16 @@ Result<void> CheckMetricVersions(const Json& manifest, const Place& place) {
   return {};
 }
 
-/// Returns the names of worlds made of files with the digests of their truths. `digests` are those of the manifest: for
-/// each world the truth, then its answers, as many as there are.
+/// Returns the names of worlds made of files with the digests of their truths, "" without one. `digests` are those of
+/// the manifest: for each world the truth if there is one, then its answers, as many as there are.
 Result<NamedDigests> TruthsOf(const ScenarioSetup& setup, std::span<const std::string> digests, const Place& place) {
   NamedDigests truths;
   std::size_t at = 0;
   for (const JudgedFiles& world : setup.files) {
+    const bool has_truth = !world.truth.empty();
     if (at >= digests.size()) return Fail(place, "not a manifest: it lacks digests of files");
-    truths.emplace_back(world.name, digests[at]);
-    at += 1 + world.answers.size() - static_cast<std::size_t>(std::ranges::count(world.answers, ""));
+    truths.emplace_back(world.name, has_truth ? digests[at] : "");
+    at += (has_truth ? 1 : 0) + world.answers.size() - static_cast<std::size_t>(std::ranges::count(world.answers, ""));
   }
   return truths;
 }

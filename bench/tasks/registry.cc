@@ -6,9 +6,10 @@
 namespace etude {
 
 std::span<const TaskKind> AllTaskKinds() {
-  static const std::vector<TaskKind> kinds = {MakeTransitionTaskKind(),   MakeDetectionTaskKind(), MakeIkTaskKind(),
-                                              MakeTrackingTaskKind(),     MakeCaptureTaskKind(),
-                                              MakePoseDistanceTaskKind(), MakeCoachTaskKind(), MakeEvaluationTaskKind()};
+  static const std::vector<TaskKind> kinds = {
+      MakeTransitionTaskKind(), MakeDetectionTaskKind(),    MakeIkTaskKind(),
+      MakeTrackingTaskKind(),   MakeCaptureTaskKind(),      MakePoseDistanceTaskKind(),
+      MakeCoachTaskKind(),      MakeEvaluationTaskKind(),   MakePlausibilityTaskKind()};
   return kinds;
 }
 

@@ -18,14 +18,18 @@ PoseSteps StepsFrom(const BodyMotion& motion, int f) {
   return steps;
 }
 
-/// Returns how far every joint's step from frame `f` to the next differs from the mean of the steps before and after
-/// it: half of the third difference. 0 where one of these is missing.
-PoseSteps ThirdDifferences(const BodyMotion& motion, int f) {
+/// Returns, for each frame but the last, how far every joint's step to the next frame differs from the mean of the
+/// steps before and after it: half of the third difference. 0 where one of these is missing.
+std::vector<PoseSteps> ThirdDifferences(const BodyMotion& motion) {
   const int last_step = static_cast<int>(motion.poses.size()) - 2;
-  PoseSteps differences{};
-  if (f < 1 || f >= last_step) return differences;
-  const PoseSteps before = StepsFrom(motion, f - 1), here = StepsFrom(motion, f), after = StepsFrom(motion, f + 1);
-  for (std::size_t j = 0; j < kRoleCount; ++j) differences[j] = here[j] - 0.5 * (before[j] + after[j]);
+  std::vector<PoseSteps> differences(motion.poses.size() - 1);
+  PoseSteps before = StepsFrom(motion, 0), here = StepsFrom(motion, 1);
+  for (int f = 1; f < last_step; ++f) {
+    const PoseSteps after = StepsFrom(motion, f + 1);
+    for (std::size_t j = 0; j < kRoleCount; ++j) differences[f][j] = here[j] - 0.5 * (before[j] + after[j]);
+    before = here;
+    here = after;
+  }
   return differences;
 }
 
@@ -41,11 +45,13 @@ glm::dvec3 MedianOfJoints(const PoseSteps& vectors) {
   return median;
 }
 
-/// Returns the length of `median` if four of five vectors agree with it, else 0.
-double AgreedLength(const PoseSteps& vectors, const glm::dvec3& median) {
-  constexpr double kAgreeing = 0.8, kRelative = 0.3, kAbsolute = 0.005;
-  const double length = glm::length(median), tolerance = kRelative * length + kAbsolute;
+/// Returns the length of `median` if enough vectors agree with it, those of one foot among them, else 0. Fast arms and
+/// legs need not agree.
+double AgreedLength(const PoseSteps& vectors, const glm::dvec3& median, double relative, double absolute) {
+  constexpr double kAgreeing = 0.7;
+  const double length = glm::length(median), tolerance = relative * length + absolute;
   const auto agrees = [&](const glm::dvec3& v) { return glm::distance(v, median) < tolerance; };
+  if (!agrees(vectors[Index(Role::kLeftAnkle)]) && !agrees(vectors[Index(Role::kRightAnkle)])) return 0;
   const auto count = static_cast<double>(std::ranges::count_if(vectors, agrees));
   return count >= kAgreeing * kRoleCount ? length : 0;
 }
@@ -157,14 +163,22 @@ struct Hot {
   double size = 0;
 };
 
-std::vector<Hot> FindHot(const BodyMotion& motion, const std::vector<glm::dvec3>& common) {
+std::vector<Hot> FindHot(const std::vector<PoseSteps>& differences, const std::vector<glm::dvec3>& common,
+                         std::span<const JointSet> unseen) {
   constexpr double kMin = 0.25, kMax = 0.45, kTimesUsual = 6, kUsual = 0.95;
   std::vector<Hot> hot;
   std::vector<double> sizes(common.size());
   for (const Role joint : AllRoles()) {
     const std::size_t j = Index(joint);
+    // A third difference is that of four frames, all of which must show the joint.
+    const auto is_seen = [&](std::size_t f) {
+      const std::size_t from = std::max<std::size_t>(f, 1) - 1, to = std::min(f + 3, unseen.size());
+      return std::none_of(unseen.begin() + from, unseen.begin() + std::max(from, to),
+                          [j](const JointSet& joints) { return joints[j]; });
+    };
     for (std::size_t f = 0; f < common.size(); ++f) {
-      sizes[f] = glm::distance(ThirdDifferences(motion, static_cast<int>(f))[j], common[f]);
+      const bool counts = unseen.empty() || is_seen(f);
+      sizes[f] = counts ? glm::distance(differences[f][j], common[f]) : 0;
     }
     const double limit = std::clamp(kTimesUsual * Quantile(sizes, kUsual), kMin, kMax);
     for (std::size_t f = 0; f < sizes.size(); ++f) {
@@ -175,10 +189,11 @@ std::vector<Hot> FindHot(const BodyMotion& motion, const std::vector<glm::dvec3>
   return hot;
 }
 
-std::vector<Pop> FindPops(const BodyMotion& motion, const std::vector<glm::dvec3>& common,
-                          const std::vector<FrameRange>& frozen) {
+std::vector<Pop> FindPops(const BodyMotion& motion, const std::vector<PoseSteps>& differences,
+                          const std::vector<glm::dvec3>& common, const std::vector<FrameRange>& frozen,
+                          std::span<const JointSet> unseen) {
   constexpr double kAsLarge = 0.8;
-  const std::vector<Hot> hot = FindHot(motion, common);
+  const std::vector<Hot> hot = FindHot(differences, common, unseen);
   std::vector<int> steps;
   for (const Hot& h : hot) steps.push_back(h.step);
   std::vector<Pop> pops;
@@ -196,12 +211,40 @@ std::vector<Pop> FindPops(const BodyMotion& motion, const std::vector<glm::dvec3
          parent = ParentOf(joint)) {
       joint = *parent;
     }
-    const FrameRange main = MainSteps(group, largest[Index(joint)], [&](int f) {
-      return glm::distance(ThirdDifferences(motion, f)[Index(joint)], common[f]);
-    });
+    const FrameRange main = MainSteps(group, largest[Index(joint)],
+                                      [&](int f) { return glm::distance(differences[f][Index(joint)], common[f]); });
     pops.push_back({{main.first, main.last + 1}, joint, glm::length(Measure(motion, main, joint).largest)});
   }
   return pops;
+}
+
+/// Finds steps of the velocity along the floor: second differences that their neighbours do not share.
+std::vector<VelocityStep> FindVelocitySteps(const BodyMotion& motion, const Displacements& found) {
+  constexpr double kMin_m_s = 0.12, kTolerance = 0.4;
+  constexpr int kNear = 3;
+  const int frames = static_cast<int>(motion.poses.size());
+  // Compute the second differences along the floor.
+  std::vector<PoseSteps> bends(motion.poses.size());
+  for (int f = 1; f + 1 < frames; ++f) {
+    const PoseSteps before = StepsFrom(motion, f - 1), after = StepsFrom(motion, f);
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      const glm::dvec3 bend = after[j] - before[j];
+      bends[f][j] = {bend.x, 0, bend.z};
+    }
+  }
+  // Take those that all joints share, away from displacements and frozen frames.
+  std::vector<VelocityStep> steps;
+  for (int f = 2; f + 2 < frames; ++f) {
+    PoseSteps excess;
+    for (std::size_t j = 0; j < kRoleCount; ++j) excess[j] = bends[f][j] - 0.5 * (bends[f - 1][j] + bends[f + 1][j]);
+    const glm::dvec3 median = MedianOfJoints(excess);
+    const double speed = AgreedLength(excess, median, kTolerance, 0) * motion.rate_hz;
+    if (speed < kMin_m_s || IsAtFrozenEnd({f, f}, found.frozen)) continue;
+    const bool is_displaced = std::ranges::any_of(
+        found.common, [f](const Displacement& d) { return d.before - kNear <= f && f <= d.after + kNear; });
+    if (!is_displaced) steps.push_back({f, motion.rate_hz * glm::dvec2(median.x, median.z)});
+  }
+  return steps;
 }
 
 }  // namespace
@@ -219,17 +262,19 @@ std::vector<FrameRange> RangesOf(const std::vector<bool>& is_marked) {
   return spans;
 }
 
-Displacements FindDisplacements(const BodyMotion& motion) {
-  Displacements found{.frozen = FindFrozen(motion), .common = {}, .pops = {}};
+Displacements FindDisplacements(const BodyMotion& motion, std::span<const JointSet> unseen) {
+  constexpr double kTolerance = 0.3, kTolerance_m = 0.005;
+  Displacements found{.frozen = FindFrozen(motion), .common = {}, .pops = {}, .steps = {}};
   std::vector<glm::dvec3> common;
   std::vector<double> agreed;
-  for (int f = 0; f + 1 < static_cast<int>(motion.poses.size()); ++f) {
-    const PoseSteps differences = ThirdDifferences(motion, f);
-    common.push_back(MedianOfJoints(differences));
-    agreed.push_back(AgreedLength(differences, common.back()));
+  const std::vector<PoseSteps> differences = ThirdDifferences(motion);
+  for (const PoseSteps& of_frame : differences) {
+    common.push_back(MedianOfJoints(of_frame));
+    agreed.push_back(AgreedLength(of_frame, common.back(), kTolerance, kTolerance_m));
   }
   found.common = FindCommon(motion, agreed, found.frozen);
-  found.pops = FindPops(motion, common, found.frozen);
+  found.pops = FindPops(motion, differences, common, found.frozen, unseen);
+  found.steps = FindVelocitySteps(motion, found);
   return found;
 }
 

@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/motion/body.h"
+#include "engine/motion/support.h"
 
 namespace etude {
 
@@ -31,14 +33,22 @@ struct Pop {
   double size = 0;  ///< metres
 };
 
+/// A change of the velocity of all joints alike, along the floor, that happens from one frame to the next.
+struct VelocityStep {
+  int frame = 0;         ///< the last frame with the velocity before
+  glm::dvec2 change{0};  ///< x and z, metres per second
+};
+
 /// The displacements in a motion: changes between frames that are not movements of a body.
 struct Displacements {
   std::vector<FrameRange> frozen;    ///< frames that repeat the pose of the first one, for 0.9 s or more
   std::vector<Displacement> common;  ///< without those in which a frozen body catches up
   std::vector<Pop> pops;             ///< also without those
+  std::vector<VelocityStep> steps;   ///< also without those
 };
 
 /// Finds displacements by third differences, as FindMotionFaults states. The motion must have at least eight frames.
-Displacements FindDisplacements(const BodyMotion& motion);
+/// `unseen`: FaultOptions::unseen.
+Displacements FindDisplacements(const BodyMotion& motion, std::span<const JointSet> unseen = {});
 
 }  // namespace etude

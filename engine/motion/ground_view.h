@@ -22,6 +22,7 @@ class GroundView {
 
   const BodyMotion& motion() const { return motion_; }
   const std::vector<Displacement>& displacements() const { return displacements_.common; }
+  const std::vector<VelocityStep>& velocity_steps() const { return displacements_.steps; }
   int frames() const { return static_cast<int>(motion_.poses.size()); }
   double floor() const { return floor_; }
   bool is_floor_found() const { return is_floor_found_; }

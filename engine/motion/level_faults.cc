@@ -26,7 +26,7 @@ struct Level {
 /// Returns the displacement of the frames that are where they should be: those in which the feet rest near the floor,
 /// the clip begins and ends, and most of its time passes.
 double ReferenceOffset(const GroundView& ground, const std::vector<Level>& levels) {
-  constexpr double kSame = 0.025, kLowest = -0.01, kHighest = 0.07;  // heights of joints in feet on the floor
+  constexpr double kSame = 0.025, kLowest = -0.01, kHighest = 0.1;  // heights of joints in feet on the floor
   constexpr double kPerMetre = 2, kForTime = 0.04, kForEnd = 0.03;
   const double rest = ground.LowestRest() - ground.floor();
   std::optional<double> best;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <initializer_list>
 
 #include "engine/base/angles.h"
 #include "engine/base/directions.h"
@@ -29,9 +30,16 @@ void AppendRanges(const BodyMotion& motion, const std::vector<double>& value, do
   }
 }
 
+/// Returns true if a frame shows all of these joints.
+bool Shows(std::span<const JointSet> unseen, int frame, std::initializer_list<Role> joints) {
+  if (unseen.empty()) return true;
+  return std::ranges::none_of(joints, [&](Role joint) { return unseen[frame][Index(joint)]; });
+}
+
 /// A limb stretches if its length differs from its median by 3 % in a twentieth of a second or more. One fault covers
 /// all of these frames.
-void FindStretches(const BodyMotion& motion, const std::vector<Pop>& pops, std::vector<MotionFault>& faults) {
+void FindStretches(const BodyMotion& motion, std::span<const JointSet> unseen, const std::vector<Pop>& pops,
+                   std::vector<MotionFault>& faults) {
   constexpr double kLimit = 0.03, kMinLength = 0.02, kMinSeconds = 0.05;
   constexpr int kMinFrames = 3, kNearPop = 2;
   constexpr std::array kFarEnds = {kLeftElbow, kLeftWrist, kRightElbow, kRightWrist,
@@ -44,15 +52,19 @@ void FindStretches(const BodyMotion& motion, const std::vector<Pop>& pops, std::
   }
   for (const Role end : kFarEnds) {
     std::vector<double> lengths;
-    for (const BodyPose& pose : motion.poses) lengths.push_back(BoneLength(pose, {*ParentOf(end), end}));
-    const double median = Median(lengths);
+    std::vector<double> seen;
+    for (int f = 0; f < frames; ++f) {
+      lengths.push_back(BoneLength(motion.poses[f], {*ParentOf(end), end}));
+      if (Shows(unseen, f, {*ParentOf(end), end})) seen.push_back(lengths.back());
+    }
+    const double median = seen.empty() ? 0 : Median(seen);
     if (median < kMinLength) continue;
     FrameRange all{frames, -1};
     double largest = 0;
     int count = 0;
     for (int f = 0; f < frames; ++f) {
       const double change = std::abs(lengths[f] / median - 1);
-      if (pops_here[f] || change <= kLimit) continue;
+      if (pops_here[f] || change <= kLimit || !Shows(unseen, f, {*ParentOf(end), end})) continue;
       all = {std::min(all.first, f), f};
       largest = std::max(largest, change);
       ++count;
@@ -74,13 +86,29 @@ double Overextension(const BodyPose& pose, Role hip, Role knee, Role ankle, Role
   return -Degrees(std::atan2(glm::dot(thigh, front) / length, glm::dot(thigh, shank) + 0.0));
 }
 
-void FindBends(const BodyMotion& motion, std::vector<MotionFault>& faults) {
+/// Does the same without toes: the knee is a hinge whose axis is the line of the hips.
+double OverextensionByHips(const BodyPose& pose, Role hip, Role knee, Role ankle) {
+  const glm::dvec3 thigh = pose[knee] - pose[hip], shank = pose[ankle] - pose[knee];
+  const glm::dvec3 left = UnitOr(pose[kLeftHip] - pose[kRightHip], {1, 0, 0});
+  return -Degrees(std::atan2(glm::dot(glm::cross(thigh, shank), left), glm::dot(thigh, shank) + 0.0));
+}
+
+void FindBends(const BodyMotion& motion, std::span<const JointSet> unseen, std::vector<MotionFault>& faults) {
   constexpr double kLimit = 25, kMinSeconds = 0.1;
   constexpr Role kLegs[2][4] = {{kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot},
                                 {kRightHip, kRightKnee, kRightAnkle, kRightFoot}};
   for (const auto& [hip, knee, ankle, foot] : kLegs) {
     std::vector<double> angles;
-    for (const BodyPose& pose : motion.poses) angles.push_back(Overextension(pose, hip, knee, ankle, foot));
+    for (int f = 0; f < static_cast<int>(motion.poses.size()); ++f) {
+      const BodyPose& pose = motion.poses[f];
+      if (!Shows(unseen, f, {hip, knee, ankle})) {
+        angles.push_back(0);
+      } else if (Shows(unseen, f, {foot})) {
+        angles.push_back(Overextension(pose, hip, knee, ankle, foot));
+      } else {
+        angles.push_back(OverextensionByHips(pose, hip, knee, ankle));
+      }
+    }
     AppendRanges(motion, angles, kLimit, kMinSeconds, {.kind = FaultKind::kBends, .joint = knee}, faults);
   }
 }
@@ -99,8 +127,8 @@ double SegmentDistance(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec
 }
 
 /// Returns the smallest distance of forearm and hand from the spine without its ends (hands may rest on the thighs),
-/// and of the forearm from neck and head (hands may lie on the nape).
-double DistanceFromSpine(const BodyPose& pose, Role elbow, Role wrist, Role hand) {
+/// and of the forearm from neck and head (hands may lie on the nape). A hand that is not seen does not count.
+double DistanceFromSpine(const BodyPose& pose, Role elbow, Role wrist, Role hand, bool sees_hand) {
   constexpr double kFromHips = 0.3, kToNeck = 0.95;
   const glm::dvec3 low = glm::mix(pose[kHipCentre], pose[kSpine], kFromHips);
   const glm::dvec3 middle = pose[kSpine];
@@ -108,16 +136,20 @@ double DistanceFromSpine(const BodyPose& pose, Role elbow, Role wrist, Role hand
   double nearest = SegmentDistance(pose[elbow], pose[wrist], pose[kShoulderCentre], pose[kHead]);
   nearest = std::min(nearest, SegmentDistance(pose[elbow], pose[wrist], low, middle));
   nearest = std::min(nearest, SegmentDistance(pose[elbow], pose[wrist], middle, high));
+  if (!sees_hand) return nearest;
   nearest = std::min(nearest, SegmentDistance(pose[wrist], pose[hand], low, middle));
   return std::min(nearest, SegmentDistance(pose[wrist], pose[hand], middle, high));
 }
 
-void FindPasses(const BodyMotion& motion, std::vector<MotionFault>& faults) {
+void FindPasses(const BodyMotion& motion, std::span<const JointSet> unseen, std::vector<MotionFault>& faults) {
   constexpr double kThin = 0.035, kMinSeconds = 0.05;
   constexpr Role kArms[2][3] = {{kLeftElbow, kLeftWrist, kLeftHand}, {kRightElbow, kRightWrist, kRightHand}};
   for (const auto& [elbow, wrist, hand] : kArms) {
     std::vector<double> depth;
-    for (const BodyPose& pose : motion.poses) depth.push_back(-DistanceFromSpine(pose, elbow, wrist, hand));
+    for (int f = 0; f < static_cast<int>(motion.poses.size()); ++f) {
+      const bool is_seen = Shows(unseen, f, {elbow, wrist}), sees_hand = Shows(unseen, f, {hand});
+      depth.push_back(is_seen ? -DistanceFromSpine(motion.poses[f], elbow, wrist, hand, sees_hand) : -1);
+    }
     const std::size_t first = faults.size();
     AppendRanges(motion, depth, -kThin, kMinSeconds, {.kind = FaultKind::kPasses, .joint = wrist}, faults);
     for (std::size_t i = first; i < faults.size(); ++i) faults[i].size *= -1;
@@ -126,10 +158,11 @@ void FindPasses(const BodyMotion& motion, std::vector<MotionFault>& faults) {
 
 }  // namespace
 
-void FindLimbFaults(const BodyMotion& motion, const std::vector<Pop>& pops, std::vector<MotionFault>& faults) {
-  FindStretches(motion, pops, faults);
-  FindBends(motion, faults);
-  FindPasses(motion, faults);
+void FindLimbFaults(const BodyMotion& motion, std::span<const JointSet> unseen, const std::vector<Pop>& pops,
+                    std::vector<MotionFault>& faults) {
+  FindStretches(motion, unseen, pops, faults);
+  FindBends(motion, unseen, faults);
+  FindPasses(motion, unseen, faults);
 }
 
 }  // namespace etude

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "engine/motion/body.h"
@@ -9,7 +10,9 @@
 namespace etude {
 
 /// Appends limbs that change their lengths, knees that bend backwards and arms that pass through the trunk
-/// (FindMotionFaults states the rules). Frames near `pops` do not count as changes of length. Sentences are left empty.
-void FindLimbFaults(const BodyMotion& motion, const std::vector<Pop>& pops, std::vector<MotionFault>& faults);
+/// (FindMotionFaults states the rules). Frames near `pops` do not count as changes of length. `unseen`:
+/// FaultOptions::unseen. Sentences are left empty.
+void FindLimbFaults(const BodyMotion& motion, std::span<const JointSet> unseen, const std::vector<Pop>& pops,
+                    std::vector<MotionFault>& faults);
 
 }  // namespace etude

@@ -58,9 +58,7 @@ std::string GravitySentence(const MotionFault& fault) {
       is_fast ? "large" : "small");
 }
 
-/// Writes the sentence of a fault. `end_s` is the time of the last frame.
-std::string SentenceOf(const MotionFault& fault, double end_s) {
-  const bool is_always = fault.from_s <= 0 && fault.to_s >= end_s;
+std::string SentenceOf(const MotionFault& fault, bool is_always) {
   const std::string when =
       is_always ? "in all frames" : fmt::format("from {:.2f} to {:.2f} s", fault.from_s, fault.to_s);
   const std::string joint(fault.joint ? RoleName(*fault.joint) : "");
@@ -100,25 +98,29 @@ std::string_view FaultName(FaultKind kind) { return kFaultWords[static_cast<std:
 
 std::string_view FaultUnit(FaultKind kind) { return kFaultWords[static_cast<std::size_t>(kind)].unit; }
 
-MotionFaults FindMotionFaults(const BodyMotion& motion, std::optional<double> floor) {
-  constexpr std::size_t kMinFrames = 8;
-  MotionFaults found{.floor_m = floor.value_or(0)};
-  if (motion.poses.size() < kMinFrames) return found;
+MotionFaults FindMotionFaults(const BodyMotion& motion, const FaultOptions& options) {
+  MotionFaults found{.floor_m = options.floor_m.value_or(0)};
+  if (motion.poses.size() < kMinFramesForFaults) return found;
   // Find the faults of each kind.
-  const Displacements displacements = FindDisplacements(motion);
-  const GroundView ground(motion, displacements, floor);
+  const Displacements displacements = FindDisplacements(motion, options.unseen);
+  const GroundView ground(motion, displacements, options.floor_m);
   found.floor_m = ground.floor();
   found.is_floor_found = ground.is_floor_found();
   FindLevelFaults(ground, found.faults);
   FindSkates(ground, found.faults);
   AppendDisplacements(motion, displacements, found.faults);
-  FindLimbFaults(motion, displacements.pops, found.faults);
+  FindLimbFaults(motion, options.unseen, displacements.pops, found.faults);
   const std::size_t count = found.faults.size();
   FindFalls(ground, found.faults);
   if (found.faults.size() == count) AppendSpeed(motion, found.faults);
-  // Describe and sort them.
-  const double end = static_cast<double>(motion.poses.size() - 1) / motion.rate_hz;
-  for (MotionFault& fault : found.faults) fault.text = SentenceOf(fault, end);
+  // Date, describe and sort them.
+  const double duration = static_cast<double>(motion.poses.size() - 1) / motion.rate_hz;
+  for (MotionFault& fault : found.faults) {
+    const bool is_always = fault.from_s <= 0 && fault.to_s >= duration;
+    fault.from_s += options.begin_s;
+    fault.to_s += options.begin_s;
+    fault.text = SentenceOf(fault, is_always);
+  }
   std::ranges::stable_sort(found.faults, [](const MotionFault& a, const MotionFault& b) {
     return a.kind != b.kind ? a.kind < b.kind : a.from_s < b.from_s;
   });

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/motion/body.h"
+#include "engine/motion/support.h"
 
 namespace etude {
 
@@ -45,21 +47,35 @@ struct MotionFaults {
   std::vector<MotionFault> faults = {};  ///< by kind, then by time
 };
 
+/// How the faults of a motion are sought.
+struct FaultOptions {
+  std::optional<double> floor_m = {};  ///< the height of the floor; absent: 0, or found
+  double begin_s = 0;                  ///< the time of the first frame, from which faults are dated
+  /// The joints that a frame does not show, because the file lacks them and a reader placed them; empty: none. Nothing
+  /// is said of limbs that end there.
+  std::vector<JointSet> unseen = {};
+};
+
+/// The fewest frames in which faults are sought.
+constexpr std::size_t kMinFramesForFaults = 8;
+
 /// Finds the faults of a motion without a truth, in metres, Y up, at its own rate (resampling hides frames that are
-/// displaced or repeated). *(Ours.)* The floor is `floor`, else height 0; a motion whose lowest joint stays more than
+/// displaced or repeated). *(Ours.)* The floor is `floor_m`, else height 0; a motion whose lowest joint stays more than
 /// 60 cm from 0 has no floor at 0, and the height at which its feet rest is used. Rules:
-/// - Jumps, floats, sinks: third differences of positions in which 80 % of the joints agree are displacements of the
-///   whole body. Those along the floor (10 cm) or longer than 25 cm are jumps; vertical ones (4 cm) start or end times
+/// - Jumps, floats, sinks: third differences of positions in which 70 % of the joints agree, an ankle among them, are
+///   displacements of the whole body. Those along the floor (10 cm) or longer than 25 cm are jumps; vertical ones (4 cm) start or end times
 ///   in which the body floats or sinks. Without such an edge, a body floats that rests 10 cm high in the whole clip or
 ///   stays high without rest, and sinks where it is 6 cm below the floor.
-/// - Skates: the most frequent velocity of the low joints of the feet within 0.6 s is not near 0.
+/// - Skates: the velocity of 70 % of the joints changes by 12 cm/s or more from one frame to the next, and back later,
+///   while low feet move with it; or the most frequent velocity of the low joints of the feet within 0.6 s is not near 0.
 /// - Rate: in flights, the mass centre falls with less than 4.5 or more than 21.6 m/s² (2.2 times less or more).
 /// - Speed: the fastest joint moves at more than 10 m/s in the median frame, and no flight shows the gravity.
 /// - Pops: third differences above 25 cm and six times the joint's usual (95th percentile); 45 cm at any noise.
-/// - Stretches: upper arms, forearms, thighs and shanks, by 3 %. Bends: 25° for 0.1 s, by the direction of the toes.
+/// - Stretches: upper arms, forearms, thighs and shanks, by 3 %. Bends: 25° for 0.1 s, by the direction of the toes,
+///   or, without toes, about the line of the hips.
 /// - Passes: a forearm or a hand within 3.5 cm of the spine's line, or a forearm within that of neck and head.
-/// Fewer than eight frames show no fault. All positions must be finite.
-MotionFaults FindMotionFaults(const BodyMotion& motion, std::optional<double> floor = std::nullopt);
+/// Fewer than kMinFramesForFaults frames show no fault. All positions must be finite.
+MotionFaults FindMotionFaults(const BodyMotion& motion, const FaultOptions& options = {});
 
 /// Returns the sentences of the faults, of each kind the three largest; a last one counts the others.
 std::vector<std::string> FaultSentences(const std::vector<MotionFault>& faults);

@@ -116,14 +116,64 @@ void AppendSkate(const GroundView& ground, const std::vector<Glide>& glides, std
   faults.push_back(ground.FaultOf(FaultKind::kSkates, {first, last}, glm::length(velocity)));
 }
 
+/// Returns the velocity of standing feet near a velocity; nothing if more of them rest.
+std::optional<glm::dvec2> CarriedVelocity(const GroundView& ground, const FrameRange& span, glm::dvec2 velocity) {
+  constexpr double kNear = 0.07, kRest = 0.5;
+  const std::vector<glm::dvec2> all = FootVelocities(ground, span, 1);
+  const double rest = std::max(kNear, kRest * glm::length(velocity));
+  const auto resting = std::ranges::count_if(all, [&](const glm::dvec2& v) { return glm::length(v) < rest; });
+  std::ptrdiff_t carried = 0;
+  for (const double share : {0.5, 0.3, 0.15, 0.15}) {
+    const double radius = std::max(kNear, share * glm::length(velocity));
+    glm::dvec2 sum{0};
+    carried = 0;
+    for (const glm::dvec2& v : all) {
+      if (glm::distance(v, velocity) >= radius) continue;
+      sum += v;
+      ++carried;
+    }
+    if (carried > 0) velocity = sum / static_cast<double>(carried);
+  }
+  return carried > resting ? std::optional(velocity) : std::nullopt;
+}
+
+/// Appends the skates that begin and end with a step of the body's velocity, and returns their frames.
+std::vector<bool> FindCarried(const GroundView& ground, std::vector<MotionFault>& faults) {
+  constexpr double kMinSeconds = 0.25, kMaxSeconds = 20, kMinSpeed = 0.12;
+  constexpr double kAlike = 0.3, kAlike_m_s = 0.03;
+  std::vector<bool> is_carried(ground.frames());
+  const std::vector<VelocityStep>& steps = ground.velocity_steps();
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    for (std::size_t k = i + 1; k < steps.size(); ++k) {
+      const FrameRange span{steps[i].frame, steps[k].frame};
+      const double seconds = ground.Seconds(span), size = glm::length(steps[i].change);
+      if (seconds < kMinSeconds || is_carried[span.first]) continue;
+      if (seconds > kMaxSeconds) break;
+      if (glm::distance(steps[i].change, -steps[k].change) > kAlike * size + kAlike_m_s) continue;
+      const auto velocity = CarriedVelocity(ground, span, 0.5 * (steps[i].change - steps[k].change));
+      if (!velocity || glm::length(*velocity) < kMinSpeed) continue;
+      faults.push_back(ground.FaultOf(FaultKind::kSkates, span, glm::length(*velocity)));
+      for (int f = span.first; f <= span.last; ++f) is_carried[f] = true;
+    }
+  }
+  return is_carried;
+}
+
 }  // namespace
 
 void FindSkates(const GroundView& ground, std::vector<MotionFault>& faults) {
   constexpr double kMaxGap_s = 1, kAlike = 0.1, kAlikeShare = 0.3;
-  const int step = FramesIn(ground, kStep_s, 1);
+  const int step = FramesIn(ground, kStep_s, 1), near = FramesIn(ground, kLong.half_s, 1);
+  const std::vector<bool> is_carried = FindCarried(ground, faults);
+  const auto is_near_carried = [&](int frame) {
+    const auto from = is_carried.begin() + std::max(frame - near, 0);
+    const auto to = is_carried.begin() + std::min(frame + near + 1, ground.frames());
+    return std::find(from, to, true) != to;
+  };
   // Join glides of nearly the same velocity; feet may leave the floor between them.
   std::vector<Glide> glides;
   for (int f = 0; f < ground.frames(); f += step) {
+    if (is_near_carried(f)) continue;
     auto glide = GlideAround(ground, f, kShort);
     if (!glide) glide = GlideAround(ground, f, kLong);
     if (!glide) continue;

@@ -212,6 +212,14 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   return clips;
 }
 
+Result<SourceClip> ReadOneClip(const std::string& reference, const OpenOptions& options) {
+  ASSIGN_OR_RETURN(auto clips, ReadClips(reference, options));
+  if (clips.size() == 1) return std::move(clips.front());
+  std::vector<std::string> names;
+  for (const SourceClip& clip : clips) names.push_back(clip.source);
+  return Fail({reference}, "holds {} motions; name one of them: {}", clips.size(), Join(names));
+}
+
 Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options) {
   const bool is_body = source.format == ClipFormat::kBuiltin || source.made.has_value();
   BodyOptions told = options.body;

@@ -202,11 +202,8 @@ Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions&
   }
   OpenOptions how = options;
   how.keeps_shown = true;
-  ASSIGN_OR_RETURN(auto clips, ReadClips(reference, how));
-  if (clips.size() == 1) return RawMotionOf(std::move(clips.front()), options);
-  std::vector<std::string> names;
-  for (const SourceClip& clip : clips) names.push_back(clip.source);
-  return Fail({reference}, "holds {} motions; name one of them: {}", clips.size(), Join(names));
+  ASSIGN_OR_RETURN(auto clip, ReadOneClip(reference, how));
+  return RawMotionOf(std::move(clip), options);
 }
 
 }  // namespace etude

@@ -19,8 +19,7 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options);
 /// a file refers to (buffers of .gltf, skeletons of .amc) do not count. Fails if the file cannot be read.
 Result<std::string> DigestOfFile(const std::string& reference, const OpenOptions& options);
 
-/// Reads one motion: arrays of positions as they are (ReadRawNpz), any other as ReadClips does. Fails if the reference
-/// stands for several.
+/// Reads one motion: arrays of positions as they are (ReadRawNpz), any other as ReadOneClip does.
 Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions& options);
 
 }  // namespace etude

@@ -146,6 +146,28 @@ class CiFiles(EtudeCase):
         junit = base["artifacts"]["reports"]["junit"].replace("$RUN", variables["RUN"])
         self.assertTrue((self.repository / junit).exists())
 
+    def test_motions_are_triaged_on_gitlab(self):
+        template = yaml.safe_load((CI / "gitlab-ci.yml").read_text())
+        job = template[".etude-triage"]
+        (self.repository / "motions").mkdir()
+        self.assertEqual(self.etude("clip", "convert", "builtin:clap", self.repository / "motions/clap.csv").returncode, 0)
+        result = self.bash("\n".join(job["script"]), job["variables"])
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        # The control: a clip a metre above the floor.
+        lines = [line.split(",") for line in (self.repository / "motions/clap.csv").read_text().splitlines()]
+        for line in lines[1:]:
+            for column, name in enumerate(lines[0]):
+                if name.endswith("_y_m"):
+                    line[column] = str(float(line[column]) + 0.3)
+        (self.repository / "motions/high.csv").write_text("\n".join(",".join(line) for line in lines) + "\n")
+        summary = self.folder / "summary"
+        result = self.bash("\n".join(job["script"]), job["variables"] | {"GITHUB_STEP_SUMMARY": str(summary)})
+        self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
+        self.assertIn("high: ", result.stdout)
+        self.assertTrue(summary.read_text())
+        junit = job["artifacts"]["reports"]["junit"].replace("$RUN", job["variables"]["RUN"])
+        self.assertIn("<failure", (self.repository / junit).read_text())
+
     def test_a_release_gets_every_package(self):
         (self.repository / "dist").mkdir()
         for name in "etude_1_amd64.deb", "etude-1-py3-none-any.whl":
@@ -168,7 +190,7 @@ class CiFiles(EtudeCase):
         self.assertIn("ci/packages dist", gitlab["script"])
 
     def test_what_brings_etude_is_written_as_shells_and_builders_read_it(self):
-        for script in "gate", "install", "packages":
+        for script in "gate", "install", "packages", "triage":
             subprocess.run(["bash", "-n", CI / script], check=True)
         found = containerfile((CI / "Containerfile").read_text())
         self.assertEqual([name for name, _ in found], ["FROM", "COPY", "RUN", "RUN", "CMD"])

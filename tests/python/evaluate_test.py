@@ -47,9 +47,18 @@ class Evaluate(PythonCase):
         self.assertAlmostEqual(row["mpjpe_unaligned_mm"], 10, 12)
         self.assertIsNone(row["mpjpe_root_mm"])
 
+    def test_arrays_are_judged_alone(self):
+        high = [[[x, y + 0.3, z] for x, y, z in frame] for frame in standing(20)]
+        run = etude.evaluate(alone=True, low=standing(20), high=high, names=NAMES, rate_hz=30, limits="recorded",
+                             output=self.folder / "run", progress=False)
+        rows = {row["method"]: row for row in run["evaluate"].rows() if row["status"] == "ok"}
+        self.assertEqual([rows[name]["floats_share"] for name in ("low", "high")], [0, 1])
+        self.assertEqual([rows[name]["within_limits"] for name in ("low", "high")], [1, 0])
+
     def test_what_is_missing_is_told(self):
         for wrong, arguments in [(TypeError, {"truth": standing(3), "mine": standing(3)}),
                                  (TypeError, {"truth": "a.bvh"}),
+                                 (TypeError, {"truth": "a.bvh", "mine": "b.bvh", "alone": True}),
                                  (ValueError, {"truth": standing(3), "mine": standing(3), "names": ["a"], "rate_hz": 30}),
                                  (etude.EtudeError, {"truth": "none.bvh", "mine": "none.trc"})]:
             with self.subTest(arguments=list(arguments)), self.assertRaises(wrong):

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/names.h"
+#include "io/clips/body_in_place.h"
 #include "io/drawing/numbers.h"
 
 namespace etude {
@@ -262,16 +263,9 @@ ClipFacts FactsOf(const OpenedClip& clip) {
 }
 
 std::optional<MotionFaults> FaultsOf(const SourceClip& clip, const OpenOptions& options) {
-  OpenOptions own = options;
-  own.body.rate_hz = clip.clip.rate_hz;
-  auto opened = UnderstandClip(clip, own);
-  if (!opened) return std::nullopt;
-  // Put the floor back to the height that it has in the file.
-  BodyConversion& body = opened->body;
-  for (BodyPose& pose : body.motion.poses) {
-    for (glm::dvec3& joint : pose.joints) joint.y += body.floor * body.metres_per_unit;
-  }
-  return FindMotionFaults(body.motion);
+  const auto body = BodyInPlaceOf(clip, options);
+  if (!body) return std::nullopt;
+  return FindMotionFaults(body->motion, {.begin_s = body->begin_s, .unseen = body->unseen});
 }
 
 Json FactsAsJson(const std::vector<ClipFacts>& facts) {

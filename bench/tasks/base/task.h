@@ -96,12 +96,12 @@ struct ClipLibrary;
 struct LabelledStreams;
 struct OpenOptions;
 
-/// One world of a task that judges files: a truth, and the answer of each method.
+/// One world of a task that judges files: the answer of each method, and a truth if the task has one.
 struct JudgedFiles {
   std::string name;   ///< identifies the world; it does not depend on which other files exist
   std::string unit;   ///< the sampling unit to which the world belongs, such as a person; "" = its name
-  std::string truth;  ///< a reference to a motion (io/clips/references.h)
-  std::vector<std::string> answers;  ///< also references, by method; "" = the method has none for this truth
+  std::string truth;  ///< a reference to a motion (io/clips/references.h); "" = the task knows no truths
+  std::vector<std::string> answers;  ///< also references, by method; "" = the method has none of this name
   friend bool operator==(const JudgedFiles&, const JudgedFiles&) = default;
 };
 

@@ -27,5 +27,7 @@ TaskKind MakePoseDistanceTaskKind();
 TaskKind MakeCoachTaskKind();
 /// How close do the motions of files come to their truths in other files?
 TaskKind MakeEvaluationTaskKind();
+/// Could a person have moved as the motions of files do?
+TaskKind MakePlausibilityTaskKind();
 
 }  // namespace etude

@@ -19,14 +19,6 @@ constexpr std::string_view kPerson = "{person}";
 constexpr std::string_view kEndings[] = {".bvh", ".glb", ".gltf", ".fbx", ".amc", ".npz",
                                          ".npy", ".c3d", ".trc",  ".csv", ".mot", ".vrm"};
 
-/// Returns a reference's name: of a file without folder and extension, and what stands behind '#'.
-std::string NameOfReference(const std::string& reference) {
-  if (reference.starts_with(kBuiltinPrefix)) return reference.substr(kBuiltinPrefix.size());
-  const SplitReference split = Split(reference);
-  const std::string stem = fs::path(split.path).stem().string();
-  return split.animation ? stem + "#" + *split.animation : stem;
-}
-
 /// Lists the motion files of a folder, sorted.
 std::vector<std::string> FilesIn(const std::string& folder) {
   std::vector<std::string> files;
@@ -60,9 +52,17 @@ Result<void> RefuseLinks(const std::string& reference, std::span<const std::stri
   return {};
 }
 
-enum class Links { kAllowed, kRefused };
+}  // namespace
 
-Result<std::vector<std::string>> Expand(const std::vector<std::string>& references, Links links, const Place& place) {
+std::string NameOfReference(const std::string& reference) {
+  if (reference.starts_with(kBuiltinPrefix)) return reference.substr(kBuiltinPrefix.size());
+  const SplitReference split = Split(reference);
+  const std::string stem = fs::path(split.path).stem().string();
+  return split.animation ? stem + "#" + *split.animation : stem;
+}
+
+Result<std::vector<std::string>> ExpandFiles(const std::vector<std::string>& references, Links links,
+                                             const Place& place) {
   std::vector<std::string> files;
   for (const std::string& reference : references) {
     std::error_code none;
@@ -83,6 +83,8 @@ Result<std::vector<std::string>> Expand(const std::vector<std::string>& referenc
   }
   return files;
 }
+
+namespace {
 
 /// Returns references by their names. Fails if two have one name.
 Result<std::map<std::string, std::string>> ByName(const std::vector<std::string>& references, const Place& place) {
@@ -191,7 +193,7 @@ Result<void> RefuseTruths(const JudgedFiles& files, const Place& place) {
 /// Makes the pairs of files of one name.
 Result<FoundFiles> PairByName(const EvaluationOptions& options, std::span<const EvaluationMethod> methods,
                               const Place& place) {
-  ASSIGN_OR_RETURN(const auto truth_files, Expand(options.truth, Links::kAllowed, place));
+  ASSIGN_OR_RETURN(const auto truth_files, ExpandFiles(options.truth, Links::kAllowed, place));
   ASSIGN_OR_RETURN(const auto truths, ByName(truth_files, place));
   FoundFiles found;
   for (const auto& [name, truth] : truths) {
@@ -203,7 +205,7 @@ Result<FoundFiles> PairByName(const EvaluationOptions& options, std::span<const 
       continue;
     }
     if (method.answers.empty()) return Fail(place, "method {} has no 'answers'", Quote(method.name));
-    ASSIGN_OR_RETURN(const auto files, Expand(method.answers, Links::kRefused, place));
+    ASSIGN_OR_RETURN(const auto files, ExpandFiles(method.answers, Links::kRefused, place));
     // One truth and one answer belong together whatever their names.
     if (truths.size() == 1 && files.size() == 1) {
       found.worlds.front().answers.push_back(files.front());
@@ -266,6 +268,18 @@ std::optional<std::string> PersonIn(std::string_view pattern, std::string_view n
   return std::nullopt;
 }
 
+Result<void> FindPeople(const std::string& people, const Place& place, std::vector<JudgedFiles>& worlds) {
+  for (JudgedFiles& world : worlds) {
+    const auto person = PersonIn(people, world.name);
+    if (!person) {
+      return Fail(place, "{} does not fit the name {}; allowed: a pattern with {}, such as {}_*", Quote(people),
+                  Quote(world.name), kPerson, kPerson);
+    }
+    world.unit = *person;
+  }
+  return {};
+}
+
 Result<FoundFiles> FindEvaluatedFiles(const Node& condition, std::span<const Node> methods,
                                       const std::map<std::string, std::string>& texts) {
   // Read the keys that name files; the task reads and checks all keys later.
@@ -292,17 +306,9 @@ Result<FoundFiles> FindEvaluatedFiles(const Node& condition, std::span<const Nod
   } else {
     ASSIGN_OR_RETURN(found.worlds, ReadPairs(texts.at("pairs"), options.pairs, read));
   }
-  // Find the person of each.
-  for (JudgedFiles& world : found.worlds) {
-    RETURN_IF_ERROR(RefuseTruths(world, condition.place));
-    if (options.people.empty()) continue;
-    const auto person = PersonIn(options.people, world.name);
-    if (!person) {
-      return Fail(condition.Find("people")->place,
-                  "{} does not fit the pair {}; allowed: a pattern with {}, such as {}_*", Quote(options.people),
-                  Quote(world.name), kPerson, kPerson);
-    }
-    world.unit = *person;
+  for (const JudgedFiles& world : found.worlds) RETURN_IF_ERROR(RefuseTruths(world, condition.place));
+  if (!options.people.empty()) {
+    RETURN_IF_ERROR(FindPeople(options.people, condition.Find("people")->place, found.worlds));
   }
   return found;
 }

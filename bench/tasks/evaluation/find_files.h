@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bench/tasks/base/task.h"
 
@@ -21,6 +22,21 @@ constexpr std::size_t kMaxPairs = 100'000;
 /// truth is left out.
 Result<FoundFiles> FindEvaluatedFiles(const Node& condition, std::span<const Node> methods,
                                       const std::map<std::string, std::string>& texts);
+
+/// Whether the files that a folder or a pattern stands for may be links.
+enum class Links { kAllowed, kRefused };
+
+/// Lists the files that references stand for, in their order; a folder stands for the motion files in it. Fails at
+/// `place` if one stands for none, for more than kMaxPairs, or for a link that is refused.
+Result<std::vector<std::string>> ExpandFiles(const std::vector<std::string>& references, Links links,
+                                             const Place& place);
+
+/// Returns the name of a reference: its file's without folder and extension, and the clip behind '#'.
+std::string NameOfReference(const std::string& reference);
+
+/// Sets the unit of each world to the person in its name (PersonIn); `people` must not be empty. Fails at `place` for a
+/// name without one.
+Result<void> FindPeople(const std::string& people, const Place& place, std::vector<JudgedFiles>& worlds);
 
 /// Returns the part of `name` that "{person}" stands for in a pattern whose '*' stand for any text: the leftmost, then
 /// shortest. Nothing if the name does not match.

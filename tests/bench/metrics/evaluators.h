@@ -27,5 +27,6 @@ std::span<const Evaluator> PoseDistanceEvaluators();
 std::span<const Evaluator> DetectionEvaluators();
 std::span<const Evaluator> CoachEvaluators();
 std::span<const Evaluator> EvaluationEvaluators();
+std::span<const Evaluator> PlausibilityEvaluators();
 
 }  // namespace etude

@@ -120,7 +120,8 @@ const std::vector<Probe> kProbes = {{"ik", ""},
                                     {"coach", "weights: adaptive"},
                                     {"pose-distance", ""},
                                     {"pose-distance", "distance: point-cloud"},
-                                    {"evaluation", ""}};
+                                    {"evaluation", ""},
+                                    {"plausibility", ""}};
 
 /// What the task complains of when it is made of a condition and one method. It has no clips: whether it gets as far
 /// as to miss them does not matter here.

@@ -140,7 +140,7 @@ TEST(MotionFaults, OfABodyThatFloatsAreMeasuredFromHeightZero) {
     ExpectTime(always, 0, 6);
     EXPECT_NEAR(always.size, 0.15, 0.01);
     EXPECT_THAT(always.text, HasSubstr("never touch the floor"));
-    EXPECT_THAT(FindMotionFaults(Lifted(motion, 0, 9, 0.15), 0.15).faults, IsEmpty()) << "on a floor at 15 cm";
+    EXPECT_THAT(FindMotionFaults(Lifted(motion, 0, 9, 0.15), {.floor_m = 0.15}).faults, IsEmpty()) << "on a floor at 15 cm";
     EXPECT_THAT(FindMotionFaults(Lifted(motion, 0, 9, 0.04)).faults, IsEmpty()) << "joints are above the soles";
   }
 }

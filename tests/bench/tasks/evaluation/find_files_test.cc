@@ -124,7 +124,7 @@ TEST_F(FindFilesTest, WhatCannotBePairedIsRefused) {
   EXPECT_THAT(Complaint("{}", m), HasSubstr("needs 'truth' or 'pairs'"));
   EXPECT_THAT(Complaint("truth: ['@/t']", {"{name: m}"}), HasSubstr("method 'm' has no 'answers'"));
   EXPECT_THAT(Complaint("{truth: ['@/t'], people: 'x'}", {"{name: m, answers: ['@/u/a.bvh', '@/t/b.bvh']}"}),
-              HasSubstr("'x' does not fit the pair 'a'"));
+              HasSubstr("'x' does not fit the name 'a'"));
   EXPECT_THAT(Complaint("{truth: ['@/t'], trials: 3}", m), HasSubstr("'trials' has no use"));
   EXPECT_THAT(Complaint("pairs: p.csv", m, "truth,m\n"), HasSubstr("'answers' stands beside 'pairs'"));
   EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth,n\n"), HasSubstr("p.csv:1: unknown column 'n'"));

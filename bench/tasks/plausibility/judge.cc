@@ -1,0 +1,129 @@
+#include "bench/tasks/plausibility/judge.h"
+
+#include <fmt/format.h>
+
+#include "bench/metrics/plausibility.h"
+#include "engine/base/digest.h"
+#include "engine/base/names.h"
+#include "engine/motion/motion_faults.h"
+
+namespace etude {
+namespace {
+
+using enum FaultKind;
+
+/// What of a kind of fault is measured, and the factor from its unit to the metric's.
+struct FaultMetric {
+  enum class What { kShare, kLargest, kCount };
+  const char* id;
+  FaultKind kind;
+  What what;
+  double factor = 1;
+};
+constexpr double kPercent = 100;
+constexpr FaultMetric kMetrics[] = {{"floats_share", kFloats, FaultMetric::What::kShare},
+                                    {"floats_max_cm", kFloats, FaultMetric::What::kLargest, kPercent},
+                                    {"sinks_share", kSinks, FaultMetric::What::kShare},
+                                    {"sinks_max_cm", kSinks, FaultMetric::What::kLargest, kPercent},
+                                    {"skates_share", kSkates, FaultMetric::What::kShare},
+                                    {"skates_max_cmps", kSkates, FaultMetric::What::kLargest, kPercent},
+                                    {"jumps", kJumps, FaultMetric::What::kCount},
+                                    {"jumps_max_cm", kJumps, FaultMetric::What::kLargest, kPercent},
+                                    {"pops", kPops, FaultMetric::What::kCount},
+                                    {"pops_max_cm", kPops, FaultMetric::What::kLargest, kPercent},
+                                    {"freezes_share", kFreezes, FaultMetric::What::kShare},
+                                    {"stretches_max_percent", kStretches, FaultMetric::What::kLargest, kPercent},
+                                    {"bends_share", kBends, FaultMetric::What::kShare},
+                                    {"bends_max_deg", kBends, FaultMetric::What::kLargest},
+                                    {"passes_share", kPasses, FaultMetric::What::kShare}};
+
+/// Stands in a reason between the words about faults and those about the file.
+constexpr std::string_view kAboutFile = " · ";
+
+double ValueOf(const FaultMetric& metric, const std::vector<MotionFault>& faults, double duration_s) {
+  switch (metric.what) {
+    case FaultMetric::What::kShare:
+      return FaultyShare(faults, metric.kind, duration_s);
+    case FaultMetric::What::kLargest:
+      return metric.factor * LargestFault(faults, metric.kind);
+    case FaultMetric::What::kCount:
+      return FaultCount(faults, metric.kind);
+  }
+  return 0;
+}
+
+std::string FloorWords(const MotionFaults& found, const PlausibilityOptions& options) {
+  if (options.floor_m) return fmt::format("floor at {:g} m, as told", found.floor_m);
+  if (!found.is_floor_found) return "floor at height 0";
+  return fmt::format("no floor at height 0: found at {:.2f} m, where the feet rest", found.floor_m);
+}
+
+std::string DigestOf(const BodyMotion& motion) {
+  Digest digest;
+  digest.Add(motion.rate_hz);
+  for (const BodyPose& pose : motion.poses) {
+    for (const glm::dvec3& joint : pose.joints) digest.Add(joint.x).Add(joint.y).Add(joint.z);
+  }
+  return digest.Hex();
+}
+
+}  // namespace
+
+std::vector<std::string> LimitedMetrics() {
+  std::vector<std::string> ids = {"faults"};
+  for (const FaultMetric& metric : kMetrics) ids.emplace_back(metric.id);
+  ids.emplace_back("wrong_rate");
+  return ids;
+}
+
+std::vector<std::string> PlausibilityMetrics() {
+  std::vector<std::string> ids = LimitedMetrics();
+  ids.insert(ids.end(), {"fault_free", "within_limits"});
+  return ids;
+}
+
+CellResult JudgeAlone(const BodyInPlace& body, const PlausibilityOptions& options) {
+  const std::size_t frames = body.motion.poses.size();
+  if (frames < kMinFramesForFaults) {
+    return CellResult::Ended(Status::kFailed,
+                             fmt::format("{} frames; faults are sought in {} or more", frames, kMinFramesForFaults));
+  }
+  const MotionFaults found =
+      FindMotionFaults(body.motion, {.floor_m = options.floor_m, .begin_s = body.begin_s, .unseen = body.unseen});
+  // Measure.
+  const double duration_s = static_cast<double>(frames - 1) / body.motion.rate_hz;
+  CellResult result;
+  result.status = Status::kOk;
+  result.Measure("faults", static_cast<double>(found.faults.size()));
+  for (const FaultMetric& metric : kMetrics) {
+    result.Measure(metric.id, ValueOf(metric, found.faults, duration_s));
+  }
+  result.Measure("wrong_rate", FaultCount(found.faults, kRate) + FaultCount(found.faults, kSpeed) > 0 ? 1 : 0);
+  // Compare with the limits.
+  std::map<std::string, double> values;
+  for (const MetricValue& metric : result.metrics) values[metric.id] = *metric.value;
+  const std::vector<std::string> beyond = BeyondLimits(values, options.limits);
+  result.Measure("fault_free", found.faults.empty() ? 1 : 0);
+  if (options.limits.empty()) {
+    result.Missing("within_limits", "no limits are given");
+  } else {
+    result.Measure("within_limits", beyond.empty() ? 1 : 0);
+  }
+  // Say it in words.
+  std::vector<std::string> words;
+  for (const std::string& id : beyond) {
+    words.push_back(fmt::format("{} is {:.3g}, allowed {:g}", id, values[id], options.limits.at(id)));
+  }
+  for (const std::string& sentence : FaultSentences(found.faults)) words.push_back(sentence);
+  if (found.faults.empty()) words.emplace_back("no fault");
+  const std::string file =
+      fmt::format("{} frames at {:g} Hz, {}", frames, body.motion.rate_hz, FloorWords(found, options));
+  result.reason = fmt::format("{}{}{}", Join(words, "; "), kAboutFile, file);
+  if (!body.notes.empty()) result.reason += ", " + Join(body.notes);
+  result.digests = {{"motion", DigestOf(body.motion)}};
+  return result;
+}
+
+std::string_view FaultWords(std::string_view reason) { return reason.substr(0, reason.find(kAboutFile)); }
+
+}  // namespace etude

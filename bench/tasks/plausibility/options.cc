@@ -1,0 +1,48 @@
+#include "bench/tasks/plausibility/options.h"
+
+#include "bench/tasks/plausibility/judge.h"
+
+namespace etude {
+namespace {
+
+constexpr Range kAnyLimit{0, 1e9};
+
+std::vector<KeyInfo> LimitKeys() {
+  std::vector<KeyInfo> keys;
+  for (const std::string& id : LimitedMetrics()) {
+    keys.push_back({id, NumberKind(kAnyLimit), "(no limit)", "The largest allowed value of this metric."});
+  }
+  return keys;
+}
+
+}  // namespace
+
+std::map<std::string, double> ReadLimits(Fields& fields) {
+  std::map<std::string, double> limits;
+  for (const std::string& id : LimitedMetrics()) {
+    if (const auto limit = fields.OptionalNumber(id, kAnyLimit)) limits[id] = *limit;
+  }
+  return limits;
+}
+
+const FieldTable<PlausibilityOptions>& PlausibilityConditionFields() {
+  using Key = Field<PlausibilityOptions>;
+  static const FieldTable<PlausibilityOptions> table{
+      {Key::Number("floor_m", &PlausibilityOptions::floor_m, {-1000, 1000}, "The height of the floor, metres.")
+           .WhenAbsent("(0; where the feet rest, if a clip stays more than 60 cm from 0)"),
+       Key::Text("people", &PlausibilityOptions::people, "a pattern such as '{person}_*'",
+                 "Which part of a clip's name is the person: what claims beyond these files count.")
+           .WhenAbsent("(each clip counts for itself)"),
+       {{"at_most", MappingKind("a mapping", LimitKeys()), "{}",
+         "The largest allowed values of metrics: `within_limits` says which clips keep them."},
+        [](Fields& fields, PlausibilityOptions& options) {
+          const Node* node = fields.Raw("at_most");
+          if (node == nullptr) return;
+          Fields limits(*node, "'at_most'");
+          options.limits = ReadLimits(limits);
+          if (const auto read = limits.Finish(); !read) fields.Complain(read.error().place, read.error().message);
+        }}}};
+  return table;
+}
+
+}  // namespace etude

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "bench/keys/field_table.h"
+
+namespace etude {
+
+/// A condition of task plausibility.
+struct PlausibilityOptions {
+  std::optional<double> floor_m;  ///< FaultOptions::floor_m
+  std::string people;             ///< a pattern for names, such as "{person}_*"; "" = each clip counts for itself
+  std::map<std::string, double> limits;  ///< the largest allowed value of metrics, by id
+};
+
+const FieldTable<PlausibilityOptions>& PlausibilityConditionFields();
+
+/// Reads limits: a mapping from metrics of this task to their largest allowed values. An unknown metric is a complaint
+/// of `fields`.
+std::map<std::string, double> ReadLimits(Fields& fields);
+
+}  // namespace etude

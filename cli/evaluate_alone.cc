@@ -1,0 +1,103 @@
+#include "cli/evaluate_alone.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "bench/run/shipped.h"
+#include "bench/tasks/plausibility/judge.h"
+#include "bench/tasks/plausibility/options.h"
+#include "cli/named_results.h"
+#include "engine/base/names.h"
+#include "engine/document/node.h"
+#include "engine/retargeting/map_file.h"
+#include "io/files/files.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Reads limits from a file, or from the shipped file of that name: "recorded".
+Result<std::map<std::string, double>> ReadLimitsFile(const std::string& name) {
+  std::error_code none;
+  const fs::path shipped = ShippedFolder() / "scenarios" / "limits" / (name + ".yaml");
+  const fs::path file = !fs::exists(name, none) && fs::exists(shipped, none) ? shipped : fs::path(name);
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
+  ASSIGN_OR_RETURN(const auto node, ParseYaml(text, file.string()));
+  Fields fields(node, "a file of limits");
+  auto limits = ReadLimits(fields);
+  RETURN_IF_ERROR(fields.Finish());
+  if (limits.empty())
+    return Fail({file.string()}, "sets no limit; allowed: a metric a line, such as skates_share: 0.02");
+  return limits;
+}
+
+/// The metrics that tell, by being above 0, that a clip shows faults of a kind, and the word for it.
+constexpr std::pair<std::string_view, std::string_view> kTelling[] = {
+    {"floats_share", "floats"},  {"sinks_share", "sinks"},   {"skates_share", "skates"},
+    {"jumps", "jumps"},          {"pops", "pops"},           {"freezes_share", "freezes"},
+    {"bends_share", "bends"},    {"passes_share", "passes"}, {"stretches_max_percent", "stretches"},
+    {"wrong_rate", "wrong rate"}};
+
+/// Prints at most twenty lines.
+void PrintLines(const std::vector<std::string>& lines) {
+  constexpr std::size_t kMaxLines = 20;
+  for (const std::string& line : std::span(lines).first(std::min(lines.size(), kMaxLines))) fmt::print("  {}\n", line);
+  if (lines.size() > kMaxLines) fmt::print("  and {} more: etude rows\n", lines.size() - kMaxLines);
+}
+
+}  // namespace
+
+Result<std::string> ScenarioOfMotions(const std::vector<std::string>& files, const AloneOptions& options,
+                                      const std::string& people) {
+  ASSIGN_OR_RETURN(const auto methods, ReadMotions(files));
+  std::string text = "scenario: evaluate\nquestion: Could a person have moved like this?\ntask: plausibility\n";
+  if (options.floor_m) text += fmt::format("floor_m: {}\n", *options.floor_m);
+  if (!people.empty()) text += fmt::format("people: {}\n", QuotedInYaml(people));
+  if (!options.limits.empty()) {
+    ASSIGN_OR_RETURN(const auto limits, ReadLimitsFile(options.limits));
+    text += "at_most:\n";
+    for (const auto& [id, limit] : limits) text += fmt::format("  {}: {}\n", id, limit);
+  }
+  return text + MethodsInYaml(methods);
+}
+
+Triage TriageOf(const RunData& run) {
+  Triage triage;
+  ForEachRow(run, [&](const Row& row, std::size_t) {
+    const std::string name = fmt::format("{}, {}: ", row.method, row.clip);
+    if (row.result.status != Status::kOk) {
+      if (row.result.status != Status::kSkipped) triage.not_judged.push_back(name + row.result.reason);
+      return;
+    }
+    ++triage.clips;
+    const std::string line = name + std::string(FaultWords(row.result.reason));
+    for (const auto& [id, word] : kTelling) {
+      if (ValueOf(row, id).value_or(0) > 0) ++triage.kinds[std::string(word)];
+    }
+    if (ValueOf(row, "faults").value_or(0) > 0) triage.faulty.push_back(line);
+    const auto is_within = ValueOf(row, "within_limits");
+    triage.has_limits |= is_within.has_value();
+    if (is_within == 0.0) triage.beyond_limits.push_back(line);
+  });
+  return triage;
+}
+
+void PrintTriage(const Triage& triage) {
+  fmt::print("{} of {} clips without a fault\n", triage.clips - triage.faulty.size(), triage.clips);
+  for (const auto& [kind, clips] : triage.kinds) fmt::print("  {:<10}  {:>6}\n", kind, clips);
+  if (triage.has_limits) {
+    fmt::print("{} beyond the limits{}\n", triage.beyond_limits.size(), triage.beyond_limits.empty() ? "" : ":");
+  }
+  PrintLines(triage.has_limits ? triage.beyond_limits : triage.faulty);
+  if (triage.not_judged.empty()) return;
+  fmt::print("{} not judged:\n", triage.not_judged.size());
+  PrintLines(triage.not_judged);
+}
+
+}  // namespace etude

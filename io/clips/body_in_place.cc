@@ -1,0 +1,54 @@
+#include "io/clips/body_in_place.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace etude {
+namespace {
+
+/// Returns the joints that a reader placed in each frame; empty if there are none.
+std::vector<JointSet> UnseenIn(const OpenedClip& opened) {
+  const std::size_t frames = opened.body.motion.poses.size();
+  std::vector<JointSet> unseen(frames);
+  for (const Role role : opened.map.composed) {
+    for (JointSet& joints : unseen) joints.set(Index(role));
+  }
+  if (const MarkerMotion* shown = opened.source.shown.get(); shown != nullptr && shown->frames.size() == frames) {
+    for (const Role role : AllRoles()) {
+      const auto name = std::ranges::find(shown->names, RoleName(role));
+      const auto at = static_cast<std::size_t>(name - shown->names.begin());
+      for (std::size_t f = 0; f < frames; ++f) {
+        if (name == shown->names.end() || !shown->frames[f][at]) unseen[f].set(Index(role));
+      }
+    }
+  }
+  const bool shows_all = std::ranges::none_of(unseen, [](const JointSet& joints) { return joints.any(); });
+  return shows_all ? std::vector<JointSet>() : unseen;
+}
+
+}  // namespace
+
+Result<BodyInPlace> BodyInPlaceOf(SourceClip clip, const OpenOptions& options) {
+  OpenOptions own = options;
+  own.body.rate_hz = clip.clip.rate_hz;
+  own.body.keep_floor = true;
+  ASSIGN_OR_RETURN(auto opened, UnderstandClip(std::move(clip), own));
+  // Bodies of markers whose floor was moved when they were read are put back.
+  BodyConversion& body = opened.body;
+  const double floor_m = body.floor * body.metres_per_unit;
+  for (BodyPose& pose : body.motion.poses) {
+    for (glm::dvec3& joint : pose.joints) joint.y += floor_m;
+  }
+  const double begin_s = static_cast<double>(body.dropped_frames) / body.motion.rate_hz;
+  std::vector<JointSet> unseen = UnseenIn(opened);
+  return BodyInPlace{std::move(body.motion), begin_s, std::move(unseen), std::move(body.changes)};
+}
+
+Result<BodyInPlace> OpenBodyInPlace(const std::string& reference, const OpenOptions& options) {
+  OpenOptions own = options;
+  own.body.keep_floor = true;
+  ASSIGN_OR_RETURN(auto clip, ReadOneClip(reference, own));
+  return BodyInPlaceOf(std::move(clip), options);
+}
+
+}  // namespace etude

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/model/run_data.h"
+#include "reports/junit.h"
+
+namespace etude {
+
+/// Returns the section with the clips of motions without a truth that show faults, those beyond their limits first,
+/// with each fault in words; "" for other runs.
+std::string FaultyClipsSection(const RunData& run);
+
+/// Returns a case for every clip of a scenario with limits: it fails if the clip exceeds them.
+std::vector<JunitCase> LimitCases(const RunData& run, const std::string& scenario);
+
+}  // namespace etude

@@ -1,0 +1,142 @@
+"""`etude evaluate --alone`: motions without a truth, and limits that a library must keep."""
+import csv
+import json
+import xml.etree.ElementTree
+
+from etude_case import EtudeCase
+
+
+class Triage(EtudeCase):
+    @classmethod
+    def setUpClass(cls):
+        """Built-in moves as files, and their joints."""
+        cls.shared = cls.shared_folder()
+        for name in ("clap.csv", "sway.npz"):
+            made = cls.etude("clip", "convert", f"builtin:{name[:-4]}", cls.shared / name)
+            assert made.returncode == 0, made.stderr
+        cls.lines = list(csv.reader((cls.shared / "clap.csv").read_text().splitlines()))
+
+    def spoilt(self, name, change):
+        """The clap with every position (frame, joint, axis) changed."""
+        head, *rows = [list(row) for row in self.lines]
+        for f, row in enumerate(rows):
+            for column, title in enumerate(head):
+                if title[-4:] in ("_x_m", "_y_m", "_z_m"):
+                    row[column] = repr(float(row[column]) + change(f, title[:-4], title[-3]))
+        path = self.folder / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text("\n".join(",".join(row) for row in [head, *rows]) + "\n")
+        return path
+
+    def floating(self, name):
+        return self.spoilt(name, lambda f, joint, axis: 0.3 if axis == "y" else 0)
+
+    def popping(self, name):
+        return self.spoilt(name, lambda f, joint, axis: 0.5 if (f, joint, axis) == (30, "left_hand", "y") else 0)
+
+    def triage(self, *arguments, code=0, out=None):
+        done = self.etude("evaluate", "--alone", *arguments, "-o", out or self.out)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stdout
+
+    def rows(self, out=None):
+        return {row["clip"]: row for row in
+                map(json.loads, ((out or self.out) / "cells.jsonl").read_text().splitlines())}
+
+    def test_each_fault_is_a_metric_and_a_sentence_with_joint_and_time(self):
+        self.floating("m/floating.csv")
+        self.popping("m/popping.csv")
+        said = self.triage(f"{self.folder}/m/*.csv", self.shared / "sway.npz")
+        rows = self.rows()
+        self.assertEqual(list(rows), ["floating", "popping", "sway"])
+        self.assertEqual([row["fault_free"] for row in rows.values()], [0, 0, 1])
+        self.assertEqual(rows["floating"]["floats_share"], 1)
+        self.assertGreater(rows["floating"]["floats_max_cm"], 20)
+        self.assertEqual((rows["popping"]["pops"], rows["popping"]["floats_share"]), (1, 0))
+        self.assertIn("left_hand pops by 50 cm at 0.9", rows["popping"]["reason"])
+        self.assertIn("left_hand pops by 50 cm", said)
+        self.assertIn("1 of 3 clips without a fault", said)
+        self.assertIsNone(rows["sway"]["within_limits"])
+        self.assertIn("no fault · ", rows["sway"]["reason"])
+        # On a floor that is told, nothing floats.
+        out = self.folder / "told"
+        self.triage(self.folder / "m/floating.csv", "--floor", "0.3", out=out)
+        self.assertEqual(self.rows(out)["floating"]["faults"], 0)
+
+    def test_limits_are_an_exit_code_a_test_report_and_a_section_of_the_page(self):
+        self.popping("m/popping.csv")
+        self.triage(f"{self.folder}/m/*", f"{self.shared}/*", "--limits", "recorded", code=1)
+        self.assertEqual({name: row["within_limits"] for name, row in self.rows().items()},
+                         {"clap": 1, "popping": 0, "sway": 1})
+        self.assertEqual(self.etude("report", self.out, "--no-video").returncode, 0)
+        failed = [case.get("name") for case in xml.etree.ElementTree.parse(self.out / "report" / "junit.xml").iter("testcase")
+                  if case.find("failure") is not None]
+        self.assertEqual(failed, ["motions, popping"])
+        page = (self.out / "report" / "index.html").read_text()
+        self.assertIn("<h2>Clips with faults</h2>", page)
+        self.assertIn("left_hand pops by 50 cm", page)
+        # One's own limits: a pop is allowed.
+        limits = self.write("limits.yaml", "pops: 1\npops_max_cm: 60\n")
+        self.triage(self.folder / "m", "--limits", limits, out=self.folder / "own")
+        facts = self.facts("evaluate", "--alone", self.folder / "m", "--limits", limits, "-o", self.folder / "facts")
+        self.assertEqual(facts["beyond_limits"], [])
+
+    def test_methods_are_compared_and_gated_by_the_names_of_their_clips(self):
+        for folder in "a", "b":
+            self.popping(f"{folder}/one.csv")
+            self.spoilt(f"{folder}/two.csv", lambda f, joint, axis: 0)
+        self.triage(f"first={self.folder}/a", f"second={self.folder}/b/*.csv")
+        self.popping("b/two.csv")
+        worse = self.folder / "worse"
+        self.triage(f"first={self.folder}/a", f"second={self.folder}/b/*.csv", out=worse)
+        baseline = self.folder / "baseline.json"
+        self.assertEqual(self.etude("gate", self.out, "--baseline", baseline, "--update").returncode, 0)
+        self.assertEqual(self.etude("gate", self.out, "--baseline", baseline).returncode, 0)
+        facts = self.facts("compare", self.out, worse)
+        self.assertEqual((facts["only_before"], facts["only_after"]), ([], []))
+        self.assertEqual({(move["method"], move["metric"]) for move in facts["moves"]} & {("second", "pops"), ("first", "pops")},
+                         {("second", "pops")})
+        # A changed file is told by verify.
+        self.assertEqual(self.etude("verify", worse).returncode, 0)
+        self.floating("b/two.csv")
+        told = self.etude("verify", worse)
+        self.assertEqual(told.returncode, 2, told.stdout)
+        self.assertIn("b/two.csv", told.stderr)
+
+    def test_what_cannot_be_judged_is_a_row_and_the_others_stay(self):
+        self.spoilt("m/good.csv", lambda f, joint, axis: 0)
+        self.spoilt("m/nan.csv", lambda f, joint, axis: float("nan"))
+        self.write("m/none.bvh", "no motion\n")
+        self.write("m/short.csv", "\n".join(",".join(row) for row in self.lines[:4]) + "\n")
+        said = self.triage(self.folder / "m")
+        rows = self.rows()
+        self.assertEqual({name: row["status"] for name, row in rows.items()},
+                         {"good": "ok", "nan": "failed", "none": "failed", "short": "failed"})
+        for name in "nan", "none":
+            self.assertIn(f"{name}.", rows[name]["reason"])
+        self.assertIn("3 frames; faults are sought in 8 or more", rows["short"]["reason"])
+        self.assertIn("3 not judged:", said)
+
+    def test_bad_input_is_one_line(self):
+        clap = self.shared / "clap.csv"
+        for arguments, words in [
+                ([], "needs motions"),
+                ([self.folder / "none*"], "no clip matches"),
+                ([clap, f"a={clap}"], "several results need names"),
+                ([clap, "--joints", "same"], "no use with --alone"),
+                ([clap, "--limits", "none.yaml"], "none.yaml"),
+                ([clap, "--limits", self.write("l.yaml", "popps: 1\n")], "did you mean 'pops'"),
+                ([clap, "--limits", self.write("m.yaml", "{}\n")], "sets no limit"),
+                ([clap, "--metric", "mpjpe_root_mm"], "unknown metric of task plausibility")]:
+            with self.subTest(words):
+                told = self.etude("evaluate", "--alone", *arguments, "-o", self.out)
+                self.assertEqual(told.returncode, 2, told.stdout + told.stderr)
+                self.assertIn(words, told.stderr)
+                self.assertEqual(told.stderr.count("\n"), 1, told.stderr)
+        told = self.etude("evaluate", clap, clap, "--limits", "recorded")
+        self.assertIn("--floor and --limits need --alone", told.stderr)
+
+
+if __name__ == "__main__":
+    import unittest
+    unittest.main()

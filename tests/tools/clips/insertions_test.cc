@@ -1,0 +1,369 @@
+// Faults are inserted into real clips: does FindMotionFaults find each, name it and date it, and say nothing of clips
+// that nobody spoilt? `ETUDE_FAULT_CLIPS` names further clips, one pattern a line; `scripts/soak faults` sets it.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <glm/gtc/quaternion.hpp>
+#include <map>
+#include <sstream>
+
+#include "engine/base/angles.h"
+#include "engine/base/directions.h"
+#include "engine/base/order_statistics.h"
+#include "engine/motion/motion_faults.h"
+#include "engine/motion/support.h"
+#include "io/clips/body_in_place.h"
+#include "io/clips/references.h"
+#include "sim/random/stream.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+using enum FaultKind;
+
+struct TriedClip {
+  std::string name;
+  BodyMotion motion;
+  std::vector<JointSet> unseen;
+  MotionFaults own = {};  ///< before anything is inserted
+
+  bool IsFaultless() const { return own.faults.empty(); }
+  /// Clips that somebody drew keep no laws of physics.
+  bool IsDrawn() const { return name.find(".glb") != std::string::npos; }
+};
+
+/// A fault that was put into a motion.
+struct Inserted {
+  double from_s = 0, to_s = 0;
+  std::optional<Role> joint = {};
+  std::optional<double> size = {};  ///< checked to a tenth
+};
+
+using Insert = std::function<std::optional<Inserted>(BodyMotion& motion, RandomStream& dice)>;
+
+double EndOf(const BodyMotion& motion) { return static_cast<double>(motion.poses.size() - 1) / motion.rate_hz; }
+
+/// Frames of `seconds`, with half a second before and after; nothing if the motion is shorter.
+std::optional<std::pair<int, int>> Window(const BodyMotion& motion, double seconds, RandomStream& dice) {
+  constexpr double kMargin_s = 0.5;
+  const double room = EndOf(motion) - seconds - 2 * kMargin_s;
+  if (room <= 0) return std::nullopt;
+  const int first = static_cast<int>(std::lround((kMargin_s + dice.Uniform(0, room)) * motion.rate_hz));
+  return std::pair(first, first + static_cast<int>(std::lround(seconds * motion.rate_hz)));
+}
+
+Inserted Between(const BodyMotion& motion, int first, int last) {
+  return {.from_s = first / motion.rate_hz, .to_s = last / motion.rate_hz};
+}
+
+void MoveAll(BodyPose& pose, const glm::dvec3& by) {
+  for (glm::dvec3& joint : pose.joints) joint += by;
+}
+
+glm::dvec3 AlongFloor(RandomStream& dice) {
+  const double angle = dice.Uniform(0, 2 * kPi);
+  return {std::cos(angle), 0, std::sin(angle)};
+}
+
+/// The whole body is `height` higher for some seconds; 0: for half of the clip; negative: always.
+Insert Lifted(double height, double seconds) {
+  return [=](BodyMotion& motion, RandomStream& dice) -> std::optional<Inserted> {
+    const int frames = static_cast<int>(motion.poses.size());
+    std::pair window(0, frames);
+    if (seconds == 0) window = {frames / 2, frames};
+    if (seconds > 0) {
+      const auto found = Window(motion, seconds, dice);
+      if (!found) return std::nullopt;
+      window = *found;
+    }
+    for (int f = window.first; f < window.second; ++f) MoveAll(motion.poses[f], {0, height, 0});
+    return Between(motion, window.first, window.second - 1);
+  };
+}
+
+/// The whole body drifts along the floor for two seconds, and stays there.
+Insert Skating(double speed) {
+  return [=](BodyMotion& motion, RandomStream& dice) -> std::optional<Inserted> {
+    const auto window = Window(motion, 2, dice);
+    if (!window) return std::nullopt;
+    const glm::dvec3 way = AlongFloor(dice);
+    for (int f = window->first; f < static_cast<int>(motion.poses.size()); ++f) {
+      MoveAll(motion.poses[f], speed * (std::min(f, window->second) - window->first) / motion.rate_hz * way);
+    }
+    Inserted inserted = Between(motion, window->first, window->second);
+    inserted.size = speed;
+    return inserted;
+  };
+}
+
+std::optional<Inserted> Jump(BodyMotion& motion, RandomStream& dice) {
+  const auto window = Window(motion, 0.1, dice);
+  if (!window) return std::nullopt;
+  const glm::dvec3 way = AlongFloor(dice);
+  const bool is_once = dice.Chance(0.5);
+  const int end = is_once ? window->first + 1 : static_cast<int>(motion.poses.size());
+  for (int f = window->first; f < end; ++f) MoveAll(motion.poses[f], 0.5 * way);
+  Inserted inserted = Between(motion, window->first, window->first);
+  inserted.size = 0.5;
+  return inserted;
+}
+
+std::optional<Inserted> Pop(BodyMotion& motion, RandomStream& dice) {
+  const auto window = Window(motion, 0.1, dice);
+  if (!window) return std::nullopt;
+  const bool is_left = dice.Chance(0.5);
+  const glm::dvec3 way = UnitOr(dice.Normal3(), {0, 1, 0});
+  for (const Role joint : {kLeftWrist, kLeftHand}) {
+    motion.poses[window->first][is_left ? joint : Mirrored(joint)] += 0.5 * way;
+  }
+  Inserted inserted = Between(motion, window->first, window->first);
+  inserted.joint = is_left ? kLeftWrist : kRightWrist;
+  inserted.size = 0.5;
+  return inserted;
+}
+
+/// Returns true if somebody flies: for 0.2 s both ankles are 10 cm higher than they rest, while the mass centre falls
+/// with about the acceleration of gravity.
+bool Flies(const BodyMotion& motion) {
+  std::vector<double> ankles;
+  for (const BodyPose& pose : motion.poses) ankles.push_back(std::min(pose[kLeftAnkle].y, pose[kRightAnkle].y));
+  const double rest = Quantile(ankles, 0.2);
+  const int half = static_cast<int>(std::lround(0.1 * motion.rate_hz));
+  for (int f = half; f + half < static_cast<int>(ankles.size()); ++f) {
+    const double lowest = *std::min_element(ankles.begin() + f - half, ankles.begin() + f + half + 1);
+    const auto height = [&](int at) { return MassCentre(motion.poses[at]).y; };
+    const double fall =
+        (2 * height(f) - height(f - half) - height(f + half)) * motion.rate_hz * motion.rate_hz / (half * half);
+    if (lowest > rest + 0.1 && fall > 8 && fall < 12) return true;
+  }
+  return false;
+}
+
+/// The file tells a wrong rate. Only clips in which somebody runs or jumps show it.
+Insert OtherRate(double factor) {
+  return [=](BodyMotion& motion, RandomStream&) -> std::optional<Inserted> {
+    if (!Flies(motion)) return std::nullopt;
+    motion.rate_hz *= factor;
+    Inserted inserted;
+    inserted.to_s = EndOf(motion);
+    return inserted;
+  };
+}
+
+std::optional<Inserted> Frozen(BodyMotion& motion, RandomStream& dice) {
+  const auto window = Window(motion, 1, dice);
+  if (!window) return std::nullopt;
+  for (int f = window->first + 1; f <= window->second; ++f) motion.poses[f] = motion.poses[window->first];
+  return Between(motion, window->first, window->second);
+}
+
+/// A limb is 5 % longer for a second; what hangs on it moves along.
+std::optional<Inserted> Stretched(BodyMotion& motion, RandomStream& dice) {
+  const auto window = Window(motion, 1, dice);
+  if (!window) return std::nullopt;
+  constexpr std::array kEnds = {kLeftElbow, kRightElbow, kLeftWrist, kRightWrist,
+                                kLeftKnee,  kRightKnee,  kLeftAnkle, kRightAnkle};
+  const Role end = kEnds[dice.IndexBelow(kEnds.size())];
+  for (int f = window->first; f <= window->second; ++f) {
+    BodyPose& pose = motion.poses[f];
+    const glm::dvec3 by = 0.05 * (pose[end] - pose[*ParentOf(end)]);
+    for (const Role role : AllRoles()) {
+      for (auto above = std::optional(role); above; above = ParentOf(*above)) {
+        if (*above != end) continue;
+        pose[role] += by;
+        break;
+      }
+    }
+  }
+  Inserted inserted = Between(motion, window->first, window->second);
+  inserted.joint = end;
+  return inserted;
+}
+
+/// Rises from 0 to 1 in a quarter of a second, and falls at the end.
+double Eased(const BodyMotion& motion, int f, const std::pair<int, int>& window) {
+  constexpr double kEase_s = 0.25;
+  return std::clamp(std::min(f - window.first, window.second - f) / (kEase_s * motion.rate_hz), 0.0, 1.0);
+}
+
+/// A knee bends backwards by 30° for a second.
+std::optional<Inserted> BentKnee(BodyMotion& motion, RandomStream& dice) {
+  const auto window = Window(motion, 1.5, dice);
+  if (!window) return std::nullopt;
+  const bool is_left = dice.Chance(0.5);
+  const auto of = [&](Role left) { return is_left ? left : Mirrored(left); };
+  for (int f = window->first; f <= window->second; ++f) {
+    BodyPose& pose = motion.poses[f];
+    const glm::dvec3 thigh = UnitOr(pose[of(kLeftKnee)] - pose[of(kLeftHip)], {0, -1, 0});
+    const glm::dvec3 shank = pose[of(kLeftAnkle)] - pose[of(kLeftKnee)],
+                     toes = pose[of(kLeftFoot)] - pose[of(kLeftAnkle)];
+    const glm::dvec3 axis = UnitOr(glm::cross(thigh, glm::cross(toes, thigh)), {0, 0, 1});
+    const glm::dvec3 hinge = UnitOr(glm::cross(thigh, axis), {1, 0, 0});
+    // Straighten the knee, then bend it towards the toes.
+    const glm::dquat straight = glm::dquat(glm::normalize(shank), thigh);
+    const glm::dquat back = glm::angleAxis(Radians(30), hinge) * straight;
+    const glm::dquat turn = glm::slerp(glm::dquat(1, 0, 0, 0), back, Eased(motion, f, *window));
+    pose[of(kLeftAnkle)] = pose[of(kLeftKnee)] + turn * shank;
+    pose[of(kLeftFoot)] = pose[of(kLeftAnkle)] + turn * toes;
+  }
+  Inserted inserted = Between(motion, window->first, window->second);
+  inserted.joint = of(kLeftKnee);
+  return inserted;
+}
+
+/// A hand goes through the chest for half a second; the arm keeps its lengths.
+std::optional<Inserted> HandThroughChest(BodyMotion& motion, RandomStream& dice) {
+  const auto window = Window(motion, 1, dice);
+  if (!window) return std::nullopt;
+  const bool is_left = dice.Chance(0.5);
+  const auto of = [&](Role left) { return is_left ? left : Mirrored(left); };
+  for (int f = window->first; f <= window->second; ++f) {
+    BodyPose& pose = motion.poses[f];
+    const double part = Eased(motion, f, *window);
+    const glm::dvec3 shoulder = pose[of(kLeftShoulder)], chest = glm::mix(pose[kSpine], pose[kShoulderCentre], 0.4);
+    const double upper = glm::distance(shoulder, pose[of(kLeftElbow)]);
+    const double lower = glm::distance(pose[of(kLeftElbow)], pose[of(kLeftWrist)]);
+    const glm::dvec3 hand = pose[of(kLeftHand)] - pose[of(kLeftWrist)];
+    const glm::dvec3 wrist = glm::mix(pose[of(kLeftWrist)], chest, part);
+    // The elbow lies on the circle that both lengths allow, as near as possible to where it was.
+    const glm::dvec3 line = wrist - shoulder;
+    const double reach = std::clamp(glm::length(line), std::abs(upper - lower) + 1e-3, upper + lower - 1e-3);
+    const glm::dvec3 along = UnitOr(line, {0, -1, 0});
+    const double share = (upper * upper - lower * lower + reach * reach) / (2 * reach);
+    const double off = std::sqrt(std::max(upper * upper - share * share, 0.0));
+    const glm::dvec3 old = pose[of(kLeftElbow)] - shoulder;
+    const glm::dvec3 aside = UnitOr(old - glm::dot(old, along) * along, {0, 0, -1});
+    pose[of(kLeftElbow)] = shoulder + share * along + off * aside;
+    pose[of(kLeftWrist)] = shoulder + reach * along;
+    pose[of(kLeftHand)] = pose[of(kLeftWrist)] + hand;
+  }
+  Inserted inserted = Between(motion, window->first, window->second);
+  inserted.joint = of(kLeftWrist);
+  return inserted;
+}
+
+struct Kind {
+  const char* name;
+  FaultKind fault;
+  Insert insert;
+};
+const std::vector<Kind>& Kinds() {
+  static const std::vector<Kind> kinds = {{"sinks 12 cm, 0.67 s", kSinks, Lifted(-0.12, 0.67)},
+                                          {"sinks 12 cm, 0.4 s", kSinks, Lifted(-0.12, 0.4)},
+                                          {"sinks 8 cm, half", kSinks, Lifted(-0.08, 0)},
+                                          {"floats 6 cm, 2 s", kFloats, Lifted(0.06, 2)},
+                                          {"floats 15 cm, always", kFloats, Lifted(0.15, -1)},
+                                          {"skates 20 cm/s", kSkates, Skating(0.2)},
+                                          {"skates 40 cm/s", kSkates, Skating(0.4)},
+                                          {"skates 100 cm/s", kSkates, Skating(1)},
+                                          {"jumps 50 cm", kJumps, Jump},
+                                          {"hand pops 50 cm", kPops, Pop},
+                                          {"rate x 2", kRate, OtherRate(2)},
+                                          {"rate x 4", kRate, OtherRate(4)},
+                                          {"rate x 1/2", kRate, OtherRate(0.5)},
+                                          {"frozen 1 s", kFreezes, Frozen},
+                                          {"limb stretches 5 %", kStretches, Stretched},
+                                          {"knee backwards 30°", kBends, BentKnee},
+                                          {"hand through chest", kPasses, HandThroughChest}};
+  return kinds;
+}
+
+/// Returns true if `fault` is the one that was inserted.
+bool Tells(const MotionFault& fault, FaultKind kind, const Inserted& inserted) {
+  if (fault.kind != kind || (inserted.joint && fault.joint != inserted.joint)) return false;
+  if (kind == kRate) return true;  // dated by the flight that shows it
+  // It covers at least half of the time, and is at most half a second off at either end.
+  constexpr double kOff_s = 0.5;
+  return std::abs(fault.from_s - inserted.from_s) < kOff_s && std::abs(fault.to_s - inserted.to_s) < kOff_s;
+}
+
+std::vector<TriedClip> LoadTried() {
+  std::vector<std::string> references = {"builtin:*", "builtin:acts", "builtin:songs", "assimp:*"};
+  if (const char* more = std::getenv("ETUDE_FAULT_CLIPS")) {
+    std::istringstream lines(more);
+    for (std::string line; std::getline(lines, line);) references.push_back(line);
+  }
+  std::vector<TriedClip> clips;
+  for (const std::string& pattern : references) {
+    const auto files = ExpandReference(pattern, {}, 100'000);
+    if (!files) continue;
+    for (const std::string& file : *files) {
+      auto sources = ReadClips(file);
+      if (!sources) continue;
+      for (SourceClip& source : *sources) {
+        std::string name = source.source;
+        auto body = BodyInPlaceOf(std::move(source), {});
+        if (!body || body->motion.poses.size() < kMinFramesForFaults) continue;
+        clips.push_back({std::move(name), std::move(body->motion), std::move(body->unseen)});
+        clips.back().own = FindMotionFaults(clips.back().motion, {.unseen = clips.back().unseen});
+      }
+    }
+  }
+  return clips;
+}
+
+const std::vector<TriedClip>& Tried() {
+  static const std::vector<TriedClip> clips = LoadTried();
+  return clips;
+}
+
+TEST(InsertedFaults, HEAVY_AreFoundNamedAndDated) {
+  constexpr int kOfEach = 12, kTries = 400;
+  const bool is_chatty = std::getenv("ETUDE_FAULT_CLIPS") != nullptr;
+  int all = 0, all_found = 0, others = 0;
+  fmt::print("{:<22} {:>6} {:>6} {:>6} {:>7}\n", "inserted", "of", "found", "size", "beside");
+  for (const Kind& kind : Kinds()) {
+    RandomStream dice({.suite_seed = 61, .scenario = "insertions", .trial = 0}, kind.name);
+    int count = 0, found = 0, sized = 0, beside = 0;
+    for (int attempt = 0; attempt < kTries && count < (is_chatty ? 4 * kOfEach : kOfEach); ++attempt) {
+      const TriedClip& clip = Tried()[dice.IndexBelow(Tried().size())];
+      if (!clip.IsFaultless() || clip.IsDrawn()) continue;
+      const bool is_always = std::string_view(kind.name).ends_with("always");
+      if (is_always && clip.own.is_floor_found) continue;  // a clip without a floor can be at any height
+      BodyMotion motion = clip.motion;
+      const auto inserted = kind.insert(motion, dice);
+      if (!inserted) continue;
+      ++count;
+      const auto faults = FindMotionFaults(motion, {.unseen = clip.unseen}).faults;
+      const auto told =
+          std::ranges::find_if(faults, [&](const MotionFault& fault) { return Tells(fault, kind.fault, *inserted); });
+      const bool is_found = told != faults.end();
+      const bool is_sized = is_found && (!inserted->size || std::abs(told->size / *inserted->size - 1) <= 0.1);
+      found += is_found;
+      sized += is_sized;
+      const bool has_others = faults.size() > (is_found ? 1u : 0u);
+      beside += has_others;
+      if ((!is_sized || has_others) && is_chatty) {
+        fmt::print("    {} [{:.2f} {:.2f}]: {}\n", clip.name, inserted->from_s, inserted->to_s,
+                   fmt::join(FaultSentences(faults), "; "));
+      }
+    }
+    fmt::print("{:<22} {:>6} {:>6} {:>6} {:>7}\n", kind.name, count, found, sized, beside);
+    all += count;
+    all_found += sized;
+    others += beside;
+  }
+  fmt::print("{:<22} {:>6} {:>6} {:>6} {:>7}\n", "all", all, "", all_found, others);
+  EXPECT_GT(all, 150);
+  EXPECT_GE(all_found, 0.95 * all);
+}
+
+TEST(InsertedFaults, HEAVY_AreNotSeenWhereNothingWasInserted) {
+  int with_lines = 0;
+  for (const TriedClip& clip : Tried()) {
+    if (clip.IsFaultless()) continue;
+    ++with_lines;
+    fmt::print("{}: {}\n", clip.name, fmt::join(FaultSentences(clip.own.faults), "; "));
+  }
+  fmt::print("{} of {} clips that nobody spoilt show a fault\n", with_lines, Tried().size());
+  EXPECT_LE(with_lines, 0.03 * static_cast<double>(Tried().size()));
+}
+
+}  // namespace
+}  // namespace etude
