@@ -470,7 +470,7 @@ class Mistakes(EtudeCase):
             self.assertIn(words, told)
 
     def test_every_rig_gives_the_person_back(self):
-        for rig in RIGS if HEAVY else RIGS[2:9:2]:
+        for rig in RIGS if HEAVY else RIGS[2:9:3]:
             with self.subTest(rig):
                 told, errors, height = self.capture(rig, lens=Lens(LENS[:4]))
                 self.check(told, errors)
@@ -482,7 +482,7 @@ class Mistakes(EtudeCase):
                 self.check(*self.capture(lens=lens)[:2])
 
     def test_every_kind_of_keypoints(self):
-        for kind in KEYPOINTS[1:] if HEAVY else KEYPOINTS[1::2]:
+        for kind in KEYPOINTS[1:] if HEAVY else KEYPOINTS[1::3]:
             with self.subTest(kind):
                 self.check(*self.capture(keypoints=kind)[:2])
 
@@ -497,7 +497,7 @@ class Mistakes(EtudeCase):
                             self.assertNotIn(word, told)
 
     def test_what_no_page_names_is_told_and_mended(self):
-        for name, (rig, pixels, words) in list(STRANGERS.items())[::1 if HEAVY else 3]:
+        for name, (rig, pixels, words) in list(STRANGERS.items())[::1 if HEAVY else 5]:
             for cameras in (2, 4) if HEAVY else (2,):
                 with self.subTest(name, cameras=cameras):
                     told, errors, _ = self.capture(rig, cameras=cameras, pixels=pixels, lens=Lens(LENS[:4]))
