@@ -27,7 +27,7 @@ struct BridgeCommandOptions {
   std::string fuzzy;
   double threshold = 0.4, wait_s = 1;
   int min_clips = 2, most_per_class = 0;
-  bool within_class = false, as_json = false, overwrite = false;
+  bool within_class = false, with_pairs = false, as_json = false, overwrite = false;
   ClipReading reading;
 };
 
@@ -100,8 +100,12 @@ Result<int> BridgeCommand(const BridgeCommandOptions& options) {
   if (!options.output.empty()) RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   ASSIGN_OR_RETURN(const auto loaded, LoadLibrary(options));
   if (!options.output.empty()) RETURN_IF_ERROR(WriteTags(loaded, options.output));
-  const Coverage coverage(loaded.library.tagged, loaded.match_rules, options.wait_s,
-                          ProgressOf("comparisons of a clip"));
+  const bool with_pairs = options.with_pairs || loaded.library.names.size() <= kMaxClipsWithPairs;
+  const Coverage coverage(loaded.library.tagged, loaded.match_rules,
+                          {.budget_s = options.wait_s,
+                           .with_pairs = with_pairs,
+                           .wanted = loaded.corrective,
+                           .on_progress = ProgressOf("comparisons of a clip")});
   if (options.as_json) {
     RETURN_IF_ERROR(PrintFacts("bridge", BridgeSummaryAsJson(loaded, coverage, options.wait_s)));
   } else {
@@ -148,6 +152,8 @@ void DefineBridge(CLI::App& app, Action& action) {
           ->check(NumberWithin(0, 3600, "time in seconds"))
           ->capture_default_str());
   command->add_option("--fuzzy", options->fuzzy, "Fuzzy system: builtin:NAME or a file (default: builtin:paper)");
+  add(command->add_flag("--pairs", options->with_pairs,
+                        fmt::format("Compare every pair of clips, also of more than {} clips", kMaxClipsWithPairs)));
   add(command->add_flag("--json", options->as_json, "Print JSON (docs/schemas/bridge-summary.schema.json)"));
   AddOverwrite(*command, options->overwrite);
   AddClipReading(*command, options->reading);

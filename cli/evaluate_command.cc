@@ -10,6 +10,7 @@
 #include "bench/results/folder.h"
 #include "bench/run/run.h"
 #include "bench/scenario/methods.h"
+#include "bench/statistics/agreement.h"
 #include "bench/tasks/registry.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
@@ -23,7 +24,7 @@ namespace {
 /// The options of `etude evaluate`.
 struct EvaluateOptions {
   std::vector<std::string> files;  ///< the truth, then results
-  std::string pairs, joints, people, joint_map;
+  std::string pairs, joints, people, joint_map, lag, statistics, music_beats;
   std::vector<std::string> metrics;
   std::string output;
   bool overwrite = false;
@@ -94,6 +95,9 @@ Result<std::string> ScenarioOf(const EvaluateOptions& options) {
                     : fmt::format("truth: [{}]\n", QuotedInYaml(options.files.front()));
   if (!options.joints.empty()) text += fmt::format("joints: {}\n", QuotedInYaml(options.joints));
   if (!options.people.empty()) text += fmt::format("people: {}\n", QuotedInYaml(options.people));
+  if (!options.statistics.empty()) text += fmt::format("statistics: {}\n", QuotedInYaml(options.statistics));
+  if (!options.music_beats.empty()) text += fmt::format("music_beats: {}\n", QuotedInYaml(options.music_beats));
+  if (options.lag == "find") text += "sweep: {lag: [none, find]}\n";
   text += "methods:\n";
   for (const NamedResult& result : results) {
     text += fmt::format("  - {{name: {}{}}}\n", QuotedInYaml(result.name),
@@ -107,34 +111,85 @@ Result<std::string> ScenarioOf(const EvaluateOptions& options) {
   return text;
 }
 
-/// Returns the aggregates of every metric of every method, for programs.
-Json FactsOf(const ScenarioSummary& summary, const std::string& folder) {
+/// Returns the agreement of every angle that both files of a pair have, for programs.
+Json FactsOf(const std::vector<AngleAgreement>& angles) {
   const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
-  Json methods = Json::array();
-  for (const MethodSummary& method : summary.conditions.front().methods) {
-    Json metrics = Json::array();
-    for (const MetricSummary& metric : method.metrics) {
-      metrics.push_back({{"metric", metric.id},
-                         {"median", number(metric.median)},
-                         {"mean", number(metric.mean)},
-                         {"low", number(metric.ci_low)},
-                         {"high", number(metric.ci_high)},
-                         {"pairs", metric.present},
-                         {"without", metric.missing}});
-    }
-    methods.push_back({{"method", method.method}, {"pairs_judged", method.ok}, {"metrics", std::move(metrics)}});
+  const auto figure = [&](const AgreementFigure& one) {
+    const auto& interval = one.interval;
+    return Json{{"value", number(one.value)},
+                {"low", interval ? Json(interval->low) : Json()},
+                {"high", interval ? Json(interval->high) : Json()}};
+  };
+  Json list = Json::array();
+  for (const AngleAgreement& one : angles) {
+    list.push_back({{"method", one.method},
+                    {"condition", ConditionLabel(one.condition)},
+                    {"angle", one.angle},
+                    {"units", one.agreement.units},
+                    {"rmse_deg", figure(one.agreement.rmse)},
+                    {"bias_deg", figure(one.agreement.bias)},
+                    {"lower_limit_deg", figure(one.agreement.low)},
+                    {"upper_limit_deg", figure(one.agreement.high)},
+                    {"icc_a1", figure(one.agreement.icc)}});
   }
-  return {{"methods", std::move(methods)}, {"output", folder}};
+  return list;
 }
 
-/// Prints a line for each headline metric of each method.
+/// Prints a line for each angle, if a metric of angles is shown.
+void PrintAngles(const ScenarioSummary& summary, const std::vector<AngleAgreement>& angles) {
+  const auto is_of_angles = [](const std::string& id) { return id.starts_with("angle_"); };
+  if (angles.empty() || std::ranges::none_of(summary.headline_metrics, is_of_angles)) return;
+  fmt::print("  {:<26}  {:>8}  {:>22}  {:>20}  {:>7}  units\n", "angle, degrees", "RMSE", "bias (95 %)",
+             "limits of agreement", "ICC");
+  const auto range = [](const std::optional<double>& low, const std::optional<double>& high) {
+    return low && high ? fmt::format("{:.1f} to {:.1f}", *low, *high) : std::string("-");
+  };
+  for (const AngleAgreement& one : angles) {
+    const CurveAgreement& figures = one.agreement;
+    if (!figures.rmse.value) continue;
+    const auto& interval = figures.bias.interval;
+    const std::string bias = fmt::format("{:.1f}", *figures.bias.value) +
+                             (interval ? fmt::format(" ({:.1f} to {:.1f})", interval->low, interval->high) : "");
+    const std::string under = one.condition.empty() ? "" : ", " + ConditionLabel(one.condition);
+    fmt::print("  {:<26}  {:>8.1f}  {:>22}  {:>20}  {:>7}  {}  {}{}\n", one.angle, *figures.rmse.value, bias,
+               range(figures.low.value, figures.high.value),
+               figures.icc.value ? fmt::format("{:.2f}", *figures.icc.value) : "-", figures.units, one.method, under);
+  }
+}
+
+/// Returns the aggregates of every metric of every method, for programs.
+Json FactsOf(const ScenarioSummary& summary, const std::vector<AngleAgreement>& angles, const std::string& folder) {
+  const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
+  Json methods = Json::array();
+  for (const ConditionSummary& condition : summary.conditions) {
+    for (const MethodSummary& method : condition.methods) {
+      Json metrics = Json::array();
+      for (const MetricSummary& metric : method.metrics) {
+        metrics.push_back({{"metric", metric.id},
+                           {"median", number(metric.median)},
+                           {"mean", number(metric.mean)},
+                           {"low", number(metric.ci_low)},
+                           {"high", number(metric.ci_high)},
+                           {"pairs", metric.present},
+                           {"without", metric.missing}});
+      }
+      methods.push_back({{"method", method.method},
+                         {"condition", ConditionLabel(condition.condition)},
+                         {"pairs_judged", method.ok},
+                         {"metrics", std::move(metrics)}});
+    }
+  }
+  return {{"methods", std::move(methods)}, {"angles", FactsOf(angles)}, {"output", folder}};
+}
+
+/// Prints a line for each headline metric of each method, under a line for each condition if there are several.
 void PrintTable(const ScenarioSummary& summary) {
   std::size_t width = 6;
   for (const std::string& method : summary.methods) width = std::max(width, method.size());
   fmt::print("  {:<{}}  {:<28}  {:>9}  {:>9}  {:<22}  pairs\n", "method", width, "metric", "median", "mean",
              "95 % of its aggregate");
   const auto show = [](const std::optional<double>& value) { return value ? fmt::format("{:.4g}", *value) : "-"; };
-  for (const MethodSummary& method : summary.conditions.front().methods) {
+  const auto print_method = [&](const MethodSummary& method) {
     for (const std::string& id : summary.headline_metrics) {
       const auto metric = std::ranges::find(method.metrics, id, &MetricSummary::id);
       if (metric == method.metrics.end()) continue;
@@ -143,6 +198,10 @@ void PrintTable(const ScenarioSummary& summary) {
       fmt::print("  {:<{}}  {:<28}  {:>9}  {:>9}  {:<22}  {} of {}\n", method.method, width, id, show(metric->median),
                  show(metric->mean), interval, metric->present, metric->present + metric->missing);
     }
+  };
+  for (const ConditionSummary& condition : summary.conditions) {
+    if (!condition.condition.empty()) fmt::print("{}\n", ConditionLabel(condition.condition));
+    for (const MethodSummary& method : condition.methods) print_method(method);
   }
 }
 
@@ -151,11 +210,12 @@ void PrintNotes(const RunData& run) {
   constexpr std::size_t kMaxFailures = 10;
   std::vector<std::string> told, failures;
   ForEachRow(run, [&](const Row& row, std::size_t) {
-    const std::string line = fmt::format("{}, {}: {}", row.method, row.clip, row.result.reason);
+    const std::string under = row.condition.empty() ? "" : ", " + ConditionLabel(row.condition);
+    const std::string line = fmt::format("{}, {}{}: {}", row.method, row.clip, under, row.result.reason);
     if (row.result.status != Status::kOk) {
       failures.push_back(line);
-    } else if (std::ranges::find(told, row.method) == told.end()) {
-      told.push_back(row.method);
+    } else if (std::ranges::find(told, row.method + under) == told.end()) {
+      told.push_back(row.method + under);
       fmt::print("  {}\n", line);
     }
   });
@@ -187,11 +247,13 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
                                               [](const MethodSummary& method) { return method.ok == 0; });
   const int code = has_silent ? kNothingWorked : kSuccess;
   const std::string folder = outcome->folder.string();
+  const std::vector<AngleAgreement> angles = AgreementByAngle(data);
   if (options.as_json) {
-    RETURN_IF_ERROR(PrintFacts("evaluate", FactsOf(summary, folder)));
+    RETURN_IF_ERROR(PrintFacts("evaluate", FactsOf(summary, angles, folder)));
     return code;
   }
   PrintTable(summary);
+  PrintAngles(summary, angles);
   PrintNotes(data);
   fmt::print("{} of {} cells ok, all {} metrics in {}\nNext: etude report {}\n", outcome->cells_ok, outcome->cells,
              FindTaskKind("evaluation")->metrics.size(), folder, folder);
@@ -213,6 +275,10 @@ void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& acti
                       "The joints that are compared: a set (etude list keys), same, or roles (default)");
   command->add_option("--people", options->people,
                       "The part of a file's name that is the person, such as '{person}_*'");
+  command->add_option("--lag", options->lag, "find: also judge with a time shift found and taken out")
+      ->check(CLI::IsMember({"none", "find"}));
+  command->add_option("--statistics", options->statistics, "A CSV with means and deviations of joints, for L2P");
+  command->add_option("--music-beats", options->music_beats, "Seconds, one a line, for beat alignment");
   command->add_option("--metric", options->metrics, "A metric to show; all are measured (etude list metrics)");
   command->add_option(kJointMapOption, options->joint_map,
                       "A file that states which joints play which roles, the unit and the up axis");

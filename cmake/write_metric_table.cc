@@ -107,6 +107,7 @@ std::string FactsCode(Fields& fields) {
                             {{"lower", "kLowerIsBetter"}, {"higher", "kHigherIsBetter"}, {"neither", "kNeither"}}));
   code += fmt::format(", .aggregate = Aggregate::{}",
                       OneOf(fields, "aggregate", {{"median", "kMedian"}, {"mean", "kMean"}}));
+  if (fields.Raw("weight") != nullptr) code += fmt::format(", .weight = {}", Literal(fields.RequiredText("weight")));
   if (fields.Raw("reads") != nullptr) {
     code += fmt::format(", .reading = Reading::{}",
                         OneOf(fields, "reads", {{"yes-no", "kYesNo"}, {"share", "kShare"}, {"score", "kScore"}}));

@@ -14,7 +14,6 @@
 #include "reports/page_check.h"
 #include "reports/paper/paper_a.h"
 #include "reports/paper/paper_b_section.h"
-#include "reports/plots/growth.h"
 #include "reports/scenario_card.h"
 #include "reports/transitions/recorded_requests.h"
 #include "reports/viewer/recorded_worlds.h"
@@ -64,7 +63,7 @@ constexpr std::string_view kPolicy =
 // Returns only the styles that the page uses.
 std::string Styles(const RunData& run) {
   const bool shows_curves = std::ranges::any_of(run.scenarios, [&](const ScenarioSummary& scenario) {
-    return ShowsPaperA(scenario) || ShowsPaperB(run, scenario) || ShowsGrowth(scenario);
+    return ShowsPaperA(scenario) || ShowsPaperB(run, scenario);
   });
   const bool shows_transitions = std::ranges::any_of(
       run.scenarios, [&](const ScenarioSummary& scenario) { return !RecordedRequestsOf(run, scenario).empty(); });

@@ -19,7 +19,6 @@
 #include "reports/page_check.h"
 #include "reports/paper/paper_a.h"
 #include "reports/paper/paper_b_section.h"
-#include "reports/plots/growth.h"
 #include "reports/plots/plot_section.h"
 #include "reports/transitions/transition_section.h"
 #include "reports/viewer/recorded_worlds.h"
@@ -397,7 +396,6 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
   html += Folded("Transitions explained", TransitionsHtml(RecordedRequestsOf(run, scenario)));
   html += PaperAHtml(scenario);
   html += PaperBHtml(run, scenario);
-  html += GrowthHtml(run, scenario);
   return html + Files(run, scenario, index) + "</article>";
 }
 

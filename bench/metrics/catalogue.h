@@ -51,6 +51,7 @@ struct MetricInfo {
   std::string unit;   ///< "cm", "deg", "" for shares and counts
   Direction direction = Direction::kLowerIsBetter;
   Aggregate aggregate = Aggregate::kMedian;
+  std::string weight = {};  ///< the metric that weights the cells in a mean; "" = all count alike
   Reading reading = Reading::kAmount;
   bool is_success = false;  ///< its value tells whether, or how far, a cell reached its task's goal, which status `ok`
                             ///< does not

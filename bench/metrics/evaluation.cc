@@ -248,27 +248,17 @@ std::optional<double> RootTranslationError(const EvaluatedPair& pair) {
   return kPerCent * error / static_cast<double>(points.truth.size()) / length;
 }
 
-std::optional<double> QuaternionError(const EvaluatedPair& pair) {
+std::optional<RotationChannels> RotationsOf(const EvaluatedPair& pair) {
   if (pair.found_turns.empty() || pair.true_turns.empty()) return std::nullopt;
-  const std::size_t n = pair.found.points;
   std::vector<glm::dquat> found = pair.found_turns, truth = pair.true_turns;
-  std::vector<double> lengths;
-  std::vector<bool> is_begun(n, false);  // by joint
-  for (std::size_t f = 0; f < pair.found.FrameCount(); ++f) {
-    double square = 0;
-    for (std::size_t j = 0; j < n; ++j) {
-      const std::size_t at = f * n + j;
-      if (!BothSeen(pair.found.positions[at], pair.truth.positions[at])) square = kUnseen;
-      if (f > 0 && glm::dot(truth[at], truth[at - n]) < 0) truth[at] = -truth[at];
-      const glm::dquat& before = is_begun[j] ? found[at - n] : truth[at];
-      if (glm::dot(found[at], before) < 0) found[at] = -found[at];
-      is_begun[j] = true;
-      const glm::dquat off = found[at] - truth[at];
-      square += glm::dot(off, off);
-    }
-    lengths.push_back(std::sqrt(square));
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (BothSeen(pair.found.positions[i], pair.truth.positions[i])) continue;
+    found[i] = truth[i] = glm::dquat(kUnseen, kUnseen, kUnseen, kUnseen);
   }
-  return MeanOfSeen(lengths);
+  RotationChannels channels;
+  channels.truth = QuaternionChannels(truth, pair.truth.points);
+  channels.found = QuaternionChannels(found, pair.found.points, channels.truth.values);
+  return channels;
 }
 
 std::optional<double> BendErrorDeg(const PointTracks& found, const PointTracks& truth,

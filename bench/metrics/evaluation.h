@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "bench/metrics/window_error.h"
+
 namespace etude {
 
 /// Positions of some points over time: frames × points, metres, Y up; NaN: not seen.
@@ -29,6 +31,9 @@ struct EvaluatedPair {
   std::vector<glm::dquat> found_turns, true_turns;
   /// The answer's feet: left ankle, left toes, right ankle, right toes; no points: it has no such joints.
   PointTracks feet;
+  /// What both files say of contacts with the floor, frames × the four columns of `feet` (heels for ankles); empty: it
+  /// says nothing.
+  std::vector<bool> found_contacts, true_contacts;
 };
 
 /// What is taken out of the answer before it is compared: a movement or, with `_scaled`, a similarity, found from the
@@ -76,6 +81,11 @@ std::optional<double> RootTranslationError(const EvaluatedPair& pair);
 std::optional<double> SkatingRatio(const PointTracks& feet, double rate_hz);
 /// Returns the mean speed of toes below 5 cm, m/s, as Kimodo's code computes it.
 std::optional<double> SkateFromHeight(const PointTracks& feet, double rate_hz);
+/// Returns the mean speed of heels and toes while `contacts` (frames × columns of feet) says that they touch the floor,
+/// m/s, as Kimodo's code computes it.
+std::optional<double> SkateFromContacts(const PointTracks& feet, const std::vector<bool>& contacts, double rate_hz);
+/// Returns F1 of the answer's contacts against the truth's; nothing without contacts in either.
+std::optional<double> ContactF1(const std::vector<bool>& found, const std::vector<bool>& truth);
 /// Returns PFC as EDGE's code computes it, with Y up and the motion's own rate.
 std::optional<double> PhysicalFootContact(const PointTracks& feet, std::span<const glm::dvec3> root, double rate_hz);
 /// Returns the mean depth of the answer's lowest joint below height 0, and its mean height above, millimetres.
@@ -84,10 +94,12 @@ struct FloorErrors {
 };
 FloorErrors MeasureFloor(const PointTracks& found);
 
-/// Returns the mean over frames of the length of the difference of all joints' quaternions together, as LAFAN1's code
-/// computes it. Signs are made continuous in time; a joint of the answer whose first quaternion lies nearer to the
-/// truth's with the other sign changes it throughout. Frames in which a joint is not seen by both are left out.
-std::optional<double> QuaternionError(const EvaluatedPair& pair);
+/// The global rotations of both as channels (QuaternionChannels), the answer's signs like the truth's; NaN where a
+/// joint is not seen by both. Nothing if one of both has no rotations.
+struct RotationChannels {
+  ChannelTracks found, truth;
+};
+std::optional<RotationChannels> RotationsOf(const EvaluatedPair& pair);
 
 /// Returns the mean absolute difference of the angles at the middle of three points, degrees. Points come in threes:
 /// hip, knee, ankle; shoulder, elbow, wrist. Nothing if no three are seen by both.

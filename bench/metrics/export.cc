@@ -45,22 +45,24 @@ Json EncodeMetric(const MetricInfo& metric) {
   for (const MetricInput& input : metric.inputs) inputs[input.key] = input.meaning;
   Json vectors = Json::array();
   for (const MetricVector& vector : metric.vectors) vectors.push_back(EncodeVector(metric, vector));
-  return {{"id", metric.id},
-          {"version", metric.version},
-          {"domain", metric.domain},
-          {"label", metric.label},
-          {"unit", metric.unit},
-          {"direction", DirectionKey(metric.direction)},
-          {"aggregate", metric.aggregate == Aggregate::kMedian ? "median" : "mean"},
-          {"definition", metric.definition},
-          {"formula", metric.formula},
-          {"null_rule", metric.null_rule},
-          {"practical_threshold", metric.practical},
-          {"practical_reason", metric.practical_reason},
-          {"source", metric.source},
-          {"inputs", std::move(inputs)},
-          {"vectors", std::move(vectors)},
-          {"reads", kReadings[static_cast<std::size_t>(metric.reading)]}};
+  Json json = {{"id", metric.id},
+               {"version", metric.version},
+               {"domain", metric.domain},
+               {"label", metric.label},
+               {"unit", metric.unit},
+               {"direction", DirectionKey(metric.direction)},
+               {"aggregate", metric.aggregate == Aggregate::kMedian ? "median" : "mean"},
+               {"definition", metric.definition},
+               {"formula", metric.formula},
+               {"null_rule", metric.null_rule},
+               {"practical_threshold", metric.practical},
+               {"practical_reason", metric.practical_reason},
+               {"source", metric.source},
+               {"inputs", std::move(inputs)},
+               {"vectors", std::move(vectors)},
+               {"reads", kReadings[static_cast<std::size_t>(metric.reading)]}};
+  if (!metric.weight.empty()) json["weight"] = metric.weight;
+  return json;
 }
 
 constexpr std::string_view kIntroduction = R"(# Metrics
@@ -101,10 +103,10 @@ std::string Amount(double value, const std::string& unit) {
 
 std::string Facts(const MetricInfo& metric) {
   std::string facts = metric.label;
-  for (const std::string& fact :
-       {metric.unit, std::string(DirectionWords(metric.direction)),
-        std::string(metric.aggregate == Aggregate::kMedian ? "median over cells" : "mean over cells"),
-        fmt::format("version {}", metric.version)}) {
+  for (const std::string& fact : {metric.unit, std::string(DirectionWords(metric.direction)),
+                                  (metric.aggregate == Aggregate::kMedian ? "median over cells" : "mean over cells") +
+                                      (metric.weight.empty() ? "" : fmt::format(", weighted by `{}`", metric.weight)),
+                                  fmt::format("version {}", metric.version)}) {
     if (!fact.empty()) facts += " · " + fact;
   }
   return facts;

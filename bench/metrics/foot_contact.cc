@@ -38,6 +38,23 @@ std::vector<bool> Skates(const PointTracks& feet, std::size_t toes, double rate_
   return skates;
 }
 
+/// Returns the mean speed, in three dimensions, of the feet's columns over the steps that `is_judged` at their first
+/// frame.
+template <typename IsJudged>
+double MeanSpeed(const PointTracks& feet, double rate_hz, const IsJudged& is_judged) {
+  constexpr double kNoDivisionByZero = 1e-6;  // as in Kimodo's code
+  double sum = 0, count = 0;
+  for (std::size_t f = 0; f + 1 < feet.FrameCount(); ++f) {
+    for (std::size_t column = 0; column < feet.points; ++column) {
+      const double step = glm::distance(feet.Frame(f)[column], feet.Frame(f + 1)[column]);
+      if (std::isnan(step) || !is_judged(f, column)) continue;
+      sum += rate_hz * step;
+      count += 1;
+    }
+  }
+  return sum / (count + kNoDivisionByZero);
+}
+
 }  // namespace
 
 std::optional<double> SkatingRatio(const PointTracks& feet, double rate_hz) {
@@ -50,17 +67,26 @@ std::optional<double> SkatingRatio(const PointTracks& feet, double rate_hz) {
 
 std::optional<double> SkateFromHeight(const PointTracks& feet, double rate_hz) {
   if (feet.points != kFootColumns || feet.FrameCount() < 2) return std::nullopt;
-  constexpr double kNoDivisionByZero = 1e-6;  // as in the source
-  double sum = 0, count = 0;
-  for (std::size_t f = 0; f + 1 < feet.FrameCount(); ++f) {
-    for (const std::size_t toes : {kLeftToesAt, kRightToesAt}) {
-      const glm::dvec3 &from = feet.Frame(f)[toes], &to = feet.Frame(f + 1)[toes];
-      if (!(from.y < kLow_m) || std::isnan(to.x)) continue;
-      sum += rate_hz * glm::distance(from, to);
-      count += 1;
-    }
+  return MeanSpeed(feet, rate_hz, [&](std::size_t frame, std::size_t column) {
+    return (column == kLeftToesAt || column == kRightToesAt) && feet.Frame(frame)[column].y < kLow_m;
+  });
+}
+
+std::optional<double> SkateFromContacts(const PointTracks& feet, const std::vector<bool>& contacts, double rate_hz) {
+  if (feet.points != kFootColumns || feet.FrameCount() < 2 || contacts.empty()) return std::nullopt;
+  return MeanSpeed(feet, rate_hz,
+                   [&](std::size_t frame, std::size_t column) { return contacts[frame * kFootColumns + column]; });
+}
+
+std::optional<double> ContactF1(const std::vector<bool>& found, const std::vector<bool>& truth) {
+  if (found.size() != truth.size()) return std::nullopt;
+  double both = 0, either = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    both += found[i] && truth[i] ? 1 : 0;
+    either += (found[i] ? 1 : 0) + (truth[i] ? 1 : 0);
   }
-  return sum / (count + kNoDivisionByZero);
+  if (either == 0) return std::nullopt;
+  return 2 * both / either;
 }
 
 std::optional<double> PhysicalFootContact(const PointTracks& feet, std::span<const glm::dvec3> root, double rate_hz) {

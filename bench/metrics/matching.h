@@ -2,8 +2,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
-#include <vector>
 
 #include "engine/motion/body.h"
 
@@ -32,18 +30,5 @@ constexpr double kCloseGap = 0.15;
 
 /// Returns the mean distance of the twenty joints, centimetres, without aligning the poses.
 double MeanJointDistanceCm(const BodyPose& a, const BodyPose& b);
-
-/// The frames that a search returned for one query, in the requested order; empty if none matched.
-using FoundFrames = std::vector<int>;
-
-/// Returns `search_agreement`: the share of queries with exactly the same result as a loop over all frames. Both have
-/// one entry per query; empty without queries.
-std::optional<double> SearchAgreement(const std::vector<FoundFrames>& found, const std::vector<FoundFrames>& truth);
-
-/// Returns `matches_per_query`: the mean number of frames returned; empty without queries.
-std::optional<double> MatchesPerQuery(const std::vector<FoundFrames>& found);
-
-/// Returns the mean of a count per query (`distances_per_query`, `boxes_per_query`); empty without queries.
-std::optional<double> MeanPerQuery(std::span<const std::int64_t> counts);
 
 }  // namespace etude

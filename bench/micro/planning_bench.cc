@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "bench/micro/bridge_search_data.h"
+#include "bench/micro/seeds.h"
 #include "engine/fuzzy/features.h"
 #include "engine/transitions/choices/choice.h"
 #include "engine/transitions/choices/matching.h"

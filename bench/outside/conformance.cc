@@ -42,9 +42,6 @@ const std::vector<Recipe>& Recipes() {
       {"pose-distance",
        {"builtin:clap", "builtin:sway"},
        {"{pairs: blindspots}", "{pairs: frames, pairs_per_world: 5}"}},
-      {"search",
-       {"builtin:clap", "builtin:sway"},
-       {"{frames: 500, queries: 5}", "{frames: 500, queries: 5, query: within}"}},
       {"capture", {"builtin:clap"}, {"{duration_s: 0.1}", "{duration_s: 0.1, clothes: everyday}"}},
       {"coach", {}, {"{session_s: 10, people: adult}", "{session_s: 12, people: adult, noise: 2, song: sprint}"}}};
   return recipes;

@@ -156,7 +156,7 @@ OutsideOutcome<void> WatchedProgram::Start() {
   if (!started) return NotStarted(started.error());
   child_ = std::move(*started);
   if (group_.IsEmpty()) group_ = {};
-  meter_.emplace(child_->number());
+  meter_.emplace(child_->number(), options_.memory_mb);
   cpu_s_ = cpu_charged_s_ = 0;
   return {};
 }

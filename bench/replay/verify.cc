@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "bench/finished_runs/finished_runs.h"
+#include "bench/replay/verify_manifest.h"
 #include "bench/results/columns.h"
 #include "bench/results/row_json.h"
 #include "bench/results/seal.h"
@@ -57,82 +57,6 @@ Result<Verified> VerifySummary(const FilePath& folder, const FinishedRun& run, i
   const auto differences = CompareManifests(then, again);
   verified.differences = {differences.empty() ? "is written differently" : InWords(differences)};
   return verified;
-}
-
-/// The keys of a manifest that may differ on another machine or in another version; only the types of their values are
-/// checked.
-constexpr std::array kSaidByMachine = {"etude", "compiler", "packages", "glibc", "libraries", "environment"};
-
-bool IsTextOrTexts(const Json& value) {
-  return value.is_string() ||
-         (value.is_object() && std::ranges::all_of(value, [](const Json& one) { return one.is_string(); }));
-}
-
-/// Returns true if a scenario, or another text of the suite, mentions this text.
-bool IsNamed(const std::string& name, const SuiteSetup& suite) {
-  const std::string last = fs::path(name).filename().string();
-  return std::ranges::any_of(suite.scenarios,
-                             [&](const ScenarioSetup& one) {
-                               return one.file == name || one.joint_map == name ||
-                                      std::ranges::find(one.labels, name) != one.labels.end();
-                             }) ||
-         std::ranges::any_of(suite.sources, [&](const auto& other) {
-           return other.first != name && other.second.find(last) != std::string::npos;
-         });
-}
-
-/// Compares the manifest with the one that a run of these scenarios would write, except for what describes the machine.
-/// Without `scenarios`, the descriptions of clips are not checked either.
-Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, const SuiteSetup& suite,
-                                std::span<const PreparedScenario> scenarios) {
-  Verified verified{"manifest.json: as such a run writes it", {}};
-  ASSIGN_OR_RETURN(const auto then, ReadJsonFile(folder / "manifest.json"));
-  ASSIGN_OR_RETURN(auto now, MakeManifest(suite, scenarios, run.data.program_version));
-  // Copy the values that may differ.
-  const auto keep = [](const Json& from, Json& to, const char* key) {
-    if (to.contains(key) && from.contains(key) && IsTextOrTexts(from.at(key)) &&
-        from.at(key).is_object() == to.at(key).is_object())
-      to[key] = from.at(key);
-  };
-  for (const char* key : kSaidByMachine) keep(then, now, key);
-  if (then.contains("scored") && now.contains("scored")) {
-    for (const char* key : {"answers", "digest"}) {  // they describe the scored answers, which are not in the folder
-      if (const Json& scored = then.at("scored"); scored.contains(key)) now["scored"][key] = scored.at(key);
-    }
-  }
-  const Json& told = then.at("scenarios");
-  for (std::size_t s = 0; s < now["scenarios"].size() && s < told.size(); ++s) {
-    Json& scenario = now["scenarios"][s];
-    keep(told.at(s), scenario, "platform");
-    if (!scenarios.empty()) continue;
-    for (const char* key : {"loaded_clips", "platform"}) {
-      if (told.at(s).contains(key)) scenario[key] = told.at(s).at(key);
-    }
-  }
-  // Everything else must have the same bytes, and every kept text must be used by a scenario.
-  ASSIGN_OR_RETURN(const auto text, WriteJson(now));
-  ASSIGN_OR_RETURN(const auto found, ReadWholeFile(folder / "manifest.json"));
-  if (found != text + "\n") {
-    const auto differences = CompareManifests(then, now);
-    verified.differences = {differences.empty() ? "is written differently" : InWords(differences)};
-  }
-  for (const auto& [name, _] : suite.sources) {
-    if (!IsNamed(name, suite)) verified.differences.push_back(fmt::format("sources: nothing names '{}'", name));
-  }
-  return verified;
-}
-
-/// Returns the scenarios that a manifest describes, without their clips.
-Result<std::vector<Scenario>> ScenariosOf(const FilePath& folder) {
-  ASSIGN_OR_RETURN(const auto suite, ReadManifest(folder / "manifest.json"));
-  ParsedSuite parsed(suite);
-  std::vector<Scenario> scenarios;
-  for (const ScenarioSetup& setup : suite.scenarios) {
-    ASSIGN_OR_RETURN(auto scenario, parsed.Find(setup));
-    if (suite.scored) RETURN_IF_ERROR(AddScoredMethod(*suite.scored, scenario));
-    scenarios.push_back(std::move(scenario));
-  }
-  return scenarios;
 }
 
 /// Returns the files that a run of these scenarios may leave, relative to its folder, except those made from results.
@@ -344,6 +268,7 @@ Result<VerifyOutcome> VerifyFolder(const ReplayOptions& options, bool replays) {
   if (!all.back().differences.empty()) return outcome;
   ASSIGN_OR_RETURN(all.emplace_back(), VerifyFiles(folder, run));
   ASSIGN_OR_RETURN(all.emplace_back(), VerifyText(folder, run));
+  ASSIGN_OR_RETURN(all.emplace_back(), VerifyHost(folder));
   if (run.data.source) {
     ASSIGN_OR_RETURN(all.emplace_back(), VerifyColumns(folder, run));
   }

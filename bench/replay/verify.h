@@ -21,9 +21,9 @@ struct VerifyOutcome {
 
 /// Checks that a result folder is consistent, even if its seal was renewed: the seal; the set of files; the rows, which
 /// must be those of the manifest, written as a run writes them; and the summary with its expectations, computed again
-/// from the rows. With `replays`, it also checks the clips and units of every row, and runs the cells that `options`
-/// choose again; secret worlds need their key. The times and the description of the machine cannot be checked. Fails if
-/// the folder cannot be read.
+/// from the rows. With `replays`, it also checks the clips and units of every row, and runs the cells again that
+/// `options` choose; secret worlds need their key. The times and the description of the machine cannot be checked. Fails
+/// if the folder cannot be read.
 Result<VerifyOutcome> VerifyRun(const ReplayOptions& options, bool replays);
 
 }  // namespace etude

@@ -43,7 +43,7 @@ Json DescribeClips(const ClipLibrary& library) {
                      {"source", clip.source},
                      {"frames", clip.motion.poses.size()},
                      {"digest", digest.Hex()},
-                     {"note", clip.note}});
+                     {"note", Join(clip.changes, "; ")}});
     if (!clip.changes.empty()) clips.back()["changes"] = clip.changes;
   }
   return clips;

@@ -114,6 +114,18 @@ std::vector<double> MethodColumns::ValuesOf(const std::string& metric, int& miss
   return values;
 }
 
+std::vector<double> MethodColumns::WeightsOf(const MetricInfo& metric) const {
+  std::vector<double> weights;
+  double sum = 0;
+  for (int trial = 0; trial < static_cast<int>(statuses_.size()); ++trial) {
+    if (!StatusAt(trial) || !ValueAt(metric.id, trial)) continue;
+    weights.push_back(metric.weight.empty() ? 1 : ValueAt(metric.weight, trial).value_or(0));
+    sum += weights.back();
+  }
+  for (double& weight : weights) weight = sum > 0 ? weight * static_cast<double>(weights.size()) / sum : 1;
+  return weights;
+}
+
 const MethodColumns& ConditionTable::Of(const std::string& method) const {
   const auto found = std::find_if(methods.begin(), methods.end(),
                                   [&](const MethodColumns& columns) { return columns.name() == method; });
@@ -179,11 +191,24 @@ void AddWorld(const MethodColumns& baseline, const MethodColumns& method, const 
   }
 }
 
+void WeighPairs(const MethodColumns& method, const std::string& metric, PairedWorlds& paired) {
+  const MetricInfo* info = FindMetric(metric);
+  if (info == nullptr || info->weight.empty()) return;
+  double sum = 0;
+  const auto weight_of = [&](int trial) { return method.ValueAt(info->weight, trial).value_or(0); };
+  for (const int trial : paired.trials) sum += weight_of(trial);
+  for (std::size_t i = 0; i < paired.pairs.size() && sum > 0; ++i) {
+    const double factor = weight_of(paired.trials[i]) * static_cast<double>(paired.pairs.size()) / sum;
+    paired.pairs[i] = {factor * paired.pairs[i].baseline, factor * paired.pairs[i].method};
+  }
+}
+
 PairedWorlds PairsOf(const ConditionTable& table, const std::string& baseline, const std::string& method,
                      const std::string& metric) {
   PairedWorlds paired;
   const MethodColumns &of_baseline = table.Of(baseline), &of_method = table.Of(method);
   for (int trial = 0; trial < table.trials(); ++trial) AddWorld(of_baseline, of_method, metric, trial, paired);
+  WeighPairs(of_method, metric, paired);
   return paired;
 }
 
@@ -248,6 +273,7 @@ PairedWorlds WorldsAgainst(const Rival& rival, const ConditionTable& table, cons
   for (int trial = 0; trial < table.trials(); ++trial) {
     AddWorld(*of_half[static_cast<std::size_t>(HalfOf(table, trial))], table.Of(method), metric, trial, worlds);
   }
+  WeighPairs(table.Of(method), metric, worlds);
   return worlds;
 }
 

@@ -27,6 +27,9 @@ class MethodColumns {
   std::optional<double> ValueAt(const std::string& metric, int trial) const;
   /// Returns all values of a metric in the order of trials; `missing` gets the number of cells without a value.
   std::vector<double> ValuesOf(const std::string& metric, int& missing) const;
+  /// Returns the weights of these values, with mean 1 (MetricInfo::weight); a missing one is 0. All 1 for a metric
+  /// without weights, or if all weights are 0.
+  std::vector<double> WeightsOf(const MetricInfo& metric) const;
   /// Returns true if a cell reports the metric, by a value or by the reason why there is none.
   bool Reports(const std::string& metric) const { return values_.Find(metric) != nullptr; }
 
@@ -79,6 +82,11 @@ struct PairedWorlds {
   /// of only lacking this metric.
   std::vector<int> baseline_failed, method_failed;
 };
+
+/// Multiplies the values of each pair by their cells' weights (MetricInfo::weight) over the mean weight, so that the
+/// plain mean of differences is the weighted one, and so is every test of it. Cells of one world weigh alike: what
+/// weighs is the truth. Leaves metrics without weights alone.
+void WeighPairs(const MethodColumns& method, const std::string& metric, PairedWorlds& paired);
 
 /// Returns the pairs of `baseline` and `method` in all worlds of the condition.
 PairedWorlds PairsOf(const ConditionTable& table, const std::string& baseline, const std::string& method,

@@ -48,8 +48,16 @@ MetricSummary SummariseMetric(const MetricInfo& metric, const MethodColumns& met
   summary.present = static_cast<int>(values.size());
   if (values.empty()) return summary;
   summary.median = Quantile(values, 0.5);
-  summary.mean = Mean(values);
-  if (const auto interval = IntervalOf(values, metric.aggregate, seed, purpose)) {
+  // A weighted mean is the mean of its linearised values (Taylor's, as for a ratio), and has their interval.
+  std::vector<double> linear = values;
+  if (!metric.weight.empty()) {
+    const std::vector<double> weights = method.WeightsOf(metric);
+    double mean = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) mean += weights[i] * values[i] / static_cast<double>(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) linear[i] = mean + weights[i] * (values[i] - mean);
+  }
+  summary.mean = Mean(linear);
+  if (const auto interval = IntervalOf(linear, metric.aggregate, seed, purpose)) {
     summary.ci_low = interval->low;
     summary.ci_high = interval->high;
     summary.interval = interval->kind;

@@ -7,7 +7,7 @@ namespace etude {
 
 std::span<const TaskKind> AllTaskKinds() {
   static const std::vector<TaskKind> kinds = {MakeTransitionTaskKind(),   MakeDetectionTaskKind(), MakeIkTaskKind(),
-                                              MakeTrackingTaskKind(),     MakeCaptureTaskKind(),   MakeSearchTaskKind(),
+                                              MakeTrackingTaskKind(),     MakeCaptureTaskKind(),
                                               MakePoseDistanceTaskKind(), MakeCoachTaskKind(), MakeEvaluationTaskKind()};
   return kinds;
 }

@@ -7,7 +7,7 @@
 
 namespace etude {
 
-/// Returns all kinds of tasks: transition, detection, ik, tracking, capture, search, pose-distance, coach,
+/// Returns all kinds of tasks: transition, detection, ik, tracking, capture, pose-distance, coach,
 /// evaluation.
 std::span<const TaskKind> AllTaskKinds();
 /// Returns the task of that name; null if there is none.

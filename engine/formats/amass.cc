@@ -91,7 +91,8 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file) {
     for (const std::string& name : npz.skipped) names.push_back(name + " (no plain little-endian numbers)");
     return Fail({file},
                 "arrays {}; allowed: a motion of AMASS with poses (frames × 72, 156 or 165), trans (frames × 3) and "
-                "mocap_framerate or mocap_frame_rate; use a .npy file for positions of joints",
+                "mocap_framerate or mocap_frame_rate, or of Kimodo with posed_joints and global_rot_mats; use a "
+                ".npy file for positions of joints",
                 names.empty() ? "none" : Join(names));
   }
   // Check frames, rate and values.

@@ -3,137 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <map>
 #include <optional>
 
 #include "engine/base/names.h"
+#include "engine/formats/c3d_parameters.h"
 
 namespace etude {
 namespace {
 
-constexpr std::size_t kC3dBlock = 512;
 constexpr unsigned char kC3dKey = 0x50;
 constexpr std::size_t kMaxPoints = 10'000;
 constexpr double kMaxC3dFrames = 1e7;
 constexpr double kMaxValue = 1e9;
-
-enum class Machine { kIntel = 84, kDec = 85, kMips = 86 };
-
-/// Reads numbers in the representation of one kind of machine; bytes beyond the end count as zero.
-class Bytes {
- public:
-  Bytes(std::string_view bytes, Machine machine) : bytes_(bytes), machine_(machine) {}
-
-  std::size_t size() const { return bytes_.size(); }
-  unsigned Byte(std::size_t at) const { return at < bytes_.size() ? static_cast<unsigned char>(bytes_[at]) : 0; }
-  unsigned Word(std::size_t at) const {
-    return machine_ == Machine::kMips ? Byte(at) << 8 | Byte(at + 1) : Byte(at + 1) << 8 | Byte(at);
-  }
-  int Integer(std::size_t at) const { return static_cast<std::int16_t>(Word(at)); }
-  double Float(std::size_t at) const {
-    std::uint32_t bits = Word(at + 2) << 16 | Word(at);
-    if (machine_ != Machine::kIntel) bits = Word(at) << 16 | Word(at + 2);
-    // A DEC float has an exponent bias that is larger by one, and a mantissa in [½, 1); together this is a factor of 4.
-    return machine_ == Machine::kDec ? std::bit_cast<float>(bits) / 4 : std::bit_cast<float>(bits);
-  }
-  std::string Text(std::size_t at, std::size_t length) const {
-    if (at >= bytes_.size()) return "";
-    std::string text(bytes_.substr(at, length));
-    text.erase(std::find(text.begin(), text.end(), '\0'), text.end());
-    text.erase(text.find_last_not_of(' ') + 1);
-    return text;
-  }
-
- private:
-  std::string_view bytes_;
-  Machine machine_;
-};
-
-struct Parameter {
-  int type = 0;  ///< −1 text, 1 bytes, 2 whole numbers, 4 floats
-  std::vector<std::size_t> sizes;
-  std::size_t at = 0;  ///< position of the first value
-
-  std::size_t Count() const {
-    std::size_t count = 1;
-    for (const std::size_t size : sizes) count *= size;
-    return count;
-  }
-};
-
-/// The parameters of a file, with names such as "POINT:USED".
-class Parameters {
- public:
-  static Parameters Read(const Bytes& bytes, std::size_t at) {
-    // Follow the chain of records, which are groups and parameters.
-    Parameters read(bytes);
-    std::map<int, std::string> group_names;
-    std::vector<std::pair<int, std::pair<std::string, Parameter>>> found;
-    const std::size_t end = std::min(bytes.size(), at + kC3dBlock * std::max(1u, bytes.Byte(at + 2)));
-    // Some files state a wrong number of blocks, so follow the chain to its end, as long as there are bytes.
-    for (std::size_t record = at + 4; record + 4 < std::max(end, bytes.size());) {
-      const auto length = static_cast<std::int8_t>(bytes.Byte(record));
-      const auto id = static_cast<std::int8_t>(bytes.Byte(record + 1));
-      const auto letters = static_cast<std::size_t>(std::abs(length));
-      if (letters == 0 || id == 0) break;
-      std::string name = bytes.Text(record + 2, letters);
-      std::ranges::transform(name, name.begin(), [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; });
-      const std::size_t offset_at = record + 2 + letters;
-      if (id < 0) {
-        group_names[-id] = name;
-      } else {
-        Parameter parameter{.type = static_cast<std::int8_t>(bytes.Byte(offset_at + 2)), .sizes = {}};
-        const std::size_t dimensions = std::min(bytes.Byte(offset_at + 3), 7u);
-        for (std::size_t d = 0; d < dimensions; ++d) parameter.sizes.push_back(bytes.Byte(offset_at + 4 + d));
-        parameter.at = offset_at + 4 + dimensions;
-        found.push_back({id, {name, parameter}});
-      }
-      const std::size_t offset = bytes.Word(offset_at);
-      if (offset == 0) break;
-      record = offset_at + offset;
-    }
-    // A group may follow its parameters, so join the names at the end.
-    for (auto& [group, named] : found) read.all_[group_names[group] + ":" + named.first] = named.second;
-    return read;
-  }
-
-  const Parameter* Find(const std::string& name) const {
-    const auto found = all_.find(name);
-    return found == all_.end() ? nullptr : &found->second;
-  }
-  std::optional<double> Number(const std::string& name, std::size_t index = 0) const {
-    const Parameter* one = Find(name);
-    if (one == nullptr || index >= one->Count()) return std::nullopt;
-    if (one->type == 4) return bytes_.Float(one->at + 4 * index);
-    // Unsigned, because some files hold counts above 32,767.
-    if (one->type == 2) return bytes_.Word(one->at + 2 * index);
-    if (one->type == 1) return bytes_.Byte(one->at + index);
-    return std::nullopt;
-  }
-  /// Returns the first texts of a list, at most `most`, and none that begins beyond the file's end. A single text
-  /// counts as a list of one.
-  std::vector<std::string> Texts(const std::string& name, std::size_t most = 1) const {
-    const Parameter* one = Find(name);
-    std::vector<std::string> texts;
-    if (one == nullptr || one->type != -1 || one->sizes.empty()) return texts;
-    const std::size_t length = one->sizes[0], count = length == 0 ? 0 : std::min(one->Count() / length, most);
-    for (std::size_t i = 0; i < count && one->at + i * length < bytes_.size(); ++i) {
-      texts.push_back(bytes_.Text(one->at + i * length, length));
-    }
-    return texts;
-  }
-
- private:
-  explicit Parameters(const Bytes& bytes) : bytes_(bytes) {}
-
-  Bytes bytes_;
-  std::map<std::string, Parameter> all_;
-};
 
 std::optional<double> MetresOf(std::string unit) {
   std::ranges::transform(unit, unit.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
@@ -147,7 +32,7 @@ std::optional<double> MetresOf(std::string unit) {
 }
 
 /// Returns the names of all points, from LABELS, LABELS2 and so on.
-std::vector<std::string> PointNames(const Parameters& parameters, std::size_t points) {
+std::vector<std::string> PointNames(const C3dParameters& parameters, std::size_t points) {
   std::vector<std::string> names;
   for (int part = 1; names.size() < points; ++part) {
     const auto more = parameters.Texts("POINT:LABELS" + (part == 1 ? "" : std::to_string(part)), points - names.size());
@@ -162,7 +47,7 @@ std::vector<std::string> PointNames(const Parameters& parameters, std::size_t po
 }
 
 /// Returns the joint widths that Vicon's programs write, metres, by parameter name without its group.
-std::map<std::string, double> BodySizes(const Parameters& parameters) {
+std::map<std::string, double> BodySizes(const C3dParameters& parameters) {
   constexpr double kMin_mm = 5, kMax_mm = 400;
   std::map<std::string, double> sizes;
   const auto add = [&](const std::string& name) {
@@ -176,7 +61,7 @@ std::map<std::string, double> BodySizes(const Parameters& parameters) {
   return sizes;
 }
 
-std::size_t CountFrames(const Bytes& bytes, const Parameters& parameters) {
+std::size_t CountFrames(const C3dBytes& bytes, const C3dParameters& parameters) {
   const double first = bytes.Word(6), last = bytes.Word(8);
   double frames = last - first + 1;
   const auto field = [&](const char* name) -> std::optional<double> {
@@ -198,7 +83,7 @@ struct Layout {
   double metres = 0;  ///< metres per unit of a stored number
 };
 
-std::optional<glm::dvec3> PointAt(const Bytes& bytes, std::size_t at, const Layout& layout) {
+std::optional<glm::dvec3> PointAt(const C3dBytes& bytes, std::size_t at, const Layout& layout) {
   glm::dvec3 point(0);
   const std::size_t step = layout.has_floats ? 4 : 2;
   for (int axis = 0; axis < 3; ++axis) {
@@ -220,12 +105,12 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   // Find the kind of machine and read the parameters.
   if (!IsC3d(bytes)) return Fail({file}, "no C3D file");
   const std::size_t parameters_at = (static_cast<unsigned char>(bytes[0]) - std::size_t{1}) * kC3dBlock;
-  const unsigned machine = Bytes(bytes, Machine::kIntel).Byte(parameters_at + 3);
+  const unsigned machine = C3dBytes(bytes, C3dMachine::kIntel).Byte(parameters_at + 3);
   if (machine < 84 || machine > 86) {
     return Fail({file}, "written by processor type {}; allowed: 84 (Intel), 85 (DEC), 86 (MIPS)", machine);
   }
-  const Bytes all(bytes, static_cast<Machine>(machine));
-  const Parameters parameters = Parameters::Read(all, parameters_at);
+  const C3dBytes all(bytes, static_cast<C3dMachine>(machine));
+  const C3dParameters parameters(all, parameters_at);
 
   // Read and check the number of points, scale, rate and unit.
   Layout layout{.points = static_cast<std::size_t>(parameters.Number("POINT:USED").value_or(all.Word(2)))};

@@ -49,6 +49,15 @@ constexpr std::array<Bone, kRoleCount - 1> kBones = [] {
   return bones;
 }();
 
+constexpr std::array<Bone, 8> kArmAndLegBones = {{{kLeftShoulder, kLeftElbow},
+                                                  {kLeftElbow, kLeftWrist},
+                                                  {kRightShoulder, kRightElbow},
+                                                  {kRightElbow, kRightWrist},
+                                                  {kLeftHip, kLeftKnee},
+                                                  {kLeftKnee, kLeftAnkle},
+                                                  {kRightHip, kRightKnee},
+                                                  {kRightKnee, kRightAnkle}}};
+
 }  // namespace
 
 std::span<const Role, kRoleCount> AllRoles() { return kRoles; }
@@ -70,6 +79,7 @@ std::optional<Role> ParentOf(Role role) {
 Role Mirrored(Role role) { return kFacts[Index(role)].mirrored; }
 
 std::span<const Bone, kRoleCount - 1> AllBones() { return kBones; }
+std::span<const Bone, 8> ArmAndLegBones() { return kArmAndLegBones; }
 
 double BoneLength(const BodyPose& pose, const Bone& bone) { return glm::distance(pose[bone.parent], pose[bone.child]); }
 

@@ -80,6 +80,8 @@ struct Bone {
 };
 /// Lists the nineteen limbs, in the order of their child's role.
 std::span<const Bone, kRoleCount - 1> AllBones();
+/// Lists both bones of each arm and leg, without hands and feet.
+std::span<const Bone, 8> ArmAndLegBones();
 
 double BoneLength(const BodyPose& pose, const Bone& bone);
 

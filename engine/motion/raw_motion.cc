@@ -31,6 +31,7 @@ RawMotion Sampled(const RawMotion& motion, double rate_hz, double start_s, std::
   sampled.rate_hz = rate_hz;
   sampled.positions.assign(count * joints, NotSeen());
   if (!motion.rotations.empty()) sampled.rotations.assign(count * joints, glm::dquat(1, 0, 0, 0));
+  if (!motion.contacts.empty()) sampled.contacts.assign(count * kFootContacts, false);
   for (std::size_t i = 0; i < count; ++i) {
     // The two frames around this time.
     double at = (start_s + static_cast<double>(i) / rate_hz) * motion.rate_hz;
@@ -38,7 +39,10 @@ RawMotion Sampled(const RawMotion& motion, double rate_hz, double start_s, std::
     if (at < 0 || at > static_cast<double>(frames) - 1) continue;
     const auto from = static_cast<std::size_t>(at);
     const double part = at - static_cast<double>(from);
-    const std::size_t to = part > 0 ? from + 1 : from;
+    const std::size_t to = part > 0 ? from + 1 : from, near = part > 0.5 ? to : from;
+    for (std::size_t k = 0; k < kFootContacts && !motion.contacts.empty(); ++k) {
+      sampled.contacts[i * kFootContacts + k] = motion.contacts[near * kFootContacts + k];
+    }
     for (std::size_t j = 0; j < joints; ++j) {
       const glm::dvec3 &a = motion.At(from, j), &b = motion.At(to, j);
       sampled.positions[i * joints + j] = part > 0 ? a + part * (b - a) : a;

@@ -13,6 +13,9 @@
 
 namespace etude {
 
+/// The columns of RawMotion::contacts.
+constexpr std::size_t kFootContacts = 4;
+
 /// A motion as its file has it: all joints, the file's own rate and floor. Only its unit and its up axis are converted,
 /// to metres and Y up.
 struct RawMotion {
@@ -23,7 +26,13 @@ struct RawMotion {
   std::array<int, kRoleCount> roles = NoRoles();  ///< the joint that plays each role, by Index(role); −1: none
   std::vector<glm::dvec3> positions;              ///< frames × joints; NaN: not seen
   std::vector<glm::dquat> rotations;  ///< global rotations, frames × joints; empty: the file has points, not rotations
-  std::vector<std::string> notes;     ///< what its reader converted or guessed, a sentence each
+  /// The file's rest pose: each joint's position and global rotation; both are empty if `rotations` is.
+  std::vector<glm::dvec3> rest_positions;
+  std::vector<glm::dquat> rest_rotations;
+  /// What the file says of contacts with the floor, frames × 4: left heel, left toes, right heel, right toes; empty: it
+  /// says nothing.
+  std::vector<bool> contacts;
+  std::vector<std::string> notes;  ///< what its reader converted or guessed, a sentence each
 
   std::size_t FrameCount() const { return joints.empty() ? 0 : positions.size() / joints.size(); }
   const glm::dvec3& At(std::size_t frame, std::size_t joint) const { return positions[frame * joints.size() + joint]; }
@@ -43,8 +52,9 @@ inline bool IsSeen(const glm::dvec3& position) { return position.x == position.x
 
 /// Returns `count` frames of a motion at `rate_hz`, the first `start_s` after its first frame; times before the first
 /// frame or after the last are not seen. A time within a millionth of a frame of one of the motion's frames takes that
-/// frame unchanged. Between frames, positions are interpolated linearly and rotations by slerp; a joint that one of the
-/// two frames does not show is not seen. Nothing is filtered, also where frames are left out.
+/// frame unchanged. Between frames, positions are interpolated linearly and rotations by slerp, and contacts are those
+/// of the nearer frame; a joint that one of the two frames does not show is not seen. Nothing is filtered, also where
+/// frames are left out.
 RawMotion Sampled(const RawMotion& motion, double rate_hz, double start_s, std::size_t count);
 
 }  // namespace etude

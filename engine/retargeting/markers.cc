@@ -262,7 +262,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
     wands.push_back(WandsOf(columns, frame, scale));
   }
   const std::string centres = MoveToJointCentres(set, markers.sizes_m, wands, frames);
-  const std::vector<JointPositions> seen = frames;
+  const std::vector<JointPositions> seen = options.keeps_shown ? frames : std::vector<JointPositions>();
   int filled = 0;
   const auto max_gap = static_cast<std::size_t>(kMaxGap_s * markers.rate_hz);
   for (std::size_t joint = 0; joint < kRoleCount; ++joint) filled += BridgeGaps(frames, joint, max_gap);
@@ -271,8 +271,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   if (IsOwn(set) && rule.evidence == UpEvidence::kPosture) {
     rule = {.axis = {0, 1, 0}, .evidence = UpEvidence::kFile, .source = "the word of Etude's own joints"};
   }
-  MarkerBody body{
-      .name = "", .motion = {.rate_hz = markers.rate_hz, .poses = {}}, .up = {}, .changes = {set.name}, .note = ""};
+  MarkerBody body{.name = "", .motion = {.rate_hz = markers.rate_hz, .poses = {}}, .up = {}, .changes = {set.name}};
   body.up = FindUpOf(frames, markers.rate_hz, rule);
   for (JointPositions& places : frames) {
     for (MarkerPosition& place : places) {
@@ -299,6 +298,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   if (std::string turn = DescribeTurn(body.up); !turn.empty()) body.changes.push_back(std::move(turn));
   if (!body.up.doubt.empty()) body.changes.push_back(body.up.doubt);
   StandOnFloor(options.keep_floor, IsOwn(set), body);
+  if (!options.keeps_shown) return body;
   body.shown = AsShown(scale, markers, set, columns, seen, body.up.axis);
   if (!centres.empty()) body.shown.remark += "; " + centres;
   return body;
@@ -369,7 +369,6 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std
       body->changes.front() += fmt::format(", not {}, which the file also contains (--marker-set {})",
                                            chosen.other->name, chosen.other->key);
     }
-    body->note = Join(body->changes, "; ");
     bodies.push_back(std::move(*body));
   }
   // Explain why there is no body.

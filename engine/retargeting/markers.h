@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/names.h"
 #include "engine/base/result.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/body.h"
@@ -16,7 +17,8 @@ struct MarkerOptions {
   UpRule up = {};
   bool keep_floor = false;                                ///< leave bodies at the file's own height
   std::optional<double> metres_per_unit = std::nullopt;  ///< given by the user; replaces the file's unit
-  std::string set = "";                                  ///< a key of MarkerSets; "" chooses by rank
+  std::string set = "";                                  ///< a key of MarkerSets; "" = chosen by rank
+  bool keeps_shown = false;                              ///< also make MarkerBody::shown
 };
 
 /// A body found in the trajectories of markers.
@@ -27,11 +29,14 @@ struct MarkerBody {
   double floor = 0;   ///< the height that became 0, metres
   /// The name of the marker set, then every correction of the file's data, each as a text for people.
   std::vector<std::string> changes;
-  std::string note;  ///< all of them, separated by semicolons
   /// The joints as the markers show them, in all frames of the file: gaps are not filled, no joint is placed by a rule,
   /// and the floor is not moved. First come the joints that the set determines, named by role, then the person's other
-  /// markers under their own names in lower case. Metres, Y up. Its remark names the set and the assumptions.
+  /// markers under their own names in lower case. Metres, Y up. Its remark names the set and the assumptions. Empty
+  /// unless MarkerOptions asks for it.
   MarkerMotion shown = {};
+
+  /// Returns `changes` as one line, between semicolons.
+  std::string Note() const { return Join(changes, "; "); }
 };
 
 /// Finds the bodies of a marker recording by the markers' names. Known sets: Etude's own joints, OpenPose's BODY_25,

@@ -1,7 +1,6 @@
 #include "engine/retargeting/orientation.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <tuple>
 #include <vector>
@@ -134,14 +133,6 @@ Result<double> CheckSides(std::span<const BodyPose> poses, const JointMap& map, 
 }
 
 Result<void> CheckLimbs(std::span<const BodyPose> poses, const std::string& file) {
-  constexpr std::array<Bone, 8> kLimbBones = {{{kLeftShoulder, kLeftElbow},
-                                               {kLeftElbow, kLeftWrist},
-                                               {kRightShoulder, kRightElbow},
-                                               {kRightElbow, kRightWrist},
-                                               {kLeftHip, kLeftKnee},
-                                               {kLeftKnee, kLeftAnkle},
-                                               {kRightHip, kRightKnee},
-                                               {kRightKnee, kRightAnkle}}};
   constexpr double kMinPerStature = 0.01;
   const auto median = [&](const auto& measure) {
     std::vector<double> values;
@@ -150,7 +141,7 @@ Result<void> CheckLimbs(std::span<const BodyPose> poses, const std::string& file
   };
   const double stature = median(Stature);
   std::vector<std::string> gone;
-  for (const Bone& bone : kLimbBones) {
+  for (const Bone& bone : ArmAndLegBones()) {
     const double length = median([&](const BodyPose& pose) { return BoneLength(pose, bone); });
     if (length <= kMinPerStature * stature) {
       gone.push_back(fmt::format("{} to {}", RoleName(bone.parent), RoleName(bone.child)));

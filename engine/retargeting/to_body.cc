@@ -332,11 +332,6 @@ std::optional<double> UndoScales(std::span<Clip> clips, const JointMap& map) {
   return ratio;
 }
 
-void AddChange(std::string change, BodyConversion& body) {
-  body.note += (body.note.empty() ? "" : "; ") + change;
-  body.changes.push_back(std::move(change));
-}
-
 bool IsTPose(const BodyPose& pose) {
   const glm::dvec3 up(0, 1, 0);
   const glm::dvec3 left = glm::cross(up, Facing(pose));
@@ -379,8 +374,8 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   done.floor = options.keep_floor ? 0 : FloorOf(poses, options.floor);
   PlaceOnFloor(poses, done);
   done.motion = {.rate_hz = options.rate_hz, .poses = std::move(poses)};
-  for (std::string& change : ChangesOf(done, map, clip, lies)) AddChange(std::move(change), done);
-  for (std::string& remark : remarks) AddChange(std::move(remark), done);
+  done.changes = ChangesOf(done, map, clip, lies);
+  std::ranges::move(remarks, std::back_inserter(done.changes));
   return done;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/names.h"
 #include "engine/base/result.h"
 #include "engine/motion/body.h"
 #include "engine/motion/clip.h"
@@ -38,8 +39,10 @@ struct BodyConversion {
   /// The findings and every correction of the file's data, each as a text for people: "1 unit = 5.64 cm (CMU)",
   /// "dropped a leading T-pose".
   std::vector<std::string> changes = {};
-  std::string note = "";  ///< all of them, separated by semicolons
   BodyMotion motion;
+
+  /// Returns `changes` as one line, between semicolons.
+  std::string Note() const { return Join(changes, "; "); }
 };
 
 /// Converts a clip to a body's motion (ours where no source is given):
@@ -87,9 +90,6 @@ std::optional<double> UndoScales(std::span<Clip> clips, const JointMap& map);
 
 /// Returns the transform from the file's unit and axes to the world of ToBodyMotion's result, for the clip's meshes.
 glm::dmat4 WorldFromFile(const BodyConversion& body);
-
-/// Adds a change to a conversion's list and note.
-void AddChange(std::string change, BodyConversion& body);
 
 /// Returns true if the body stands with straight legs and both arms stretched out sideways.
 bool IsTPose(const BodyPose& pose);

@@ -10,8 +10,7 @@ namespace {
 Result<void> AddBuiltin(const std::string& reference, const Place& place, ClipLibrary& library) {
   ASSIGN_OR_RETURN(auto builtin, LoadBuiltinClip(reference.substr(kBuiltinPrefix.size()), place));
   RestBody body = RestBodyOf(builtin.motion.poses);
-  library.clips.push_back(
-      {reference, reference, std::move(builtin.motion), std::move(builtin.move), "", std::move(body)});
+  library.clips.push_back({reference, reference, std::move(builtin.motion), std::move(builtin.move), std::move(body)});
   return {};
 }
 
@@ -27,7 +26,7 @@ Result<void> AddFile(const std::string& reference, const OpenOptions& options, C
     RestBody body = MeasureBody(opened.source.clip, opened.map, opened.body);
     std::shared_ptr<const RecordedFigure> figure = FigureOf(opened);
     library.clips.push_back({opened.source.name, opened.source.source, std::move(opened.body.motion), std::nullopt,
-                             opened.body.note, std::move(body), std::move(figure), opened.body.changes});
+                             std::move(body), std::move(figure), opened.body.changes});
   }
   return {};
 }

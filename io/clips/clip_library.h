@@ -22,7 +22,6 @@ struct LibraryClip {
   std::string source;  ///< the reference that opens it again: "builtin:clap", a path, or "path.glb#Jump"
   BodyMotion motion;
   std::optional<Move> move;  ///< the authored move, with its key poses; only built-in moves have one
-  std::string note;          ///< the repairs made during loading ("dropped a leading T-pose", "1 unit = 5.65 cm")
   RestBody body = {};        ///< the performer's body at rest; it has no joints if the body was not measured
   std::shared_ptr<const RecordedFigure> figure = {};  ///< the file's figure; null if the file has no meshes
   std::vector<std::string> changes = {};  ///< what was found in the file, and every change that was made to its content

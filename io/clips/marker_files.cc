@@ -31,13 +31,14 @@ Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const st
       .up = std::move(rule),
       .keep_floor = KeepsFloor(options),
       .metres_per_unit = ToldUnit(options),
-      .set = options.roles && options.marker_set.empty() ? options.roles->marker_set : options.marker_set};
+      .set = options.roles && options.marker_set.empty() ? options.roles->marker_set : options.marker_set,
+      .keeps_shown = options.keeps_shown};
   ASSIGN_OR_RETURN(auto bodies, FindMarkerBodies(std::move(markers), path, told));
   ClipFile file{.format = format, .figure = {.name = "", .skeleton = {}, .materials = {}, .meshes = {}}, .clips = {}};
   for (MarkerBody& body : bodies) {
     file.clips.push_back(RigClip(body.motion, StandingPose(), body.name));
     file.bodies.push_back({body.changes, body.up, body.floor});
-    file.shown.push_back(std::move(body.shown));
+    if (options.keeps_shown) file.shown.push_back(std::move(body.shown));
   }
   file.figure.skeleton = file.clips.front().skeleton;
   return file;

@@ -6,7 +6,7 @@
 
 #include "engine/base/result.h"
 #include "engine/formats/trc.h"
-#include "io/clips/open_clip.h"
+#include "io/clips/clip_file.h"
 
 namespace etude {
 

@@ -1,137 +1,21 @@
 #include "io/clips/open_clip.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
 
 #include "engine/base/names.h"
-#include "engine/formats/acclaim.h"
-#include "engine/formats/amass.h"
-#include "engine/formats/bvh.h"
-#include "engine/formats/deepmimic.h"
-#include "engine/formats/gltf/gltf.h"
-#include "engine/formats/npz.h"
-#include "engine/formats/text_scanner.h"
 #include "engine/motion/edit.h"
-#include "engine/retargeting/joint_arrays.h"
-#include "engine/retargeting/opensim_motion.h"
 #include "engine/retargeting/rig.h"
-#include "io/clips/fbx.h"
 #include "io/clips/marker_files.h"
-#include "io/clips/other_files.h"
 #include "io/clips/references.h"
-#include "io/files/files.h"
-#include "io/images/image_files.h"
-#include "sim/camera/jpeg.h"
 #include "sim/choreography/canonical_body.h"
 
 namespace etude {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Reads files until their total size exceeds kMaxClipFileBytes.
-class CappedReader {
- public:
-  Result<std::string> Read(const fs::path& path) {
-    std::error_code not_there;  // on an error here; ReadWholeFile reports a missing file better
-    const std::uintmax_t size = fs::file_size(path, not_there);
-    if (!not_there && size > left_) {
-      return Fail({path.string(), 0, 0}, "{} MB; allowed: clips of at most {} MB", (size + 999'999) / 1'000'000,
-                  kMaxClipFileBytes / 1'000'000);
-    }
-    auto bytes = ReadWholeFile(path);
-    if (bytes) left_ -= std::min<std::uintmax_t>(left_, bytes->size());
-    return bytes;
-  }
-
- private:
-  std::uintmax_t left_ = kMaxClipFileBytes;
-};
-
-Result<std::string> ReadBeside(const std::string& path, const std::string& uri, CappedReader& reader) {
-  const auto fail = [&](const std::string& why) { return Fail({path, 0, 0}, "its file {}: {}", Quote(uri), why); };
-  std::error_code error;
-  const fs::path folder = fs::canonical(fs::path(path), error).parent_path();
-  const fs::path file = fs::canonical(folder / uri, error);
-  if (error) return fail(error.message());
-  // A link may lead anywhere, so compare the resolved paths.
-  const auto ends = std::ranges::mismatch(folder, file);
-  if (ends.in1 != folder.end()) return fail("a link that leads out of the folder");
-  auto bytes = reader.Read(file);
-  if (!bytes) return fail(bytes.error().message);
-  return bytes;
-}
-
-Result<ColourImage> DecodeTexture(std::string_view bytes, std::size_t max_pixels) {
-  return bytes.starts_with("\x89PNG") ? DecodeColourPng(bytes, max_pixels) : ReadJpeg(bytes, max_pixels);
-}
-
-ClipFile FileOfOne(ClipFormat format, Clip clip) {
-  ClipFile file{.format = format,
-                .figure = {.name = clip.name, .skeleton = clip.skeleton, .materials = {}, .meshes = {}},
-                .clips = {}};
-  file.clips.push_back(std::move(clip));
-  return file;
-}
-
-/// Makes a clip file of a motion that is a body already; `note` says where it comes from.
-ClipFile FileOfBody(ClipFormat format, const BodyMotion& motion, const std::string& path, const std::string& note) {
-  ClipFile file = FileOfOne(format, RigClip(motion, StandingPose(), fs::path(path).stem().string()));
-  file.bodies = {{.changes = {note}}};
-  return file;
-}
-
-/// Finds the ASF file that belongs to an Acclaim motion.
-Result<std::string> AcclaimSkeletonBeside(const std::string& path) {
-  const fs::path folder = fs::path(path).parent_path();
-  const std::string stem = fs::path(path).stem().string();
-  std::vector<std::string> found;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    const std::string ending = entry->path().extension().string();
-    if (ending != ".asf" && ending != ".ASF") continue;
-    if (entry->path().stem() == stem || stem.starts_with(entry->path().stem().string() + "_")) {
-      return entry->path().string();
-    }
-    found.push_back(entry->path().string());
-  }
-  if (found.size() == 1) return found.front();
-  return Fail({path},
-              "an Acclaim motion, whose skeleton is another file: {} .asf files are in its folder; allowed: one, or "
-              "one that begins its name ('01.asf' of '01_01.amc')",
-              found.empty() ? "no" : std::to_string(found.size()));
-}
-
-Result<Clip> ReadAcclaim(std::string_view bytes, const std::string& path, CappedReader& reader) {
-  ASSIGN_OR_RETURN(const auto skeleton_path, AcclaimSkeletonBeside(path));
-  ASSIGN_OR_RETURN(const auto text, reader.Read(skeleton_path));
-  ASSIGN_OR_RETURN(const auto skeleton, ReadAcclaimSkeleton(text, skeleton_path));
-  return ReadAcclaimMotion(bytes, skeleton, path);
-}
-
-/// Returns the roles that the bones of a VRM file play. Spine, hands, feet and the crown are found as in other files.
-std::optional<JointMapOverrides> RolesOfBones(const std::map<std::string, int>& bones, const Skeleton& skeleton) {
-  constexpr std::pair<const char*, Role> kBones[] = {
-      {"leftUpperArm", Role::kLeftShoulder}, {"rightUpperArm", Role::kRightShoulder},
-      {"leftLowerArm", Role::kLeftElbow},    {"rightLowerArm", Role::kRightElbow},
-      {"leftHand", Role::kLeftWrist},        {"rightHand", Role::kRightWrist},
-      {"leftUpperLeg", Role::kLeftHip},      {"rightUpperLeg", Role::kRightHip},
-      {"leftLowerLeg", Role::kLeftKnee},     {"rightLowerLeg", Role::kRightKnee},
-      {"leftFoot", Role::kLeftAnkle},        {"rightFoot", Role::kRightAnkle},
-      {"neck", Role::kShoulderCentre}};
-  JointMapOverrides roles;
-  for (const auto& [bone, role] : kBones) {
-    const auto found = bones.find(bone);
-    if (found == bones.end()) continue;
-    const std::string& name = skeleton.joints[found->second].name;
-    if (skeleton.Find(name) == found->second) roles.joints[role] = {name, {}};
-  }
-  return roles.joints.empty() ? std::nullopt : std::optional(std::move(roles));
-}
 
 Result<std::vector<SourceClip>> ReadBuiltin(const std::string& reference) {
   ASSIGN_OR_RETURN(const auto builtin, LoadBuiltinClip(reference.substr(kBuiltinPrefix.size()), {}));
@@ -188,8 +72,8 @@ void RootAtHips(Clip& clip, bool has_meshes, std::vector<std::string>& remarks) 
 /// says which are missing.
 std::optional<Ground> GroundOf(const ClipFile& file, const std::string& path, const OpenOptions& options) {
   if (file.clips.size() < 2) return std::nullopt;
-  const auto map = FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles),
-                                file.clips.front().frames);
+  const auto map =
+      FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles), file.clips.front().frames);
   BodyOptions told = options.body;
   told.up = ToldUp(options);
   told.up_rule = UpRuleOf(file.format);
@@ -208,8 +92,8 @@ void TakeScalesOut(ClipFile& file, const std::string& path, const OpenOptions& o
     });
   };
   if (std::ranges::none_of(file.clips, has_scales)) return;
-  const auto map = FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles),
-                                file.clips.front().frames);
+  const auto map =
+      FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles), file.clips.front().frames);
   if (!map) return;
   if (const auto ratio = UndoScales(file.clips, *map)) {
     file.remarks.push_back(fmt::format(
@@ -227,28 +111,27 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
   const bool is_ours = opened.source.format == ClipFormat::kBuiltin || opened.source.format == ClipFormat::kRecording;
   opened.body = {.metres_per_unit = 1, .unit = "metre", .motion = {}};
   if (opened.source.made) {
-    for (const std::string& change : opened.source.made->changes) AddChange(change, opened.body);
+    opened.body.changes = opened.source.made->changes;
     opened.body.found_up = opened.source.made->up;
     opened.body.floor = opened.source.made->floor_m;
   } else {
-    AddChange("the canonical body", opened.body);
+    opened.body.changes.emplace_back("the canonical body");
   }
   // Markers were already turned and scaled as the user asked; our own arrays and angles are turned here.
   const bool is_turned = options.up == UpAxis::kZ && !is_ours && !IsOfMarkers(opened.source.format);
   if (is_turned) {
     opened.body.found_up = {.axis = AxisOf(UpAxis::kZ), .evidence = UpEvidence::kTold};
-    AddChange(DescribeTurn(opened.body.found_up), opened.body);
+    opened.body.changes.push_back(DescribeTurn(opened.body.found_up));
   }
   if (!IsOfMarkers(opened.source.format) && (options.metres_per_unit || (is_ours && options.up))) {
-    AddChange(is_ours ? "the file's own unit and up axis are used, not the given ones"
-                      : "the file's own unit is used, not the given one",
-              opened.body);
+    opened.body.changes.emplace_back(is_ours ? "the file's own unit and up axis are used, not the given ones"
+                                             : "the file's own unit is used, not the given one");
   }
   constexpr double kSameRate = 1e-6;  // relative; a rate that was computed from a column of times is rounded
   const bool keeps_rate = std::abs(opened.source.clip.rate_hz / options.rate_hz - 1) < kSameRate;
   if (!keeps_rate) {
-    AddChange(fmt::format("resampled from {:.6g} to {:.6g} Hz", opened.source.clip.rate_hz, options.rate_hz),
-              opened.body);
+    opened.body.changes.push_back(
+        fmt::format("resampled from {:.6g} to {:.6g} Hz", opened.source.clip.rate_hz, options.rate_hz));
   }
   const Clip clip = keeps_rate ? opened.source.clip : Resample(opened.source.clip, options.rate_hz);
   opened.body.motion.rate_hz = options.rate_hz;
@@ -267,96 +150,6 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
 }
 
 }  // namespace
-
-std::string_view FormatName(ClipFormat format) {
-  constexpr std::array kNames = {"BVH", "glTF", "GLB", "FBX", "DeepMimic", "Acclaim", "AMASS",     "C3D",
-                                 "TRC", "CSV",  "NPZ", "NPY", "Motive",    "MOT",     "recording", "built-in"};
-  return kNames[static_cast<std::size_t>(format)];
-}
-
-Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::string>& layout,
-                              const OpenOptions& options) {
-  CappedReader reader;
-  ASSIGN_OR_RETURN(const auto bytes, reader.Read(path));
-  TextScanner scanner(bytes, path);
-  const bool has_text = scanner.SkipToText();
-  const Token first = has_text ? scanner.Next() : Token{};
-
-  ClipFile file;
-  // Arrays: our own bodies, AMASS's motions, or positions of joints.
-  if (IsZip(bytes)) {
-    ASSIGN_OR_RETURN(const auto arrays, ReadNpz(bytes, path));
-    if (IsBodyNpz(arrays)) {
-      ASSIGN_OR_RETURN(const auto motion, ReadBodyNpz(arrays, path));
-      return FileOfBody(ClipFormat::kNpz, motion, path, "Etude's own arrays");
-    }
-    ASSIGN_OR_RETURN(auto clip, ReadAmass(arrays, path));
-    return FileOfOne(ClipFormat::kAmass, std::move(clip));
-  }
-  if (IsNpy(bytes)) {
-    ASSIGN_OR_RETURN(const auto array, ReadNpy(bytes, path));
-    std::string note;
-    ASSIGN_OR_RETURN(const auto joints, JointsOfArray(array, layout, path, note));
-    ASSIGN_OR_RETURN(file, FileOfMarkers(ClipFormat::kNpy, joints, path, options, ArrayUp()));
-    for (MadeBody& body : file.bodies) body.changes.push_back(note);
-    file.has_rate = false;
-    return file;
-  }
-  // Markers, and recordings of runs.
-  if (auto markers = ReadMarkers(bytes, path, options)) return *std::move(markers);
-  if (options.recorded != nullptr && options.recorded->IsRecording(bytes)) return options.recorded->Read(bytes, path);
-  // Text formats of bodies: OpenSim's angles and DeepMimic's motions.
-  if (first.text == "Coordinates" && HasModelOfAngles(bytes)) {
-    std::string note = "angles of the model in the file's header";
-    ASSIGN_OR_RETURN(const auto motion, ReadOpenSimMotion(bytes, path, &note));
-    return FileOfBody(ClipFormat::kMot, motion, path, note);
-  }
-  if (first.text == "{" && IsDeepMimicMotion(bytes)) {
-    ASSIGN_OR_RETURN(auto clip, ReadDeepMimicMotion(bytes, path));
-    return FileOfOne(ClipFormat::kDeepMimic, std::move(clip));
-  }
-  // glTF, GLB, and FBX, which is converted to GLB first.
-  const bool is_fbx = IsFbx(bytes);
-  if (first.text == "{" && bytes.find("\"asset\"") == std::string::npos) {
-    return Fail(scanner.At(first), "{}", DescribeOtherFile(bytes, first.text));
-  }
-  if (is_fbx || bytes.starts_with("glTF") || first.text == "{") {
-    file.format = is_fbx ? ClipFormat::kFbx : first.text == "{" ? ClipFormat::kGltf : ClipFormat::kGlb;
-    FbxMotion fbx;
-    if (is_fbx) {
-      ASSIGN_OR_RETURN(fbx, ReadFbx(bytes, path));
-      file.remarks.push_back("read by " + fbx.reader);
-      if (!fbx.remark.empty()) file.remarks.push_back(fbx.remark);
-    }
-    auto read = ReadGltf(
-        is_fbx ? fbx.glb : bytes, path, [&](const std::string& uri) { return ReadBeside(path, uri, reader); },
-        DecodeTexture);
-    if (!read && is_fbx) return Fail({path}, "an FBX file whose motion cannot be used: {}", read.error().message);
-    ASSIGN_OR_RETURN(auto content, std::move(read));
-    for (std::string& remark : content.remarks) file.remarks.push_back(std::move(remark));
-    file.figure = std::move(content.character);
-    file.clips = std::move(content.clips);
-    file.roles = RolesOfBones(content.bones, file.figure.skeleton);
-    return file;
-  }
-  // Acclaim and BVH; any other file is described in the complaint.
-  if (IsAcclaimMotion(bytes)) {
-    ASSIGN_OR_RETURN(auto clip, ReadAcclaim(bytes, path, reader));
-    return FileOfOne(ClipFormat::kAcclaim, std::move(clip));
-  }
-  constexpr std::string_view kBvhStart = "HIERARCHY";
-  if (!std::ranges::equal(first.text, kBvhStart, {}, [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; })) {
-    return Fail(
-        scanner.At(first),
-        "{}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), FBX, Acclaim's .amc, AMASS's .npz, "
-        "C3D, TRC, joint CSV, Motive's CSV, .npy of joints, .mot of ours, DeepMimic's motions",
-        DescribeOtherFile(bytes, first.text));
-  }
-  ASSIGN_OR_RETURN(auto clip, ReadBvh(bytes, path, &file.remarks));
-  ClipFile read = FileOfOne(ClipFormat::kBvh, std::move(clip));
-  read.remarks = std::move(file.remarks);
-  return read;
-}
 
 Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options) {
   if (reference.starts_with(kBuiltinPrefix)) return ReadBuiltin(reference);
@@ -428,8 +221,8 @@ Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options)
   told.up_rule = UpRuleOf(source.format);
   if (is_body) return UnderstandBuiltin(std::move(source), told);
   RootAtHips(source.clip, source.character != nullptr, source.remarks);
-  ASSIGN_OR_RETURN(auto map, FindJointMap(source.clip.skeleton, source.source, TaughtBy(options, source.roles),
-                                            source.clip.frames));
+  ASSIGN_OR_RETURN(
+      auto map, FindJointMap(source.clip.skeleton, source.source, TaughtBy(options, source.roles), source.clip.frames));
   // The ground of the whole file overrides what one clip would show.
   if (source.ground) {
     if (!told.up) told.found_up = source.ground->found_up;
@@ -437,7 +230,7 @@ Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options)
     told.stature = source.ground->stature;
   }
   ASSIGN_OR_RETURN(auto body, ToBodyMotion(source.clip, map, source.source, told));
-  for (const std::string& remark : source.remarks) AddChange(remark, body);
+  body.changes.insert(body.changes.end(), source.remarks.begin(), source.remarks.end());
   return OpenedClip{std::move(source), std::move(map), std::move(body)};
 }
 

@@ -1,85 +1,18 @@
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "engine/base/result.h"
-#include "engine/formats/trc.h"
 #include "engine/motion/character.h"
 #include "engine/motion/clip.h"
 #include "engine/retargeting/joint_map.h"
-#include "engine/retargeting/map_file.h"
 #include "engine/retargeting/to_body.h"
-#include "io/clips/recorded_motions.h"
+#include "io/clips/clip_file.h"
 
 namespace etude {
-
-enum class ClipFormat {
-  kBvh,
-  kGltf,
-  kGlb,
-  kFbx,
-  kDeepMimic,
-  kAcclaim,
-  kAmass,
-  kC3d,
-  kTrc,
-  kCsv,
-  kNpz,
-  kNpy,
-  kMotive,
-  kMot,
-  kRecording,
-  kBuiltin
-};
-/// Returns the name of a format: "BVH", "glTF", "GLB", "FBX", "DeepMimic", "Acclaim", "AMASS", "C3D", "TRC", "CSV",
-/// "NPZ", "NPY", "Motive", "MOT", "recording" or "built-in".
-std::string_view FormatName(ClipFormat format);
-
-/// How a clip that is a body already was made.
-struct MadeBody {
-  /// The source of the body, and every change that was made to the file's content, as sentences for users.
-  std::vector<std::string> changes;
-  UpFinding up = {};                 ///< the axis of the file that became Y
-  double floor_m = 0;                ///< the height that became 0
-};
-
-/// The content of a motion file.
-struct ClipFile {
-  ClipFormat format = ClipFormat::kBvh;
-  Character figure;         ///< a skeleton, and meshes if the file has any
-  std::vector<Clip> clips;  ///< on that skeleton; glTF may hold none; a marker file of several people holds one each
-                            ///< people
-  std::vector<MadeBody> bodies = {};      ///< one for each clip, if they are bodies already
-  std::vector<std::string> remarks = {};  ///< repairs that were made while reading
-  std::optional<JointMapOverrides> roles = {};  ///< roles that the bone table of a VRM file assigns
-  std::vector<MarkerMotion> shown = {};  ///< for clips that were made of markers: MarkerBody::shown of each
-  bool has_rate = true;  ///< false: the file gives no rate, so a rate was assumed
-};
-
-/// The options with which a clip is opened.
-struct OpenOptions {
-  std::optional<JointMapOverrides> roles;  ///< the user's joint map (--joint-map)
-  BodyOptions body;
-  std::string marker_set = "";  ///< of marker files: the set to use (MarkerSetKeys); "" = the best
-  const RecordedMotions* recorded = nullptr;  ///< reads "RUN#CELL@NAME"; null = such a reference is treated as a file
-};
-
-/// The maximum size of a file, or of a .gltf with its buffers, bytes. A larger file is refused before memory is taken.
-constexpr std::uintmax_t kMaxClipFileBytes = 500'000'000;
-
-/// Reads a motion file; the content decides the format, not the name. Known are BVH, glTF, GLB, FBX, DeepMimic's
-/// motions, Acclaim's AMC, AMASS's .npz, our own .npz and .mot, arrays of joints (.npy, arranged as `layout` says:
-/// JointsOfArray), and markers in C3D, TRC, Motive's CSV or joint CSV (as FindMarkerBodies does). The buffers of a
-/// .gltf are read only from its own folder and below; links that lead out of it are refused. The skeleton of an AMC is
-/// the ASF file beside it: "01.asf" for "01_01.amc", else the only ASF of the folder. `options` gives what marker files
-/// do not say. Its `recorded` reads the recordings of runs; without it, they are refused as files without motion.
-Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::string>& layout = std::nullopt,
-                              const OpenOptions& options = {});
 
 /// A clip as its file stores it.
 struct SourceClip {

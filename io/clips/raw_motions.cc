@@ -4,6 +4,8 @@
 
 #include "engine/base/digest.h"
 #include "engine/base/names.h"
+#include "engine/formats/kimodo.h"
+#include "engine/formats/npz.h"
 #include "engine/retargeting/orientation.h"
 #include "io/clips/references.h"
 #include "io/files/files.h"
@@ -34,7 +36,12 @@ void AddHipCentre(RawMotion& raw) {
   raw.rotations = std::move(rotations);
   raw.roles[Index(Role::kHipCentre)] = static_cast<int>(joints);
   raw.joints.emplace_back("(midway between the hips)");
-  if (!raw.parents.empty()) raw.parents.push_back(raw.parents[left]);
+  if (raw.parents.empty()) return;
+  const int carrier = raw.parents[left];
+  raw.parents.push_back(carrier);
+  if (raw.rotations.empty()) return;
+  raw.rest_positions.push_back(0.5 * (raw.rest_positions[left] + raw.rest_positions[right]));
+  raw.rest_rotations.push_back(carrier < 0 ? glm::dquat(1, 0, 0, 0) : raw.rest_rotations[carrier]);
 }
 
 RawMotion OfMarkers(const MarkerMotion& shown) {
@@ -53,6 +60,12 @@ RawMotion OfMarkers(const MarkerMotion& shown) {
   return raw;
 }
 
+/// Returns the rotation of axes that may be scaled.
+glm::dquat RotationOf(const glm::dmat3& axes) {
+  const auto unit = [](const glm::dvec3& axis) { return glm::dot(axis, axis) > 0 ? glm::normalize(axis) : axis; };
+  return glm::normalize(glm::quat_cast(glm::dmat3(unit(axes[0]), unit(axes[1]), unit(axes[2]))));
+}
+
 /// Converts a clip with a skeleton; `unit` is the length of its unit in metres.
 RawMotion OfSkeleton(const Clip& clip, double unit, UpAxis up) {
   // The rotation of Upright: X stays, Z becomes Y.
@@ -67,11 +80,16 @@ RawMotion OfSkeleton(const Clip& clip, double unit, UpAxis up) {
   raw.positions.reserve(clip.frames.size() * raw.joints.size());
   raw.rotations.reserve(clip.frames.size() * raw.joints.size());
   std::vector<GlobalTransform> globals;
+  ComputeGlobals(clip.skeleton, RestPose(clip.skeleton), globals);
+  for (const GlobalTransform& joint : globals) {
+    raw.rest_positions.push_back(Upright(unit * joint.position, up));
+    raw.rest_rotations.push_back(turn * RotationOf(joint.axes));
+  }
   for (const LocalPose& frame : clip.frames) {
     ComputeGlobals(clip.skeleton, frame, globals);
     for (const GlobalTransform& joint : globals) {
       raw.positions.push_back(Upright(unit * joint.position, up));
-      raw.rotations.push_back(glm::normalize(turn * glm::quat_cast(joint.axes)));
+      raw.rotations.push_back(turn * RotationOf(joint.axes));
     }
   }
   return raw;
@@ -97,10 +115,20 @@ std::vector<std::string> NotesOn(const OpenedClip& opened) {
   return notes;
 }
 
+/// Returns what an .npz file says of contacts; empty if it says nothing.
+Result<std::vector<bool>> ContactsIn(const std::string& reference, std::size_t frames) {
+  const std::string path = FileOf(Split(reference).path);
+  ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(path));
+  ASSIGN_OR_RETURN(const auto arrays, ReadNpz(bytes, path));
+  ASSIGN_OR_RETURN(const auto contacts, ReadFootContacts(arrays, frames, path));
+  return contacts.value_or(std::vector<bool>{});
+}
+
 }  // namespace
 
 Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options) {
   const std::string name = source.source;
+  const ClipFormat format = source.format;
   RawMotion raw;
   if (source.shown != nullptr) {
     raw = OfMarkers(*source.shown);
@@ -119,13 +147,18 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options) {
       if (!is_composed && !is_carrier) raw.roles[Index(role)] = opened.map[role].joint;
     }
     if (is_body) {
-      raw.rotations.clear();  // RigClip invented them
+      raw.rotations.clear();  // made up by RigClip
+      raw.rest_rotations.clear();
+      raw.rest_positions.clear();
     } else {
       raw.notes = NotesOn(opened);
     }
   }
   raw.name = name;
   AddHipCentre(raw);
+  if (format == ClipFormat::kNpz || format == ClipFormat::kAmass) {
+    ASSIGN_OR_RETURN(raw.contacts, ContactsIn(name, raw.FrameCount()));
+  }
   if (raw.positions.empty()) return Fail({name}, "no frames; at least one is needed");
   return raw;
 }
@@ -141,7 +174,9 @@ Result<std::string> DigestOfFile(const std::string& reference, const OpenOptions
 }
 
 Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions& options) {
-  ASSIGN_OR_RETURN(auto clips, ReadClips(reference, options));
+  OpenOptions how = options;
+  how.keeps_shown = true;
+  ASSIGN_OR_RETURN(auto clips, ReadClips(reference, how));
   if (clips.size() == 1) return RawMotionOf(std::move(clips.front()), options);
   std::vector<std::string> names;
   for (const SourceClip& clip : clips) names.push_back(clip.source);

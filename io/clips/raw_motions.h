@@ -11,8 +11,8 @@ namespace etude {
 /// Converts a clip to what its file holds: every frame at the file's own rate, on the file's own floor, with its gaps,
 /// in metres and Y up. A leading T-pose stays. Of a skeleton it takes all joints; of markers, the joints that the
 /// marker set determines and all other markers. Joints that a reader only estimates by a rule are left out. The hip
-/// centre is midway between the hips, unless the file's own joint plays it. Fails as UnderstandClip does: without
-/// roles, unit and up axis are unknown.
+/// centre is midway between the hips, unless the file's own joint plays it. Contacts are read from an .npz that has them
+/// (ReadFootContacts). Fails as UnderstandClip does: without roles, unit and up axis are unknown.
 Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options);
 
 /// Returns the digest of the bytes of the file that a reference names; of a built-in clip, that of its name. Files that

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/names.h"
+#include "engine/base/utf8.h"
 #include "sim/choreography/song.h"
 
 namespace etude {
@@ -106,6 +107,9 @@ Result<std::vector<std::string>> ExpandReference(const std::string& reference, c
                 reference);
   }
   if (found.size() > most) return Fail(place, "'{}' matches more than {} clips", reference, most);
+  for (const std::string& file : found) {
+    if (!CheckUtf8(file, "")) return Fail(place, "{} has a name that is not UTF-8 text", Quote(file));
+  }
   return found;
 }
 
@@ -130,12 +134,12 @@ SplitReference Split(const std::string& reference) {
   return {reference.substr(0, hash), reference.substr(hash + 1)};
 }
 
-Result<std::vector<std::string>> ExpandReferences(const std::vector<std::string>& references) {
+Result<std::vector<std::string>> ExpandReferences(const std::vector<std::string>& references, std::size_t most) {
   std::vector<std::string> all;
   for (const std::string& reference : references) {
-    ASSIGN_OR_RETURN(auto expanded, ExpandReference(reference, {}));
+    ASSIGN_OR_RETURN(auto expanded, ExpandReference(reference, {}, most));
     all.insert(all.end(), expanded.begin(), expanded.end());
-    if (all.size() > kMaxClips) return Fail({}, "more than {} clips", kMaxClips);
+    if (all.size() > most) return Fail({}, "more than {} clips", most);
   }
   return all;
 }

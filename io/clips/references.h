@@ -33,8 +33,9 @@ constexpr std::size_t kMaxClips = 1000;
 Result<std::vector<std::string>> ExpandReference(const std::string& reference, const Place& place,
                                                  std::size_t most = kMaxClips);
 
-/// Lists the clips that all references stand for, in order. Fails if there are more than `kMaxClips`.
-Result<std::vector<std::string>> ExpandReferences(const std::vector<std::string>& references);
+/// Lists the clips that all references stand for, in order. Fails if there are more than `most`.
+Result<std::vector<std::string>> ExpandReferences(const std::vector<std::string>& references,
+                                                  std::size_t most = kMaxClips);
 
 /// A reference such as "dance.glb#Jump", split into the file and its animation. If a file whose name holds '#' exists,
 /// it has priority.

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <time.h>
 #include <unistd.h>
@@ -19,13 +20,21 @@ namespace {
 
 constexpr std::size_t kMaxProcesses = 4096;
 
+/// Returns the living threads of a process.
+std::vector<pid_t> ThreadsOf(pid_t process) {
+  std::vector<pid_t> threads;
+  DIR* folder = ::opendir(fmt::format("/proc/{}/task", process).c_str());
+  if (folder == nullptr) return threads;
+  while (const dirent* thread = ::readdir(folder)) {
+    if (thread->d_name[0] != '.') threads.push_back(static_cast<pid_t>(std::atoi(thread->d_name)));
+  }
+  ::closedir(folder);
+  return threads;
+}
+
 void AddChildren(pid_t parent, std::vector<pid_t>& processes) {
-  const std::string folder = fmt::format("/proc/{}/task", parent);
-  DIR* threads = ::opendir(folder.c_str());
-  if (threads == nullptr) return;
-  while (const dirent* thread = ::readdir(threads)) {
-    if (thread->d_name[0] == '.') continue;
-    const std::string children = ReadProcFile(fmt::format("{}/{}/children", folder, thread->d_name));
+  for (const pid_t thread : ThreadsOf(parent)) {
+    const std::string children = ReadProcFile(fmt::format("/proc/{}/task/{}/children", parent, thread));
     const char* at = children.c_str();
     for (char* end = nullptr; processes.size() < kMaxProcesses; at = end) {
       const long child = std::strtol(at, &end, 10);
@@ -33,7 +42,6 @@ void AddChildren(pid_t parent, std::vector<pid_t>& processes) {
       processes.push_back(static_cast<pid_t>(child));
     }
   }
-  ::closedir(threads);
 }
 
 /// Returns the processor time of one process, in nanoseconds; /proc/<pid>/stat has ticks of 10 ms.
@@ -94,6 +102,11 @@ std::vector<pid_t> ProcessTree(pid_t root) {
   std::vector<pid_t> processes = {root};
   for (std::size_t i = 0; i < processes.size(); ++i) AddChildren(processes[i], processes);
   return processes;
+}
+
+void LowerPriority(pid_t process) {
+  constexpr int kLowest = 19;
+  for (const pid_t thread : ThreadsOf(process)) ::setpriority(PRIO_PROCESS, static_cast<id_t>(thread), kLowest);
 }
 
 HeldTree::HeldTree(pid_t root) {

@@ -32,6 +32,9 @@ std::vector<pid_t> ChildrenOf(pid_t parent);
 /// Measures one process without its living descendants; zeros if it does not exist any more.
 ProcessUsage MeasureProcess(pid_t process);
 
+/// Gives all threads of a process, and all that they start from now on, the lowest priority.
+void LowerPriority(pid_t process);
+
 /// A process and its descendants, held by pidfds, so that Kill cannot hit a process that has reused one of their IDs.
 class HeldTree {
  public:

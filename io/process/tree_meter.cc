@@ -6,6 +6,7 @@
 #include <linux/kcmp.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,6 +21,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 #include "io/process/process_tree.h"
@@ -34,10 +36,17 @@ constexpr double kThreadMb = 25e3 / kMb, kMappingMb = 250 / kMb, kLockMb = 250 /
 
 constexpr std::size_t kMaxUncheckedDescriptors = 256;  // above this, pipes are counted
 constexpr std::size_t kMaxFreeSockets = 64;            // sockets above this number count as full
-constexpr std::size_t kMaxMappings = 1 << 20;          // read in one sample
 constexpr std::size_t kMaxLockBytes = 4 << 20;
 constexpr std::size_t kEnoughLocks = 17'000;  // more than a program may have (ProgramLimits::kFileLocks)
 constexpr int kMaxSamplesUnseen = 3;
+
+/// Returns the time since this thread started, and since the epoch of Clock.
+ElapsedTime Now() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return {static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec),
+          std::chrono::duration<double>(Clock::now().time_since_epoch()).count()};
+}
 
 /// Returns the number that follows `name` in a file of /proc; 0 if the name is missing.
 double FieldOf(std::string_view text, std::string_view name) {
@@ -179,7 +188,13 @@ void AddPart(std::map<std::uint64_t, std::uint64_t>& parts, std::uint64_t begin,
 
 }  // namespace
 
+bool Starves(const ElapsedTime& measuring, double cores_of_tree, double cores) {
+  constexpr double kExpensive_s = 0.005, kMaxWait = 4;
+  return measuring.cpu_s > kExpensive_s && measuring.wall_s > kMaxWait * measuring.cpu_s && cores_of_tree > 0.5 * cores;
+}
+
 TreeLoad TreeMeter::Count() {
+  started_ = Now();
   processes_ = ProcessTree(root_);
   bounds_mb_.clear();
   const TreeLoad before = std::exchange(load_, {});
@@ -188,6 +203,7 @@ TreeLoad TreeMeter::Count() {
   // Read two small files per process.
   std::map<pid_t, std::uint64_t> faults;
   for (const pid_t process : processes_) {
+    ClaimTime();
     const ProcessUsage usage = MeasureProcess(process);
     const ProcessBound bound = BoundOf(process);
     load_.cpu_s += usage.cpu_s;
@@ -201,6 +217,7 @@ TreeLoad TreeMeter::Count() {
     page_tables_mb_ += bound.page_tables_mb;
     max_shared_mb_ = std::max(max_shared_mb_, bound.shared_mb);
   }
+  of_tree_ = {load_.cpu_s, Now().wall_s};
   faults_ = std::move(faults);
   min_since_mb_ = std::min(min_since_mb_, max_shared_mb_);
   max_since_mb_ = std::max(max_since_mb_, max_shared_mb_);
@@ -238,6 +255,8 @@ double TreeMeter::HeldMb(double scratch_mb, double precise_from_mb) {
                            kMappingMb * static_cast<double>(mappings_) +
                            kLockMb * static_cast<double>(load_.file_locks) + FullSocketMb() * full_sockets + tcp_mb_;
 
+  if (others_mb > limit_mb_) return others_mb;
+
   // Private memory grows only by touched pages. So the last precise value plus the growth since then is an upper bound.
   static const double mb_per_page = static_cast<double>(::sysconf(_SC_PAGESIZE)) / kMb;
   const double bound_mb = std::accumulate(bounds_mb_.begin(), bounds_mb_.end(), 0.0);
@@ -246,11 +265,27 @@ double TreeMeter::HeldMb(double scratch_mb, double precise_from_mb) {
   if (private_mb + others_mb > precise_from_mb) {
     private_mb = 0;
     for (std::size_t i = 0; i < processes_.size(); ++i) {
+      ClaimTime();
       if (!SharesMemoryBefore(i)) private_mb += ProportionalMb(processes_[i], bounds_mb_[i]);
     }
     precise_ = {private_mb, bound_mb, touched_pages_};
   }
   return private_mb + others_mb;
+}
+
+void TreeMeter::ClaimTime() {
+  // The tree's time is read only if we have waited for long.
+  const ElapsedTime now = Now();
+  const ElapsedTime measuring{now.cpu_s - started_.cpu_s, now.wall_s - started_.wall_s};
+  static const double cores = std::thread::hardware_concurrency();
+  if (!Starves(measuring, cores, cores)) return;
+  const std::vector<pid_t> processes = ProcessTree(root_);
+  double cpu_s = 0;
+  for (const pid_t process : processes) cpu_s += MeasureProcess(process).cpu_s;
+  const double cores_of_tree = (cpu_s - of_tree_.cpu_s) / (now.wall_s - of_tree_.wall_s);
+  // Processes that start later inherit the priority.
+  if (Starves(measuring, cores_of_tree, cores)) std::ranges::for_each(processes, LowerPriority);
+  started_ = Now();
 }
 
 bool TreeMeter::SharesMemoryBefore(std::size_t at) const {
@@ -271,8 +306,8 @@ void TreeMeter::SampleMappings() {
   // Find the anonymous shared mappings of all processes.
   for (auto& [inode, memory] : shared_) ++memory.samples_unseen;
   mappings_ = 0;
-  std::size_t processes_read = 0;
   for (const pid_t process : processes_) {
+    ClaimTime();
     const std::string maps = ReadProcFile(fmt::format("/proc/{}/maps", process));
     mappings_ += static_cast<std::size_t>(std::ranges::count(maps, '\n'));
     constexpr std::string_view kName = "/dev/zero (deleted)\n";  // the kernel's name of anonymous shared memory
@@ -283,9 +318,8 @@ void TreeMeter::SampleMappings() {
       AddPart(shared_[inode].parts, offset, offset + (end - begin));
       shared_[inode].samples_unseen = 0;
     }
-    if (++processes_read; mappings_ > kMaxMappings) break;
+    if (kMappingMb * static_cast<double>(mappings_) > limit_mb_) break;
   }
-  mappings_ = mappings_ * processes_.size() / std::max<std::size_t>(processes_read, 1);
   // Forget a mapping only after several samples: a process that started during this one may still map it.
   std::erase_if(shared_, [](const auto& one) { return one.second.samples_unseen > kMaxSamplesUnseen; });
 

@@ -23,19 +23,32 @@ struct TreeLoad {
   std::size_t file_locks = 0;
 };
 
+/// The time that this thread has computed, and the time that has passed.
+struct ElapsedTime {
+  double cpu_s = 0;
+  double wall_s = 0;
+};
+
+/// Returns true if a tree starves the one who measures it: an expensive measurement has waited for most of its time,
+/// while the tree used more than half of all cores.
+bool Starves(const ElapsedTime& measuring, double cores_of_tree, double cores);
+
 /// Measures the resources of a tree of processes by repeated sampling, for machines without control groups: each page
 /// once, however many processes share it, plus the kernel's memory for the processes.
 ///
 /// A sample reads two small files per process, about 30 µs. They give an upper bound on memory, which usually suffices.
-/// Expensive files are read only if the bound is near the limit, or less often.
+/// Expensive files are read only if the bound is near the limit, or less often. A tree that starves us gets the lowest
+/// priority for good.
 class TreeMeter {
  public:
-  explicit TreeMeter(pid_t root) : root_(root) {}
+  /// `limit_mb` is the memory that the tree may hold.
+  TreeMeter(pid_t root, double limit_mb) : root_(root), limit_mb_(limit_mb) {}
 
   /// Takes a sample and returns the load; HeldMb then returns the memory.
   TreeLoad Count();
   /// Returns the memory of the processes of the last Count, MB, including `scratch_mb` of temporary files. A result
-  /// below `precise_from_mb` may be an upper bound, in which shared pages count once per process.
+  /// below `precise_from_mb` may be an upper bound, in which shared pages count once per process; a result above the
+  /// limit may be a lower bound.
   double HeldMb(double scratch_mb, double precise_from_mb);
 
  private:
@@ -67,11 +80,17 @@ class TreeMeter {
     double Mb() const;
   };
 
+  /// Reads the mappings of all processes, or of so many that these alone exceed the limit.
   void SampleMappings();
+  /// Gives the tree the lowest priority if it starves us; called again and again during a measurement.
+  void ClaimTime();
   /// Returns true if a process shares its whole memory with an earlier one in the list, as a child of vfork does.
   bool SharesMemoryBefore(std::size_t at) const;
 
   const pid_t root_;
+  const double limit_mb_;
+  ElapsedTime started_;  ///< when this measurement began, or when it was last seen whether we starve
+  ElapsedTime of_tree_;  ///< its processor time at the last Count, and when that was
   Pace mappings_pace_{std::chrono::milliseconds(0)}, kernel_pace_{std::chrono::milliseconds(100)};
   Pace pipes_pace_{std::chrono::milliseconds(0)};
   std::vector<pid_t> processes_;
@@ -80,7 +99,7 @@ class TreeMeter {
   double page_tables_mb_ = 0, tcp_mb_ = 0;
   /// The largest amount of shared pages that one process maps, now, and its minimum and maximum since SampleMappings.
   double max_shared_mb_ = 0, min_since_mb_ = 0, max_since_mb_ = 0;
-  std::size_t mappings_ = 0;
+  std::size_t mappings_ = 0;  ///< as far as they were read
   std::map<std::uint64_t, SharedMemory> shared_;  ///< by inode
   std::map<pid_t, std::uint64_t> faults_;         ///< page faults of each process in the last sample
   std::uint64_t touched_pages_ = 0;               ///< page faults of all processes since the start

@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 
+#include "engine/base/names.h"
 #include "engine/recognition/recognise.h"
 #include "io/clips/clip_library.h"
 #include "io/clips/references.h"
@@ -93,7 +94,7 @@ std::vector<NamedStream> StreamsOf(const ClipLibrary& library) {
                        .stream = StreamOf(clip.motion),
                        .start_s = 0,
                        .description = fmt::format("clip, {:.1f} s{}{}", clip.motion.DurationSeconds(),
-                                                  clip.note.empty() ? "" : ", ", clip.note),
+                                                  clip.changes.empty() ? "" : ", ", Join(clip.changes, "; ")),
                        .motion = clip.motion});
   }
   return streams;

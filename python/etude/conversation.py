@@ -5,7 +5,7 @@ import sys
 
 PROTOCOL = 1
 TASKS = {  # task → its seats; "" if the program answers whole problems
-    "ik": [""], "tracking": [""], "transition": [""], "pose-distance": [""], "search": [""], "detection": [""],
+    "ik": [""], "tracking": [""], "transition": [""], "pose-distance": [""], "detection": [""],
     "capture": ["", "segmenter"], "coach": ["recogniser", "policy", "learner"],
 }
 

@@ -8,14 +8,14 @@ from etude.program import EtudeError, call
 from etude.results import load
 
 
-def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, people=None, metrics=(), output=None,
-             overwrite=False, jobs=None, progress=True, program=None, **answers):
+def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, people=None, lag=None, statistics=None,
+             music_beats=None, metrics=(), output=None, overwrite=False, jobs=None, progress=True, program=None, **answers):
     """Judges answers by their truth and returns the Run, as load does.
 
     truth, and each answer by its method's name: a motion file, a folder or a pattern; or an array of positions, frames
     × joints × 3 in metres with Y up, NaN where a joint was not seen. Arrays need `names` of their joints and `rate_hz`;
-    they are kept as TRC files in the folder `output` + ".motions". pairs: a CSV of pairs instead. joints, people,
-    metrics: as `--joints`, `--people` and `--metric` of `etude evaluate`.
+    they are kept as TRC files in the folder `output` + ".motions". pairs: a CSV of pairs instead. joints, people, lag,
+    statistics, music_beats, metrics: as the options of `etude evaluate`.
 
     Raises EtudeError, also if a method has no answer that can be judged; its `run` is then set.
     """
@@ -36,7 +36,8 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
     arguments = ["evaluate"]
     if pairs is None:
         arguments += [reference(truth, "truth"), *(f"{name}={reference(each, name)}" for name, each in answers.items())]
-    for flag, value in (("--pairs", pairs), ("--joints", joints), ("--people", people), ("--jobs", jobs)):
+    for flag, value in (("--pairs", pairs), ("--joints", joints), ("--people", people), ("--lag", lag),
+                        ("--statistics", statistics), ("--music-beats", music_beats), ("--jobs", jobs)):
         arguments += [flag, os.fspath(value) if isinstance(value, os.PathLike) else str(value)] if value is not None else []
     for metric in metrics:
         arguments += ["--metric", metric]

@@ -24,18 +24,8 @@ constexpr std::array<Named<Fault>, 10> kFaults = {{{"amplitude", Fault::kAmplitu
 
 using enum Role;
 
-/// The limbs whose directions are compared: trunk, line of the shoulders, both upper arms, forearms, thighs and shanks.
+/// How many limbs' directions are compared: trunk, line of the shoulders, both upper arms, forearms, thighs and shanks.
 constexpr std::size_t kStrayLimbs = 10;
-constexpr std::array<Bone, kStrayLimbs> kLimbs = {{{kHipCentre, kShoulderCentre},
-                                                   {kRightShoulder, kLeftShoulder},
-                                                   {kLeftShoulder, kLeftElbow},
-                                                   {kLeftElbow, kLeftWrist},
-                                                   {kRightShoulder, kRightElbow},
-                                                   {kRightElbow, kRightWrist},
-                                                   {kLeftHip, kLeftKnee},
-                                                   {kLeftKnee, kLeftAnkle},
-                                                   {kRightHip, kRightKnee},
-                                                   {kRightKnee, kRightAnkle}}};
 
 /// Returns the centre of the i-th of `count` equal parts of [0, 1].
 double MiddleOf(int i, int count) { return (i + 0.5) / count; }
@@ -44,11 +34,16 @@ double MiddleOf(int i, int count) { return (i + 0.5) / count; }
 /// limb of length zero has a zero direction, whose angle to any other is 0.
 std::array<glm::dvec3, kStrayLimbs> LimbDirections(const BodyPose& pose) {
   std::array<glm::dvec3, kStrayLimbs> directions{};
-  for (std::size_t i = 0; i < kStrayLimbs; ++i) {
-    const glm::dvec3 limb = pose[kLimbs[i].child] - pose[kLimbs[i].parent];
+  std::size_t i = 0;
+  const auto add = [&](const Bone& bone) {
+    const glm::dvec3 limb = pose[bone.child] - pose[bone.parent];
     const double length = glm::length(limb);
     if (length > 0) directions[i] = limb / length;
-  }
+    ++i;
+  };
+  add({kHipCentre, kShoulderCentre});
+  add({kRightShoulder, kLeftShoulder});
+  for (const Bone& bone : ArmAndLegBones()) add(bone);
   return directions;
 }
 

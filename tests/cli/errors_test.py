@@ -46,7 +46,7 @@ class Errors(EtudeCase):
     def test_unknown_names_list_what_is_allowed(self):
         self.refuses_scenario(IK.replace("task: ik", "task: ki"),
                               says=[":3:7: ", "did you mean 'ik'? Allowed: transition, detection, ik, tracking, capture, "
-                                            "search, pose-distance"])
+                                            "pose-distance"])
         self.refuses_scenario(IK.replace("solver: ccd, weights: fixed", "solver: cdc, weights: fixed"),
                               says=[":7:27: ", "unknown solver 'cdc'; did you mean 'ccd'?", "ccd-hinges"])
 

@@ -293,8 +293,8 @@ class OwnMetrics(EtudeCase):
                               (f"[{{name: a, {program}, vectors: [{{cell: {{}}}}]}}]", "a list 'tracks'"),
                               (f"[{{name: a, {program}, files: [nowhere]}}]", "'files' of metric 'a': 'nowhere'")):
             self.refused(HEAD + f"metrics: {metrics}\n", says, "refused.yaml")
-        self.refused(f"scenario: s\nquestion: why\ntask: search\nmethods: [{{name: a}}]\nmetrics: [{{name: a, {program}}}]\n",
-                     "cells of task search record no motion")
+        self.refused(f"scenario: s\nquestion: why\ntask: pose-distance\nmethods: [{{name: a}}]\nmetrics: [{{name: a, {program}}}]\n",
+                     "cells of task pose-distance record no motion")
         self.refused("defaults: {task: ik, methods: [{name: a}]}\nscenarios:\n"
                      f"  - {{scenario: x, question: why, metrics: [{{name: twice, {program}}}]}}\n"
                      f"  - {{scenario: y, question: why, metrics: [{{name: twice, {program}, unit: mm}}]}}\n",

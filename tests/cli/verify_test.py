@@ -59,16 +59,16 @@ class Verify(EtudeCase):
 
     def test_a_run_that_nobody_touched_agrees_line_by_line(self):
         text = self.verify(expect=0)
-        for said in ("seal.json", "rows: exactly those", "files: those that", "texts: nothing", "manifest.json: what", "worlds: every row",
-                     "summary.json: the same when computed again from 24 rows", "20 of 20 cells and 4 that left a recording, run again",
+        for said in ("seal.json", "rows: exactly those", "files: those that", "texts: only", "host.json: no keys", "manifest.json: as such",
+                     "worlds: every row", "summary.json: the same when computed again from 24 rows", "20 of 20 cells and 4 that left a recording, run again",
                      "report: "):
             self.assertRegex(text, f"(?m)^agrees   .*{re.escape(said)}")
-        self.assertRegex(text, r"9 of 9 agree")
+        self.assertRegex(text, r"10 of 10 agree")
         self.assertIn("Every cell that can be run again was.", text)
         self.assertNotIn("run again:", self.verify("--sample", 0, expect=0))
 
     def test_a_change_without_a_new_seal_is_told_of_and_the_rest_all_the_same(self):
-        forge(self.out / "host.json", '"jobs":', '"jobs": ')
+        forge(self.out / "host.json", '"jobs":', '"jobs":1')
         found, text = self.differences("--sample", 0)
         self.assertEqual(found, ["seal.json"])
         self.assertIn("host.json: was changed after the run wrote it", text)
@@ -76,6 +76,10 @@ class Verify(EtudeCase):
     def forgeries(self):
         """Name, the forgery, what finds it, and what is said of it."""
         summary, manifest = self.out / "summary.json", self.out / "manifest.json"
+        host, metric = self.out / "host.json", {
+            "aggregate": "mean", "definition": "d", "direction": "lower", "domain": "own", "formula": "", "id": "ours", "inputs": {},
+            "label": "l", "null_rule": "", "practical_reason": "", "practical_threshold": 1, "reads": "amount", "source": "", "unit": "cm",
+            "vectors": [], "version": 1}
         recording = sorted((self.out / "recordings").iterdir())[0]
         curves = self.out / "series" / "ik.jsonl"
         number = re.search(r'"median":([0-9.e-]+)', summary.read_text())[1]
@@ -113,6 +117,11 @@ class Verify(EtudeCase):
             ("a gate", lambda: [self.etude("gate", self.out, "--unsealed"), forge(self.out / "report" / "gate.md", "gate of", "gate that passed of")],
              "report", "gate.md is not what the run says"),
             ("a key of the manifest", lambda: forge(manifest, '"metrics":{', '"metrics":{"ours":7,'), "manifest.json", "metrics.ours was 7"),
+            ("a metric", lambda: forge(manifest, '"packages":', f'"own_metrics":[{json.dumps(metric, separators=(",", ":"))}],"packages":'),
+             "manifest.json", "own_metrics: no scenario has 'ours'"),
+            ("a key of the machine", lambda: forge(host, '"jobs":', '"is_fast":true,"jobs":'), "host.json", "no run writes 'is_fast'"),
+            ("a figure of the machine", lambda: forge(host, '"jobs":', '"jobs":"no","shards":[{}],"wall_seconds":'), "host.json",
+             r"'jobs' is .*shards\[0\]: 'host' is missing.*written differently"),
             ("a platform", lambda: forge(manifest, '"trials":', '"platform":"ours","trials":'), "manifest.json", "platform was"),
             ("a source", lambda: forge(manifest, '"sources":{', '"sources":{"ours":"best",'), "manifest.json", "nothing names 'ours'"),
             ("a table", lambda: forge(self.out / "report" / "tables" / "ik.csv", "fixed", "fixes"), "report", "ik.csv"),
@@ -166,7 +175,7 @@ class Verify(EtudeCase):
             self.assertEqual(subprocess.run(command, cwd=self.out, capture_output=True).returncode, 0, command)
         self.assertEqual(self.etude("gate", self.out).returncode, 0)  # what is signed is a run like any other
         self.assertIn("is of key", self.differences("--sample", 0, "--check", self.keys("other", "-W")[1])[1])
-        forge(self.out / "host.json", '"jobs":', '"jobs": ')  # which nothing else would find
+        forge(self.out / "host.json", '"jobs":', '"jobs":1')  # which nothing else would find
         reseal(self.out)
         self.verify("--sample", 0, expect=0)
         found, text = self.differences("--sample", 0, "--check", public)

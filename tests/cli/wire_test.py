@@ -14,7 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROBE, EXAMPLES = ROOT / "tests/support/wire_probe.py", ROOT / "examples/outside-methods"
 TALKS = [("ik", "", "ik_dls.py")]
 SLOW_TALKS = [("tracking", "", "tracking_dls.py"), ("transition", "", "transition_nearest.py"),
-              ("detection", "", "detection_correlation.py"), ("search", "", "search_loop.py"),
+              ("detection", "", "detection_correlation.py"),
               ("coach", "recogniser", "coach_recogniser.py"), ("coach", "policy", "coach_policy.py"),
               ("coach", "learner", "coach_learner.py"), ("ik", "", "ik_lm_numpy.py"), ("transition", "", "transition_arrays_numpy.py"),
               ("capture", "", "capture_triangulation_numpy.py"), ("capture", "segmenter", "capture_segmenter.py")]
@@ -23,7 +23,6 @@ EXPORTS = {
     "tracking": "task: tracking\nclips: ['builtin:clap']\nduration_s: 0.2\n",
     "transition": "task: transition\nclips: ['builtin:clap', 'builtin:sway']\n",
     "pose-distance": "task: pose-distance\nclips: ['builtin:clap', 'builtin:sway']\npairs: frames\npairs_per_world: 3\n",
-    "search": "task: search\nclips: ['builtin:clap', 'builtin:sway']\nframes: 500\nqueries: 2\n",
     "detection": "task: detection\nclips: ['builtin:clap', 'builtin:sway']\nevents: 2\n",
     "capture": "task: capture\nclips: ['builtin:clap']\nduration_s: 0.1\n",
 }

@@ -29,8 +29,6 @@ WORLDS = [  # scenario, condition, trial
     ("every-solver", 0, 0),
     ("every-solver", 1, 3),
     ("every-solver-tracks", 0, 0),
-    ("every-search", 0, 0),
-    ("every-search", 0, 1),
     ("every-switch", 0, 0),
     ("every-switch", 0, 5),
     ("every-distance", 0, 0),
@@ -43,9 +41,6 @@ scenarios:
      record: [effector_errors, angle_changes, effector_curves], metrics: [solved_tight], question: 'Same bytes?'}
   - {scenario: every-solver-tracks, task: tracking, max_sweeps: 5, duration_s: 0.4, clips: ['builtin:*'],
      metrics: [mpjpe_mm], question: 'Same bytes?'}
-  - {scenario: every-search, task: search, frames: 2000, queries: 20, clips: ['builtin:*'],
-     metrics: [distances_per_query], question: 'Same bytes?',
-     methods: [{name: first, query: first}, {name: within, query: within}, {name: nearest}, {name: ten, query: nearest-10}]}
   - {scenario: every-distance, task: pose-distance, pairs: frames, pairs_per_world: 50, clips: ['builtin:*'],
      metrics: [close_auc], question: 'Same bytes?',
      methods: [{name: fuzzy}, {name: adaptive, weights: adaptive}, {name: genetic, weights: genetic},

@@ -260,7 +260,7 @@ class Runs(PythonCase):
         with self.assertRaisesRegex(etude.EtudeError, "overwrite=True replaces it, output= chooses another folder"):
             etude.run(SCENARIO, output=self.run_.folder, progress=False)
         with self.assertRaisesRegex(etude.EtudeError, "the scenario has ik"):
-            etude.run(SCENARIO, methods=[etude.method(task="search")(_later)], output=self.folder / "out")
+            etude.run(SCENARIO, methods=[etude.method(task="pose-distance")(_later)], output=self.folder / "out")
         with self.assertRaisesRegex(etude.EtudeError, "is not a program"):
             etude.find_program(self.folder / "none")
 

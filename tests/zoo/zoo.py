@@ -728,18 +728,20 @@ def hides_memory_in_page_tables(problem):
     tell_of_memory("in page tables", in_children([fill] * 8))
 
 
-def hides_memory_in_many_mappings(problem):
+def splits_memory():
+    """64,000 mappings: as many as one process may have. The MB that the kernel needs for them."""
     import mmap
+    libc = ctypes.CDLL(None, use_errno=True)
+    libc.mprotect.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int]
+    splits_memory.memory = mmap.mmap(-1, 256 << 20, mmap.MAP_PRIVATE)
+    start, made = ctypes.addressof(ctypes.c_char.from_buffer(splits_memory.memory)), 0
+    while made < 32000 and libc.mprotect(start + made * 8192, 4096, 0) == 0:
+        made += 1
+    return made * 2 * 200 / 1e6
 
-    def fill():
-        libc = ctypes.CDLL(None, use_errno=True)
-        libc.mprotect.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int]
-        fill.memory = mmap.mmap(-1, 256 << 20, mmap.MAP_PRIVATE)
-        start, made = ctypes.addressof(ctypes.c_char.from_buffer(fill.memory)), 0
-        while made < 32000 and libc.mprotect(start + made * 8192, 4096, 0) == 0:
-            made += 1
-        return made * 2 * 200 / 1e6
-    tell_of_memory("in mappings", in_children([fill] * 90))
+
+def hides_memory_in_many_mappings(problem):
+    tell_of_memory("in mappings", in_children([splits_memory] * 90))
 
 
 def fill_socket(link, most=1 << 30):
@@ -924,6 +926,12 @@ def forks_eighty_idle_children(problem):
             signal.alarm(8)
             time.sleep(LIFE_S)
             os._exit(0)
+    time.sleep(1)
+
+
+def splits_memory_in_seventeen_of_seventy_children(problem):
+    """More mappings than most programs have, and less memory than its limit: this does no harm."""
+    in_children([splits_memory] * 17 + [lambda: 0] * 53)
     time.sleep(1)
 
 
@@ -1148,7 +1156,7 @@ def seeks_its_standard_error(problem):
 AT_THE_END = {"forks_twice_when_input_ends", "forks_thrice_when_input_ends", "forks_late_when_input_ends",
               "stops_itself_when_input_ends", "never_ends", "never_ends_in_a_thread"}
 HELPERS = {"say", "answer", "is_fenced", "live_on", "harm", "victimise", "daemon", "try_to_write",
-           "is_writable", "tell_of_memory", "in_children", "fill_socket", "take", "main"}
+           "is_writable", "tell_of_memory", "in_children", "splits_memory", "fill_socket", "take", "main"}
 
 
 def specimens():

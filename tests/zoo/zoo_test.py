@@ -251,8 +251,10 @@ class Zoo(unittest.TestCase):
                 self.assertEqual(self.release(name)[:2], (["unsolved", "unsolved"], []))
                 self.assertNotEqual(self.release(name, "--no-fence")[1], [], "the control")
 
-    def test_who_shares_its_memory_with_idle_children_is_left_alone(self):
-        self.assertEqual(self.release("forks_eighty_idle_children")[:2], (["unsolved", "unsolved"], []))
+    def test_who_has_many_children_and_little_memory_is_left_alone(self):
+        for name in "forks_eighty_idle_children", "splits_memory_in_seventeen_of_seventy_children":
+            with self.subTest(name):
+                self.assertEqual(self.release(name)[:2], (["unsolved", "unsolved"], []))
 
     def test_who_hides_memory_can_hold_it_where_there_is_enough(self):
         """The control: they might be harmless for another reason than the limit. The fence itself refuses descriptors and segments

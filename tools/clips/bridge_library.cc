@@ -1,7 +1,9 @@
 #include "tools/clips/bridge_library.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "io/clips/clip_library.h"
 #include "io/clips/references.h"
@@ -20,9 +22,12 @@ bool IsCorrective(const std::string& source) {
   return is_act || source.starts_with(slow);
 }
 
+/// The largest library: 288 hours in clips of ten seconds. A limit is needed only against patterns that match a disk.
+constexpr std::size_t kMaxLibraryClips = 100'000;
+
 /// Expands references into clips, each once, in the order of their first mention.
 Result<std::vector<std::string>> ListReferences(const std::vector<std::string>& named) {
-  auto all = ExpandReferences(named);
+  auto all = ExpandReferences(named, kMaxLibraryClips);
   if (!all) return all;
   std::set<std::string> seen;
   std::erase_if(*all, [&](const std::string& reference) { return !seen.insert(reference).second; });
@@ -30,18 +35,17 @@ Result<std::vector<std::string>> ListReferences(const std::vector<std::string>& 
 }
 
 /// Returns true if a reference names the clip; a glTF file's reference names all its animations.
-bool Names(const std::string& reference, const LibraryClip& clip) {
-  return clip.source == reference || clip.source.starts_with(reference + "#");
+bool Names(const std::string& reference, const std::string& source) {
+  return source == reference || source.starts_with(reference + "#");
 }
 
-/// Returns the clips' names; files of equal names are distinguished by their folders.
-std::vector<std::string> UniqueNames(const std::vector<LibraryClip>& clips) {
-  std::vector<std::string> names;
-  for (const LibraryClip& clip : clips) {
-    const auto has_name = [&](const LibraryClip& other) { return other.name == clip.name; };
-    names.push_back(std::count_if(clips.begin(), clips.end(), has_name) > 1 ? clip.source : clip.name);
+/// Replaces names that several clips have by the clips' sources, in which their folders differ.
+void MakeUnique(std::vector<std::string>& names, const std::vector<std::string>& sources) {
+  std::map<std::string, int> counts;
+  for (const std::string& name : names) ++counts[name];
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    if (counts[names[c]] > 1) names[c] = sources[c];
   }
-  return names;
 }
 
 }  // namespace
@@ -53,18 +57,25 @@ Result<BridgeLibrary> LoadBridgeLibrary(const BridgeLibraryOptions& options) {
   std::vector<std::string> named = options.clips;
   named.insert(named.end(), wanted.begin(), wanted.end());
   ASSIGN_OR_RETURN(const auto references, ListReferences(named));
-  ASSIGN_OR_RETURN(const auto clips, LoadClips(references, {}, options.reading, options.on_progress));
-
-  // Collect the motions, and note which clips are corrective.
+  // Read the clips one by one, and keep their motions only.
+  TaggedLibrary& library = loaded.library;
   std::vector<BodyMotion> motions;
-  for (const LibraryClip& clip : clips.clips) {
-    const bool is_wanted =
-        std::any_of(wanted.begin(), wanted.end(), [&](const std::string& reference) { return Names(reference, clip); });
-    if (wanted.empty() ? IsCorrective(clip.source) : is_wanted)
-      loaded.corrective.push_back(static_cast<int>(motions.size()));
-    motions.push_back(clip.motion);
-    loaded.sources.push_back(clip.source);
+  std::size_t done = 0;
+  for (const std::string& reference : references) {
+    if (options.on_progress) options.on_progress(done++, references.size());
+    ASSIGN_OR_RETURN(auto read, LoadClips({reference}, {}, options.reading));
+    for (LibraryClip& clip : read.clips) {
+      const bool is_wanted = std::ranges::any_of(wanted, [&](const auto& one) { return Names(one, clip.source); });
+      if (wanted.empty() ? IsCorrective(clip.source) : is_wanted) {
+        loaded.corrective.push_back(static_cast<int>(motions.size()));
+      }
+      motions.push_back(std::move(clip.motion));
+      library.names.push_back(std::move(clip.name));
+      loaded.sources.push_back(std::move(clip.source));
+    }
   }
+  if (options.on_progress) options.on_progress(done, references.size());
+  MakeUnique(library.names, loaded.sources);
   // Tag all clips on one body, and build the in-betweens.
   loaded.tag_rules.memberships = loaded.system.memberships;
   loaded.tag_rules.weights = loaded.system.weights;
@@ -74,9 +85,11 @@ Result<BridgeLibrary> LoadBridgeLibrary(const BridgeLibraryOptions& options) {
                         .threshold = options.threshold,
                         .pick = Pick::kFirst,
                         .within_class = options.within_class};
-  loaded.library = MakeLibrary(UniqueNames(clips.clips), motions, JudgedProportions(), loaded.tag_rules);
-  loaded.library.in_betweens = BuildInBetweens(
-      loaded.library.tagged, {.weights = loaded.system.weights, .threshold = options.threshold, .tween = {}});
+  library.proportions = JudgedProportions();
+  PerformBy(library.proportions, motions);
+  library.tagged = TagClips(motions, library.proportions.standing_hip_height, loaded.tag_rules);
+  library.in_betweens = BuildInBetweens(
+      library.tagged, {.weights = loaded.system.weights, .threshold = options.threshold, .tween = {}});
   return loaded;
 }
 

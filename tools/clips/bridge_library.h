@@ -7,6 +7,7 @@
 #include "engine/base/result.h"
 #include "engine/fuzzy/fuzzy_system.h"
 #include "engine/transitions/library/library.h"
+#include "engine/transitions/library/library.h"
 #include "engine/transitions/tags_file/tags_file.h"
 #include "io/clips/open_clip.h"
 
@@ -32,7 +33,7 @@ struct BridgeLibrary {
   FuzzySystem system;
   TagRules tag_rules;
   MatchRules match_rules;
-  MotionLibrary library;
+  TaggedLibrary library;
   std::vector<std::string> sources;  ///< the references that open the clips again
   std::vector<int> corrective;       ///< indices of the clips that every other clip must lead into
 };

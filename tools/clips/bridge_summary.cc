@@ -16,14 +16,15 @@ namespace {
 /// The widest matrix that fits a terminal; the output of --json has no such limit.
 constexpr int kMaxMatrixClips = 24;
 
-/// One clip's row of the table.
+/// One clip's row of the table. With pairs, its coverage is about the other clips one by one; without them, about any
+/// other clip.
 struct ClipSummary {
   int frames = 0, bridge_frames = 0;
   int poses = 0;           ///< number of different tag combinations among its bridge frames
-  int reached = 0;         ///< number of other clips that it leads into
-  double frame_share = 0;  ///< mean over the other clips; the next member, too
+  int reached = 0;         ///< number of other clips that it leads into; only with pairs
+  double frame_share = 0;  ///< with pairs the mean over the other clips, as is the next member
   double in_between_share = 0;
-  std::optional<double> worst_wait_s;  ///< over the clips that it leads into
+  std::optional<double> worst_wait_s;  ///< with pairs over the clips that it leads into
 };
 
 ClipSummary Summarize(const TaggedClip& clip, const Coverage& coverage, int from) {
@@ -33,10 +34,17 @@ ClipSummary Summarize(const TaggedClip& clip, const Coverage& coverage, int from
   std::set<Tags> poses;
   for (int frame : clip.bridge_frames) poses.insert(clip.tags[frame]);
   summary.poses = static_cast<int>(poses.size());
+  if (!coverage.HasPairs()) {
+    const ClipCoverage& any = coverage.IntoAny(from);
+    summary.frame_share = any.frame_share;
+    summary.in_between_share = any.in_between_share;
+    summary.worst_wait_s = any.worst_wait_s;
+    return summary;
+  }
   const int others = coverage.ClipCount() - 1;
   for (int to = 0; to < coverage.ClipCount(); ++to) {
     if (to == from) continue;
-    const PairCoverage& pair = coverage.Of(from, to);
+    const ClipCoverage& pair = coverage.Of(from, to);
     summary.frame_share += pair.frame_share / others;
     summary.in_between_share += pair.in_between_share / others;
     if (!pair.worst_wait_s) continue;
@@ -69,38 +77,41 @@ ClipSummary Total(const std::vector<ClipSummary>& clips) {
 
 double Percent(double part, double whole) { return whole > 0 ? 100 * part / whole : 0; }
 
-std::vector<std::string> NamesOf(const std::vector<int>& clips, const MotionLibrary& library) {
+std::vector<std::string> NamesOf(const std::vector<int>& clips, const TaggedLibrary& library) {
   std::vector<std::string> names;
   for (int clip : clips) names.push_back(library.names[clip]);
   return names;
 }
 
-int NameWidth(const MotionLibrary& library) {
+int NameWidth(const TaggedLibrary& library) {
   std::size_t width = 4;
   for (const std::string& name : library.names) width = std::max(width, name.size());
   return static_cast<int>(std::min<std::size_t>(width, 40));
 }
 
-std::string ClipsAsText(const BridgeLibrary& loaded, const std::vector<ClipSummary>& clips, double wait_s) {
+std::string ClipsAsText(const BridgeLibrary& loaded, const Coverage& coverage, const std::vector<ClipSummary>& clips,
+                        double wait_s) {
+  const bool has_pairs = coverage.HasPairs();
   std::string text;
   const int width = NameWidth(loaded.library);
-  text += fmt::format(
-      "\n     {:{}}  frames  bridge frames  poses  leads into  frames with a match  worst wait  in-between\n", "clip",
-      width);
+  text += fmt::format("\n     {:{}}  frames  bridge frames  poses{}  frames with a match  worst wait  in-between\n",
+                      "clip", width, has_pairs ? "  leads into" : "");
   for (std::size_t c = 0; c < clips.size(); ++c) {
     const ClipSummary& clip = clips[c];
-    text += fmt::format(
-        "{:>3}  {:{}}  {:>6}  {:>6} ({:>3.0f} %)  {:>5}  {:>3} of {:<3}  {:>17.0f} %  {:>10}  {:>8.0f} %\n", c + 1,
-        loaded.library.names[c], width, clip.frames, clip.bridge_frames, Percent(clip.bridge_frames, clip.frames),
-        clip.poses, clip.reached, clips.size() - 1, 100 * clip.frame_share,
-        clip.worst_wait_s ? fmt::format("{:.1f} s", *clip.worst_wait_s) : "-", 100 * clip.in_between_share);
+    text += fmt::format("{:>3}  {:{}}  {:>6}  {:>6} ({:>3.0f} %)  {:>5}", c + 1, loaded.library.names[c], width,
+                        clip.frames, clip.bridge_frames, Percent(clip.bridge_frames, clip.frames), clip.poses);
+    if (has_pairs) text += fmt::format("  {:>3} of {:<3}", clip.reached, clips.size() - 1);
+    text += fmt::format("  {:>17.0f} %  {:>10}  {:>8.0f} %\n", 100 * clip.frame_share,
+                        clip.worst_wait_s ? fmt::format("{:.1f} s", *clip.worst_wait_s) : "-",
+                        100 * clip.in_between_share);
   }
   text += fmt::format(
-      "\nposes: different sets of ten tags. frames with a match: of all frames, d < {} to some frame of another\n"
-      "clip, mean over the other clips. worst wait: until a bridge frame that leads on, over the clips reached; the\n"
-      "clip starts over at its end. in-between: how often a transition within {} s needs one, mean over the other "
-      "clips.\n",
-      loaded.match_rules.threshold, wait_s);
+      "\nposes: different sets of ten tags. frames with a match: of all frames, d < {} to some frame of {}.\n"
+      "worst wait: until a bridge frame that leads on{}; the clip starts over at its end.\n"
+      "in-between: how often a transition within {} s needs one.{}\n",
+      loaded.match_rules.threshold, has_pairs ? "another clip" : "any other clip",
+      has_pairs ? ", over the clips reached" : " to any other clip", wait_s,
+      has_pairs ? " Matches and in-betweens are means over the other clips." : "");
   return text;
 }
 
@@ -115,7 +126,7 @@ std::string MatrixAsText(const BridgeLibrary& loaded, const Coverage& coverage) 
   for (int from = 0; from < count; ++from) {
     text += fmt::format("{:>3}  {:{}}", from + 1, loaded.library.names[from], width);
     for (int to = 0; to < count; ++to) {
-      const PairCoverage& pair = coverage.Of(from, to);
+      const ClipCoverage& pair = coverage.Of(from, to);
       const std::string share = pair.worst_wait_s ? fmt::format("{:.0f}", 100 * pair.bridge_share) : ".";
       text += fmt::format(" {:>3}", from == to ? "-" : share);
     }
@@ -149,8 +160,10 @@ std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& cov
       fmt::format("{} clips, {} frames, {} bridge frames ({:.0f} %); fuzzy system {}, threshold {}{}\n", clips.size(),
                   total.frames, total.bridge_frames, Percent(total.bridge_frames, total.frames), loaded.system.name,
                   loaded.match_rules.threshold, loaded.match_rules.within_class ? ", within the class" : "");
-  text += ClipsAsText(loaded, clips, wait_s);
-  if (coverage.ClipCount() <= kMaxMatrixClips) {
+  text += ClipsAsText(loaded, coverage, clips, wait_s);
+  if (!coverage.HasPairs()) {
+    text += "\nPairs of clips were not compared; --pairs compares them.\n";
+  } else if (coverage.ClipCount() <= kMaxMatrixClips) {
     text += MatrixAsText(loaded, coverage);
   } else {
     text += fmt::format("\nThe matrix of {} × {} clips is in --json.\n", clips.size(), clips.size());
@@ -158,56 +171,60 @@ std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& cov
   text += WaysAsText(loaded, coverage);
   if (coverage.ClipCount() == 1) return text + "It is the only clip: there is no other to lead into.\n";
   text += fmt::format(
-      "From any frame into any other clip within {} s: {:.0f} % directly, {:.0f} % through an in-between, made of {} "
-      "key\n"
+      "From any frame into {} other clip within {} s: {:.0f} % directly, {:.0f} % through an in-between, made of {} key\n"
       "poses; an in-between takes at most {:.1f} s.\n",
-      wait_s, 100 * (1 - total.in_between_share), 100 * total.in_between_share, loaded.library.in_betweens.keys.size(),
-      LongestInBetween(loaded.library.in_betweens.tween, kJudgedRateHz));
+      coverage.HasPairs() ? "any" : "some", wait_s, 100 * (1 - total.in_between_share), 100 * total.in_between_share,
+      loaded.library.in_betweens.keys.size(), LongestInBetween(loaded.library.in_betweens.tween, kJudgedRateHz));
   return text;
 }
 
 Json BridgeSummaryAsJson(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s) {
   const std::vector<ClipSummary> clips = SummarizeAll(loaded, coverage);
   const auto or_null = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
+  const auto of_pairs = [&](const auto& value) { return coverage.HasPairs() ? Json(value) : Json(nullptr); };
+  const auto coverage_json = [&](const ClipCoverage& of) {
+    return Json{{"frame_share", of.frame_share},
+                {"bridge_share", of.bridge_share},
+                {"worst_wait_s", or_null(of.worst_wait_s)},
+                {"in_between_share", of.in_between_share}};
+  };
+  const TaggedLibrary& library = loaded.library;
   // One object for each clip, and one for each ordered pair of clips.
   Json of_clips = Json::array(), pairs = Json::array(), ways = Json::array();
   for (int from = 0; from < coverage.ClipCount(); ++from) {
     const ClipSummary& clip = clips[from];
-    of_clips.push_back({{"name", loaded.library.names[from]},
+    of_clips.push_back({{"name", library.names[from]},
                         {"source", loaded.sources[from]},
                         {"frames", clip.frames},
                         {"bridge_frames", clip.bridge_frames},
                         {"poses", clip.poses},
-                        {"leads_into", clip.reached},
-                        {"partner_share", clip.frame_share},
-                        {"worst_wait_s", or_null(clip.worst_wait_s)},
-                        {"in_between_share", clip.in_between_share}});
-    for (int to = 0; to < coverage.ClipCount(); ++to) {
+                        {"any", coverage_json(coverage.IntoAny(from))},
+                        {"leads_into", of_pairs(clip.reached)},
+                        {"partner_share", of_pairs(clip.frame_share)},
+                        {"worst_wait_s", coverage.HasPairs() ? or_null(clip.worst_wait_s) : Json(nullptr)},
+                        {"in_between_share", of_pairs(clip.in_between_share)}});
+    for (int to = 0; coverage.HasPairs() && to < coverage.ClipCount(); ++to) {
       if (to == from) continue;
-      const PairCoverage& pair = coverage.Of(from, to);
-      pairs.push_back({{"from", loaded.library.names[from]},
-                       {"to", loaded.library.names[to]},
-                       {"frame_share", pair.frame_share},
-                       {"bridge_share", pair.bridge_share},
-                       {"worst_wait_s", or_null(pair.worst_wait_s)},
-                       {"in_between_share", pair.in_between_share}});
+      Json pair = coverage_json(coverage.Of(from, to));
+      pair["from"] = library.names[from];
+      pair["to"] = library.names[to];
+      pairs.push_back(std::move(pair));
     }
   }
   // For each corrective clip, the clips that do not lead into it.
   for (int wanted : loaded.corrective) {
-    ways.push_back({{"into", loaded.library.names[wanted]},
-                    {"not_from", NamesOf(coverage.WithoutWayInto(wanted), loaded.library)}});
+    ways.push_back({{"into", library.names[wanted]}, {"not_from", NamesOf(coverage.WithoutWayInto(wanted), library)}});
   }
-  const MotionLibrary& library = loaded.library;
-  return {{"fuzzy_system", loaded.system.name},
-          {"threshold", loaded.match_rules.threshold},
-          {"within_class", loaded.match_rules.within_class},
-          {"wait_s", wait_s},
-          {"clips", of_clips},
-          {"pairs", pairs},
-          {"corrective", ways},
-          {"keys", library.in_betweens.keys.size()},
-          {"longest_in_between_s", LongestInBetween(library.in_betweens.tween, kJudgedRateHz)}};
+  Json summary = {{"fuzzy_system", loaded.system.name},
+                  {"threshold", loaded.match_rules.threshold},
+                  {"within_class", loaded.match_rules.within_class},
+                  {"wait_s", wait_s},
+                  {"clips", of_clips},
+                  {"corrective", ways},
+                  {"keys", library.in_betweens.keys.size()},
+                  {"longest_in_between_s", LongestInBetween(library.in_betweens.tween, kJudgedRateHz)}};
+  if (coverage.HasPairs()) summary["pairs"] = std::move(pairs);
+  return summary;
 }
 
 }  // namespace etude

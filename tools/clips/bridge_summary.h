@@ -2,18 +2,22 @@
 
 #include <string>
 
-#include "engine/transitions/library/transition_points.h"
+#include "engine/transitions/library/coverage.h"
 #include "io/files/json.h"
 #include "tools/clips/bridge_library.h"
 
 namespace etude {
 
+/// A library of more clips has no table of pairs unless it is asked for: its size grows with the square of the library.
+constexpr int kMaxClipsWithPairs = 300;
+
 /// Writes the number of bridge frames, the reachability, and the ways into the corrective clips, as text for a
-/// terminal. For more than 24 clips the matrix is only in the JSON.
+/// terminal. Without pairs, a clip's figures are about any other clip instead of means over the other clips. For more
+/// than 24 clips the matrix is only in the JSON.
 std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s);
 
-/// Writes the same for programs (docs/schemas/bridge-summary.schema.json). A clip's shares are means over the other
-/// clips; a clip that leads nowhere has no worst wait.
+/// Writes the same for programs (docs/schemas/bridge-summary.schema.json). Figures that need pairs are null without
+/// them, and `pairs` is missing.
 Json BridgeSummaryAsJson(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s);
 
 }  // namespace etude

@@ -55,7 +55,6 @@ BodyFacts FactsOfBody(const OpenedClip& clip) {
                   .floor = body.floor,
                   .dropped_t_pose = body.dropped_frames > 0,
                   .changes = body.changes,
-                  .note = body.note,
                   .motion = ComputeStatistics(body.motion)};
   for (const Role role : AllRoles()) {
     facts.joints[Index(role)] = clip.source.clip.skeleton.joints[clip.map[role].joint].name;
@@ -119,7 +118,7 @@ Json JsonOf(const BodyFacts& body) {
           {"floor_units", body.floor},
           {"dropped_t_pose", body.dropped_t_pose},
           {"changes", body.changes},
-          {"note", body.note},
+          {"note", Join(body.changes, "; ")},
           {"stature_m", motion.stature_m},
           {"travelled_m", motion.travelled_m},
           {"speed_median_m_s", motion.speed_median_m_s},
@@ -299,7 +298,7 @@ std::string FactsAsLine(const ClipFacts& facts) {
                                  facts.rate_hz, Plural(static_cast<long long>(facts.joints), "joint"));
   if (!facts.body) return text;
   return text + fmt::format(" · {:.2f} m tall · feet slide {} · {}", facts.body->motion.stature_m,
-                            CmPerSecond(facts.body->motion.foot_slide.mean), facts.body->note);
+                            CmPerSecond(facts.body->motion.foot_slide.mean), Join(facts.body->changes, "; "));
 }
 
 }  // namespace etude

@@ -31,7 +31,6 @@ struct BodyFacts {
   double floor = 0;   ///< height in the file's unit
   bool dropped_t_pose = false;
   std::vector<std::string> changes;  ///< BodyConversion::changes
-  std::string note;
   MotionStatistics motion;
   /// At the file's own rate and heights (FaultsOf); absent if no faults were searched for.
   std::optional<MotionFaults> faults = {};

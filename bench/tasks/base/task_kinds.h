@@ -21,8 +21,6 @@ TaskKind MakeTrackingTaskKind();
 /// How close does the skeleton from two cameras come to the truth? Paper B's whole pipeline on rendered pictures of a
 /// clip.
 TaskKind MakeCaptureTaskKind();
-/// The task `search`: how does the cost of finding matching frames grow with the library?
-TaskKind MakeSearchTaskKind();
 /// How well does a distance measure show whether two poses look alike? One world: one of eight authored pairs of poses,
 /// or some hundreds of pairs of frames of two clips.
 TaskKind MakePoseDistanceTaskKind();

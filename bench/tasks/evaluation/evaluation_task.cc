@@ -16,6 +16,7 @@ struct EvaluationStudy {
   std::vector<EvaluationMethod> methods;
   std::vector<JudgedFiles> files;
   OpenOptions opening;
+  EvaluationSideData side;
 };
 
 /// One pair of files. The truth is read when the world is made, each answer when it is judged.
@@ -34,9 +35,9 @@ class EvaluationWorld final : public TaskWorld {
     if (reference.empty()) return CellResult::Ended(Status::kFailed, "the method has no answer of this name");
     const auto answer = OpenRawMotion(reference, study_.opening);
     if (!answer) return CellResult::Ended(Status::kFailed, ToString(answer.error()));
-    const auto matched = Match(*truth_, *answer, study_.options.joints);
+    const auto matched = Match(*truth_, *answer, study_.options.joints, study_.options.lag);
     if (!matched) return CellResult::Ended(Status::kFailed, ToString(matched.error()));
-    return JudgeMotion(*matched);
+    return JudgeMotion(*matched, study_.side);
   }
 
   Result<Payload> MakeProblem() override { return Refused(); }
@@ -75,6 +76,14 @@ Result<std::unique_ptr<Task>> MakeEvaluationTask(TaskInput& input) {
   ASSIGN_OR_RETURN(study.methods, ReadMethods(input, "evaluation", EvaluationMethodFields()));
   RETURN_IF_ERROR(CheckFiles(input.condition.node(), study.options));
   study.files.assign(input.files.begin(), input.files.end());
+  if (!study.options.statistics.empty()) {
+    ASSIGN_OR_RETURN(study.side.statistics,
+                     ReadJointStatistics(input.texts.at("statistics"), study.options.statistics));
+  }
+  if (!study.options.music_beats.empty()) {
+    ASSIGN_OR_RETURN(study.side.music_beats_s,
+                     ReadMusicBeats(input.texts.at("music_beats"), study.options.music_beats));
+  }
   if (input.opening != nullptr) study.opening = *input.opening;
   for (const JudgedFiles& files : study.files) {
     if (files.answers.size() != study.methods.size()) {

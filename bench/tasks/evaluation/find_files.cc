@@ -5,6 +5,7 @@
 
 #include "bench/tasks/evaluation/options.h"
 #include "engine/base/names.h"
+#include "engine/base/utf8.h"
 #include "io/clips/references.h"
 
 namespace etude {
@@ -38,16 +39,44 @@ std::vector<std::string> FilesIn(const std::string& folder) {
   return files;
 }
 
-Result<std::vector<std::string>> Expand(const std::vector<std::string>& references, const Place& place) {
+/// Fails if one of the files that a folder or a pattern stands for is a link, or reached by one: whoever sent the
+/// answers may have linked them to the truth. What was named by itself may be a link.
+Result<void> RefuseLinks(const std::string& reference, std::span<const std::string> files, const Place& place) {
+  if (files.size() == 1 && files.front() == reference) return {};
+  const fs::path pattern = Split(reference).path;
+  const auto first = std::find_if(pattern.begin(), pattern.end(), [](const fs::path& part) {
+    return part.string().find_first_of("*?[") != std::string::npos;
+  });
+  const auto found_parts = std::max<std::ptrdiff_t>(std::distance(first, pattern.end()), 1);  // a folder: 1
+  std::error_code error;
+  for (const std::string& file : files) {
+    fs::path path = Split(file).path;
+    for (std::ptrdiff_t i = 0; i < found_parts; ++i, path = path.parent_path()) {
+      if (!fs::is_symlink(fs::symlink_status(path, error))) continue;
+      return Fail(place, "'{}' is a link; allowed: answers that are files of their own, or that are named one by one",
+                  path.string());
+    }
+  }
+  return {};
+}
+
+enum class Links { kAllowed, kRefused };
+
+Result<std::vector<std::string>> Expand(const std::vector<std::string>& references, Links links, const Place& place) {
   std::vector<std::string> files;
   for (const std::string& reference : references) {
     std::error_code none;
     if (fs::is_directory(reference, none) && reference.find('#') == std::string::npos) {
       const std::vector<std::string> inside = FilesIn(reference);
+      for (const std::string& file : inside) {
+        if (!CheckUtf8(file, "")) return Fail(place, "{} has a name that is not UTF-8 text", Quote(file));
+      }
+      if (links == Links::kRefused) RETURN_IF_ERROR(RefuseLinks(reference, inside, place));
       if (inside.empty()) return Fail(place, "folder '{}' holds no motion file (.bvh, .npz, …)", reference);
       files.insert(files.end(), inside.begin(), inside.end());
     } else {
       ASSIGN_OR_RETURN(const auto expanded, ExpandReference(reference, place, kMaxPairs));
+      if (links == Links::kRefused) RETURN_IF_ERROR(RefuseLinks(reference, expanded, place));
       files.insert(files.end(), expanded.begin(), expanded.end());
     }
     if (files.size() > kMaxPairs) return Fail(place, "more than {} files", kMaxPairs);
@@ -112,6 +141,7 @@ Result<PairColumns> ReadHeading(const std::vector<std::string>& heading, std::sp
 /// Reads the pairs of a CSV. Cells have no quotes and no commas.
 Result<std::vector<JudgedFiles>> ReadPairs(const std::string& text, const std::string& file,
                                            std::span<const EvaluationMethod> methods) {
+  RETURN_IF_ERROR(CheckUtf8(text, file));
   std::vector<JudgedFiles> pairs;
   std::optional<PairColumns> columns;
   std::size_t width = 0;
@@ -147,7 +177,7 @@ Result<std::vector<JudgedFiles>> ReadPairs(const std::string& text, const std::s
 /// Makes the pairs of files of one name.
 Result<FoundFiles> PairByName(const EvaluationOptions& options, std::span<const EvaluationMethod> methods,
                               const Place& place) {
-  ASSIGN_OR_RETURN(const auto truth_files, Expand(options.truth, place));
+  ASSIGN_OR_RETURN(const auto truth_files, Expand(options.truth, Links::kAllowed, place));
   ASSIGN_OR_RETURN(const auto truths, ByName(truth_files, place));
   FoundFiles found;
   for (const auto& [name, truth] : truths) {
@@ -155,7 +185,7 @@ Result<FoundFiles> PairByName(const EvaluationOptions& options, std::span<const 
   }
   for (const EvaluationMethod& method : methods) {
     if (method.answers.empty()) return Fail(place, "method {} has no 'answers'", Quote(method.name));
-    ASSIGN_OR_RETURN(const auto files, Expand(method.answers, place));
+    ASSIGN_OR_RETURN(const auto files, Expand(method.answers, Links::kRefused, place));
     // One truth and one answer belong together whatever their names.
     if (truths.size() == 1 && files.size() == 1) {
       found.worlds.front().answers.push_back(files.front());

@@ -17,7 +17,8 @@ constexpr std::size_t kMaxPairs = 100'000;
 /// Pairs are those of a CSV, or else a truth with the answers whose file names are its own but for the extension; if
 /// there is one truth and one answer of each method, they are a pair whatever their names. Pairs are sorted by name.
 /// Fails if two truths, or two answers of a method, have one name; if a method has no answer for any truth; for more
-/// than kMaxPairs; and for a CSV that is none. An answer without truth is left out.
+/// than kMaxPairs; for a CSV that is none; and for answers that are links, unless each is named. An answer without
+/// truth is left out.
 Result<FoundFiles> FindEvaluatedFiles(const Node& condition, std::span<const Node> methods,
                                       const std::map<std::string, std::string>& texts);
 

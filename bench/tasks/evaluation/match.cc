@@ -91,6 +91,32 @@ std::vector<std::array<std::size_t, 3>> FindBends(const std::vector<CommonJoint>
   return bends;
 }
 
+/// Returns the columns of the names that `kept` says.
+AngleTracks Chosen(const AngleTracks& angles, const std::vector<std::string>& kept) {
+  AngleTracks chosen{kept, {}};
+  std::vector<std::size_t> columns;
+  for (const std::string& name : kept) {
+    columns.push_back(static_cast<std::size_t>(std::ranges::find(angles.names, name) - angles.names.begin()));
+  }
+  for (std::size_t row = 0; row < angles.degrees.size(); row += angles.names.size()) {
+    for (const std::size_t column : columns) chosen.degrees.push_back(angles.degrees[row + column]);
+  }
+  return chosen;
+}
+
+/// Finds the angles that both have.
+void MatchAngles(const RawMotion& truth, const RawMotion& sampled, MatchedMotions& matched) {
+  if (truth.rotations.empty() || sampled.rotations.empty()) return;
+  const AngleTracks of_truth = AnglesOfRotations(truth), of_found = AnglesOfRotations(sampled);
+  std::vector<std::string> common;
+  for (const std::string& name : of_truth.names) {
+    if (std::ranges::find(of_found.names, name) != of_found.names.end()) common.push_back(name);
+  }
+  if (common.empty()) return;
+  matched.true_angles = Chosen(of_truth, common);
+  matched.found_angles = Chosen(of_found, common);
+}
+
 /// Names at most eight joints.
 std::string SomeOf(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 8;
@@ -105,13 +131,26 @@ bool HaveSameRate(const RawMotion& truth, const RawMotion& answer) {
   return std::abs(answer.rate_hz / truth.rate_hz - 1) * static_cast<double>(truth.FrameCount()) < kMaxDrift;
 }
 
+/// Returns "the answer is 40.2 ms late (39.8 to 40.6), taken out".
+std::string NoteOn(const TimeShift& lag) {
+  constexpr double kToMs = 1000;
+  const double ms = kToMs * lag.shift_s;
+  std::string range;
+  if (lag.half_width_s) {
+    const double half = kToMs * *lag.half_width_s, low = std::abs(ms) - half, high = std::abs(ms) + half;
+    range = fmt::format(" (95 %: {:.2f} to {:.2f})", low, high);
+  }
+  return fmt::format("the answer is {:.2f} ms {}{}, taken out", std::abs(ms), ms < 0 ? "early" : "late", range);
+}
+
 std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const MatchedMotions& matched) {
   std::string note = fmt::format("{} joints", matched.joints.size());
   if (!matched.lacking.empty()) note += fmt::format(" (one of both lacks {})", SomeOf(matched.lacking));
-  const bool is_resampled = !HaveSameRate(truth, answer);
+  const bool is_resampled = !HaveSameRate(truth, answer) || matched.lag;
   note += fmt::format(", {} frames at {:g} Hz", matched.pair.truth.FrameCount(), truth.rate_hz);
   if (is_resampled) note += fmt::format(", the answer's {:g} Hz interpolated linearly", answer.rate_hz);
-  if (matched.uncovered > 0) note += fmt::format(", the last {} after the answer's end", matched.uncovered);
+  if (matched.lag) note += ", " + NoteOn(*matched.lag);
+  if (matched.uncovered > 0) note += fmt::format(", {} of them outside the answer", matched.uncovered);
   for (const RawMotion* motion : {&truth, &answer}) {
     if (motion->notes.empty()) continue;
     note += fmt::format("; {}: {}", motion == &truth ? "truth" : "answer", Join(motion->notes, "; "));
@@ -121,25 +160,35 @@ std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const Matche
 
 }  // namespace
 
-Result<MatchedMotions> Match(const RawMotion& truth, const RawMotion& answer, std::string_view set) {
+Result<MatchedMotions> Match(const RawMotion& truth, const RawMotion& answer, std::string_view set, Lag lag) {
   MatchedMotions matched;
   const std::vector<CommonJoint> common = FindCommon(truth, answer, set, matched.lacking);
   if (common.empty()) {
     return Fail({answer.name}, "has no joint in common with '{}' (joints: {}): {} and {}", truth.name, set,
                 SomeOf(answer.joints), SomeOf(truth.joints));
   }
-  // Sample the answer at the truth's times.
-  const std::size_t frames = truth.FrameCount();
-  const double rate_hz = HaveSameRate(truth, answer) ? answer.rate_hz : truth.rate_hz;
-  const RawMotion sampled = Sampled(answer, rate_hz, 0, frames);
   std::vector<int> of_truth, of_answer;
   for (const CommonJoint& joint : common) {
     matched.joints.push_back(joint.name);
     of_truth.push_back(joint.truth);
     of_answer.push_back(joint.answer);
   }
+  // Sample the answer at the truth's times.
+  const std::size_t frames = truth.FrameCount();
+  const double rate_hz = HaveSameRate(truth, answer) ? answer.rate_hz : truth.rate_hz;
   matched.pair.rate_hz = truth.rate_hz;
   matched.pair.truth = Columns(truth, of_truth);
+  if (lag == Lag::kFind) {
+    matched.lag = FindTimeShift(matched.pair.truth, rate_hz, Columns(answer, of_answer), answer.rate_hz);
+    if (!matched.lag) {
+      return Fail({answer.name},
+                  "no lag within ±{:g} s is found: the motion is too short, stands, glides evenly, or "
+                  "fits best at the end of that range",
+                  kMaxTimeShift_s);
+    }
+  }
+  const double start_s = matched.lag ? matched.lag->shift_s : 0;
+  const RawMotion sampled = Sampled(answer, rate_hz, start_s, frames);
   matched.pair.found = Columns(sampled, of_answer);
   matched.pair.true_turns = TurnsOf(truth, of_truth);
   matched.pair.found_turns = TurnsOf(sampled, of_answer);
@@ -150,13 +199,15 @@ Result<MatchedMotions> Match(const RawMotion& truth, const RawMotion& answer, st
     matched.pair.found_root = found_root.positions;
   }
   matched.pair.feet = RoleColumns(sampled, {Role::kLeftAnkle, Role::kLeftFoot, Role::kRightAnkle, Role::kRightFoot});
+  matched.pair.true_contacts = truth.contacts;
+  matched.pair.found_contacts = sampled.contacts;
   matched.bends = FindBends(common, truth);
-  // Count the frames behind the answer's end.
-  for (std::size_t f = frames; f > 0; --f) {
+  MatchAngles(truth, sampled, matched);
+  // Count the frames before the answer's beginning and behind its end.
+  for (std::size_t f = 0; f < frames; ++f) {
     constexpr double kRounding = 1e-6;  // of a frame, as in `Sampled`
-    const double last = static_cast<double>(answer.FrameCount() - 1) + kRounding;
-    if (static_cast<double>(f - 1) / rate_hz * answer.rate_hz <= last) break;
-    ++matched.uncovered;
+    const double at = (start_s + static_cast<double>(f) / rate_hz) * answer.rate_hz;
+    if (at < -kRounding || at > static_cast<double>(answer.FrameCount() - 1) + kRounding) ++matched.uncovered;
   }
   if (SeenShare(matched.pair).value_or(0) == 0) {
     return Fail({answer.name}, "no joint of '{}' is ever seen by both", truth.name);

@@ -57,7 +57,15 @@ const FieldTable<EvaluationOptions>& EvaluationConditionFields() {
         }},
        Key::Text("people", &EvaluationOptions::people, "a pattern such as '{person}_*'",
                  "Which part of a pair's name is the person: what claims beyond these files count.")
-           .WhenAbsent("(each pair counts for itself)")}};
+           .WhenAbsent("(each pair counts for itself)"),
+       Key::Name("lag", &EvaluationOptions::lag, {{"none", Lag::kNone}, {"find", Lag::kFind}},
+                 "Whether the answer's first frame belongs to the truth's, or a shift is found and taken out."),
+       {{"statistics", FileKind("a CSV file"), "(L2P has no value)",
+         "Means and deviations of joints over a training set: a heading `JOINT_x_m,…` and two rows."},
+        [](Fields& fields, EvaluationOptions& options) { options.statistics = fields.Text("statistics", ""); }},
+       {{"music_beats", FileKind("a text file"), "(beat alignment has no value)",
+         "The beats of the music, one a line, seconds from the truth's first frame."},
+        [](Fields& fields, EvaluationOptions& options) { options.music_beats = fields.Text("music_beats", ""); }}}};
   return table;
 }
 

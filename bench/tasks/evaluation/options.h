@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bench/keys/field_table.h"
+#include "bench/tasks/evaluation/match.h"
 
 namespace etude {
 
@@ -13,6 +14,9 @@ struct EvaluationOptions {
   std::string pairs;               ///< the name of a CSV file; "" = pairs are made by name
   std::string joints = "roles";    ///< one of JointSetNames()
   std::string people;              ///< a pattern for names, such as "{person}_*"; "" = each pair counts for itself
+  Lag lag = Lag::kNone;
+  std::string statistics;   ///< the name of a file that ReadJointStatistics reads; "" = L2P has no value
+  std::string music_beats;  ///< the name of a file that ReadMusicBeats reads; "" = beat alignment has no value
 };
 
 const FieldTable<EvaluationOptions>& EvaluationConditionFields();

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bench/metrics/beat_alignment.h"
 #include "engine/base/digest.h"
 
 namespace etude {
@@ -27,6 +28,7 @@ constexpr AlignedError kErrors[] = {{"mpjpe_unaligned_mm", Alignment::kNone, "no
                                     {"mpjpe_each_frame_mm", Alignment::kFrame, kNoFit},
                                     {"mpjpe_each_frame_scaled_mm", Alignment::kFrameScaled, kNoFit}};
 constexpr std::size_t kSegmentFrames = 100;  // of W-MPJPE and WA-MPJPE
+constexpr std::size_t kWindowFrames = 30;    // of NPSS: one of LAFAN1's gaps, a second there
 
 std::optional<double> Times(double factor, std::optional<double> value) {
   return value ? std::optional(factor * *value) : std::nullopt;
@@ -88,6 +90,13 @@ void MeasureMovement(const EvaluatedPair& pair, CellResult& result) {
 void MeasureFeet(const EvaluatedPair& pair, CellResult& result) {
   result.MeasureOr("skating_ratio@gmd", SkatingRatio(pair.feet, pair.rate_hz), kNoFeet);
   result.MeasureOr("skate_from_height_mps@kimodo", SkateFromHeight(pair.feet, pair.rate_hz), kNoFeet);
+  const char* no_contacts = pair.found_contacts.empty() ? "the answer's file says nothing of contacts" : kNoFeet;
+  result.MeasureOr("skate_from_contacts_mps@kimodo", SkateFromContacts(pair.feet, pair.found_contacts, pair.rate_hz),
+                   no_contacts);
+  const bool have_contacts = !pair.found_contacts.empty() && !pair.true_contacts.empty();
+  result.MeasureOr(
+      "contact_f1", ContactF1(pair.found_contacts, pair.true_contacts),
+      have_contacts ? "neither foot ever touches the floor" : "one of both files says nothing of contacts");
   result.MeasureOr("pfc@edge", PhysicalFootContact(pair.feet, pair.found_root, pair.rate_hz),
                    "the answer lacks ankles, toes, root or three frames, or its root does not accelerate");
   const FloorErrors floor = MeasureFloor(pair.found);
@@ -95,21 +104,115 @@ void MeasureFeet(const EvaluatedPair& pair, CellResult& result) {
   result.MeasureOr("floating_mm", floor.floating_mm, "no joint of the answer is seen");
 }
 
+/// Measures the angles that both have, and keeps the sums from which a run measures each angle's agreement.
+void MeasureAngles(const MatchedMotions& matched, CellResult& result) {
+  std::vector<double> rms, biases, iccs;
+  for (std::size_t column = 0; column < matched.true_angles.names.size(); ++column) {
+    const AgreementSums sums = SumAgreement(matched.found_angles, matched.true_angles, column);
+    const auto none = std::nan("");
+    rms.push_back(RmsOf(sums).value_or(none));
+    biases.push_back(std::abs(BiasOf(sums).value_or(none)));
+    iccs.push_back(IccOf(sums).value_or(none));
+    if (sums.count > 0) {
+      result.series.push_back({matched.true_angles.names[column], kAgreementAxis, EncodeSums(sums)});
+    }
+  }
+  constexpr const char* kNoAngles = "one of both files has no rotations of two neighbouring segments";
+  result.MeasureOr("angle_rmse_deg", MeanOfSeen(rms), kNoAngles);
+  result.MeasureOr("angle_bias_deg", MeanOfSeen(biases), kNoAngles);
+  result.MeasureOr("angle_icc_a1", MeanOfSeen(iccs), kNoAngles);
+}
+
+/// Measures what LAFAN1's code does.
+void MeasureInbetweening(const MatchedMotions& matched, const EvaluationSideData& side, CellResult& result) {
+  constexpr const char* kNoRotations = "one of both files has no rotations";
+  const auto rotations = RotationsOf(matched.pair);
+  result.MeasureOr("l2q@lafan1", rotations ? MeanChannelDistance(rotations->found, rotations->truth) : std::nullopt,
+                   rotations ? "no frame shows every joint in both" : kNoRotations);
+  // L2P, if the statistics know every joint.
+  std::string why = "needs `statistics`: means and deviations of joints";
+  std::vector<glm::dvec3> means, deviations;
+  for (const std::string& joint : matched.joints) {
+    if (!side.statistics) break;
+    const auto known = side.statistics->find(joint);
+    if (known == side.statistics->end()) {
+      why = "the statistics lack the joint " + joint;
+      break;
+    }
+    means.push_back(known->second.mean);
+    deviations.push_back(known->second.deviation);
+  }
+  std::optional<double> l2p;
+  if (means.size() == matched.joints.size()) {
+    why = "no frame shows every joint in both";
+    l2p = MeanChannelDistance(StandardisedChannels(matched.pair.found.positions, means, deviations),
+                              StandardisedChannels(matched.pair.truth.positions, means, deviations));
+  }
+  result.MeasureOr("l2p@lafan1", l2p, why);
+  // NPSS, and its weight among other pairs.
+  const auto measure = [&](PowerOf kind) {
+    return rotations ? MeasurePowerSpectrum(rotations->found, rotations->truth, kWindowFrames, kind) : std::nullopt;
+  };
+  const char* no_window = rotations ? "no 30 frames in a row show every joint in both" : kNoRotations;
+  const auto real = measure(PowerOf::kRealPart), magnitude = measure(PowerOf::kMagnitude);
+  const auto part = [](const auto& error, double PowerSpectrumError::*which) {
+    return error ? std::optional<double>((*error).*which) : std::nullopt;
+  };
+  result.MeasureOr("npss@lafan1", part(real, &PowerSpectrumError::value), no_window);
+  result.MeasureOr("npss_power@lafan1", part(real, &PowerSpectrumError::power), no_window);
+  result.MeasureOr("npss", part(magnitude, &PowerSpectrumError::value), no_window);
+  result.MeasureOr("npss_power", part(magnitude, &PowerSpectrumError::power), no_window);
+}
+
+void MeasureBeats(const EvaluatedPair& pair, const EvaluationSideData& side, CellResult& result) {
+  const char* why = side.music_beats_s ? "no beat of music or motion lies within it, or a joint is not seen throughout"
+                                       : "needs `music_beats`";
+  const std::vector<double> beats_s = side.music_beats_s.value_or(std::vector<double>{});
+  result.MeasureOr("beat_alignment@bailando", BeatAlignmentOfMusic(pair.found, pair.rate_hz, beats_s), why);
+  result.MeasureOr("beat_alignment@mint", BeatAlignmentOfMotion(pair.found, pair.rate_hz, beats_s), why);
+}
+
 }  // namespace
 
 std::vector<std::string> EvaluationMetrics() {
   std::vector<std::string> ids;
   for (const AlignedError& error : kErrors) ids.emplace_back(error.id);
-  for (const char* id : {"pck_150mm@mpi_inf_3dhp", "auc_150mm@mpi_inf_3dhp", "w_mpjpe_mm@wham", "wa_mpjpe_mm@wham",
-                         "rte@wham", "accel_error_mm@human_dynamics", "accel_error_mps2", "accel_error_mps2@wham",
-                         "jitter@wham", "skating_ratio@gmd", "skate_from_height_mps@kimodo", "pfc@edge",
-                         "penetration_mm", "floating_mm", "bend_error_deg", "l2q@lafan1", "seen_share"}) {
+  for (const char* id : {"pck_150mm@mpi_inf_3dhp",
+                         "auc_150mm@mpi_inf_3dhp",
+                         "w_mpjpe_mm@wham",
+                         "wa_mpjpe_mm@wham",
+                         "rte@wham",
+                         "accel_error_mm@human_dynamics",
+                         "accel_error_mps2",
+                         "accel_error_mps2@wham",
+                         "jitter@wham",
+                         "skating_ratio@gmd",
+                         "skate_from_height_mps@kimodo",
+                         "skate_from_contacts_mps@kimodo",
+                         "contact_f1",
+                         "pfc@edge",
+                         "penetration_mm",
+                         "floating_mm",
+                         "bend_error_deg",
+                         "angle_rmse_deg",
+                         "angle_bias_deg",
+                         "angle_icc_a1",
+                         "l2q@lafan1",
+                         "l2p@lafan1",
+                         "npss@lafan1",
+                         "npss_power@lafan1",
+                         "npss",
+                         "npss_power",
+                         "beat_alignment@bailando",
+                         "beat_alignment@mint",
+                         "lag_ms",
+                         "seen_share"}) {
     ids.emplace_back(id);
   }
   return ids;
 }
 
-CellResult JudgeMotion(const MatchedMotions& matched) {
+CellResult JudgeMotion(const MatchedMotions& matched, const EvaluationSideData& side) {
   CellResult result = CellResult::Ended(Status::kOk, matched.note);
   result.digests = {{"truth", DigestOf(matched.pair.truth)}, {"answer", DigestOf(matched.pair.found)}};
   MeasureErrors(matched.pair, result);
@@ -117,8 +220,12 @@ CellResult JudgeMotion(const MatchedMotions& matched) {
   MeasureFeet(matched.pair, result);
   result.MeasureOr("bend_error_deg", BendErrorDeg(matched.pair.found, matched.pair.truth, matched.bends),
                    "no knee or elbow with its neighbours is seen by both");
-  result.MeasureOr("l2q@lafan1", QuaternionError(matched.pair),
-                   "one of both files has no rotations, or no frame shows every joint in both");
+  MeasureAngles(matched, result);
+  MeasureInbetweening(matched, side, result);
+  MeasureBeats(matched.pair, side, result);
+  constexpr double kToMs = 1000;
+  result.MeasureOr("lag_ms", matched.lag ? std::optional(kToMs * matched.lag->shift_s) : std::nullopt,
+                   "is sought with `lag: find` alone");
   result.MeasureOr("seen_share", SeenShare(matched.pair), "the truth shows no joint");
   return result;
 }

@@ -5,13 +5,20 @@
 
 #include "bench/model/row.h"
 #include "bench/tasks/evaluation/match.h"
+#include "bench/tasks/evaluation/side_files.h"
 
 namespace etude {
 
 /// Returns the ids of all metrics, in the order in which they are measured.
 std::vector<std::string> EvaluationMetrics();
 
+/// What some metrics need beside the motions.
+struct EvaluationSideData {
+  std::optional<StatisticsByJoint> statistics;
+  std::optional<std::vector<double>> music_beats_s;
+};
+
 /// Measures an answer.
-CellResult JudgeMotion(const MatchedMotions& matched);
+CellResult JudgeMotion(const MatchedMotions& matched, const EvaluationSideData& side = {});
 
 }  // namespace etude

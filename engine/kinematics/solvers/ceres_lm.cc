@@ -161,7 +161,7 @@ class Recorder final : public ceres::IterationCallback {
   bool has_stepped_ = false;
 };
 
-// The fastest options for this kind of problem; bench/micro/README.md compares the alternatives.
+// The fastest options for this kind of problem; bench/peers/README.md compares the alternatives.
 ceres::Solver::Options TunedOptions(const IkOptions& options, const CeresLmOptions& own) {
   ceres::Solver::Options tuned;
   tuned.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;

@@ -13,7 +13,7 @@ struct CeresLmOptions {
 };
 
 /// Solves by the Levenberg–Marquardt method of Ceres Solver, the general-purpose solver that ours are compared with,
-/// tuned for speed (bench/micro/README.md lists what was tried). It minimises what `damped-least-squares` minimises,
+/// tuned for speed (bench/peers/README.md lists what was tried). It minimises what `damped-least-squares` minimises,
 ///   Σ_e [ position_weight · (|P_d − P_c| / 30 cm)² + Σ_k axis_weights_k · |u_kd − u_kc|² ],
 /// by steps (JᵀJ + I / radius) dq = −Jᵀr with an analytic Jacobian; the sum may rise for some steps. Limits are Ceres's
 /// bounds. `IkOptions::weights` and `refresh` do not apply. One iteration is one attempted step. The solver also stalls

@@ -63,14 +63,12 @@ double FloorHeight(std::vector<double> heights) {
   return *fifth_percentile;
 }
 
-BodyMotion PerformedAboveFloor(const BodyProportions& proportions, const BodyMotion& motion) {
-  BodyMotion performed{.rate_hz = motion.rate_hz, .poses = {}};
-  if (motion.poses.empty()) return performed;
+/// Gives the body new limb lengths, at any height above the floor.
+void Rescale(const BodyProportions& proportions, BodyMotion& motion) {
+  if (motion.poses.empty()) return;
   const double own_height = StandingHipHeight(motion.poses.front());
   const double scale = own_height > 0 ? proportions.standing_hip_height / own_height : 1.0;
-  performed.poses.reserve(motion.poses.size());
-  for (const BodyPose& pose : motion.poses) performed.poses.push_back(Rebuild(proportions, pose, scale));
-  return performed;
+  for (BodyPose& pose : motion.poses) pose = Rebuild(proportions, pose, scale);
 }
 
 /// Groups the indices of the clips by person.
@@ -116,22 +114,26 @@ BodyPose StandingPose(const BodyProportions& proportions) {
   return pose;
 }
 
-std::vector<BodyMotion> PerformedBy(const BodyProportions& proportions, std::span<const BodyMotion> motions) {
-  std::vector<BodyMotion> performed;
-  performed.reserve(motions.size());
-  for (const BodyMotion& motion : motions) performed.push_back(PerformedAboveFloor(proportions, motion));
+void PerformBy(const BodyProportions& proportions, std::span<BodyMotion> motions) {
+  const std::vector<std::vector<std::size_t>> people = ByPerson(motions);
+  for (BodyMotion& motion : motions) Rescale(proportions, motion);
   // Put each person's clips on the floor together.
-  for (const std::vector<std::size_t>& clips : ByPerson(motions)) {
+  for (const std::vector<std::size_t>& clips : people) {
     std::vector<double> heights;
-    for (std::size_t clip : clips) std::ranges::copy(FootHeights(performed[clip]), std::back_inserter(heights));
+    for (std::size_t clip : clips) std::ranges::copy(FootHeights(motions[clip]), std::back_inserter(heights));
     const double common = FloorHeight(std::move(heights));
     for (std::size_t clip : clips) {
-      const double floor = std::min(common, FloorHeight(FootHeights(performed[clip])));
-      for (BodyPose& pose : performed[clip].poses) {
+      const double floor = std::min(common, FloorHeight(FootHeights(motions[clip])));
+      for (BodyPose& pose : motions[clip].poses) {
         for (glm::dvec3& joint : pose.joints) joint.y -= floor;
       }
     }
   }
+}
+
+std::vector<BodyMotion> PerformedBy(const BodyProportions& proportions, std::span<const BodyMotion> motions) {
+  std::vector<BodyMotion> performed(motions.begin(), motions.end());
+  PerformBy(proportions, performed);
   return performed;
 }
 

@@ -8,6 +8,7 @@
 #include "engine/base/smoothstep.h"
 #include "engine/motion/body.h"
 #include "engine/transitions/library/bridge_frames.h"
+#include "engine/transitions/search/grade_blocks.h"
 
 namespace etude {
 namespace {
@@ -143,15 +144,27 @@ std::vector<Key> RankForKeys(std::span<const TaggedClip> tagged, const FeatureWe
 
 InBetweenNet BuildInBetweens(std::span<const TaggedClip> tagged, const InBetweenRules& rules) {
   InBetweenNet net{.keys = {}, .tween = rules.tween};
-  std::vector<Grades> taken;  // the grades of the keys
+  const GradeMetric metric(rules.weights);
+  std::vector<FrameBlock> taken;  // the grades of the keys, sixteen in a block
+  std::size_t last = 0;           // the block that covered the last frame; it often covers the next one, too
+  const auto covers = [&](std::size_t block, const Grades& grades) {
+    const int used = static_cast<int>(std::min<std::size_t>(net.keys.size() - block * kBlockLanes, kBlockLanes));
+    const BlockResult near = SquaredDistances(metric, grades, taken[block], SquaredLimit(rules.threshold));
+    bool is_near = false;
+    ForEachLane(near.kept & LanesOf(used),
+                [&](int lane) { is_near = is_near || std::sqrt(near.squared[lane]) < rules.threshold; });
+    return is_near;
+  };
   for (const Key& key : RankForKeys(tagged, rules.weights)) {
     const Grades& grades = tagged[key.clip].grades[key.frame];
-    const bool is_covered = std::any_of(taken.begin(), taken.end(), [&](const Grades& other) {
-      return IsCloser(grades, other, rules.weights, rules.threshold);
-    });
-    if (is_covered) continue;
+    if (last < taken.size() && covers(last, grades)) continue;
+    for (last = 0; last < taken.size() && !covers(last, grades); ++last) {
+    }
+    if (last < taken.size()) continue;
+    const int lane = static_cast<int>(net.keys.size() % kBlockLanes);
+    if (lane == 0) taken.emplace_back();
+    taken.back().Set(lane, grades);
     net.keys.push_back(key);
-    taken.push_back(grades);
   }
   return net;
 }

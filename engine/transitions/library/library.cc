@@ -121,14 +121,10 @@ bool NeedsClip(const Stance& a, const Stance& b) {
 
 MotionLibrary MakeLibraryOfOneBody(std::vector<std::string> names, std::vector<BodyMotion> motions,
                                    const BodyProportions& proportions, const TagRules& rules, const TweenRules& tween) {
-  MotionLibrary library{.proportions = proportions,
-                        .names = std::move(names),
-                        .motions = std::move(motions),
-                        .tagged = {},
-                        .features = {},
-                        .usual_accelerations = {},
-                        .stances = {},
-                        .in_betweens = {}};
+  MotionLibrary library;
+  library.proportions = proportions;
+  library.names = std::move(names);
+  library.motions = std::move(motions);
   library.tagged = TagClips(library.motions, proportions.standing_hip_height, rules);
   library.features = ComputeMotionFeatures(library.motions);
   for (const BodyMotion& motion : library.motions) {

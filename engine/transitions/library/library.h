@@ -42,16 +42,20 @@ Stance StanceOf(const BodyPose& pose, double standing_hip_height);
 /// heights differ by more than 0.2 m. Only a clip can show such a motion.
 bool NeedsClip(const Stance& a, const Stance& b);
 
-/// Clips that are prepared for transitions: performed by one body, at 30 Hz, tagged, and with in-betweens.
-struct MotionLibrary {
+/// Clips performed by one body at 30 Hz and tagged, with in-betweens.
+struct TaggedLibrary {
   BodyProportions proportions;
   std::vector<std::string> names;
-  std::vector<BodyMotion> motions;
-  std::vector<TaggedClip> tagged;                     ///< per clip and frame, as `motions`
-  std::vector<std::vector<MotionFeatures>> features;  ///< per clip and frame, as `motions`
-  std::vector<double> usual_accelerations;            ///< UsualAcceleration per clip
-  std::vector<std::vector<Stance>> stances;           ///< per clip and frame, as `motions`
+  std::vector<TaggedClip> tagged;  ///< per clip and frame
   InBetweenNet in_betweens;
+};
+
+/// A tagged library with its motions and what choices and joins ask about them.
+struct MotionLibrary : TaggedLibrary {
+  std::vector<BodyMotion> motions;                    ///< per clip and frame, as `tagged` and the other members
+  std::vector<std::vector<MotionFeatures>> features;
+  std::vector<double> usual_accelerations;            ///< UsualAcceleration per clip
+  std::vector<std::vector<Stance>> stances;
 };
 
 /// Makes a library from motions of one body at 30 Hz. `rules` tag the frames, and `tween` sets the speed of the

@@ -2,95 +2,79 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-
-#include "engine/transitions/search/grade_index.h"
 
 namespace etude {
-namespace {
 
-/// A clip prepared for the search: its participating frames, both as queries and as targets.
-struct ReadyClip {
-  std::vector<int> frames;      // the participating frames
-  std::vector<Grades> grades;   // per frame of `frames`
-  std::vector<Tags> tags;       // per frame of `frames`; empty if classes do not matter
-  std::vector<double> steps;    // distance of each of `frames` to the one before
-  std::vector<GradeBox> boxes;  // one per sixteen of `frames`
-  TimeBlocks targets;           // of `frames`, without the clip's last frame
-};
-
-ReadyClip MakeReady(const MatchClip& clip, const MatchRules& rules) {
-  // Collect the participating frames with their grades and tags.
-  ReadyClip ready;
-  if (clip.frames) {
-    ready.frames.assign(clip.frames->begin(), clip.frames->end());
-  } else {
-    ready.frames.resize(clip.grades.size());
-    std::iota(ready.frames.begin(), ready.frames.end(), 0);
+MatchClip::MatchClip(std::span<const Grades> grades, std::span<const Tags> tags, std::span<const int> frames,
+                     const MatchRules& rules)
+    : frames_(frames.begin(), frames.end()) {
+  for (int frame : frames_) {
+    grades_.push_back(grades[frame]);
+    if (rules.within_class) tags_.push_back(tags[frame]);
   }
-  for (int frame : ready.frames) {
-    ready.grades.push_back(clip.grades[frame]);
-    if (rules.within_class) ready.tags.push_back(clip.tags[frame]);
+  // Compute steps and boxes for the queries.
+  const std::span<const Grades> own = grades_;
+  const auto block_at = [&](std::size_t i) {
+    return own.subspan(i, std::min<std::size_t>(kBlockLanes, own.size() - i));
+  };
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    steps_.push_back(ComputeDistance(own[i], own[i > 0 ? i - 1 : 0], rules.weights).value);
   }
-  // Compute steps and boxes for the queries, and blocks for the targets.
-  const std::span<const Grades> grades = ready.grades;
-  for (std::size_t i = 0; i < grades.size(); ++i) {
-    ready.steps.push_back(ComputeDistance(grades[i], grades[i > 0 ? i - 1 : 0], rules.weights).value);
+  for (std::size_t i = 0; i < own.size(); i += kBlockLanes) boxes_.push_back(BoxOf(block_at(i)));
+  // Arrange the targets in blocks.
+  const bool has_last = !own.empty() && frames_.back() + 1 == static_cast<int>(grades.size());
+  target_count_ = static_cast<int>(own.size()) - (has_last ? 1 : 0);
+  targets_.resize(static_cast<std::size_t>(BlocksFor(static_cast<std::size_t>(target_count_))));
+  target_boxes_.resize(static_cast<std::size_t>(BlocksFor(targets_.size())));
+  for (int i = 0; i < target_count_; ++i) targets_[i / kBlockLanes].Set(i % kBlockLanes, own[i]);
+  for (std::size_t b = 0; b < targets_.size(); ++b) {
+    const std::size_t start = b * kBlockLanes;
+    const std::size_t count = std::min<std::size_t>(kBlockLanes, static_cast<std::size_t>(target_count_) - start);
+    target_boxes_[b / kBlockLanes].Set(static_cast<int>(b % kBlockLanes), BoxOf(own.subspan(start, count)));
   }
-  for (std::size_t i = 0; i < grades.size(); i += kBlockLanes) {
-    ready.boxes.push_back(BoxOf(grades.subspan(i, std::min<std::size_t>(kBlockLanes, grades.size() - i))));
-  }
-  const bool has_last = !grades.empty() && ready.frames.back() + 1 == static_cast<int>(clip.grades.size());
-  ready.targets = TimeBlocks(grades.first(grades.size() - (has_last ? 1 : 0)));
-  return ready;
 }
 
-/// Finds the frames of another clip that match the frames of one clip.
+/// Finds the frames of one clip that match frames of another.
 ///
 /// The query frames are processed in time order, and motion is smooth. By the triangle inequality, the distance to a
 /// block of targets can shrink from one query to a later one by at most the summed distance between the queries. So a
 /// block is compared again only when that sum has become large enough.
 class PairSearch {
  public:
-  PairSearch(const GradeMetric& metric, const MatchRules& rules, const ReadyClip& from, const ReadyClip& to)
-      : metric_(metric), rules_(rules), from_(from), to_(to) {}
+  PairSearch(const MatchClip& from, const MatchClip& to, const MatchRules& rules)
+      : metric_(rules.weights), rules_(rules), from_(from), to_(to) {}
 
-  std::vector<FrameMatches> Run(SearchWork& work) {
-    std::vector<FrameMatches> found;
-    for (std::size_t block = 0; block < from_.boxes.size(); ++block) {
-      FindNearBlocks(from_.boxes[block], work);
+  std::vector<int> Run() {
+    std::vector<int> found;
+    for (std::size_t block = 0; block < from_.boxes_.size(); ++block) {
+      FindNearBlocks(from_.boxes_[block]);
       if (near_.empty()) continue;
       const std::size_t start = block * kBlockLanes;
-      const std::size_t end = std::min(start + kBlockLanes, from_.frames.size());
+      const std::size_t end = std::min(start + kBlockLanes, from_.frames_.size());
       travelled_ = 0;
       for (std::size_t i = start; i < end; ++i) {
-        if (i > start) travelled_ += from_.steps[i];
-        if (const auto matches = FindFor(i, work)) found.push_back(*matches);
+        if (i > start) travelled_ += from_.steps_[i];
+        if (HasMatch(i)) found.push_back(from_.frames_[i]);
       }
     }
     return found;
   }
 
  private:
-  /// A target, as an index into to_.frames.
-  struct Best {
-    int index;
-    double distance;
-  };
   struct NearBlock {
     int block;
     double bound;  // lower bound for the distance from all sixteen query frames
     double reach;  // distance at the last comparison plus `travelled_` at that time
   };
 
-  /// Collects the target blocks, in time order, that may hold a match of a frame in `asking`.
-  void FindNearBlocks(const GradeBox& asking, SearchWork& work) {
+  /// Collects the target blocks that may hold a match of a frame in `asking`.
+  void FindNearBlocks(const GradeBox& asking) {
     near_.clear();
     const double limit = SquaredLimit(rules_.threshold);
-    for (int node = 0; node * kBlockLanes < to_.targets.BlockCount(); ++node) {
-      const int count = std::min(kBlockLanes, to_.targets.BlockCount() - node * kBlockLanes);
-      work.boxes += count;
-      const BlockResult bounds = SquaredBounds(metric_, asking, to_.targets.boxes[node], limit);
+    const int block_count = static_cast<int>(to_.targets_.size());
+    for (int node = 0; node * kBlockLanes < block_count; ++node) {
+      const int count = std::min(kBlockLanes, block_count - node * kBlockLanes);
+      const BlockResult bounds = SquaredBounds(metric_, asking, to_.target_boxes_[node], limit);
       ForEachLane(bounds.kept & LanesOf(count), [&](int lane) {
         near_.push_back({node * kBlockLanes + lane, std::sqrt(bounds.squared[lane]), 0});
       });
@@ -106,101 +90,43 @@ class PairSearch {
     return std::max(near.bound, rest);
   }
 
-  std::optional<FrameMatches> FindFor(std::size_t asking, SearchWork& work) {
-    // Visit the blocks in time order until the first match is found.
-    std::optional<int> first;
-    Best nearest{0, rules_.threshold};
-    std::size_t next = 0;
-    for (; next < near_.size() && !first; ++next) {
-      if (LeastDistance(near_[next]) < rules_.threshold) first = CompareBlock(asking, near_[next], nearest, work);
+  bool HasMatch(std::size_t asking) {
+    for (std::size_t i = 0; i < near_.size(); ++i) {
+      if (LeastDistance(near_[i]) >= rules_.threshold || !CompareBlock(asking, near_[i])) continue;
+      // The next frame is similar, so it is compared with this block first.
+      std::swap(near_[0], near_[i]);
+      return true;
     }
-    if (!first) return std::nullopt;
-    // Then try the block that held the previous frame's nearest match, because a small distance excludes most other
-    // blocks.
-    const auto hint = std::ranges::lower_bound(near_, hint_, {}, &NearBlock::block);
-    if (hint != near_.end() && hint - near_.begin() >= static_cast<std::ptrdiff_t>(next)) {
-      CompareBlock(asking, *hint, nearest, work);
-    }
-    // Visit the remaining blocks that may hold a nearer match.
-    for (; next < near_.size(); ++next) {
-      if (LeastDistance(near_[next]) <= nearest.distance) CompareBlock(asking, near_[next], nearest, work);
-    }
-    hint_ = nearest.index / kBlockLanes;
-    return FrameMatches{from_.frames[asking], to_.frames[*first], to_.frames[nearest.index], nearest.distance};
+    return false;
   }
 
-  /// Compares the query with one block. Improves `nearest`, and returns the first frame that improved it.
-  ///
-  /// Before the first match, `nearest` is at the threshold, so the first frame that improves it is the first match.
-  std::optional<int> CompareBlock(std::size_t asking, NearBlock& near, Best& nearest, SearchWork& work) const {
-    // Distances up to twice the threshold are computed, because they show for how many queries the block can be
-    // skipped.
+  /// Returns true if the query matches a frame of the block.
+  bool CompareBlock(std::size_t asking, NearBlock& near) const {
+    // Distances up to twice the threshold are computed; they tell for how many queries the block can be skipped.
     const double farthest = 2 * rules_.threshold;
     const int start = near.block * kBlockLanes;
-    const int count = std::min(kBlockLanes, to_.targets.frame_count - start);
-    work.distances += count;
     const BlockResult result =
-        SquaredDistances(metric_, from_.grades[asking], to_.targets.frames[near.block], SquaredLimit(farthest));
-    const double least = std::sqrt(result.least);
-    near.reach = least + travelled_;
-    std::optional<int> first;
-    if (least > nearest.distance) return first;
-    const double limit = SquaredLimit(nearest.distance);
-    ForEachLane(result.kept & LanesOf(count), [&](int lane) {
-      if (result.squared[lane] > limit) return;
-      const double distance = std::sqrt(result.squared[lane]);
-      const int index = start + lane;
-      // Blocks are not visited in the order of frames, so ties are resolved in favour of the earlier frame.
-      const bool is_nearer = distance < nearest.distance ||
-                             (distance == nearest.distance && distance < rules_.threshold && index < nearest.index);
-      if (!is_nearer || (rules_.within_class && from_.tags[asking] != to_.tags[index])) return;
-      if (!first) first = index;
-      nearest = {index, distance};
+        SquaredDistances(metric_, from_.grades_[asking], to_.targets_[near.block], SquaredLimit(farthest));
+    near.reach = std::sqrt(result.least) + travelled_;
+    bool has_match = false;
+    ForEachLane(result.kept & LanesOf(std::min(kBlockLanes, to_.target_count_ - start)), [&](int lane) {
+      if (rules_.within_class && from_.tags_[asking] != to_.tags_[start + lane]) return;
+      has_match = has_match || std::sqrt(result.squared[lane]) < rules_.threshold;
     });
-    return first;
+    return has_match;
   }
 
-  const GradeMetric& metric_;
+  const GradeMetric metric_;
   const MatchRules& rules_;
-  const ReadyClip& from_;
-  const ReadyClip& to_;
+  const MatchClip& from_;
+  const MatchClip& to_;
   std::vector<NearBlock> near_;
   double travelled_ = 0;  // sum of the distances between queries since the first of the sixteen
-  int hint_ = 0;          // the block of the last nearest match
 };
 
-}  // namespace
-
-double MatchTable::Share(int from, int to) const {
-  const int asked = QueryFrames(from);
-  return asked == 0 ? 0 : static_cast<double>(Of(from, to).size()) / asked;
-}
-
-MatchTable FindMatches(std::span<const MatchClip> clips, const MatchRules& rules, SearchWork* work,
-                       const OnProgress& on_progress) {
-  MatchTable table;
-  // Prepare every clip once, then search every pair of clips.
-  std::vector<ReadyClip> ready;
-  for (const MatchClip& clip : clips) {
-    ready.push_back(MakeReady(clip, rules));
-    table.asked_.push_back(static_cast<int>(ready.back().frames.size()));
-  }
-  table.found_.resize(clips.size() * clips.size());
-  if (!(rules.threshold > 0)) return table;
-  const GradeMetric metric(rules.weights);
-  SearchWork done;
-  for (std::size_t a = 0; a < clips.size(); ++a) {
-    for (std::size_t b = 0; b < clips.size(); ++b) {
-      if (a == b) continue;
-      table.found_[a * clips.size() + b] = PairSearch(metric, rules, ready[a], ready[b]).Run(done);
-    }
-    if (on_progress) on_progress(a + 1, clips.size());
-  }
-  if (work) {
-    work->distances += done.distances;
-    work->boxes += done.boxes;
-  }
-  return table;
+std::vector<int> FindMatchingFrames(const MatchClip& from, const MatchClip& to, const MatchRules& rules) {
+  if (!(rules.threshold > 0)) return {};
+  return PairSearch(from, to, rules).Run();
 }
 
 }  // namespace etude

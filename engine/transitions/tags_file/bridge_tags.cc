@@ -26,7 +26,7 @@ std::string MembershipsDigest(const FuzzySystem& system) {
   return Digest().Add(WriteFuzzySystem(memberships_only)).Hex();
 }
 
-BridgeTags CollectTags(const MotionLibrary& library, std::span<const std::string> sources, const FuzzySystem& system,
+BridgeTags CollectTags(const TaggedLibrary& library, std::span<const std::string> sources, const FuzzySystem& system,
                        const TagRules& tag_rules, const MatchRules& match_rules) {
   // Store the rules.
   BridgeTags tags{.system = system.name,

@@ -65,7 +65,7 @@ struct BridgeTags {
 std::string MembershipsDigest(const FuzzySystem& system);
 
 /// Collects the tags of a library that was made with `tag_rules` and `system`. `sources` holds one entry per clip.
-BridgeTags CollectTags(const MotionLibrary& library, std::span<const std::string> sources, const FuzzySystem& system,
+BridgeTags CollectTags(const TaggedLibrary& library, std::span<const std::string> sources, const FuzzySystem& system,
                        const TagRules& tag_rules, const MatchRules& match_rules);
 
 /// The maximal size of a tags file in bytes; a larger file is rejected before memory is allocated.

@@ -1,7 +1,10 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "bench/metrics/beat_alignment.h"
 #include "bench/metrics/evaluation.h"
+#include "bench/metrics/joint_angles.h"
+#include "bench/metrics/time_shift.h"
 #include "tests/bench/metrics/evaluators.h"
 #include "tests/bench/metrics/vector_input.h"
 
@@ -88,14 +91,77 @@ std::vector<glm::dquat> TurnsOf(const Json& in, const char* key) {
   return turns;
 }
 
-Value L2q(const Json& in) {
+std::optional<RotationChannels> RotationsIn(const Json& in) {
   EvaluatedPair pair;
   pair.found_turns = TurnsOf(in, "found_turns");
   pair.true_turns = TurnsOf(in, "true_turns");
   pair.found.points = in.at("true_turns").at(0).size();
   pair.found.positions.resize(pair.true_turns.size());
   pair.truth = pair.found;
-  return QuaternionError(pair);
+  return RotationsOf(pair);
+}
+
+Value L2q(const Json& in) {
+  const auto rotations = RotationsIn(in);
+  return rotations ? MeanChannelDistance(rotations->found, rotations->truth) : std::nullopt;
+}
+
+Value L2p(const Json& in) {
+  std::vector<glm::dvec3> means, deviations;
+  for (const Json& joint : in.at("statistics")) {
+    means.push_back(PointOrUnseen(joint.at(0)));
+    deviations.push_back(PointOrUnseen(joint.at(1)));
+  }
+  return MeanChannelDistance(StandardisedChannels(TracksOf(in, "found").positions, means, deviations),
+                             StandardisedChannels(TracksOf(in, "truth").positions, means, deviations));
+}
+
+template <PowerOf kind, double PowerSpectrumError::*part>
+Value Npss(const Json& in) {
+  const auto rotations = RotationsIn(in);
+  if (!rotations) return std::nullopt;
+  const auto error = MeasurePowerSpectrum(rotations->found, rotations->truth, in.at("window").get<std::size_t>(), kind);
+  return error ? Value((*error).*part) : std::nullopt;
+}
+
+Value LagMs(const Json& in) {
+  const auto shift =
+      FindTimeShift(TracksOf(in, "truth"), RateOf(in), TracksOf(in, "found"), in.at("found_rate_hz").get<double>());
+  return shift ? Value(1000 * shift->shift_s) : std::nullopt;
+}
+
+AngleTracks AnglesIn(const Json& in, const char* key) {
+  AngleTracks angles;
+  for (const Json& frame : in.at(key)) {
+    angles.names.resize(frame.size());
+    for (const Json& value : frame) angles.degrees.push_back(value.is_null() ? std::nan("") : value.get<double>());
+  }
+  return angles;
+}
+
+/// Returns the mean over the columns of angles.
+template <auto measure, bool is_absolute>
+Value MeanOverAngles(const Json& in) {
+  const AngleTracks found = AnglesIn(in, "found_angles"), truth = AnglesIn(in, "true_angles");
+  std::vector<double> values;
+  for (std::size_t column = 0; column < truth.names.size(); ++column) {
+    const double value = measure(SumAgreement(found, truth, column)).value_or(std::nan(""));
+    values.push_back(is_absolute ? std::abs(value) : value);
+  }
+  return MeanOfSeen(values);
+}
+
+std::vector<bool> ContactsIn(const Json& in, const char* key) {
+  std::vector<bool> contacts;
+  for (const Json& frame : in.at(key)) {
+    for (const Json& contact : frame) contacts.push_back(contact.get<int>() != 0);
+  }
+  return contacts;
+}
+
+template <auto measure>
+Value Beats(const Json& in) {
+  return measure(TracksOf(in, "found"), RateOf(in), in.at("beats_s").get<std::vector<double>>());
 }
 
 Value Bend(const Json& in) {
@@ -132,6 +198,14 @@ std::span<const Evaluator> EvaluationEvaluators() {
       {"skating_ratio@gmd", [](const Json& in) -> Value { return SkatingRatio(TracksOf(in, "feet"), RateOf(in)); }},
       {"skate_from_height_mps@kimodo",
        [](const Json& in) -> Value { return SkateFromHeight(TracksOf(in, "feet"), RateOf(in)); }},
+      {"skate_from_contacts_mps@kimodo",
+       [](const Json& in) -> Value {
+         return SkateFromContacts(TracksOf(in, "feet"), ContactsIn(in, "found_contacts"), RateOf(in));
+       }},
+      {"contact_f1",
+       [](const Json& in) -> Value {
+         return ContactF1(ContactsIn(in, "found_contacts"), ContactsIn(in, "true_contacts"));
+       }},
       {"pfc@edge",
        [](const Json& in) -> Value {
          return PhysicalFootContact(TracksOf(in, "feet"), RootOf(in, "found_root"), RateOf(in));
@@ -139,7 +213,18 @@ std::span<const Evaluator> EvaluationEvaluators() {
       {"penetration_mm", [](const Json& in) -> Value { return MeasureFloor(TracksOf(in, "found")).penetration_mm; }},
       {"floating_mm", [](const Json& in) -> Value { return MeasureFloor(TracksOf(in, "found")).floating_mm; }},
       {"bend_error_deg", Bend},
+      {"angle_rmse_deg", MeanOverAngles<RmsOf, false>},
+      {"angle_bias_deg", MeanOverAngles<BiasOf, true>},
+      {"angle_icc_a1", MeanOverAngles<IccOf, false>},
       {"l2q@lafan1", L2q},
+      {"l2p@lafan1", L2p},
+      {"npss@lafan1", Npss<PowerOf::kRealPart, &PowerSpectrumError::value>},
+      {"npss_power@lafan1", Npss<PowerOf::kRealPart, &PowerSpectrumError::power>},
+      {"npss", Npss<PowerOf::kMagnitude, &PowerSpectrumError::value>},
+      {"npss_power", Npss<PowerOf::kMagnitude, &PowerSpectrumError::power>},
+      {"beat_alignment@bailando", Beats<BeatAlignmentOfMusic>},
+      {"beat_alignment@mint", Beats<BeatAlignmentOfMotion>},
+      {"lag_ms", LagMs},
       {"seen_share", [](const Json& in) -> Value { return SeenShare(PairOf(in)); }},
   };
   return kAll;

@@ -9,9 +9,9 @@ disagrees, when a metric has no vector, or when this file does not know a metric
 import json
 import sys
 
-from independent import capture, coach, detection, evaluation, ik, pose_distance, search, support, tracking, transition
+from independent import capture, coach, detection, evaluation, ik, pose_distance, support, tracking, transition
 
-DOMAINS = [ik, tracking, capture, transition, support, search, pose_distance, detection, coach, evaluation]
+DOMAINS = [ik, tracking, capture, transition, support, pose_distance, detection, coach, evaluation]
 METRICS = {name: function for domain in DOMAINS for name, function in domain.METRICS.items()}
 NEWER = {"natural_share": 3, "solved_practical": 2, "solved_tight": 2, "iterations_par2": 2, "fk_evaluations_par2": 2,
          "frames_solved": 2, "frames_solved_tight": 2, "skipped_s": 2, "clean_share": 3,

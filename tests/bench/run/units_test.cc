@@ -18,7 +18,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 const std::string kTransitions = "task: transition\nmethods: [{name: a}]\n";
-const std::string kSearches = "task: search\nframes: 50\nqueries: 2\nmethods: [{name: a, search: index}]\n";
+const std::string kDetections = "task: detection\nevents: 2\nmethods: [{name: a}]\n";
 
 /// Built-in moves, and the same moves as files of two folders: three collections.
 class RowUnits : public testing::Test {
@@ -85,7 +85,7 @@ TEST_F(RowUnits, OfLibrariesAreTheFoldersOfTheClipsShown) {
 
 TEST_F(RowUnits, OfWorldsOfAllClipsAreOneLibraryMadeOfAll) {
   const std::vector<std::string> clips = {"builtin:clap", File("a", "sway"), File("b", "clap")};
-  for (const Row& row : Rows("unit: library\n" + kSearches, clips)) {
+  for (const Row& row : Rows("unit: library\n" + kDetections, clips)) {
     EXPECT_EQ(row.clip, "");
     EXPECT_THAT(row.units, ElementsAre(Folder("a") + " + " + Folder("b") + " + builtin"));
   }

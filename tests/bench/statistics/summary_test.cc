@@ -85,6 +85,40 @@ TEST_F(SummaryTest, GivesAShareItsOwnInterval) {
   EXPECT_EQ(summary.conditions[0].comparisons[1].interval, IntervalKind::kAdjustedWald);
 }
 
+TEST(WeightedSummary, IsTheMeanOverAllThatTheCellsHold) {
+  const Study study = StudyOf(ParseOne(R"(
+scenario: s
+question: which?
+task: evaluation
+truth: [t]
+methods: [{name: a, answers: [a]}, {name: b, answers: [b]}]
+metrics: [npss]
+)"));
+  // Ten pairs, of which one holds as much as the others together.
+  Study ten = study;
+  ten.trials = 10;
+  ten.unit = SamplingUnit::kWorld;
+  ScenarioTable table(ten);
+  for (int trial = 0; trial < 10; ++trial) {
+    for (const char* method : {"a", "b"}) {
+      Row row{"s", "evaluation", {}, trial, "", {}, method, {}};
+      row.result.status = Status::kOk;
+      row.result.Measure("npss", (trial == 3 ? 1.0 : 0.1) + (method[0] == 'b' ? 0.01 * trial : 0));
+      row.result.Measure("npss_power", trial == 3 ? 9 : 1);
+      table.Add(row);
+    }
+  }
+  const ScenarioSummary summary = Summarise(ten, table, 1);
+  const auto& methods = summary.conditions[0].methods;
+  const auto npss = std::ranges::find(methods[0].metrics, "npss", &MetricSummary::id);
+  ASSERT_NE(npss, methods[0].metrics.end());
+  EXPECT_NEAR(*npss->mean, (9 * 1.0 + 9 * 0.1) / 18, 1e-12);
+  EXPECT_GT(*npss->ci_high, 0.6) << "one pair decides";
+  // The difference of the weighted means is the weighted mean of differences.
+  const Comparison& comparison = summary.conditions[0].comparisons[0];
+  EXPECT_NEAR(*comparison.difference, 0.01 * (9 * 3 + 45 - 3) / 18, 1e-8);
+}
+
 TEST_F(SummaryTest, CorrectsOverAllConditionsAndMetrics) {
   EXPECT_EQ(summary.family, 4);
   const Comparison& comparison = summary.conditions[0].comparisons[0];

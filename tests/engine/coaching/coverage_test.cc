@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/transitions/library/library.h"
-#include "engine/transitions/library/transition_points.h"
+#include "engine/transitions/library/coverage.h"
 #include "sim/choreography/move.h"
 
 namespace etude {
@@ -24,7 +24,7 @@ std::vector<std::string> MovesWithoutWayInto(const std::string& wanted) {
   }
   constexpr double kHipHeight = 0.9;  // at which `etude bridge` measures
   const MotionLibrary library = MakeLibrary(names, clips, MakeBodyProportions(clips.front().poses.front(), kHipHeight));
-  const Coverage coverage(library.tagged, {}, 1);
+  const Coverage coverage(library.tagged, {}, {.with_pairs = false, .wanted = {moves}});
   std::vector<std::string> without;
   for (int clip : coverage.WithoutWayInto(moves)) without.push_back(names[clip]);
   return without;

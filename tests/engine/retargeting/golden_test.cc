@@ -163,7 +163,7 @@ TEST(RetargetingGolden, OfOddPeople) {
     if (ground && i % 2 == 0) asked.floor = ground->floor, asked.stature = ground->stature;
     for (const auto& [clip, options] : {std::pair(&clips[0], BodyOptions()), {&clips[1], asked}}) {
       const Result<BodyConversion> body = ToBodyMotion(*clip, *map, fmt::format("{}.bvh", i), options);
-      told.push_back(body ? fmt::format("{}.bvh: {}; {}", i, body->unit, body->note) : ToString(body.error()));
+      told.push_back(body ? fmt::format("{}.bvh: {}; {}", i, body->unit, body->Note()) : ToString(body.error()));
       if (body) AddBody(print, *clip, *map, *body);
     }
     print.Add(UndoScales(clips, *map));

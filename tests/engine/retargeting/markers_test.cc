@@ -73,15 +73,15 @@ TEST(Markers, OfOurOwnNamesAreTheJointsAsTheyWereWritten) {
   EXPECT_EQ(bodies->front().motion.rate_hz, 50);
   EXPECT_EQ(bodies->front().motion.poses.size(), kTakeFrames);
   EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12) << "the floor included";
-  EXPECT_EQ(bodies->front().note, "Etude's joints");
+  EXPECT_EQ(bodies->front().Note(), "Etude's joints");
   // Half a metre off the floor and more is moved, and said; --keep-floor leaves it.
   MarkerMotion take = OwnJoints();
   for (auto& frame : take.frames) {
     for (auto& place : frame) place->y += 0.7;
   }
   const auto moved = FindMarkerBodies(take, "a.trc"), kept = FindMarkerBodies(take, "a.trc", {.keep_floor = true});
-  EXPECT_EQ(moved->front().note, "Etude's joints; the floor was at 72 cm: moved to 0");
-  EXPECT_EQ(kept->front().note, "Etude's joints");
+  EXPECT_EQ(moved->front().Note(), "Etude's joints; the floor was at 72 cm: moved to 0");
+  EXPECT_EQ(kept->front().Note(), "Etude's joints");
   EXPECT_NEAR(kept->front().motion.poses[0][Role::kHipCentre].y, 1.6, 1e-12);
 }
 
@@ -213,8 +213,8 @@ TEST(MarkersUp, OfPeopleWhoLieCrawlOrStandOnTheirHandsIsTheFormatsAxis) {
       const auto trc = FindMarkerBodies(Keypoints(poses), "a.trc", {.up = TrcUp()});
       const auto c3d = FindMarkerBodies(Keypoints(poses, ZUp), "a.c3d", {.up = C3dUp(0, false)});
       ASSERT_TRUE(trc && c3d);
-      EXPECT_LT(OffUp(trc->front(), poses), 1e-9) << trc->front().note;
-      EXPECT_LT(OffUp(c3d->front(), poses), 1e-9) << c3d->front().note;
+      EXPECT_LT(OffUp(trc->front(), poses), 1e-9) << trc->front().Note();
+      EXPECT_LT(OffUp(c3d->front(), poses), 1e-9) << c3d->front().Note();
       EXPECT_THAT(trc->front().up.doubt, HasSubstr("Y is the usual axis of TRC files, and taken for up; --up overrules"));
     }
   }
@@ -228,12 +228,12 @@ TEST(MarkersUp, OfPeopleWhoLieAndThenStandIsTheAxisThatKeepsTheFloor) {
   const auto turned = [](glm::dvec3 p) { return ZUp({-p.x, p.y, -p.z}); };
   const auto zup = FindMarkerBodies(Keypoints(poses, turned), "a.trc", {.up = TrcUp()});
   ASSERT_TRUE(trc && zup);
-  EXPECT_LT(OffUp(trc->front(), poses), 1e-9) << trc->front().note;
+  EXPECT_LT(OffUp(trc->front(), poses), 1e-9) << trc->front().Note();
   EXPECT_EQ(trc->front().up.doubt, "");
   for (BodyPose& pose : poses) {
     for (glm::dvec3& p : pose.joints) p = {-p.x, p.y, -p.z};
   }
-  EXPECT_LT(OffUp(zup->front(), poses), 1e-9) << zup->front().note;
+  EXPECT_LT(OffUp(zup->front(), poses), 1e-9) << zup->front().Note();
 }
 
 TEST(MarkersUp, OfPeopleWhoStandOrWalkIsTheirAxisAndItsDoubtIsSaid) {
@@ -242,13 +242,12 @@ TEST(MarkersUp, OfPeopleWhoStandOrWalkIsTheirAxisAndItsDoubtIsSaid) {
     const auto zup = FindMarkerBodies(Keypoints(poses, ZUp), "a.trc", {.up = TrcUp()});
     const auto yup = FindMarkerBodies(Keypoints(poses), "a.c3d", {.up = C3dUp(0, false)});
     ASSERT_TRUE(zup && yup);
-    EXPECT_LT(OffUp(zup->front(), poses), 1e-9) << zup->front().note;
-    EXPECT_LT(OffUp(yup->front(), poses), 1e-9) << yup->front().note;
+    EXPECT_LT(OffUp(zup->front(), poses), 1e-9) << zup->front().Note();
+    EXPECT_LT(OffUp(yup->front(), poses), 1e-9) << yup->front().Note();
     EXPECT_EQ(zup->front().up.evidence, UpEvidence::kPosture);
-    EXPECT_EQ(
-        zup->front().up.doubt,
-        "Z is assumed to be up only because of the posture: Y is the usual axis of TRC files; --up overrules that");
-    EXPECT_THAT(zup->front().note, HasSubstr("turned upright from Z up (its posture)"));
+    EXPECT_EQ(zup->front().up.doubt,
+              "Z is assumed to be up only because of the posture: Y is the usual axis of TRC files; --up overrules that");
+    EXPECT_THAT(zup->front().Note(), HasSubstr("turned upright from Z up (its posture)"));
   }
 }
 
@@ -290,18 +289,16 @@ TEST(Markers, OfTwoSetsTheBetterCountAndTheOtherCanBeChosen) {
   const auto best = FindMarkerBodies(take, "a.trc");
   ASSERT_TRUE(best) << ToString(best.error());
   EXPECT_THAT(
-      best->front().note,
-      HasSubstr(
-          "OpenCap's augmented markers, not OpenPose BODY_25, which the file also contains (--marker-set body_25)"));
-  EXPECT_THAT(best->front().note,
-              HasSubstr("joint centres moved under the skin, distances from their markers in cm: shoulders"));
+      best->front().Note(),
+      HasSubstr("OpenCap's augmented markers, not OpenPose BODY_25, which the file also contains (--marker-set body_25)"));
+  EXPECT_THAT(best->front().Note(), HasSubstr("joint centres moved under the skin, distances from their markers in cm: shoulders"));
   for (const Role role : {kLeftShoulder, kLeftElbow, kRightWrist, kLeftKnee, kRightAnkle}) {
     EXPECT_LT(glm::distance(best->front().motion.poses[3][role], poses[3][role] - glm::dvec3(0, 0.02, 0)), 0.002)
         << RoleName(role);
   }
   const auto other = FindMarkerBodies(take, "a.trc", {.set = "body_25"});
   ASSERT_TRUE(other);
-  EXPECT_THAT(other->front().note, HasSubstr("OpenPose BODY_25, not OpenCap's augmented markers"));
+  EXPECT_THAT(other->front().Note(), HasSubstr("OpenPose BODY_25, not OpenCap's augmented markers"));
   const auto refused = FindMarkerBodies(take, "a.trc", {.set = "plug-in-gait"});
   ASSERT_FALSE(refused);
   EXPECT_THAT(ToString(refused.error()), HasSubstr("Plug-in Gait lacks left_shoulder"));
@@ -313,7 +310,7 @@ TEST(Markers, TakeTheUnitThatIsTold) {
   const auto told = FindMarkerBodies(take, "a.trc", {.metres_per_unit = 0.002});
   ASSERT_TRUE(told);
   EXPECT_NEAR(told->front().motion.poses[0][Role::kHipCentre].y, 0.88, 1e-9);
-  EXPECT_THAT(told->front().note, HasSubstr("1 unit = 0.2 cm (given), instead of the file's 0.1 cm"));
+  EXPECT_THAT(told->front().Note(), HasSubstr("1 unit = 0.2 cm (given), instead of the file's 0.1 cm"));
   EXPECT_THAT(ToString(FindMarkerBodies(take, "a.trc", {.metres_per_unit = 1}).error()),
               HasSubstr("a.trc: in the unit given (1 unit = 100 cm) the body is"));
 }
@@ -324,14 +321,13 @@ TEST(Markers, AtZeroAreGapsUnlessTheyAreAlwaysThere) {
   const auto bridged = FindMarkerBodies(take, "a.trc");
   ASSERT_TRUE(bridged) << ToString(bridged.error());
   EXPECT_LT(FurthestJoint(bridged->front().motion), 1e-12);
-  EXPECT_EQ(bridged->front().note,
-            "Etude's joints; 4 positions interpolated in gaps; 4 positions at 0, 0, 0 taken as gaps");
+  EXPECT_EQ(bridged->front().Note(), "Etude's joints; 4 positions interpolated in gaps; 4 positions at 0, 0, 0 taken as gaps");
   MarkerMotion rooted = OwnJoints();
   for (auto& frame : rooted.frames) {
     const glm::dvec3 root = *frame[Index(Role::kHipCentre)];
     for (auto& place : frame) *place -= root;
   }
-  EXPECT_EQ(FindMarkerBodies(rooted, "a.trc", {.keep_floor = true})->front().note, "Etude's joints");
+  EXPECT_EQ(FindMarkerBodies(rooted, "a.trc", {.keep_floor = true})->front().Note(), "Etude's joints");
 }
 
 TEST(Markers, InAWrongUnitAreTakenForAPersonOrRefused) {
@@ -343,7 +339,7 @@ TEST(Markers, InAWrongUnitAreTakenForAPersonOrRefused) {
     const auto bodies = FindMarkerBodies(take, "a.trc");
     ASSERT_TRUE(bodies) << ToString(bodies.error());
     EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12);
-    EXPECT_THAT(bodies->front().note, HasSubstr(fmt::format("m tall: taken for {:g} times that", 1 / factor)));
+    EXPECT_THAT(bodies->front().Note(), HasSubstr(fmt::format("m tall: taken for {:g} times that", 1 / factor)));
   }
   MarkerMotion take = OwnJoints();
   for (auto& frame : take.frames) {
@@ -398,11 +394,9 @@ TEST(Markers, OfPlugInGaitGiveJointsInsideTheLimbs) {
   ASSERT_TRUE(bodies) << ToString(bodies.error());
   const MarkerBody& body = bodies->front();
   EXPECT_EQ(body.name, "Me");
-  EXPECT_THAT(
-      body.note,
-      HasSubstr("Plug-in Gait; joint centres moved under the skin, distances from their markers in cm: knees "));
-  EXPECT_THAT(body.note, HasSubstr("by the lengths of the limbs; placed by rule: hip_centre"));
-  EXPECT_THAT(body.note, HasSubstr("the floor was at 2 cm: moved to 0"));
+  EXPECT_THAT(body.Note(), HasSubstr("Plug-in Gait; joint centres moved under the skin, distances from their markers in cm: knees "));
+  EXPECT_THAT(body.Note(), HasSubstr("by the lengths of the limbs; placed by rule: hip_centre"));
+  EXPECT_THAT(body.Note(), HasSubstr("the floor was at 2 cm: moved to 0"));
   const BodyPose& pose = body.motion.poses.front();
   const double depth = 2 * f, width = 2 * a;
   const glm::dvec3 hip = pose[Role::kLeftHip];
@@ -443,7 +437,7 @@ TEST(Markers, OfPoseEstimatorsAreTakenAndWhatTheyLackIsPlacedByRule) {
   });
   const auto bodies = FindMarkerBodies(take, "a.trc");
   ASSERT_TRUE(bodies) << ToString(bodies.error());
-  EXPECT_THAT(bodies->front().note, HasSubstr("OpenPose BODY_25; placed by rule: spine, left_hand, right_hand"));
+  EXPECT_THAT(bodies->front().Note(), HasSubstr("OpenPose BODY_25; placed by rule: spine, left_hand, right_hand"));
   EXPECT_LT(FurthestJoint(bodies->front().motion, 0.02), 0.03);
 }
 
@@ -457,9 +451,9 @@ TEST(Markers, GapsAreBridgedAndLongOnesCutOff) {
   ASSERT_TRUE(bodies);
   EXPECT_EQ(bodies->front().motion.poses.size(), 25u);
   EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12) << "the sway is straight";
-  EXPECT_EQ(bodies->front().note,
-            "Etude's joints; 4 positions interpolated in gaps; only frames 1 to 25 of 40 (elsewhere joints are lost "
-            "for over 1 s)");
+  EXPECT_EQ(
+      bodies->front().Note(),
+      "Etude's joints; 4 positions interpolated in gaps; only frames 1 to 25 of 40 (elsewhere joints are lost for over 1 s)");
 }
 
 TEST(Markers, OfTwoPeopleAreTwoBodies) {

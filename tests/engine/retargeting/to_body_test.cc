@@ -41,7 +41,7 @@ TEST(ToBodyMotion, RecognisesTheUnitByTheBodysStature) {
                            Case{1, "1 unit = 1 cm (centimetre)"}, Case{10, "1 unit = 0.1 cm (millimetre)"}}) {
     const auto body = Convert(AtRest(Scaled(unit.units_per_cm)));
     ASSERT_TRUE(body) << ToString(body.error());
-    EXPECT_EQ(body->note, unit.note);
+    EXPECT_EQ(body->Note(), unit.note);
     EXPECT_NEAR(body->metres_per_unit * unit.units_per_cm, 0.01, 1e-12);
     EXPECT_NEAR(glm::distance(body->motion.poses[0][kLeftHip], body->motion.poses[0][kLeftKnee]), 0.43, 1e-12);
     EXPECT_NEAR(Stature(body->motion.poses[0]), 1.60 / 0.92, 1e-12);
@@ -52,7 +52,7 @@ TEST(ToBodyMotion, ScalesABodyOfNoKnownUnitToACommonStature) {
   const auto body = Convert(AtRest(Scaled(1e-4)));
   ASSERT_TRUE(body) << ToString(body.error());
   EXPECT_NEAR(Stature(body->motion.poses[0]), 1.70, 1e-12);
-  EXPECT_THAT(body->note, HasSubstr("unknown unit, scaled to a stature of 1.70 m"));
+  EXPECT_THAT(body->Note(), HasSubstr("unknown unit, scaled to a stature of 1.70 m"));
 }
 
 TEST(ToBodyMotion, TakesSmallBodiesInMillimetresForWhatASensorSaw) {
@@ -67,7 +67,7 @@ TEST(ToBodyMotion, DropsATPoseThatTheMotionJumpsAwayFrom) {
   const auto body = Convert(clip);
   ASSERT_TRUE(body);
   EXPECT_EQ(body->dropped_frames, 1u);
-  EXPECT_EQ(body->note, "1 unit = 1 cm (centimetre); dropped a leading T-pose; resampled from 120 to 30 Hz");
+  EXPECT_EQ(body->Note(), "1 unit = 1 cm (centimetre); dropped a leading T-pose; resampled from 120 to 30 Hz");
   EXPECT_EQ(body->motion.poses.size(), 2u);  // frames 1 and 5 of 1…8
   EXPECT_FALSE(IsTPose(body->motion.poses[0]));
 }
@@ -77,7 +77,7 @@ TEST(ToBodyMotion, DropsEveryFrameOfATPoseThatIsHeld) {
   for (std::size_t i = 3; i < 9; ++i) LowerArms(clip, i);
   const auto body = Convert(clip);
   ASSERT_TRUE(body);
-  EXPECT_EQ(body->note, "1 unit = 1 cm (centimetre); dropped a leading T-pose of 3 frames");
+  EXPECT_EQ(body->Note(), "1 unit = 1 cm (centimetre); dropped a leading T-pose of 3 frames");
   EXPECT_EQ(body->dropped_frames, 3u);
   EXPECT_EQ(body->motion.poses.size(), 6u);
   const auto whole = Convert(clip, {.drop_t_pose = false});
@@ -150,14 +150,14 @@ TEST(ToBodyMotion, TellsWhichRolesItComposed) {
   person.joints[person.Find("LeftHand_End")].rest.translation = {0, 0, 0};
   const auto body = Convert(AtRest(person));
   ASSERT_TRUE(body);
-  EXPECT_THAT(body->note, HasSubstr("; joints that are not in the file, composed: left_hand"));
+  EXPECT_THAT(body->Note(), HasSubstr("; joints that are not in the file, composed: left_hand"));
 }
 
 TEST(ToBodyMotion, TakesTheUnitThatIsGiven) {
   const auto body = Convert(AtRest(Scaled(1)), {.metres_per_unit = 0.02});
   ASSERT_TRUE(body) << ToString(body.error());
   EXPECT_EQ(body->unit, "given");
-  EXPECT_THAT(body->note, HasSubstr("1 unit = 2 cm (given); 3.48 m tall in the unit given"));
+  EXPECT_THAT(body->Note(), HasSubstr("1 unit = 2 cm (given); 3.48 m tall in the unit given"));
   EXPECT_NEAR(Stature(body->motion.poses[0]), 2 * 1.60 / 0.92, 1e-12);
 }
 
@@ -185,7 +185,8 @@ TEST(ToBodyMotion, TurnsZUpFilesUprightAndKeepsWhoFacesWhereAndWhatIsLeft) {
   ASSERT_TRUE(expected && body) << ToString(body.error());
   EXPECT_EQ(body->up, UpAxis::kZ);
   EXPECT_EQ(expected->up, UpAxis::kY);
-  EXPECT_EQ(body->note, "1 unit = 1 cm (centimetre); turned upright from Z up (the axis along which it stands at rest)");
+  EXPECT_EQ(body->Note(),
+            "1 unit = 1 cm (centimetre); turned upright from Z up (the axis along which it stands at rest)");
   for (const Role role : AllRoles()) {
     EXPECT_LT(glm::distance(body->motion.poses[2][role], expected->motion.poses[2][role]), 1e-12) << RoleName(role);
   }
@@ -226,12 +227,12 @@ TEST(ToBodyMotion, TellsWhereItFoundTheFloor) {
   const auto body = Convert(clip);
   ASSERT_TRUE(body);
   EXPECT_NEAR(body->floor, 40, 1e-12);
-  EXPECT_EQ(body->note, "1 unit = 1 cm (centimetre); the floor was at 40 cm: moved to 0");
+  EXPECT_EQ(body->Note(), "1 unit = 1 cm (centimetre); the floor was at 40 cm: moved to 0");
   const auto kept = Convert(clip, {.keep_floor = true});
   ASSERT_TRUE(kept);
   EXPECT_EQ(kept->floor, 0);
   EXPECT_NEAR(kept->motion.poses[0][kLeftFoot].y, 0.4, 1e-12);
-  EXPECT_EQ(kept->note, "1 unit = 1 cm (centimetre)");
+  EXPECT_EQ(kept->Note(), "1 unit = 1 cm (centimetre)");
 }
 
 TEST(FindGround, IsThatOfAllClipsOfAFile) {
@@ -318,7 +319,7 @@ TEST(ToBodyMotion, TellsOfKneesThatOverstretchAsDepthSensorsDo) {
       ASSERT_EQ(body.has_value(), is_believed) << degrees << " " << elbows;
       if (!is_believed) continue;
       const std::string said = fmt::format("; the knees are overextended by {:.0f}° on average", degrees);
-      EXPECT_EQ(body->note.find(said) != std::string::npos, degrees > 3) << body->note;
+      EXPECT_EQ(body->Note().find(said) != std::string::npos, degrees > 3) << body->Note();
     }
   }
 }
@@ -354,7 +355,7 @@ TEST(ToBodyMotion, UndoesAScaleOnTheHipsThatTheRestPoseHasNot) {
     const auto body = Convert(clip);
     ASSERT_TRUE(body) << ToString(body.error());
     EXPECT_NEAR(Stature(body->motion.poses[0]), 1.60 / 0.92, 1e-9) << scale;
-    EXPECT_THAT(body->note,
+    EXPECT_THAT(body->Note(),
                 HasSubstr(fmt::format("the frames show a body {:.3g} times as tall as the rest pose", scale)));
   }
   Clip alike = AtRest(Scaled(0.01), 3);
@@ -368,11 +369,12 @@ TEST(ToBodyMotion, TellsOfFramesThatShowAnotherSizeThanTheRestPose) {
   const BodyOptions whole{.drop_t_pose = false};
   const auto larger = Convert(clip, whole);
   EXPECT_EQ(larger->unit, "metre");
-  EXPECT_THAT(larger->note, HasSubstr("the frames show a body 1.2 times as tall as the rest pose"));
+  EXPECT_THAT(larger->Note(), HasSubstr("the frames show a body 1.2 times as tall as the rest pose"));
   for (std::size_t f = 0; f < 30; ++f) clip.frames[f][0].scale = glm::dvec3(1);
-  EXPECT_THAT(Convert(clip, whole)->note, ::testing::Not(HasSubstr("times"))) << "one that is squashed in a few frames";
+  EXPECT_THAT(Convert(clip, whole)->Note(), ::testing::Not(HasSubstr("times")))
+      << "one that is squashed in a few frames";
   for (std::size_t f = 30; f < 40; ++f) clip.frames[f][0].scale = glm::dvec3(2);
-  EXPECT_THAT(Convert(clip, whole)->note, HasSubstr("its size changes between frames by a factor of 2"));
+  EXPECT_THAT(Convert(clip, whole)->Note(), HasSubstr("its size changes between frames by a factor of 2"));
 }
 
 TEST(ToBodyMotion, KeepsTheUnitOfItsFileWhereOneClipStretchesTheBody) {
@@ -382,11 +384,10 @@ TEST(ToBodyMotion, KeepsTheUnitOfItsFileWhereOneClipStretchesTheBody) {
   const auto map = FindJointMap(standing.skeleton, "person.glb");
   const Clip clips[] = {stretched, standing};
   const BodyOptions told{.stature = FindGround(clips, *map)->stature};
-  EXPECT_EQ(Convert(standing, told)->note, Convert(standing)->note);
+  EXPECT_EQ(Convert(standing, told)->Note(), Convert(standing)->Note());
   const auto body = Convert(stretched, told);
   EXPECT_EQ(body->metres_per_unit, 1);
-  EXPECT_THAT(body->note,
-              HasSubstr("its frames show a body 1.5 times as tall as the frames of all clips of the file together"));
+  EXPECT_THAT(body->Note(), HasSubstr("its frames show a body 1.5 times as tall as the frames of all clips of the file together"));
   EXPECT_NE(Convert(stretched)->metres_per_unit, 1) << "alone it has no other measure";
 }
 
@@ -399,8 +400,8 @@ TEST(ToBodyMotion, RefusesAUnitUnderWhichTheBodyIsNone) {
   EXPECT_FALSE(Convert(AtRest(Scaled(1)), {.metres_per_unit = 1}));
   const auto child = Convert(AtRest(Scaled(1)), {.metres_per_unit = 0.0055});
   ASSERT_TRUE(child);
-  EXPECT_THAT(child->note, HasSubstr("0.96 m tall in the unit given; its unit is likely the centimetre: 1.74 m"));
-  EXPECT_EQ(Convert(AtRest(Scaled(1)), {.metres_per_unit = 0.01})->note, "1 unit = 1 cm (given)");
+  EXPECT_THAT(child->Note(), HasSubstr("0.96 m tall in the unit given; its unit is likely the centimetre: 1.74 m"));
+  EXPECT_EQ(Convert(AtRest(Scaled(1)), {.metres_per_unit = 0.01})->Note(), "1 unit = 1 cm (given)");
 }
 
 TEST(ToBodyMotion, UnderstandsPushUps) {
@@ -409,8 +410,8 @@ TEST(ToBodyMotion, UnderstandsPushUps) {
   const auto body = Convert(clip);
   ASSERT_TRUE(body) << ToString(body.error());
   EXPECT_EQ(body->up, UpAxis::kY);
-  EXPECT_THAT(body->note, HasSubstr("the body lies along Z: Y is assumed to be up"));
-  EXPECT_THAT(body->note, Not(HasSubstr("turned first")));
+  EXPECT_THAT(body->Note(), HasSubstr("the body lies along Z: Y is assumed to be up"));
+  EXPECT_THAT(body->Note(), Not(HasSubstr("turned first")));
 }
 
 TEST(ToBodyMotion, TellsThatABodyLiesWhoseUpAxisNobodyKnows) {
@@ -420,9 +421,9 @@ TEST(ToBodyMotion, TellsThatABodyLiesWhoseUpAxisNobodyKnows) {
     for (Joint& joint : lying.joints) joint.rest.translation = turn * joint.rest.translation;
     const auto body = Convert(AtRest(lying));
     ASSERT_TRUE(body) << ToString(body.error());
-    EXPECT_THAT(body->note, HasSubstr(std::string("the body lies along ") + axis +
-                                      ", at rest, too: Y is taken for up, and a "
-                                      "file with another axis must be turned first"));
+    EXPECT_THAT(body->Note(), HasSubstr(std::string("the body lies along ") + axis +
+                                        ", at rest, too: Y is taken for up, and a "
+                                        "file with another axis must be turned first"));
   }
 }
 
@@ -458,7 +459,7 @@ TEST(ToBodyMotion, TakesTheFormatsAxisBeforePostureAndTheUsersBeforeBoth) {
   ASSERT_TRUE(of_format) << ToString(of_format.error());
   EXPECT_EQ(of_format->found_up.evidence, UpEvidence::kFormat);
   EXPECT_LT(of_format->motion.poses[0][kHead].y, 0.3);
-  EXPECT_THAT(of_format->note, HasSubstr("the body stands along Y, but Z is the rule of AMASS; --up overrules that"));
+  EXPECT_THAT(of_format->Note(), HasSubstr("the body stands along Y, but Z is the rule of AMASS; --up overrules that"));
   const auto told = Convert(lying, {.up = UpAxis::kY, .up_rule = AmassUp()});
   ASSERT_TRUE(told);
   EXPECT_EQ(told->found_up.evidence, UpEvidence::kTold);

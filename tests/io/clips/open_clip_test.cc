@@ -112,7 +112,7 @@ TEST_F(OpenClipTest, ALibraryTakesAllKindsInOrderAndNamesWhatItCannotUnderstand)
   ASSERT_EQ(library->clips.size(), 3u);
   EXPECT_EQ(library->clips[1].name, "01_03");
   EXPECT_EQ(library->clips[1].source, real);
-  EXPECT_THAT(library->clips[1].note, HasSubstr("1 unit = 5.6"));
+  EXPECT_THAT(library->clips[1].changes.front(), HasSubstr("1 unit = 5.6"));
   EXPECT_FALSE(library->clips[1].move);
   const auto broken = LoadClips({"builtin:clap", dance_}, {});
   ASSERT_FALSE(broken);

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "engine/formats/npz.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/clip.h"
 #include "sim/choreography/canonical_body.h"
@@ -55,6 +56,69 @@ TEST_F(RawMotionsTest, JointsPlacedByRulePlayNoRole) {
   EXPECT_EQ(raw.roles[Index(Role::kLeftHand)], -1);
   const glm::dvec3 middle = 0.5 * (pose[Role::kLeftHip] + pose[Role::kRightHip]);
   EXPECT_NEAR(glm::distance(raw.At(0, raw.roles[Index(Role::kHipCentre)]), middle), 0, 1e-5);
+}
+
+/// Kimodo's skeleton: each joint's parent, and its place relative to it in the T-pose, metres.
+struct PlacedJoint {
+  int parent;
+  glm::dvec3 offset;
+};
+constexpr PlacedJoint kSoma[] = {{-1, {0, 1, 0}},          {0, {0, .05, 0}},         {1, {0, .071, 0}},
+                                 {2, {0, .076, -.008}},    {3, {0, .263, -.006}},    {4, {0, .077, .023}},
+                                 {5, {0, .061, .02}},      {6, {0, .005, .031}},     {6, {.032, .054, .076}},
+                                 {6, {-.032, .054, .076}}, {3, {.016, .232, .051}},  {10, {.149, 0, -.055}},
+                                 {11, {.287, 0, 0}},       {12, {.271, 0, 0}},       {13, {.123, -.032, .048}},
+                                 {13, {.19, -.003, 0}},    {3, {-.016, .232, .051}}, {16, {-.149, 0, -.055}},
+                                 {17, {-.287, 0, 0}},      {18, {-.271, 0, 0}},      {19, {-.123, -.032, .048}},
+                                 {19, {-.19, -.003, 0}},   {0, {.1, -.084, .026}},   {22, {0, -.432, -.008}},
+                                 {23, {0, -.422, -.035}},  {24, {0, -.051, .132}},   {0, {-.1, -.084, .026}},
+                                 {26, {0, -.432, -.008}},  {27, {0, -.422, -.035}},  {28, {0, -.051, .132}}};
+
+TEST_F(RawMotionsTest, KimodosArraysKeepTheirRotationsAndContacts) {
+  constexpr std::size_t kFrames = 4, kLeftKnee = 23, kLeftFoot = 25;
+  NumberArray places{{kFrames, 30, 3}, {}}, matrices{{kFrames, 30, 3, 3}, {}}, contacts{{kFrames, 4}, {}};
+  std::vector<glm::dvec3> expected;
+  std::vector<glm::dmat3> turned;
+  for (std::size_t f = 0; f < kFrames; ++f) {
+    std::vector<glm::dvec3> p;
+    std::vector<glm::dmat3> r;
+    for (std::size_t j = 0; j < 30; ++j) {
+      const double bend = j == kLeftKnee ? 0.1 * static_cast<double>(f) : j == 0 ? 0.3 : 0;
+      const glm::dvec3 axis = j == 0 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+      const glm::dmat3 own = glm::mat3_cast(glm::angleAxis(bend, axis));
+      const auto& [parent, offset] = kSoma[j];
+      p.push_back(parent < 0 ? offset : p[parent] + r[parent] * offset);
+      r.push_back(parent < 0 ? own : r[parent] * own);
+      for (int k = 0; k < 3; ++k) places.values.push_back(p[j][k]);
+      for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) matrices.values.push_back(r[j][column][row]);
+      }
+    }
+    expected.insert(expected.end(), p.begin(), p.end());
+    turned.insert(turned.end(), r.begin(), r.end());
+    contacts.values.insert(contacts.values.end(), {1, 0, 0, f % 2 == 0 ? 1.0 : 0.0});
+  }
+  const std::map<std::string, NumberArray> arrays = {
+      {"posed_joints", places}, {"global_rot_mats", matrices}, {"foot_contacts", contacts}};
+  const RawMotion raw = Opened(Write("k.npz", WriteNpz(arrays, {})));
+  ASSERT_EQ(raw.FrameCount(), kFrames);
+  EXPECT_EQ(raw.roles[Index(Role::kLeftKnee)], static_cast<int>(kLeftKnee));
+  EXPECT_EQ(raw.roles[Index(Role::kLeftFoot)], static_cast<int>(kLeftFoot));
+  const std::size_t joints = raw.joints.size();  // with the middle of the hips
+  for (std::size_t f = 0; f < kFrames; ++f) {
+    for (std::size_t j = 0; j < 30; ++j) {
+      EXPECT_NEAR(glm::distance(raw.At(f, j), expected[f * 30 + j]), 0, 1e-6);
+      EXPECT_NEAR(std::abs(glm::dot(raw.rotations[f * joints + j], glm::quat_cast(turned[f * 30 + j]))), 1, 1e-9);
+    }
+  }
+  EXPECT_EQ(raw.rest_rotations[kLeftKnee], glm::dquat(1, 0, 0, 0));
+  EXPECT_EQ(raw.contacts, (std::vector<bool>{1, 0, 0, 1, 1, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0}));
+  // Contacts of another length are refused.
+  std::map<std::string, NumberArray> wrong = arrays;
+  wrong["foot_contacts"] = {{2, 4}, std::vector<double>(8, 1)};
+  const auto refused = OpenRawMotion(Write("w.npz", WriteNpz(wrong, {})), {});
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(ToString(refused.error()), HasSubstr("foot_contacts 2 × 4; allowed: 4 × 4"));
 }
 
 TEST_F(RawMotionsTest, ABuiltInClipIsItsOwnBody) {

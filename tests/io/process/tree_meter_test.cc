@@ -1,19 +1,25 @@
 #include "io/process/tree_meter.h"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "io/process/child_process.h"
 #include "io/process/fence.h"
+#include "io/process/process_tree.h"
 
 namespace etude {
 namespace {
 
 constexpr double kAlways = 0, kNever = 1e9;  // from where on a look is precise
+constexpr double kNoLimit = 1e9;
 
 std::string NextAnswer(ChildProcess& child) {
   for (bool is_open = true; is_open;) {
@@ -49,7 +55,7 @@ double Look(TreeMeter& meter, double precise_from_mb = kAlways) {
 /// What one look says that a script holds beyond Python itself, MB.
 double HeldMb(const std::string& script, double precise_from_mb = kAlways) {
   const ChildProcess plain = Python("hold()"), child = Python(script);
-  TreeMeter own(plain.number()), all(child.number());
+  TreeMeter own(plain.number(), kNoLimit), all(child.number(), kNoLimit);
   return Look(all, precise_from_mb) - Look(own, precise_from_mb);
 }
 
@@ -76,7 +82,7 @@ TEST(TreeMeter, MeasuresItselfAndAllThatItHasStarted) {
       "    os.write(writing, b'x'); time.sleep(60)\n"
       "  os._exit(0)\n"
       "os.read(reading, 1); os.read(reading, 1); hold()");
-  TreeMeter meter(child.number());
+  TreeMeter meter(child.number(), kNoLimit);
   EXPECT_NEAR(Look(meter), 45, 12);
   const TreeLoad load = meter.Count();
   EXPECT_GT(load.cpu_s, 0.02);
@@ -89,7 +95,7 @@ TEST(TreeMeter, SeesPagesThatAChildWritesToAfterAPreciseLook) {
       "if os.fork() == 0:\n"
       "  hold(); touch(own, 40 * MB); print('held', flush=True); time.sleep(60)\n"
       "time.sleep(60)");
-  TreeMeter meter(child.number());
+  TreeMeter meter(child.number(), kNoLimit);
   const double before = Look(meter);
   EXPECT_NEAR(before, 55, 12);
   child.Send("");
@@ -114,7 +120,7 @@ TEST(TreeMeter, CountsSharedMemoryByAllPartsThatWereEverMapped) {
       "start = ctypes.addressof(ctypes.c_char.from_buffer(memory))\n"
       "libc.munmap(start + MB, 59 * MB); hold()\n"
       "libc.munmap(start, MB); hold()");
-  TreeMeter meter(child.number());
+  TreeMeter meter(child.number(), kNoLimit);
   const auto held = [&] {
     double mb = 0;
     for (int i = 0; i < 6; ++i, ::usleep(110000)) mb = Look(meter);
@@ -137,7 +143,7 @@ TEST(TreeMeter, CountsSharedMemoryBehindAPageThatStaysMapped) {
       "memory = mmap.mmap(-1, 30 * MB); touch(memory, 30 * MB); hold()\n"
       "libc.munmap(ctypes.addressof(ctypes.c_char.from_buffer(memory)) + 4096, 30 * MB - 4096); hold()\n"
       "other = mmap.mmap(-1, 10 * MB); touch(other, 10 * MB); hold()");
-  TreeMeter meter(child.number());
+  TreeMeter meter(child.number(), kNoLimit);
   const double before = Look(meter);
   const auto go_on = [&] {
     child.Send("");
@@ -170,7 +176,60 @@ TEST(TreeMeter, CountsWhatTheKernelKeepsForThem) {
       "hold()";
   const ChildProcess locking = Python(locks);
   // The kernel's list is read in parts: where other programs lock and unlock meanwhile, a line may come twice or not.
-  EXPECT_NEAR(static_cast<double>(TreeMeter(locking.number()).Count().file_locks), 4000, 40);
+  EXPECT_NEAR(static_cast<double>(TreeMeter(locking.number(), kNoLimit).Count().file_locks), 4000, 40);
+}
+
+/// Four children, each of which splits memory into 40,000 mappings if it is one of the first `splitting`.
+ChildProcess WithMappings(int splitting) {
+  return Python("libc = ctypes.CDLL(None); libc.mprotect.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int]\n"
+                "memory = mmap.mmap(-1, 20000 * 8192, mmap.MAP_PRIVATE); reading, writing = os.pipe()\n"
+                "start = ctypes.addressof(ctypes.c_char.from_buffer(memory))\n"
+                "for child in range(4):\n"
+                "  if os.fork() == 0:\n"
+                "    for at in range(20000 if child < " +
+                std::to_string(splitting) +
+                " else 0): libc.mprotect(start + at * 8192, 4096, 0)\n"
+                "    os.write(writing, b'x'); time.sleep(60)\n"
+                "for child in range(4): os.read(reading, 1)\n"
+                "hold()");
+}
+
+TEST(TreeMeter, CountsMappingsUpToItsLimit) {
+  constexpr double kMbEach = 40000 * 250.0 / (1 << 20);  // 9.5
+  const ChildProcess none = WithMappings(0), two = WithMappings(2), four = WithMappings(4);
+  const auto held_mb = [](const ChildProcess& child, double limit_mb) {
+    TreeMeter meter(child.number(), limit_mb);
+    return Look(meter);
+  };
+  const double plain_mb = held_mb(none, kNoLimit);
+  EXPECT_NEAR(held_mb(two, kNoLimit), plain_mb + 2 * kMbEach, 3) << "idle children behind them count for nothing";
+  EXPECT_NEAR(held_mb(four, kNoLimit), plain_mb + 4 * kMbEach, 3);
+  EXPECT_NEAR(held_mb(four, 1.5 * kMbEach), 2 * kMbEach, 3) << "the first two alone exceed it";
+}
+
+TEST(TreeMeter, IsStarvedByATreeThatUsesTheMachineWhileItWaits) {
+  EXPECT_TRUE(Starves({.cpu_s = 0.01, .wall_s = 0.05}, 1.8, 2));
+  EXPECT_FALSE(Starves({.cpu_s = 0.01, .wall_s = 0.03}, 1.8, 2)) << "it hardly waited";
+  EXPECT_FALSE(Starves({.cpu_s = 0.001, .wall_s = 0.05}, 1.8, 2)) << "to measure one program costs so much";
+  EXPECT_FALSE(Starves({.cpu_s = 0.01, .wall_s = 0.05}, 0.8, 2)) << "others use the machine";
+}
+
+TEST(TreeMeter, LowersThePriorityOfAllThreads) {
+  const ChildProcess child = Python(
+      "threading.Thread(target=time.sleep, args=(60,), daemon=True).start()\n"
+      "hold()");
+  const int ours = ::getpriority(PRIO_PROCESS, 0);
+  const auto priorities = [&] {
+    std::multiset<int> found;
+    for (const auto& thread : std::filesystem::directory_iterator(fmt::format("/proc/{}/task", child.number()))) {
+      found.insert(::getpriority(PRIO_PROCESS, static_cast<id_t>(std::stoi(thread.path().filename()))));
+    }
+    return found;
+  };
+  EXPECT_EQ(priorities(), (std::multiset<int>{ours, ours}));
+  LowerPriority(child.number());
+  EXPECT_EQ(priorities(), (std::multiset<int>{19, 19}));
+  EXPECT_EQ(::getpriority(PRIO_PROCESS, 0), ours);
 }
 
 TEST(TreeMeter, CountsDescriptorsPipesAndThreads) {
@@ -178,7 +237,7 @@ TEST(TreeMeter, CountsDescriptorsPipesAndThreads) {
       "pipes = [os.pipe() for _ in range(150)]; files = [open('/dev/null') for _ in range(10)]\n"
       "for _ in range(5): threading.Thread(target=time.sleep, args=(60,), daemon=True).start()\n"
       "hold()");
-  const TreeLoad load = TreeMeter(child.number()).Count();
+  const TreeLoad load = TreeMeter(child.number(), kNoLimit).Count();
   EXPECT_EQ(load.descriptors, 313u);
   EXPECT_NEAR(static_cast<double>(load.pipes), 152.5, 1) << "with its standard input and output, and perhaps ours";
   EXPECT_EQ(load.threads, 6u);
@@ -203,7 +262,7 @@ TEST(TreeMeter, CountsSocketsThatNoProcessHasOpen) {
                                     .inherited_texts = command.inherited_texts});
   ASSERT_TRUE(child);
   EXPECT_EQ(NextAnswer(*child), "held");
-  TreeMeter meter(child->number());
+  TreeMeter meter(child->number(), kNoLimit);
   const TreeLoad load = meter.Count();
   EXPECT_GE(load.sockets, 102u) << "each with a half that has been closed, whose bytes are still on their way";
   EXPECT_LT(load.sockets, 120u);

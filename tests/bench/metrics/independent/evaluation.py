@@ -1,4 +1,5 @@
 """Metrics of any answer against any truth: frames, each a list of positions, null where a joint is not seen."""
+import cmath
 import math
 
 from . import common
@@ -8,6 +9,7 @@ from .common import cross, distance, dot, minus, norm
 LOW_M, GMD_MPS, GMD_REACH = 0.05, 0.5, 2
 PCK_MM, AUC_STEP_MM, AUC_STEPS = 150, 5, 31
 FEWEST = 3
+BEAT_SIGMA, SMOOTHING, MINT_ORDER = 3, 5, 10  # frames
 
 
 def seen_pairs(found, truth):
@@ -184,6 +186,23 @@ def kimodo(given):
     return math.fsum(speeds) / (len(speeds) + 1e-6)
 
 
+def kimodo_contacts(given):
+    feet, rate = given["feet"], given["rate_hz"]
+    if len(feet) < 2 or not given["found_contacts"]:
+        return None
+    speeds = [rate * distance(a[k], b[k]) for a, b, touches in zip(feet, feet[1:], given["found_contacts"])
+              for k in range(4) if touches[k] and a[k] and b[k]]
+    return math.fsum(speeds) / (len(speeds) + 1e-6)
+
+
+def contact_f1(given):
+    found, truth = common.flat(given["found_contacts"]), common.flat(given["true_contacts"])
+    if not found or not truth:
+        return None
+    right = sum(1 for a, b in zip(found, truth) if a and b)
+    return 2 * right / (sum(found) + sum(truth)) if any(found) or any(truth) else None
+
+
 def pfc(given):
     feet, root, rate = given["feet"], given["found_root"], given["rate_hz"]
     pushes = []
@@ -230,13 +249,212 @@ def continuous(quaternions, start):
     return kept
 
 
-def l2q(given):
+def curves(given):
+    """Of each angle the pairs (answer, truth) in which both are known, the truth without jumps, the answer near it."""
+    for found, truth in zip(zip(*given["found_angles"]), zip(*given["true_angles"])):
+        pairs = []
+        for a, t in zip(found, truth):
+            if a is None or t is None:
+                continue
+            while pairs and abs(t - pairs[-1][1]) > 180:
+                t += 360 if t < pairs[-1][1] else -360
+            while abs(a - t) > 180:
+                a += 360 if a < t else -360
+            pairs.append((a, t))
+        yield pairs
+
+
+def over_angles(measure):
+    def of(given):
+        values = [measure(pairs) for pairs in curves(given) if pairs]
+        return common.mean([value for value in values if value is not None])
+    return of
+
+
+def rmse(pairs):
+    return math.sqrt(common.mean([(a - t) ** 2 for a, t in pairs]))
+
+
+def bias(pairs):
+    return abs(common.mean([a - t for a, t in pairs]))
+
+
+def icc_a1(pairs):
+    """By the table of the analysis of variance: frames are rows, answer and truth columns."""
+    n = len(pairs)
+    if n < 2:
+        return None
+    grand = common.mean(common.flat(pairs))
+    rows, columns = [common.mean(pair) for pair in pairs], [common.mean(column) for column in zip(*pairs)]
+    of_rows = 2 * math.fsum((r - grand) ** 2 for r in rows) / (n - 1)
+    of_columns = n * math.fsum((c - grand) ** 2 for c in columns)
+    error = math.fsum((x - r - c + grand) ** 2 for pair, r in zip(pairs, rows) for x, c in zip(pair, columns)) / (n - 1)
+    below = of_rows + error + 2 / n * (of_columns - error)
+    return (of_rows - error) / below if below > 0 else None
+
+
+def rotations(given):
+    """Found and true quaternions of one sign, by frame, each frame one list of numbers."""
     if not given["found_turns"] or not given["true_turns"]:
         return None
     truths = [continuous(joint, joint[0]) for joint in zip(*given["true_turns"])]
     founds = [continuous(joint, truth[0]) for joint, truth in zip(zip(*given["found_turns"]), truths)]
-    frames = zip(zip(*founds), zip(*truths))
-    return common.mean([math.sqrt(math.fsum(distance(a, b) ** 2 for a, b in zip(p, t))) for p, t in frames])
+    return [[common.flat(frame) for frame in zip(*joints)] for joints in (founds, truths)]
+
+
+def frame_distance(both):
+    return common.mean([distance(a, b) for a, b in zip(*both)]) if both else None
+
+
+def standardised(frames, statistics):
+    """Frames with an unseen joint are null."""
+    return [[(x - m) / s for p, (mean, spread) in zip(frame, statistics) for x, m, s in zip(p, mean, spread)]
+            if all(frame) else None for frame in frames]
+
+
+def l2p(given):
+    pairs = zip(*(standardised(given[which], given["statistics"]) for which in ("found", "truth")))
+    return common.mean([distance(a, b) for a, b in pairs if a and b])
+
+
+def spectrum(signal, part):
+    """The powers of all its Fourier coefficients, by their definition; `part` takes a number from a coefficient."""
+    n = len(signal)
+    coefficients = [sum(x * cmath.exp(-2j * cmath.pi * k * i / n) for i, x in enumerate(signal)) for k in range(n)]
+    powers = [part(c) ** 2 for c in coefficients]
+    return powers if sum(powers) > 1e-24 * n * dot(signal, signal) else [0.0] * n
+
+
+def npss(part, weight_alone=False):
+    def of(given):
+        both, length = rotations(given), given["window"]
+        if not both:
+            return None
+        found, truth = both
+        terms = []  # of each window and channel: the distance, and the weight
+        for begin in range(0, len(truth) - length + 1, length):
+            for f, t in zip(zip(*found[begin:begin + length]), zip(*truth[begin:begin + length])):
+                a, b = spectrum(f, part), spectrum(t, part)
+                if sum(b) == 0:
+                    continue
+                shares = [[sum(power[:k + 1]) / sum(power) if sum(power) else 0.0 for k in range(length)] for power in (a, b)]
+                terms.append((math.fsum(abs(x - y) for x, y in zip(*shares)), sum(b)))
+        total = math.fsum(weight for _, weight in terms)
+        if not terms:
+            return None
+        return total if weight_alone else math.fsum(value * weight for value, weight in terms) / total
+    return of
+
+
+def cubic(frames, at):
+    """A frame of positions between frames, by Catmull's and Rom's polynomial; None outside."""
+    if abs(at - round(at)) < 1e-9:
+        return frames[round(at)] if 0 <= round(at) < len(frames) else None
+    first = math.floor(at)
+    if first < 1 or first + 2 >= len(frames):
+        return None
+    u = at - first
+    weights = [(-u + 2 * u * u - u ** 3) / 2, (2 - 5 * u * u + 3 * u ** 3) / 2,
+               (u + 4 * u * u - 3 * u ** 3) / 2, (u ** 3 - u * u) / 2]
+    return [[math.fsum(w * frames[first - 1 + k][j][axis] for k, w in enumerate(weights)) for axis in range(3)]
+            for j in range(len(frames[first]))]
+
+
+def rest(given, shift_s):
+    """What is left of each seen joint after the best movement, with its true place and velocity."""
+    rate, truth = given["rate_hz"], given["truth"]
+    points = []
+    for f in range(1, len(truth) - 1):
+        found = cubic(given["found"], (f / rate + shift_s) * given["found_rate_hz"])
+        if found:
+            points += [(p, t, [rate / 2 * (c - a) for a, c in zip(before, after)])
+                       for p, t, before, after in zip(found, truth[f], truth[f - 1], truth[f + 1])]
+    moved = fit([(p, t) for p, t, _ in points], False)
+    return [(minus(moved(p), t), t, v) for p, t, v in points]
+
+
+def solve(rows):
+    """Gauss's elimination of a matrix with its right side as the last column."""
+    n = len(rows)
+    for i in range(n):
+        pivot = max(range(i, n), key=lambda r: abs(rows[r][i]))
+        rows[i], rows[pivot] = rows[pivot], rows[i]
+        for r in range(n):
+            if r != i:
+                factor = rows[r][i] / rows[i][i]
+                rows[r] = [x - factor * y for x, y in zip(rows[r], rows[i])]
+    return [rows[i][n] / rows[i][i] for i in range(n)]
+
+
+def ahead(given, shift_s):
+    """Σ v · e, with the truth's velocities without their best movement as a whole."""
+    left = rest(given, shift_s)
+    centre = [common.mean([t[k] for _, t, _ in left]) for k in range(3)]
+    fields = []  # by point: how each of six movements moves it
+    for _, t, _ in left:
+        x, y, z = minus(t, centre)
+        fields.append([[1, 0, 0], [0, 1, 0], [0, 0, 1], [0, -z, y], [z, 0, -x], [-y, x, 0]])
+    rows = [[math.fsum(dot(field[a], field[b]) for field in fields) for b in range(6)] +
+            [math.fsum(dot(field[a], v) for field, (_, _, v) in zip(fields, left))] for a in range(6)]
+    movement = solve(rows)
+    return math.fsum(dot(e, minus(v, [math.fsum(m * part[k] for m, part in zip(movement, field)) for k in range(3)]))
+                     for field, (e, _, v) in zip(fields, left))
+
+
+def lag(given):
+    if len(given["truth"]) < 5 or len(given["truth"][0]) < FEWEST or given["truth"][0] == given["truth"][-1]:
+        return None
+    rate = given["rate_hz"]
+    whole = range(-int(2 * rate), int(2 * rate) + 1)
+    all_points = len(rest(given, 0))
+    squares = {k: common.mean([dot(e, e) for e, _, _ in points]) for k in whole
+               if len(points := rest(given, k / rate)) >= max(15, all_points // 2)}
+    best = min(sorted(squares, key=abs), key=squares.get) / rate
+    low, high = best - 0.6 / rate, best + 0.6 / rate
+    rising = ahead(given, high) > 0
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (low, middle) if (ahead(given, middle) > 0) == rising else (middle, high)
+    return common.MM * (low + high) / 2
+
+
+def speeds(frames):
+    """Each step's distances, summed over joints; null if one is not seen."""
+    if not all(all(frame) for frame in frames):
+        return None
+    return [math.fsum(distance(a, b) for a, b in zip(p, q)) for p, q in zip(frames, frames[1:])]
+
+
+def beats(given, frames):
+    return [round(beat * given["rate_hz"]) for beat in given["beats_s"] if 0 <= round(beat * given["rate_hz"]) < frames]
+
+
+def nearness(ours, others):
+    if not ours or not others:
+        return None
+    return common.mean([math.exp(-min((a - b) ** 2 for b in others) / (2 * BEAT_SIGMA ** 2)) for a in ours])
+
+
+def bailando(given):
+    steps = speeds(given["found"])
+    if not steps:
+        return None
+    n = len(steps)
+    mirrored = (steps + steps[::-1]) * 3  # a period of two lengths
+    weights = {k: math.exp(-k * k / (2 * SMOOTHING ** 2)) for k in range(-4 * SMOOTHING, 4 * SMOOTHING + 1)}
+    smooth = [math.fsum(w * mirrored[2 * n + i + k] for k, w in weights.items()) for i in range(n)]
+    lows = [i for i in range(1, n - 1) if smooth[i] < smooth[i - 1] and smooth[i] < smooth[i + 1]]
+    return nearness(beats(given, n), lows)
+
+
+def mint(given):
+    steps = speeds(given["found"])
+    if not steps:
+        return None
+    curve = [0.0, *steps]
+    lows = [i for i in range(1, len(curve) - 1) if all(
+        curve[i] < value for value in curve[max(i - MINT_ORDER, 0):i] + curve[i + 1:i + MINT_ORDER + 1])]
+    return nearness(lows, beats(given, len(curve)))
 
 
 METRICS = {
@@ -260,10 +478,23 @@ METRICS = {
     "jitter@wham": jitter,
     "skating_ratio@gmd": gmd,
     "skate_from_height_mps@kimodo": kimodo,
+    "skate_from_contacts_mps@kimodo": kimodo_contacts,
+    "contact_f1": contact_f1,
     "pfc@edge": pfc,
     "penetration_mm": lambda given: common.mean([common.MM * max(-y, 0) for y in lowest(given)]),
     "floating_mm": lambda given: common.mean([common.MM * max(y, 0) for y in lowest(given)]),
     "bend_error_deg": bend_error,
-    "l2q@lafan1": l2q,
+    "angle_rmse_deg": over_angles(rmse),
+    "angle_bias_deg": over_angles(bias),
+    "angle_icc_a1": over_angles(icc_a1),
+    "l2q@lafan1": lambda given: frame_distance(rotations(given)),
+    "l2p@lafan1": l2p,
+    "npss@lafan1": npss(lambda c: c.real),
+    "npss_power@lafan1": npss(lambda c: c.real, weight_alone=True),
+    "npss": npss(abs),
+    "npss_power": npss(abs, weight_alone=True),
+    "beat_alignment@bailando": bailando,
+    "beat_alignment@mint": mint,
+    "lag_ms": lag,
     "seen_share": seen_share,
 }

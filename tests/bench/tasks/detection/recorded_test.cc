@@ -5,6 +5,7 @@
 
 #include "bench/tasks/base/pose_json.h"
 #include "bench/tasks/detection/label_scores.h"
+#include "bench/tasks/detection/recorded_faults.h"
 #include "bench/tasks/detection/recorded_task.h"
 #include "engine/base/directions.h"
 #include "engine/base/named.h"

@@ -58,6 +58,30 @@ TEST_F(FindFilesTest, OneTruthAndOneAnswerAreAPairWhateverTheirNames) {
   EXPECT_EQ(found->worlds[0].answers[0], In("mine.bvh"));
 }
 
+TEST_F(FindFilesTest, AnswersThatAreLinksMustBeNamed) {
+  Make({"t/a.bvh", "t/b.bvh", "m/a.bvh"});
+  std::filesystem::create_symlink(In("t/b.bvh"), In("m/b.bvh"));
+  std::filesystem::create_symlink(In("t"), In("s"));
+  const auto with = [&](const std::string& answers) { return "{name: m, answers: ['@/" + answers + "']}"; };
+  for (const char* found : {"m", "m/*", "m/[b].bvh"}) {
+    EXPECT_THAT(Complaint("truth: ['@/t']", {with(found)}), HasSubstr("m/b.bvh' is a link")) << found;
+  }
+  EXPECT_THAT(Complaint("truth: ['@/t']", {with("?/b.bvh")}), HasSubstr("is a link"));
+  for (const char* named : {"m/b.bvh", "m/a*", "s", "s/*"}) {
+    EXPECT_TRUE(Find("truth: ['@/t']", {with(named)})) << named;
+  }
+  EXPECT_TRUE(Find("truth: ['@/m']", {with("t")})) << "a truth is the judge's own";
+}
+
+TEST_F(FindFilesTest, NamesMustBeText) {
+  Make({"t/a.bvh", "m/\xFF.bvh"});
+  for (const char* answers : {"m", "m/*"}) {
+    EXPECT_THAT(Complaint("truth: ['@/t']", {std::string("{name: m, answers: ['@/") + answers + "']}"}),
+                HasSubstr("s.yaml:1:8"));
+  }
+  EXPECT_THAT(Complaint("pairs: p.csv", {"{name: m}"}, "truth,m,name\nx,y,\xFF\n"), HasSubstr("p.csv:2"));
+}
+
 TEST_F(FindFilesTest, ATableTellsWhichBelongTogether) {
   Make({"t.bvh", "u.bvh", "x.bvh", "y.bvh"});
   const auto found =

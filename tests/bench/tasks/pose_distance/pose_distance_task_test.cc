@@ -22,7 +22,7 @@ class PoseDistanceTask : public ::testing::Test {
     ClipLibrary library;
     for (const std::string& name : names) {
       Move move = *LoadBuiltinMove(name);
-      library.clips.push_back({"builtin:" + name, "builtin:" + name, move.motion, move, ""});
+      library.clips.push_back({"builtin:" + name, "builtin:" + name, move.motion, move});
     }
     return library;
   }

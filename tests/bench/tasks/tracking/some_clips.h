@@ -33,7 +33,7 @@ inline std::vector<TreeState> SwingingStates(const KinematicTree& tree, int fram
 }
 
 inline LibraryClip ClipOf(const KinematicTree& tree, const std::vector<TreeState>& states) {
-  LibraryClip clip{.name = "swing", .source = "", .motion = {}, .move = {}, .note = ""};
+  LibraryClip clip{.name = "swing", .source = "", .motion = {}, .move = {}};
   for (const TreeState& state : states) clip.motion.poses.push_back(ToBodyPose(tree, state));
   return clip;
 }

@@ -31,7 +31,7 @@ methods:
   static LibraryClip Builtin(const std::string& name) {
     auto move = LoadBuiltinMove(name);
     EXPECT_TRUE(move) << ToString(move.error());
-    return {"builtin:" + name, "builtin:" + name, move->motion, *move, ""};
+    return {"builtin:" + name, "builtin:" + name, move->motion, *move};
   }
 
   static ClipLibrary EveryMove() {

@@ -73,8 +73,8 @@ TEST_F(TransitionTaskTest, GoesThroughAnInBetweenWhereNothingMatches) {
 }
 
 TEST_F(TransitionTaskTest, CountsWhoGoesThroughAClipThatStandsUpAndWhoHasNone) {
-  const LibraryClip lie{"lie", "lie", LyingClip(90), {}, ""}, stand{"stand", "stand", StandingClip(90, 0), {}, ""},
-      rise{"rise", "rise", RisingClip(90), {}, ""};
+  const LibraryClip lie{"lie", "lie", LyingClip(90), {}}, stand{"stand", "stand", StandingClip(90, 0), {}},
+      rise{"rise", "rise", RisingClip(90), {}};
   const std::string played = "methods: [{name: played, choice: played, join: planted-feet}]";
   const auto none = Make(played, {{lie, stand}});
   for (int trial : {0, 1}) {  // each is left once

@@ -3,62 +3,52 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <tuple>
 
 #include "tests/engine/transitions/search/search_data.h"
 
 namespace etude {
-
-/// To the last bit.
-bool operator==(const Neighbour& a, const Neighbour& b) { return a.frame == b.frame && a.distance == b.distance; }
-
-std::ostream& operator<<(std::ostream& out, const Neighbour& n) { return out << n.frame << " at " << n.distance; }
-
 namespace {
 
 /// The second implementation: a loop over `ComputeDistance`.
-struct Loop {
-  const std::vector<Grades>& frames;
-  FeatureWeights weights;
+bool HasMatchByLoop(const std::vector<Grades>& frames, const FeatureWeights& weights, const std::vector<Tags>& tags,
+                    const GradeIndex::Query& query) {
+  for (int f = 0; f < static_cast<int>(frames.size()); ++f) {
+    if (f >= query.own_first && f < query.own_end) continue;
+    if (query.tags != nullptr && tags[f] != *query.tags) continue;
+    if (ComputeDistance(query.grades, frames[f], weights).value < query.threshold) return true;
+  }
+  return false;
+}
 
-  std::vector<Neighbour> Within(const Grades& query, double threshold) const {
-    std::vector<Neighbour> found;
-    for (std::size_t f = 0; f < frames.size(); ++f) {
-      const double distance = ComputeDistance(query, frames[f], weights).value;
-      if (distance < threshold) found.push_back({static_cast<int>(f), distance});
-    }
-    return found;
-  }
-  std::vector<Neighbour> Nearest(const Grades& query, int k) const {
-    std::vector<Neighbour> all = Within(query, kInfinity);
-    std::ranges::sort(all, {}, [](const Neighbour& n) { return std::tuple(n.distance, n.frame); });
-    all.resize(std::min<std::size_t>(all.size(), std::max(k, 0)));
-    return all;
-  }
+/// Asks both whether frames match, by many thresholds and from clips of many lengths. Returns how often the answer was
+/// yes and how often no.
+struct Answers {
+  int yes = 0, no = 0;
 };
-
-/// Asks both for everything; returns how many neighbours were compared.
-std::size_t ExpectSameAnswers(const std::vector<Grades>& frames, const std::vector<Grades>& queries,
-                              const FeatureWeights& weights) {
-  const GradeIndex index(frames, weights);
-  const Loop loop{frames, weights};
-  std::size_t compared = 0;
-  for (const Grades& query : queries) {
+Answers ExpectSameAnswers(const std::vector<Grades>& frames, const std::vector<Grades>& queries,
+                          const FeatureWeights& weights) {
+  std::vector<Tags> tags;
+  for (const Grades& frame : frames) tags.push_back(ChooseTags(frame));
+  const GradeIndex index(frames, weights, tags);
+  const int count = static_cast<int>(frames.size());
+  Answers answers;
+  int hint = 0;
+  for (const Grades& grades : queries) {
+    const Tags own_tags = ChooseTags(grades);
     for (double threshold : {0.0, 1e-200, 0.1, kPaperThreshold, 1.0, 3.0, 1e300, kInfinity}) {
-      const std::vector<Neighbour> expected = loop.Within(query, threshold);
-      EXPECT_EQ(index.Within(query, threshold), expected) << "threshold " << threshold;
-      const std::optional<Neighbour> expected_first = expected.empty() ? std::nullopt : std::optional(expected.front());
-      EXPECT_EQ(index.First(query, threshold), expected_first) << "threshold " << threshold;
-      compared += expected.size();
-    }
-    for (int k : {-1, 0, 1, 2, 10, 100, 5000}) {
-      const std::vector<Neighbour> expected = loop.Nearest(query, k);
-      EXPECT_EQ(index.Nearest(query, k), expected) << "k " << k;
-      compared += expected.size();
+      for (const auto& [first, end] : {std::pair{0, 0}, {0, count}, {0, count / 2}, {count / 3, count - 1}}) {
+        for (const Tags* asked : {static_cast<const Tags*>(nullptr), &own_tags}) {
+          const GradeIndex::Query query{grades, threshold, first, end, asked};
+          const bool expected = HasMatchByLoop(frames, weights, tags, query);
+          EXPECT_EQ(index.HasMatch(query, hint), expected) << "threshold " << threshold << ", without " << first;
+          int fresh = -1;
+          EXPECT_EQ(index.HasMatch(query, fresh), expected) << "from another hint";
+          ++(expected ? answers.yes : answers.no);
+        }
+      }
     }
   }
-  return compared;
+  return answers;
 }
 
 std::vector<Grades> Some(const std::vector<Grades>& frames, std::size_t count) {
@@ -70,9 +60,11 @@ std::vector<Grades> Some(const std::vector<Grades>& frames, std::size_t count) {
 TEST(GradeIndex, AnswersAsALoopDoesForFramesOfMotion) {
   RandomStream dice = SearchDice("motion");
   const std::vector<Grades> frames = WanderingFrames(3000, dice);
-  std::vector<Grades> queries = Some(frames, 4);
-  for (const Grades& strange : WanderingFrames(4, dice)) queries.push_back(strange);
-  EXPECT_GT(ExpectSameAnswers(frames, queries, PaperWeights()), 10000u);
+  std::vector<Grades> queries = Some(frames, 6);
+  for (const Grades& strange : WanderingFrames(6, dice)) queries.push_back(strange);
+  const Answers answers = ExpectSameAnswers(frames, queries, PaperWeights());
+  EXPECT_GT(answers.yes, 100);
+  EXPECT_GT(answers.no, 100);
 }
 
 TEST(GradeIndex, AnswersAsALoopDoesForGradesThatNoMotionHas) {
@@ -83,54 +75,30 @@ TEST(GradeIndex, AnswersAsALoopDoesForGradesThatNoMotionHas) {
   }
 }
 
-TEST(GradeIndex, TakesTheLowestOfEqualFrames) {
-  RandomStream dice = SearchDice("equal");
-  const std::vector<Grades> few = RandomFrames(3, 0, 1, dice);
-  std::vector<Grades> frames;
-  for (int i = 0; i < 900; ++i) frames.push_back(few[dice.IndexBelow(3)]);
-  ExpectSameAnswers(frames, few, PaperWeights());
-  EXPECT_EQ(GradeIndex(frames, PaperWeights()).Nearest(frames[700], 1).front().frame,
-            static_cast<int>(std::ranges::find(frames, frames[700]) - frames.begin()));
-}
-
-TEST(GradeIndex, DoesNoWorkForAThresholdThatNoDistanceIsBelow) {
-  RandomStream dice = SearchDice("nothing");
-  const std::vector<Grades> frames = WanderingFrames(100, dice);
+TEST(GradeIndex, AFrameOfTheOwnClipIsNoMatchHoweverEqual) {
+  RandomStream dice = SearchDice("own");
+  const std::vector<Grades> frames = RandomFrames(600, 0, 100, dice);
   const GradeIndex index(frames, PaperWeights());
-  for (double threshold : {0.0, -1.0, -kInfinity, std::numeric_limits<double>::quiet_NaN()}) {
-    SearchWork work;
-    EXPECT_FALSE(index.First(frames[0], threshold, &work));
-    EXPECT_TRUE(index.Within(frames[0], threshold, &work).empty());
-    EXPECT_EQ(work.distances + work.boxes, 0) << threshold;
+  int hint = 0;
+  for (int f = 0; f < 600; f += 37) {
+    EXPECT_TRUE(index.HasMatch({frames[f], 1e-9, 0, f}, hint)) << "the control: the frame itself counts";
+    EXPECT_FALSE(index.HasMatch({frames[f], 1e-9, f, f + 1}, hint));
   }
-  SearchWork work;
-  EXPECT_TRUE(index.First(frames[0], 1e-9, &work)) << "the control";
-  EXPECT_GT(work.distances, 0);
-  const GradeIndex empty({}, PaperWeights());
-  EXPECT_FALSE(empty.First(frames[0], 1));
-  EXPECT_TRUE(empty.Within(frames[0], 1).empty());
 }
 
 TEST(GradeIndex, LeavesOutAFrameThatIsExactlyAtTheThreshold) {
-  // More frames than the head has, which is searched apart from the tree.
   RandomStream dice = SearchDice("threshold");
-  const std::vector<Grades> frames = WanderingFrames(6000, dice);
+  const std::vector<Grades> frames = WanderingFrames(3000, dice);
   const GradeIndex index(frames, PaperWeights());
-  const Loop loop{frames, PaperWeights()};
-  int in_head = 0, beyond_head = 0;
-  for (std::size_t f : {100u, 2000u, 4000u, 5000u, 5500u, 5900u}) {
+  int hint = 0;
+  for (std::size_t f : {100u, 1000u, 2000u, 2900u}) {
     Grades query = frames[f];
     for (double& grade : query) grade += dice.Uniform(-0.05, 0.05);
-    const Neighbour nearest = loop.Nearest(query, 1).front();
-    EXPECT_TRUE(index.Within(query, nearest.distance).empty());
-    EXPECT_FALSE(index.First(query, nearest.distance));
-    const double more = std::nextafter(nearest.distance, kInfinity);
-    EXPECT_EQ(index.Within(query, more), std::vector{nearest}) << "the control";
-    EXPECT_EQ(index.First(query, more), nearest) << "the control";
-    ++(nearest.frame < 4096 ? in_head : beyond_head);
+    double nearest = kInfinity;
+    for (const Grades& frame : frames) nearest = std::min(nearest, ComputeDistance(query, frame, PaperWeights()).value);
+    EXPECT_FALSE(index.HasMatch({query, nearest}, hint));
+    EXPECT_TRUE(index.HasMatch({query, std::nextafter(nearest, kInfinity)}, hint)) << "the control";
   }
-  EXPECT_GE(in_head, 2);
-  EXPECT_GE(beyond_head, 2);
 }
 
 TEST(GradeIndex, LeavesOutFeaturesOfNoWeight) {
@@ -151,39 +119,14 @@ TEST(GradeIndex, KeepsTiniestAndGreatestDistancesApart) {
   ExpectSameAnswers(frames, {frames[0], frames[9], Grades{}}, PaperWeights());
 }
 
-TEST(GradeIndex, OfNoFramesFindsNothing) {
-  const GradeIndex index({}, PaperWeights());
-  EXPECT_EQ(index.FrameCount(), 0);
-  EXPECT_FALSE(index.First({}, kInfinity));
-  EXPECT_TRUE(index.Within({}, kInfinity).empty());
-  EXPECT_TRUE(index.Nearest({}, 3).empty());
-}
-
-TEST(GradeIndex, FindsNothingBelowAThresholdThatIsNone) {
-  const std::vector<Grades> frames(20);
-  const GradeIndex index(frames, PaperWeights());
+TEST(GradeIndex, FindsNothingInNoFramesOrBelowAThresholdThatIsNone) {
+  int hint = 0;
+  EXPECT_FALSE(GradeIndex({}, PaperWeights()).HasMatch({Grades{}, kInfinity}, hint));
+  const GradeIndex index(std::vector<Grades>(20), PaperWeights());
+  EXPECT_TRUE(index.HasMatch({Grades{}, 1e-9}, hint)) << "the control";
   for (double threshold : {0.0, -1.0, -kInfinity, std::numeric_limits<double>::quiet_NaN()}) {
-    EXPECT_FALSE(index.First({}, threshold));
-    EXPECT_TRUE(index.Within({}, threshold).empty());
+    EXPECT_FALSE(index.HasMatch({Grades{}, threshold}, hint));
   }
-}
-
-TEST(GradeIndex, LooksAtFewFramesAndSaysSo) {
-  RandomStream dice = SearchDice("work");
-  const std::vector<Grades> frames = WanderingFrames(20000, dice);
-  const GradeIndex index(frames, PaperWeights());
-  SearchWork nearest, first, all;
-  index.Nearest(frames[777], 1, &nearest);
-  index.First(frames[19000], kPaperThreshold, &first);
-  index.Within(frames[777], kInfinity, &all);
-  for (const SearchWork& work : {nearest, first}) {
-    EXPECT_GT(work.distances, 0);
-    EXPECT_LT(work.distances, 2000);
-    EXPECT_GT(work.boxes, 0);
-    EXPECT_LT(work.boxes, 4000);
-  }
-  EXPECT_EQ(all.distances, 20000) << "the control: everything is asked for";
-  EXPECT_EQ(all.boxes, 20000 / 16 + 79 + 5);
 }
 
 }  // namespace

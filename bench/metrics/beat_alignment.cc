@@ -1,0 +1,108 @@
+#include "bench/metrics/beat_alignment.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace etude {
+namespace {
+
+/// Returns, for each step between frames, the sum of the joints' distances; nothing if a joint is not seen throughout.
+std::optional<std::vector<double>> StepLengths(const PointTracks& tracks) {
+  std::vector<double> lengths;
+  for (std::size_t f = 0; f + 1 < tracks.FrameCount(); ++f) {
+    double sum = 0;
+    for (std::size_t j = 0; j < tracks.points; ++j) {
+      sum += glm::distance(tracks.Frame(f)[j], tracks.Frame(f + 1)[j]);
+    }
+    if (std::isnan(sum)) return std::nullopt;
+    lengths.push_back(sum);
+  }
+  return lengths;
+}
+
+/// Returns a curve smoothed by a Gaussian that is cut off at four deviations; beyond its ends it is mirrored.
+std::vector<double> Smoothed(const std::vector<double>& curve, double deviation) {
+  const auto reach = static_cast<std::ptrdiff_t>(4 * deviation + 0.5), size = static_cast<std::ptrdiff_t>(curve.size());
+  std::vector<double> weights;
+  double sum = 0;
+  for (std::ptrdiff_t k = -reach; k <= reach; ++k) {
+    const auto at = static_cast<double>(k) / deviation;
+    weights.push_back(std::exp(-at * at / 2));
+    sum += weights.back();
+  }
+  // Mirrored with the last value twice: … b a | a b … y z | z y …
+  const auto mirrored = [&](std::ptrdiff_t at) {
+    const std::ptrdiff_t within = ((at % (2 * size)) + 2 * size) % (2 * size);
+    return curve[static_cast<std::size_t>(within < size ? within : 2 * size - 1 - within)];
+  };
+  std::vector<double> smoothed;
+  for (std::ptrdiff_t i = 0; i < size; ++i) {
+    double value = 0;
+    for (std::ptrdiff_t k = -reach; k <= reach; ++k)
+      value += weights[static_cast<std::size_t>(k + reach)] * mirrored(i + k);
+    smoothed.push_back(value / sum);
+  }
+  return smoothed;
+}
+
+/// Returns the places that are strictly lower than all within `order` on either side. Beyond an end, the value at that
+/// end stands, so the ends are never lower.
+std::vector<std::ptrdiff_t> Minima(const std::vector<double>& curve, std::ptrdiff_t order) {
+  const auto last = static_cast<std::ptrdiff_t>(curve.size()) - 1;
+  std::vector<std::ptrdiff_t> minima;
+  for (std::ptrdiff_t i = 0; i <= last; ++i) {
+    bool is_lowest = true;
+    for (std::ptrdiff_t k = 1; k <= order && is_lowest; ++k) {
+      const double before = curve[static_cast<std::size_t>(std::max<std::ptrdiff_t>(i - k, 0))];
+      const double behind = curve[static_cast<std::size_t>(std::min(i + k, last))];
+      is_lowest = curve[static_cast<std::size_t>(i)] < before && curve[static_cast<std::size_t>(i)] < behind;
+    }
+    if (is_lowest) minima.push_back(i);
+  }
+  return minima;
+}
+
+/// Returns the beats within the motion, as whole frames.
+std::vector<std::ptrdiff_t> FramesOf(std::span<const double> beats_s, double rate_hz, std::size_t frames) {
+  std::vector<std::ptrdiff_t> found;
+  for (const double beat : beats_s) {
+    const double frame = std::round(beat * rate_hz);
+    if (frame >= 0 && frame < static_cast<double>(frames)) found.push_back(static_cast<std::ptrdiff_t>(frame));
+  }
+  return found;
+}
+
+/// Returns the mean over `ours` of exp(−d² / 2σ²), d: to the nearest of `others`; both not empty.
+std::optional<double> MeanNearness(std::span<const std::ptrdiff_t> ours, std::span<const std::ptrdiff_t> others) {
+  if (ours.empty() || others.empty()) return std::nullopt;
+  constexpr double kSigma = 3;  // frames
+  double sum = 0;
+  for (const std::ptrdiff_t beat : ours) {
+    std::ptrdiff_t nearest = std::abs(others.front() - beat);
+    for (const std::ptrdiff_t other : others) nearest = std::min(nearest, std::abs(other - beat));
+    const auto distance = static_cast<double>(nearest);
+    sum += std::exp(-distance * distance / (2 * kSigma * kSigma));
+  }
+  return sum / static_cast<double>(ours.size());
+}
+
+}  // namespace
+
+std::optional<double> BeatAlignmentOfMusic(const PointTracks& found, double rate_hz, std::span<const double> beats_s) {
+  constexpr double kSmoothing = 5;  // frames
+  const auto lengths = StepLengths(found);
+  if (!lengths || lengths->empty()) return std::nullopt;
+  return MeanNearness(FramesOf(beats_s, rate_hz, lengths->size()), Minima(Smoothed(*lengths, kSmoothing), 1));
+}
+
+std::optional<double> BeatAlignmentOfMotion(const PointTracks& found, double rate_hz, std::span<const double> beats_s) {
+  constexpr std::ptrdiff_t kOrder = 10;  // frames
+  const auto lengths = StepLengths(found);
+  if (!lengths || lengths->empty()) return std::nullopt;
+  // The speed of a frame is that of the step before it; the first frame has none.
+  std::vector<double> speeds = {0};
+  speeds.insert(speeds.end(), lengths->begin(), lengths->end());
+  return MeanNearness(Minima(speeds, kOrder), FramesOf(beats_s, rate_hz, speeds.size()));
+}
+
+}  // namespace etude

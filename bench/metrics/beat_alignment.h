@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bench/metrics/evaluation.h"
+
+namespace etude {
+
+/// Returns the mean over *music* beats of exp(−d² / 18), d: frames from a music beat to the nearest motion beat, as
+/// Bailando's code computes it. Motion beats are the strict minima of the joints' mean speed,
+/// smoothed by a Gaussian of 5 frames. Both are whole frames. Nothing without a music beat or a motion beat within the
+/// motion, or if a joint is not seen throughout.
+std::optional<double> BeatAlignmentOfMusic(const PointTracks& found, double rate_hz, std::span<const double> beats_s);
+
+/// Returns the mean over *motion* beats of exp(−d² / 18), d: frames to the nearest music beat, as mint's code (AIST++)
+/// computes it. Motion beats are frames in which the joints' summed speed is below that of the ten frames on either
+/// side, as far as the motion goes. Nothing as for BeatAlignmentOfMusic.
+std::optional<double> BeatAlignmentOfMotion(const PointTracks& found, double rate_hz, std::span<const double> beats_s);
+
+}  // namespace etude

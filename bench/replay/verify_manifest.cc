@@ -1,0 +1,137 @@
+#include "bench/replay/verify_manifest.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "bench/run/manifest.h"
+#include "io/files/files.h"
+#include "io/files/json_text.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The keys of a manifest that may differ on another machine or in another version; only their types are checked.
+constexpr std::array kSaidByMachine = {"etude", "compiler", "packages", "glibc", "libraries", "environment"};
+
+bool IsTextOrTexts(const Json& value) {
+  return value.is_string() ||
+         (value.is_object() && std::ranges::all_of(value, [](const Json& one) { return one.is_string(); }));
+}
+
+/// Returns true if a scenario, or another text of the suite, mentions this text.
+bool IsNamed(const std::string& name, const SuiteSetup& suite) {
+  const std::string last = fs::path(name).filename().string();
+  return std::ranges::any_of(suite.scenarios,
+                             [&](const ScenarioSetup& one) {
+                               return one.file == name || one.joint_map == name ||
+                                      std::ranges::find(one.labels, name) != one.labels.end();
+                             }) ||
+         std::ranges::any_of(suite.sources, [&](const auto& other) {
+           return other.first != name && other.second.find(last) != std::string::npos;
+         });
+}
+
+/// Adds what no run writes into host.json, or into its part `path` about one shard.
+void CheckHost(const Json& host, const std::string& path, std::vector<std::string>& differences) {
+  if (!host.is_object()) return differences.push_back(path + " is " + ShowJson(host));
+  Json usual = DescribeHost("", 0, 0);
+  for (const auto& [key, _] : usual.items()) {
+    if (!host.contains(key)) differences.push_back(fmt::format("{}: '{}' is missing", path, key));
+  }
+  usual.update({{"fence", ""}, {"memory", ""}, {"shards", Json::array()}});  // not in every run
+  for (const auto& [key, value] : host.items()) {
+    if (!usual.contains(key)) {
+      differences.push_back(fmt::format("{}: no run writes '{}'", path, key));
+    } else if (std::string_view(value.type_name()) != usual.at(key).type_name()) {
+      differences.push_back(fmt::format("{}: '{}' is {}", path, key, ShowJson(value)));
+    } else if (key == "shards") {
+      for (std::size_t i = 0; i < value.size(); ++i) {
+        CheckHost(value[i], fmt::format("{}: shards[{}]", path, i), differences);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Result<std::vector<Scenario>> ScenariosOf(const FilePath& folder) {
+  ASSIGN_OR_RETURN(const auto suite, ReadManifest(folder / "manifest.json"));
+  ParsedSuite parsed(suite);
+  std::vector<Scenario> scenarios;
+  for (const ScenarioSetup& setup : suite.scenarios) {
+    ASSIGN_OR_RETURN(auto scenario, parsed.Find(setup));
+    if (suite.scored) RETURN_IF_ERROR(AddScoredMethod(*suite.scored, scenario));
+    scenarios.push_back(std::move(scenario));
+  }
+  return scenarios;
+}
+
+Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, const SuiteSetup& suite,
+                                std::span<const PreparedScenario> scenarios) {
+  Verified verified{"manifest.json: as such a run writes it", {}};
+  ASSIGN_OR_RETURN(const auto then, ReadJsonFile(folder / "manifest.json"));
+  ASSIGN_OR_RETURN(auto now, MakeManifest(suite, scenarios, run.data.program_version));
+  // Take over what may differ.
+  const auto keep = [](const Json& from, Json& to, const char* key) {
+    if (to.contains(key) && from.contains(key) && IsTextOrTexts(from.at(key)) &&
+        from.at(key).is_object() == to.at(key).is_object())
+      to[key] = from.at(key);
+  };
+  for (const char* key : kSaidByMachine) keep(then, now, key);
+  if (then.contains("scored") && now.contains("scored")) {
+    for (const char* key : {"answers", "digest"}) {  // of the scored answers, which are not in the folder
+      if (const Json& scored = then.at("scored"); scored.contains(key)) now["scored"][key] = scored.at(key);
+    }
+  }
+  const Json& told = then.at("scenarios");
+  for (std::size_t s = 0; s < now["scenarios"].size() && s < told.size(); ++s) {
+    Json& scenario = now["scenarios"][s];
+    keep(told.at(s), scenario, "platform");
+    if (!scenarios.empty()) continue;
+    for (const char* key : {"loaded_clips", "platform"}) {
+      if (told.at(s).contains(key)) scenario[key] = told.at(s).at(key);
+    }
+  }
+  // Everything else must have the same bytes, and every text must be used.
+  ASSIGN_OR_RETURN(const auto text, WriteJson(now));
+  ASSIGN_OR_RETURN(const auto found, ReadWholeFile(folder / "manifest.json"));
+  if (found != text + "\n") {
+    const auto differences = CompareManifests(then, now);
+    verified.differences = {differences.empty() ? "is written differently" : InWords(differences)};
+  }
+  for (const auto& [name, _] : suite.sources) {
+    if (!IsNamed(name, suite)) verified.differences.push_back(fmt::format("sources: nothing names '{}'", name));
+  }
+  // `now` lists every metric that was read, also one that stands only in this manifest.
+  ASSIGN_OR_RETURN(const auto parsed, ScenariosOf(folder));
+  std::set<std::string> own;
+  for (const Scenario& scenario : parsed) {
+    for (const OutsideMetric& metric : scenario.outside_metrics) own.insert(metric.info.id);
+  }
+  for (const Json& metric : then.value("own_metrics", Json::array())) {
+    if (const std::string id = metric.at("id"); !own.contains(id)) {
+      verified.differences.push_back(fmt::format("own_metrics: no scenario has '{}'", id));
+    }
+  }
+  return verified;
+}
+
+Result<Verified> VerifyHost(const FilePath& folder) {
+  const FilePath path = folder / "host.json";
+  Verified verified{"host.json: no keys but those that a run writes", {}};
+  ASSIGN_OR_RETURN(const auto host, ReadJsonFile(path));
+  CheckHost(host, path.string(), verified.differences);
+  ASSIGN_OR_RETURN(const auto text, WriteJson(host));
+  ASSIGN_OR_RETURN(const auto found, ReadWholeFile(path));
+  if (found != text + "\n") verified.differences.push_back(path.string() + " is written differently");
+  return verified;
+}
+
+}  // namespace etude

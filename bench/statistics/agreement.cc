@@ -1,0 +1,140 @@
+#include "bench/statistics/agreement.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "bench/statistics/bootstrap.h"
+#include "bench/statistics/distributions.h"
+#include "sim/random/stream.h"
+
+namespace etude {
+namespace {
+
+constexpr std::size_t kFigures = 5;
+constexpr std::size_t kAgreementResamples = 1999;
+
+using Figures = std::array<std::optional<double>, kFigures>;  ///< RMSE, bias, low, high, ICC
+
+/// Returns the standard deviation of one more difference (Bland and Altman 2007); nothing with fewer than two units.
+std::optional<double> DeviationOf(std::span<const AgreementSums> units, const AgreementSums& all) {
+  double within = 0, between = 0, squares = 0;
+  const double n = all.count, groups = static_cast<double>(units.size()), bias = *BiasOf(all);
+  if (groups < 2 || n <= groups) return std::nullopt;
+  for (const AgreementSums& unit : units) {
+    const double off = *BiasOf(unit) - bias;
+    within += std::max(0.0, unit.square_truth + unit.square_found - 2 * unit.product);
+    between += unit.count * off * off;
+    squares += unit.count * unit.count;
+  }
+  within /= n - groups;
+  between /= groups - 1;
+  const double replicates = (n * n - squares) / ((groups - 1) * n);
+  return std::sqrt(within + std::max(0.0, (between - within) / replicates));
+}
+
+/// Returns the figures of units, each with a frame.
+Figures FiguresOf(std::span<const AgreementSums> units) {
+  AgreementSums all;
+  for (const AgreementSums& unit : units) all = Together(all, unit);
+  if (all.count == 0) return {};
+  const auto deviation = DeviationOf(units, all);
+  constexpr double kNormal = 1.96;  // as Bland and Altman have it
+  const double bias = *BiasOf(all);
+  Figures figures = {RmsOf(all), bias, std::nullopt, std::nullopt, IccOf(all)};
+  if (deviation) figures[2] = bias - kNormal * *deviation;
+  if (deviation) figures[3] = bias + kNormal * *deviation;
+  return figures;
+}
+
+/// Returns the interval of each figure over units.
+std::array<std::optional<Interval>, kFigures> FigureIntervals(std::span<const AgreementSums> units,
+                                                              const Figures& figures, std::uint64_t seed,
+                                                              const std::string& purpose) {
+  std::array<std::optional<Interval>, kFigures> intervals;
+  if (static_cast<int>(units.size()) < kMinSample) return intervals;
+  std::array<std::vector<double>, kFigures> replicates, jackknife;
+  const auto add = [](const Figures& found, std::array<std::vector<double>, kFigures>& lists) {
+    for (std::size_t k = 0; k < kFigures; ++k) {
+      if (found[k]) lists[k].push_back(KeepThirtyBits(*found[k]));
+    }
+  };
+  RandomStream dice({seed, "bootstrap", 0}, purpose);
+  std::vector<AgreementSums> drawn(units.size());
+  for (std::size_t i = 0; i < kAgreementResamples; ++i) {
+    for (AgreementSums& one : drawn) one = units[dice.IndexBelow(units.size())];
+    add(FiguresOf(drawn), replicates);
+  }
+  for (std::size_t left_out = 0; left_out < units.size(); ++left_out) {
+    std::vector<AgreementSums> others(units.begin(), units.end());
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(left_out));
+    add(FiguresOf(others), jackknife);
+  }
+  for (std::size_t k = 0; k < kFigures; ++k) {
+    if (!figures[k] || replicates[k].empty()) continue;
+    intervals[k] = BcaInterval(replicates[k], KeepThirtyBits(*figures[k]), jackknife[k]);
+  }
+  return intervals;
+}
+
+}  // namespace
+
+CurveAgreement MeasureAgreement(std::span<const AgreementSums> pairs, std::span<const std::string> units,
+                                std::uint64_t seed, const std::string& purpose) {
+  // Sum each unit's pairs, in the order of units.
+  std::map<std::string, AgreementSums> by_unit;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (pairs[i].count == 0) continue;
+    AgreementSums& sums = by_unit[units[i]];
+    sums = Together(sums, pairs[i]);
+  }
+  std::vector<AgreementSums> sums;
+  for (const auto& [unit, of_unit] : by_unit) sums.push_back(of_unit);
+  const Figures figures = FiguresOf(sums);
+  const auto intervals = FigureIntervals(sums, figures, seed, purpose);
+  CurveAgreement agreement;
+  agreement.units = static_cast<int>(sums.size());
+  AgreementFigure* const targets[kFigures] = {&agreement.rmse, &agreement.bias, &agreement.low, &agreement.high,
+                                              &agreement.icc};
+  for (std::size_t k = 0; k < kFigures; ++k) *targets[k] = {figures[k], intervals[k]};
+  return agreement;
+}
+
+std::vector<AngleAgreement> AgreementByAngle(const RunData& run) {
+  std::map<std::string_view, const std::vector<Series>*> held;  // by cell
+  for (const CellSeries& cell : run.series) held.emplace(cell.cell, &cell.series);
+  // Collect the sums of each angle with their units.
+  struct Collected {
+    std::vector<AgreementSums> pairs;
+    std::vector<std::string> units;
+  };
+  std::vector<AngleAgreement> found;
+  std::vector<Collected> collected;
+  std::map<std::string, std::size_t> places;  // by condition, method and angle
+  ForEachRow(run, [&](const Row& row, std::size_t place) {
+    std::vector<Series> read;
+    const auto known = held.find(row.Id());
+    if (run.source) read = run.source->SeriesOf(place);
+    const std::vector<Series>& series = run.source ? read : known != held.end() ? *known->second : read;
+    for (const Series& one : series) {
+      const auto sums = one.axis == kAgreementAxis ? DecodeSums(one.values) : std::nullopt;
+      if (!sums) continue;
+      const std::string key = row.scenario + '/' + CompactLabel(row.condition) + '/' + row.method + '/' + one.name;
+      const auto [at, is_new] = places.emplace(key, found.size());
+      if (is_new) {
+        found.push_back({row.condition, row.method, one.name, {}});
+        collected.emplace_back();
+      }
+      collected[at->second].pairs.push_back(*sums);
+      collected[at->second].units.push_back(row.units.empty() ? row.clip : row.units.front());
+    }
+  });
+  for (const auto& [key, at] : places) {
+    found[at].agreement = MeasureAgreement(collected[at].pairs, collected[at].units, run.seed, "agreement/" + key);
+  }
+  std::ranges::stable_sort(found, {}, [](const AngleAgreement& one) { return CompactLabel(one.condition); });
+  return found;
+}
+
+}  // namespace etude

@@ -1,0 +1,70 @@
+#include "bench/tasks/evaluation/side_files.h"
+
+#include <algorithm>
+
+#include "engine/base/names.h"
+#include "engine/formats/number_rows.h"
+
+namespace etude {
+namespace {
+
+/// Splits a heading at its commas.
+std::vector<std::string> NamesIn(std::string_view heading) {
+  std::vector<std::string> names;
+  for (std::size_t at = 0; at <= heading.size();) {
+    const std::size_t comma = std::min(heading.find(',', at), heading.size());
+    names.emplace_back(heading.substr(at, comma - at));
+    at = comma + 1;
+  }
+  return names;
+}
+
+}  // namespace
+
+Result<StatisticsByJoint> ReadJointStatistics(std::string_view text, const std::string& file) {
+  ASSIGN_OR_RETURN(const NumberRows rows, ReadNumberRows(text, file));
+  const std::vector<std::string> names = NamesIn(rows.heading);
+  if (rows.heading.empty() || names.size() != rows.columns || rows.RowCount() != 2) {
+    return Fail({file},
+                "{} names in the heading, {} rows of {} numbers; allowed: a heading JOINT_x_m,JOINT_y_m,…, a "
+                "row of means and a row of deviations",
+                rows.heading.empty() ? 0 : names.size(), rows.RowCount(), rows.columns);
+  }
+  constexpr std::string_view kEndings[] = {"_x_m", "_y_m", "_z_m"};
+  StatisticsByJoint statistics;
+  std::map<std::string, int, std::less<>> axes;  // by joint: how many have been read
+  for (std::size_t column = 0; column < names.size(); ++column) {
+    const std::string& name = names[column];
+    const auto axis = std::ranges::find_if(kEndings, [&](std::string_view end) { return name.ends_with(end); });
+    const Place heading{file, 1, 0}, deviations{file, rows.lines[1], 0};
+    if (axis == std::end(kEndings)) return Fail(heading, "{} does not end in _x_m, _y_m or _z_m", Quote(name));
+    const std::string joint = name.substr(0, name.size() - axis->size());
+    const auto index = static_cast<glm::length_t>(axis - std::begin(kEndings));
+    const double mean = rows.Row(0)[column], deviation = rows.Row(1)[column];
+    if (!(deviation > 0) || !(mean == mean)) {
+      return Fail(deviations, "{}: mean {}, deviation {}; allowed: a number, and one above 0", Quote(name), mean,
+                  deviation);
+    }
+    if (axes[joint]++ != index)
+      return Fail(heading, "{} is not where x, y, z of a joint follow each other", Quote(name));
+    statistics[joint].mean[index] = mean;
+    statistics[joint].deviation[index] = deviation;
+  }
+  for (const auto& [joint, count] : axes) {
+    if (count != 3) return Fail({file, 1, 0}, "joint {} has {} of three coordinates", Quote(joint), count);
+  }
+  return statistics;
+}
+
+Result<std::vector<double>> ReadMusicBeats(std::string_view text, const std::string& file) {
+  ASSIGN_OR_RETURN(const NumberRows rows, ReadNumberRows(text, file));
+  if (rows.columns != 1) return Fail({file}, "{} numbers in a line; allowed: one, a time in seconds", rows.columns);
+  for (std::size_t i = 0; i < rows.values.size(); ++i) {
+    const double before = i == 0 ? -1e9 : rows.values[i - 1];
+    if (rows.values[i] > before) continue;
+    return Fail({file, rows.lines[i], 0}, "a beat at {}; allowed: seconds, each above the one before", rows.values[i]);
+  }
+  return rows.values;
+}
+
+}  // namespace etude

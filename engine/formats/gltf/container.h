@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "engine/base/result.h"
+
+namespace etude {
+
+/// The two parts of a glTF file.
+struct GltfContainer {
+  bool is_binary = false;
+  std::string_view json;
+  std::string_view binary;  ///< of a GLB file; may be empty
+};
+
+/// The maximal number of bytes of a file, of its binary part times the number of buffers that copy it, and of all files
+/// it refers to.
+inline constexpr double kMaxGltfBytes = 256e6;
+
+/// Finds the parts of a .gltf or .glb file. Refuses files that would make a JSON parser use excessive memory:
+/// inconsistent sizes, more than 256 MB, JSON nested deeper than 64 levels or with more than a million values, and many
+/// buffers that each copy the binary part. The syntax of the JSON is checked by the parser.
+Result<GltfContainer> OpenGltfContainer(std::string_view bytes, const std::string& file);
+
+}  // namespace etude

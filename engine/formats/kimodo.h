@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/formats/npz.h"
+#include "engine/motion/clip.h"
+
+namespace etude {
+
+/// Returns true if the arrays are a motion that Kimodo (nv-tlabs/kimodo) generated.
+bool IsKimodoNpz(const Npz& arrays);
+
+/// Reads `posed_joints` (frames × 30 × 3, metres, Y up) and `global_rot_mats` (frames × 30 × 3 × 3) on Kimodo's
+/// skeleton somaskel30, whose rotations are the identity in its T-pose. Bones keep their lengths of the first frame.
+/// The file tells no rate: the model's is 30 Hz. Fails for other shapes, values that are not finite, and matrices that
+/// are no rotations.
+Result<Clip> ReadKimodo(const Npz& arrays, const std::string& file);
+
+/// Returns `foot_contacts` (frames × 4: left heel, left toes, right heel, right toes; 0 or 1), also of other files than
+/// Kimodo's; nothing if there is no such array. Fails for another shape.
+Result<std::optional<std::vector<bool>>> ReadFootContacts(const Npz& arrays, std::size_t frames,
+                                                          const std::string& file);
+
+}  // namespace etude

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/base/progress.h"
+#include "engine/transitions/library/bridge_frames.h"
+#include "engine/transitions/transition_record.h"
+
+namespace etude {
+
+/// How the frames of one clip lead on: into one other clip, or into any other clip of a library.
+struct ClipCoverage {
+  double frame_share = 0;   ///< share of all frames that match a frame there
+  double bridge_share = 0;  ///< share of the bridge frames that match a bridge frame there
+  /// The longest wait from any frame to the next matching bridge frame, in seconds, if the clip is repeated at its end;
+  /// empty if there is no such bridge frame.
+  std::optional<double> worst_wait_s;
+  /// The share of frames from which no matching bridge frame is reached within the budget and before the clip's end, so
+  /// that a transition goes through an in-between.
+  double in_between_share = 0;
+};
+
+/// Which coverages are computed. Those of pairs cost time and memory that grow with the square of the library.
+struct CoverageOptions {
+  double budget_s = 1;             ///< maximal wait before a transition, seconds
+  bool with_pairs = true;          ///< computes Coverage::Of
+  std::vector<int> wanted = {};    ///< clips for which WithoutWayInto is computed; all if `with_pairs`
+  OnProgress on_progress = {};     ///< gets the number of clips compared; each counts once per kind of comparison
+};
+
+/// The coverage of every clip of a library. A clip's last frame is never a match, because it has no next frame.
+class Coverage {
+ public:
+  Coverage(std::span<const TaggedClip> clips, const MatchRules& rules, const CoverageOptions& options = {});
+
+  int ClipCount() const { return static_cast<int>(any_.size()); }
+  /// Returns how a clip leads into any other clip.
+  const ClipCoverage& IntoAny(int from) const { return any_[static_cast<std::size_t>(from)]; }
+  bool HasPairs() const { return !pairs_.empty(); }
+  /// Returns how clip `from` leads into another clip. Only with `with_pairs`.
+  const ClipCoverage& Of(int from, int to) const { return pairs_[Pair(from, to)]; }
+
+  /// Returns the clips without a bridge frame that matches one of clip `wanted`. Paper A (section 3.5) demands that
+  /// every move has one into the corrective clip.
+  const std::vector<int>& WithoutWayInto(int wanted) const { return without_.at(wanted); }
+
+ private:
+  std::size_t Pair(int from, int to) const { return static_cast<std::size_t>(from) * any_.size() + to; }
+  void ComputePairs(std::span<const TaggedClip> clips, const MatchRules& rules, const CoverageOptions& options);
+
+  std::vector<ClipCoverage> any_;
+  std::vector<ClipCoverage> pairs_;
+  std::map<int, std::vector<int>> without_;
+};
+
+}  // namespace etude
