@@ -30,7 +30,7 @@ static void Describe(RecordFields& fields, TransitionExtras::Candidate& candidat
   fields.Tolerated("point", candidate.point, "index of the transition point that it is for, from 0");
   fields.Required("from_frame", candidate.from_frame, "frame of the clip left at that point");
   fields.Required("to_frame", candidate.to_frame, "frame of the clip entered there");
-  fields.Required("distance", candidate.distance, "fuzzy distance of the two frames");
+  fields.Required("distance", candidate.distance, "fuzzy distance between the two frames");
   fields.Tolerated("partials", candidate.partials, "like those of a transition point");
   fields.Tolerated("cost", candidate.cost, "the cost by which the choice ranks; null if that is the distance");
   fields.Tolerated("outcome", candidate.outcome, "`taken`, `too far`, `later` or `worse`");

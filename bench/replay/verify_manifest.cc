@@ -75,7 +75,7 @@ Result<std::vector<Scenario>> ScenariosOf(const FilePath& folder) {
 
 Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, const SuiteSetup& suite,
                                 std::span<const PreparedScenario> scenarios) {
-  Verified verified{"manifest.json: what such a run writes", {}};
+  Verified verified{"manifest.json: as such a run writes it", {}};
   ASSIGN_OR_RETURN(const auto then, ReadJsonFile(folder / "manifest.json"));
   ASSIGN_OR_RETURN(auto now, MakeManifest(suite, scenarios, run.data.program_version));
   // Take over what may differ.

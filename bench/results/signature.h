@@ -16,7 +16,7 @@ namespace etude {
 Result<void> SignRun(const std::filesystem::path& folder, const std::string& secret_key);
 
 /// Checks the signature and all files. `public_key` is minisign's file, or its text (RW…). Returns the key's number as
-/// minisign shows it. Fails, naming the file, at the first file that is not as it was signed.
+/// minisign shows it. Fails, naming the file, at the first file that was changed after it was signed.
 Result<std::string> CheckSignature(const std::filesystem::path& folder, const std::string& public_key);
 
 }  // namespace etude

@@ -118,7 +118,7 @@ constexpr std::array<Rgb8, kColourCount> kPalette = [] {
 constexpr int kBlock = 8;
 
 bool IsBlackBlock(const Rgb8* pixels) {
-  static_assert(sizeof(Rgb8) == 3, "a picture's bytes are its colours");
+  static_assert(sizeof(Rgb8) == 3, "a picture is written as bytes of its colours");
   std::array<std::uint64_t, 3> bits;
   std::memcpy(bits.data(), pixels, sizeof(bits));
   return (bits[0] | bits[1] | bits[2]) == 0;

@@ -75,7 +75,7 @@ Result<void> MakeFolder(const FilePath& folder);
 /// the first link, pipe or device.
 Result<std::vector<std::filesystem::path>> PlainFilesBelow(const FilePath& folder);
 
-/// Returns the error "is a link; inside this folder no link is followed".
+/// Returns the error "is a link; links inside this folder are not followed".
 tl::unexpected<Error> RefuseLink(const std::filesystem::path& link);
 
 }  // namespace etude

@@ -160,7 +160,7 @@ CodeNoise::CodeNoise(const SensorNoise& noise) : outcomes_(std::size_t{256} * kT
 }
 
 void CodeNoise::Apply(RandomStream& random, ColourImage& picture) const {
-  static_assert(sizeof(Rgb8) == 3, "a picture's bytes are its colours");
+  static_assert(sizeof(Rgb8) == 3, "a picture is written as bytes of its colours");
   NormalRows normals(random);
   const std::size_t values = 3 * static_cast<std::size_t>(picture.width);
   std::uint8_t* code = reinterpret_cast<std::uint8_t*>(picture.pixels.data());

@@ -146,7 +146,7 @@ void FillBackdrop(const KeptRoom& room, int width, double brightness, Targets ta
   const std::size_t first = static_cast<std::size_t>(width) * rows.first;
   const std::size_t count = static_cast<std::size_t>(width) * height;
 
-  static_assert(sizeof(Rgb8) == 3, "a picture's bytes are its colours");
+  static_assert(sizeof(Rgb8) == 3, "a picture is written as bytes of its colours");
   RoundToBytes(&room.colours[3 * first], 3 * count, static_cast<float>(brightness),
                reinterpret_cast<std::uint8_t*>(view.colour.pixels.data()));
   if (targets != Targets::kColour) std::copy_n(&room.labels[first], count, view.labels.pixels.begin());

@@ -7,7 +7,7 @@ namespace etude {
 namespace {
 
 void AddPicture(const ColourImage& picture, Digest& digest) {
-  static_assert(sizeof(Rgb8) == 3, "a picture's bytes are its colours");
+  static_assert(sizeof(Rgb8) == 3, "a picture is written as bytes of its colours");
   digest.Add(std::span(reinterpret_cast<const std::uint8_t*>(picture.pixels.data()), 3 * picture.pixels.size()));
 }
 

@@ -44,13 +44,13 @@ Result<std::string_view> TakeChunk(std::string_view bytes, std::size_t& at, std:
 }
 
 Result<GltfContainer> OpenGlb(std::string_view bytes, const Place& place) {
-  if (bytes.size() < kHeaderBytes) return Fail(place, "a GLB of {} bytes; its header alone has 12", bytes.size());
+  if (bytes.size() < kHeaderBytes) return Fail(place, "a GLB of {} bytes, but its header alone has 12", bytes.size());
   if (const std::uint32_t version = Number(bytes, 4); version != 2) {
     return Fail(place, "found GLB version {}; allowed: 2", version);
   }
   const std::size_t length = Number(bytes, 8);
   if (length > bytes.size() || length < kHeaderBytes) {
-    return Fail(place, "the GLB announces {} bytes; the file holds {}", length, bytes.size());
+    return Fail(place, "the GLB announces {} bytes; the file has {}", length, bytes.size());
   }
   bytes = bytes.substr(0, length);
   std::size_t at = kHeaderBytes;
@@ -85,7 +85,7 @@ class JsonShape {
         case '[':
           if (depth_ == 2 && json[i] == '{' && key_ == "buffers") ++buffers_;
           ++values_;
-          if (++depth_ > kMaxNesting) return Fail(place, "JSON nested deeper than {} levels", kMaxNesting);
+          if (++depth_ > kMaxNesting) return Fail(place, "JSON nested more than {} levels deep", kMaxNesting);
           break;
         case '}':
         case ']':

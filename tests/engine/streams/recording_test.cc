@@ -149,14 +149,14 @@ TEST(Streams, ABodyThatGoesOnUnderAnotherNameIsOnePerson) {
   ASSERT_TRUE(joined) << ToString(joined.error());
   EXPECT_EQ(shown(*joined), 19);
   EXPECT_EQ(joined->remarks.front(), "body 11 continues as body 22 from frame 13 on: taken to be one person");
-  EXPECT_EQ(joined->remarks.back(), "2 bodies, of which body  is read0");
+  EXPECT_EQ(joined->remarks.back(), "2 bodies, of which body  is read is read0");
   // Somebody else, who stands a metre aside, is not joined; nor whoever comes while the first is still seen.
   const auto other = ReadStreamRecording(text(1, 2), "s", {.body = 0});
   EXPECT_EQ(shown(*other), 11);
-  EXPECT_EQ(other->remarks, std::vector<std::string>{"3 bodies, of which body  is read0"});
+  EXPECT_EQ(other->remarks, std::vector<std::string>{"3 bodies, of which body  is read is read0"});
   const std::string both = "2\n2\n" + NtuBody("11", 0) + NtuBody("22", 0.1) + "1\n" + NtuBody("22", 0.1);
   EXPECT_EQ(ReadStreamRecording(both, "s")->remarks,
-            std::vector<std::string>{"2 bodies, of which body  is read1, in the most frames"});
+            std::vector<std::string>{"2 bodies, of which body  is read is read1, in the most frames"});
 }
 
 TEST(Streams, MarkersOfOtherNamesAreTold) {
