@@ -123,7 +123,7 @@ inline constexpr std::array<Named<AnswerStep>, 4> kAnswerSteps = {{{"none", Answ
 struct Answer {
   std::string method;
   std::string baseline = {};                 ///< the method that the scenario names, or the strongest rival
-  std::string value_metric = {};             ///< the first headline metric that is not the success; "" if there is none
+  std::string value_metric = {};             ///< ValueMetricOf; "" if success is all
   Verdict verdict = Verdict::kInconclusive;  ///< on these worlds
   AnswerStep decided_by = AnswerStep::kNone;
   std::optional<Verdict> beyond = {};      ///< the deciding step's verdict for other units; nothing = too few units

@@ -36,7 +36,8 @@ std::vector<AcrossVerdict> JudgeAcross(const Study& study, const std::vector<Con
 /// at its confidence is clear in every such condition, unmet if it is clear the other way or "no difference" in one of
 /// them, and undecided otherwise. Because every condition must hold, no correction for multiple conditions is needed
 /// (intersection–union test, Berger 1982). A bound (at_most, at_least) is compared with the statistic itself; a bound
-/// that is met only by the cells with a value is undecided if cells without a value exist.
+/// that is met only by the cells with a value is undecided if cells without a value exist. A comparison of the value of
+/// an answer (ValueMetricOf) is unmet where success is worse.
 ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& study, const ScenarioTable& table,
                                    std::uint64_t seed);
 
