@@ -2,6 +2,7 @@
 Heavy: a package, in a bare Debian root that mmdebstrap makes; skipped where there is none to be had."""
 import os
 import pathlib
+import platform
 import re
 import shlex
 import shutil
@@ -116,9 +117,10 @@ class Installed(EtudeCase):
         subprocess.run(["cpack", "-G", "DEB", "-B", self.folder], cwd=BUILD, check=True, stdout=subprocess.DEVNULL)
 
     def make_root(self, *hooks):
-        """A bare Debian root in which these hooks of mmdebstrap ran."""
+        """A bare root of this machine's Debian in which these hooks of mmdebstrap ran."""
         root = self.folder / "root"
-        made = subprocess.run(["mmdebstrap", "--variant=apt", "--mode=root", "bookworm", root,
+        suite = platform.freedesktop_os_release()["VERSION_CODENAME"]
+        made = subprocess.run(["mmdebstrap", "--variant=apt", "--mode=root", suite, root,
                                *(f"--customize-hook={hook}" for hook in hooks)], capture_output=True, text=True)
         if made.returncode != 0 and not (root / "usr" / "bin").exists():
             self.skipTest("no mirror is to be had: " + made.stderr[-300:])

@@ -32,11 +32,11 @@ def mirror():
 
 
 class Systems(EtudeCase):
-    def make_root(self, suite, *uris):
-        """A bare root of the suite, from the first of the mirrors that is to be had, with this tree in /srv/etude."""
+    def make_root(self, suite, *uris, name=None):
+        """A bare root of the suite, from the first of the mirrors that is to be had, with an empty /srv/etude."""
         if os.geteuid() != 0 or not shutil.which("mmdebstrap"):
             self.skipTest("needs root and mmdebstrap")
-        root = self.folder / suite
+        root = self.folder / (name or suite)
         for uri in uris:
             made = subprocess.run(["mmdebstrap", "--variant=apt", "--mode=root", "--include=mount", f"--aptopt={UNDATED}", suite,
                                    root, f"deb {uri} {suite} main"], capture_output=True, text=True)
@@ -47,6 +47,11 @@ class Systems(EtudeCase):
         else:
             self.skipTest(f"{suite} is not to be had: {made.stderr[-300:]}")
         shutil.copy("/etc/resolv.conf", root / "etc")
+        (root / "srv/etude").mkdir()
+        return root
+
+    def make_root_with_tree(self, suite, *uris):
+        root = self.make_root(suite, *uris)
         files = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT, check=True,
                                capture_output=True).stdout.decode().split("\0")
         for file in filter(None, files):
@@ -63,14 +68,19 @@ class Systems(EtudeCase):
                                   stdout=into, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL).returncode
         self.assertEqual(code, 0, log.read_text()[-5000:])
 
-    def builds_passes_and_runs_quick(self, root, number):
+    def builds_passes_and_runs_quick(self, suite, number):
         """Tests and all; the results differ from this machine's no more than the shipped table tells."""
+        root = self.make_root_with_tree(suite, mirror())
         self.inside(root, "scripts/test", ETUDE_WERROR="ON")
         self.runs_quick_as_measured(root, f"Debian {number}")
         # A release holds the packages of both Debians side by side.
-        self.inside(root, "mkdir -p packages && (cd build/release && cpack -G DEB -B ../../packages) >/dev/null",
-                    f"apt-get install -y -q --no-install-recommends ./packages/etude_*+deb{number}_amd64.deb",
-                    "cd /tmp && etude run quick/ik --trials 3 -o packed")
+        self.inside(root, "mkdir -p packages && (cd build/release && cpack -G DEB -B ../../packages) >/dev/null")
+        clean = self.make_root(suite, mirror(), name="clean")
+        package = next((root / "srv/etude/packages").glob(f"etude_*+deb{number}_amd64.deb"))
+        shutil.copy(package, clean / "srv/etude/etude.deb")
+        self.inside(clean, "apt-get update -q", "apt-get install -y -q --no-install-recommends ./etude.deb",
+                    "cd /tmp && etude run quick/ik --trials 3 -o packed",
+                    "apt-get purge -y -q etude", "! find /usr /etc /var/lib -name '*etude*' -not -path '*/dpkg/*' | grep .")
 
     def runs_quick_as_measured(self, root, name):
         self.inside(root, "build/release/etude run scenarios/quick -o out/quick")
@@ -90,15 +100,15 @@ class Systems(EtudeCase):
 
     @heavy
     def test_debian_12(self):
-        self.builds_passes_and_runs_quick(self.make_root("bookworm", mirror()), 12)
+        self.builds_passes_and_runs_quick("bookworm", 12)
 
     @heavy
     def test_debian_13(self):
-        self.builds_passes_and_runs_quick(self.make_root("trixie", mirror()), 13)
+        self.builds_passes_and_runs_quick("trixie", 13)
 
     @heavy
     def test_what_comes_after_debian_13_builds_and_runs_quick_by_egl(self):
-        root = self.make_root("sid", SNAPSHOT, mirror())
+        root = self.make_root_with_tree("sid", SNAPSHOT, mirror())
         self.inside(root, "scripts/setup", "cmake --preset release", "cmake --build build/release")
         self.runs_quick_as_measured(root, "not measured")
         manifest = json.loads((root / "srv/etude/out/quick/manifest.json").read_text())

@@ -292,6 +292,7 @@ class ClipReader {
     // Read each channel's target and curve.
     for (std::size_t i = 0; i < animation.channels.size(); ++i) {
       const tinygltf::AnimationChannel& source = animation.channels[i];
+      if (source.target_node == kNoIndex) continue;  // its target has no node
       const std::string where = fmt::format("animations[{}].channels[{}]", index, i);
       RETURN_IF_ERROR(file_.CheckIndex(source.sampler, animation.samplers.size(), where + ".sampler"));
       Property property;

@@ -122,7 +122,10 @@ class NodeReader {
     }
     for (std::size_t i = 0; i < model_.animations.size(); ++i) {
       for (std::size_t k = 0; k < model_.animations[i].channels.size(); ++k) {
-        const int target = model_.animations[i].channels[k].target_node;
+        const tinygltf::AnimationChannel& channel = model_.animations[i].channels[k];
+        const int target = channel.target_node;
+        // A target without a node is to be ignored: tinygltf 2.7 leaves its channel out, 2.9 keeps it.
+        if (target == kNoIndex && !channel.target_path.empty()) continue;
         const std::string where = fmt::format("animations[{}].channels[{}].target.node", i, k);
         RETURN_IF_ERROR(file_.CheckIndex(target, count_, where));
         MarkWithAncestors(target);

@@ -29,5 +29,13 @@ TEST(ComplaintLines, HoldOneComplaintOfAKind) {
             (std::vector<std::string>{"numbers: 1 of 5 are read", "  f:2: '2' is odd", "  f:30: is large"}));
 }
 
+TEST(ComplaintLines, LeaveOutTheWordsOfLibraries) {
+  ComplaintLines complaints;
+  complaints.Add("words", std::vector<const char*>{"old", "new"}, [](const char* words) -> Result<int> {
+    return Fail({"f", 7}, "not valid YAML: {} words", words);
+  });
+  EXPECT_EQ(complaints.lines(), (std::vector<std::string>{"words: 0 of 2 are read", "  f:7: not valid YAML: …"}));
+}
+
 }  // namespace
 }  // namespace etude::testing

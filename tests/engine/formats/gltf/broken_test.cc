@@ -59,6 +59,8 @@ constexpr BrokenText kBrokenTexts[] = {
     {"bone out of range", R"("joints":[0,1])", R"("joints":[0,3])", "skins[0].joints[1]: found 3; allowed: 0 to 2"},
     {"skin without bones", R"("joints":[0,1])", R"("joints":[])", "skins[0].joints: found none"},
     {"too few bind matrices", R"("joints":[0,1])", R"("joints":[0,1,0])", "skins[0].inverseBindMatrices: found 2; 3 joints need as many"},
+    {"bind matrices that are a text", R"("inverseBindMatrices":4)", R"("inverseBindMatrices":"4")", "skins[0].inverseBindMatrices: found \"4\"; allowed: a whole number from 0"},
+    {"negative bind matrices", R"("inverseBindMatrices":4)", R"("inverseBindMatrices":-1)", "skins[0].inverseBindMatrices: found -1; allowed: a whole number from 0"},
     {"bind matrices of another kind", R"("inverseBindMatrices":4)", R"("inverseBindMatrices":2)", "skins[0].inverseBindMatrices (accessors[2]): found another type; allowed: MAT4"},
     {"mesh out of range", R"("mesh":0)", R"("mesh":1)", "nodes[2].mesh: found 1; allowed: 0 to 0"},
     {"mesh without primitives", R"("primitives")", R"("primitive")", "meshes[0].primitives: found none; at least one is needed"},
@@ -75,6 +77,10 @@ constexpr BrokenText kBrokenTexts[] = {
     {"two corners of three", R"("componentType":5123,"count":3)", R"("componentType":5123,"count":2)", "found 2 corners; allowed: multiples of 3"},
     // animations
     {"sampler out of range", R"("sampler":0)", R"("sampler":1)", "animations[0].channels[0].sampler: found 1; allowed: 0 to 0"},
+    {"target that is negative", R"("node":1)", R"("node":-1)", "animations[0].channels[0].target.node: found -1; allowed: a whole number from 0"},
+    {"target that is a text", R"("node":1)", R"("node":"1")", "animations[0].channels[0].target.node: found \"1\"; allowed: a whole number from 0"},
+    {"no path", R"("node":1,"path":"rotation")", R"("node":1)", "animations[0].channels[0].target.path: found no text; allowed: translation, rotation, scale, weights"},
+    {"neither node nor path", R"("node":1,"path":"rotation")", "", "animations[0].channels[0].target.path: found no text"},
     {"target out of range", R"("node":1)", R"("node":99)", "animations[0].channels[0].target.node: found 99; allowed: 0 to 2"},
     {"unknown path", R"("path":"rotation")", R"("path":"colour")", "animations[0].channels[0].target.path: found 'colour'; allowed: translation, rotation, scale, weights"},
     {"rotations for a translation", R"("path":"rotation")", R"("path":"translation")", "animations[0].samplers[0].output (accessors[6]): found another type; allowed: VEC3"},
@@ -170,12 +176,16 @@ TEST(BrokenGltf, MayHaveBindMatricesThatAreAffineButForAThousandth) {
 }
 
 TEST(BrokenGltf, MayLackWhatTheFormatLeavesOpen) {
-  // Bones without bind matrices, and a channel that drives no node: tinygltf mentions each of them.
+  // Bones without bind matrices, and a channel that drives no node: versions of tinygltf treat each of them
+  // differently.
   const std::string no_binds = Replaced(kSmallGltf, R"(,"inverseBindMatrices":4)", "");
   EXPECT_EQ(GlbComplaint(Glb(no_binds, SmallBinary())), "read without complaint");
   const std::string twice =
       Replaced(no_binds, R"("skins":[{"joints":[0,1]}])", R"("skins":[{"joints":[0,1]},{"joints":[0]}])");
   EXPECT_EQ(GlbComplaint(Glb(twice, SmallBinary())), "read without complaint");
+  const auto undriven = ReadGltf(Glb(Replaced(kSmallGltf, R"("node":1,)", ""), SmallBinary()), "test.glb", {});
+  ASSERT_TRUE(undriven) << ToString(undriven.error());
+  EXPECT_TRUE(undriven->clips.empty());  // nothing else moves
 }
 
 TEST(BrokenGltf, IsRefusedForUrisThatLeaveItsFolder) {
