@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -120,19 +121,20 @@ void PrintAngles(const ScenarioSummary& summary, const std::vector<AngleAgreemen
   if (angles.empty() || std::ranges::none_of(summary.headline_metrics, is_of_angles)) return;
   fmt::print("  {:<26}  {:>8}  {:>22}  {:>20}  {:>7}  units\n", "angle, degrees", "RMSE", "bias (95 %)",
              "limits of agreement", "ICC");
-  const auto range = [](const std::optional<double>& low, const std::optional<double>& high) {
-    return low && high ? fmt::format("{:.1f} to {:.1f}", *low, *high) : std::string("-");
+  const auto shown = [](double value) { return fmt::format("{:.2f}", std::abs(value) < 0.005 ? 0 : value); };
+  const auto range = [&](const std::optional<double>& low, const std::optional<double>& high) {
+    return low && high ? shown(*low) + " to " + shown(*high) : std::string("-");
   };
   for (const AngleAgreement& one : angles) {
     const CurveAgreement& figures = one.agreement;
     if (!figures.rmse.value) continue;
     const auto& interval = figures.bias.interval;
-    const std::string bias = fmt::format("{:.1f}", *figures.bias.value) +
-                             (interval ? fmt::format(" ({:.1f} to {:.1f})", interval->low, interval->high) : "");
+    const std::string bias =
+        shown(*figures.bias.value) + (interval ? " (" + range(interval->low, interval->high) + ")" : "");
     const std::string under = one.condition.empty() ? "" : ", " + ConditionLabel(one.condition);
-    fmt::print("  {:<26}  {:>8.1f}  {:>22}  {:>20}  {:>7}  {}  {}{}\n", one.angle, *figures.rmse.value, bias,
-               range(figures.low.value, figures.high.value),
-               figures.icc.value ? fmt::format("{:.2f}", *figures.icc.value) : "-", figures.units, one.method, under);
+    fmt::print("  {:<26}  {:>8}  {:>22}  {:>20}  {:>7}  {:>5}  {}{}\n", one.angle, shown(*figures.rmse.value), bias,
+               range(figures.low.value, figures.high.value), figures.icc.value ? shown(*figures.icc.value) : "-",
+               figures.units, one.method, under);
   }
 }
 

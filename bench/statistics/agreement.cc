@@ -133,7 +133,6 @@ std::vector<AngleAgreement> AgreementByAngle(const RunData& run) {
   for (const auto& [key, at] : places) {
     found[at].agreement = MeasureAgreement(collected[at].pairs, collected[at].units, run.seed, "agreement/" + key);
   }
-  std::ranges::stable_sort(found, {}, [](const AngleAgreement& one) { return CompactLabel(one.condition); });
   return found;
 }
 

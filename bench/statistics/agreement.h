@@ -41,8 +41,7 @@ struct AngleAgreement {
   CurveAgreement agreement;
 };
 
-/// Measures all angles of which a run's cells keep sums (kAgreementAxis), by condition, method and angle in the order
-/// of the cells.
+/// Measures all angles of which a run's cells keep sums (kAgreementAxis), in the order of the cells.
 std::vector<AngleAgreement> AgreementByAngle(const RunData& run);
 
 }  // namespace etude

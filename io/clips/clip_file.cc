@@ -148,7 +148,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   const Token first = has_text ? scanner.Next() : Token{};
 
   ClipFile file;
-  // Arrays: our own bodies, AMASS's motions, or positions of joints.
+  // Arrays: our own bodies, motions of AMASS and Kimodo, or positions of joints.
   if (IsZip(bytes)) {
     ASSIGN_OR_RETURN(const auto arrays, ReadNpz(bytes, path));
     if (IsBodyNpz(arrays)) {

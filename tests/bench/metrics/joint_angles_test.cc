@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <map>
 
 #include "engine/base/angles.h"
 
@@ -11,7 +12,7 @@ namespace {
 
 /// A skeleton of pelvis, spine, both legs and both arms, at rest with the arms `arm_deg` below the horizontal, turned
 /// by `heading` about Y.
-RawMotion Skeleton(double arm_deg, double heading = 0) {
+RawMotion RestingBody(double arm_deg, double heading = 0) {
   RawMotion motion;
   const double c = std::cos(Radians(arm_deg)), s = std::sin(Radians(arm_deg));
   const auto add = [&](const char* name, int parent, glm::dvec3 place, std::optional<Role> role) {
@@ -60,14 +61,15 @@ double AngleIn(const AngleTracks& angles, const std::string& name, std::size_t f
   return angles.degrees[frame * angles.names.size() + static_cast<std::size_t>(found - angles.names.begin())];
 }
 
-glm::dquat About(glm::dvec3 axis, double degrees) { return glm::angleAxis(Radians(degrees), axis); }
-const glm::dvec3 kX(1, 0, 0), kY(0, 1, 0), kZ(0, 0, 1);
+glm::dquat AboutX(double degrees) { return glm::angleAxis(Radians(degrees), glm::dvec3(1, 0, 0)); }
+glm::dquat AboutY(double degrees) { return glm::angleAxis(Radians(degrees), glm::dvec3(0, 1, 0)); }
+glm::dquat AboutZ(double degrees) { return glm::angleAxis(Radians(degrees), glm::dvec3(0, 0, 1)); }
 
 TEST(AnglesOfRotations, AKneeBendsAsFarAsItIsBent) {
   for (const double heading : {0.0, 0.7, -2.0}) {
-    RawMotion motion = Skeleton(0, heading);
+    RawMotion motion = RestingBody(0, heading);
     // The shank hangs straight down in the neutral pose; turn it about the body's X.
-    AddFrame(motion, {{motion.roles[Index(Role::kLeftKnee)], About(kX, 40)}});
+    AddFrame(motion, {{motion.roles[Index(Role::kLeftKnee)], AboutX(40)}});
     const AngleTracks angles = AnglesOfRotations(motion);
     const double at_rest = Degrees(std::atan2(0.02, 0.4));  // the shank leans back at rest
     EXPECT_NEAR(AngleIn(angles, "left_knee_flexion"), 40 + at_rest, 0.1) << "the thigh leans aside";
@@ -77,10 +79,10 @@ TEST(AnglesOfRotations, AKneeBendsAsFarAsItIsBent) {
 }
 
 TEST(AnglesOfRotations, LegsAreLiftedAheadAndOutwards) {
-  RawMotion motion = Skeleton(0);
+  RawMotion motion = RestingBody(0);
   // A hip at rest hangs aside by atan(0.02 / 0.45): the neutral pose takes that out, so turns are of the hanging thigh.
-  AddFrame(motion, {{motion.roles[Index(Role::kLeftHip)], About(kX, -30) * About(kZ, 20) * About(kY, -10)},
-                    {motion.roles[Index(Role::kRightHip)], About(kX, -30) * About(kZ, -20) * About(kY, 10)}});
+  AddFrame(motion, {{motion.roles[Index(Role::kLeftHip)], AboutX(-30) * AboutZ(20) * AboutY(-10)},
+                    {motion.roles[Index(Role::kRightHip)], AboutX(-30) * AboutZ(-20) * AboutY(10)}});
   const AngleTracks angles = AnglesOfRotations(motion);
   for (const char* side : {"left_hip", "right_hip"}) {
     EXPECT_NEAR(AngleIn(angles, side + std::string("_flexion")), 30, 1);
@@ -93,9 +95,9 @@ TEST(AnglesOfRotations, ATPoseAndAnAPoseAtRestGiveTheSameAngles) {
   // The same arm in the world: hanging, then 25° ahead.
   std::vector<double> flexions;
   for (const double below : {0.0, 45.0, 90.0}) {
-    RawMotion motion = Skeleton(below);
-    const glm::dquat hangs = About(kZ, -(90 - below));  // of the left arm
-    AddFrame(motion, {{motion.roles[Index(Role::kLeftShoulder)], About(kX, -25) * hangs}});
+    RawMotion motion = RestingBody(below);
+    const glm::dquat hangs = AboutZ(-(90 - below));  // of the left arm
+    AddFrame(motion, {{motion.roles[Index(Role::kLeftShoulder)], AboutX(-25) * hangs}});
     const AngleTracks angles = AnglesOfRotations(motion);
     EXPECT_NEAR(AngleIn(angles, "left_shoulder_flexion"), 25, 1e-9) << below;
     EXPECT_NEAR(AngleIn(angles, "left_shoulder_abduction"), 0, 1e-9) << below;
@@ -105,7 +107,7 @@ TEST(AnglesOfRotations, ATPoseAndAnAPoseAtRestGiveTheSameAngles) {
 }
 
 TEST(AnglesOfRotations, NeedRotationsAndHips) {
-  RawMotion motion = Skeleton(0);
+  RawMotion motion = RestingBody(0);
   motion.positions = motion.rest_positions;
   EXPECT_TRUE(AnglesOfRotations(motion).names.empty());
   AddFrame(motion, {});

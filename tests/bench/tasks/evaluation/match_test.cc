@@ -159,7 +159,9 @@ TEST(Match, FindsALagToAFractionOfAFrame) {
       EXPECT_LT(*matched->lag->half_width_s, 0.001);
       const CellResult with = JudgeMotion(*matched), without = Judged(truth, answer);
       EXPECT_LT(ValueIn(with, "mpjpe_take_scaled_mm"), 7);
-      if (std::abs(late_s) > 0.1) EXPECT_GT(ValueIn(without, "mpjpe_take_scaled_mm"), 20);
+      if (std::abs(late_s) > 0.1) {
+        EXPECT_GT(ValueIn(without, "mpjpe_take_scaled_mm"), 20);
+      }
       EXPECT_NEAR(ValueIn(with, "lag_ms"), 1000 * matched->lag->shift_s, 1e-9);
       EXPECT_THAT(with.reason, HasSubstr("taken out"));
     }
