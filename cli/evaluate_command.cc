@@ -8,6 +8,7 @@
 
 #include "bench/metrics/catalogue.h"
 #include "bench/results/folder.h"
+#include "bench/results/row_json.h"
 #include "bench/run/run.h"
 #include "bench/scenario/methods.h"
 #include "bench/tasks/registry.h"
@@ -16,6 +17,7 @@
 #include "engine/base/names.h"
 #include "engine/retargeting/map_file.h"
 #include "io/files/files.h"
+#include "io/files/json.h"
 
 namespace etude {
 namespace {
@@ -148,25 +150,28 @@ void PrintTable(const ScenarioSummary& summary) {
   }
 }
 
-/// Says what was judged and done, once for each method, and what could not be judged.
-void PrintNotes(const RunData& run) {
+/// Says what was judged and done, once for each method, and what could not be judged. Rows are read one by one.
+Result<void> PrintNotes(const std::filesystem::path& folder) {
   constexpr std::size_t kMaxFailures = 10;
   std::vector<std::string> told, failures;
-  ForEachRow(run, [&](const Row& row, std::size_t) {
+  std::size_t failed = 0;
+  RETURN_IF_ERROR(WriteRows(folder, Sealing::kRequired, [&](std::string_view text) -> Result<void> {
+    ASSIGN_OR_RETURN(const auto json, ReadJson(std::string(text), folder.string()));
+    ASSIGN_OR_RETURN(const auto row, DecodeRow(json, {folder.string()}));
     const std::string line = fmt::format("{}, {}: {}", row.method, row.clip, row.result.reason);
     if (row.result.status != Status::kOk) {
-      failures.push_back(line);
+      if (++failed <= kMaxFailures) failures.push_back(line);
     } else if (std::ranges::find(told, row.method) == told.end()) {
       told.push_back(row.method);
       fmt::print("  {}\n", line);
     }
-  });
-  if (failures.empty()) return;
-  fmt::print("{} not judged:\n", failures.size());
-  for (const std::string& line : std::span(failures).first(std::min(failures.size(), kMaxFailures))) {
-    fmt::print("  {}\n", line);
-  }
-  if (failures.size() > kMaxFailures) fmt::print("  and {} more: etude rows\n", failures.size() - kMaxFailures);
+    return {};
+  }));
+  if (failed == 0) return {};
+  fmt::print("{} not judged:\n", failed);
+  for (const std::string& line : failures) fmt::print("  {}\n", line);
+  if (failed > failures.size()) fmt::print("  and {} more: etude rows\n", failed - failures.size());
+  return {};
 }
 
 Result<int> EvaluateCommand(const EvaluateOptions& options) {
@@ -184,7 +189,7 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   ASSIGN_OR_RETURN(const auto outcome, RunWithProgress(run));
   redirected.End();
   if (!outcome) return kInterrupted;
-  ASSIGN_OR_RETURN(const auto data, LoadRun(outcome->folder));
+  ASSIGN_OR_RETURN(const auto data, LoadRunOutline(outcome->folder));
   const ScenarioSummary& summary = data.scenarios.front();
   const bool has_silent = std::ranges::any_of(summary.conditions.front().methods,
                                               [](const MethodSummary& method) { return method.ok == 0; });
@@ -195,7 +200,7 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
     return code;
   }
   PrintTable(summary);
-  PrintNotes(data);
+  RETURN_IF_ERROR(PrintNotes(outcome->folder));
   fmt::print("{} of {} cells ok, all {} metrics in {}\nNext: etude report {}\n", outcome->cells_ok, outcome->cells,
              FindTaskKind("evaluation")->metrics.size(), folder, folder);
   return code;
