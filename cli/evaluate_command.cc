@@ -9,6 +9,7 @@
 
 #include "bench/metrics/catalogue.h"
 #include "bench/results/folder.h"
+#include "bench/results/row_json.h"
 #include "bench/run/run.h"
 #include "bench/scenario/methods.h"
 #include "bench/statistics/agreement.h"
@@ -20,6 +21,7 @@
 #include "engine/base/names.h"
 #include "engine/retargeting/map_file.h"
 #include "io/files/files.h"
+#include "io/files/json.h"
 
 namespace etude {
 namespace {
@@ -115,6 +117,20 @@ Json FactsOf(const std::vector<AngleAgreement>& angles) {
   return list;
 }
 
+/// Returns true if any cell has an error of angles.
+bool HasAngles(const ScenarioSummary& summary) {
+  for (const ConditionSummary& condition : summary.conditions) {
+    for (const MethodSummary& method : condition.methods) {
+      if (std::ranges::any_of(method.metrics, [](const MetricSummary& one) {
+            return one.id == "angle_rmse_deg" && one.present > 0;
+          })) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 /// Prints a line for each angle, if a metric of angles is shown.
 void PrintAngles(const ScenarioSummary& summary, const std::vector<AngleAgreement>& angles) {
   const auto is_of_angles = [](const std::string& id) { return id.starts_with("angle_"); };
@@ -187,25 +203,29 @@ void PrintTable(const ScenarioSummary& summary) {
 }
 
 /// Prints, once for each method, what was judged and how answers were changed; then the files that could not be judged.
-void PrintNotes(const RunData& run) {
+/// Rows are read one by one.
+Result<void> PrintNotes(const std::filesystem::path& folder) {
   constexpr std::size_t kMaxFailures = 10;
   std::vector<std::string> told, failures;
-  ForEachRow(run, [&](const Row& row, std::size_t) {
+  std::size_t failed = 0;
+  RETURN_IF_ERROR(WriteRows(folder, Sealing::kRequired, [&](std::string_view text) -> Result<void> {
+    ASSIGN_OR_RETURN(const auto json, ReadJson(std::string(text), folder.string()));
+    ASSIGN_OR_RETURN(const auto row, DecodeRow(json, {folder.string()}));
     const std::string under = row.condition.empty() ? "" : ", " + ConditionLabel(row.condition);
     const std::string line = fmt::format("{}, {}{}: {}", row.method, row.clip, under, row.result.reason);
     if (row.result.status != Status::kOk) {
-      failures.push_back(line);
+      if (++failed <= kMaxFailures) failures.push_back(line);
     } else if (std::ranges::find(told, row.method + under) == told.end()) {
       told.push_back(row.method + under);
       fmt::print("  {}\n", line);
     }
-  });
-  if (failures.empty()) return;
-  fmt::print("{} not judged:\n", failures.size());
-  for (const std::string& line : std::span(failures).first(std::min(failures.size(), kMaxFailures))) {
-    fmt::print("  {}\n", line);
-  }
-  if (failures.size() > kMaxFailures) fmt::print("  and {} more: etude rows\n", failures.size() - kMaxFailures);
+    return {};
+  }));
+  if (failed == 0) return {};
+  fmt::print("{} not judged:\n", failed);
+  for (const std::string& line : failures) fmt::print("  {}\n", line);
+  if (failed > failures.size()) fmt::print("  and {} more: etude rows\n", failed - failures.size());
+  return {};
 }
 
 Result<int> EvaluateCommand(const EvaluateOptions& options) {
@@ -223,7 +243,11 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   ASSIGN_OR_RETURN(const auto outcome, RunWithProgress(run));
   redirected.End();
   if (!outcome) return kInterrupted;
-  ASSIGN_OR_RETURN(const auto data, LoadRun(outcome->folder));
+  // Hours of pairs have many rows: they are loaded only for what the summary does not hold.
+  ASSIGN_OR_RETURN(auto data, LoadRunOutline(outcome->folder));
+  if (options.alone.is_alone || HasAngles(data.scenarios.front())) {
+    ASSIGN_OR_RETURN(data, LoadRun(outcome->folder));
+  }
   const ScenarioSummary& summary = data.scenarios.front();
   const bool has_silent = std::ranges::any_of(summary.conditions.front().methods,
                                               [](const MethodSummary& method) { return method.ok == 0; });
@@ -242,7 +266,7 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   } else {
     PrintTable(summary);
     PrintAngles(summary, angles);
-    PrintNotes(data);
+    RETURN_IF_ERROR(PrintNotes(outcome->folder));
   }
   fmt::print("{} of {} cells ok, all {} metrics in {}\nNext: etude report {}\n", outcome->cells_ok, outcome->cells,
              FindTaskKind(summary.task)->metrics.size(), folder, folder);

@@ -190,8 +190,9 @@ Result<std::string> DigestOfFile(const std::string& reference, const OpenOptions
   if (options.recorded != nullptr) {
     ASSIGN_OR_RETURN(wanted, options.recorded->Find(wanted));
   }
-  ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(FileOf(wanted.path)));
-  return Digest().Add(std::string_view(bytes)).Hex();
+  Digest digest;
+  RETURN_IF_ERROR(ReadInChunks(FileOf(wanted.path), [&](std::string_view bytes) { digest.Add(bytes); }));
+  return digest.Hex();
 }
 
 Result<RawMotion> OpenRawMotion(const std::string& reference, const OpenOptions& options) {

@@ -9,7 +9,9 @@ using ::testing::HasSubstr;
 
 EvaluationExtras Sample() {
   EvaluationExtras extras;
-  extras.truth = {.name = "", .rate_hz = 59.94, .joints = {"root", "tail é"}, .parents = {-1, 0}};
+  extras.truth.rate_hz = 59.94;
+  extras.truth.joints = {"root", "tail é"};
+  extras.truth.parents = {-1, 0};
   extras.truth.positions = {{0, 0.1 + 0.2, 0}, {0, 1, -1}, {0, 2, 0}, {1e-9, 2, 3}};
   extras.answer = extras.truth;
   extras.answer.positions[3] = NotSeen();

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "bench/model/recording.h"
 #include "bench/recordings/evaluation_extras.h"
 
 namespace etude {
@@ -47,7 +48,9 @@ TEST(PairsHtml, BeginsWithTheWorstPairAndEscapesNames) {
 TEST(PairsHtml, ShowsTheWorstFramesOfWhatIsRecorded) {
   RunData run = MakeRun();
   EvaluationExtras extras;
-  extras.truth = {.name = "", .rate_hz = 30, .joints = {"root", "tail"}, .parents = {-1, 0}};
+  extras.truth.rate_hz = 30;
+  extras.truth.joints = {"root", "tail"};
+  extras.truth.parents = {-1, 0};
   for (int f = 0; f < 20; ++f) {
     extras.truth.positions.insert(extras.truth.positions.end(), {{0, 0, 0}, {0, 1, 0}});
   }

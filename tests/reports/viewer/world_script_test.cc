@@ -183,7 +183,9 @@ TEST(WorldScript, WritesSharedBodiesOnceAndStillOnesAsOneFrame) {
 TEST(WorldScript, MotionsOfAnyJointsBringTheirTree) {
   RunData run = ExampleRun();
   EvaluationExtras extras;
-  extras.truth = {.name = "", .rate_hz = 60, .joints = {"root", "tail"}, .parents = {-1, 0}};
+  extras.truth.rate_hz = 60;
+  extras.truth.joints = {"root", "tail"};
+  extras.truth.parents = {-1, 0};
   extras.truth.positions = {{0, 1, 0}, {0, 1, -1}, {0, 2, 0}, NotSeen()};
   extras.answer = extras.truth;
   Row& row = run.rows.front();

@@ -57,7 +57,7 @@ TEST(Spoilt, EachFaultIsItsClosedForm) {
   EXPECT_LT(off({.late_ms = 100}, [&](auto f, auto j) { return at(f < 5 ? 0 : f - 5, j); }), kRounding);
   EXPECT_LT(
       off({.late_ms = 110}, [&](auto f, auto j) { return f < 6 ? at(0, j) : 0.5 * (at(f - 5, j) + at(f - 6, j)); }),
-      0.02)
+      kRounding)
       << "half a frame";
   EXPECT_LT(off({.frozen_share = 0.5}, [&](auto f, auto j) { return at(std::min<std::size_t>(f, 50), j); }), kRounding);
   EXPECT_LT(off({.frozen_share = 1}, [&](auto, auto j) { return at(0, j); }), kRounding);
