@@ -223,7 +223,7 @@ std::string Claim(const Expectation& expectation) {
 
 /// The result of one expectation under one condition, with the figures behind it.
 struct Finding {
-  ClaimOutcome ruling;
+  ClaimOutcome outcome;
   std::string detail;
 };
 
@@ -244,20 +244,20 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
   const std::string missing = without == 0 ? "" : fmt::format(", {} more have no pair of values", without);
   if (!found.ci_low)
     return {ClaimOutcome::kUndecided, fmt::format("only {} worlds have both values{}", found.pairs, missing)};
-  const ClaimOutcome ruling = found.verdict == Verdict::kBetter         ? ClaimOutcome::kMet
-                              : found.verdict == Verdict::kInconclusive ? ClaimOutcome::kUndecided
-                                                                        : ClaimOutcome::kUnmet;
+  const ClaimOutcome outcome = found.verdict == Verdict::kBetter         ? ClaimOutcome::kMet
+                               : found.verdict == Verdict::kInconclusive ? ClaimOutcome::kUndecided
+                                                                         : ClaimOutcome::kUnmet;
   // The figures behind it.
   std::string detail = fmt::format("difference {:.4g} ({:.4g} % interval {:.4g} to {:.4g}, p = {:.2g}) on {} worlds{}",
                                    *found.difference, 100 * expectation.confidence, *found.ci_low, *found.ci_high,
                                    *found.p_holm, found.pairs, missing);
-  if (found.verdict != of_pairs) return {ruling, detail + "; it does not hold when failing counts as losing"};
+  if (found.verdict != of_pairs) return {outcome, detail + "; it does not hold when failing counts as losing"};
   const double alpha = 1 - expectation.confidence;
-  if (ruling == ClaimOutcome::kUndecided && SmallestP(found.differing) > alpha) {
+  if (outcome == ClaimOutcome::kUndecided && SmallestP(found.differing) > alpha) {
     detail += fmt::format("; {} of them differ, and {:.4g} % needs at least {}", found.differing,
                           100 * expectation.confidence, PairsNeeded(1, alpha));
   }
-  return {ruling, detail};
+  return {outcome, detail};
 }
 
 Finding JudgeBound(const Expectation& expectation, const ConditionTable& table) {
@@ -338,9 +338,9 @@ ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& 
     if (!result.detail.empty()) result.detail += "; ";
     result.detail += label.empty() ? finding.detail : label + ": " + finding.detail;
     // One unmet condition makes the whole unmet; otherwise one undecided condition makes it undecided.
-    if (finding.ruling == ClaimOutcome::kUnmet) result.ruling = ClaimOutcome::kUnmet;
-    if (finding.ruling == ClaimOutcome::kUndecided && result.ruling == ClaimOutcome::kMet)
-      result.ruling = finding.ruling;
+    if (finding.outcome == ClaimOutcome::kUnmet) result.outcome = ClaimOutcome::kUnmet;
+    if (finding.outcome == ClaimOutcome::kUndecided && result.outcome == ClaimOutcome::kMet)
+      result.outcome = finding.outcome;
   }
   return result;
 }
