@@ -68,11 +68,11 @@ void PrintReport(const GateReport& report) {
   PrintWorlds("Single worlds that are far worse, too few to fail:",
               TailLines(report, false, kMaxWorldsEach, kMaxWorlds));
   for (const GateExpectation& e : report.expectations) {
-    if (e.result.ruling != ClaimOutcome::kUnmet) continue;
-    fmt::print("{}: {}: {} [{}]\n", ClaimOutcomeName(e.result.ruling), e.scenario, e.result.text, e.result.detail);
+    if (e.result.outcome != ClaimOutcome::kUnmet) continue;
+    fmt::print("{}: {}: {} [{}]\n", ClaimOutcomeName(e.result.outcome), e.scenario, e.result.text, e.result.detail);
   }
   for (const RatioResult& ratio : report.ratios) {
-    fmt::print("{}: {}: {} [{}]\n", ClaimOutcomeName(ratio.ruling), ratio.scenario, RatioClaim(ratio),
+    fmt::print("{}: {}: {} [{}]\n", ClaimOutcomeName(ratio.outcome), ratio.scenario, RatioClaim(ratio),
                RatioDetail(ratio));
   }
   PrintList("New, not in the baseline:", report.comparison.only_after);
@@ -89,7 +89,7 @@ Json FactsOf(const GateReport& report) {
   Json& expectations = facts["expectations"] = Json::array();
   for (const GateExpectation& e : report.expectations) {
     expectations.push_back(
-        {{"scenario", e.scenario}, {"ruling", ClaimOutcomeName(e.result.ruling)}, {"text", e.result.text}});
+        {{"scenario", e.scenario}, {"ruling", ClaimOutcomeName(e.result.outcome)}, {"text", e.result.text}});
   }
   Json& answers = facts["answers"] = Json::array();
   for (const auto& [scenario, condition, answer] : report.answers) {

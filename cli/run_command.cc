@@ -83,7 +83,7 @@ void PrintSummary(const RunData& run) {
     fmt::print("\n{} ({}): {}\n", scenario.name, scenario.task, scenario.question);
     PrintTables(scenario, run.rows);
     for (const ExpectationResult& expectation : scenario.expectations) {
-      fmt::print("  {}: {} [{}]\n", ClaimOutcomeName(expectation.ruling), expectation.text, expectation.detail);
+      fmt::print("  {}: {} [{}]\n", ClaimOutcomeName(expectation.outcome), expectation.text, expectation.detail);
     }
   }
 }
@@ -119,7 +119,7 @@ Json FactsOf(const RunOutcome& outcome, const Shard& shard, const RunData* run) 
     Json expectations = Json::array();
     for (const ExpectationResult& one : scenario.expectations) {
       expectations.push_back(
-          {{"expected", one.text}, {"outcome", ClaimOutcomeName(one.ruling)}, {"found", one.detail}});
+          {{"expected", one.text}, {"outcome", ClaimOutcomeName(one.outcome)}, {"found", one.detail}});
     }
     scenarios.push_back(
         {{"scenario", scenario.name}, {"task", scenario.task}, {"expectations", std::move(expectations)}});

@@ -63,14 +63,14 @@ std::string MovementCounts(const std::vector<MetricMove>& moves) {
 }
 
 /// Returns the counts of the verdicts, without zeros: "12 expectations: 11 met, 1 unmet"; "" if there are no items.
-template <typename Items, typename RulingOf>
-std::string RulingCounts(const Items& items, std::string_view what, RulingOf ruling_of) {
+template <typename Items, typename OutcomeOf>
+std::string OutcomeCounts(const Items& items, std::string_view what, OutcomeOf outcome_of) {
   std::string text;
-  for (ClaimOutcome ruling : {ClaimOutcome::kUnmet, ClaimOutcome::kUndecided, ClaimOutcome::kMet}) {
+  for (ClaimOutcome outcome : {ClaimOutcome::kUnmet, ClaimOutcome::kUndecided, ClaimOutcome::kMet}) {
     const auto count =
-        std::count_if(items.begin(), items.end(), [&](const auto& item) { return ruling_of(item) == ruling; });
+        std::count_if(items.begin(), items.end(), [&](const auto& item) { return outcome_of(item) == outcome; });
     if (count == 0) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", FormatCount(count), ClaimOutcomeName(ruling));
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", FormatCount(count), ClaimOutcomeName(outcome));
   }
   return text.empty() ? "" : Plural(static_cast<long long>(items.size()), what) + ": " + text;
 }
@@ -147,8 +147,8 @@ std::string CompareSentence(const SnapshotComparison& comparison) {
 
 std::vector<std::string> GateSentences(const GateReport& report) {
   std::vector<std::string> sentences = {
-      RulingCounts(report.expectations, "expectation", [](const GateExpectation& e) { return e.result.ruling; }),
-      RulingCounts(report.ratios, "time rule", [](const RatioResult& ratio) { return ratio.ruling; })};
+      OutcomeCounts(report.expectations, "expectation", [](const GateExpectation& e) { return e.result.outcome; }),
+      OutcomeCounts(report.ratios, "time rule", [](const RatioResult& ratio) { return ratio.outcome; })};
   if (report.baseline_file.empty()) {
     sentences.push_back("nothing was compared: no baseline was given");
   } else if (!report.comparison.moves.empty()) {
@@ -279,20 +279,20 @@ std::string WorldList(std::string_view title, const std::vector<TailLine>& lines
   return text;
 }
 
-std::vector<std::string> ClaimsThatAre(const GateReport& report, ClaimOutcome ruling) {
+std::vector<std::string> ClaimsThatAre(const GateReport& report, ClaimOutcome outcome) {
   std::vector<std::string> lines;
   for (const GateExpectation& e : report.expectations) {
-    if (e.result.ruling != ruling) continue;
+    if (e.result.outcome != outcome) continue;
     lines.push_back(fmt::format("{}: {} ({})", e.scenario, e.result.text, e.result.detail));
   }
   for (const RatioResult& ratio : report.ratios) {
-    if (ratio.ruling != ruling) continue;
+    if (ratio.outcome != outcome) continue;
     lines.push_back(fmt::format("{}: {} ({})", ratio.scenario, RatioClaim(ratio), RatioDetail(ratio)));
   }
   return lines;
 }
 
-ClaimOutcome RulingOf(const MetricMove& move) {
+ClaimOutcome OutcomeOf(const MetricMove& move) {
   if (IsRegression(move)) return ClaimOutcome::kUnmet;
   return move.movement == Movement::kUnclear ? ClaimOutcome::kUndecided : ClaimOutcome::kMet;
 }
@@ -306,7 +306,7 @@ JunitCase CaseOf(const MetricMove& move, const GateReport& report) {
   for (const TailLine& line : TailLines({&move}, report, kMaxWorldsOfCase)) {
     detail += "\n" + line.world + (line.replay.empty() ? "" : ": " + line.replay);
   }
-  return {fmt::format("{}, {}: {}", row.condition, row.method, row.metric), RulingOf(move), std::move(detail)};
+  return {fmt::format("{}, {}: {}", row.condition, row.method, row.metric), OutcomeOf(move), std::move(detail)};
 }
 
 }  // namespace
@@ -360,10 +360,10 @@ std::string WriteGateJunit(const GateReport& report) {
     return suites[place->second];
   };
   for (const GateExpectation& e : report.expectations) {
-    suite_of(e.scenario).cases.push_back({e.result.text, e.result.ruling, e.result.detail});
+    suite_of(e.scenario).cases.push_back({e.result.text, e.result.outcome, e.result.detail});
   }
   for (const RatioResult& ratio : report.ratios) {
-    suite_of(ratio.scenario).cases.push_back({RatioClaim(ratio), ratio.ruling, RatioDetail(ratio)});
+    suite_of(ratio.scenario).cases.push_back({RatioClaim(ratio), ratio.outcome, RatioDetail(ratio)});
   }
   for (const MetricMove& move : report.comparison.moves) {
     suite_of(move.identity.scenario).cases.push_back(CaseOf(move, report));

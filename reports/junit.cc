@@ -16,8 +16,8 @@ std::string CaseXml(const std::string& suite, const JunitCase& c) {
       fmt::format("    <testcase classname=\"etude.{}\" name=\"{}\"", EscapeMarkup(suite), EscapeMarkup(c.name));
   const std::string detail = EscapeMarkup(c.detail);
   std::string body;
-  if (c.ruling == ClaimOutcome::kUnmet) body = fmt::format("<failure message=\"not met\">{}</failure>", detail);
-  if (c.ruling == ClaimOutcome::kUndecided) body = fmt::format("<skipped message=\"{}\"/>", detail);
+  if (c.outcome == ClaimOutcome::kUnmet) body = fmt::format("<failure message=\"not met\">{}</failure>", detail);
+  if (c.outcome == ClaimOutcome::kUndecided) body = fmt::format("<skipped message=\"{}\"/>", detail);
   if (!c.said.empty()) body += fmt::format("<system-out>{}</system-out>", EscapeMarkup(c.said));
   return body.empty() ? head + "/>\n" : head + fmt::format(">{}</testcase>\n", body);
 }
@@ -67,7 +67,7 @@ std::vector<JunitCase> CasesOf(const RunData& run, const ScenarioSummary& scenar
   std::vector<JunitCase> cases{EveryCellHasARow(run, scenario), NoCellBroke(findings)};
   if (findings.answer.is_compared) cases.push_back(TheAnswer(findings));
   for (const ExpectationResult& e : scenario.expectations) {
-    cases.push_back({e.text, e.ruling, e.detail, fmt::format("judged on {}", TheseUnits(scenario.unit))});
+    cases.push_back({e.text, e.outcome, e.detail, fmt::format("judged on {}", TheseUnits(scenario.unit))});
   }
   for (JunitCase& clip : LimitCases(run, scenario.name)) cases.push_back(std::move(clip));
   return cases;
@@ -82,8 +82,8 @@ std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>
     std::size_t failed = 0, skipped = 0;
     std::string cases;
     for (const JunitCase& c : suite.cases) {
-      failed += c.ruling == ClaimOutcome::kUnmet;
-      skipped += c.ruling == ClaimOutcome::kUndecided;
+      failed += c.outcome == ClaimOutcome::kUnmet;
+      skipped += c.outcome == ClaimOutcome::kUndecided;
       cases += CaseXml(suite.name, c);
     }
     body += fmt::format(

@@ -11,7 +11,7 @@ namespace etude {
 /// A case of a JUnit file: kMet passes, kUnmet is a failure, kUndecided is skipped.
 struct JunitCase {
   std::string name;
-  ClaimOutcome ruling;
+  ClaimOutcome outcome;
   std::string detail;
   std::string said = {};  ///< further text for readers, written whatever the verdict
 };

@@ -51,10 +51,10 @@ std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
   text += WhatIsComparedText(scenario) + OverviewTableMarkdown(scenario);
   text += ComparisonTableMarkdown(scenario) + AcrossTableMarkdown(scenario) + '\n';
   for (const ExpectationResult& e : scenario.expectations) {
-    const std::string_view ruling = e.ruling == ClaimOutcome::kMet     ? "met"
-                                    : e.ruling == ClaimOutcome::kUnmet ? "**not met**"
-                                                                       : "undecided";
-    text += fmt::format("- {}: {}{}\n", ruling, EscapeMarkdown(e.text),
+    const std::string_view outcome = e.outcome == ClaimOutcome::kMet     ? "met"
+                                     : e.outcome == ClaimOutcome::kUnmet ? "**not met**"
+                                                                         : "undecided";
+    text += fmt::format("- {}: {}{}\n", outcome, EscapeMarkdown(e.text),
                         e.detail.empty() ? "" : fmt::format(" ({})", EscapeMarkdown(e.detail)));
   }
   text += fmt::format("- {}\n", EscapeMarkdown(StatusSentence(findings)));

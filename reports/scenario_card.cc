@@ -212,7 +212,7 @@ std::string Expectations(const ScenarioSummary& scenario) {
   std::string html = "<ul class=\"expectations\">";
   int met = 0, unmet = 0;
   for (const ExpectationResult& e : scenario.expectations) {
-    const bool is_met = e.ruling == ClaimOutcome::kMet, is_unmet = e.ruling == ClaimOutcome::kUnmet;
+    const bool is_met = e.outcome == ClaimOutcome::kMet, is_unmet = e.outcome == ClaimOutcome::kUnmet;
     met += is_met;
     unmet += is_unmet;
     html += fmt::format("<li class=\"{}\"><b>{}</b> {} <span class=\"quiet\">{}</span></li>",

@@ -16,3 +16,5 @@ s/goes on: no switch, for comparison/goes on: no transition, for comparison/g
 s/\ba switch needs two clips/a transition needs two clips/g
 s/\ba switch is judged over at least/a transition is judged over at least/g
 s/nothing moves around the seam, or too shortly/nothing moves around the transition, or too shortly/g
+# Metrics of the coach's transitions.
+s/\bswitch_(jump_cm|natural_share|bridged_share)\b/transition_\1/g

@@ -32,7 +32,7 @@ constexpr const char* kReadme =
     R"(# A data set of Etude
 
 - `inputs/` is what a method may see: give this folder away.
-- `truth/` is what its answers are judged by: keep it. (`manifest.json`, too: whoever has Etude can make the truth of it.)
+- `truth/` is what the answers are judged by. Do not give it away, nor `manifest.json`, from which Etude can make the truth.
 
 `inputs/index.csv` lists the problems. A problem is `SCENARIO/CONDITION/TRIAL/problem.json` with its files beside it; what
 the problems of a condition share is `SCENARIO/CONDITION/setting.json` (of recorded people, whom others taught, one

@@ -42,9 +42,9 @@ RatioResult Judge(const FinishedRun& run, const FinishedScenario& scenario, cons
   result.ci_low = interval->low;
   result.ci_high = interval->high;
   if (*result.median <= rule.at_most) {
-    result.ruling = ClaimOutcome::kMet;
+    result.outcome = ClaimOutcome::kMet;
   } else if (interval->low > rule.at_most) {
-    result.ruling = ClaimOutcome::kUnmet;
+    result.outcome = ClaimOutcome::kUnmet;
   }
   return result;
 }
@@ -186,7 +186,7 @@ bool IsRegression(const MetricMove& move) {
 
 GateVerdict GateVerdictOf(const GateReport& report) {
   if (!report.incomplete.empty()) return GateVerdict::kIncomplete;
-  const auto unmet = [](const auto& judged) { return judged.ruling == ClaimOutcome::kUnmet; };
+  const auto unmet = [](const auto& judged) { return judged.outcome == ClaimOutcome::kUnmet; };
   const bool fails = !report.silent.empty() ||
                      std::any_of(report.comparison.moves.begin(), report.comparison.moves.end(), IsRegression) ||
                      std::any_of(report.ratios.begin(), report.ratios.end(), unmet) ||

@@ -16,7 +16,7 @@ struct RatioResult {
   std::optional<double> median, ci_low, ci_high;  ///< of the ratios of processor times
   /// Unmet if the whole interval lies above the limit. Undecided if only the median does (times vary on a busy
   /// machine), or if too few worlds have both times.
-  ClaimOutcome ruling = ClaimOutcome::kUndecided;
+  ClaimOutcome outcome = ClaimOutcome::kUndecided;
 };
 
 /// Judges the time rules of all scenarios. Both times of a pair come from the same world of the same run.

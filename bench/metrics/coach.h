@@ -70,9 +70,9 @@ std::optional<double> Retention(std::span<const double> chances);
 /// without errors.
 std::optional<double> BeatErrorMs(std::span<const double> errors_s);
 
-/// Returns the median, used by `switch_jump_cm`. Empty without values.
+/// Returns the median, used by `transition_jump_cm`. Empty without values.
 std::optional<double> MedianOf(std::vector<double> values);
-/// Returns `switch_natural_share`: the share of transitions whose jumps are natural (IsNatural) compared with the
+/// Returns `transition_natural_share`: the share of transitions whose jumps are natural (IsNatural) compared with the
 /// windows of the unbroken song, of which at least one is required. Empty without transitions.
 std::optional<double> NaturalShare(std::span<const double> jumps_cm, const std::vector<double>& natural_jumps_cm);
 

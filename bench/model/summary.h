@@ -188,12 +188,12 @@ struct AcrossVerdict {
 enum class ClaimOutcome { kMet, kUnmet, kUndecided };
 inline constexpr std::array<Named<ClaimOutcome>, 3> kClaimOutcomes = {
     {{"met", ClaimOutcome::kMet}, {"unmet", ClaimOutcome::kUnmet}, {"undecided", ClaimOutcome::kUndecided}}};
-std::string_view ClaimOutcomeName(ClaimOutcome ruling);
+std::string_view ClaimOutcomeName(ClaimOutcome outcome);
 
 /// An expectation of a scenario and its result.
 struct ExpectationResult {
   std::string text;  ///< "orientation_error_deg of adaptive below fixed"
-  ClaimOutcome ruling = ClaimOutcome::kUndecided;
+  ClaimOutcome outcome = ClaimOutcome::kUndecided;
   std::string detail;  ///< the figures that decided it
 };
 

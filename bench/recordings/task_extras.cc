@@ -149,8 +149,9 @@ std::string RecordingsAsMarkdown() {
          RecordFields::Page<IkExtras>() +
          "\n## transition\n\n"
          "Tracks: `coach`, from some seconds before the transition to the end of what is judged, and some seconds\n"
-         "after it; `left`, the clip left, in the same frames and up to 0.4 s longer; `wanted`, the clip wanted in\n"
-         "its place, without the join, from the last of `transition_frames` on; `through`, likewise a clip played on\n"
+         "after it; `left`, the clip left, in the same frames and up to 0.4 s longer; `wanted`, the wanted clip "
+         "without\n"
+         "the join, from the last of `transition_frames` on; `through`, in the same way a clip played on\n"
          "the way, from the first of them on. Older runs keep `coach` alone.\n\n" +
          RecordFields::Page<TransitionExtras>() +
          "\n## detection\n\nTracks `truth` and `sensed`, as the recogniser saw it.\n\n" +

@@ -138,7 +138,7 @@ constexpr std::tuple kKeys<AcrossVerdict> = {
 
 template <>
 constexpr std::tuple kKeys<ExpectationResult> = {Key("text", &ExpectationResult::text),
-                                                 Key("outcome", &ExpectationResult::ruling),
+                                                 Key("outcome", &ExpectationResult::outcome),
                                                  Key("detail", &ExpectationResult::detail)};
 
 template <>

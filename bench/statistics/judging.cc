@@ -224,7 +224,7 @@ std::string Claim(const Expectation& expectation) {
 
 /// The result of one expectation under one condition, with the figures behind it.
 struct Finding {
-  ClaimOutcome ruling;
+  ClaimOutcome outcome;
   std::string detail;
 };
 
@@ -245,31 +245,31 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
   const std::string missing = without == 0 ? "" : fmt::format(", {} more have no pair of values", without);
   if (!found.ci_low)
     return {ClaimOutcome::kUndecided, fmt::format("only {} worlds have both values{}", found.pairs, missing)};
-  const ClaimOutcome ruling = found.verdict == Verdict::kBetter         ? ClaimOutcome::kMet
-                              : found.verdict == Verdict::kInconclusive ? ClaimOutcome::kUndecided
-                                                                        : ClaimOutcome::kUnmet;
+  const ClaimOutcome outcome = found.verdict == Verdict::kBetter         ? ClaimOutcome::kMet
+                               : found.verdict == Verdict::kInconclusive ? ClaimOutcome::kUndecided
+                                                                         : ClaimOutcome::kUnmet;
   // The figures behind it.
   const std::string unit = metric.unit.empty() ? "" : " " + metric.unit;
   std::string detail = fmt::format(
       "difference {:.4g}{} ({:.4g} % interval {:.4g} to {:.4g}, p = {:.2g}) on {} worlds{}", *found.difference, unit,
       100 * expectation.confidence, *found.ci_low, *found.ci_high, *found.p_holm, found.pairs, missing);
-  if (found.verdict != of_pairs) return {ruling, detail + "; it does not hold when failing counts as losing"};
+  if (found.verdict != of_pairs) return {outcome, detail + "; it does not hold when failing counts as losing"};
   const double alpha = 1 - expectation.confidence;
-  if (ruling == ClaimOutcome::kUndecided && SmallestP(found.differing) > alpha) {
+  if (outcome == ClaimOutcome::kUndecided && SmallestP(found.differing) > alpha) {
     detail += fmt::format("; {} of them differ, and {:.4g} % needs at least {}", found.differing,
                           100 * expectation.confidence, PairsNeeded(1, alpha));
   }
-  return {ruling, detail};
+  return {outcome, detail};
 }
 
 /// Changes "met" into "unmet" if an answer about the same methods would be decided by success, the other way.
 void AskSuccessFirst(const Expectation& expectation, const Study& study, const ConditionTable& table,
                      const std::string& other, bool wants_lower, std::uint64_t seed, Finding& finding) {
   const bool wants_better = wants_lower == (FindMetric(expectation.metric)->direction == Direction::kLowerIsBetter);
-  if (finding.ruling != ClaimOutcome::kMet || !wants_better || expectation.metric != ValueMetricOf(study)) return;
+  if (finding.outcome != ClaimOutcome::kMet || !wants_better || expectation.metric != ValueMetricOf(study)) return;
   const auto success = CompareSuccess(study, table, expectation.of, other, seed);
   if (!success || success->verdict != Verdict::kWorse) return;
-  finding.ruling = ClaimOutcome::kUnmet;
+  finding.outcome = ClaimOutcome::kUnmet;
   finding.detail += fmt::format("; but its success ({}) is worse by {:.4g}", FindMetric(study.success)->label,
                                 std::abs(*success->difference));
 }
@@ -354,9 +354,9 @@ ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& 
     if (!result.detail.empty()) result.detail += "; ";
     result.detail += label.empty() ? finding.detail : label + ": " + finding.detail;
     // One unmet condition makes the whole unmet; otherwise one undecided condition makes it undecided.
-    if (finding.ruling == ClaimOutcome::kUnmet) result.ruling = ClaimOutcome::kUnmet;
-    if (finding.ruling == ClaimOutcome::kUndecided && result.ruling == ClaimOutcome::kMet)
-      result.ruling = finding.ruling;
+    if (finding.outcome == ClaimOutcome::kUnmet) result.outcome = ClaimOutcome::kUnmet;
+    if (finding.outcome == ClaimOutcome::kUndecided && result.outcome == ClaimOutcome::kMet)
+      result.outcome = finding.outcome;
   }
   return result;
 }

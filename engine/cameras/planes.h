@@ -38,9 +38,9 @@ struct PictureSize {
 Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::span<const TargetView> views,
                                        const RefineOptions& options = {});
 
-/// Finds the poses of flat boards that minimise the reprojection error of known cameras. The cameras are held as they
-/// are, with their lenses, in any world. Views are selected as in `CalibrateFromPlanes`. Fails if no camera shows a
-/// board.
+/// Finds the poses of flat boards that minimise the reprojection error of known cameras. The cameras, with their
+/// lenses, are not changed; their world may be any. Views are selected as in `CalibrateFromPlanes`. Fails if no camera
+/// shows a board.
 Result<RefinedRig> LocateBoards(std::span<const Camera> cameras, std::span<const TargetView> views);
 
 }  // namespace etude

@@ -56,7 +56,7 @@ Result<std::vector<Feature>> ReadGroup(const Node::Entry& entry) {
 }
 
 Result<Universe> ReadUniverse(Fields& fields) {
-  constexpr double kMaxNumber = 1e6;  // the limit of shapes, too
+  constexpr double kMaxNumber = 1e6;  // the same limit as for the numbers of shapes
   const Node* node = fields.Raw("universe");
   const std::vector<double> ends = fields.Numbers("universe", {-kMaxNumber, kMaxNumber});
   if (node != nullptr && fields.ok() && ends.size() == 2 && ends[0] < ends[1]) return Universe{ends[0], ends[1]};

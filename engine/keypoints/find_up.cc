@@ -22,9 +22,9 @@ double Cost(double r) { return 0.5 * (kFreedom + 1) * std::log1p(r * r / kFreedo
 double Weight(double r) { return 1 / (1 + r * r / kFreedom); }
 
 /// The cues for the direction, in the order in which texts name them.
-enum Witness { kCameras, kFeetAtRest, kStraight, kFlight, kWitnesses };
-constexpr std::array<const char*, kWitnesses> kWitnessNames = {"the cameras' horizons", "resting feet",
-                                                               "a person who stands straight", "gravity in jumps"};
+enum Cue { kCameras, kFeetAtRest, kStraight, kFlight, kCueCount };
+constexpr std::array<const char*, kCueCount> kCueNames = {"the cameras' horizons", "resting feet",
+                                                          "a person who stands straight", "gravity in jumps"};
 
 /// The directions of a camera's picture in one of its quarter turns: its rows, its upper edge, and the viewing axis.
 struct Picture {
@@ -52,11 +52,11 @@ class Sum {
   }
 
   /// Adds a residual and its derivative with respect to the direction, counted `share` times.
-  void Add(Witness witness, double residual, const glm::dvec3& derivative, double share = 1) {
+  void Add(Cue cue, double residual, const glm::dvec3& derivative, double share = 1) {
     const glm::dvec2 j = glm::transpose(tangent_) * derivative;
     const double weight = share * Weight(residual);
     information += weight * glm::outerProduct(j, j);
-    by[witness] += weight * glm::dot(j, j);
+    by[cue] += weight * glm::dot(j, j);
     right_ -= weight * residual * j;
     squares += weight * residual * residual;
     count += share;
@@ -77,7 +77,7 @@ class Sum {
   }
 
   glm::dmat2 information{0};
-  std::array<double, kWitnesses> by{};
+  std::array<double, kCueCount> by{};
   double squares = 0, count = 0, cost = 0;
 
  private:
@@ -184,10 +184,10 @@ std::optional<glm::dvec3> Flight(std::span<const LandmarkPositions> points, doub
 }
 
 /// All that is known about the direction.
-class Witnesses {
+class Cues {
  public:
-  Witnesses(std::span<const NamedCamera> cameras, std::span<const LandmarkPositions> points, double rate_hz,
-            double stature, double metre)
+  Cues(std::span<const NamedCamera> cameras, std::span<const LandmarkPositions> points, double rate_hz, double stature,
+       double metre)
       : cameras_(cameras),
         stature_(stature),
         stays_(FeetAtRest(points, rate_hz, stature)),
@@ -310,15 +310,15 @@ class Witnesses {
   }
 
   /// Adds a direction with the standard deviation `sigma`, unless leaving it out costs less.
-  static void AddDirection(Witness witness, const glm::dvec3& known, double sigma, double most_cost,
-                           const glm::dvec3& up, Sum& sum) {
+  static void AddDirection(Cue cue, const glm::dvec3& known, double sigma, double most_cost, const glm::dvec3& up,
+                           Sum& sum) {
     const double angle = AngleBetween(known, up) / sigma;
     sum.cost += std::min(most_cost, Cost(angle));
     if (Cost(angle) > most_cost) return;
     const glm::dvec3 away = UnitOr(up - glm::dot(up, known) * known, {0, 0, 0});
-    sum.Add(witness, angle, away / sigma);
+    sum.Add(cue, angle, away / sigma);
     const glm::dvec3 across = glm::cross(known, away);
-    sum.Add(witness, 0, across / sigma, Weight(angle));
+    sum.Add(cue, 0, across / sigma, Weight(angle));
   }
 
   std::span<const NamedCamera> cameras_;
@@ -328,13 +328,13 @@ class Witnesses {
   std::optional<glm::dvec3> straight_, flight_;
 };
 
-std::string NameWitnesses(const Sum& sum) {
+std::string NameCues(const Sum& sum) {
   constexpr double kMinShare = 0.1;
   double all = 0;
   for (const double one : sum.by) all += one;
   std::vector<std::string> names;
-  for (int witness = 0; witness < kWitnesses; ++witness) {
-    if (sum.by[witness] > kMinShare * all) names.emplace_back(kWitnessNames[witness]);
+  for (int cue = 0; cue < kCueCount; ++cue) {
+    if (sum.by[cue] > kMinShare * all) names.emplace_back(kCueNames[cue]);
   }
   return Join(names);
 }
@@ -343,21 +343,21 @@ std::string NameWitnesses(const Sum& sum) {
 
 FoundUp FindUp(std::span<const NamedCamera> cameras, std::span<const LandmarkPositions> points, double rate_hz,
                double stature, double metre) {
-  const Witnesses witnesses(cameras, points, rate_hz, stature, metre);
+  const Cues cues(cameras, points, rate_hz, stature, metre);
   // Descend from every beginning.
   std::vector<std::pair<double, glm::dvec3>> found;  // with its cost
-  for (const glm::dvec3& beginning : witnesses.Beginnings()) {
+  for (const glm::dvec3& beginning : cues.Beginnings()) {
     glm::dvec3 up = beginning;
     constexpr int kSteps = 20;
-    for (int step = 0; step < kSteps; ++step) up = witnesses.At(up).Step(up);
-    found.emplace_back(witnesses.At(up).cost, up);
+    for (int step = 0; step < kSteps; ++step) up = cues.At(up).Step(up);
+    found.emplace_back(cues.At(up).cost, up);
   }
   const auto [cost, up] = *std::ranges::min_element(found, {}, [](const auto& one) { return one.first; });
   // The accuracy follows from the curvature, the disagreement of the cues, and the nearest other minimum.
-  const Sum sum = witnesses.At(up);
+  const Sum sum = cues.At(up);
   constexpr double kSolvedFor = 2;
   const double spread = std::max(1.0, sum.squares / std::max(1.0, sum.count - kSolvedFor));
-  FoundUp best{up, std::sqrt(spread) * sum.Deviation(), 0, NameWitnesses(sum)};
+  FoundUp best{up, std::sqrt(spread) * sum.Deviation(), 0, NameCues(sum)};
   constexpr double kNinetyFive = 2.45, kNearly = 3, kOther = Radians(10);  // radius of 95 % of a plane normal
   best.within = std::min(kPi, kNinetyFive * best.deviation);
   for (const auto& [rival_cost, rival] : found) {

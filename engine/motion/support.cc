@@ -186,7 +186,7 @@ class SupportFinder::ClipSupport {
   int window_ = 0;  // frames
   std::vector<BodyPose> velocities_;
   std::vector<Bearing> bearing_;
-  JointSet ever_bear_, ever_rest_;           // every joint that rests also bears
+  JointSet ever_bear_, ever_rest_;           // a joint that rests is in both sets
   std::array<double, kRoleCount> lowest_{};  // lowest height at which each joint bears
 };
 

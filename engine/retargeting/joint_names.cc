@@ -61,7 +61,7 @@ constexpr LimbNames kLegSchemes[] = {
     {{"upleg", "knee", "ankle"}},              // likewise
     {{"upleg", "knee", "foot"}},               // likewise
     {{"leg", "knee", "ankle"}},                // MikuMikuDance in English
-    {{"hip", "knee", "ankle"}},                // Biovision and its kin
+    {{"hip", "knee", "ankle"}},                // Biovision and similar schemes
     {{"upleg", "lowleg", "foot"}},             // Biovision's own samples
     {{"upperleg", "lowerleg", "foot"}},        // Bandai-Namco, VRM, KayKit, three.js, Xsens' segments
     {{"thigh", "calf", "foot"}},               // 3ds Max' biped, Unreal

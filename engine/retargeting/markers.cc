@@ -269,7 +269,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   // Rotate upright. What Etude wrote has Y up.
   UpRule rule = options.up;
   if (IsOwn(set) && rule.evidence == UpEvidence::kPosture) {
-    rule = {.axis = {0, 1, 0}, .evidence = UpEvidence::kFile, .source = "the word of Etude's own joints"};
+    rule = {.axis = {0, 1, 0}, .evidence = UpEvidence::kFile, .source = "the rule of Etude's own joints"};
   }
   MarkerBody body{.name = "", .motion = {.rate_hz = markers.rate_hz, .poses = {}}, .up = {}, .changes = {set.name}};
   body.up = FindUpOf(frames, markers.rate_hz, rule);

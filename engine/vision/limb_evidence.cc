@@ -30,8 +30,8 @@ constexpr Body BodyOf(Anatomy thigh, Anatomy shank, Anatomy foot, Anatomy upper_
   return {thigh, shank, foot, thigh, shank, foot, upper_arm, forearm, hand, upper_arm, forearm, hand, head};
 }
 
-/// The body of capsules: only trunk joints follow from the limb that begins there, others from the round end of the
-/// limb before.
+/// The body of capsules. Only joints of the trunk are found from the limb that begins there; the others are found from
+/// the round end of the preceding limb.
 constexpr Body kCapsules = BodyOf({6, -0.94}, {8, 0}, {6, 0}, {6.5, -1.04}, {7, 0}, {5.5, 0}, {1, -0.35});
 constexpr Body kDressed =
     BodyOf({6, -1.55, 1, Landmark::kBorderEnd}, {8, -0.5}, {6, 0, 0.62}, {6.5, 0.97, 1, Landmark::kInnerEnd},

@@ -93,7 +93,7 @@ std::optional<UpRule> UpRuleOf(ClipFormat format) {
     case ClipFormat::kFbx: {
       UpRule of_file = GltfUp();  // assimp has already turned the scene as its settings say
       of_file.evidence = UpEvidence::kFile;
-      of_file.source = "the word of its settings";
+      of_file.source = "the settings in the file";
       return of_file;
     }
     case ClipFormat::kDeepMimic:

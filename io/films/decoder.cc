@@ -138,7 +138,7 @@ Decoder::~Decoder() {
 }
 
 Result<bool> Decoder::Next(ColourImage& frame) {
-  static_assert(sizeof(Rgb8) == 3, "pictures arrive as they lie in memory");
+  static_assert(sizeof(Rgb8) == 3, "pictures are read in their layout in memory");
   if (frame.width != facts_.width || frame.height != facts_.height) frame = ColourImage(facts_.width, facts_.height);
   if (!frames_) return false;
   const std::size_t count = std::fread(frame.pixels.data(), sizeof(Rgb8), frame.pixels.size(), frames_.get());

@@ -83,7 +83,7 @@ Encoder::~Encoder() {
 }
 
 Result<void> Encoder::Add(const ColourImage& picture) {
-  static_assert(sizeof(Rgb8) == 3, "pictures are sent as they lie in memory");
+  static_assert(sizeof(Rgb8) == 3, "pictures are sent in their layout in memory");
   return Add({reinterpret_cast<const std::uint8_t*>(picture.pixels.data()), picture.pixels.size() * sizeof(Rgb8)});
 }
 

@@ -264,7 +264,7 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
     ASSIGN_OR_RETURN(auto file, MakeFile(text));
     child.texts.push_back(std::move(file));
   }
-  // Fork. If the kernel refuses the control group or the namespaces, go on without.
+  // Fork. If the kernel refuses the control group or the namespaces, continue without them.
   ::signal(SIGPIPE, SIG_IGN);
   pid_t pid = options.contained ? ForkContained(options.control_group) : ::fork();
   if (pid < 0 && options.control_group >= 0) pid = ForkContained(-1);

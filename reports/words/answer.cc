@@ -46,7 +46,7 @@ std::string SentenceFor(const Comparison& c, const std::string& other, const Met
                        words.label);
   }
   if (!c.ci_low) {
-    return fmt::format("“{}” and {} have values together in {} only: too few to judge the {}", c.method, other,
+    return fmt::format("“{}” and {} both have a value in {} only: too few to judge the {}", c.method, other,
                        Plural(c.pairs, "world"), words.label);
   }
   // The difference, and the mean if it tells more.

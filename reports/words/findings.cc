@@ -277,9 +277,9 @@ RunFindings FindingsOf(const RunData& run) {
   // How the expectations were decided.
   for (const ScenarioSummary& scenario : run.scenarios) {
     for (const ExpectationResult& expectation : scenario.expectations) {
-      if (expectation.ruling == ClaimOutcome::kMet) ++f.met;
-      if (expectation.ruling == ClaimOutcome::kUnmet) ++f.unmet;
-      if (expectation.ruling == ClaimOutcome::kUndecided) ++f.undecided;
+      if (expectation.outcome == ClaimOutcome::kMet) ++f.met;
+      if (expectation.outcome == ClaimOutcome::kUnmet) ++f.unmet;
+      if (expectation.outcome == ClaimOutcome::kUndecided) ++f.undecided;
     }
   }
   f.sentence = ExpectationsSentence(f) + MeasuredSentence(f);

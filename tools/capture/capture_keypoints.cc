@@ -29,7 +29,8 @@ RecoverPersonOptions RecoverOptionsOf(const CaptureFilmsOptions& options, const 
   recover.person = static_cast<std::size_t>(options.person - 1);
   recover.cutoff_hz = options.smooth_hz;
   recover.max_gap_s = options.max_gap_s;
-  constexpr double kMinOutlierShare = 0.004;  // of the picture's longer side: errors that rounding and lenses leave
+  constexpr double kMinOutlierShare =
+      0.004;  // of the picture's longer side; rounding and lenses cause errors up to this
   recover.min_outlier_px = kMinOutlierShare * longer_side;
   if (options.outlier_px > 0) recover.triangulate.robust.outlier_px = recover.min_outlier_px = options.outlier_px;
   recover.mends = recover.match.may_be_swapped = true;

@@ -203,11 +203,11 @@ void ScoreCoaching(const CoachWorld& world, const CoachStage& stage, const Sessi
   // How the dance looked: beats and transitions.
   result.MeasureOr("beat_error_ms", BeatErrorMs(log.beat_errors_s), "nothing was danced to music");
   const auto bridged = std::ranges::count_if(log.transitions, &LoggedTransition::is_bridged);
-  result.MeasureOr("switch_bridged_share", Share(bridged, static_cast<std::int64_t>(log.transitions.size())),
+  result.MeasureOr("transition_bridged_share", Share(bridged, static_cast<std::int64_t>(log.transitions.size())),
                    "there was no transition");
   const std::vector<double> jumps = JumpsOf(log);
-  result.MeasureOr("switch_jump_cm", MedianOf(jumps), "there was no transition");
-  result.MeasureOr("switch_natural_share", NaturalShare(jumps, stage.natural_jumps_cm), "there was no transition");
+  result.MeasureOr("transition_jump_cm", MedianOf(jumps), "there was no transition");
+  result.MeasureOr("transition_natural_share", NaturalShare(jumps, stage.natural_jumps_cm), "there was no transition");
 
   // Digests of the session's stages.
   Digest sensed;
@@ -238,9 +238,9 @@ std::vector<std::string> CoachMetrics() {
           "danced_share",
           "gave_up",
           "beat_error_ms",
-          "switch_jump_cm",
-          "switch_natural_share",
-          "switch_bridged_share"};
+          "transition_jump_cm",
+          "transition_natural_share",
+          "transition_bridged_share"};
 }
 
 }  // namespace etude

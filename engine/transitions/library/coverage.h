@@ -23,7 +23,7 @@ struct ClipCoverage {
   double in_between_share = 0;
 };
 
-/// Which coverages are computed. Those of pairs cost time and memory that grow with the square of the library.
+/// The choice of the coverages to compute. Those of pairs cost time and memory that grow with the square of the library.
 struct CoverageOptions {
   double budget_s = 1;             ///< maximal wait before a transition, seconds
   bool with_pairs = true;          ///< computes Coverage::Of

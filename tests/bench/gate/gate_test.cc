@@ -50,7 +50,7 @@ TEST(Gate, FailsOnAnUnmetExpectationWithoutAnyBaseline) {
   FinishedRun run = Steady();
   run.data.scenarios[0].expectations = {{"a below b", ClaimOutcome::kUndecided, "few"}};
   EXPECT_EQ(GateVerdictOf(*JudgeRun(run, nullptr, "")), GateVerdict::kPassed);
-  run.data.scenarios[0].expectations[0].ruling = ClaimOutcome::kUnmet;
+  run.data.scenarios[0].expectations[0].outcome = ClaimOutcome::kUnmet;
   EXPECT_EQ(GateVerdictOf(*JudgeRun(run, nullptr, "")), GateVerdict::kRegressed);
 }
 
@@ -139,12 +139,12 @@ FinishedRun Timed(double ratio, int worlds) {
 }
 
 TEST(TimeRatios, AreJudgedByTheIntervalOfPairedRatios) {
-  const auto ruling = [](double ratio, int worlds = 24) { return JudgeTimeRatios(Timed(ratio, worlds))[0].ruling; };
-  EXPECT_EQ(ruling(1.5), ClaimOutcome::kMet);
-  EXPECT_EQ(ruling(2.5), ClaimOutcome::kUnmet);
-  EXPECT_EQ(ruling(2.5, 2), ClaimOutcome::kUndecided);  // four worlds under two conditions
-  EXPECT_EQ(ruling(1.985), ClaimOutcome::kUndecided);   // the median lies above the limit, the interval across it
-  EXPECT_EQ(ruling(2.5, 0), ClaimOutcome::kUndecided);
+  const auto outcome = [](double ratio, int worlds = 24) { return JudgeTimeRatios(Timed(ratio, worlds))[0].outcome; };
+  EXPECT_EQ(outcome(1.5), ClaimOutcome::kMet);
+  EXPECT_EQ(outcome(2.5), ClaimOutcome::kUnmet);
+  EXPECT_EQ(outcome(2.5, 2), ClaimOutcome::kUndecided);  // four worlds under two conditions
+  EXPECT_EQ(outcome(1.985), ClaimOutcome::kUndecided);   // the median lies above the limit, the interval across it
+  EXPECT_EQ(outcome(2.5, 0), ClaimOutcome::kUndecided);
   EXPECT_EQ(GateVerdictOf(*JudgeRun(Timed(2.5, 24), nullptr, "")), GateVerdict::kRegressed);
   EXPECT_EQ(GateVerdictOf(*JudgeRun(Timed(1.5, 24), nullptr, "")), GateVerdict::kPassed);
 }

@@ -71,12 +71,12 @@ std::span<const Evaluator> CoachEvaluators() {
        [](const Json& in) -> Value { return Share(in.at("danced_frames").get<int>(), in.at("frames").get<int>()); }},
       {"gave_up", [](const Json& in) -> Value { return in.at("given_up").get<bool>() ? 1.0 : 0.0; }},
       {"beat_error_ms", [](const Json& in) -> Value { return BeatErrorMs(NumbersOf(in, "errors_s")); }},
-      {"switch_jump_cm", [](const Json& in) -> Value { return MedianOf(NumbersOf(in, "jumps_cm")); }},
-      {"switch_natural_share",
+      {"transition_jump_cm", [](const Json& in) -> Value { return MedianOf(NumbersOf(in, "jumps_cm")); }},
+      {"transition_natural_share",
        [](const Json& in) -> Value {
          return NaturalShare(NumbersOf(in, "jumps_cm"), NumbersOf(in, "natural_jumps_cm"));
        }},
-      {"switch_bridged_share",
+      {"transition_bridged_share",
        [](const Json& in) -> Value { return Share(in.at("bridged").get<int>(), in.at("transitions").get<int>()); }},
   };
   return kAll;

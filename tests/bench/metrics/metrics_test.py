@@ -127,7 +127,7 @@ MUTANTS = {
     "what was given up left out": (coach, {"kaplan_meier_median": lambda waits: or_nothing(statistics.median)(
         [time for time, happened in waits if happened])}, [
             "repetitions_until_right"]),
-    "the mean beat error": (coach, {"PERCENTILE": 0.5}, ["beat_error_ms", "switch_natural_share"]),
+    "the mean beat error": (coach, {"PERCENTILE": 0.5}, ["beat_error_ms", "transition_natural_share"]),
     "action points within half a second": (detection, {"POINT_TOLERANCE_S": 0.5}, ["action_point_f"]),
     "several detections of one point": (detection, {"most_pairs": lambda points, detections: sum(
         any(abs(d - p) <= 0.333 for p in points) for d in detections)}, ["action_point_f"]),

@@ -97,9 +97,9 @@ TEST(Expectation, AboutTheValueIsUnmetWhereSuccessIsWorse) {
                      })
         .expectations.front();
   };
-  EXPECT_EQ(expectation_when(12).ruling, ClaimOutcome::kMet);
+  EXPECT_EQ(expectation_when(12).outcome, ClaimOutcome::kMet);
   const ExpectationResult judged = expectation_when(5);
-  EXPECT_EQ(judged.ruling, ClaimOutcome::kUnmet);
+  EXPECT_EQ(judged.outcome, ClaimOutcome::kUnmet);
   EXPECT_NE(judged.detail.find(" cm (95 % interval"), std::string::npos) << judged.detail;
   EXPECT_NE(judged.detail.find("but its success (solved"), std::string::npos) << judged.detail;
 }

@@ -171,11 +171,11 @@ TEST_F(SummaryTest, PairsByWorldAgainstTheFirstMethod) {
 
 TEST_F(SummaryTest, JudgesExpectations) {
   ASSERT_EQ(summary.expectations.size(), 5u);
-  EXPECT_EQ(summary.expectations[0].ruling, ClaimOutcome::kMet) << summary.expectations[0].detail;
-  EXPECT_EQ(summary.expectations[1].ruling, ClaimOutcome::kUnmet) << summary.expectations[1].detail;
-  EXPECT_EQ(summary.expectations[2].ruling, ClaimOutcome::kMet) << summary.expectations[2].detail;
-  EXPECT_EQ(summary.expectations[3].ruling, ClaimOutcome::kUnmet) << summary.expectations[3].detail;
-  EXPECT_EQ(summary.expectations[4].ruling, ClaimOutcome::kUndecided) << summary.expectations[4].detail;
+  EXPECT_EQ(summary.expectations[0].outcome, ClaimOutcome::kMet) << summary.expectations[0].detail;
+  EXPECT_EQ(summary.expectations[1].outcome, ClaimOutcome::kUnmet) << summary.expectations[1].detail;
+  EXPECT_EQ(summary.expectations[2].outcome, ClaimOutcome::kMet) << summary.expectations[2].detail;
+  EXPECT_EQ(summary.expectations[3].outcome, ClaimOutcome::kUnmet) << summary.expectations[3].detail;
+  EXPECT_EQ(summary.expectations[4].outcome, ClaimOutcome::kUndecided) << summary.expectations[4].detail;
 }
 
 TEST_F(SummaryTest, TakesAFailureForALossAndAMetricThatDoesNotApplyForNone) {
@@ -190,7 +190,7 @@ TEST_F(SummaryTest, TakesAFailureForALossAndAMetricThatDoesNotApplyForNone) {
     alone.conditions.pop_back();
     alone.metrics = {"position_error_cm"};
     const ScenarioSummary judged = Summarise(alone, Tabulate(alone, std::span(fewer).first(20)), 1);
-    return std::pair(judged.conditions[0].comparisons[0].verdict, judged.expectations[0].ruling);
+    return std::pair(judged.conditions[0].comparisons[0].verdict, judged.expectations[0].outcome);
   };
   EXPECT_EQ(verdict_when_b_ends(Status::kFailed), std::pair(Verdict::kInconclusive, ClaimOutcome::kUndecided));
   EXPECT_EQ(verdict_when_b_ends(Status::kOk), std::pair(Verdict::kBetter, ClaimOutcome::kMet));
@@ -200,7 +200,7 @@ TEST_F(SummaryTest, AnExpectationIsHeldToItsConfidence) {
   Expectation below = study.expectations[0];
   below.confidence = 0.999;  // nine pairs reach p = 0.0039 at best
   const ExpectationResult result = JudgeExpectation(below, study, Tabulate(study, rows), 1);
-  EXPECT_EQ(result.ruling, ClaimOutcome::kUndecided);
+  EXPECT_EQ(result.outcome, ClaimOutcome::kUndecided);
   EXPECT_THAT(result.detail, testing::HasSubstr("9 of them differ, and 99.9 % needs at least 11"));
   EXPECT_THAT(result.detail, testing::HasSubstr("on 9 worlds, 1 more have no pair of values"));
 }
@@ -210,7 +210,7 @@ TEST_F(SummaryTest, AMissingValueNeverMeetsABound) {
   bound.metric = "position_error_cm";
   bound.of = "b";
   bound.at_most = 100;
-  EXPECT_EQ(JudgeExpectation(bound, study, Tabulate(study, rows), 1).ruling, ClaimOutcome::kUndecided);
+  EXPECT_EQ(JudgeExpectation(bound, study, Tabulate(study, rows), 1).outcome, ClaimOutcome::kUndecided);
 }
 
 }  // namespace

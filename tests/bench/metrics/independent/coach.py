@@ -115,8 +115,8 @@ METRICS = {
     "danced_share": lambda given: given["danced_frames"] / given["frames"],
     "gave_up": lambda given: float(given["given_up"]),
     "beat_error_ms": lambda given: percentile([1000 * abs(e) for e in given["errors_s"]]) if given["errors_s"] else None,
-    "switch_jump_cm": lambda given: statistics.median(given["jumps_cm"]) if given["jumps_cm"] else None,
-    "switch_natural_share": natural_share,
-    "switch_bridged_share": lambda given: common.share(
+    "transition_jump_cm": lambda given: statistics.median(given["jumps_cm"]) if given["jumps_cm"] else None,
+    "transition_natural_share": natural_share,
+    "transition_bridged_share": lambda given: common.share(
         [i < given["bridged"] for i in range(given["transitions"])]),
 }
