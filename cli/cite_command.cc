@@ -39,7 +39,7 @@ Result<int> CiteCommand(const std::string& folder, const std::string& address, b
       "same "
       "cells to the last bit.\n",
       run.program_version, address.empty() ? "" : fmt::format(",\n  url     = {{{}}}", address), run.suite,
-      run.program_version, address.empty() ? "" : fmt::format(", {},", address), run.seed, digest);
+      run.program_version, address.empty() ? "" : fmt::format(", {}", address), run.seed, digest);
   if (address.empty()) fmt::print(stderr, "no address: --address says where your readers find Etude, or this run\n");
   return kSuccess;
 }

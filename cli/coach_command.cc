@@ -37,8 +37,8 @@ struct CoachCommandOptions {
   std::string click;              ///< a WAV to write, "" = none
   std::string format;             ///< the stream's format, "" = recognised by content
   std::optional<double> rate_hz;  ///< frame rate of streams without a clock
-  std::string recogniser = "key-pose";  ///< one of RecogniserNames()
-  std::optional<double> right_from;     ///< minimum evidence for the verdict "right"; default: the recogniser's own
+  std::string recogniser;         ///< one of RecogniserNames(), "" = the recommended one
+  std::optional<double> right_from;  ///< minimum evidence for the verdict "right"; default: the recogniser's own
   std::string policy = "at-first-mistake";
   std::string choice = "played";
   std::string join = "planted-feet";
@@ -64,7 +64,7 @@ constexpr const char* kCoachExamples =
     "  etude coach warm_up --stream take.csv --brief          what would the coach have said to this recording?\n"
     "  my_sensor | etude coach groove --stream - | my_stage   live\n"
     "  etude coach my_song.yaml --beats my_song.txt --click clicks.wav --stream - --policy after-n\n"
-    "  etude teach clap.csv jump.csv -o mine.yaml && etude coach groove --moves mine.yaml --recogniser dtw --stream -\n"
+    "  etude teach clap.csv jump.csv -o mine.yaml && etude coach groove --moves mine.yaml --stream -\n"
     "  etude clip convert builtin:warm_up me.csv && etude coach warm_up --now --brief --stream me.csv";
 
 /// The dance, and the moves that recognisers are taught, in the order of the dance.
@@ -144,7 +144,8 @@ Result<int> CoachCommand(const CoachCommandOptions& options) {
   // Load the song, and teach the recogniser its moves.
   ASSIGN_OR_RETURN(auto lesson, LoadLesson(options));
   RETURN_IF_ERROR(WriteClicks(options, lesson.dance));
-  const RecogniserKind* kind = FindRecogniser(options.recogniser);
+  const RecogniserKind* kind = options.recogniser.empty() ? &RecommendedRecogniser(lesson.taught, /*by_a_coach=*/true)
+                                                          : FindRecogniser(options.recogniser);
   ASSIGN_OR_RETURN(const auto recogniser, MakeRecogniser({.kind = kind}, lesson.taught));
   // Plan the transitions between all clips of the dance.
   ASSIGN_OR_RETURN(const auto library, DanceLibrary::Make(std::move(lesson.dance)));
@@ -191,9 +192,10 @@ void DefineCoach(CLI::App& app, Action& action) {
                       "Times of the music's beats: a text file with one time in seconds per line");
   command->add_option("--click", options->click, "Also write a click for every beat (.wav)");
   // How performances are judged, and how the coach reacts.
-  command->add_option("--recogniser", options->recogniser, "How performances are recognised")
-      ->check(CLI::IsMember(RecogniserNames()))
-      ->capture_default_str();
+  command
+      ->add_option("--recogniser", options->recogniser,
+                   "How performances are recognised (default: coached; key-pose if a move has no example)")
+      ->check(CLI::IsMember(RecogniserNames()));
   command
       ->add_option("--right-from", options->right_from,
                    "Lowest evidence that counts as a right performance (default: the recogniser's own)")

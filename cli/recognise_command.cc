@@ -240,6 +240,7 @@ Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options) {
   if (!out.verdicts.empty()) {
     fmt::print("accuracy of {} performances, one person left out\n  {:<28} {}\n  {:<28} {}\n", out.verdicts.size(),
                watch.recogniser.kind->name, Percent(accuracy), "nearest whole performance", Percent(nearest));
+    if (accuracy <= nearest) fmt::print("  so it names no better than one nearest neighbour\n");
     PrintMistakes(out.verdicts);
   }
   if (out.untaught_performances > 0)

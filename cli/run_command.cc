@@ -264,6 +264,15 @@ std::string CountOf(std::size_t count, std::string_view what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
+/// Returns a difference in the unit of the scenario's metric: ", about 1.2 mm of joint position error"; "" if unknown.
+std::string InUnit(const ScenarioForecast& one, double deviations) {
+  const MetricInfo* metric = FindMetric(one.metric);
+  if (metric == nullptr || one.spread <= 0) return "";
+  const std::string unit = metric->unit.empty() ? "" : " " + metric->unit;
+  return fmt::format(", about {:.2g}{} of {} ({:g} matters)", deviations * one.spread, unit, metric->label,
+                     metric->practical);
+}
+
 void Print(const ScenarioForecast& one) {
   fmt::print("{} ({}): {} × {} × {} = {} cells, {:.2g} s a world{}\n", one.name, one.task,
              CountOf(one.conditions, "condition"), CountOf(one.worlds, "world"), CountOf(one.methods, "method"),
@@ -275,14 +284,14 @@ void Print(const ScenarioForecast& one) {
   if (worlds < kMinSample) {
     fmt::print("  on these worlds: no verdict; at least {} are needed\n", kMinSample);
   } else {
+    const double least = MinDetectableDifference(worlds, one.comparisons);
     fmt::print(
-        "  on these worlds: {} {} a mean difference of {:.2f} or more standard deviations of the worlds' differences\n",
-        among, one.comparisons == 1 ? "shows" : "show", MinDetectableDifference(worlds, one.comparisons));
+        "  on these worlds: {} {} a mean difference of {:.2f} or more standard deviations of the worlds' differences{}\n",
+        among, one.comparisons == 1 ? "shows" : "show", least, InUnit(one, least));
   }
   if (WorldsAreUnits(one.unit)) return;
   if (one.units < kMinUnits) {
-    fmt::print("  beyond them: no verdict: {}; at least {} are needed\n", CountUnits(one.units, one.unit),
-               kMinUnits);
+    fmt::print("  beyond them: no verdict: {}; at least {} are needed\n", CountUnits(one.units, one.unit), kMinUnits);
     return;
   }
   fmt::print("  beyond them: from {:.2f} standard deviations of the mean differences of {}\n",
@@ -301,7 +310,9 @@ Json FactsOf(const Forecast& forecast, const Shard& shard) {
                          {"units", one.units},
                          {"work", one.work},
                          {"kept", one.is_kept},
-                         {"world_s", one.seconds_per_world}});
+                         {"world_s", one.seconds_per_world},
+                         {"metric", one.metric},
+                         {"spread", one.spread > 0 ? Json(one.spread) : Json(nullptr)}});
   }
   return {{"shard", shard.IsWhole() ? Json(nullptr) : Json(ToString(shard))},
           {"cells", forecast.cells},

@@ -245,6 +245,25 @@ std::string List(std::string_view title, const std::vector<std::string>& lines) 
   return text;
 }
 
+/// Returns Markdown that stays folded away; "" without a content.
+std::string FoldedAway(const std::string& title, const std::string& content) {
+  if (content.empty()) return "";
+  return fmt::format("\n<details><summary>{}</summary>\n{}\n</details>\n", title, content);
+}
+
+/// Returns what the run says of its methods, which its page says, too.
+std::string AnswerTable(const std::vector<GateAnswer>& answers) {
+  if (answers.empty()) return "";
+  Table table{.columns = {{"scenario"}, {"condition"}, {"method"}, {"against"}, {"answer"}, {"decided by"}}};
+  for (std::size_t i = 0; i < std::min(kMaxRows, answers.size()); ++i) {
+    const auto& [scenario, condition, answer] = answers[i];
+    const std::string verdict(answer.verdict == Verdict::kInconclusive ? "undecided" : VerdictName(answer.verdict));
+    const std::string step(NameOfValue(kAnswerSteps, answer.decided_by));
+    table.rows.push_back({{scenario, condition, answer.method, answer.baseline, verdict, step}});
+  }
+  return TableMarkdown(table);
+}
+
 /// Returns a command as a code span, or as plain text if a name would break out of the span.
 std::string CommandText(const std::string& command) {
   const bool plain = command.find_first_of("`\n\r") == std::string::npos;
@@ -306,13 +325,14 @@ std::string WriteGateMarkdown(const GateReport& report) {
   if (!failing.empty()) text += MoveTable(failing);
   text += WorldList("**Worlds that are far worse:**", TailLines(report, true, kMaxWorldsEach, kMaxWorlds));
   if (!others.empty()) {
-    text += fmt::format("\n<details><summary>What else changed ({})</summary>\n{}{}\n</details>\n", others.size(),
-                        MoveTable(others),
-                        WorldList("Single worlds that are far worse, too few to fail:",
-                                  TailLines(report, false, kMaxWorldsEach, kMaxWorlds)));
+    text += FoldedAway(fmt::format("What else changed ({})", others.size()),
+                       MoveTable(others) + WorldList("Single worlds that are far worse, too few to fail:",
+                                                     TailLines(report, false, kMaxWorldsEach, kMaxWorlds)));
   }
-  // What could not be decided or compared, and what changed in the scenario.
-  text += List("Could not be decided:", ClaimsThatAre(report, ClaimOutcome::kUndecided));
+  // What could not be decided, which passes; what the run says; what could not be compared, and what changed.
+  const std::vector<std::string> undecided = ClaimsThatAre(report, ClaimOutcome::kUndecided);
+  text += FoldedAway(fmt::format("Could not be decided ({})", undecided.size()), List("These pass:", undecided));
+  text += FoldedAway(fmt::format("Answers of this run ({})", report.answers.size()), AnswerTable(report.answers));
   text += List("New, not in the baseline (`--update` adds it):", report.comparison.only_after);
   text += List("Settings of the method changed in the scenario:", report.comparison.settings_changed);
   if (!report.baseline_file.empty()) {

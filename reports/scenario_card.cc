@@ -186,7 +186,7 @@ std::string Folded(const std::string& title, const std::string& html, std::strin
 }
 
 std::string OtherPictures(const RunData& run, const ScenarioSummary& scenario, std::size_t index) {
-  std::string html = PlotSectionHtml(run, scenario) + PairsHtml(run, scenario);
+  std::string html = PlotSectionHtml(run, scenario);
   if (const auto chart = CurveChart(run, scenario)) {
     html += fmt::format("<div class=\"charts\">{}</div>", ChartFigure(*chart, fmt::format("chart-{}-curves", index)));
   }
@@ -392,6 +392,7 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
                  ComparisonTableHtml(scenario) + AcrossTableHtml(scenario));
   html += Expectations(scenario);
   html += Failures(run, scenario, findings);
+  html += Folded("Pair by pair", PairsHtml(run, scenario));
   html += Folded("Pictures", OtherPictures(run, scenario, index));
   html += PosePairsHtml(run, scenario);
   html += Folded("Transitions explained", TransitionsHtml(RecordedRequestsOf(run, scenario)));

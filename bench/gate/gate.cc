@@ -154,6 +154,11 @@ Result<GateReport> JudgeRun(const FinishedRun& run, const Snapshot* baseline, co
   for (const ScenarioSummary& scenario : run.data.scenarios) {
     for (const ExpectationResult& result : scenario.expectations)
       report.expectations.push_back({scenario.name, result});
+    for (const ConditionSummary& condition : scenario.conditions) {
+      for (const Answer& answer : condition.answers) {
+        report.answers.push_back({scenario.name, CompactLabel(condition.condition), answer});
+      }
+    }
   }
   if (!report.incomplete.empty()) return report;
   // Find cells that prevent a verdict, and methods without answers.

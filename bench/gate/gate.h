@@ -29,6 +29,12 @@ struct GateExpectation {
   ExpectationResult result;
 };
 
+/// What the run itself says of a method (summary.json), beside what moved.
+struct GateAnswer {
+  std::string scenario, condition;
+  Answer answer;
+};
+
 struct GateReport {
   std::string suite;
   std::string run_folder;        ///< as the caller names it, for `etude replay`; "" = unknown
@@ -36,6 +42,7 @@ struct GateReport {
   std::string baseline_version;  ///< of the program that made the baseline
   std::string program_version;   ///< of the program that made the run
   std::vector<GateExpectation> expectations;
+  std::vector<GateAnswer> answers;  ///< against baselines; they decide nothing here
   std::vector<RatioResult> ratios;
   SnapshotComparison comparison;
   std::vector<std::string> silent;      ///< a sentence per method without any answer: each fails the gate

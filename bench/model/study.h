@@ -43,7 +43,7 @@ struct TailRule {
 
 /// The rules by which `etude gate` compares one scenario with a baseline.
 struct GateRules {
-  std::vector<std::string> metrics;  ///< metrics to compare; the headline metrics if the file names none
+  std::vector<std::string> metrics;  ///< metrics to compare; success and the headline metrics if the file names none
   bool exact = false;                ///< true: every difference is a regression; false: only one above the practical
                                      ///< threshold
   TailRule tail;

@@ -124,9 +124,8 @@ inline constexpr std::array<Named<AnswerStep>, 4> kAnswerSteps = {{{"none", Answ
 /// page, table and program that shows a run uses this verdict.
 struct Answer {
   std::string method;
-  std::string baseline = {};  ///< the method that the scenario names, or the strongest rival
-  /// The first headline metric that is not `Study::success`; "" if there is none.
-  std::string value_metric = {};
+  std::string baseline = {};      ///< the method that the scenario names, or the strongest rival
+  std::string value_metric = {};  ///< ValueMetricOf; "" if the scenario has only its success
   Verdict verdict = Verdict::kInconclusive;  ///< for these worlds
   AnswerStep decided_by = AnswerStep::kNone;
   std::optional<Verdict> beyond = {};  ///< the deciding step's verdict for other units; nothing = too few units

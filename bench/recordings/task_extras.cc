@@ -143,7 +143,8 @@ std::string RecordingsAsMarkdown() {
          "(`recording`: 2; version 1 named no joints and is refused), the `joints` in the order of a pose's numbers\n"
          "(x, y, z of each), their `unit` and the axis that points `up`. Its `tracks` hold the cell's motions by\n"
          "name, its `extras` an object of the task. Frames count from the first of the recording unless said\n"
-         "otherwise. `bench/recordings/capture_extras.h` lists the extras of `capture`.\n\n"
+         "otherwise. `bench/recordings` has the extras of `capture` and of `evaluation`, whose motions are no tracks\n"
+         "but have joints of their own (`capture_extras.h`, `evaluation_extras.h`).\n\n"
          "## ik\n\nTracks `truth`, `start` and, step by step, `solution`.\n\n" +
          RecordFields::Page<IkExtras>() +
          "\n## transition\n\n"

@@ -83,7 +83,8 @@ Result<std::map<std::string, KeptCost>> ReadKeptCosts() {
       return Fail({file.string()}, "not a table of costs of version {}", kVersion);
     }
     for (const Json& one : json.at("scenarios")) {
-      costs[one.at("work").get<std::string>()] = {one.at("once").get<double>(), one.at("trial").get<double>()};
+      costs[one.at("work").get<std::string>()] = {one.at("once").get<double>(), one.at("trial").get<double>(),
+                                                  one.value("spread", 0.0)};
     }
   } catch (const Json::exception& error) {
     return Fail({file.string()}, "not a table of costs: {}", error.what());

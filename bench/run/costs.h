@@ -14,8 +14,9 @@ std::string WorkOf(const Scenario& scenario);
 
 /// The processor time of a scenario, in yardsticks: units of fixed arithmetic (MeasurePace).
 struct KeptCost {
-  double once = 0;   ///< for start-up, preparation of conditions, and statistics
-  double trial = 0;  ///< for one world of every condition, with all methods
+  double once = 0;    ///< for start-up, preparation of conditions, and statistics
+  double trial = 0;   ///< for one world of every condition, with all methods
+  double spread = 0;  ///< ScenarioForecast::spread; 0 = not measured
 };
 
 /// Reads the kept costs of shipped scenarios, by WorkOf; empty if nothing is shipped. Fails if the table is invalid.

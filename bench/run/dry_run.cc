@@ -10,7 +10,12 @@
 #include "bench/run/suite.h"
 #include "bench/run/supervisor.h"
 #include "bench/scenario/scenario.h"
+#include "bench/statistics/answers.h"
+#include "bench/statistics/bootstrap.h"
+#include "bench/statistics/compare.h"
+#include "bench/statistics/scenario_table.h"
 #include "bench/statistics/summary.h"
+#include "engine/base/order_statistics.h"
 #include "io/process/clock.h"
 
 namespace etude {
@@ -40,10 +45,26 @@ bool IsAsShipped(const RunOptions& options) {
   return options.clips.empty() && options.libraries.empty() && options.streams.empty() && options.from.empty();
 }
 
-/// Returns the mean time of the first worlds, measured until the time is up. The very first world includes one-time
-/// costs, so it counts only if there is no other.
+/// Returns ScenarioForecast::spread of the cells in a table.
+double SpreadOf(const Study& study, const ScenarioTable& table, const std::string& metric) {
+  const auto asked = std::ranges::find_if(study.methods, [](const auto& one) { return one.name != one.against; });
+  if (asked == study.methods.end()) return 0;
+  std::vector<double> deviations;
+  for (const ConditionTable& condition : table.conditions()) {
+    const std::vector<Pair> pairs = PairsOf(condition, asked->against, asked->name, metric).pairs;
+    if (std::ssize(pairs) < kMinSample) continue;
+    double mean = 0, squares = 0;
+    for (const Pair& pair : pairs) mean += (pair.method - pair.baseline) / static_cast<double>(pairs.size());
+    for (const Pair& pair : pairs) squares += std::pow(pair.method - pair.baseline - mean, 2);
+    deviations.push_back(std::sqrt(squares / static_cast<double>(pairs.size() - 1)));
+  }
+  return deviations.empty() ? 0 : Quantile(deviations, 0.5);
+}
+
+/// Returns the mean time of the first worlds, measured until the time is up; their cells go into `table`. The very first
+/// world includes one-time costs, so it counts only if there is no other.
 double MeasureSecondsPerWorld(const PreparedScenario& prepared, const Fence& fence, double until,
-                              Clock::time_point start) {
+                              Clock::time_point start, ScenarioTable& table) {
   const Scenario& scenario = prepared.scenario();
   const int conditions = static_cast<int>(scenario.conditions.size());
   const int step = StepOver(conditions), worlds = conditions * scenario.trials;
@@ -56,7 +77,8 @@ double MeasureSecondsPerWorld(const PreparedScenario& prepared, const Fence& fen
     runner.Open(condition, world / conditions);
     for (std::size_t method = 0; method < scenario.methods.size(); ++method) {
       FinishedCell cell = runner.Run(method);
-      if (!cell.is_measured) runner.Measure(condition, std::move(cell));
+      if (!cell.is_measured) cell = runner.Measure(condition, std::move(cell));
+      table.Add(cell.row);
     }
     (world == 0 ? first : others) += SecondsSince(began);
     ++world;
@@ -104,18 +126,23 @@ Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
                          .work = WorkOf(scenario),
                          .unit = scenario.unit,
                          .units = CountUnitsOf(scenarios[i])};
-    // The cost per world: kept, or measured.
+    const Study study = StudyOf(scenario);
+    one.metric = ValueMetricOf(study).empty() ? study.success : ValueMetricOf(study);
+    // The cost per world and the spread: kept, or measured.
     const auto worlds = static_cast<double>(worlds_of[i]);
     const auto cost = kept.find(one.work);
     one.is_kept = cost != kept.end() && IsAsShipped(options);
     if (one.is_kept) {
       if (worlds > 0) total += seconds_per_yardstick * cost->second.once;
       one.seconds_per_world = seconds_per_yardstick * cost->second.trial / static_cast<double>(one.conditions);
+      one.spread = cost->second.spread;
     } else {
       const double until = sample_seconds * static_cast<double>(i + 1) / static_cast<double>(scenarios.size());
-      one.seconds_per_world = MeasureSecondsPerWorld(scenarios[i], fence, until, start);
+      ScenarioTable table(study);
+      one.seconds_per_world = MeasureSecondsPerWorld(scenarios[i], fence, until, start, table);
+      one.spread = SpreadOf(study, table, one.metric);
     }
-    one.comparisons = CountComparisons(StudyOf(scenario));
+    one.comparisons = CountComparisons(study);
     total += one.seconds_per_world * worlds;
     forecast.scenarios.push_back(std::move(one));
   }

@@ -191,7 +191,7 @@ FieldTable<TailRule> TailFields() {
 
 FieldTable<GateRules> GateFields(const Scenario& scenario, const std::vector<std::string>& metrics) {
   using Key = Field<GateRules>;
-  return {{{{"metrics", ListKind("a list of metrics that the task reports", TextKind("")), "(`metrics`)",
+  return {{{{"metrics", ListKind("a list of metrics that the task reports", TextKind("")), "(success, `metrics`)",
              "The metrics that are compared."},
             [&scenario, metrics](Fields& gate, GateRules& rules) {
               auto named = ReadMetricList(gate, scenario.task, metrics);

@@ -241,6 +241,8 @@ const FieldTable<Scenario>& ScenarioFields() {
          "The rules by which `etude gate` compares the run with a baseline."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
           s.gate.metrics = s.metrics;
+          const bool is_named = s.success.empty() || std::ranges::find(s.metrics, s.success) != s.metrics.end();
+          if (!is_named) s.gate.metrics.insert(s.gate.metrics.begin(), s.success);
           ReadNested(fields, "gate", GateFields(s, MetricsOf(kind, s)), s.gate);
         })}}};
   return table;

@@ -16,17 +16,12 @@ namespace {
 
 bool IsDecided(Verdict verdict) { return verdict == Verdict::kBetter || verdict == Verdict::kWorse; }
 
-/// Returns the metric whose values an answer compares after success; "" if success is the only headline metric.
-std::string ValueMetricOf(const Study& study) {
-  const auto found = std::ranges::find_if(study.metrics, [&](const std::string& id) { return id != study.success; });
-  return found == study.metrics.end() ? "" : *found;
-}
-
 /// The definition of a share of worlds by which a step of an answer is judged.
 MetricInfo ShareMetric(const Study& study, const std::string& id) {
   MetricInfo metric = *FindMetric(id);
   metric.direction = Direction::kHigherIsBetter;
   metric.aggregate = Aggregate::kMean;
+  metric.reading = metric.reading == Reading::kAmount ? Reading::kYesNo : metric.reading;  // a world's tail
   metric.practical = study.success_matters;
   return metric;
 }
@@ -196,17 +191,20 @@ void Decide(Answer& answer, const Comparison* value) {
   if (answer.tail && IsDecided(answer.tail->verdict)) {
     return decide(AnswerStep::kTail, answer.tail->verdict, answer.tail->beyond.verdict);
   }
-  // No step decides. The answer is "no difference" only if no step is still open.
+  // No step decides. The answer is "no difference" only if every step that differs in some world says so.
   const auto is_open = [](const std::optional<Comparison>& step) {
-    return step && step->verdict == Verdict::kInconclusive;
+    return step && step->verdict == Verdict::kInconclusive && (step->differing > 0 || step->pairs < kMinSample);
   };
   const Verdict of_value = value != nullptr ? value->verdict
                            : answer.success ? answer.success->verdict
                                             : Verdict::kInconclusive;
   const bool open = contradicts || is_open(answer.success) || of_value != Verdict::kNoDifference;
   decide(AnswerStep::kNone, open ? Verdict::kInconclusive : Verdict::kNoDifference,
-         value != nullptr ? value->beyond.verdict : std::nullopt);
-  if (answer.beyond && IsDecided(*answer.beyond)) answer.beyond = Verdict::kInconclusive;
+         value != nullptr ? value->beyond.verdict
+         : answer.success ? answer.success->beyond.verdict
+                          : std::nullopt);
+  // For other units an answer claims no more than on these worlds.
+  if (answer.beyond && (open || IsDecided(*answer.beyond))) answer.beyond = Verdict::kInconclusive;
 }
 
 /// Judges the answers of all conditions against one kind of other methods.
@@ -231,6 +229,24 @@ void JudgeFamilyOfAnswers(const Study& study, std::vector<ConditionSummary>& con
 }
 
 }  // namespace
+
+std::string ValueMetricOf(const Study& study) {
+  const MetricInfo* success = FindMetric(study.success);
+  const bool is_graded = success != nullptr && success->reading != Reading::kYesNo;
+  if (is_graded && !study.metrics.empty() && study.metrics.front() == study.success) return "";
+  const auto found = std::ranges::find_if(study.metrics, [&](const std::string& id) { return id != study.success; });
+  return found == study.metrics.end() ? "" : *found;
+}
+
+std::optional<Comparison> CompareSuccess(const Study& study, const ConditionTable& table, const std::string& method,
+                                         const std::string& other, std::uint64_t seed) {
+  if (study.success.empty()) return std::nullopt;
+  const std::vector<const MethodColumns*> others(static_cast<std::size_t>(table.trials()), &table.Of(other));
+  const PairedWorlds worlds = SuccessesOf({&table.Of(method), others}, study.success);
+  if (worlds.pairs.empty()) return std::nullopt;
+  return ComparePaired(worlds.pairs, ShareMetric(study, study.success), seed,
+                       PurposeOf(study.scenario, table.condition, "success", other, method));
+}
 
 double McNemarMidP(int gained, int lost) {
   const int all = gained + lost, more = std::max(gained, lost);

@@ -27,6 +27,14 @@ double McNemarMidP(int gained, int lost);
 std::vector<Answer> MeasureAnswersAgainstBaselines(const Study& study, const ConditionTable& table, std::uint64_t seed);
 std::vector<Answer> MeasureAnswersAgainstRivals(const Study& study, const ConditionTable& table, std::uint64_t seed);
 
+/// Returns the metric whose values an answer compares after success: the first other headline metric. "" if there is
+/// none, or if success is the first headline metric and more than yes or no: then it is all that the answer is about.
+std::string ValueMetricOf(const Study& study);
+
+/// Compares the success of two methods under one condition, judged as the only comparison; nothing if no cell says it.
+std::optional<Comparison> CompareSuccess(const Study& study, const ConditionTable& table, const std::string& method,
+                                         const std::string& other, std::uint64_t seed);
+
 /// Judges all answers of a study, after its comparisons were judged: each step's p-values are corrected over all
 /// conditions and methods (Holm), separately for baselines and rivals. The first of these steps with a verdict "better"
 /// or "worse" decides the answer:

@@ -89,6 +89,7 @@ bool UnitSample::IsOneWay() const {
 UnitSample UnitsOf(const PairedWorlds& paired, const ConditionTable& table, const MetricInfo& metric) {
   UnitSample sample;
   sample.names = table.units;
+  sample.yes_or_no = metric.reading == Reading::kYesNo;
   for (std::size_t i = 0; i < paired.pairs.size(); ++i) {
     const std::vector<int>& units = table.world_units[static_cast<std::size_t>(paired.trials[i])];
     if (units.empty()) continue;
@@ -127,8 +128,10 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons) {
       values[i] = KeepThirtyBits(n * mean - (n - 1) * beyond.left_out[i].difference);
     }
   }
-  const bool is_yes_or_no =
-      std::ranges::all_of(values, [](double value) { return std::abs(value) == 1 || value == 0; });
+  // Of an amount that never differs the share's interval would be a number without a unit.
+  const bool is_yes_or_no = (sample.yes_or_no || beyond.differing > 0) && std::ranges::all_of(values, [](double value) {
+                              return std::abs(value) == 1 || value == 0;
+                            });
   const PseudoMedian centre = PseudoMedianOf(values);
   beyond.difference = is_yes_or_no ? mean : centre.value;
   if (beyond.units < kMinUnits || beyond.left_out.size() < means.size()) return beyond;

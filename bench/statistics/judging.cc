@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/statistics/answers.h"
 #include "bench/statistics/beyond.h"
 #include "bench/statistics/bootstrap.h"
 #include "bench/statistics/compare.h"
@@ -248,9 +249,10 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
                               : found.verdict == Verdict::kInconclusive ? ClaimOutcome::kUndecided
                                                                         : ClaimOutcome::kUnmet;
   // The figures behind it.
-  std::string detail = fmt::format("difference {:.4g} ({:.4g} % interval {:.4g} to {:.4g}, p = {:.2g}) on {} worlds{}",
-                                   *found.difference, 100 * expectation.confidence, *found.ci_low, *found.ci_high,
-                                   *found.p_holm, found.pairs, missing);
+  const std::string unit = metric.unit.empty() ? "" : " " + metric.unit;
+  std::string detail = fmt::format(
+      "difference {:.4g}{} ({:.4g} % interval {:.4g} to {:.4g}, p = {:.2g}) on {} worlds{}", *found.difference, unit,
+      100 * expectation.confidence, *found.ci_low, *found.ci_high, *found.p_holm, found.pairs, missing);
   if (found.verdict != of_pairs) return {ruling, detail + "; it does not hold when failing counts as losing"};
   const double alpha = 1 - expectation.confidence;
   if (ruling == ClaimOutcome::kUndecided && SmallestP(found.differing) > alpha) {
@@ -258,6 +260,18 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
                           100 * expectation.confidence, PairsNeeded(1, alpha));
   }
   return {ruling, detail};
+}
+
+/// Changes "met" into "unmet" if an answer about the same methods would be decided by success, the other way.
+void AskSuccessFirst(const Expectation& expectation, const Study& study, const ConditionTable& table,
+                     const std::string& other, bool wants_lower, std::uint64_t seed, Finding& finding) {
+  const bool wants_better = wants_lower == (FindMetric(expectation.metric)->direction == Direction::kLowerIsBetter);
+  if (finding.ruling != ClaimOutcome::kMet || !wants_better || expectation.metric != ValueMetricOf(study)) return;
+  const auto success = CompareSuccess(study, table, expectation.of, other, seed);
+  if (!success || success->verdict != Verdict::kWorse) return;
+  finding.ruling = ClaimOutcome::kUnmet;
+  finding.detail += fmt::format("; but its success ({}) is worse by {:.4g}", FindMetric(study.success)->label,
+                                std::abs(*success->difference));
 }
 
 Finding JudgeBound(const Expectation& expectation, const ConditionTable& table) {
@@ -268,7 +282,8 @@ Finding JudgeBound(const Expectation& expectation, const ConditionTable& table) 
                        : expectation.statistic == "p95" ? Quantile(values, 0.95)
                                                         : Quantile(values, 0.5);
   const bool met = expectation.at_most ? value <= *expectation.at_most : value >= *expectation.at_least;
-  std::string detail = fmt::format("{:.4g} over {} worlds", value, values.size());
+  const std::string& unit = FindMetric(expectation.metric)->unit;
+  std::string detail = fmt::format("{:.4g}{}{} over {} worlds", value, unit.empty() ? "" : " ", unit, values.size());
   if (missing > 0) detail += fmt::format(", {} more have no value", missing);
   if (met && missing > 0) return {ClaimOutcome::kUndecided, detail};
   return {met ? ClaimOutcome::kMet : ClaimOutcome::kUnmet, detail};
@@ -332,8 +347,9 @@ ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& 
     if (!Matches(condition.condition, expectation.where)) continue;
     const std::string purpose =
         PurposeOf(study.scenario, condition.condition, expectation.metric, other, expectation.of);
-    const Finding finding = other.empty() ? JudgeBound(expectation, condition)
-                                          : JudgeComparison(expectation, condition, other, wants_lower, seed, purpose);
+    Finding finding = other.empty() ? JudgeBound(expectation, condition)
+                                    : JudgeComparison(expectation, condition, other, wants_lower, seed, purpose);
+    if (!other.empty()) AskSuccessFirst(expectation, study, condition, other, wants_lower, seed, finding);
     const std::string label = ConditionLabel(condition.condition);
     if (!result.detail.empty()) result.detail += "; ";
     result.detail += label.empty() ? finding.detail : label + ": " + finding.detail;

@@ -36,7 +36,8 @@ std::vector<AcrossVerdict> JudgeAcross(const Study& study, const std::vector<Con
 /// at its confidence agrees with it in every such condition, unmet if the verdict is the opposite or "no difference" in
 /// one of them, and undecided otherwise. Because every condition must hold, no correction for multiple conditions is
 /// needed (intersection–union test, Berger 1982). A bound (at_most, at_least) is compared with the statistic itself; if
-/// cells without a value exist, a bound that the other cells meet is undecided.
+/// cells without a value exist, a bound that the other cells meet is undecided. A comparison of the value of an answer
+/// (ValueMetricOf) is unmet where success is worse.
 ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& study, const ScenarioTable& table,
                                    std::uint64_t seed);
 

@@ -98,6 +98,7 @@ class Sampler {
         effect_(effect * JustMatters(design.law)),
         shift_(design.law == SampleLaw::kCensored ? ShiftFor(effect_) : 0),
         dice_(dice) {
+    sample_.yes_or_no = design.law == SampleLaw::kShares;
     // Draw the contributions of each unit in its first and, correlated with it, in its second role.
     for (int unit = 0; unit < design.units; ++unit) {
       sample_.names.push_back(fmt::format("{:03}", unit));
@@ -243,7 +244,7 @@ bool TestOverWorldsAlarms(const UnitSample& sample) {
 
 Percentage PercentageOf(int count, int of) {
   const Interval interval = WilsonInterval(count, of);
-  return {100.0 * count / of, 100 * interval.low, 100 * interval.high};
+  return {count, of, 100.0 * count / of, 100 * interval.low, 100 * interval.high};
 }
 
 std::string PurposeOf(const SampleDesign& design, double effect) {
@@ -362,9 +363,13 @@ std::vector<VerdictRates> MeasureAll(std::span<const SampleDesign> designs, cons
   return rates;
 }
 
-bool KeepsPromise(const VerdictRates& rates) {
-  const double promised = IsOfUnits(rates.design.law) ? 6 : 5.5;
-  return rates.false_alarms.low <= promised && rates.false_alarms.high <= 6.5 && rates.coverage_without >= 93;
+bool KeepsPromise(const VerdictRates& rates, std::size_t designs) {
+  const Percentage& alarms = rates.false_alarms;
+  if (alarms.of == 0) return false;
+  // The score test of "at most what is promised", one-sided: the lower end of Wilson's interval of twice its level.
+  const double level = 0.05 / static_cast<double>(designs), promised = IsOfUnits(rates.design.law) ? 0.06 : 0.05;
+  return WilsonInterval(alarms.count, alarms.of, 1 - 2 * level).low <= promised && alarms.high <= 6.5 &&
+         rates.coverage_without >= 93;
 }
 
 std::string VerdictRatesMarkdown(std::span<const VerdictRates> rates) {

@@ -47,6 +47,7 @@ UnitSample DrawSample(const SampleDesign& design, double effect, RandomStream& d
 
 /// A share of samples in per cent, with its 95 % Wilson interval.
 struct Percentage {
+  int count = 0, of = 0;
   double percent = 0;
   double low = 0, high = 100;
 };
@@ -83,11 +84,12 @@ std::vector<SampleDesign> PublishedDesigns();
 std::vector<VerdictRates> MeasureAll(std::span<const SampleDesign> designs, const VerdictRepetitions& repetitions,
                                      const std::function<void(std::size_t)>& done);
 
-/// Returns true if the verdicts of a design keep the promised rates: the 95 % interval of false alarms starts at 5.5 %
-/// or below (6 % for laws of units) and ends at 6.5 % or below, and without an effect at least 93 % of the intervals
-/// contain the truth. The extra half per cent is needed because, among hundreds of designs with a rate of exactly 5 %,
-/// some intervals start above 5 %.
-bool KeepsPromise(const VerdictRates& rates);
+/// Returns true if the verdicts of a design keep the promise, as far as the samples of `designs` designs can tell:
+///   - false alarms do not exceed 5 % (6 % for laws of units): a binomial test finds no excess, at a level of 5 % over
+///     all designs together (Bonferroni). Of many designs with exactly 5 % some draw more by chance;
+///   - there are enough samples: the 95 % interval of false alarms ends at 6.5 % or below;
+///   - without an effect at least 93 % of the intervals contain the truth.
+bool KeepsPromise(const VerdictRates& rates, std::size_t designs);
 
 /// Returns the tables of docs/findings/verdicts.md.
 std::string VerdictRatesMarkdown(std::span<const VerdictRates> rates);

@@ -36,8 +36,8 @@ std::vector<std::string> RecogniserNames();
 const RecogniserKind* FindRecogniser(std::string_view name);
 
 /// Returns the recogniser recommended for these moves (docs/detection.md): `learnt` if every move has an example that
-/// shows a body, else `key-pose`.
-const RecogniserKind& RecommendedRecogniser(std::span<const TaughtMove> taught);
+/// shows a body, else `key-pose`. For a coach, who asks for moves in time with music, `coached` instead of `learnt`.
+const RecogniserKind& RecommendedRecogniser(std::span<const TaughtMove> taught, bool by_a_coach = false);
 
 struct RecogniserOptions {
   const RecogniserKind* kind = &AllRecognisers().front();  ///< default: key-pose, paper A's recogniser

@@ -18,7 +18,8 @@ namespace etude {
 std::string RecordedWorld::Name() const {
   const Row& row = *cells.front().row;
   const std::string condition = ConditionLabel(row.condition);
-  return fmt::format("{}{}trial {}", condition, condition.empty() ? "" : ", ", row.trial);
+  const std::string world = row.task == "evaluation" ? row.clip : fmt::format("trial {}", row.trial);
+  return condition.empty() ? world : condition + ", " + world;
 }
 
 std::vector<RecordedWorld> RecordedWorlds(const RunData& run) {

@@ -20,7 +20,7 @@ struct RecordedWorld {
   std::string file;          ///< path of its motions below `report`: "motions/capture-1.js"; only harmless characters
   std::vector<RecordedCell> cells;  ///< in the order of the scenario's methods; never empty
 
-  /// Returns the name of the world: "joint_noise_deg=5, trial 3".
+  /// Returns the name of the world: "joint_noise_deg=5, trial 3"; of a pair of files, the pair's.
   std::string Name() const;
 };
 

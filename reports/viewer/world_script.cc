@@ -373,7 +373,7 @@ QuantisedMotion Quantise(std::span<const glm::dvec3> points) {
 std::string WorldScript(const RunData& run, const RecordedWorld& world) {
   const Row& row = *world.cells.front().row;
   std::string title = fmt::format("{}, {}", run.scenarios[world.scenario].name, world.Name());
-  if (!row.clip.empty()) title += fmt::format(", {}", row.clip);
+  if (!row.clip.empty() && row.task != "evaluation") title += fmt::format(", {}", row.clip);
   const Json json = Writer(world, row.task).Write(run.scenarios[world.scenario], title);
   return fmt::format("etudeMotion({});\n", EscapeScriptJson(json.dump(-1, ' ', true, Json::error_handler_t::replace)));
 }

@@ -274,6 +274,13 @@ std::string FurtherSteps(const Judged& judged) {
     text = fmt::format(" Where both succeed ({}): {} {}{}.", Plural(both->pairs, "world"), words.label,
                        Amount(*both->difference, words), interval);
   }
+  const bool open = answer->decided_by == AnswerStep::kNone && answer->verdict == Verdict::kInconclusive;
+  if (const auto& success = answer->success;
+      open && success && success->difference && success->ci_low && success->verdict == Verdict::kInconclusive) {
+    const MetricWords words = WordsFor(success->metric);
+    text += fmt::format(" Whether success differs is open: {} {} ({}).", words.label,
+                        Amount(*success->difference, words), FormatInterval(success->ci_low, success->ci_high, words));
+  }
   if (answer->decided_by == AnswerStep::kTail) {
     const Comparison& tail = *answer->tail;
     text += fmt::format(" The tail decides: far better in {}, far worse in {} of {}.", tail.better, tail.worse,

@@ -181,8 +181,10 @@ KeyFigures KeyFiguresOf(const ScenarioSummary& scenario, const std::string& aske
     for (KeyFigures::Method& method : figures.methods) method.values.push_back(value_of(method.name));
   };
   add(WordsFor(metric).label, [&](const std::string& method) { return ValuesOf(scenario, method, metric); });
-  add(findings.successes.empty() ? "ended ok" : WordsFor(findings.successes.front().metric).plain_label,
-      [&](const std::string& method) { return SuccessOf(findings, scenario, method); });
+  if (findings.successes.empty() || findings.successes.front().metric != metric) {
+    add(findings.successes.empty() ? "ended ok" : WordsFor(findings.successes.front().metric).plain_label,
+        [&](const std::string& method) { return SuccessOf(findings, scenario, method); });
+  }
   if (times.MedianOf(asked)) {
     add("processor time", [&](const std::string& method) { return TimeText(times.MedianOf(method)); });
   }

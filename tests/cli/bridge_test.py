@@ -71,6 +71,29 @@ class Bridge(EtudeCase):
         self.assertEqual(len(summary["pairs"]), 12)
         self.assertEqual([way["into"] for way in summary["corrective"]], ["builtin:wave"])
 
+    def test_the_coverage_into_any_clip_lies_between_that_of_one_and_that_of_all_together(self):
+        summary = json.loads(self.works(*FEW, "--json"))
+        for clip in summary["clips"]:
+            shares = [pair["frame_share"] for pair in summary["pairs"] if pair["from"] == clip["name"]]
+            self.assertGreaterEqual(clip["any"]["frame_share"], max(shares))
+            self.assertLessEqual(clip["any"]["frame_share"], min(sum(shares) + 1e-9, 1))
+        self.assertGreater(sum(clip["any"]["frame_share"] for clip in summary["clips"]), 0.5)
+
+    def test_many_clips_are_compared_pair_by_pair_only_if_asked(self):
+        one = self.folder / "0.npz"
+        self.etude("clip", "convert", FEW[0], one)
+        for i in range(1, 301):
+            (self.folder / f"{i}.npz").write_bytes(one.read_bytes())
+        clips = [str(self.folder / "*.npz"), "builtin:wave"]
+        summary = json.loads(self.etude("bridge", *clips, "--json").stdout)
+        self.assertEqual(complaints(summary, load_schema("bridge-summary.schema.json")), [])
+        self.assertNotIn("pairs", summary)
+        self.assertEqual(len(summary["clips"]), 302)
+        self.assertEqual({clip["leads_into"] for clip in summary["clips"]}, {None})
+        self.assertEqual([clip["any"]["frame_share"] for clip in summary["clips"][:301]], [1] * 301)
+        self.assertEqual([way["into"] for way in summary["corrective"]], ["builtin:wave"])
+        self.assertIn("Pairs of clips were not compared; --pairs compares them.", self.etude("bridge", *clips).stdout)
+
     def test_the_summary_for_people_names_clips_without_a_way(self):
         text = self.works(*FEW, "--to", "builtin:head_shake", "--threshold", "0.05")
         self.assertIn("into builtin:head_shake", text)

@@ -21,6 +21,10 @@ class Coach(EtudeCase):
         cls.take, cls.expert = shared / "take.csv", shared / "expert.csv"
         cls.etude("clip", "convert", "builtin:standby", cls.take)
         cls.etude("clip", "convert", "builtin:warm_up", cls.expert)
+        # As people do, who follow the coach, 0.3 s late.
+        head, first, *rows = cls.expert.read_text().splitlines()
+        poses = [row.split(",", 1)[1] for row in [first] * 10 + rows]
+        cls.expert.write_text("\n".join([head] + [f"{i / 30:.6f},{pose}" for i, pose in enumerate(poses)]) + "\n")
 
     def coach(self, *arguments, text=None):
         result = self.etude("coach", "warm_up", *arguments, text=text)
@@ -53,6 +57,13 @@ class Coach(EtudeCase):
         head, frames = self.coach("--now", "--stream", self.expert, "--brief")
         judged = [event for event in self.events(frames) if event["event"] in ("right", "wrong", "unjudged")]
         self.assertEqual([event["event"] for event in judged], ["right"] * head["repetitions"])
+
+    def test_who_dances_the_other_side_is_wrong_by_the_recommended_recogniser(self):
+        def wrong(*options):
+            _, frames = self.coach("--now", "--stream", self.expert, "--brief", "--policy", "never", *options)
+            return [event["move"] for event in self.events(frames) if event["event"] == "wrong"]
+        self.assertEqual(wrong("--mirror"), wrong("--mirror", "--recogniser", "coached"))
+        self.assertTrue({"side_stretch", "side_kick", "robot"} <= set(wrong("--mirror")))
 
     def test_who_stands_there_is_corrected(self):
         rows = self.take.read_text().splitlines()

@@ -73,6 +73,12 @@ class DryRun(EtudeCase):
         told = self.facts(self.folder / "ik.yaml")["scenarios"][0]
         self.assertFalse(told["kept"])
         self.assertGreater(told["world_s"], 0)
+        self.assertEqual((told["metric"], told["spread"]), ("orientation_error_deg", None), "two worlds have no spread")
+
+    def test_tells_the_least_difference_in_the_unit_of_the_metric(self):
+        spread = self.facts("quick/ik", "--trials", 14)["scenarios"][0]["spread"]
+        told = self.etude("run", "quick/ik", "--trials", 14, "--dry-run").stdout
+        self.assertIn(f"of 1.36 or more standard deviations of the worlds' differences, about {1.364 * spread:.2g} deg of effector", told)
 
 
 if __name__ == "__main__":

@@ -76,8 +76,8 @@ class Figures(unittest.TestCase):
                      "1.0 cm" + bound("1.0 = quick: s/n=1/a minus b/jump_cm, without sign"),
                      "2 to\n5" + bound("2 = quick: s/*/a/jump_cm, lowest", "5 = quick: s/*/a/jump_cm, highest"),
                      "in 12 of 2 rooms, 2 of\nthem dark" + bound("2 of them = quick: s/n=1/a/jump_cm"),
-                     "<!-- figures -->\n2, at 5°, `x 7`, F1" + bound("2 = quick: s/n=1/a/jump_cm", "5 said") +
-                     "\n<!-- end of figures -->"]:
+                     "<!-- figures -->\n2, at 5°, `x 7`, F1" + bound("2 said, why", "5 said, a setting") +
+                     "\n<!-- end of figures -->\n3" + bound("3 = quick: s/n=1/a/solved, ones")]:
             with self.subTest(text):
                 self.assert_right(text)
 
@@ -100,9 +100,33 @@ class Figures(unittest.TestCase):
                 ("2\n\n<!-- bound\n2 = quick: s/n=1/a/jump_cm\n-->", "a <!-- bound is not written as"),
                 ("2<!-- quick: s/n=1/a/jump_cm -->", "a comment binds nothing"),
                 ("<!-- figures -->\n2 and 9 more" + bound("2 = quick: s/n=1/a/jump_cm") + "\n<!-- end of figures -->",
-                 "holds 9, neither"),
+                 "9 is neither bound nor said"),
                 ("<!-- figures -->\n2" + bound("2 = quick: s/n=1/a/jump_cm"), "a <!-- figures --> is not written as"),
                 ("No figure at all.", "0 figures are bound")]:
+            with self.subTest(text):
+                self.assert_flagged(text, complaint)
+
+    def test_of_answers_are_of_three_seeds(self):
+        for seed, add in [(2, 0.1), (3, 1.2)]:
+            lines = [line | {"values": [value and value + add for value in line["values"]]} for line in BASELINE["values"]]
+            path = self.root / "scenarios" / "baselines" / f"quick-{seed}.json"
+            path.write_text(json.dumps({"values": lines}))
+        agrees = bound("407.0 said, another run", "0 = quick, seeds 1–3: s/n=1/a minus b/jump_cm, ones", "rest said, timing")
+        ends = bound("2.26 = quick, seeds 1–3: s/n=1/a/jump_cm, lowest seed",
+                     "3.46 = quick, seeds 1–3: s/n=1/a/jump_cm, median, highest seed")
+        self.assert_right("**Answer.** 407.0, 0 and 7." + agrees + "\nIt is 9.")
+        self.assert_right("**Answer.** 2.26 to 3.46" + ends)
+        for text, complaint in [
+                ("**Answer.** 2" + bound("2 = quick, seeds 1–3: s/n=1/a/jump_cm"), "2 is 2, 2, 3 in quick, seeds 1–3"),
+                ("**Answer.** 2.26 to 3.50" + ends.replace("3.46", "3.50"), "3.50 is 3.46 in"),
+                ("**Answer.** 2" + bound("2 = quick: s/n=1/a/jump_cm"), "jump_cm' is not of three seeds"),
+                ("**Answer.** 2" + bound("2 said"), "'2 said' is not of three seeds"),
+                ("**Answer.** 2" + bound("2 = quick: s/n=1/a/jump_cm", "rest said, why"), "is not of three seeds"),
+                ("**Answer.** 2 and 7" + bound("2 = quick, seeds 1–3: s/n=1/a/jump_cm, lowest seed"), "7 is neither bound"),
+                ("**Answer.** 2\n\n7", "2 is neither bound nor said"),
+                ("<!-- figures -->\n2" + bound("2 = quick: s/n=1/a/jump_cm") + "\n<!-- end of figures -->",
+                 "is not of three seeds"),
+                ("2" + bound("2 = slow, seeds 1–3: s/n=1/a/jump_cm"), "no scenarios/baselines/slow.json")]:
             with self.subTest(text):
                 self.assert_flagged(text, complaint)
 
@@ -122,7 +146,7 @@ class Figures(unittest.TestCase):
         right = page % (" 2.26 ", "5.0", "3 and −1")
         self.assertEqual((self.root / "README.md").read_text(), right)
         self.assertIn("4 figures are bound to results, 0 complaints", self.figures()[1])
-        self.assert_right("<!-- figures -->\n" + right + "<!-- end of figures -->\n")
+        self.assert_flagged("<!-- figures -->\n" + right + "<!-- end of figures -->\n", "README.md:2: a table is not of three seeds")
         for old, new, complaint in [("5.0", "5.1", "README.md:8: 5.1 is 5.0 in quick: s/n=2/a/jump_cm"),
                                     ("3 and −1 of 4", "3", "the cell '3' has 1 numbers for 2 results"),
                                     ("| 7 |", "| 7 | 7 |", "a row of 4 cells is given 3 columns"),

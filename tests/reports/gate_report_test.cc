@@ -147,6 +147,18 @@ TEST(GateTail, QuotesWhatAShellWouldTakeApartAndTellsStatuses) {
   EXPECT_THAT(TailLines({&move}, report, 1)[0].replay, HasSubstr("etude replay RUN --allow-exec --cell "));
 }
 
+TEST(GateMarkdown, FoldsAwayWhatIsUndecidedAndShowsTheAnswersOfTheRun) {
+  GateReport report = Nothing();
+  EXPECT_THAT(WriteGateMarkdown(report), Not(HasSubstr("<details>")));
+  report.expectations = {{"ik", {"a below b", ClaimOutcome::kUndecided, "few"}}};
+  report.answers = {{"ik", "noise=5", {.method = "a", .baseline = "b", .decided_by = AnswerStep::kSuccess}}};
+  report.answers.front().answer.verdict = Verdict::kWorse;
+  const std::string text = WriteGateMarkdown(report);
+  EXPECT_THAT(text, HasSubstr("Could not be decided (1)</summary>\n\nThese pass:\n\n- ik: a below b (few)\n"));
+  EXPECT_THAT(text, HasSubstr("| ik | noise=5 | a | b | worse | success |\n"));
+  EXPECT_THAT(text, HasSubstr("quick: pass\n")) << "answers decide nothing here";
+}
+
 TEST(GateMarkdown, SaysThatNothingWasComparedWithoutABaseline) {
   EXPECT_THAT(WriteGateMarkdown(Nothing()),
               HasSubstr("quick: pass\n\n- nothing was compared: no baseline was given\n"));

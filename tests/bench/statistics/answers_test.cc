@@ -84,6 +84,26 @@ TEST(Answer, IsAboutSuccessBeforeAnyValue) {
   EXPECT_EQ(answer.both_succeed->verdict, Verdict::kBetter);
 }
 
+TEST(Expectation, AboutTheValueIsUnmetWhereSuccessIsWorse) {
+  const auto expectation_when = [](int solved_of_12) {
+    Study study = IkStudy(60);
+    Expectation& below = study.expectations.emplace_back();
+    below.metric = "position_error_cm";
+    below.of = "b";
+    below.below = "a";
+    return SummaryOf(study,
+                     [&](int trial) -> std::array<CellValues, 3> {
+                       return {{{1, 3.0 + 0.01 * trial}, {trial % 12 < solved_of_12 ? 1.0 : 0.0, 1}, {1, 3}}};
+                     })
+        .expectations.front();
+  };
+  EXPECT_EQ(expectation_when(12).ruling, ClaimOutcome::kMet);
+  const ExpectationResult judged = expectation_when(5);
+  EXPECT_EQ(judged.ruling, ClaimOutcome::kUnmet);
+  EXPECT_NE(judged.detail.find(" cm (95 % interval"), std::string::npos) << judged.detail;
+  EXPECT_NE(judged.detail.find("but its success (solved"), std::string::npos) << judged.detail;
+}
+
 TEST(Answer, CountsACrashAsNoSuccess) {
   const Answer answer = AnswerOf(IkStudy(60), [](int trial) -> std::array<CellValues, 3> {
     return {{{1, 3}, {1, trial % 2 == 0 ? kNone : 1.0}, {1, 3}}};
@@ -104,6 +124,35 @@ TEST(Answer, IsAboutTheValueWhereSuccessIsTheSame) {
   Study alone = IkStudy(100);
   alone.metrics = {"solved_practical"};
   EXPECT_EQ(AnswerOf(alone, world).verdict, Verdict::kNoDifference);
+}
+
+TEST(Answer, IsNotLeftOpenByASuccessThatNeverDiffers) {
+  // 16 worlds are too few to exclude a difference of 5 points; but the two never differ, and the values do not matter.
+  const auto world_with = [](int lost) {
+    return [lost](int trial) -> std::array<CellValues, 3> {
+      return {{{1, 3}, {trial < lost ? 0.0 : 1.0, 3 + 1e-5 * (trial % 3)}, {1, 3}}};
+    };
+  };
+  const Answer answer = AnswerOf(IkStudy(16), world_with(0));
+  EXPECT_EQ(answer.success->verdict, Verdict::kInconclusive);
+  EXPECT_EQ(answer.verdict, Verdict::kNoDifference);
+  // The control: one world is lost. Then nothing is claimed for others, either.
+  const Answer open = AnswerOf(IkStudy(16), world_with(1));
+  EXPECT_EQ(open.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(open.beyond, Verdict::kInconclusive);
+}
+
+TEST(Answer, IsAboutSuccessAloneWhereThatIsGradedAndComesFirst) {
+  Study study = IkStudy(8);
+  study.task = "coach";
+  study.success = "retention";
+  study.metrics = {"retention", "answered_share"};
+  EXPECT_EQ(ValueMetricOf(study), "");
+  study.metrics = {"answered_share", "retention"};
+  EXPECT_EQ(ValueMetricOf(study), "answered_share");
+  study.success = "solved_practical";
+  study.metrics = {"solved_practical", "position_error_cm"};
+  EXPECT_EQ(ValueMetricOf(study), "position_error_cm") << "yes or no: the value counts where both succeed";
 }
 
 TEST(Answer, IgnoresADifferenceOfSuccessThatDoesNotMatter) {

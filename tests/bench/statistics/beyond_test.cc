@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
 #include "sim/random/stream.h"
@@ -96,6 +97,11 @@ TEST(MeasureBeyond, SaysNoDifferenceOnlyOfUnitsThatDiffer) {
   const Beyond equal = Judged(OneWay({0, 0, 0, 0, 0, 0, 0, 0}));
   EXPECT_EQ(equal.verdict, Verdict::kInconclusive);
   EXPECT_THAT(equal.why_open, HasSubstr("0 of 8 clips differ"));
+  // Adjusted Wald is an interval of shares, not of millimetres.
+  EXPECT_EQ(std::pair(*equal.low, *equal.high), std::pair(0.0, 0.0));
+  UnitSample shares = OneWay({0, 0, 0, 0, 0, 0, 0, 0}, 1);
+  shares.yes_or_no = true;
+  EXPECT_NEAR(*MeasureBeyond(shares, 1).high, 1.96 * std::sqrt(0.2 / 10), 1e-3);  // (1 + 1) / 10 / 10
 }
 
 /// Each pair of clips once, the difference the sum of what its clips bring.

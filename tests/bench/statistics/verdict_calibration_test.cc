@@ -119,27 +119,30 @@ TEST(VerdictRatesMarkdown, HasALineForEveryDesignOfAllLaws) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), (2 + 36) + (1 + 2 + 24) + (1 + 2 + 7));
 }
 
-// Each bound of the promise by itself; at the bound it is still kept.
+// Each bound of the promise by itself; at the bound it is still kept. Of 10,000 samples at 5 % more than 577 are drawn
+// with a chance of 0.05 / 280 (500 + 3.57 × 21.8 = 578), of 6 % more than 684.
 TEST(KeepsPromise, NeedsFewFalseAlarmsForCertainAndIntervalsThatHoldTheTruth) {
+  constexpr std::size_t kDesigns = 280;
   VerdictRates rates;
-  rates.false_alarms = {.percent = 6, .low = 5.5, .high = 6.5};
+  rates.false_alarms = {.count = 577, .of = 10'000, .percent = 5.77, .low = 5.3, .high = 6.5};
   rates.coverage_without = 93;
-  EXPECT_TRUE(KeepsPromise(rates));
+  EXPECT_TRUE(KeepsPromise(rates, kDesigns));
   const auto breaks = [&](auto change) {
     VerdictRates broken = rates;
     change(broken);
-    return !KeepsPromise(broken);
+    return !KeepsPromise(broken, kDesigns);
   };
-  EXPECT_TRUE(breaks([](VerdictRates& r) { r.false_alarms.low = 5.51; })) << "above 5 % for all that samples can tell";
+  EXPECT_TRUE(breaks([](VerdictRates& r) { r.false_alarms.count = 578; })) << "above 5 % for all that samples can tell";
   EXPECT_TRUE(breaks([](VerdictRates& r) { r.false_alarms.high = 6.51; })) << "too few samples to be certain";
   EXPECT_TRUE(breaks([](VerdictRates& r) { r.coverage_without = 92.9; }));
   EXPECT_FALSE(breaks([](VerdictRates& r) { r.false_alarms_of_worlds.percent = 60; })) << "that is told, not promised";
   EXPECT_FALSE(breaks([](VerdictRates& r) { r.power = {}; }));
-  rates.false_alarms.low = 6;
+  EXPECT_FALSE(KeepsPromise(rates, 1)) << "of a single design more than 535 are too many";
   rates.design.law = SampleLaw::kLogNormal;
-  EXPECT_TRUE(KeepsPromise(rates)) << "6 % with uneven units";
-  EXPECT_TRUE(breaks([](VerdictRates& r) { r.false_alarms.low = 6.01; }));
-  EXPECT_FALSE(KeepsPromise({})) << "nothing measured";
+  rates.false_alarms.count = 684;
+  EXPECT_TRUE(KeepsPromise(rates, kDesigns)) << "6 % with uneven units";
+  EXPECT_TRUE(breaks([](VerdictRates& r) { r.false_alarms.count = 685; }));
+  EXPECT_FALSE(KeepsPromise({}, kDesigns)) << "nothing measured";
 }
 
 }  // namespace
