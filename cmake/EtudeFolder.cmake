@@ -16,17 +16,18 @@ macro(etude_harness_options)
   set(ETUDE_HEADERS etude_harness_headers)
 endmacro()
 
-# etude_headers(<target> LIBRARIES <target>... HEADERS <header>...)
+# etude_headers(<target> LIBRARIES <target>... OPTIONS <option>... HEADERS <header>...)
 #   With ETUDE_UNITY, compiles headers once, for all folders where the variable ETUDE_HEADERS is <target> and the options are
 #   the same. Without, each file must include what it uses.
 function(etude_headers TARGET)
-  cmake_parse_arguments(ARG "" "" "LIBRARIES;HEADERS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LIBRARIES;OPTIONS;HEADERS" ${ARGN})
   if(ETUDE_UNITY)
     set(source "${CMAKE_CURRENT_BINARY_DIR}/${TARGET}.cc")
     file(CONFIGURE OUTPUT "${source}" CONTENT "// The headers are compiled with this file.\n")
     add_library(${TARGET} OBJECT "${source}")
     target_include_directories(${TARGET} PRIVATE "${CMAKE_SOURCE_DIR}")
     target_link_libraries(${TARGET} PRIVATE ${ARG_LIBRARIES})
+    target_compile_options(${TARGET} PRIVATE ${ARG_OPTIONS})
     target_precompile_headers(${TARGET} PRIVATE ${ARG_HEADERS})
   endif()
 endfunction()
@@ -133,13 +134,14 @@ function(etude_embed)
   target_sources(${target} PRIVATE "${embedded}")
 endfunction()
 
-# etude_test_program(<name> FOLDERS <folder>... DEPENDS <folder>... LIBRARIES <target>...)
+# etude_test_program(<name> UNOPTIMISED FOLDERS <folder>... DEPENDS <folder>... LIBRARIES <target>...)
 #   Makes the program etude_tests_<name> of every .cc file of the folders of tests/, and of all below them. A folder mirrors
 #   the one that it tests (tests/engine/motion tests engine/motion), which is linked. Each is one of ctest's tests, in the
 #   pinned environment (io/process): most single tests take less time than to start them (tests/README.md). The target
 #   etude_tests_<folder> builds its program. Tests whose names begin with HEAVY_ are one more, with the label "heavy".
+#   UNOPTIMISED, where the tests themselves compute little: they are compiled in less time than they would save.
 function(etude_test_program NAME)
-  cmake_parse_arguments(ARG "" "" "FOLDERS;DEPENDS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "UNOPTIMISED" "" "FOLDERS;DEPENDS;LIBRARIES" ${ARGN})
   set(program etude_tests_${NAME})
   set(patterns ${ARG_FOLDERS})
   list(TRANSFORM patterns REPLACE "(.+)" "${CMAKE_SOURCE_DIR}/tests/\\1/*.cc")
@@ -150,6 +152,10 @@ function(etude_test_program NAME)
   list(REMOVE_DUPLICATES folders)
 
   add_executable(${program} ${sources})
+  if(ARG_UNOPTIMISED AND CMAKE_BUILD_TYPE STREQUAL "Release")
+    target_compile_options(${program} PRIVATE -O0)
+    set(ETUDE_HEADERS etude_tests_unoptimised_headers)
+  endif()
   etude_unity(${program})
   set_target_properties(${program} PROPERTIES BUILD_RPATH "${CMAKE_BINARY_DIR}")  # where modules are
   if(ETUDE_HAS_GOLD AND NOT ETUDE_SANITIZE)

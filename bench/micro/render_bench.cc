@@ -1,7 +1,6 @@
 // Times a picture of the empty room, of a person of capsules, and of a character of some thousand triangles.
 #include <benchmark/benchmark.h>
 
-#include "bench/micro/bare_draw.h"
 #include "sim/character/characters.h"
 #include "sim/character/posed.h"
 #include "sim/choreography/canonical_body.h"
@@ -44,17 +43,6 @@ BENCHMARK_CAPTURE(Picture, capsules_vga_all, OfCapsules, kVga, Kind::kAll)->Appl
 BENCHMARK_CAPTURE(Picture, capsules_vga_labels, OfCapsules, kVga, Kind::kLabels)->Apply(InMilliseconds);
 BENCHMARK_CAPTURE(Picture, surfaces_vga, OfSurfaces, kVga, Kind::kColour)->Apply(InMilliseconds);
 BENCHMARK_CAPTURE(Picture, surfaces_vga_all, OfSurfaces, kVga, Kind::kAll)->Apply(InMilliseconds);
-
-// Times BareDraw, the baseline of `capsules_vga_labels`.
-void Bare(benchmark::State& state) {
-  const Camera camera = LookAt(kVga, {-1.2, 1.4, 3.9}, {0, 0.95, 0});
-  const auto bare = BareDraw::Create({}, camera);
-  if (!bare) return state.SkipWithError(bare.error().message.c_str());
-  const std::vector<Figure> figures = OfCapsules();
-  (*bare)->Draw(figures);
-  for (auto _ : state) (*bare)->Draw(figures);
-}
-BENCHMARK(Bare)->Apply(InMilliseconds);
 
 // A picture of the capture task, with people and moving objects posed for each picture. The argument is the condition
 // `scene` in percent.

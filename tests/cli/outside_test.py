@@ -132,6 +132,7 @@ class OutsideMethods(EtudeCase):
         again = self.etude("replay", self.out, "--cell", cell, "--allow-exec", "--no-fence")
         self.assertEqual(again.returncode, 0, "a failure that came again is the same: " + again.stdout)
 
+    @heavy
     def test_a_model_trained_on_exported_sessions_knows_people_whom_it_never_saw(self):
         example, model = EXAMPLES / "detection_kernel_numpy.py", self.folder / "rival.npz"
         suite = self.write("suite.yaml", "scenario: rivals\nquestion: Right?\ntask: detection\nclips: [builtin:clap, builtin:side_kick]\n"

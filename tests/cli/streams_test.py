@@ -3,7 +3,7 @@ import json
 import pathlib
 import unittest
 
-from etude_case import IK, SHARED, EtudeCase
+from etude_case import IK, SHARED, EtudeCase, heavy
 from kinect_rows import arms, kinect
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -42,6 +42,7 @@ class Streams(EtudeCase):
         self.assertFalse(self.out.exists())
         return complaint[0]
 
+    @heavy
     def test_a_program_is_taught_by_the_others_as_built_in_recognisers_are(self):
         takes, labels = self.record()
         example, probe = ROOT / "examples/outside-methods/detection_correlation.py", ROOT / "tests/support/wire_probe.py"

@@ -1,4 +1,4 @@
-#include "bench/micro/bare_draw.h"
+#include "bench/peers/bare_draw.h"
 
 #include <cstddef>
 
