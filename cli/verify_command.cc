@@ -150,7 +150,10 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
   }
   // Check the signature, run the sampled cells again, and compare the report.
   std::vector<Verified> all;
-  if (!options.check.empty()) {
+  std::vector<std::string> not_verified;
+  if (options.check.empty() && Exists(Inside(replay.folder) / kSignatureFile)) {
+    not_verified.push_back(fmt::format("{}: no key was given (--check)", kSignatureFile));
+  } else if (!options.check.empty()) {
     const auto signed_by = CheckSignature(replay.folder, options.check);
     if (!signed_by && signed_by.error().place.file == options.check) return tl::unexpected(signed_by.error());
     all.push_back({"signature" + (signed_by ? " of key " + *signed_by : ""), {}});
@@ -158,8 +161,7 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
   }
   ASSIGN_OR_RETURN(auto verified, VerifyRun(replay, replay.sample != std::size_t{0}));
   std::ranges::move(verified.checks, std::back_inserter(all));
-  std::vector<std::string> not_verified;
-  if (verified.choice) not_verified = NotVerified(*verified.choice);
+  if (verified.choice) std::ranges::move(NotVerified(*verified.choice), std::back_inserter(not_verified));
   RETURN_IF_ERROR(AddReport(replay.folder, all, not_verified));
   if (*interrupt.requested()) return TellStopped({{}, "stopped; nothing was verified"});
   // Print what agrees and what differs.

@@ -119,16 +119,37 @@ Verified VerifyRows(const FinishedRun& run) {
   return verified;
 }
 
-/// Compares the lines of a file with those that a run would write; `line_of` returns the next one.
-Result<void> CompareLines(const FilePath& file, const std::function<Result<std::string>()>& line_of,
+/// Compares the lines of a file with those that a run would write; `line_of` returns the one for a line.
+Result<void> CompareLines(const FilePath& file, const std::function<Result<std::string>(std::string_view)>& line_of,
                           Verified& verified) {
   bool differs = false;
   return ForEachLine(file, [&](std::string_view line, const Place& place) -> Result<void> {
-    ASSIGN_OR_RETURN(const auto wanted, line_of());
+    ASSIGN_OR_RETURN(const auto wanted, line_of(line));
     if (!differs && line != wanted) verified.differences.push_back(ToString(place) + " is written differently");
     differs = differs || line != wanted;
     return {};
   });
+}
+
+/// Compares the lines of timings.jsonl with those of the rows, but for their numbers, which nothing determines.
+Result<void> CompareTimings(const FilePath& file, const std::vector<Row>& rows, Verified& verified) {
+  std::size_t row = 0;
+  const auto line_of = [&](std::string_view line) -> Result<std::string> {
+    if (row == rows.size()) return std::string();
+    ASSIGN_OR_RETURN(const auto json, ReadJson(std::string(line), file.string()));
+    CellUsage usage;
+    for (const auto& [key, number] : {std::pair{"wall_s", &usage.wall_s},
+                                      {"cpu_s", &usage.cpu_s},
+                                      {"peak_mb", &usage.peak_mb},
+                                      {"world_wall_s", &usage.world_wall_s},
+                                      {"world_cpu_s", &usage.world_cpu_s}}) {
+      if (json.contains(key) && json.at(key).is_number()) *number = json.at(key).get<double>();
+    }
+    return WriteJson(EncodeUsage(rows[row++].Id(), usage));
+  };
+  RETURN_IF_ERROR(CompareLines(file, line_of, verified));
+  if (row < rows.size()) verified.differences.push_back(fmt::format("{} ends after {} lines", file.string(), row));
+  return {};
 }
 
 /// Checks the text files for content that this program ignores but other programs may use: duplicate keys, further rows
@@ -151,17 +172,18 @@ Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
   std::size_t row = 0, curves = 0;
   RETURN_IF_ERROR(CompareLines(
       folder / kCellsFile,
-      [&]() -> Result<std::string> {
+      [&](std::string_view) -> Result<std::string> {
         return row < run.data.rows.size() ? WriteJson(EncodeRow(run.data.rows[row++])) : std::string();
       },
       verified));
+  RETURN_IF_ERROR(CompareTimings(folder / kTimingsFile, run.data.rows, verified));
   std::size_t of_row = 0;
   for (const FinishedScenario& scenario : run.scenarios) {
     const FilePath file = folder / "series" / (scenario.study.scenario + ".jsonl");
     if (!Exists(file)) continue;
     RETURN_IF_ERROR(CompareLines(
         file,
-        [&]() -> Result<std::string> {
+        [&](std::string_view) -> Result<std::string> {
           if (curves == run.data.series.size()) return std::string();
           const CellSeries& of_cell = run.data.series[curves++];
           while (of_row < run.data.rows.size() && run.data.rows[of_row].Id() != of_cell.cell) ++of_row;

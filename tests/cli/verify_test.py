@@ -76,7 +76,7 @@ class Verify(EtudeCase):
     def forgeries(self):
         """Name, the forgery, what finds it, and what is said of it."""
         summary, manifest = self.out / "summary.json", self.out / "manifest.json"
-        host, metric = self.out / "host.json", {
+        host, times, metric = self.out / "host.json", self.out / "timings.jsonl", {
             "aggregate": "mean", "definition": "d", "direction": "lower", "domain": "own", "formula": "", "id": "ours", "inputs": {},
             "label": "l", "null_rule": "", "practical_reason": "", "practical_threshold": 1, "reads": "amount", "source": "", "unit": "cm",
             "vectors": [], "version": 1}
@@ -119,6 +119,9 @@ class Verify(EtudeCase):
             ("a key of the manifest", lambda: forge(manifest, '"metrics":{', '"metrics":{"ours":7,'), "manifest.json", "metrics.ours was 7"),
             ("a metric", lambda: forge(manifest, '"packages":', f'"own_metrics":[{json.dumps(metric, separators=(",", ":"))}],"packages":'),
              "manifest.json", "own_metrics: no scenario has 'ours'"),
+            ("a time", lambda: forge(times, '{"', '{"ours":1,"'), "texts", "timings.jsonl:1 is written differently"),
+            ("times of no cell", lambda: times.write_text(times.read_text() + times.read_text().splitlines()[0] + "\n"), "texts",
+             "timings.jsonl:25 is written differently"),
             ("a key of the machine", lambda: forge(host, '"jobs":', '"is_fast":true,"jobs":'), "host.json", "no run writes 'is_fast'"),
             ("a figure of the machine", lambda: forge(host, '"jobs":', '"jobs":"no","shards":[{}],"wall_seconds":'), "host.json",
              r"'jobs' is .*shards\[0\]: 'host' is missing.*written differently"),
@@ -156,6 +159,10 @@ class Verify(EtudeCase):
         self.assertIn("--sample-seed 5 draws this sample again", said)
         self.assertEqual(self.facts("verify", self.out, "--sample", "all")["sample"]["missed"], [])
         self.assertIn("'some' is not a sample; allowed: 0 to 10000000, or 'all'", self.verify("--sample", "some", expect=2))
+
+    def test_a_seal_says_nothing_else(self):
+        forge(self.out / "seal.json", '"version"', '"ours":"best","version"')
+        self.assertEqual(self.differences("--sample", 0)[0], ["seal.json"])
 
     def keys(self, name, *arguments):
         secret, public = self.folder / f"{name}.key", self.folder / f"{name}.pub"
