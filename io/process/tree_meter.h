@@ -99,7 +99,7 @@ class TreeMeter {
   double page_tables_mb_ = 0, tcp_mb_ = 0;
   /// The largest amount of shared pages that one process maps, now, and its minimum and maximum since SampleMappings.
   double max_shared_mb_ = 0, min_since_mb_ = 0, max_since_mb_ = 0;
-  std::size_t mappings_ = 0;  ///< as far as they were read
+  std::size_t mappings_ = 0;                      ///< as far as they were read
   std::map<std::uint64_t, SharedMemory> shared_;  ///< by inode
   std::map<pid_t, std::uint64_t> faults_;         ///< page faults of each process in the last sample
   std::uint64_t touched_pages_ = 0;               ///< page faults of all processes since the start

@@ -181,17 +181,18 @@ TEST(TreeMeter, CountsWhatTheKernelKeepsForThem) {
 
 /// Four children, each of which splits memory into 40,000 mappings if it is one of the first `splitting`.
 ChildProcess WithMappings(int splitting) {
-  return Python("libc = ctypes.CDLL(None); libc.mprotect.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int]\n"
-                "memory = mmap.mmap(-1, 20000 * 8192, mmap.MAP_PRIVATE); reading, writing = os.pipe()\n"
-                "start = ctypes.addressof(ctypes.c_char.from_buffer(memory))\n"
-                "for child in range(4):\n"
-                "  if os.fork() == 0:\n"
-                "    for at in range(20000 if child < " +
-                std::to_string(splitting) +
-                " else 0): libc.mprotect(start + at * 8192, 4096, 0)\n"
-                "    os.write(writing, b'x'); time.sleep(60)\n"
-                "for child in range(4): os.read(reading, 1)\n"
-                "hold()");
+  return Python(
+      "libc = ctypes.CDLL(None); libc.mprotect.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int]\n"
+      "memory = mmap.mmap(-1, 20000 * 8192, mmap.MAP_PRIVATE); reading, writing = os.pipe()\n"
+      "start = ctypes.addressof(ctypes.c_char.from_buffer(memory))\n"
+      "for child in range(4):\n"
+      "  if os.fork() == 0:\n"
+      "    for at in range(20000 if child < " +
+      std::to_string(splitting) +
+      " else 0): libc.mprotect(start + at * 8192, 4096, 0)\n"
+      "    os.write(writing, b'x'); time.sleep(60)\n"
+      "for child in range(4): os.read(reading, 1)\n"
+      "hold()");
 }
 
 TEST(TreeMeter, CountsMappingsUpToItsLimit) {
