@@ -218,13 +218,31 @@ std::vector<Pop> FindPops(const BodyMotion& motion, const std::vector<PoseSteps>
   return pops;
 }
 
+/// Returns the mean of what the joints show at step `f`, each weighted by how little it shows around it: a foot that
+/// stands shows nothing but the step.
+glm::dvec2 WeightedMean(const std::vector<PoseSteps>& excesses, int f) {
+  constexpr int kNear = 2, kFar = 6;   // the step itself shows at its neighbours, too
+  constexpr double kSmallest = 1e-10;  // square metres
+  glm::dvec3 sum{0};
+  double weights = 0;
+  for (std::size_t j = 0; j < kRoleCount; ++j) {
+    double around = kSmallest;
+    for (int g = std::max(f - kFar, 0); g <= std::min(f + kFar, static_cast<int>(excesses.size()) - 1); ++g) {
+      if (std::abs(g - f) >= kNear) around += glm::dot(excesses[g][j], excesses[g][j]);
+    }
+    sum += excesses[f][j] / around;
+    weights += 1 / around;
+  }
+  return {sum.x / weights, sum.z / weights};
+}
+
 /// Finds steps of the velocity along the floor: second differences that their neighbours do not share.
 std::vector<VelocityStep> FindVelocitySteps(const BodyMotion& motion, const Displacements& found) {
   constexpr double kMin_m_s = 0.12, kTolerance = 0.4;
   constexpr int kNear = 3;
+  // Compute the second differences along the floor beyond the mean of those before and after.
   const int frames = static_cast<int>(motion.poses.size());
-  // Compute the second differences along the floor.
-  std::vector<PoseSteps> bends(motion.poses.size());
+  std::vector<PoseSteps> bends(motion.poses.size()), excesses(motion.poses.size());
   for (int f = 1; f + 1 < frames; ++f) {
     const PoseSteps before = StepsFrom(motion, f - 1), after = StepsFrom(motion, f);
     for (std::size_t j = 0; j < kRoleCount; ++j) {
@@ -232,17 +250,19 @@ std::vector<VelocityStep> FindVelocitySteps(const BodyMotion& motion, const Disp
       bends[f][j] = {bend.x, 0, bend.z};
     }
   }
-  // Take those that all joints share, away from displacements and frozen frames.
+  for (int f = 2; f + 2 < frames; ++f) {
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      excesses[f][j] = bends[f][j] - 0.5 * (bends[f - 1][j] + bends[f + 1][j]);
+    }
+  }
+  // Take those that the joints share, away from displacements and frozen frames.
   std::vector<VelocityStep> steps;
   for (int f = 2; f + 2 < frames; ++f) {
-    PoseSteps excess;
-    for (std::size_t j = 0; j < kRoleCount; ++j) excess[j] = bends[f][j] - 0.5 * (bends[f - 1][j] + bends[f + 1][j]);
-    const glm::dvec3 median = MedianOfJoints(excess);
-    const double speed = AgreedLength(excess, median, kTolerance, 0) * motion.rate_hz;
-    if (speed < kMin_m_s || IsAtFrozenEnd({f, f}, found.frozen)) continue;
+    const double length = AgreedLength(excesses[f], MedianOfJoints(excesses[f]), kTolerance, 0);
+    if (length * motion.rate_hz < kMin_m_s || IsAtFrozenEnd({f, f}, found.frozen)) continue;
     const bool is_displaced = std::ranges::any_of(
         found.common, [f](const Displacement& d) { return d.before - kNear <= f && f <= d.after + kNear; });
-    if (!is_displaced) steps.push_back({f, motion.rate_hz * glm::dvec2(median.x, median.z)});
+    if (!is_displaced) steps.push_back({f, motion.rate_hz * WeightedMean(excesses, f)});
   }
   return steps;
 }

@@ -15,12 +15,20 @@ namespace {
 
 using enum Role;
 
-/// Appends a fault for every stretch of frames in which `value` is above `limit` for at least `min_s` seconds; its size
-/// is the largest value.
+/// Appends a fault for every stretch of frames in which `value` is above `limit` for at least `min_s` seconds, or falls
+/// below it for less than 0.4 s; its size is the largest value.
 void AppendRanges(const BodyMotion& motion, const std::vector<double>& value, double limit, double min_s,
                   MotionFault fault, std::vector<MotionFault>& faults) {
   std::vector<bool> is_beyond;
-  for (const double v : value) is_beyond.push_back(v > limit);
+  constexpr double kMaxGap_s = 0.4;
+  int last = -1;  // frame beyond the limit
+  for (const double v : value) {
+    const int f = static_cast<int>(is_beyond.size());
+    is_beyond.push_back(v > limit);
+    if (v <= limit) continue;
+    if (last >= 0 && f - last < kMaxGap_s * motion.rate_hz) std::fill(is_beyond.begin() + last, is_beyond.end(), true);
+    last = f;
+  }
   for (const FrameRange& span : RangesOf(is_beyond)) {
     if ((span.last - span.first + 1) / motion.rate_hz < min_s) continue;
     fault.from_s = span.first / motion.rate_hz;
@@ -36,12 +44,18 @@ bool Shows(std::span<const JointSet> unseen, int frame, std::initializer_list<Ro
   return std::ranges::none_of(joints, [&](Role joint) { return unseen[frame][Index(joint)]; });
 }
 
-/// A limb stretches if its length differs from its median by 3 % in a twentieth of a second or more. One fault covers
-/// all of these frames.
-void FindStretches(const BodyMotion& motion, std::span<const JointSet> unseen, const std::vector<Pop>& pops,
-                   std::vector<MotionFault>& faults) {
-  constexpr double kLimit = 0.03, kMinLength = 0.02, kMinSeconds = 0.05;
-  constexpr int kMinFrames = 3, kNearPop = 2;
+/// By how much the length of a limb differs from its median.
+struct LengthChanges {
+  Role end = kHead;           ///< the limb's far end
+  std::vector<double> share;  ///< by frame, of the median; 0 in frames that do not count
+  double usual = 0;           ///< median over the frames that show the limb
+};
+
+/// Returns the changes of upper arms, forearms, thighs and shanks. Frames near pops do not count.
+std::vector<LengthChanges> FindLengthChanges(const BodyMotion& motion, std::span<const JointSet> unseen,
+                                             const std::vector<Pop>& pops) {
+  constexpr double kMinLength = 0.02;
+  constexpr int kNearPop = 2;
   constexpr std::array kFarEnds = {kLeftElbow, kLeftWrist, kRightElbow, kRightWrist,
                                    kLeftKnee,  kLeftAnkle, kRightKnee,  kRightAnkle};
   const int frames = static_cast<int>(motion.poses.size());
@@ -50,27 +64,52 @@ void FindStretches(const BodyMotion& motion, std::span<const JointSet> unseen, c
     const int to = std::min(pop.frames.last + kNearPop, frames - 1);
     for (int f = std::max(pop.frames.first - kNearPop, 0); f <= to; ++f) pops_here[f] = true;
   }
+  std::vector<LengthChanges> all;
   for (const Role end : kFarEnds) {
-    std::vector<double> lengths;
-    std::vector<double> seen;
+    std::vector<double> lengths(frames), seen;
     for (int f = 0; f < frames; ++f) {
-      lengths.push_back(BoneLength(motion.poses[f], {*ParentOf(end), end}));
-      if (Shows(unseen, f, {*ParentOf(end), end})) seen.push_back(lengths.back());
+      if (!Shows(unseen, f, {*ParentOf(end), end})) continue;
+      lengths[f] = BoneLength(motion.poses[f], {*ParentOf(end), end});
+      seen.push_back(lengths[f]);
     }
     const double median = seen.empty() ? 0 : Median(seen);
     if (median < kMinLength) continue;
-    FrameRange all{frames, -1};
+    for (double& length : seen) length = std::abs(length / median - 1);
+    LengthChanges changes{.end = end, .share = std::vector<double>(frames), .usual = Median(seen)};
+    for (int f = 0; f < frames; ++f) {
+      const bool counts = Shows(unseen, f, {*ParentOf(end), end}) && !pops_here[f];
+      if (counts) changes.share[f] = std::abs(lengths[f] / median - 1);
+    }
+    all.push_back(std::move(changes));
+  }
+  return all;
+}
+
+/// A limb stretches if its length differs from its median by 3 % in a twentieth of a second or more. One fault covers
+/// all of these frames. Between markers, which skin moves over bones, it must differ by fifteen times the usual.
+void FindStretches(const BodyMotion& motion, const FaultOptions& options, const std::vector<Pop>& pops,
+                   std::vector<MotionFault>& faults) {
+  constexpr double kLimit = 0.03, kTimesUsual = 15, kMinSeconds = 0.05;
+  constexpr int kMinFrames = 3;
+  const std::vector<LengthChanges> limbs = FindLengthChanges(motion, options.unseen, pops);
+  if (limbs.empty()) return;
+  std::vector<double> usual;
+  for (const LengthChanges& limb : limbs) usual.push_back(limb.usual);
+  const double usual_of_all = Median(usual);
+  for (const LengthChanges& limb : limbs) {
+    const double softness = options.is_of_markers ? std::max(limb.usual, usual_of_all) : 0;
+    const double limit = std::max(kLimit, kTimesUsual * softness);
+    FrameRange all{static_cast<int>(limb.share.size()), -1};
     double largest = 0;
     int count = 0;
-    for (int f = 0; f < frames; ++f) {
-      const double change = std::abs(lengths[f] / median - 1);
-      if (pops_here[f] || change <= kLimit || !Shows(unseen, f, {*ParentOf(end), end})) continue;
+    for (int f = 0; f < static_cast<int>(limb.share.size()); ++f) {
+      if (limb.share[f] <= limit) continue;
       all = {std::min(all.first, f), f};
-      largest = std::max(largest, change);
+      largest = std::max(largest, limb.share[f]);
       ++count;
     }
     if (count < kMinFrames || count < kMinSeconds * motion.rate_hz) continue;
-    faults.push_back({FaultKind::kStretches, all.first / motion.rate_hz, all.last / motion.rate_hz, end, largest});
+    faults.push_back({FaultKind::kStretches, all.first / motion.rate_hz, all.last / motion.rate_hz, limb.end, largest});
   }
 }
 
@@ -158,11 +197,11 @@ void FindPasses(const BodyMotion& motion, std::span<const JointSet> unseen, std:
 
 }  // namespace
 
-void FindLimbFaults(const BodyMotion& motion, std::span<const JointSet> unseen, const std::vector<Pop>& pops,
+void FindLimbFaults(const BodyMotion& motion, const FaultOptions& options, const std::vector<Pop>& pops,
                     std::vector<MotionFault>& faults) {
-  FindStretches(motion, unseen, pops, faults);
-  FindBends(motion, unseen, faults);
-  FindPasses(motion, unseen, faults);
+  FindStretches(motion, options, pops, faults);
+  FindBends(motion, options.unseen, faults);
+  FindPasses(motion, options.unseen, faults);
 }
 
 }  // namespace etude

@@ -109,7 +109,7 @@ MotionFaults FindMotionFaults(const BodyMotion& motion, const FaultOptions& opti
   FindLevelFaults(ground, found.faults);
   FindSkates(ground, found.faults);
   AppendDisplacements(motion, displacements, found.faults);
-  FindLimbFaults(motion, options.unseen, displacements.pops, found.faults);
+  FindLimbFaults(motion, options, displacements.pops, found.faults);
   const std::size_t count = found.faults.size();
   FindFalls(ground, found.faults);
   if (found.faults.size() == count) AppendSpeed(motion, found.faults);

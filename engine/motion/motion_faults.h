@@ -54,6 +54,7 @@ struct FaultOptions {
   /// The joints that a frame does not show, because the file lacks them and a reader placed them; empty: none. Nothing
   /// is said of limbs that end there.
   std::vector<JointSet> unseen = {};
+  bool is_of_markers = false;  ///< its joints were found from markers on the skin, so limbs need not keep their lengths
 };
 
 /// The fewest frames in which faults are sought.
@@ -71,7 +72,8 @@ constexpr std::size_t kMinFramesForFaults = 8;
 /// - Rate: in flights, the mass centre falls with less than 4.5 or more than 21.6 m/s² (2.2 times less or more).
 /// - Speed: the fastest joint moves at more than 10 m/s in the median frame, and no flight shows the gravity.
 /// - Pops: third differences above 25 cm and six times the joint's usual (95th percentile); 45 cm at any noise.
-/// - Stretches: upper arms, forearms, thighs and shanks, by 3 %. Bends: 25° for 0.1 s, by the direction of the toes,
+/// - Stretches: upper arms, forearms, thighs and shanks, by 3 %; between markers by fifteen times the
+///   usual (median). Bends: 25° for 0.1 s, by the direction of the toes,
 ///   or, without toes, about the line of the hips.
 /// - Passes: a forearm or a hand within 3.5 cm of the spine's line, or a forearm within that of neck and head.
 /// Fewer than kMinFramesForFaults frames show no fault. All positions must be finite.

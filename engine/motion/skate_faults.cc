@@ -116,25 +116,17 @@ void AppendSkate(const GroundView& ground, const std::vector<Glide>& glides, std
   faults.push_back(ground.FaultOf(FaultKind::kSkates, {first, last}, glm::length(velocity)));
 }
 
-/// Returns the velocity of standing feet near a velocity; nothing if more of them rest.
-std::optional<glm::dvec2> CarriedVelocity(const GroundView& ground, const FrameRange& span, glm::dvec2 velocity) {
-  constexpr double kNear = 0.07, kRest = 0.5;
-  const std::vector<glm::dvec2> all = FootVelocities(ground, span, 1);
+/// Returns true if more of the feet that may stand move with about this velocity than rest.
+bool Carries(const GroundView& ground, const FrameRange& span, const glm::dvec2& velocity) {
+  constexpr double kNear = 0.07, kNearShare = 0.3, kRest = 0.5;
+  const double near = std::max(kNear, kNearShare * glm::length(velocity));
   const double rest = std::max(kNear, kRest * glm::length(velocity));
-  const auto resting = std::ranges::count_if(all, [&](const glm::dvec2& v) { return glm::length(v) < rest; });
-  std::ptrdiff_t carried = 0;
-  for (const double share : {0.5, 0.3, 0.15, 0.15}) {
-    const double radius = std::max(kNear, share * glm::length(velocity));
-    glm::dvec2 sum{0};
-    carried = 0;
-    for (const glm::dvec2& v : all) {
-      if (glm::distance(v, velocity) >= radius) continue;
-      sum += v;
-      ++carried;
-    }
-    if (carried > 0) velocity = sum / static_cast<double>(carried);
+  int carried = 0, resting = 0;
+  for (const glm::dvec2& v : FootVelocities(ground, span, 1)) {
+    carried += glm::distance(v, velocity) < near ? 1 : 0;
+    resting += glm::length(v) < rest ? 1 : 0;
   }
-  return carried > resting ? std::optional(velocity) : std::nullopt;
+  return carried > resting;
 }
 
 /// Appends the skates that begin and end with a step of the body's velocity, and returns their frames.
@@ -150,9 +142,9 @@ std::vector<bool> FindCarried(const GroundView& ground, std::vector<MotionFault>
       if (seconds < kMinSeconds || is_carried[span.first]) continue;
       if (seconds > kMaxSeconds) break;
       if (glm::distance(steps[i].change, -steps[k].change) > kAlike * size + kAlike_m_s) continue;
-      const auto velocity = CarriedVelocity(ground, span, 0.5 * (steps[i].change - steps[k].change));
-      if (!velocity || glm::length(*velocity) < kMinSpeed) continue;
-      faults.push_back(ground.FaultOf(FaultKind::kSkates, span, glm::length(*velocity)));
+      const glm::dvec2 velocity = 0.5 * (steps[i].change - steps[k].change);
+      if (glm::length(velocity) < kMinSpeed || !Carries(ground, span, velocity)) continue;
+      faults.push_back(ground.FaultOf(FaultKind::kSkates, span, glm::length(velocity)));
       for (int f = span.first; f <= span.last; ++f) is_carried[f] = true;
     }
   }

@@ -41,7 +41,13 @@ Result<BodyInPlace> BodyInPlaceOf(SourceClip clip, const OpenOptions& options) {
   }
   const double begin_s = static_cast<double>(body.dropped_frames) / body.motion.rate_hz;
   std::vector<JointSet> unseen = UnseenIn(opened);
-  return BodyInPlace{std::move(body.motion), begin_s, std::move(unseen), std::move(body.changes)};
+  const ClipFormat format = opened.source.format;
+  const bool is_of_markers = format == ClipFormat::kC3d || format == ClipFormat::kTrc || format == ClipFormat::kMotive;
+  return BodyInPlace{std::move(body.motion), begin_s, std::move(unseen), is_of_markers, std::move(body.changes)};
+}
+
+FaultOptions FaultOptionsOf(const BodyInPlace& body, std::optional<double> floor_m) {
+  return {.floor_m = floor_m, .begin_s = body.begin_s, .unseen = body.unseen, .is_of_markers = body.is_of_markers};
 }
 
 Result<BodyInPlace> OpenBodyInPlace(const std::string& reference, const OpenOptions& options) {

@@ -64,19 +64,19 @@ class Triage(EtudeCase):
         self.assertEqual(self.rows(out)["floating"]["faults"], 0)
 
     def test_limits_are_an_exit_code_a_test_report_and_a_section_of_the_page(self):
-        self.popping("m/popping.csv")
+        self.floating("m/floating.csv")
         self.triage(f"{self.folder}/m/*", f"{self.shared}/*", "--limits", "recorded", code=1)
         self.assertEqual({name: row["within_limits"] for name, row in self.rows().items()},
-                         {"clap": 1, "popping": 0, "sway": 1})
+                         {"clap": 1, "floating": 0, "sway": 1})
         self.assertEqual(self.etude("report", self.out, "--no-video").returncode, 0)
         failed = [case.get("name") for case in xml.etree.ElementTree.parse(self.out / "report" / "junit.xml").iter("testcase")
                   if case.find("failure") is not None]
-        self.assertEqual(failed, ["motions, popping"])
+        self.assertEqual(failed, ["motions, floating"])
         page = (self.out / "report" / "index.html").read_text()
         self.assertIn("<h2>Clips with faults</h2>", page)
-        self.assertIn("left_hand pops by 50 cm", page)
-        # One's own limits: a pop is allowed.
-        limits = self.write("limits.yaml", "pops: 1\npops_max_cm: 60\n")
+        self.assertIn("the feet never touch the floor", page)
+        # One's own limits: 50 cm are allowed.
+        limits = self.write("limits.yaml", "floats_max_cm: 50\n")
         self.triage(self.folder / "m", "--limits", limits, out=self.folder / "own")
         facts = self.facts("evaluate", "--alone", self.folder / "m", "--limits", limits, "-o", self.folder / "facts")
         self.assertEqual(facts["beyond_limits"], [])

@@ -265,7 +265,7 @@ ClipFacts FactsOf(const OpenedClip& clip) {
 std::optional<MotionFaults> FaultsOf(const SourceClip& clip, const OpenOptions& options) {
   const auto body = BodyInPlaceOf(clip, options);
   if (!body) return std::nullopt;
-  return FindMotionFaults(body->motion, {.begin_s = body->begin_s, .unseen = body->unseen});
+  return FindMotionFaults(body->motion, FaultOptionsOf(*body));
 }
 
 Json FactsAsJson(const std::vector<ClipFacts>& facts) {

@@ -88,8 +88,7 @@ CellResult JudgeAlone(const BodyInPlace& body, const PlausibilityOptions& option
     return CellResult::Ended(Status::kFailed,
                              fmt::format("{} frames; faults are sought in {} or more", frames, kMinFramesForFaults));
   }
-  const MotionFaults found =
-      FindMotionFaults(body.motion, {.floor_m = options.floor_m, .begin_s = body.begin_s, .unseen = body.unseen});
+  const MotionFaults found = FindMotionFaults(body.motion, FaultOptionsOf(body, options.floor_m));
   // Measure.
   const double duration_s = static_cast<double>(frames - 1) / body.motion.rate_hz;
   CellResult result;

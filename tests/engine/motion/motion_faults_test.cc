@@ -140,7 +140,8 @@ TEST(MotionFaults, OfABodyThatFloatsAreMeasuredFromHeightZero) {
     ExpectTime(always, 0, 6);
     EXPECT_NEAR(always.size, 0.15, 0.01);
     EXPECT_THAT(always.text, HasSubstr("never touch the floor"));
-    EXPECT_THAT(FindMotionFaults(Lifted(motion, 0, 9, 0.15), {.floor_m = 0.15}).faults, IsEmpty()) << "on a floor at 15 cm";
+    EXPECT_THAT(FindMotionFaults(Lifted(motion, 0, 9, 0.15), {.floor_m = 0.15}).faults, IsEmpty())
+        << "on a floor at 15 cm";
     EXPECT_THAT(FindMotionFaults(Lifted(motion, 0, 9, 0.04)).faults, IsEmpty()) << "joints are above the soles";
   }
 }
@@ -257,6 +258,13 @@ TEST(MotionFaults, OfAKneeThatBendsBackwardsHaveItsAngle) {
   EXPECT_NEAR(bends.size, 30, 1);
   ExpectTime(bends, 1.5, 3.5, 0.15);
   EXPECT_THAT(FaultSentences(FindMotionFaults(bent(15)).faults), IsEmpty()) << "some knees overextend";
+  // Without toes, the line of the hips is the hinge.
+  for (const double degrees : {15, 30}) {
+    const BodyMotion motion = bent(degrees);
+    FaultOptions options{.unseen = std::vector<JointSet>(motion.poses.size())};
+    for (JointSet& joints : options.unseen) joints.set(Index(kLeftFoot)).set(Index(kRightFoot));
+    EXPECT_EQ(FindMotionFaults(motion, options).faults.size(), degrees == 30 ? 1u : 0u) << degrees;
+  }
 }
 
 TEST(MotionFaults, OfAnArmThroughChestOrHeadNameTheWrist) {
@@ -297,6 +305,37 @@ TEST(MotionFaults, AMotionWithoutFlightsIsToldByItsSpeed) {
   motion.rate_hz *= 40;
   const auto found = FindMotionFaults(motion).faults;
   EXPECT_TRUE(std::ranges::any_of(found, [](const MotionFault& fault) { return fault.kind == FaultKind::kSpeed; }));
+}
+
+TEST(MotionFaults, NothingIsSaidOfJointsThatAReaderPlaced) {
+  BodyMotion motion = Hopping(30);
+  motion.poses[60][kLeftHand].y += 0.5;
+  FaultOptions options{.unseen = std::vector<JointSet>(motion.poses.size())};
+  EXPECT_THAT(FaultSentences(FindMotionFaults(motion, options).faults), ElementsAre(HasSubstr("left_hand pops")));
+  for (JointSet& joints : options.unseen) joints.set(Index(kLeftHand));
+  EXPECT_THAT(FindMotionFaults(motion, options).faults, IsEmpty());
+}
+
+TEST(MotionFaults, LimbsBetweenMarkersMayGiveWayAsSkinDoes) {
+  BodyMotion motion = Swaying(30);
+  for (std::size_t f = 0; f < motion.poses.size(); ++f) {
+    BodyPose& pose = motion.poses[f];
+    const double change = 0.04 * std::sin(0.3 * static_cast<double>(f));
+    for (const Role end : {kLeftWrist, kRightWrist, kLeftElbow, kRightElbow, kLeftAnkle, kRightAnkle}) {
+      pose[end] += change * (pose[end] - pose[*ParentOf(end)]);
+    }
+  }
+  EXPECT_FALSE(FindMotionFaults(motion).faults.empty()) << "of a skeleton";
+  EXPECT_THAT(FaultSentences(FindMotionFaults(motion, {.is_of_markers = true}).faults), IsEmpty());
+}
+
+TEST(MotionFaults, AreDatedFromTheTimeOfTheFirstFrame) {
+  BodyMotion motion = Hopping(30);
+  motion.poses[60][kHead].y += 0.5;
+  const auto faults = FindMotionFaults(motion, {.begin_s = 3}).faults;
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_NEAR(faults.front().from_s, 5, 0.05);
+  EXPECT_THAT(faults.front().text, HasSubstr("at 4.97 s"));
 }
 
 TEST(MotionFaults, OfManyAlikeTheLargestAreToldAndTheOthersCounted) {

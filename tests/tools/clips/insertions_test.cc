@@ -30,7 +30,7 @@ using enum FaultKind;
 struct TriedClip {
   std::string name;
   BodyMotion motion;
-  std::vector<JointSet> unseen;
+  FaultOptions options;
   MotionFaults own = {};  ///< before anything is inserted
 
   bool IsFaultless() const { return own.faults.empty(); }
@@ -300,8 +300,9 @@ std::vector<TriedClip> LoadTried() {
         std::string name = source.source;
         auto body = BodyInPlaceOf(std::move(source), {});
         if (!body || body->motion.poses.size() < kMinFramesForFaults) continue;
-        clips.push_back({std::move(name), std::move(body->motion), std::move(body->unseen)});
-        clips.back().own = FindMotionFaults(clips.back().motion, {.unseen = clips.back().unseen});
+        FaultOptions options = FaultOptionsOf(*body);
+        clips.push_back({std::move(name), std::move(body->motion), std::move(options)});
+        clips.back().own = FindMotionFaults(clips.back().motion, clips.back().options);
       }
     }
   }
@@ -330,7 +331,7 @@ TEST(InsertedFaults, HEAVY_AreFoundNamedAndDated) {
       const auto inserted = kind.insert(motion, dice);
       if (!inserted) continue;
       ++count;
-      const auto faults = FindMotionFaults(motion, {.unseen = clip.unseen}).faults;
+      const auto faults = FindMotionFaults(motion, clip.options).faults;
       const auto told =
           std::ranges::find_if(faults, [&](const MotionFault& fault) { return Tells(fault, kind.fault, *inserted); });
       const bool is_found = told != faults.end();
