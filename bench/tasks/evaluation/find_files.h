@@ -23,7 +23,7 @@ constexpr std::size_t kMaxPairs = 100'000;
 Result<FoundFiles> FindEvaluatedFiles(const Node& condition, std::span<const Node> methods,
                                       const std::map<std::string, std::string>& texts);
 
-/// Whether the files that a folder or a pattern stands for may be links.
+/// Says what happens to links among the files that a folder or a pattern stands for.
 enum class Links { kAllowed, kRefused };
 
 /// Lists the files that references stand for, in their order; a folder stands for the motion files in it. Fails at
