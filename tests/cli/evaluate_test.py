@@ -197,9 +197,9 @@ class Evaluate(EtudeCase):
         self.assertEqual(made.returncode, 0, made.stderr)
         facts = self.facts("evaluate", self.folder / "groove.bvh", self.folder / "groove.bvh", "-o", self.out)
         self.assertGreater(len(facts["angles"]), 20)
-        self.assertEqual({angle["rmse_deg"]["value"] for angle in facts["angles"]}, {0.0})
+        self.assertLess(max(angle["rmse_deg"]["value"] for angle in facts["angles"]), 1e-6)
         row, = self.rows()
-        self.assertEqual([row[name] for name in ("angle_rmse_deg", "l2q@lafan1", "npss@lafan1")], [0, 0, 0])
+        self.assertEqual([row[name] for name in ("l2q@lafan1", "npss@lafan1")], [0, 0])
 
     def test_people_are_what_claims_beyond_the_files_count(self):
         for name in "p1_a", "p1_b", "p2_a":
