@@ -56,6 +56,9 @@ std::optional<Glide> GlideAround(const GroundView& ground, int frame, const Glid
   const FrameRange window{std::max(frame - half, 0), std::min(frame + half, last)};
   const auto all = FootVelocities(ground, window, FramesIn(ground, kEvery_s, 1));
   if (all.size() < kMinVelocities) return std::nullopt;
+  // Most feet that may stand rest: the search for their velocity would be in vain.
+  const auto still = std::ranges::count_if(all, [](const glm::dvec2& v) { return glm::length(v) < kNear; });
+  if (static_cast<double>(still) > rule.max_rest * static_cast<double>(all.size())) return std::nullopt;
   // Find the velocity with the most neighbours, and their mean.
   const auto near = [&](const glm::dvec2& v) {
     const double radius = std::max(kNear, kNearShare * glm::length(v));
