@@ -8,7 +8,7 @@ namespace etude {
 
 Result<std::optional<double>> EvaluateMetric(std::string_view metric, std::string_view input_json) {
   for (const auto& evaluators :
-       {IkEvaluators(), CaptureEvaluators(), TransitionEvaluators(), SearchEvaluators(), PoseDistanceEvaluators(),
+       {IkEvaluators(), CaptureEvaluators(), TransitionEvaluators(), PoseDistanceEvaluators(),
         DetectionEvaluators(), CoachEvaluators(), EvaluationEvaluators(), PlausibilityEvaluators()}) {
     for (const Evaluator& evaluator : evaluators) {
       if (evaluator.metric != metric) continue;

@@ -22,7 +22,6 @@ struct Evaluator {
 std::span<const Evaluator> IkEvaluators();  ///< tracking, too
 std::span<const Evaluator> CaptureEvaluators();
 std::span<const Evaluator> TransitionEvaluators();  ///< matching, too
-std::span<const Evaluator> SearchEvaluators();
 std::span<const Evaluator> PoseDistanceEvaluators();
 std::span<const Evaluator> DetectionEvaluators();
 std::span<const Evaluator> CoachEvaluators();

@@ -7,7 +7,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-EvaluationExtras Sample() {
+EvaluationExtras SampleOfPair() {
   EvaluationExtras extras;
   extras.truth.rate_hz = 59.94;
   extras.truth.joints = {"root", "tail é"};
@@ -19,7 +19,7 @@ EvaluationExtras Sample() {
 }
 
 TEST(EvaluationExtras, SurviveWritingAndReadingWithTheirGaps) {
-  const EvaluationExtras written = Sample();
+  const EvaluationExtras written = SampleOfPair();
   const auto read = ReadEvaluationExtras(WriteEvaluationExtras(written));
   ASSERT_TRUE(read) << ToString(read.error());
   EXPECT_EQ(read->truth.rate_hz, 59.94);
@@ -32,7 +32,7 @@ TEST(EvaluationExtras, SurviveWritingAndReadingWithTheirGaps) {
 }
 
 TEST(EvaluationExtras, OthersAreRefused) {
-  const std::string good = WriteEvaluationExtras(Sample());
+  const std::string good = WriteEvaluationExtras(SampleOfPair());
   const auto complaint = [&](const std::string& from, const std::string& to) {
     std::string text = good;
     const std::size_t at = text.find(from);
