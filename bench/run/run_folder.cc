@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns true for the name of a part of a result folder, or of its temporary file.
+/// Returns true if a part of a result folder has this name, or if a temporary file of such a part has it.
 bool IsPartOfRun(const fs::path& name) {
   static const std::vector<std::string> parts = {
       "manifest.json", "host.json",  kJournalFile,        kSealFile,   kCellsFile,     kTimingsFile,

@@ -66,7 +66,7 @@ struct MethodEntry {
                                         ///< folder
   std::string description = {};         ///< what it is, in a sentence, for readers of the results; "" = not described
 
-  /// Returns true if the task runs it, entirely or around its seat.
+  /// Returns true if the task runs the method: the whole of a built-in one, or the stages around the seat of a program.
   bool RunsInTask() const { return exec.empty() || !seat.empty(); }
 };
 

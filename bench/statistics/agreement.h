@@ -26,11 +26,11 @@ struct CurveAgreement {
   AgreementFigure icc;        ///< ICC(A,1)
 };
 
-/// Measures the agreement over pairs, of which `units` says whose each is. RMSE, bias and ICC(A,1) are those of all
-/// frames together. The limits are those for repeated measures where the true value varies (Bland and Altman 2007,
-/// section 3): a one-way analysis of variance of the differences by unit gives the variance within a unit and that
-/// between units, whose sum is that of one more difference; a frame is a replicate. Intervals are BCa intervals of
-/// units drawn with replacement, from a stream keyed by `seed` and `purpose`.
+/// Measures the agreement over pairs; `units` names the unit to which each pair belongs. RMSE, bias and ICC(A,1) are
+/// those of all frames together. The limits are those for repeated measures where the true value varies (Bland and
+/// Altman 2007, section 3): a one-way analysis of variance of the differences by unit gives the variance within a unit
+/// and that between units, whose sum is that of one more difference; a frame is a replicate. Intervals are BCa
+/// intervals of units drawn with replacement, from a stream keyed by `seed` and `purpose`.
 CurveAgreement MeasureAgreement(std::span<const AgreementSums> pairs, std::span<const std::string> units,
                                 std::uint64_t seed, const std::string& purpose);
 

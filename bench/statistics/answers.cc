@@ -134,7 +134,8 @@ class Measurer {
     return answer;
   }
 
-  /// Returns the number of answers against baselines that are judged together; there are about as many against rivals.
+  /// Returns how many answers compare a method with its baseline; they are judged together. About as many compare a
+  /// method with a rival.
   int CountAnswers() const {
     const auto compared = std::ranges::count_if(
         study_.methods, [](const ComparedMethod& method) { return method.name != method.against; });

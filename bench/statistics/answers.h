@@ -27,8 +27,9 @@ double McNemarMidP(int gained, int lost);
 std::vector<Answer> MeasureAnswersAgainstBaselines(const Study& study, const ConditionTable& table, std::uint64_t seed);
 std::vector<Answer> MeasureAnswersAgainstRivals(const Study& study, const ConditionTable& table, std::uint64_t seed);
 
-/// Returns the metric whose values an answer compares after success: the first other headline metric. "" if there is
-/// none, or if success is the first headline metric and more than yes or no: then it is all that the answer is about.
+/// Returns the metric that an answer compares besides success: the first headline metric that is not success. "" if
+/// there is none, or if success is the first headline metric and more than yes or no: then it is all that the answer is
+/// about.
 std::string ValueMetricOf(const Study& study);
 
 /// Compares the success of two methods under one condition, judged as the only comparison; nothing if no cell says it.

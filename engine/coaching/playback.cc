@@ -76,7 +76,7 @@ std::shared_ptr<const ShownPath> DanceTransitions::Splice(int from, int frame, c
   clips[0].rate_hz = motions[from].rate_hz;
   clips[0].poses.assign(motions[from].poses.begin() + skipped, motions[from].poses.end());
   clips[1] = motions[to];
-  // If the wanted clip has a fixed place, show the playing clip at its own place in the world.
+  // If the wanted clip is shown where it was authored, move the playing clip to the place where it is shown.
   if (home_from != nullptr) {
     for (BodyPose& pose : clips[0].poses) pose = home_from->Apply(pose);
   }

@@ -243,8 +243,8 @@ class Builder {
 
   glm::dvec3 OriginOf(int limb) const { return limb == 0 ? parts_.places()[kLeftFoot] : origins_[limb - 1]; }
 
-  // Returns R_WL at rest. Z runs along the limb. X points right; for arms it is the axis about which the elbow bends,
-  // for the pelvis it points forward.
+  // Returns R_WL at rest. Z runs along the limb. X points forward for the pelvis, along the axis of the elbow for arms,
+  // and to the right for the other limbs.
   glm::dmat3 RestAxes(int part, const RestLimb& limb) const {
     const glm::dvec3 z = glm::normalize(limb.to - limb.from);
     const glm::dvec3 wanted = part == parts_.pelvis() ? kAhead
@@ -260,8 +260,8 @@ class Builder {
   }
 
   // Returns the limb's axes at zero angles. Euler angles are singular where a limb points along ±X. For an upper arm X
-  // is therefore diagonal, so that the singular directions are forward and out, and back and in behind the trunk: arms
-  // point there less often than down, sideways or forward.
+  // is therefore diagonal. The two singular directions are then forward-outward and backward-inward (behind the trunk).
+  // Arms point there less often than down, sideways or forward.
   glm::dmat3 NeutralAxes(const RestLimb& limb, const glm::dmat3& R_WL) const {
     if (limb.leads_to != kLeftElbow && limb.leads_to != kRightElbow) return R_WL;
     const double back = limb.leads_to == kLeftElbow ? -1 : 1;

@@ -53,8 +53,8 @@ inline bool IsSeen(const glm::dvec3& position) { return position.x == position.x
 /// Returns `count` frames of a motion at `rate_hz`, the first `start_s` after its first frame; times before the first
 /// frame or after the last are not seen. A time within a millionth of a frame of one of the motion's frames takes that
 /// frame unchanged. Between frames, positions are interpolated linearly and rotations by slerp, and contacts are those
-/// of the nearer frame; a joint that one of the two frames does not show is not seen. Nothing is filtered, also where
-/// frames are left out.
+/// of the nearer frame; a joint that one of the two frames does not show is not seen. No filter is applied, not even
+/// where frames are left out.
 RawMotion Sampled(const RawMotion& motion, double rate_hz, double start_s, std::size_t count);
 
 }  // namespace etude

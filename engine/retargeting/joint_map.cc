@@ -158,8 +158,9 @@ class MapFinder {
                    0.5 * (draft_.RestOf(kLeftShoulder) + draft_.RestOf(kRightShoulder)));
   }
 
-  /// Returns the parent of the highest joint beyond the shoulders in the direction of the trunk, or that joint itself;
-  /// −1 if there is none. The joint belongs to no limb and is 0.15 to 0.8 trunk lengths beyond the shoulders.
+  /// Finds the highest joint that belongs to no limb and lies 0.15 to 0.8 trunk lengths beyond the shoulders in the
+  /// direction of the trunk. Returns its parent if it is an end site whose parent does not carry the shoulders, else
+  /// the joint itself; −1 if there is none.
   int HeadByShape() const {
     const int carrier = tree_.CommonAncestor(draft_.JointOf(kLeftShoulder), draft_.JointOf(kRightShoulder));
     const glm::dvec3 neck = 0.5 * (draft_.RestOf(kLeftShoulder) + draft_.RestOf(kRightShoulder));

@@ -30,7 +30,7 @@ std::span<const LimbNames> LegSchemes();
 std::span<const std::string_view> NeckNames();
 std::span<const std::string_view> HeadNames();
 
-/// The finger of a joint according to its name, in the order of suitability as the tip of a hand.
+/// The finger to which a joint belongs, according to its name. The most suitable tip of a hand comes first.
 enum class Finger { kMiddle, kIndex, kRing, kLittle, kNotNamed, kThumb };
 /// Returns the finger of a name: "LeftHandThumb2", "thumb_01_l" and "lthumb" are thumbs. Numbered names are kNotNamed:
 /// 3ds Max' biped calls the thumb "Finger0", others begin with the index finger.

@@ -133,8 +133,8 @@ glm::dvec3 ByWand(const glm::dvec3& wand, const glm::dvec3& other_end, const glm
   return UnitOr(-Across(wand - other_end, marker - other_end), glm::dvec3(0));
 }
 
-/// Returns the inward direction at a knee, by the hips and by the knee's bending: first the bending of the markers,
-/// then of the resulting centres.
+/// Returns the inward direction at a knee, from the direction between the hips and from the knee's bending. The bending
+/// of the markers gives a first direction and so the joint centres; their bending gives the result.
 glm::dvec3 KneeInward(const SideOf& side, const SkinDepths& depths) {
   const glm::dvec3 hip = *side[kLeftHip], skin = *side[kLeftKnee], ankle = *side[kLeftAnkle];
   const double sign = side.is_left() ? -1 : 1, depth = depths.metres[Index(side.On(kLeftKnee))];

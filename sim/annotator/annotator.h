@@ -20,10 +20,10 @@ struct PersonErrors {
 };
 
 /// Returns the relative difficulty of locating each joint centre, by role; the mean is 1. The values are the standard
-/// deviations σ of COCO's keypoint evaluation (5,000 images annotated more than once; relative to the square root of a
-/// person's area: shoulders .079, elbows .072, wrists .062, hips .107, knees .087, ankles .089, and ears .035 for the
-/// head) and COCO-WholeBody's for the tips (big toes .068, middle fingers .026), divided by their mean. Their absolute
-/// size is not used, because it describes crowd workers on pictures of all kinds.
+/// deviations σ of two keypoint evaluations, divided by their mean. COCO's are of 5,000 images annotated more than
+/// once, relative to the square root of a person's area: shoulders .079, elbows .072, wrists .062, hips .107, knees
+/// .087, ankles .089; ears, for the head, .035. COCO-WholeBody's are for the tips: big toes .068, middle fingers .026.
+/// Their absolute size is not used, because it describes crowd workers on pictures of all kinds.
 const std::array<double, kRoleCount>& RelativeDeviations();
 
 /// The parts of a mark's variance, as shares *(ours; Bartlett, Bussey and Flyger 2006 show that different operators

@@ -80,8 +80,8 @@ inline float Disturbed(const SensorNoise& noise, float light, float normal) {
   return seen < 1 ? seen : 1;
 }
 
-/// Noise for pictures without any other effect. The bytes are the same as by way of light, but faster: one table holds
-/// the 1024 outcomes of decoding, adding noise and encoding for every code.
+/// Noise for pictures without any other effect. For every code, one table holds the 1024 outcomes of decoding it to
+/// light, adding noise and encoding the sum. The bytes are those of doing so for each pixel, but come faster.
 class CodeNoise {
  public:
   explicit CodeNoise(const SensorNoise& noise);

@@ -8,9 +8,9 @@
 
 namespace etude {
 
-/// Finds for each true pose the pose of a body whose joints come nearest to it: the pose with the smallest Σ |joint −
-/// true joint|² that was found; the root moves and turns freely. The remaining distance is what this body cannot
-/// express; for a body fitted to the performer it is zero.
+/// Fits a body to each true pose: minimises Σ |joint − true joint|² over the angles and over a root that moves and
+/// turns freely. The minimum may be a local one. The remaining distance is what this body cannot express; for a body
+/// fitted to the performer it is zero.
 std::vector<TreeState> FindNearestPoses(const CaptureBody& body, std::span<const BodyPose> truth);
 
 }  // namespace etude

@@ -4,7 +4,8 @@
 
 namespace etude {
 
-/// What spoils a truth, in this order, so that metrics meet an answer whose fault is known; 0 leaves it as it is.
+/// The faults that are added to a truth, in this order, to test metrics on an answer whose faults are known. A fault of
+/// 0 changes nothing.
 struct Spoiler {
   double noisy_mm = 0;        ///< standard deviation of white noise, each axis, each joint for itself
   double smoothed_ms = 0;     ///< length of a centred moving mean

@@ -63,9 +63,10 @@ std::string WhyNone(const MotionLibrary& library, const TransitionRequest& reque
   return DescribeNoMatch(survey.nearest, survey.allowed.Pairs(), "bridge frames", rules);
 }
 
-/// Plans paper A's transition (section 3.5). For each bridge frame of the playing clip within the budget it takes the
-/// first (or, by `rules.pick`, the nearest) matching bridge frame of the wanted clip, in the front half before the rear
-/// half. Without a match it goes through an in-between.
+/// Plans paper A's transition (section 3.5). Compares each bridge frame of the playing clip within the budget with
+/// those of the wanted clip, the front half before the rear half, and takes the first pair that matches. With
+/// Pick::kSmallest it takes the nearest matching pair of the front half, else of the rear half. Without a match the
+/// transition goes through an in-between.
 TransitionRecord PlanFuzzyBridge(const MotionLibrary& library, const TransitionRequest& request,
                                  const MatchRules& rules) {
   const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];
