@@ -95,8 +95,9 @@ std::vector<std::string> NotVerified(const CellChoice& choice) {
     if (!method.why_not.empty())
       lines.push_back(fmt::format("{}: all {} cells: {}", name, method.rows, method.why_not));
     for (const auto& [status, rows] : method.by_machine) {
-      lines.push_back(fmt::format("{}: {} of {} cells ended with {} on their machine; they need not on another", name,
-                                  rows, method.rows, status));
+      lines.push_back(
+          fmt::format("{}: {} of {} cells ended with {} on their machine; on another, they may end otherwise", name,
+                      rows, method.rows, status));
     }
   }
   return lines;

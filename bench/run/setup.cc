@@ -67,11 +67,8 @@ std::vector<std::string> UnitsOf(const std::vector<std::string>& clips, Sampling
   if (unit == SamplingUnit::kLibrary) {
     std::set<std::string> collections;
     for (const LibraryClip& clip : library.clips) {
-      const bool is_shown = std::find(clips.begin(), clips.end(), clip.name) != clips.end();
-      if (is_shown || clips.empty()) collections.insert(CollectionOf(clip));
+      if (std::ranges::find(clips, clip.name) != clips.end()) collections.insert(CollectionOf(clip));
     }
-    // A world of all clips is one unit of all collections.
-    if (clips.empty()) return {fmt::format("{}", fmt::join(collections, " + "))};
     return {collections.begin(), collections.end()};
   }
   std::set<std::string> names(clips.begin(), clips.end());

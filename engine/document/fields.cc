@@ -120,7 +120,7 @@ std::string Fields::RequiredText(std::string_view key) {
   const std::string nearest = value == nullptr ? NearestName(key, found) : "";
   for (const Node::Entry& entry : node_.entries) {
     if (entry.key == nearest)
-      Complain(entry.place, fmt::format("{} needs '{}'; did you mean it by '{}'?", what_, key, nearest));
+      Complain(entry.place, fmt::format("{} needs '{}'; is '{}' a misspelling of it?", what_, key, nearest));
   }
   Complain(value == nullptr ? node_.place : value->place, fmt::format("{} needs '{}'", what_, key));
   return "";

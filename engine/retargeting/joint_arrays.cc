@@ -227,12 +227,17 @@ Result<BodyMotion> ReadBodyNpz(const Npz& arrays, const std::string& file) {
   if (raw.joints.size() != kRoleCount) {
     return Fail({file}, "positions of {}; allowed: frames × 20 × 3", ShapeOf(arrays.arrays.at("positions")));
   }
+  for (const Role role : AllRoles()) {
+    if (raw.roles[Index(role)] < 0) return Fail({file}, "names: none is '{}'; allowed: the twenty roles", RoleName(role));
+  }
+  // Joints may stand in any order.
   BodyMotion motion{.rate_hz = raw.rate_hz, .poses = std::vector<BodyPose>(raw.FrameCount())};
-  for (std::size_t i = 0; i < raw.positions.size(); ++i) {
-    if (!IsSeen(raw.positions[i])) {
-      return Fail({file}, "positions of frame {}: nan; only etude evaluate reads gaps", i / kRoleCount);
+  for (std::size_t f = 0; f < motion.poses.size(); ++f) {
+    for (const Role role : AllRoles()) {
+      const glm::dvec3& at = raw.At(f, static_cast<std::size_t>(raw.roles[Index(role)]));
+      if (!IsSeen(at)) return Fail({file}, "positions of frame {}: nan; only etude evaluate reads gaps", f);
+      motion.poses[f][role] = at;
     }
-    motion.poses[i / kRoleCount].joints[i % kRoleCount] = raw.positions[i];
   }
   return motion;
 }

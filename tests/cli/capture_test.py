@@ -124,7 +124,7 @@ class Capture(EtudeCase):
         words = self.write("words.csv", "camera,x,y,z,u,v\na,1,2,three,4,5\n")
         self.assertIn("words.csv:2: 'three' is not a number",
                       self.refusal("calibrate", words, "--size", "640x480", "-o", self.rig))
-        self.assertIn("no board; allowed: 3 to 16 squares", self.refusal("calibrate", "x", "--board", "2x2x1", "-o", self.rig))
+        self.assertIn("--board 2x2x1: not a board; allowed: 3 to 16 squares", self.refusal("calibrate", "x", "--board", "2x2x1", "-o", self.rig))
         self.assertIn("no such file", self.refusal("calibrate", "nothing.mp4", "-o", self.rig))
         self.assertFalse((self.folder / "rig.yaml").exists(), "nothing is written")
 
@@ -213,8 +213,8 @@ class Capture(EtudeCase):
             (late / f"right_{k}.json").unlink()
         make_film(self.films[2], frames=FRAMES - 2)
         out = self.folder / "m.csv"
-        self.assertIn("let keypoints tell the time (--sync)", self.refusal(*self.capture("-o", out)))
-        self.assertIn("--sync: outlines tell no clock", self.refusal(
+        self.assertIn("use keypoints to find the time (--sync)", self.refusal(*self.capture("-o", out)))
+        self.assertIn("--sync: outlines do not show the time", self.refusal(
             "capture", "--rig", self.rig, *self.films, "--silhouettes", "--sync", "1", "-o", out))
         told = self.etude(*self.capture("-o", out, "--sync", "0.3", "--film", self.folder / "m.mp4")).stdout
         clocks = re.search(r"clocks, after left's: middle ([+-][0-9.]+) frames .*, right ([+-][0-9.]+) frames", told)
@@ -275,7 +275,7 @@ class Capture(EtudeCase):
         (self.keypoints / "left_json" / "left_19.json").unlink()
         self.assertIn("19 frames, the film", self.refusal(*self.capture("-o", out)))
         (self.keypoints / "left_json" / "left_4.json").write_text('{"people": [{"pose_keypoints_2d": [1, 2]}]}')
-        self.assertIn("left_4.json: no list of keypoints", self.refusal(*self.capture("-o", out)))
+        self.assertIn("left_4.json: not a list of keypoints", self.refusal(*self.capture("-o", out)))
         self.assertFalse(out.exists(), "nothing is written")
 
 

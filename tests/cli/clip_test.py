@@ -114,7 +114,7 @@ class Info(Clips):
         self.refuses("info", "nowhere.bvh", says=["no clip matches 'nowhere.bvh'; allowed: builtin:NAME"])
         self.refuses("info", "builtin:clapp", says=["did you mean 'clap'?"])
         self.refuses("info", f"{NO_BODY}#Jmp", says=["simple_skin.gltf: unknown animation 'Jmp'"])
-        self.refuses("info", WALK, "--unit", "ell", says=["--unit: 'ell' is no unit; allowed: m, cm"])
+        self.refuses("info", WALK, "--unit", "ell", says=["--unit: 'ell' is not a unit; allowed: m, cm"])
         self.refuses("info", says=["clips is required", "etude clip info --help explains"])
 
 
@@ -182,7 +182,7 @@ class Convert(Clips):
         self.refuses("convert", WALK, self.folder / "new.fbx", says=[".bvh, .glb, .trc, .csv"])
         self.refuses("convert", WALK, fresh, "--character", "bear", says=["only GLB holds a character"], leaves=fresh)
         self.refuses("convert", NO_ANIMATION, fresh, says=["holds no animation"], leaves=fresh)
-        self.refuses("convert", "builtin:*", fresh, says=["one file is converted at a time"], leaves=fresh)
+        self.refuses("convert", "builtin:*", fresh, says=[" clips; only one can be converted at a time"], leaves=fresh)
         limited = subprocess.run(["sh", "-c", 'ulimit -f 8; trap "" XFSZ; exec "$0" clip convert "$1" "$2"', ETUDE, WALK,
                                   fresh], capture_output=True, text=True, timeout=60)
         self.assertEqual(limited.returncode, 3, limited.stderr)
@@ -226,7 +226,7 @@ class Render(Clips):
         for arguments, says in (
                 ((NO_BODY, "-o", path), "no joint found"),
                 ((WALK, "-o", path, "--character", "own"), "has no figure of its own"),
-                ((WALK, "-o", path, "--size", "9x9"), "--size: '9x9' is no size"),
+                ((WALK, "-o", path, "--size", "9x9"), "--size: '9x9' is not a size"),
                 ((WALK, "-o", path, "--frames", "1000", "--columns", "100"), "the sheet would have"),
                 ((WALK, "-o", self.folder / "a.gif"), "allowed: .png (a contact sheet), .mp4 (a film)")):
             self.refuses("render", *arguments, says=[says], leaves=path)

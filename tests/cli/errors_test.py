@@ -33,7 +33,7 @@ class Errors(EtudeCase):
         self.refuses("run", "no/such.yaml", "-o", self.out, says=["no/such.yaml: no such scenario file or folder"])
         self.refuses("run", self.folder, "-o", self.out, says=["contains no scenario (*.yaml)"])
         self.refuses("report", self.folder / "nothing", says=["nothing: no such folder"])
-        self.refuses("report", self.folder, says=[f"{self.folder}: is no run, for it holds no manifest.json"])
+        self.refuses("report", self.folder, says=[f"{self.folder}: is not a run, because it contains no manifest.json, which etude run writes"])
 
     def test_yaml_that_is_none(self):
         self.refuses_scenario(IK + "clips: [a, b\n", says=[":10:1: not valid YAML"])

@@ -251,9 +251,9 @@ class Evaluate(EtudeCase):
                 (["evaluate", "--pairs", self.write("p.csv", "truth\n"), "-o", self.out], "no column of a method"),
                 (["export", scenario, "-o", self.out], "there are no problems to export"),
                 (["score", scenario, self.folder, "--name", "x", "-o", self.out], "there are no problems to export"),
-                (["run", scenario, "--seed-file", keys], "draws no dice"),
-                (["run", outside], "asks no program"),
-                (["check-method", "--task", "evaluation", "--", "python3", "x.py"], "asks no program")]:
+                (["run", scenario, "--seed-file", keys], "uses no random numbers, because it judges files"),
+                (["run", outside], "task evaluation takes no programs, so 'exec' is not allowed"),
+                (["check-method", "--task", "evaluation", "--", "python3", "x.py"], "task evaluation takes no programs\n")]:
             with self.subTest(words=words, command=arguments[0]):
                 told = self.etude(*arguments)
                 self.assertEqual(told.returncode, 2, told.stdout + told.stderr)

@@ -36,7 +36,7 @@ class Film(EtudeCase):
         self.run_suite(self.write("ik.yaml", FILMED.replace("fixed, least-squares]", "fixed]")))
         reported = self.etude("report", self.out)
         self.assertEqual(reported.returncode, 0, reported.stderr)
-        self.assertIn("this run kept recordings of one method only here", (self.out / "report" / "index.html").read_text())
+        self.assertIn("this run kept recordings of only one method; two in the same world are needed", (self.out / "report" / "index.html").read_text())
         self.assertFalse((self.out / "video").exists())
 
 

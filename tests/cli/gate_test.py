@@ -219,7 +219,7 @@ class Gate(EtudeCase):
         cells.write_text("".join(lines))
         self.gate(self.out, "--baseline", self.baseline, expect=0)
         (self.out / "journal.jsonl").write_text("")
-        self.assertIn("did not come to its end", self.gate(self.out, "--baseline", self.baseline, expect=3))
+        self.assertIn("the run was not finished, or is still running (journal.jsonl exists)", self.gate(self.out, "--baseline", self.baseline, expect=3))
 
     def test_cells_ended_by_the_machine_are_no_regression(self):
         self.make_baseline()
@@ -228,7 +228,7 @@ class Gate(EtudeCase):
         rows[5].update(status="timeout", reason="300 s")
         cells.write_text("".join(json.dumps(row) + "\n" for row in rows))
         text = self.gate(self.out, "--baseline", self.baseline, "--unsealed", expect=3)
-        self.assertIn("1 × timeout, which depends on the machine", text)
+        self.assertIn("1 × timeout, a status that depends on the machine", text)
         self.assertNotIn("worse", text)
 
     def test_bad_input_is_told_in_one_line(self):

@@ -99,7 +99,7 @@ class Machine(EtudeCase):
             codes.append(ended.returncode)
             self.assertIn(ended.returncode, (0, 3), ended.stderr)
             if "not run" in ended.stderr:
-                self.assertRegex(ended.stderr, "the machine's memory ran out below the 4096 MB that the scenario allows|could not go on")
+                self.assertRegex(ended.stderr, "the machine's memory ran out below the 4096 MB that the scenario allows|could not continue")
                 self.assertFalse((self.out / "cells.jsonl").exists())
             self.run_suite(self.capture, "--resume")
             self.assert_same_results(whole, self.out)
@@ -158,7 +158,7 @@ class Machine(EtudeCase):
              {"before": limit(resource.RLIMIT_NPROC, 1), **nobody}),
             ("few files", self.outside, "Too many open files", {"before": limit(resource.RLIMIT_NOFILE, 8)}),
             ("little address space", self.outside, "", {"before": limit(resource.RLIMIT_AS, self.least_space() + 8 * MB)}),
-            ("little address space to draw in", self.capture, "nothing can be drawn: ", {"before": limit(resource.RLIMIT_AS, 256 * MB)}),
+            ("little address space to draw in", self.capture, "drawing is impossible: ", {"before": limit(resource.RLIMIT_AS, 256 * MB)}),
             ("no renderer", self.capture, "EGL cannot be loaded",
              {"wrapped": ["bwrap", "--dev-bind", "/", "/",
                           *(word for library in LIBRARIES for word in ("--ro-bind", "/dev/null", os.path.realpath(library)))]}),
@@ -205,7 +205,7 @@ class Machine(EtudeCase):
         self.run_suite(scenario, out=whole)
         taken = self.run_here(scenario, "-o", self.out, "--jobs", "1", "--no-fence", environment={"TMPDIR": str(folder)})
         self.assertEqual(taken.returncode, 3, taken.stderr)
-        self.assertRegex(taken.stderr, r"etude: this machine: .*; [1-3] cells were not run; what was done is kept; --resume")
+        self.assertRegex(taken.stderr, r"etude: this machine: .*; [1-3] cells were not run; finished cells are kept; --resume")
         self.assertFalse((self.out / "cells.jsonl").exists())
         self.run_suite(scenario, "--resume")
         self.assert_same_results(whole, self.out)

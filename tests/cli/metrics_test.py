@@ -298,7 +298,7 @@ class OwnMetrics(EtudeCase):
         self.refused("defaults: {task: ik, methods: [{name: a}]}\nscenarios:\n"
                      f"  - {{scenario: x, question: why, metrics: [{{name: twice, {program}}}]}}\n"
                      f"  - {{scenario: y, question: why, metrics: [{{name: twice, {program}, unit: mm}}]}}\n",
-                     "the metric 'twice' is told of in two ways: unit '' and 'mm'", "refused.yaml:4:")
+                     "the metric 'twice' is defined in two ways: unit '' and 'mm'", "refused.yaml:4:")
 
     def test_expectations_and_gates_go_by_it(self):
         gate = self.etude("gate", self.whole)

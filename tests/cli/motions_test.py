@@ -162,7 +162,7 @@ class Motions(MotionFileCase):
         told, own = (json.loads(self.etude("clip", "info", clip, "--json").stdout)["clips"][0] for clip in (out, "builtin:clap"))
         self.assertEqual((told["format"], told["rate_hz"], told["frames"]), ("MOT", 30, own["frames"]))
         text = out.read_text()
-        for before, after, says in (("part right_knee after right_hip", "part right_knee after right_foot", "one that stands above"),
+        for before, after, says in (("part right_knee after right_hip", "part right_knee after right_foot", "then a part above this line"),
                                     ("part head ", "part crown ", "part 'crown'"), ("\tknee_angle_r", "\tknee", "'knee_angle_r'"),
                                     ("turns +Z ", "turns +Q ", "turn '+Q'"), ("0.000000\t", "0.000000\tnan\t", "nan"),
                                     ("0.066667\t", "0.010000\t", "does not run backwards")):
@@ -227,7 +227,7 @@ class Motions(MotionFileCase):
         moves = self.folder / "moves.yaml"
         self.assertIn("in the unit given", self.refuses("teach", CMU, "--unit", "mm", "-o", moves))
         take = self.write("take.txt", kinect(arms(100)))
-        self.assertIn("--unit and --up are of clips", self.refuses("teach", take, "--unit", "cm", "-o", moves))
+        self.assertIn("--unit and --up are only for clips", self.refuses("teach", take, "--unit", "cm", "-o", moves))
         roles = self.write("roles.yaml", "roles:\n  left_hand: RightHand\n")
         self.assertIn("the role left_hand has the joint", self.refuses("teach", CMU, "--map", roles, "-o", moves))
 

@@ -100,10 +100,10 @@ class Recognise(EtudeCase):
                                         timeout=120, input=stdin)
                 found = [json.loads(line) for line in result.stdout.splitlines()]
                 self.assertEqual([(e["move"], e["frame"]) for e in found], [(e["move"], e["frame"]) for e in wanted], name)
-                self.assertRegex(result.stderr, r"sensor turned by (90|180|270) degrees, turned back \(--level none: as it is\)")
-            self.assertNotIn("turned", self.etude("recognise", file, "--moves", moves, "--level", "none").stderr)
+                self.assertRegex(result.stderr, r"sensor rotated by (90|180|270) degrees, rotated back \(--level none keeps it\)")
+            self.assertNotIn("rotated", self.etude("recognise", file, "--moves", moves, "--level", "none").stderr)
             taught = self.etude("teach", file, "-o", self.folder / "again.yaml", "--overwrite")
-            self.assertIn("turned back", taught.stderr)
+            self.assertIn("rotated back", taught.stderr)
             v2 = [row.split() for row in text.splitlines()]
             sheet = self.write("v2.txt", "\n".join(" ".join(row + row[6:9] + 4 * row[21:24]) for row in v2) + "\n")
             self.assertRegex(self.etude("sensor", "stats", sheet).stdout, r"; the sensor is turned by (90|180|270) degrees")

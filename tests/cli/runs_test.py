@@ -101,7 +101,7 @@ methods: [{name: hue}]
         self.assertIn("another run is writing into it", second.stderr)
         unfinished = self.etude("report", self.out)
         self.assertEqual(unfinished.returncode, 2)
-        self.assertIn("did not come to its end", unfinished.stderr)
+        self.assertIn("this run was not finished, is still running, or is a shard", unfinished.stderr)
 
     def test_nobody_listening_does_not_end_a_run(self):
         path = self.write("ik.yaml", IK)
@@ -117,7 +117,7 @@ methods: [{name: hue}]
         self.assertTrue((self.out / "cells.jsonl").exists())
         rows = subprocess.run(["sh", "-c", 'exec "$0" rows "$1" >&-', ETUDE, self.out], stderr=subprocess.PIPE, text=True)
         self.assertEqual(rows.returncode, 2)
-        self.assertIn("standard output: is closed", rows.stderr)
+        self.assertIn("standard output: was closed", rows.stderr)
 
     def test_a_condition_without_measurements_is_one_line_with_the_reason(self):
         clip = "/usr/share/assimp/models/BVH/01_01.bvh"

@@ -109,7 +109,7 @@ class Scenarios(EtudeCase):
             result = self.etude("run", *paths, *clips, "-o", refused)
             self.assertEqual(result.returncode, 2, result.stdout)
             self.assertEqual(result.stderr, f"etude: {ik}: cannot use --clips or --library: no task of its "
-                                            "scenarios makes its worlds of clips\n")
+                                            "scenarios makes worlds from clips\n")
             self.assertFalse(refused.exists())
 
     def test_the_list_of_methods_says_what_goes_with_what(self):

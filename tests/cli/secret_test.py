@@ -76,7 +76,7 @@ class SecretWorlds(EtudeCase):
                                                     f"files: ['{script.parent}', '{EXAMPLE.parent}']}}\n")
         run = subprocess.run([ETUDE, "run", scenario, "-o", self.out], capture_output=True, text=True, timeout=120,
                              env={**os.environ, "ETUDE_SEED_KEY": KEY})
-        if "there is no fence" in run.stderr:
+        if "cannot be fenced" in run.stderr:
             self.skipTest(run.stderr)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(json.loads((self.out / "manifest.json").read_text())["seed"], "secret " + self.digest)
@@ -111,13 +111,13 @@ class SecretWorlds(EtudeCase):
         (self.folder / "plain").mkdir()
         self.run_suite(self.scenario, out=self.folder / "plain")
         resume = ["run", self.scenario, "-o", self.out, "--resume"]
-        self.assertIn("name its key again (--seed-file)", self.refuse(*resume))
+        self.assertIn("give its key again (--seed-file)", self.refuse(*resume))
         self.assertIn('seed was "secret ' + self.digest[:8], self.refuse(*resume, "--seed-file", self.other))
         self.assertEqual(self.etude(*resume, "--seed-file", self.key).returncode, 0)
         for command in (["replay", self.out], ["run", "--from", self.out / "manifest.json", "-o", self.folder / "from"]):
             self.assertIn(f"its worlds are secret: --seed-file names their key, of digest {self.digest[:16]}…",
                           self.refuse(*command))
-            self.assertIn("its worlds are of the key with digest " + self.digest[:16],
+            self.assertIn("its worlds belong to the key with digest " + self.digest[:16],
                           self.refuse(*command, "--seed-file", self.other))
         replayed = self.etude("replay", self.out, "--seed-file", self.key)
         self.assertEqual(replayed.stdout, "8 of 8 cells came out the same\n", replayed.stderr)
@@ -134,8 +134,8 @@ class SecretWorlds(EtudeCase):
         self.assertIn('"secret_worlds":3', text.replace(" ", ""))
         for version, older in ((1, re.sub(r'"secret_worlds":\s*3,\s*', "", text)),
                                (2, re.sub(r'"secret_worlds":\s*3', '"secret_worlds":2', text))):
-            says = (f"its secret worlds are of version {version}, this program makes version 3, in which every condition has dice "
-                    "of its own")
+            says = (f"its secret worlds are of version {version}, but this program makes version 3, in which every condition has "
+                    "its own random numbers")
             self.assertIn(says, self.refuse("run", "--from", self.write("older.json", older), "-o", self.folder / "from",
                                             "--seed-file", self.key))
         shard = ["run", self.scenario, "--shard", "1/2", "-o", self.out, "--seed-file", self.key]
@@ -147,7 +147,7 @@ class SecretWorlds(EtudeCase):
         plain = ["run", self.scenario, "--shard", "1/2", "-o", self.folder / "plain"]
         self.assertEqual(self.etude(*plain).returncode, 0)
         told = self.refuse(*plain, "--resume", "--seed-file", self.key)
-        self.assertIn("is of another run", told)
+        self.assertIn("belongs to another run", told)
         self.assertNotIn("version", told)
         data = self.folder / "data"
         self.assertEqual(self.etude("export", self.scenario, "-o", data, "--seed-file", self.key, "--reuse-key").returncode, 0)
@@ -287,7 +287,7 @@ class SecretWorlds(EtudeCase):
             self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("was used before", shard(2, key, "-o", self.folder / "second").stderr)
         shard(2, self.other, "--reuse-key", "-o", self.folder / "foreign")
-        self.assertIn("is a shard of another run", self.refuse("merge", self.folder / "1", self.folder / "foreign", "-o", self.out,
+        self.assertIn("is a shard of a different run", self.refuse("merge", self.folder / "1", self.folder / "foreign", "-o", self.out,
                                                                "--seed-file", self.key))
         merged = self.etude("merge", self.folder / "1", self.folder / "2", "-o", self.out, "--seed-file", self.key)
         self.assertEqual(merged.returncode, 0, merged.stderr)
@@ -310,7 +310,7 @@ class SecretWorlds(EtudeCase):
         self.assertTrue(all(re.match("ik,ik,[^,]*,,,", line) for line in index), index)
         score = ["score", data, answers, "-o", self.out, "--alone"]
         self.assertIn("its worlds are secret", self.refuse(*score))
-        self.assertIn("its worlds are of the key", self.refuse(*score, "--seed-file", self.other))
+        self.assertIn("its worlds belong to the key", self.refuse(*score, "--seed-file", self.other))
         scored = self.etude(*score, "--seed-file", self.key)
         self.assertEqual(scored.returncode, 0, scored.stderr)
         for line in (self.out / "cells.jsonl").read_text().splitlines():
@@ -332,7 +332,7 @@ class SecretWorlds(EtudeCase):
         shown = f"  - {{name: mine, exec: [python3, '{EXAMPLE}'], files: ['{EXAMPLE.parent}', '{self.folder}']}}\n"
         scenario.write_text(ik_scenario(trials=1) + shown)
         stderr = self.refuse("run", scenario, "-o", self.shared / "out", "--seed-file", self.key)
-        if "no fence" not in stderr:
+        if "cannot be fenced" not in stderr:
             self.assertIn(f"method 'mine' would be shown '{self.folder}', which holds the scenario of secret worlds", stderr)
         self.assertFalse((self.shared / "out").exists())
         scenario.write_text(ik_scenario(trials=1) + MINE.replace("]}", "], files: [no-such-folder]}"))

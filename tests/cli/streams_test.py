@@ -90,7 +90,7 @@ class Streams(EtudeCase):
         report = self.etude("report", self.out, "--no-video")
         self.assertEqual(report.returncode, 0, report.stderr)
         page = (self.out / "report" / "index.html").read_text()
-        self.assertIn("what nearest takes moves for", page)
+        self.assertIn("the moves that nearest takes the danced ones for", page)
         # The manifest alone repeats the run, in shards too; a packed cell needs no recording.
         again = self.folder / "again"
         self.assertEqual(self.etude("run", "--from", self.out / "manifest.json", "-o", again).returncode, 0)
@@ -154,7 +154,7 @@ class Streams(EtudeCase):
         # Cut off, with labels beyond its end.
         (takes / "anna.txt").write_text("\n".join((takes / "anna.txt").read_text().splitlines()[:20]) + "\n")
         self.out = self.folder / "none"
-        self.assertIn("allowed: its", self.refusal("run", half, "-o", self.out))
+        self.assertIn("allowed: within its", self.refusal("run", half, "-o", self.out))
 
     def test_what_cannot_be_is_refused_in_one_line(self):
         takes, labels = self.record()
@@ -164,10 +164,10 @@ class Streams(EtudeCase):
             return self.refusal("run", *arguments, "-o", self.out)
         self.assertIn("none: no such recording", refused(scenario, "--streams", "none"))
         self.assertIn("no such file", refused(scenario, "--streams", takes, "--labels", "none.csv"))
-        self.assertIn("no task of its scenarios makes its worlds of recordings",
+        self.assertIn("no task of its scenarios makes worlds from recordings",
                       refused(self.write("ik.yaml", IK), "--streams", takes))
         noisy = self.write("noisy.yaml", SCENARIO + "noise: 2\n")
-        self.assertIn("'noise' is not used here", refused(noisy, "--streams", takes, "--labels", labels))
+        self.assertIn("'noise' cannot be used here", refused(noisy, "--streams", takes, "--labels", labels))
         alone = self.write("alone.csv", "clip,from_s,to_s,move,truth,person\nanna,0,3,raise,right,anna\n")
         self.assertIn("only anna was recorded; leaving one person out needs two people",
                       refused(scenario, "--streams", takes / "anna.txt", "--labels", alone))
@@ -205,7 +205,7 @@ class Streams(EtudeCase):
         self.assertEqual([row["move_named"] for row in rows if row["method"] == "dtw"], [1, 1])
         # As streams they are what a sensor saw, and no simulated one sees them once more.
         self.out = self.folder / "as-streams"
-        self.assertIn("'noise' is not used here", self.refusal("run", scenario, "--streams", *clips, "--labels", path,
+        self.assertIn("'noise' cannot be used here", self.refusal("run", scenario, "--streams", *clips, "--labels", path,
                                                               "-o", self.out))
 
 

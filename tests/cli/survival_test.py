@@ -179,7 +179,7 @@ class Survival(EtudeCase):
         self.etude("run", self.folder / "suite" / "ik.yaml", "--shard", "1/5", "-o", self.folder / "other")
         refused = self.etude("merge", self.folder / "other", *shards[1:], "-o", self.folder / "none")
         self.assertEqual(refused.returncode, 2)
-        self.assertIn("is a shard of another run", refused.stderr)
+        self.assertIn("is a shard of a different run", refused.stderr)
 
     def test_shards_merge_to_the_same_bytes_in_any_order(self):
         folders = self.shards()
@@ -223,7 +223,7 @@ class Survival(EtudeCase):
         self.assertEqual(self.etude("run", self.scenario, "-o", two, "--shard", "2/2").returncode, 0)
         early = self.etude("merge", one, two, "-o", self.out)
         self.assertEqual(early.returncode, 2)
-        self.assertRegex(early.stderr, r"not all 2 shards are there .*: 1/2 in \S+ lacks \d+ of 80 cells, the first ik/")
+        self.assertRegex(early.stderr, r"not all 2 shards exist and are finished .*: 1/2 in \S+ lacks \d+ of 80 cells, the first ik/")
         self.assertFalse(self.out.exists())
         self.assertEqual(self.etude("run", self.scenario, "-o", one, "--shard", "1/2", "--resume").returncode, 0)
         self.assertEqual(self.etude("merge", one, two, "-o", self.out).returncode, 0)
@@ -234,9 +234,9 @@ class Survival(EtudeCase):
         other = self.folder / "other"
         self.etude("run", self.scenario, "-o", other, "--shard", "3/3", "--seed", "2")
         for shards, complaint in ((folders[:2], "not all 3 shards exist and are finished (etude run --shard i/3 --resume continues one): 3/3"),
-                                  ([*folders[:2], folders[1]], "is shard 2/3, and so is"),
-                                  ([*folders[:2], other], "is a shard of another run than"),
-                                  ([*folders, self.whole], "is a whole run already"),
+                                  ([*folders[:2], folders[1]], "is shard 2/3, but so is"),
+                                  ([*folders[:2], other], "is a shard of a different run than"),
+                                  ([*folders, self.whole], "is already a whole run, not a shard"),
                                   ([*folders[:2], self.folder / "none"], "none holds no shard; 3/3 is missing")):
             result = self.etude("merge", *shards, "-o", self.out)
             self.assertEqual(result.returncode, 2)
@@ -336,7 +336,7 @@ methods:
                                  capture_output=True, text=True, timeout=60)
         self.assertEqual(limited.returncode, 3)
         self.assertEqual(len([line for line in limited.stderr.splitlines() if line.startswith("etude: ")]), 1)
-        self.assertIn("--resume continues it", limited.stderr)
+        self.assertIn("--resume continues the run", limited.stderr)
         self.resume()
         self.assert_same_results(self.whole, self.out)
 

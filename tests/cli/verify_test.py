@@ -59,9 +59,10 @@ class Verify(EtudeCase):
 
     def test_a_run_that_nobody_touched_agrees_line_by_line(self):
         text = self.verify(expect=0)
-        for said in ("seal.json", "rows: exactly those", "files: those that", "texts: nothing", "host.json: no keys", "manifest.json: what",
-                     "worlds: every row", "summary.json: the same when computed again from 24 rows", "20 of 20 cells and 4 that left a recording, run again",
-                     "report: "):
+        for said in ("seal.json", "rows: exactly those", "files: those that", "texts: only those", "host.json: no keys",
+                     "manifest.json: as such a run writes it", "worlds: every row",
+                     "summary.json: the same when computed again from 24 rows",
+                     "20 of 20 cells and 4 that left a recording, run again", "report: "):
             self.assertRegex(text, f"(?m)^agrees   .*{re.escape(said)}")
         self.assertRegex(text, r"10 of 10 agree")
         self.assertIn("Every cell that can be run again was.", text)
@@ -97,7 +98,8 @@ class Verify(EtudeCase):
             ("files more", lambda: [shutil.copy(recording, recording.with_name("ik~other.json")),
                                     (self.out / "notes.html").write_text("ours is best"),
                                     shutil.copytree(self.out / "series", self.out / "series" / "old")], "files",
-             "notes.html belongs to no run.*recordings/ik~other.json belongs to no run.*series/old/ik.jsonl belongs to no run"),
+             "notes.html does not belong to a run.*recordings/ik~other.json does not belong to a run.*"
+             "series/old/ik.jsonl does not belong to a run"),
             ("pages and films more", lambda: [(self.out / "report" / "final.html").write_text("ours is best"),
                                               (self.out / "video").mkdir(exist_ok=True),
                                               (self.out / "video" / "best.mp4").write_bytes(b"")], "report",
@@ -181,7 +183,7 @@ class Verify(EtudeCase):
         for command in ["minisign", "-V", "-p", public, "-m", "signed.b2"], ["b2sum", "-c", "--quiet", "signed.b2"]:
             self.assertEqual(subprocess.run(command, cwd=self.out, capture_output=True).returncode, 0, command)
         self.assertEqual(self.etude("gate", self.out).returncode, 0)  # what is signed is a run like any other
-        self.assertIn("is of key", self.differences("--sample", 0, "--check", self.keys("other", "-W")[1])[1])
+        self.assertIn("was made with key", self.differences("--sample", 0, "--check", self.keys("other", "-W")[1])[1])
         forge(self.out / "host.json", '"jobs":', '"jobs":1')  # which nothing else would find
         reseal(self.out)
         self.verify("--sample", 0, expect=0)
@@ -189,12 +191,12 @@ class Verify(EtudeCase):
         self.assertEqual(found, ["signature"])
         self.assertIn("seal.json: was changed after it was signed", text)
         forge(self.out / "signed.b2", "0", "1")
-        self.assertIn("does not hold", self.differences("--sample", 0, "--check", public)[1])
+        self.assertIn("does not match", self.differences("--sample", 0, "--check", public)[1])
 
     def test_what_is_no_key_and_what_does_not_agree_signs_nothing(self):
         other = self.write("other.key", "untrusted comment: x\nRWQ=\n")
-        self.assertIn("no secret key of minisign", self.verify("--sample", 0, "--sign", other, expect=2))
-        self.assertIn("no public key of minisign", self.verify("--sample", 0, "--check", other, expect=2))
+        self.assertIn("is not a secret key of minisign", self.verify("--sample", 0, "--sign", other, expect=2))
+        self.assertIn("is neither a public key of minisign nor a file with one", self.verify("--sample", 0, "--check", other, expect=2))
         locked = b"Ed" + b"Sc" + b"B2" + bytes(152)  # as minisign -G without -W writes them
         other = self.write("locked.key", "untrusted comment: x\n" + base64.b64encode(locked).decode() + "\n")
         self.assertIn("with a password", self.verify("--sample", 0, "--sign", other, expect=2))
@@ -284,8 +286,8 @@ class Forgers(EtudeCase):
             return f'{{"cell":{cell},"status":"timeout","reason":"took longer than 10 s","usage":[10,10,60]'
         self.merge_forged(time_out)
         said = self.etude("verify", self.out, "-j", 1, "--sample", 10, "--sample-seed", 2).stdout
-        self.assertIn("status was timeout and is ok; either the machines differ or it was forged", said)
-        self.assertIn(f"ik/least-squares: {self.WORLDS} of {self.WORLDS} cells say timeout", said)
+        self.assertIn("status was timeout and is ok; either the machines differ or the run was forged", said)
+        self.assertIn(f"ik/least-squares: {self.WORLDS} of {self.WORLDS} cells ended with timeout", said)
 
     def test_cannot_exchange_the_names_of_methods(self):
         """Every row is what its cell answers, and stands where its cell does, but under the other's name."""

@@ -130,6 +130,19 @@ class Figures(unittest.TestCase):
             with self.subTest(text):
                 self.assert_flagged(text, complaint)
 
+    def test_of_runs_without_dice_are_of_three_seeds(self):
+        (self.root / "docs" / "figures").mkdir()
+        page, complaint = "**Answer.** 2" + bound("2 = fixed: s/-/a/jump_cm"), "jump_cm' is not of three seeds"
+        for runs, is_flagged in [([(1, "f0"), (2, "f0"), (3, "f0")], False), ([(1, "f0"), (2, "f0"), (3, "f1")], True),
+                                 ([(1, "f0"), (2, "f0")], True), ([(1, "f0")] * 3, True), ([(1, None), (2, None), (3, None)], True)]:
+            with self.subTest(runs):
+                kept = [{"suite": "s", "seed": seed} | ({"cells": cells} if cells else {}) for seed, cells in runs]
+                (self.root / "docs" / "figures" / "fixed.json").write_text(json.dumps(
+                    {"runs": kept, "of": {"etude": "0.3.0", "taken": "2026-11-30"}, "figures": {"s/-/a/jump_cm": 2}}))
+                output = self.of_page(page)[1]
+                self.assertIn("1 figures are bound to results", output)
+                self.assertEqual(complaint in output, is_flagged, output)
+
     def test_are_written_anew_in_the_manner_that_they_had(self):
         page = ("9.99 cm, Nine, 7.5, −8" + bound("9.99 = quick: s/n=1/a/jump_cm", "Nine = quick: s/n=1/a/jump_cm",
                                                 "7.5 = quick: s/n=1/a/jump_cm, max", "−8 = quick: s/n=1/a minus b/jump_cm"))

@@ -222,9 +222,9 @@ TEST(Page, OfHundredsOfMethodsCutsItsListsAndSaysSo) {
     condition.methods.back().method = condition.comparisons.back().method = name;
   }
   const std::string page = WritePage(run, {});
-  EXPECT_THAT(page, HasSubstr("465 more methods are left out here"));
+  EXPECT_THAT(page, HasSubstr("465 more methods are not shown here"));
   EXPECT_THAT(page, HasSubstr("more rows are not shown here; the CSV file in report/tables has all of them."));
-  EXPECT_THAT(page, HasSubstr("more comparisons are left out here"));
+  EXPECT_THAT(page, HasSubstr("more comparisons are not shown here"));
 }
 
 TEST(Page, OfAnEmptyRunIsStillAPage) {

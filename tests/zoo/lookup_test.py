@@ -25,7 +25,6 @@ TASKS = {
     "tracking": ("trials: 2\nclips: ['builtin:boxing']\nduration_s: 0.5\n", ""),
     "transition": ("trials: 2\nclips: ['builtin:*']\n", ""),
     "detection": ("trials: 2\nclips: ['builtin:*']\nevents: 4\nsweep: {noise: [1, 2]}\n", ""),
-    "search": ("trials: 2\nclips: ['builtin:*']\nframes: 500\nqueries: 3\n", ""),
     "coach/recogniser": ("trials: 1\nsweep: {noise: [1, 2]}\n", ", seat: recogniser"),
     "coach/policy": ("trials: 1\n", ", seat: policy"),
     "coach/learner": ("trials: 1\n", ", seat: learner"),

@@ -312,8 +312,11 @@ Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const
   if (!is_read || !complaint.empty()) {
     // A file that could not be fetched is an error only if it was needed.
     if (fetcher.complaint) return tl::unexpected(*fetcher.complaint);
-    const bool has_version = json.contains(nlohmann::json::json_pointer("/asset/version"));
-    if (has_version) RETURN_IF_ERROR(CheckCounts(json, "", file));
+    // Our own complaint is the same with every version of tinygltf; files of glTF 1 have names where 2.0 has numbers.
+    const nlohmann::json::json_pointer version("/asset/version");
+    if (json.contains(version) && json[version].is_string() && json[version].get<std::string>().starts_with("2")) {
+      RETURN_IF_ERROR(CheckCounts(json, "", file));
+    }
     return tl::unexpected(NotGltf(file, complaint.empty() ? "the parser failed" : complaint));
   }
   if (!model->asset.version.starts_with("2.")) {

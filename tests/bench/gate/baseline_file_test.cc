@@ -156,7 +156,7 @@ TEST(Baseline, IsRefusedWhenAValueIsNoneOrOfAnotherKind) {
               HasSubstr("b.json: unknown key of a baseline 'suites'; did you mean 'suite'?"));
   EXPECT_THAT(complaint("\"seed\":5,", ""), HasSubstr("b.json:3: a scenario lacks 'seed'"));
   EXPECT_THAT(ComplaintAbout(R"({"schema":1,"etude":"1","suite":"x","scenarios":[],"statuses":[],"values":[]})"),
-              HasSubstr("holds no scenario"));
+              HasSubstr("contains no scenario"));
   EXPECT_THAT(ComplaintAbout(R"({"schema":1,"etude":"1","suite":"x","scenarios":{},"statuses":[],"values":[]})"),
               HasSubstr("'scenarios' of a baseline is an empty object; allowed: a list"));
 }

@@ -81,7 +81,7 @@ TEST(Gate, RefusesRowsThatAreThereTwiceOrThatNobodyAskedFor) {
               HasSubstr("contains the cell s/joint_noise_deg=1/001/b twice"));
   FinishedRun stranger = Steady();
   stranger.data.rows[3].method = "c";
-  EXPECT_THAT(ToString(CheckRows(stranger, {}).error()), HasSubstr("/c, which no scenario of the manifest asks for"));
+  EXPECT_THAT(ToString(CheckRows(stranger, {}).error()), HasSubstr("/c, which is in no scenario of the manifest"));
 }
 
 TEST(Gate, IsIncompleteWhereTheMachineEndedACell) {

@@ -50,7 +50,7 @@ TEST(CompareSystems, SaysThatNothingIsKnownOfOtherSystems) {
     const auto lines = CompareSystems(kDebian12, other, {}, {});
     ASSERT_EQ(lines.size(), 3u);
     EXPECT_THAT(lines[1], HasSubstr("(not measured)"));
-    EXPECT_THAT(lines[2], HasSubstr("how much results differ between these two was not measured"));
+    EXPECT_THAT(lines[2], HasSubstr("how much results differ between these two has not been measured"));
   }
 }
 

@@ -101,7 +101,7 @@ TEST_P(Misfits, AreFoundOut) {
 
 INSTANTIATE_TEST_SUITE_P(
     Conformance, Misfits,
-    ::testing::Values(Misfit{"speaks_another_protocol", "starts and greets", "does not speak protocol 1"},
+    ::testing::Values(Misfit{"speaks_another_protocol", "starts and greets", "does not support protocol 1"},
                       Misfit{"prints_garbage", "gives answers that can be scored",
                              "bad_output: wrote something that is not JSON: 'loading"},
                       Misfit{"answers_large", "gives answers that can be scored", "its answer cannot be scored: "},

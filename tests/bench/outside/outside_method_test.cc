@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(
         Hostility{"answers_nan", Status::kBadOutput, "wrote something that is not JSON near byte 68: '"},
         Hostility{"answers_beyond_doubles", Status::kBadOutput, "wrote a number that is too large: '"},
         Hostility{"answers_deeply", Status::kBadOutput,
-                  "wrote something nested more than 32 levels levels deep: '[[[["},
+                  "wrote something nested more than 32 levels deep: '[[[["},
         Hostility{"answers_a_key_twice", Status::kBadOutput, "wrote the key 'number' twice in one object: '"},
         Hostility{"answers_bytes", Status::kBadOutput, "wrote something that is not JSON: "},
         Hostility{"answers_behind_a_zero_byte", Status::kBadOutput, "wrote something that is not JSON: a zero byte"},
@@ -305,7 +305,7 @@ TEST(OutsideMethod, WhatOfThisMachineKeepsUsFromAskingItIsNoAnswerOfIt) {
   OutsideMethod fenceless(Behaving("is_good", Fence::Of("/bin/false")));
   const OutsideReply reply = Ask(fenceless);
   EXPECT_FALSE(reply.was_asked);
-  EXPECT_THAT(reply.reason, HasSubstr("nothing can be run in the fence"));
+  EXPECT_THAT(reply.reason, HasSubstr("no program can be run in the fence"));
   OutsideMethod good(Behaving("is_good"));
   EXPECT_TRUE(Ask(good).was_asked);
 }

@@ -205,7 +205,7 @@ TEST(LoadRun, NamesTheFileAndLineThatIsTorn) {
   ASSERT_TRUE(writer);
   ASSERT_TRUE(writer->Add(SampleRow(), {}));
   ASSERT_TRUE(writer->Finish({}));
-  EXPECT_THAT(ToString(LoadRun(folder).error()), HasSubstr("is no run, for it holds no manifest.json"));
+  EXPECT_THAT(ToString(LoadRun(folder).error()), HasSubstr("is not a run, because it contains no manifest.json"));
   ASSERT_TRUE(WriteFileAtomically(folder / "manifest.json",
                                   fmt::format(R"({{"schema":{},"suite":"s","seed":1,"etude":"0"}})", kResultSchema)));
   ASSERT_TRUE(WriteFileAtomically(folder / "host.json", R"({"command_line":"c","host":"h","wall_seconds":1})"));

@@ -238,7 +238,7 @@ TEST_F(JournalTest, GivesCellsBackInAnyOrderHoweverLargeItIs) {
 TEST_F(JournalTest, RefusesOneOfAnotherVersionOrWithoutHead) {
   // As an earlier program wrote it: one head, without a sum.
   Rewrite("{\"journal\":1,\"manifest\":\"m\",\"build\":\"b\",\"shard\":\"1/1\"}\n");
-  EXPECT_THAT(Complaint(), HasSubstr("journal.jsonl:1: not the head of a journal"));
+  EXPECT_THAT(Complaint(), HasSubstr("journal.jsonl:1: not the header of a journal"));
   Rewrite("");
   EXPECT_THAT(Complaint(), HasSubstr("is empty"));
 }

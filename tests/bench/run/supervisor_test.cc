@@ -123,9 +123,9 @@ TEST_F(HurriedSupervisorTest, AWorkerThatWaitsForeverIsEndedAndThisMachineIsToBl
   const auto whole = RunWith("echo ready\nread -r order\necho built\nsleep 100\n", 4);
   ASSERT_FALSE(whole);
   EXPECT_TRUE(IsOfThisMachine(whole.error()));
-  EXPECT_THAT(ToString(whole.error()), HasSubstr("this machine: a worker was given"));
+  EXPECT_THAT(ToString(whole.error()), HasSubstr("this machine: a worker used"));
   EXPECT_THAT(ToString(whole.error()),
-              HasSubstr(fmt::format("s of processor time before its time by the clock was over; {} cells were not run",
+              HasSubstr(fmt::format("s of processor time before its limit of elapsed time; {} cells were not run",
                                     plan_.cell_count())));
   EXPECT_TRUE(rows_.empty());
 }

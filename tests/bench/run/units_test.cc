@@ -18,7 +18,6 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 const std::string kTransitions = "task: transition\nmethods: [{name: a}]\n";
-const std::string kDetections = "task: detection\nevents: 2\nmethods: [{name: a}]\n";
 
 /// Built-in moves, and the same moves as files of two folders: three collections.
 class RowUnits : public testing::Test {
@@ -81,14 +80,6 @@ TEST_F(RowUnits, OfLibrariesAreTheFoldersOfTheClipsShown) {
     counts.insert(row.units.size());
   }
   EXPECT_EQ(counts, (std::set<std::size_t>{1, 2})) << "folders of clips that a world does not show do not count";
-}
-
-TEST_F(RowUnits, OfWorldsOfAllClipsAreOneLibraryMadeOfAll) {
-  const std::vector<std::string> clips = {"builtin:clap", File("a", "sway"), File("b", "clap")};
-  for (const Row& row : Rows("unit: library\n" + kDetections, clips)) {
-    EXPECT_EQ(row.clip, "");
-    EXPECT_THAT(row.units, ElementsAre(Folder("a") + " + " + Folder("b") + " + builtin"));
-  }
 }
 
 }  // namespace

@@ -68,7 +68,6 @@ TEST(Defaults, OfATaskAreTheSameWrittenOrLeftOut) {
                              {"detection", "", "", "noise: 1.5"},
                              {"detection", "", "weights: adaptive", "turn_deg: 30"},
                              {"tracking", "duration_s: 0.2", "", "rate_hz: 20"},
-                             {"search", "frames: 300", "", "queries: 7"},
                              {"capture", "duration_s: 0.1", "", "annotation_error_px: 2.5"}};
   cases.push_back({"ik", "start: middle", "", "poses: 0.4"});
   cases.push_back({"ik", "start: stretched", "", "max_sweeps: 7"});

@@ -115,7 +115,6 @@ const std::vector<Probe> kProbes = {{"ik", ""},
                                     {"detection", ""},
                                     {"capture", ""},
                                     {"tracking", ""},
-                                    {"search", ""},
                                     {"coach", ""},
                                     {"coach", "weights: adaptive"},
                                     {"pose-distance", ""},
@@ -141,7 +140,9 @@ std::string ComplaintOfTask(const TaskKind& kind, const std::string& condition, 
 TEST(Keys, OfATaskAreThoseThatItReads) {
   std::map<std::string, Names> of_condition, of_methods;
   for (const Probe& probe : kProbes) {
-    const TaskKind& kind = *FindTaskKind(probe.task);
+    const TaskKind* const found = FindTaskKind(probe.task);
+    ASSERT_NE(found, nullptr) << "a probe of no task: " << probe.task;
+    const TaskKind& kind = *found;
     Names& condition = of_condition[probe.task];
     condition = Union(condition, AllowedBy(ComplaintOfTask(kind, "{zzzz: 1}", probe.method)));
     Names& methods = of_methods[probe.task];

@@ -104,9 +104,9 @@ TEST(ApiSilhouettes, RefusesWhatDoesNotGoTogether) {
   cameras[1].width = 641;
   EXPECT_THAT(refused(), HasSubstr("640 x 480 pixels of camera ''; allowed: its 641 x 480"));
   cameras[1].k1 = 0.1;
-  EXPECT_THAT(refused(), HasSubstr("a lens that bends"));
+  EXPECT_THAT(refused(), HasSubstr("a lens with distortion"));
   cameras.pop_back();
-  EXPECT_THAT(refused(), HasSubstr("1 cameras, and masks of 2"));
+  EXPECT_THAT(refused(), HasSubstr("1 cameras, but masks of 2"));
 }
 
 /// A standing body that sways, `far` metres to each side.

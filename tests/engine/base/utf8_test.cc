@@ -34,7 +34,7 @@ TEST(CheckUtf8, TakesEveryCharacterAndNoSurrogate) {
 
 TEST(CheckUtf8, NamesThePlaceOfTheFirstWrongByte) {
   EXPECT_EQ(Utf8Complaint("a: größe\nb: c\n"), "");
-  EXPECT_THAT(Utf8Complaint("a: größe\nb: \xff\n"), HasSubstr("file:2:4: byte 0xff is no UTF-8"));
+  EXPECT_THAT(Utf8Complaint("a: größe\nb: \xff\n"), HasSubstr("file:2:4: byte 0xff is not UTF-8"));
   EXPECT_THAT(Utf8Complaint("größe \xc3"), HasSubstr("file:1:7: byte 0xc3")) << "columns count characters";
   EXPECT_THAT(Utf8Complaint("\xff\xfe"
                             "a"),

@@ -150,7 +150,7 @@ TEST(Planes, RefusedWithTheReason) {
   for (const TargetView& view : views) {
     if ((view.camera == 2) == (view.target >= 4)) apart.push_back(view);
   }
-  EXPECT_THAT(CalibrateFromPlanes(kSizes, apart).error().message, HasSubstr("camera 3 sees no board at the same time"));
+  EXPECT_THAT(CalibrateFromPlanes(kSizes, apart).error().message, HasSubstr("camera 3 never sees a board at the same time"));
   std::vector<TargetView> without;
   for (const TargetView& view : views) {
     if (view.camera != 1) without.push_back(view);

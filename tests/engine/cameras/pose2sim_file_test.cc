@@ -127,7 +127,7 @@ TEST(Pose2SimFile, ReadsFisheyesMatricesAndListsOverLines) {
 TEST(Pose2SimFile, SaysWhatIsWrong) {
   EXPECT_NE(Broken("rotation", "rotatoin").find("camera cam_01 has no rotation"), std::string::npos);
   EXPECT_NE(Broken("1681.25", "-1681.25").find("focal lengths"), std::string::npos);
-  EXPECT_NE(Broken("1681.25", "abc").find("no list of numbers"), std::string::npos);
+  EXPECT_NE(Broken("1681.25", "abc").find("is not a list of numbers"), std::string::npos);
   EXPECT_NE(Broken("fisheye = false", "distortions = [1, 2]").find("2 distortion coefficients"), std::string::npos);
   EXPECT_NE(Broken("1088.0, 1920.0", "1088.0").find("size has 1 numbers"), std::string::npos);
   EXPECT_NE(Broken("1088.0", "nan").find("pixels"), std::string::npos);

@@ -115,7 +115,7 @@ TEST(RigFile, RefusedWithPlaceAndReason) {
   EXPECT_EQ(reason(good), "no complaint");
   EXPECT_THAT(reason(""), HasSubstr("nothing in it"));
   EXPECT_THAT(reason("hello"), HasSubstr("not a calibration; allowed: a rig of etude calibrate"));
-  EXPECT_THAT(reason(Changed(good, "\nright:", "\nwrong:")), HasSubstr("right is listed, and not told of"));
+  EXPECT_THAT(reason(Changed(good, "\nright:", "\nwrong:")), HasSubstr("right is listed, but not described"));
   EXPECT_THAT(reason(Changed(good, "\"right\"", "\"left\"")), HasSubstr("two cameras of the name left"));
   EXPECT_THAT(reason(Changed(good, "image_width: 1088", "image_width: -3")), HasSubstr("-3 x 1920 pixels"));
   EXPECT_THAT(reason(Changed(good, "   T:", "   S:")), HasSubstr("camera left: no T"));

@@ -120,7 +120,7 @@ TEST(CheckDance, SaysWhatIsWrong) {
   EXPECT_EQ(complaint([](Dance& d) { d.acts[3].motion.poses.clear(); }), ": the act 'wake' has 0 frames; at least 2");
   EXPECT_EQ(complaint([](Dance& d) { d.tags[3].frame = 419; }), "nothing");
   EXPECT_EQ(complaint([](Dance& d) { d.tags[3].frame = 420; }),
-            ": a music-time tag at frame 420, 10 s; the dance has 420 frames");
+            ": a music-time tag at frame 420, 10 s, but the dance has 420 frames");
   EXPECT_EQ(complaint([](Dance& d) { d.tags[1].frame = d.tags[0].frame; }),
             ": music-time tags must ascend; frame 30, 4 s comes after frame 30, 1 s");
   EXPECT_EQ(complaint([](Dance& d) { d.tags[1].music_s = d.tags[0].music_s; }),

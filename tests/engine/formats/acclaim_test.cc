@@ -89,8 +89,8 @@ TEST(Acclaim, RefusesWhatIsNoneByItsPlace) {
   EXPECT_THAT(AcclaimComplaint(Without("axis 0 0 90 XYZ", "axis 0 0 90 XQZ")), HasSubstr("a.asf:18:17: axes 'XQZ'"));
   EXPECT_THAT(AcclaimComplaint(Without("    name lower", "    name upper")),
               HasSubstr("the bone 'upper' appears twice here"));
-  EXPECT_THAT(AcclaimComplaint(Without("    upper lower\n", "")), HasSubstr("the bone 'lower' hangs on nothing"));
-  EXPECT_THAT(AcclaimComplaint(Without("root upper", "root upper upper")), HasSubstr("hangs on something already"));
+  EXPECT_THAT(AcclaimComplaint(Without("    upper lower\n", "")), HasSubstr("the bone 'lower' has no parent"));
+  EXPECT_THAT(AcclaimComplaint(Without("root upper", "root upper upper")), HasSubstr("already has a parent"));
   EXPECT_THAT(AcclaimComplaint(Without("root upper", "root arm")), HasSubstr("there is no bone 'arm'"));
   EXPECT_THAT(AcclaimComplaint(Without("length 2", "length nan")), HasSubstr("a.asf:17:12: "));
   EXPECT_THAT(AcclaimComplaint(Without("direction 1 0 0", "direction 1 0")), HasSubstr("a number is missing"));

@@ -118,13 +118,13 @@ TEST(C3d, RefusesWhatIsDamaged) {
   EXPECT_EQ(C3dComplaint(good.substr(0, good.size() - 20)), "a.c3d: is cut short: it contains 2 of 3 frames");
   std::string other = good;
   other[512 + 3] = 7;
-  EXPECT_THAT(C3dComplaint(other), HasSubstr("a machine of kind 7; allowed: 84 (Intel), 85 (DEC), 86 (MIPS)"));
+  EXPECT_THAT(C3dComplaint(other), HasSubstr("written by processor type 7; allowed: 84 (Intel), 85 (DEC), 86 (MIPS)"));
   C3dWriter furlongs(kIntel, true), none(kIntel, true), flat(kIntel, true);
   furlongs.unit = "fl";
   none.points = 0;
   flat.scale = 0;
   EXPECT_EQ(C3dComplaint(furlongs.Write()), "a.c3d: units 'fl'; allowed: m, cm, mm, in, ft");
-  EXPECT_THAT(C3dComplaint(none.Write()), HasSubstr("holds no points"));
+  EXPECT_THAT(C3dComplaint(none.Write()), HasSubstr("contains no points"));
   EXPECT_THAT(C3dComplaint(flat.Write()), HasSubstr("POINT:SCALE is"));
   for (std::size_t cut = 0; cut < good.size(); cut += 37) EXPECT_NE(C3dComplaint(good.substr(0, cut)), "(read)") << cut;
 }

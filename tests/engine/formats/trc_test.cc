@@ -131,7 +131,7 @@ TEST(ReadTrc, RefusesWithTheLine) {
   EXPECT_THAT(reason("\tmm\t", "\tinch\t"), ::testing::HasSubstr("s.trc:3: units 'inch'; allowed: m, cm, mm"));
   EXPECT_THAT(reason("30\t30\t2", "30\t30\t3"), ::testing::HasSubstr("2 frames, 3 announced"));
   EXPECT_THAT(reason("2\t0.033333\t", "2\t0.033333\tx"), ::testing::HasSubstr("is not a number"));
-  EXPECT_THAT(reason("DataRate", "Rate"), ::testing::HasSubstr("no header of a TRC file"));
+  EXPECT_THAT(reason("DataRate", "Rate"), ::testing::HasSubstr("not the header of a TRC file"));
   EXPECT_THAT(reason("\thip_centre\t", "\t\t"), ::testing::HasSubstr("20 markers announced, 0 named"));
 }
 

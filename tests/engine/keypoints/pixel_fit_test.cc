@@ -31,7 +31,7 @@ TEST(PixelFit, StretchesCropsAndRefuses) {
   EXPECT_EQ(crop->ToFilm({10, 10}), glm::dvec2(0, 10));
   const auto none = FitPictures(FitMode::kNone, {1088, 1920}, {1080, 1920});
   ASSERT_FALSE(none);
-  EXPECT_THAT(none.error().message, ::testing::HasSubstr("1080 x 1920 pixels, the rig's camera 1088 x 1920"));
+  EXPECT_THAT(none.error().message, ::testing::HasSubstr("1080 x 1920 pixels, but the rig's camera has 1088 x 1920"));
   EXPECT_TRUE(FitPictures(FitMode::kNone, {640, 480}, {640, 480})->IsNone());
 }
 

@@ -65,8 +65,8 @@ TEST(PlaceRig, LeavesARigAsItIsWhoseUnitAndAxesFitThePerson) {
   EXPECT_TRUE(place->IsNone());
   EXPECT_NEAR(place->stature_m, 1.7, 1e-9);
   EXPECT_EQ(place->told,
-            "lengths in m (a person of 1.70 m); up is y (the person leans 5° from it), the floor as the "
-            "file has it");
+            "lengths in m (a person of 1.70 m); up is y (the person leans 5° from it), the floor as in "
+            "the file");
 }
 
 TEST(PlaceRig, FindsTheUnitThatMakesItAPerson) {
@@ -81,8 +81,8 @@ TEST(PlaceRig, FindsTheUnitThatMakesItAPerson) {
   EXPECT_DOUBLE_EQ(child.value().scale, 0.001) << "0.6 m tall: nobody else's unit makes that";
   const auto none = PlaceRig(SomeRig(), Stander([](glm::dvec3 p) { return p * 1e5; }), kPlaceRate, {});
   ASSERT_FALSE(none);
-  EXPECT_THAT(none.error().message, HasSubstr("1.7e+05 units tall: no person in m, cm, mm, inch or foot; for one of "
-                                              "1.7 m tell --rig-unit 1e-05"));
+  EXPECT_THAT(none.error().message, HasSubstr("1.7e+05 units tall, which is no person's height in m, cm, mm, inch or "
+                                              "foot; for one of 1.7 m use --rig-unit 1e-05"));
 }
 
 TEST(PlaceRig, TakesTheUnitThatIsToldAndNoOtherPersonThanOne) {
@@ -126,7 +126,7 @@ TEST(PlaceRig, PutsAWorldThatIsACamerasFrameSquareToTheFloorOfTheFeet) {
   for (const double lean_deg : {0.0, 8.0}) {
     const auto place = PlaceRig(rig, Stander(to_camera, lean_deg), kPlaceRate, {});
     ASSERT_TRUE(place) << ToString(place.error());
-    EXPECT_THAT(place->told, HasSubstr("up is known from resting feet, to within 1."));
+    EXPECT_THAT(place->told, HasSubstr("up is found from resting feet, to within 1."));
     EXPECT_THAT(place->told, HasSubstr("(the world was cam1's own frame)"));
     for (const glm::dvec3 p : {glm::dvec3(0), glm::dvec3(0.8, 0, 0.6), glm::dvec3(0, 1.7, 0)}) {
       EXPECT_NEAR((*place)(to_camera(p)).y, p.y, 0.003) << lean_deg;
@@ -140,7 +140,7 @@ TEST(PlaceRig, TellsOfAFloorThatIsOffLevelAndLevelsItWhenAsked) {
   ASSERT_TRUE(kept) << ToString(kept.error());
   EXPECT_TRUE(kept->IsNone());
   EXPECT_THAT(kept->told,
-              HasSubstr("though resting feet say that it is 12° off level; if they are right, give --rig-up floor"));
+              HasSubstr("although by resting feet it is 12° off level; if these are right, give --rig-up floor"));
   const auto level = PlaceRig(SomeRig(), tilted, kPlaceRate, {.up = "floor"});
   ASSERT_TRUE(level) << ToString(level.error());
   const glm::dvec3 up = level->R * TurnAboutX(12) * glm::dvec3(0, 1, 0);
@@ -184,9 +184,9 @@ TEST(PlaceRig, WithoutAPersonTakesWhatIsTold) {
   EXPECT_LT(glm::distance((*place)({0, 0, 1000}), glm::dvec3(0, 0.8, 0)), 1e-12);
   rig.unit_m = 0.01;
   EXPECT_DOUBLE_EQ(PlaceRig(rig, {.unit = "mm"})->scale, 0.1);
-  EXPECT_THAT(PlaceRig(rig, {.up = "floor"}).error().message, HasSubstr("no keypoints tell which way is up; tell"));
+  EXPECT_THAT(PlaceRig(rig, {.up = "floor"}).error().message, HasSubstr("the keypoints do not show which direction is up; give"));
   rig.cameras.push_back({"eye", Camera{}});
-  EXPECT_THAT(PlaceRig(rig, {}).error().message, HasSubstr("no keypoints tell which way is up in eye's own frame"));
+  EXPECT_THAT(PlaceRig(rig, {}).error().message, HasSubstr("the keypoints do not show which direction is up in eye's own frame"));
   rig.has_unit = false;
   EXPECT_THAT(PlaceRig(rig, {.up = "y"}).error().message, HasSubstr("Pose2Sim's lengths have no unit"));
   EXPECT_TRUE(PlaceRig(rig, {.unit = "inch", .up = "y"}));

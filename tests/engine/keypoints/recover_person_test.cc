@@ -195,7 +195,7 @@ TEST(RecoverPerson, RefusesWhatIsNoSession) {
   moved[1].R_CW = glm::transpose(glm::dmat3(1, 0, 0, 0, cosine, -sine, 0, sine, cosine)) * moved[1].R_CW;
   const auto alone = Recover(moved, std::span(people).first(2), WalkOptions());
   ASSERT_FALSE(alone);
-  EXPECT_THAT(alone.error().message, HasSubstr("no person is seen alike"));
+  EXPECT_THAT(alone.error().message, HasSubstr("no person is seen consistently"));
   RecoverPersonOptions third = WalkOptions();
   third.person = 2;
   EXPECT_THAT(Recover(cameras, people, third).error().message, HasSubstr("person 3: 2 seen by two cameras"));

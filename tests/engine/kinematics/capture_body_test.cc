@@ -147,7 +147,7 @@ TEST(CaptureBody, RefusesWhatIsNoBody) {
   apart.roles[Index(kLeftHand)].joint = static_cast<int>(apart.joints.size()) - 1;
   const auto refused = FittedBody(apart);
   ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().message, ::testing::HasSubstr("does not hang on its pelvis"));
+  EXPECT_THAT(refused.error().message, ::testing::HasSubstr("is not connected with its pelvis"));
   RestBody flat = PlainRestBody();
   for (const Role hip : {kLeftHip, kRightHip}) flat.roles[Index(hip)].position = flat.roles[Index(kHipCentre)].position;
   for (RestBody::Joint& joint : flat.joints) {

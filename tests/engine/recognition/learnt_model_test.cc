@@ -98,7 +98,7 @@ TEST(LearntModelFile, SaysWhereItIsWrong) {
   EXPECT_EQ(complaint("asked: {bias: 0}\nspotted: {bias: 0}\n"), "no complaint");  // the control
   EXPECT_EQ(complaint("measures: 1\nasked: {bias: 0}\nspotted: {bias: 0}\n"), "no complaint");
   EXPECT_THAT(complaint("measures: 2\nasked: {bias: 0}\nspotted: {bias: 0}\n"),
-              HasSubstr("model.yaml:1:11: a model of version 2 of the measures"));
+              HasSubstr("model.yaml:1:11: a model for version 2 of the measures"));
   EXPECT_THAT(complaint("asked: {bias: 0}\n"), HasSubstr("needs 'spotted'"));
   EXPECT_THAT(complaint("asked: {bias: 0, trees: [[1, 2]]}\nspotted: {bias: 0}\n"), HasSubstr("a list of 22 numbers"));
   std::string tree = "[192, 0";

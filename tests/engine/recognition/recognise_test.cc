@@ -224,7 +224,7 @@ TEST(FollowStream, RefusesWindowsThatItCannotFollow) {
   EXPECT_EQ(complaint({{kRaise, {15, 75}}, {kHang, {75, 75}}, {kHang, {75, 90}}}), "no complaint");  // the control
   EXPECT_EQ(complaint({{2, {15, 75}}}), "move number 2 is asked for, but 2 were taught");
   for (const FrameInterval window : {FrameInterval{-1, 9}, FrameInterval{9, 8}, FrameInterval{0, 91}}) {
-    EXPECT_THAT(complaint({{kRaise, window}}), HasSubstr("; the stream has 90"));
+    EXPECT_THAT(complaint({{kRaise, window}}), HasSubstr(", but the stream has 90"));
   }
   EXPECT_EQ(complaint({{kRaise, {15, 75}}, {kHang, {74, 80}}}),
             "a move is asked for from frame 74 on, but the one before it lasts until 75");

@@ -46,7 +46,7 @@ TEST(JointMapFile, ComplainsWhereItIsWrong) {
            Case{"{}\n", "'roles' must name joints (left_elbow: LForeArm), found nothing"},
            Case{"- head\n", "a joint map must be a mapping"},
            Case{"roles: {head: Head, head: Neck}\n", "map.yaml:1:"},
-           Case{"unit: cubit\n", "map.yaml:1:7: 'cubit' is no unit; allowed: m, cm, mm, in, ft, cmu"},
+           Case{"unit: cubit\n", "map.yaml:1:7: 'cubit' is not a unit; allowed: m, cm, mm, in, ft, cmu"},
            Case{"up: x\n", "map.yaml:1:5: "},
            Case{"rate: 0\n", "map.yaml:1:7: "},
        }) {

@@ -215,7 +215,7 @@ TEST(MarkersUp, OfPeopleWhoLieCrawlOrStandOnTheirHandsIsTheFormatsAxis) {
       ASSERT_TRUE(trc && c3d);
       EXPECT_LT(OffUp(trc->front(), poses), 1e-9) << trc->front().Note();
       EXPECT_LT(OffUp(c3d->front(), poses), 1e-9) << c3d->front().Note();
-      EXPECT_THAT(trc->front().up.doubt, HasSubstr("Y is the usual axis of TRC files, and taken for up; --up overrules"));
+      EXPECT_THAT(trc->front().up.doubt, HasSubstr("Y is the usual axis of TRC files, so it is assumed; --up overrules"));
     }
   }
 }
@@ -343,7 +343,7 @@ TEST(Markers, InAWrongUnitAreTakenForAPersonOrRefused) {
     const auto bodies = FindMarkerBodies(take, "a.trc");
     ASSERT_TRUE(bodies) << ToString(bodies.error());
     EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12);
-    EXPECT_THAT(bodies->front().Note(), HasSubstr(fmt::format("m tall: taken for {:g} times that", 1 / factor)));
+    EXPECT_THAT(bodies->front().Note(), HasSubstr(fmt::format("m tall: it is taken to be {:g} times as tall", 1 / factor)));
   }
   MarkerMotion take = OwnJoints();
   for (auto& frame : take.frames) {
@@ -484,7 +484,7 @@ TEST(Markers, OfNoKnownSetAreRefusedWithWhatIsLacking) {
   ASSERT_FALSE(refused);
   EXPECT_THAT(ToString(refused.error()), HasSubstr("a.c3d: its markers (hip_centre, "));
   EXPECT_THAT(ToString(refused.error()),
-              HasSubstr("are of no set known here: Etude's joints lacks left_knee; known: "));
+              HasSubstr("are not of a known set: Etude's joints lacks left_knee; known: "));
 }
 
 TEST(Markers, ThatLieOnEachOtherGiveNoNumberThatIsNone) {

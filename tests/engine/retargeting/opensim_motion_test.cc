@@ -128,7 +128,7 @@ TEST(OpenSimMotion, RowsThatAreMissingAreGapsOfTheirLength) {
   const auto read = ReadOpenSimMotion(all, "a.mot", &note);
   ASSERT_TRUE(read) << ToString(read.error());
   ASSERT_EQ(read->poses.size(), move->motion.poses.size());
-  EXPECT_THAT(note, HasSubstr("by their times 15 of"));
+  EXPECT_THAT(note, HasSubstr("by their times, 15 of"));
   EXPECT_LT(glm::distance(read->poses[40][kLeftWrist], move->motion.poses[40][kLeftWrist]), 1e-5);
   // In the gap joints go straight.
   const glm::dvec3 a = move->motion.poses[19][kLeftWrist], b = move->motion.poses[35][kLeftWrist];
@@ -149,8 +149,8 @@ TEST(OpenSimMotion, ReadsRadiansAndRefusesWithLineAndReason) {
   EXPECT_EQ(reason("inDegrees=yes", "inDegrees=no"), "(read at 25 Hz)");
   EXPECT_THAT(reason("part head", "part hat"), HasSubstr("part 'hat'; allowed: each of the twenty roles once"));
   EXPECT_THAT(reason("part head", "part spine"), HasSubstr("part 'spine'; allowed: each of the twenty roles once"));
-  EXPECT_THAT(reason("after ground", "after spine"), HasSubstr("after 'spine'; allowed: 'after ground' of the first"));
-  EXPECT_THAT(reason("after hip_centre", "after left_foot"), HasSubstr("then one that stands above"));
+  EXPECT_THAT(reason("after ground", "after spine"), HasSubstr("after 'spine'; allowed: 'after ground' for the first"));
+  EXPECT_THAT(reason("after hip_centre", "after left_foot"), HasSubstr("then a part above"));
   EXPECT_THAT(reason(" bone ", " bones "), HasSubstr("'bones'; allowed: bone X Y Z"));
   EXPECT_THAT(reason("turns +Z", "turn +Z"), HasSubstr("'turn'; allowed: turns and three angles"));
   EXPECT_THAT(reason("turns +Z", "turns +W"), HasSubstr("allowed: +X, -X to -Z"));

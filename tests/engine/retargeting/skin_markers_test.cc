@@ -107,7 +107,7 @@ TEST(SkinMarkers, AreMovedByTheLimbsLengthsWithoutWidths) {
 TEST(SkinMarkers, OnTheElbowsPointAreToldByUpperArmsThatKeepTheirLength) {
   const MovedMarkers moved = MovedFrom({.05, .035, .045, .045}, ElbowMarker::kPoint, {});
   EXPECT_LT(moved.worst, 0.016);
-  EXPECT_THAT(moved.said, HasSubstr("elbow markers sit on the elbow's point"));
+  EXPECT_THAT(moved.said, HasSubstr("elbow markers taken to be on the point of the elbow"));
 }
 
 TEST(SkinMarkers, FollowTheWandsOfThighsAndShanks) {

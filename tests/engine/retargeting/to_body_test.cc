@@ -412,7 +412,7 @@ TEST(ToBodyMotion, UnderstandsPushUps) {
   ASSERT_TRUE(body) << ToString(body.error());
   EXPECT_EQ(body->up, UpAxis::kY);
   EXPECT_THAT(body->Note(), HasSubstr("the body lies along Z: Y is assumed to be up"));
-  EXPECT_THAT(body->Note(), Not(HasSubstr("turned first")));
+  EXPECT_THAT(body->Note(), Not(HasSubstr("rotated first")));
 }
 
 TEST(ToBodyMotion, TellsThatABodyLiesWhoseUpAxisNobodyKnows) {
@@ -423,8 +423,8 @@ TEST(ToBodyMotion, TellsThatABodyLiesWhoseUpAxisNobodyKnows) {
     const auto body = Convert(AtRest(lying));
     ASSERT_TRUE(body) << ToString(body.error());
     EXPECT_THAT(body->Note(), HasSubstr(std::string("the body lies along ") + axis +
-                                        ", at rest, too: Y is taken for up, and a "
-                                        "file with another axis must be turned first"));
+                                        ", at rest, too: Y is assumed to be up; a "
+                                        "file with another up axis must be rotated first"));
   }
 }
 
@@ -484,7 +484,7 @@ TEST(ToBodyMotion, RefusesWhatGivesNoMotion) {
   At(flying, 1, "Hips").translation.x = 1e300;
   const auto gone = Convert(flying);
   ASSERT_FALSE(gone);
-  EXPECT_THAT(gone.error().message, HasSubstr("beyond all measure"));
+  EXPECT_THAT(gone.error().message, HasSubstr("too far away to be a body's"));
   Clip later = AtRest(testing::PersonSkeleton(), 9, 30);
   for (std::size_t i = 3; i < 9; ++i) LowerArms(later, i);
   At(later, 7, "Hips").translation.x = 1e300;

@@ -77,7 +77,7 @@ TEST(Labels, RefusalsSayWhere) {
   EXPECT_EQ(LabelComplaint(head + "a,x,2,m,right\n"), "l.csv:2:3: found 'x'; allowed: a number");
   EXPECT_EQ(LabelComplaint(head + "a,nan,2,m,right\n"), "l.csv:2:3: found 'nan'; allowed: a number");
   EXPECT_EQ(LabelComplaint(head + "a,2,1,m,right\n").find("l.csv:2:5: ends at 1 s, begins at 2 s"), 0u);
-  EXPECT_EQ(LabelComplaint(head + "a,,1,m,right\n").find("l.csv:2:4: an end without"), 0u);
+  EXPECT_EQ(LabelComplaint(head + "a,,1,m,right\n").find("l.csv:2:4: an end of a label without"), 0u);
   EXPECT_EQ(LabelComplaint(head + "a,0,1,m\n").find("l.csv:2:8: found the end of the line"), 0u);
   EXPECT_EQ(LabelComplaint("XQPCTick;Tag\n12\n").find("l.csv:2: 1 words"), 0u);
   EXPECT_EQ(LabelComplaint("s01_e01\nwalk 2 3\n").find("l.csv:2: found"), 0u);

@@ -149,34 +149,34 @@ TEST(Streams, ABodyThatGoesOnUnderAnotherNameIsOnePerson) {
   ASSERT_TRUE(joined) << ToString(joined.error());
   EXPECT_EQ(shown(*joined), 19);
   EXPECT_EQ(joined->remarks.front(), "body 11 continues as body 22 from frame 13 on: taken to be one person");
-  EXPECT_EQ(joined->remarks.back(), "2 bodies, of which body  is read is read0");
+  EXPECT_EQ(joined->remarks.back(), "2 bodies, of which body 0 is read");
   // Somebody else, who stands a metre aside, is not joined; nor whoever comes while the first is still seen.
   const auto other = ReadStreamRecording(text(1, 2), "s", {.body = 0});
   EXPECT_EQ(shown(*other), 11);
-  EXPECT_EQ(other->remarks, std::vector<std::string>{"3 bodies, of which body  is read is read0"});
+  EXPECT_EQ(other->remarks, std::vector<std::string>{"3 bodies, of which body 0 is read"});
   const std::string both = "2\n2\n" + NtuBody("11", 0) + NtuBody("22", 0.1) + "1\n" + NtuBody("22", 0.1);
   EXPECT_EQ(ReadStreamRecording(both, "s")->remarks,
-            std::vector<std::string>{"2 bodies, of which body  is read is read1, in the most frames"});
+            std::vector<std::string>{"2 bodies, of which body 1 is read, in the most frames"});
 }
 
 TEST(Streams, MarkersOfOtherNamesAreTold) {
   const std::string trc = WriteTrc(WavingMotion(2), "m");
   EXPECT_EQ(ComplaintOf(std::string(trc).replace(trc.find("head"), 4, "C7")),
-            "s:4: unknown marker names 'C7'; needed, and not here: head (`etude clip convert` knows other sets of "
+            "s:4: unknown marker names 'C7'; needed but missing: head (`etude clip convert` knows other sets of "
             "markers)");
   MarkerMotion markers;
   for (int i = 0; i < 39; ++i) markers.names.push_back(fmt::format("M{}", i));
   markers.frames.resize(2, std::vector<std::optional<glm::dvec3>>(39, glm::dvec3(1)));
   const std::string complaint = ComplaintOf(WriteTrc(markers, "m"));
-  EXPECT_NE(complaint.find("'M7' and 31 more; needed, and not here: hip_centre, spine"), std::string::npos)
+  EXPECT_NE(complaint.find("'M7' and 31 more; needed but missing: hip_centre, spine"), std::string::npos)
       << complaint;
 }
 
 TEST(Streams, RefusalsSayWhereAndWhatIsAllowed) {
   const BodyMotion motion = WavingMotion(2);
   const std::string rows = KinectV1Text(motion);
-  EXPECT_TRUE(ComplaintOf("").starts_with("s:1: no skeletons known here")) << ComplaintOf("");
-  EXPECT_TRUE(ComplaintOf("1 2 3\n4 5 6\n").starts_with("s:1: no skeletons known here (3 numbers"));
+  EXPECT_TRUE(ComplaintOf("").starts_with("s:1: not a known format of skeletons")) << ComplaintOf("");
+  EXPECT_TRUE(ComplaintOf("1 2 3\n4 5 6\n").starts_with("s:1: not a known format of skeletons (3 numbers"));
   EXPECT_TRUE(ComplaintOf(rows, {.format = StreamFormat::kKinectV2}).starts_with("s:1: 60 numbers in a row; allowed"));
   EXPECT_TRUE(ComplaintOf(rows + rows.substr(rows.find(' '))).starts_with("s:3: "));
   EXPECT_TRUE(ComplaintOf(rows + "x" + rows.substr(1)).starts_with("s:3:1: value 1"));
@@ -191,7 +191,7 @@ TEST(Streams, RefusalsSayWhereAndWhatIsAllowed) {
   EXPECT_EQ(ComplaintOf("{\"frames\": [}"), "s:1:13: not JSON from here on");
   EXPECT_NE(ComplaintOf("{}").find("no list \"frames\""), std::string::npos);
   EXPECT_EQ(ComplaintOf("head_x_m,head_y_m,head_z_m\n0,1,2\n").find("s: never shows hip_centre, spine"), 0u);
-  EXPECT_NE(ComplaintOf(WithClock(rows, 5, -0.03)).find("a first column that is no clock"), std::string::npos);
+  EXPECT_NE(ComplaintOf(WithClock(rows, 5, -0.03)).find("a first column that is neither a clock"), std::string::npos);
   EXPECT_EQ(ComplaintOf(WithClock(rows, 1, 0.03) + WithClock(rows, 0.5, 0.03)).find("s:3: time 0.5 s after"), 0u);
 }
 

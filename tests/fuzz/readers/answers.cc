@@ -49,7 +49,7 @@ std::vector<std::string> AnswerSeeds() {
 }
 
 constexpr char kTransition[] = "transition", kDetection[] = "detection", kIk[] = "ik", kTracking[] = "tracking",
-               kPoseDistance[] = "pose-distance", kSearch[] = "search";
+               kPoseDistance[] = "pose-distance";
 
 template <const char* kTask>
 Target AnswerTarget(const std::vector<std::string>& words) {
@@ -67,7 +67,6 @@ std::vector<Target> AnswerTargets() {
       AnswerTarget<kIk>({"\"angles_deg\":", "\"iterations\":", "1e9"}),
       AnswerTarget<kTracking>({"\"angles_deg\":", "\"iterations\":", "1e9"}),
       AnswerTarget<kPoseDistance>({"\"distances\":", "\"alike\":"}),
-      AnswerTarget<kSearch>({"\"found\":", "[]"}),
   };
 }
 

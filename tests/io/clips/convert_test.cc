@@ -142,7 +142,7 @@ TEST_F(ConvertTest, SeveralAnimationsBecomeAGlbOrAComplaint) {
 
 TEST_F(ConvertTest, WithoutAUnitThereIsNoGlb) {
   const std::string path = Write("two.bvh", kTwoJoints);
-  EXPECT_THAT(Complaint(path, MotionFormat::kGlb), HasSubstr("--unit must say"));
+  EXPECT_THAT(Complaint(path, MotionFormat::kGlb), HasSubstr("--unit must state"));
   ConvertOptions options;
   options.open.body.metres_per_unit = 0.01;
   options.open.body.up = UpAxis::kZ;

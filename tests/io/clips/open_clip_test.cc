@@ -56,7 +56,7 @@ TEST_F(OpenClipTest, AnAnimationIsChosenByNameOrByItsEnd) {
 
 TEST_F(OpenClipTest, FilesWithoutMotionAndChoicesWithoutMeaningAreRefused) {
   EXPECT_THAT(Complaint(Write("figure.gltf", GltfWith(""))), HasSubstr("holds no animation, only a figure (joints: 2"));
-  EXPECT_THAT(Complaint(Write("a.bvh", kTwoJoints) + "#Jump"), HasSubstr("a BVH file has one motion"));
+  EXPECT_THAT(Complaint(Write("a.bvh", kTwoJoints) + "#Jump"), HasSubstr("a BVH file has only one motion"));
 }
 
 TEST_F(OpenClipTest, AFileThatItselfHoldsASignIsThatFile) {
@@ -186,7 +186,7 @@ TEST_F(ClipFileTest, WhatIsNeitherIsToldWithWhatIsAllowed) {
 TEST_F(ClipFileTest, AFileThatIsTooLargeIsRefusedBeforeItIsRead) {
   const std::string path = Write("huge.bvh", "HIERARCHY");
   std::filesystem::resize_file(path, kMaxClipFileBytes + 1);  // takes no room on the disk
-  EXPECT_NE(Complaint(path).find("501 MB; at most 500 MB"), std::string::npos);
+  EXPECT_NE(Complaint(path).find("501 MB; allowed: clips of at most 500 MB"), std::string::npos);
 }
 
 TEST_F(ClipFileTest, BuffersAreReadFromTheFilesOwnFolder) {

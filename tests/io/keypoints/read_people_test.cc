@@ -167,7 +167,7 @@ TEST_F(ReadPeople, KnowsTheOrderOfOpenPosesBody25ByItsMidHip) {
   ASSERT_TRUE(film) << ToString(film.error());
   EXPECT_THAT(film->told, HasSubstr("body_25"));
   EXPECT_EQ(film->frames[0][0][Landmark::kRightHip].pixel, glm::dvec2(90.5, 100.5));
-  EXPECT_THAT(Reason(folder_.path() / "b"), HasSubstr("tell which one by --layout"));
+  EXPECT_THAT(Reason(folder_.path() / "b"), HasSubstr("choose one by --layout"));
   EXPECT_EQ(Reason(folder_.path() / "a", "body_25b"), "no complaint") << "what is said counts";
 }
 
@@ -208,7 +208,7 @@ TEST_F(ReadPeople, ReadsResultsOfAlphaPoseAndCocoInTheFramesThatTheirImagesName)
   EXPECT_EQ(from_one->told, "");
   const auto within = ReadKeypoints(Write("within.json", "[" + result("1", "10") + "]"), "", film);
   EXPECT_EQ(within->frames[1].size(), 1u);
-  EXPECT_THAT(within->told, HasSubstr("taken as counted from 0"));
+  EXPECT_THAT(within->told, HasSubstr("assumed to be counted from 0"));
   EXPECT_THAT(Reason(Write("noname.json", "[" + result("\"last\"", "1") + "]")), HasSubstr("image_id has no number"));
 }
 
@@ -271,8 +271,8 @@ TEST_F(ReadPeople, FindsTheEntryOfAFilm) {
   Write("cam2_b.json", "");
   EXPECT_EQ(EntryOfFilm(folder_.path(), "cam1")->filename(), "cam1_json");
   EXPECT_EQ(EntryOfFilm(folder_.path(), "cam10")->filename(), "cam10.json");
-  EXPECT_THAT(EntryOfFilm(folder_.path(), "cam2").error().message, HasSubstr("both cam2.json and cam2_b.json"));
-  EXPECT_THAT(EntryOfFilm(folder_.path(), "cam3").error().message, HasSubstr("nothing in it begins"));
+  EXPECT_THAT(EntryOfFilm(folder_.path(), "cam2").error().message, HasSubstr("cam2.json and cam2_b.json both begin"));
+  EXPECT_THAT(EntryOfFilm(folder_.path(), "cam3").error().message, HasSubstr("no file in it begins"));
 }
 
 }  // namespace

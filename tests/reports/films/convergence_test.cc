@@ -133,7 +133,7 @@ TEST_F(Convergence, RingsMarkTheTargetsNotTheTruth) {
   const IkPath& path = race_.paths[0];
   const Paint white{1, 1, 1, 1};
   const auto met = ConvergenceStage(race_, *renderer_, 622, 400).Picture(*renderer_, path.poses.back(), white);
-  EXPECT_THAT(ConvergenceScene(race_, "race", *renderer_).Words(), HasSubstr("rings: where right foot"));
+  EXPECT_THAT(ConvergenceScene(race_, "race", *renderer_).Words(), HasSubstr("rings: the targets of right foot"));
   *race_.targets[1] += glm::dvec3(0.2, 0, 0);
   const auto moved = ConvergenceStage(race_, *renderer_, 622, 400).Picture(*renderer_, path.poses.back(), white);
   EXPECT_NE(met.pixels, moved.pixels);
@@ -200,8 +200,8 @@ TEST(ScenarioFilms, SayWhyThereAreNone) {
   ASSERT_EQ(media.scenario_films.size(), 1u);
   EXPECT_EQ(media.scenario_films[0].scenario, "race");
   EXPECT_EQ(media.scenario_films[0].film.file, "convergence.mp4");
-  EXPECT_THAT(media.scenario_films[0].film.why_not, HasSubstr("recordings of one method only"));
-  EXPECT_THAT(FilmElement(media.scenario_films[0].film, false), HasSubstr("recordings of one method only"));
+  EXPECT_THAT(media.scenario_films[0].film.why_not, HasSubstr("recordings of only one method"));
+  EXPECT_THAT(FilmElement(media.scenario_films[0].film, false), HasSubstr("recordings of only one method"));
   EXPECT_FALSE(fs::exists(folder));
 }
 
@@ -231,7 +231,7 @@ TEST(Film, IsItsPosterAndTheReasonWhenItCannotBeEncoded) {
   EXPECT_TRUE(film.poster.png.starts_with("\x89PNG"));
   EXPECT_THAT(film.why_not, HasSubstr("only this picture"));
   const std::string element = FilmElement(film, true);
-  EXPECT_THAT(element, HasSubstr("nothing &lt;much&gt; There is no film, only this picture"));
+  EXPECT_THAT(element, HasSubstr("nothing &lt;much&gt; No film could be made, only this picture"));
   EXPECT_THAT(element, Not(HasSubstr("<video")));
   const Film whole = Shoot(scene, fs::path(::testing::TempDir()) / "etude_still" / "film.mp4");
   EXPECT_EQ(whole.why_not, "");

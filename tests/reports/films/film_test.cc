@@ -226,7 +226,7 @@ TEST(CaptureScene, ShowsTheMethodsOfOneWorldSideBySideAndColoursTheirErrors) {
   ASSERT_TRUE(both) << ToString(both.error());
   ASSERT_EQ(both->size(), 2u);
   CaptureScene scene(**SharedRenderer(), *both);
-  EXPECT_THAT(scene.Words(), HasSubstr("what ccd-fixed and ccd-adaptive recovered"));
+  EXPECT_THAT(scene.Words(), HasSubstr("the skeleton that ccd-fixed and ccd-adaptive recovered"));
   const ColourImage picture = scene.Draw(scene.PosterFrame()).Pixels();
   const auto red_from = [&](int from, int to) {
     int red = 0;

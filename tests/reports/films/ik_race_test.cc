@@ -52,8 +52,8 @@ TEST(IkRace, TakesTheFirstTwoOfTheMethodsThatWereRecorded) {
 }
 
 TEST(IkRace, SaysWhyThereIsNone) {
-  EXPECT_THAT(WhyNone(RaceRun({{"a", 0, 1, {}}, {"b", 0, 1, {}}})), HasSubstr("kept no recordings here"));
-  EXPECT_THAT(WhyNone(RaceRun({{"a", 0, 1, EveryIteration(3)}, {"b", 0, 1, {}}})), HasSubstr("one method only"));
+  EXPECT_THAT(WhyNone(RaceRun({{"a", 0, 1, {}}, {"b", 0, 1, {}}})), HasSubstr("kept no recordings of this scenario"));
+  EXPECT_THAT(WhyNone(RaceRun({{"a", 0, 1, EveryIteration(3)}, {"b", 0, 1, {}}})), HasSubstr("only one method"));
   EXPECT_THAT(WhyNone(RaceRun({{"a", 0, 1, EveryIteration(3)},
                                {"b", 0, 1, {}, Status::kFailed},
                                {"a", 1, 1, {}, Status::kFailed},
@@ -106,7 +106,7 @@ TEST(IkRace, KnowsWhereTheEndsShouldBeWhateverTheTruth) {
                           R"([null, null, null, [1, 2, "up"]])"}) {
     const auto refused = with(bad);
     ASSERT_FALSE(refused.has_value()) << bad;
-    EXPECT_THAT(ToString(refused.error()), HasSubstr("targets_m is no list of 4 places"));
+    EXPECT_THAT(ToString(refused.error()), HasSubstr("'targets_m' in its extras is not a list of 4 positions"));
   }
 }
 
@@ -124,15 +124,20 @@ TEST(IkRace, RefusesRecordingsThatDoNotSayWhatTheyShow) {
   };
   const std::string errors = R"(, "position_error_max_cm": [3, 2, 1], "axis_error_max_deg": [3, 2, 1]})";
   EXPECT_EQ(complaint(R"({"iterations": [0, 1, 2])" + errors), "there is one");
-  EXPECT_THAT(complaint("{}"), HasSubstr("race/-/000/b: its extras' iterations is no list of 3 numbers"));
+  EXPECT_THAT(complaint("{}"),
+              HasSubstr("race/-/000/b: 'iterations' in its extras is not a list of 3 increasing whole numbers"));
   EXPECT_THAT(complaint("[]"), HasSubstr("not a JSON object"));
-  EXPECT_THAT(complaint(R"({"iterations": [0, 1])" + errors), HasSubstr("iterations is no list of 3"));
-  EXPECT_THAT(complaint(R"({"iterations": [0, 1, "2"])" + errors), HasSubstr("iterations is no list of 3"));
+  EXPECT_THAT(complaint(R"({"iterations": [0, 1])" + errors),
+              HasSubstr("'iterations' in its extras is not a list of 3"));
+  EXPECT_THAT(complaint(R"({"iterations": [0, 1, "2"])" + errors),
+              HasSubstr("'iterations' in its extras is not a list of 3"));
   for (const char* wrong : {"[0, 2, 1]", "[1, 2, 3]", "[0, 1, 1.5]", "[0, 1, 1e12]"}) {
-    EXPECT_THAT(complaint(R"({"iterations": )" + std::string(wrong) + errors), HasSubstr("rising from 0")) << wrong;
+    EXPECT_THAT(complaint(R"({"iterations": )" + std::string(wrong) + errors),
+                HasSubstr("increasing whole numbers from 0"))
+        << wrong;
   }
   EXPECT_THAT(complaint(R"({"iterations": [0, 1, 2], "position_error_max_cm": [3, -2, 1]})"),
-              HasSubstr("position_error_max_cm is no list of 3 numbers of at least 0"));
+              HasSubstr("'position_error_max_cm' in its extras is not a list of 3 numbers of at least 0"));
 }
 
 }  // namespace

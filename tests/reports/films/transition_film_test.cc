@@ -61,7 +61,7 @@ TEST(TransitionRace, NeedsTwoMethodsInOneWorld) {
   RunData run = ExampleRun();
   auto race = FindTransitionRace(run, run.scenarios.front());
   ASSERT_FALSE(race.has_value());
-  EXPECT_THAT(ToString(race.error()), HasSubstr("key video"));
+  EXPECT_THAT(ToString(race.error()), HasSubstr("key 'video'"));
   AddRecordings(run);
   race = FindTransitionRace(run, run.scenarios.front());
   ASSERT_FALSE(race.has_value());

@@ -115,7 +115,7 @@ TEST(PlotSection, BeginsWithTheQuestionAndDrawsNoPairTwice) {
   };
   EXPECT_LT(place("now", "wait-for-end"), place("gate-inertialised", "wait-for-end"));
   EXPECT_LT(place("gate-inertialised", "wait-for-end"), place("now", "fuzzy-bridge"));
-  EXPECT_EQ(CountOf(html, "which does not matter"), 2);  // once a metric
+  EXPECT_EQ(CountOf(html, "which do not matter"), 2);  // once a metric
   EXPECT_EQ(PlotSectionHtml(run, ScenarioSummary{}), "");
 }
 
@@ -164,7 +164,8 @@ TEST(LeftOutStrip, NamesTheClipThatCarriesTheDifference) {
             "Without “a” it is −0.300 "
             "mm: then it no longer matters: it depends on this clip.");
   // Nearer to the whole, and yet the one that counts, though another is farther off on the other side.
-  EXPECT_THAT(WithoutEachUnit(Differing(2.4, {0.7, 2.2, 9}), SamplingUnit::kClip), HasSubstr("Without “a” 0.700 mm"));
+  EXPECT_THAT(WithoutEachUnit(Differing(2.4, {0.7, 2.2, 9}), SamplingUnit::kClip),
+              HasSubstr("Without “a” it is 0.700 mm"));
   EXPECT_THAT(WithoutEachUnit(Differing(-2, {1.5, -3, -4}), SamplingUnit::kLibrary),
               EndsWith("it depends on this library."));
 }
@@ -175,7 +176,8 @@ TEST(LeftOutStrip, SaysThatNoneCarriesIt) {
 }
 
 TEST(LeftOutStrip, NamesTheClipThatHidesOne) {
-  EXPECT_THAT(WithoutEachUnit(Differing(0.2, {0.1, -3, 0.5}), SamplingUnit::kClip), EndsWith("this clip hides it."));
+  EXPECT_THAT(WithoutEachUnit(Differing(0.2, {0.1, -3, 0.5}), SamplingUnit::kClip),
+              EndsWith("this clip hides the difference."));
 }
 
 TEST(LeftOutStrip, DrawsAMarkPerClipAgainstWhatMatters) {

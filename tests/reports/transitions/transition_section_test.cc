@@ -88,8 +88,8 @@ TEST(TransitionSection, IsEmptyWithoutRecordingsAndShortWithMany) {
   const Example example;
   const std::vector<RecordedRequest> many(50, example.Worlds().front());
   EXPECT_EQ(CountOf(TransitionsHtml(many), "<summary>"), 6);
-  EXPECT_THAT(TransitionsHtml(many), HasSubstr("44 more requests are left out here"));
-  EXPECT_THAT(TransitionsMarkdown(many), HasSubstr("44 more requests are left out here"));
+  EXPECT_THAT(TransitionsHtml(many), HasSubstr("44 more requests are not shown here"));
+  EXPECT_THAT(TransitionsMarkdown(many), HasSubstr("44 more requests are not shown here"));
 }
 
 TEST(DistanceTable, GivesAFullBarToWhatAloneReachesTheThreshold) {

@@ -98,7 +98,7 @@ TEST(SimulatedStudio, RefusesWhatItCannotDraw) {
   const engine::Motion motion = Gliding();
   engine::Camera lens;
   lens.k1 = -0.1;
-  EXPECT_THAT(RefusalOf([&] { Studio(motion, std::array{lens}); }), HasSubstr("a lens that distorts"));
+  EXPECT_THAT(RefusalOf([&] { Studio(motion, std::array{lens}); }), HasSubstr("a lens with distortion"));
   EXPECT_THAT(RefusalOf([&] { Studio(motion, {}); }), HasSubstr("no camera"));
   EXPECT_THAT(RefusalOf([&] { StereoCameras(motion, 0); }), HasSubstr("baseline of 0 m"));
   const Studio studio(motion, StereoCameras(motion));

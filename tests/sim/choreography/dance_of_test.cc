@@ -67,7 +67,7 @@ TEST(ToBeats, PutsEveryTagOnItsBeat) {
   even.resize(50);
   const auto too_few = ToBeats(*dance, even);
   ASSERT_FALSE(too_few);
-  EXPECT_THAT(too_few.error().message, HasSubstr("50 beats; 'warm_up' takes"));
+  EXPECT_THAT(too_few.error().message, HasSubstr("50 beats, but 'warm_up' takes"));
 }
 
 }  // namespace

@@ -257,7 +257,7 @@ TEST(ParseSong, TellsWhereAndWhatIsWrong) {
   EXPECT_THAT(ComplaintOfSong("boxing", "wave"), HasSubstr("unknown move 'wave'")) << "an act is no move";
   EXPECT_THAT(ComplaintOfSong("boxing", "slow_clap"), HasSubstr("unknown move 'slow_clap'"));
   EXPECT_THAT(ComplaintOfSong("boxing", "fast_sway"),
-              AllOf(HasSubstr("small.yaml:10:12"), HasSubstr("at 96 beats a minute"), HasSubstr("suits")));
+              AllOf(HasSubstr("small.yaml:10:12"), HasSubstr("at 96 beats per minute"), HasSubstr("suits")));
   EXPECT_THAT(ComplaintOfSong("times: 3", "times: 1"), AllOf(HasSubstr("small.yaml:8:"), HasSubstr("out of range")));
   EXPECT_THAT(ComplaintOfSong("boxing", "clap"), AllOf(HasSubstr("small.yaml:4:"), HasSubstr("7 different moves")));
   EXPECT_THAT(ComplaintOfSong("times: 3", "tims: 3"), HasSubstr("times"));

@@ -196,7 +196,7 @@ TEST(IkTask, TellsWhyACellStopped) {
   EXPECT_EQ(reason("{max_sweeps: 7}", "solver: ccd, weights: fixed"), "the limit of 7 sweeps");
   EXPECT_EQ(reason("{unreachable_cm: 5}", "solver: damped-least-squares"), "a target is out of reach");
   EXPECT_EQ(reason("{start: stretched}", "solver: damped-least-squares"), "stalled before the targets were met");
-  EXPECT_THAT(reason("{}", "solver: fabrik"), HasSubstr("sees positions only"));
+  EXPECT_THAT(reason("{}", "solver: fabrik"), HasSubstr("uses only positions"));
   EXPECT_EQ(reason("{targets: position}", "solver: fabrik"), "") << "solved, where positions are all that is asked for";
 }
 

@@ -170,7 +170,7 @@ TEST(TrackingWorld, RefusesAClipThatIsTooShortOrHasNoPose) {
   EXPECT_EQ(complaint(ClipOf(tree, SwingingStates(tree, 4))), "");
   LibraryClip folded = ClipOf(tree, SwingingStates(tree, 10));
   folded.motion.poses[6][Role::kLeftHand] = folded.motion.poses[6][Role::kLeftWrist];
-  EXPECT_THAT(complaint(folded), HasSubstr("frame 6 of the window of clip swing gives no pose"));
+  EXPECT_THAT(complaint(folded), HasSubstr("frame 6 of the window of clip swing cannot be converted to a pose"));
 }
 
 }  // namespace

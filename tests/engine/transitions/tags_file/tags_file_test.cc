@@ -67,13 +67,13 @@ TEST(TagsFile, SaysWhereWhatWasFoundAndWhatIsAllowed) {
 
 TEST(TagsFile, RefusesWhatContradictsItself) {
   const std::string text = SomeText();
-  EXPECT_THAT(Complaint(With(text, "RH=\"mid\"", "RH=\"up\"")).message, HasSubstr("by its grades it is mid"));
+  EXPECT_THAT(Complaint(With(text, "RH=\"mid\"", "RH=\"up\"")).message, HasSubstr("but its grades give mid"));
   EXPECT_THAT(Complaint(With(text, "frames=\"40\"", "frames=\"4\"")).message, HasSubstr("of a clip that has 4"));
   EXPECT_THAT(Complaint(With(text, "name=\"wave\"", "name=\"Ärm &amp; &lt;leg&gt; &quot;2&quot;\"")).message,
               HasSubstr("a second clip"));
   EXPECT_THAT(Complaint(With(text, "key clip=\"wave\"", "key clip=\"wink\"")).message, HasSubstr("wink"));
   EXPECT_THAT(Complaint(With(text, "rate-hz=\"30\"", "rate-hz=\"60\"")).message, HasSubstr("time-s"));
-  EXPECT_THAT(Complaint(With(text, "feature=\"RH\"", "feature=\"LH\"")).message, HasSubstr("stands that of RH"));
+  EXPECT_THAT(Complaint(With(text, "feature=\"RH\"", "feature=\"LH\"")).message, HasSubstr("the weight of RH"));
 }
 
 TEST(TagsFile, RefusesHostileInput) {
