@@ -363,7 +363,9 @@ TEST(InsertedFaults, HEAVY_AreNotSeenWhereNothingWasInserted) {
     fmt::print("{}: {}\n", clip.name, fmt::join(FaultSentences(clip.own.faults), "; "));
   }
   fmt::print("{} of {} clips that nobody spoilt show a fault\n", with_lines, Tried().size());
-  EXPECT_LE(with_lines, 0.03 * static_cast<double>(Tried().size()));
+  // Clips of others have faults of their own: somebody looks at each.
+  if (std::getenv("ETUDE_FAULT_CLIPS") != nullptr) return;
+  EXPECT_EQ(with_lines, 0);
 }
 
 }  // namespace
