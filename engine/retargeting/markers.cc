@@ -377,7 +377,8 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std
   std::vector<std::string> names(markers.names.begin(),
                                  markers.names.begin() + std::min<std::size_t>(markers.names.size(), 12));
   return Fail({file},
-              "its markers ({}{}) are not of a known set: {}; known: Etude's joints, OpenPose BODY_25, HALPE_26, COCO, "
+              "its markers ({}{}) are not of a known set (nearest: {}); known: Etude's joints, OpenPose BODY_25, HALPE_26, "
+              "COCO, "
               "Motive's and HumanIK's bones, OpenCap's augmented markers, Plug-in Gait",
               Join(names), markers.names.size() > names.size() ? ", …" : "", nearest);
 }

@@ -100,7 +100,7 @@ const FieldTable<EvaluationMethod>& EvaluationMethodFields() {
                   "The answers, named like their truths.")
            .WhenAbsent("(`pairs` names them)"),
        Key::Flag("control", &Method::is_control,
-                 "The answer is the truth, spoilt as the other keys say, in their order: does a metric notice?"),
+                 "The answer is the truth, spoilt as the other keys say, in their order."),
        Key::Number("noisy_mm", part(&Spoiler::noisy_mm), {0, 1000},
                    "Standard deviation of white noise, each axis, each joint for itself."),
        Key::Number("smoothed_ms", part(&Spoiler::smoothed_ms), {0, 10'000}, "Length of a centred moving mean."),

@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "bench/tasks/evaluation/find_files.h"
-#include "bench/tasks/evaluation/options.h"
 #include "bench/tasks/plausibility/options.h"
 #include "engine/base/names.h"
 #include "io/clips/open_clip.h"
@@ -41,7 +40,7 @@ std::vector<std::string> ClipsIn(const std::string& reference) {
   return sources;
 }
 
-Result<std::vector<LoneClip>> ClipsOf(const EvaluationMethod& method, const Place& place) {
+Result<std::vector<LoneClip>> ClipsOf(const PlausibilityMethod& method, const Place& place) {
   std::vector<LoneClip> clips;
   for (const std::string& pattern : method.answers) {
     ASSIGN_OR_RETURN(const auto files, ExpandFiles({pattern}, Links::kAllowed, place));
@@ -91,9 +90,9 @@ Result<FoundFiles> FindLoneClips(const Node& condition, std::span<const Node> me
   std::map<std::string, std::vector<std::string>> answers;
   for (std::size_t m = 0; m < methods.size(); ++m) {
     Fields keys(methods[m], "a method of task plausibility");
-    EvaluationMethod method;
+    PlausibilityMethod method;
     method.name = keys.RequiredText("name");
-    EvaluationMethodFields().ReadKeys(keys, method);
+    PlausibilityMethodFields().ReadKeys(keys, method);
     RETURN_IF_ERROR(keys.Finish());
     const Node* of_answers = methods[m].Find("answers");
     const Place& place = of_answers == nullptr ? methods[m].place : of_answers->place;

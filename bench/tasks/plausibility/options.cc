@@ -45,4 +45,12 @@ const FieldTable<PlausibilityOptions>& PlausibilityConditionFields() {
   return table;
 }
 
+const FieldTable<PlausibilityMethod>& PlausibilityMethodFields() {
+  using Key = Field<PlausibilityMethod>;
+  static const FieldTable<PlausibilityMethod> table{
+      {Key::Texts("answers", &PlausibilityMethod::answers, "a list of motion files, patterns, folders",
+                  "The motions that are judged.")}};
+  return table;
+}
+
 }  // namespace etude

@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bench/keys/field_table.h"
 
@@ -16,6 +17,14 @@ struct PlausibilityOptions {
 };
 
 const FieldTable<PlausibilityOptions>& PlausibilityConditionFields();
+
+/// A method of task plausibility: motions that something outside gave.
+struct PlausibilityMethod {
+  std::string name;
+  std::vector<std::string> answers;  ///< files, patterns, folders
+};
+
+const FieldTable<PlausibilityMethod>& PlausibilityMethodFields();
 
 /// Reads limits: a mapping from metrics of this task to their largest allowed values. An unknown metric is a complaint
 /// of `fields`.

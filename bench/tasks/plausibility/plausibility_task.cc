@@ -1,6 +1,5 @@
 #include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/base/task_kinds.h"
-#include "bench/tasks/evaluation/options.h"
 #include "bench/tasks/plausibility/find_clips.h"
 #include "bench/tasks/plausibility/judge.h"
 #include "bench/tasks/plausibility/options.h"
@@ -13,7 +12,7 @@ namespace {
 /// The data that all worlds of one condition share.
 struct PlausibilityStudy {
   PlausibilityOptions options;
-  std::vector<EvaluationMethod> methods;
+  std::vector<PlausibilityMethod> methods;
   std::vector<JudgedFiles> files;
   OpenOptions opening;
 };
@@ -63,7 +62,7 @@ class PlausibilityTask final : public Task {
 Result<std::unique_ptr<Task>> MakePlausibilityTask(TaskInput& input) {
   PlausibilityStudy study;
   PlausibilityConditionFields().Read(input.condition, study.options);
-  ASSIGN_OR_RETURN(study.methods, ReadMethods(input, "plausibility", EvaluationMethodFields()));
+  ASSIGN_OR_RETURN(study.methods, ReadMethods(input, "plausibility", PlausibilityMethodFields()));
   study.files.assign(input.files.begin(), input.files.end());
   if (input.opening != nullptr) study.opening = *input.opening;
   for (const JudgedFiles& files : study.files) {
@@ -85,7 +84,7 @@ TaskKind MakePlausibilityTaskKind() {
           .metrics = PlausibilityMetrics(),
           .make = MakePlausibilityTask,
           .condition_keys = PlausibilityConditionFields().Describe(),
-          .method_keys = EvaluationMethodFields().Describe(),
+          .method_keys = PlausibilityMethodFields().Describe(),
           .has_problems = false,
           .uses_clips = false,
           .units = {SamplingUnit::kClip, SamplingUnit::kWorld},

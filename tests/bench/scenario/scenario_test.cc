@@ -28,7 +28,7 @@ TEST(Scenario, TellsWhatIsWrongAndWhere) {
       Complaint("scenario: s\nquestion: q?\ntask: ikk\n" + kMethods),
       HasSubstr(
           "s.yaml:3:7: unknown task 'ikk'; did you mean 'ik'? Allowed: transition, detection, ik, tracking, capture, "
-          "search, pose-distance"));
+          "pose-distance"));
   EXPECT_THAT(Complaint(kHead), HasSubstr("a scenario needs 'methods'"));
   EXPECT_THAT(Complaint(kHead + "methods: [{solver: ccd}]\n"),
               HasSubstr("s.yaml:4:11: a method of task ik needs 'name'"));

@@ -65,7 +65,7 @@ TEST(Sources, TellsWhatIsWrongWithAFileOfSeveralScenarios) {
   EXPECT_THAT(Complaint("scenarios: []\n"), HasSubstr("s.yaml:1:12: 'scenarios' must be a list of at least one"));
   EXPECT_THAT(Complaint("scenarios: 1\n"), HasSubstr("found '1'"));
   EXPECT_THAT(Complaint("scenarios: [1]\n"), HasSubstr("s.yaml:1:13: a scenario must be a mapping"));
-  EXPECT_THAT(Complaint("scenarios: [{include: [a]}]\n"), HasSubstr("'include' belongs at the top of a file"));
+  EXPECT_THAT(Complaint("scenarios: [{include: [a]}]\n"), HasSubstr("'include' belongs at the top level of a file"));
   EXPECT_THAT(Complaint("default: {trials: 1}\nscenarios: [{}]\n"),
               HasSubstr("s.yaml:1:1: unknown key of a file of several scenarios 'default'; did you mean 'defaults'?"));
   EXPECT_THAT(Complaint("scenario: s\nscenarios: [{}]\n"), HasSubstr("unknown key of a file of several scenarios"));

@@ -484,7 +484,7 @@ TEST(Markers, OfNoKnownSetAreRefusedWithWhatIsLacking) {
   ASSERT_FALSE(refused);
   EXPECT_THAT(ToString(refused.error()), HasSubstr("a.c3d: its markers (hip_centre, "));
   EXPECT_THAT(ToString(refused.error()),
-              HasSubstr("are not of a known set: Etude's joints lacks left_knee; known: "));
+              HasSubstr("are not of a known set (nearest: Etude's joints lacks left_knee); known: "));
 }
 
 TEST(Markers, ThatLieOnEachOtherGiveNoNumberThatIsNone) {

@@ -97,8 +97,8 @@ TEST(Played, SaysThatNoClipShowsHowABodyLiesDown) {
   EXPECT_TRUE(down.segments.empty()) << "who can stand up cannot lie down backwards";
   EXPECT_EQ(down.why,
             "stand stands with its hips at 0.83 m in all frames in which it may be left, lie lies, sits or kneels with its "
-            "hips at 0.00 m where it may be entered: no join can lower a body without support; and no clip shows within 4 s "
-            "how it is done");
+            "hips at 0.00 m where it may be entered: no join can lower a body without support; and no clip shows such a "
+            "movement within 4 s");
   EXPECT_FALSE(PlayedFrom(library, 1, 10, 0).segments.empty());
   EXPECT_TRUE(PlayedFrom(library, 1, 10, 0, {.most_through_s = 0.2}).segments.empty()) << "no time for it";
   EXPECT_EQ(PlayedFrom(library, 0, 10, 0).segments.size(), 2u) << "who stands is joined as before";
