@@ -274,6 +274,23 @@ TEST(JointArrays, AreUnderstoodAsTheyWere) {
   EXPECT_TRUE(testing::AreKept(lines, "tests/engine/retargeting/joint_arrays.txt"));
 }
 
+TEST(BodyNpz, TakesJointsByTheirNamesInAnyOrder) {
+  const BodyMotion motion = LoadBuiltinMove("clap").value().motion;
+  Npz arrays = ReadNpz(WriteBodyNpz(motion, AtAttention()), "a.npz").value();
+  std::vector<std::string>& names = arrays.texts.at("names");
+  std::vector<double>& values = arrays.arrays.at("positions").values;
+  // Exchange the first and the last joint, with their names.
+  std::swap(names.front(), names.back());
+  for (std::size_t at = 0; at < values.size(); at += 3 * kRoleCount) {
+    for (std::size_t axis = 0; axis < 3; ++axis) std::swap(values[at + axis], values[at + 3 * (kRoleCount - 1) + axis]);
+  }
+  const auto read = ReadBodyNpz(arrays, "a.npz");
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_LT(WorstApart(*read, motion), 1e-12);
+  names.front() = "tail";
+  EXPECT_THAT(ToString(ReadBodyNpz(arrays, "a.npz").error()), HasSubstr("a.npz: names: none is '"));
+}
+
 TEST(BodyNpz, IsRefusedBeyondItsLimits) {
   const BodyMotion motion = LoadBuiltinMove("clap").value().motion;
   const Npz arrays = ReadNpz(WriteBodyNpz(motion, AtAttention()), "a.npz").value();
