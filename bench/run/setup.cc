@@ -1,6 +1,6 @@
 #include "bench/run/setup.h"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>

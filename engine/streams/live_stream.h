@@ -29,8 +29,8 @@ class LiveStream {
 
   /// Returns the format, units and clock that were detected; nullopt before the first frames are returned.
   const std::optional<StreamRecording>& Meaning() const { return meaning_; }
-  /// Returns remarks on the level that was found: that the sensor was turned, or that the trunk is far from up; "" if
-  /// there are none or nothing is known yet.
+  /// Returns what was found about the sensor's level: that it was rotated, or that trunks are far from upright; "" if
+  /// there is nothing to say, or nothing is known yet.
   std::string RemarkOnLevel() const;
 
  private:

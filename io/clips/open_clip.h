@@ -36,7 +36,7 @@ struct SourceClip {
 /// ("Jump" for "Armature|Jump"). Fails if no such animation exists, and lists those that do. `options` may override the
 /// frame rate of files, and help to find the ground.
 Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options = {});
-/// Does the same for a reference that stands for one clip; else fails and lists those that there are.
+/// Reads the only clip that a reference names. Fails if it names several, and lists them.
 Result<SourceClip> ReadOneClip(const std::string& reference, const OpenOptions& options);
 
 /// A clip with its roles found and its body's motion.

@@ -76,7 +76,7 @@ ClipFacts FactsWithoutClip(const std::string& reference, const OpenOptions& opti
   return facts;
 }
 
-/// Describes values that no person can have.
+/// Returns sentences about the faults that were found in the motion.
 std::vector<std::string> RemarksOf(const BodyFacts& body) {
   return body.faults ? FaultSentences(body.faults->faults) : std::vector<std::string>();
 }

@@ -39,10 +39,10 @@ struct SensorFitOptions {
 };
 
 /// Fits a sensor by the method of moments, so that its simulated recordings of the twin's motion have the statistics of
-/// the real one: simulate, compare, correct, repeat. Fitted are each group's size and depth ratio, planted feet,
+/// the real one: simulate, compare, correct, repeat. It fits each group's size and depth ratio, planted feet,
 /// correlations along bones, the white noise at rest, the share of fast errors, the stretch of shoulders, arms and
-/// hands (for hands from their jumps), and the reference distance. All other settings keep their values, because such a
-/// recording does not determine them; so do the settings of groups that were never seen. Deterministic.
+/// hands (that of hands follows from their jumps), and the reference distance. All other settings keep their values,
+/// because such a recording does not determine them; so do the settings of groups that were never seen. Deterministic.
 SkeletonSensorOptions FitSensor(const RealRecording& real, const SensorFitOptions& options);
 
 }  // namespace etude

@@ -21,7 +21,7 @@ struct EvaluationStudy {
   EvaluationSideData side;
 };
 
-/// Keeps both motions, on the joints judged.
+/// Returns a recording of both motions, with the joints that are judged.
 Recording RecordingOf(const MatchedMotions& matched) {
   EvaluationExtras extras;
   extras.truth.rate_hz = matched.pair.rate_hz;

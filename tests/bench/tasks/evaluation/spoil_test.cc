@@ -7,7 +7,7 @@
 namespace etude {
 namespace {
 
-/// Hips that swing, and a left foot that steps, at 50 Hz.
+/// Returns a motion at 50 Hz whose hips swing and whose left foot steps.
 RawMotion Swinging() {
   RawMotion motion;
   motion.rate_hz = 50;
