@@ -26,7 +26,7 @@ int TellStopped(const Error& what_is_left) {
 
 Result<int> UnlessReplaced(const std::string& folder, const RunData& run, int code) {
   if (CheckStillThere(folder, run)) return code;
-  Complain({{folder, 0, 0}, "was replaced by another run while files were written into it; write them again"});
+  Complain({{folder, 0, 0}, "changed while files were written into it: another run, or a foreign file; write them again"});
   return kIncompleteRun;
 }
 

@@ -212,7 +212,7 @@ Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options) {
   const std::size_t kept = outcome.cells + outcome.cells_answered;
   TellStopped({{},
                kept == 0 ? "stopped before any cell ended; nothing is kept"
-                         : fmt::format("stopped; {} cells are kept in {}; --resume continues", kept, folder)});
+                         : fmt::format("stopped; cells kept in {1}: {0}; --resume continues", kept, folder)});
   return std::optional<RunOutcome>();
 }
 

@@ -84,7 +84,7 @@ std::string DescribeTurn(const JointRecording& recording) {
   std::vector<RecordedFrame> frames(recording.frames.size());
   for (std::size_t t = 0; t < frames.size(); ++t) frames[t].places = recording.frames[t];
   const StreamLevel level = recording.sensor_at ? EstimateLevel(frames, recording.rate_hz) : StreamLevel{};
-  if (level.turn_deg != 0) return fmt::format("; the sensor is turned by {} degrees", level.turn_deg);
+  if (level.turn_deg != 0) return fmt::format("; the sensor is rotated by {} degrees", level.turn_deg);
   if (level.trunk_deg == 0) return "";
   return fmt::format("; trunks are {:.0f} degrees from up: a lying person, or a tilted sensor", level.trunk_deg);
 }

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr const char *kReportFolder = "report", *kFilmsFolder = "video", *kPicturesFolder = "pictures";
 constexpr const char* kPage = "index.html";
-constexpr const char *kStranger = " belongs to no report of this run", *kOtherwise = " is not what the run says";
+constexpr const char *kStranger = " belongs to no report of this run", *kOtherwise = " differs from what the run gives";
 
 /// A text file of a report; `path` is relative to `report`.
 struct ReportText {

@@ -94,7 +94,7 @@ Result<std::vector<std::string>> OnlyUnderstood(const std::vector<std::string>& 
     }
   }
   if (!references.empty() && understood.empty()) {
-    return Fail(place, "--skip-refused: none of its {} clips can be read, the first because {}", refused.size(),
+    return Fail(place, "--skip-refused: no clip can be read ({} tried); the first: {}", refused.size(),
                 refused.empty() ? "there is none" : refused.front().why);
   }
   return understood;

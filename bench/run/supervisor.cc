@@ -103,7 +103,7 @@ class Supervisor {
       if (options_.on_wait) options_.on_wait();
     }
     if (not_run_ == 0) return true;
-    return FailOfMachine("{}; {} cells were not run", why_not_run_, not_run_);
+    return FailOfMachine("{}; cells not run: {}", why_not_run_, not_run_);
   }
 
  private:

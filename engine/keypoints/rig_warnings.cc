@@ -183,7 +183,7 @@ class RigChecker {
     if (best->film && cameras_.size() == 2) {
       whose += fmt::format(" (or {:.3f} times {}'s)", 1 / best->gain, names_[1 - *best->film]);
     }
-    return fmt::format("{} the residual of the rays would be {:.2f} px instead of {:.2f}{}", whose,
+    return fmt::format("{}, the residual of the rays would be {:.2f} px instead of {:.2f}{}", whose,
                        MedianMiss(Gains(best->film, best->gain), AsDeclared), miss,
                        best->film ? " (or the camera was moved)" : "");
   }

@@ -183,7 +183,9 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
     constexpr double kMinGiven = 0.4, kMaxGiven = 4;
     const double told = stature * *given;
     const std::string likely =
-        unit == nullptr ? "" : fmt::format("; its unit is likely the {}: {:.2f} m", unit->name, stature * unit->metres);
+        unit == nullptr ? ""
+                        : fmt::format("; 1 unit = {:.4g} cm ({}) would give {:.2f} m", 100 * unit->metres, unit->name,
+                                      stature * unit->metres);
     if (told < kMinGiven || told > kMaxGiven) {
       return Fail({file}, "in the unit given (1 unit = {:.4g} cm) the body is {:.3g} m tall; allowed: {:g} to {:g} m{}",
                   100 * *given, told, kMinGiven, kMaxGiven, likely);

@@ -387,7 +387,7 @@ class Formats(MotionFileCase):
         path = self.turned("metres.bvh")
         result = self.etude("clip", "info", path, "--unit", "cm")
         self.assertEqual(result.returncode, 2)
-        self.assertIn("m tall; allowed: 0.4 to 4 m; its unit is likely the metre: 1.", result.stderr)
+        self.assertIn("m tall; allowed: 0.4 to 4 m; 1 unit = 100 cm (metre) would give 1.", result.stderr)
 
     def test_a_run_is_told_the_unit_and_keeps_it(self):
         clips = [self.turned("child.bvh", unit=50), self.turned("other.bvh", unit=50)]

@@ -182,7 +182,7 @@ class Gate(EtudeCase):
         self.assertEqual(ran.returncode, 3, ran.stderr)
         self.assertIn("this machine: method own of ik: in its start: ended with exit code 1; its last words: "
                       "'ModuleNotFoundError: no numpy here'", ran.stderr)
-        self.assertIn("; 24 cells were not run; ", ran.stderr)
+        self.assertIn("; cells not run: 24; ", ran.stderr)
         self.assertFalse((self.now / "cells.jsonl").exists())
         self.assertNotIn("regression", self.gate(self.now, expect=3))
 

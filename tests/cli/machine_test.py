@@ -205,7 +205,7 @@ class Machine(EtudeCase):
         self.run_suite(scenario, out=whole)
         taken = self.run_here(scenario, "-o", self.out, "--jobs", "1", "--no-fence", environment={"TMPDIR": str(folder)})
         self.assertEqual(taken.returncode, 3, taken.stderr)
-        self.assertRegex(taken.stderr, r"etude: this machine: .*; [1-3] cells were not run; finished cells are kept; --resume")
+        self.assertRegex(taken.stderr, r"etude: this machine: .*; cells not run: [1-3]; finished cells are kept; --resume")
         self.assertFalse((self.out / "cells.jsonl").exists())
         self.run_suite(scenario, "--resume")
         self.assert_same_results(whole, self.out)

@@ -43,6 +43,18 @@ TEST(CompareSystems, TellsWhatIsMoreThanMeasured) {
   EXPECT_EQ(lines[3], "The differences here are larger than measured: jump_cm by 0.25.");
 }
 
+TEST(CompareSystems, NamesTheLargestMeasuredDifferences) {
+  const RunSystem sid{"16.2.0", "2.43", "2.2.0", "4.5 (Core Profile) Mesa 26.2.6-1, by EGL"};
+  Snapshot before = ThreeWorlds({30, 31, 32}), within = ThreeWorlds({30, 31.0625, 32});
+  Snapshot beyond = ThreeWorlds({30, 31, 32.125});
+  for (Snapshot* snapshot : {&before, &within, &beyond}) snapshot->scenarios[0].cells[0].metrics[0].metric = "mpjpe_mm";
+  const auto lines = CompareSystems(kDebian13, sid, before, within);
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_THAT(lines[2], HasSubstr("at most 80 of the quick suite's 2192 cells differ, "));
+  EXPECT_THAT(lines[2], HasSubstr("mpjpe_mm by 0.064"));
+  EXPECT_THAT(CompareSystems(kDebian13, sid, before, beyond).back(), HasSubstr("larger than measured: mpjpe_mm by 0.12"));
+}
+
 TEST(CompareSystems, SaysThatNothingIsKnownOfOtherSystems) {
   for (RunSystem other :
        {RunSystem{"15.1.0", "2.41", "2.2.0", ""}, RunSystem{"14.2.0", "2.42", "2.2.0", ""},

@@ -125,7 +125,7 @@ TEST_F(HurriedSupervisorTest, AWorkerThatWaitsForeverIsEndedAndThisMachineIsToBl
   EXPECT_TRUE(IsOfThisMachine(whole.error()));
   EXPECT_THAT(ToString(whole.error()), HasSubstr("this machine: a worker used"));
   EXPECT_THAT(ToString(whole.error()),
-              HasSubstr(fmt::format("s of processor time before its limit of elapsed time; {} cells were not run",
+              HasSubstr(fmt::format("s of processor time before its limit of elapsed time; cells not run: {}",
                                     plan_.cell_count())));
   EXPECT_TRUE(rows_.empty());
 }
@@ -157,7 +157,7 @@ TEST_F(SupervisorTest, CellsThatThisMachineKeepsFromBeingRunHaveNoRowAndEndTheRu
   ASSERT_FALSE(whole);
   EXPECT_TRUE(IsOfThisMachine(whole.error()));
   EXPECT_EQ(ToString(whole.error()),
-            fmt::format("this machine: no room left; {} cells were not run", plan_.cell_count() - 1));
+            fmt::format("this machine: no room left; cells not run: {}", plan_.cell_count() - 1));
   EXPECT_EQ(rows_.size(), 1u);
 }
 
@@ -167,10 +167,10 @@ TEST_F(SupervisorTest, WhatAWorkerThatThisMachineEndsWasAtIsNotRun) {
     const auto in_cell = RunWith("echo ready\nread -r order\necho built\n" + end + "\n", 2);
     ASSERT_FALSE(in_cell);
     EXPECT_TRUE(IsOfThisMachine(in_cell.error())) << ToString(in_cell.error());
-    EXPECT_THAT(ToString(in_cell.error()), HasSubstr(fmt::format("; {} cells were not run", plan_.cell_count())));
+    EXPECT_THAT(ToString(in_cell.error()), HasSubstr(fmt::format("; cells not run: {}", plan_.cell_count())));
     const auto in_world = RunWith("echo ready\nread -r order\n" + end + "\n");
     ASSERT_FALSE(in_world);
-    EXPECT_THAT(ToString(in_world.error()), HasSubstr(fmt::format("; {} cells were not run", plan_.cell_count())));
+    EXPECT_THAT(ToString(in_world.error()), HasSubstr(fmt::format("; cells not run: {}", plan_.cell_count())));
     EXPECT_TRUE(rows_.empty());
   }
 }
@@ -286,7 +286,7 @@ TEST_F(MeasuringSupervisorTest, NothingIsMeasuredWhereAMethodCouldNotBeAsked) {
   worker.replace(worker.find(last), last.size(), "not run: no room");
   const auto whole = RunWith(worker);
   ASSERT_FALSE(whole);
-  EXPECT_EQ(ToString(whole.error()), "this machine: no room; 1 cells were not run");
+  EXPECT_EQ(ToString(whole.error()), "this machine: no room; cells not run: 1");
   EXPECT_TRUE(rows_.empty());
   EXPECT_EQ(std::ranges::count(Notes(), "cell"), 0);
 }

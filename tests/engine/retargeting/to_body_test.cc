@@ -396,12 +396,12 @@ TEST(ToBodyMotion, RefusesAUnitUnderWhichTheBodyIsNone) {
   const auto tiny = Convert(AtRest(Scaled(0.01)), {.metres_per_unit = 0.01});
   ASSERT_FALSE(tiny);
   EXPECT_EQ(tiny.error().message,
-            "in the unit given (1 unit = 1 cm) the body is 0.0174 m tall; allowed: 0.4 to 4 m; its unit is likely the "
-            "metre: 1.74 m");
+            "in the unit given (1 unit = 1 cm) the body is 0.0174 m tall; allowed: 0.4 to 4 m; 1 unit = 100 cm "
+            "(metre) would give 1.74 m");
   EXPECT_FALSE(Convert(AtRest(Scaled(1)), {.metres_per_unit = 1}));
   const auto child = Convert(AtRest(Scaled(1)), {.metres_per_unit = 0.0055});
   ASSERT_TRUE(child);
-  EXPECT_THAT(child->Note(), HasSubstr("0.96 m tall in the unit given; its unit is likely the centimetre: 1.74 m"));
+  EXPECT_THAT(child->Note(), HasSubstr("0.96 m tall in the unit given; 1 unit = 1 cm (centimetre) would give 1.74 m"));
   EXPECT_EQ(Convert(AtRest(Scaled(1)), {.metres_per_unit = 0.01})->Note(), "1 unit = 1 cm (given)");
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,10 +17,10 @@
 namespace etude {
 
 /// Sessions of scripted players, whose truth needs no learner.
-inline const CoachStage& StageOf(const std::string& song) {
-  static std::map<std::string, CoachStage> stages;
+inline const CoachStage& StageOf(std::string_view song) {
+  static std::map<std::string, CoachStage, std::less<>> stages;
   auto found = stages.find(song);
-  if (found == stages.end()) found = stages.emplace(song, *SetCoachStage(song)).first;
+  if (found == stages.end()) found = stages.emplace(song, *SetCoachStage(std::string(song))).first;
   return found->second;
 }
 

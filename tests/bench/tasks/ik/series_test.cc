@@ -88,7 +88,7 @@ TEST(IkSeries, CurvesOfEveryEffectorGoFromTheStartToTheEndAndTheirWorstIsTheWors
   const std::string axes[] = {"x", "y", "z"};
   for (std::size_t e = 0; e < 4; ++e) {
     const std::string name(run.tree.effectors[e].name);
-    const Series& position = Named(curves, name + "_position_error_cm");
+    const Series position = Named(curves, name + "_position_error_cm");
     ASSERT_EQ(position.values.size(), 31u);
     EXPECT_NEAR(position.values.front(), glm::length(before.position_cm[e]), 1e-9);
     EXPECT_NEAR(position.values.back(), glm::length(after.position_cm[e]), 1e-9);
