@@ -92,7 +92,7 @@ void JumpStrip::Draw(Canvas& canvas, const Box& box, const TransitionPath& path,
   if (path.facts.natural_limit_cm) {
     const double y = frame.Y(*path.facts.natural_limit_cm);
     canvas.DrawLine({frame.box.x, y}, {frame.box.x + frame.box.width, y}, 1.2, kNature);
-    const std::string words = fmt::format("nature {} cm", FormatFixed(*path.facts.natural_limit_cm, 1));
+    const std::string words = fmt::format("natural: up to {} cm", FormatFixed(*path.facts.natural_limit_cm, 1));
     const double width = canvas.TextWidth(words, kTextSize);
     const double left = std::max(frame.box.x + frame.box.width - width, frame.box.x + kJumpRoom + 6);
     canvas.DrawText({left, box.y + 16}, words, kTextSize, kNature, frame.box.x + frame.box.width - left + 1);

@@ -10,6 +10,7 @@ import subprocess
 import unittest
 
 from etude_case import ETUDE, EtudeCase, heavy
+from source_files import source_files
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SNAPSHOT = "http://snapshot.debian.org/archive/debian/20261101T000000Z"  # of sid, which changes daily
@@ -52,9 +53,7 @@ class Systems(EtudeCase):
 
     def make_root_with_tree(self, suite, *uris):
         root = self.make_root(suite, *uris)
-        files = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT, check=True,
-                               capture_output=True).stdout.decode().split("\0")
-        for file in filter(None, files):
+        for file in source_files(ROOT):
             (root / "srv/etude" / file).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(ROOT / file, root / "srv/etude" / file)
         return root

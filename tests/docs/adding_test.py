@@ -14,6 +14,9 @@ import sys
 import tempfile
 import unittest
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from source_files import source_files  # noqa: E402
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 and pathlib.Path(sys.argv[1]).is_dir() else ROOT / "build" / "release"
 # Per example: the test program whose libraries and flags it takes, and what is compiled beside what the page touches.
@@ -57,9 +60,8 @@ class Adding(unittest.TestCase):
         cls.addClassCleanup(scratch.cleanup)
         cls.tree, cls.objects = pathlib.Path(scratch.name) / "tree", pathlib.Path(scratch.name) / "objects"
         cls.objects.mkdir()
-        listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=ROOT, capture_output=True, text=True, check=True)
-        for name in listed.stdout.splitlines():
-            if (ROOT / name).is_file() and not name.startswith(("docs/images", "docs/figures")):
+        for name in source_files(ROOT):
+            if not str(name).startswith(("docs/images", "docs/figures")):
                 (cls.tree / name).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy2(ROOT / name, cls.tree / name)
         follow(cls.tree, cls.steps)

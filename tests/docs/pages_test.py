@@ -10,10 +10,14 @@ import os
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
 
 import protocol_page
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from source_files import source_files  # noqa: E402
 
 ETUDE = pathlib.Path(os.environ["ETUDE"]).resolve()
 ROOT = pathlib.Path(__file__).parents[2]
@@ -161,8 +165,7 @@ class Pages(unittest.TestCase):
                 self.assertIn(f"]({page.name})", listed)
 
     def test_links_lead_somewhere(self):
-        listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "*.md"], cwd=ROOT, capture_output=True, text=True)
-        dead, count = dead_links(ROOT, [ROOT / name for name in listed.stdout.splitlines() if (ROOT / name).exists()])
+        dead, count = dead_links(ROOT, [ROOT / name for name in source_files(ROOT) if name.suffix == ".md"])
         self.assertEqual(dead, [])
         self.assertGreater(count, 150)
         with tempfile.TemporaryDirectory() as scratch:

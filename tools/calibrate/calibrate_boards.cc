@@ -394,9 +394,9 @@ Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options) {
   for (std::size_t camera = 0; camera < seen.size(); ++camera) {
     if (seen[camera].corners > 0) continue;
     return Fail({options.inputs[camera]},
-                "none of its {} pictures shows the board {}; give your board by --board: Etude's own as 5x7x0.034, a ChArUco "
-                "board as charuco:5x7x0.04, a chessboard as chess:9x6x0.025",
-                seen[camera].looked, Join(options.boards));
+                "no picture shows the board {} ({} tried); give your board by --board: Etude's own as 5x7x0.034, a "
+                "ChArUco board as charuco:5x7x0.04, a chessboard as chess:9x6x0.025",
+                Join(options.boards), seen[camera].looked);
   }
   // Synchronise the films, calibrate, and report the residuals.
   ASSIGN_OR_RETURN(std::vector<TargetView> views, SynchroniseFilms(options, search, seen));

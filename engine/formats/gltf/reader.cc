@@ -200,6 +200,22 @@ Result<void> CheckCounts(const nlohmann::json& json, const std::string& where, c
   return {};
 }
 
+/// Refuses index lists without a buffer view: tinygltf 2.7 refuses them, 2.9 reads them as zeros. CheckCounts has passed.
+Result<void> CheckIndexLists(const nlohmann::json& json, const std::string& file) {
+  const nlohmann::json::json_pointer to_meshes("/meshes"), to_accessors("/accessors");
+  if (!json.contains(to_meshes) || !json.contains(to_accessors)) return {};
+  for (const auto& mesh : json[to_meshes]) {
+    for (const auto& primitive : mesh.is_object() ? mesh.value("primitives", nlohmann::json()) : nlohmann::json()) {
+      if (!primitive.is_object() || !primitive.contains("indices") || primitive.contains("extensions")) continue;
+      const auto accessor = primitive["indices"].get<std::size_t>();
+      const auto list = json[to_accessors].size() > accessor ? json[to_accessors][accessor] : nlohmann::json();
+      if (!list.is_object() || list.contains("bufferView") || list.contains("sparse")) continue;
+      return Fail({file}, "accessors[{}]: found no bufferView; an index list needs one", accessor);
+    }
+  }
+  return {};
+}
+
 /// Refuses file names with a NUL character, plain or escaped, because tinygltf 2.9 would cut the name there and request
 /// the rest.
 Result<void> CheckFileNames(const nlohmann::json& json, const std::string& file) {
@@ -316,6 +332,7 @@ Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const
     const nlohmann::json::json_pointer version("/asset/version");
     if (json.contains(version) && json[version].is_string() && json[version].get<std::string>().starts_with("2")) {
       RETURN_IF_ERROR(CheckCounts(json, "", file));
+      RETURN_IF_ERROR(CheckIndexLists(json, file));
     }
     return tl::unexpected(NotGltf(file, complaint.empty() ? "the parser failed" : complaint));
   }
@@ -323,6 +340,7 @@ Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const
     return Fail({file}, "asset.version: found {}; allowed: 2.0", Quote(model->asset.version));
   }
   RETURN_IF_ERROR(CheckCounts(json, "", file));
+  RETURN_IF_ERROR(CheckIndexLists(json, file));
   RETURN_IF_ERROR(TidyAllNames(*model, file));
   return model;
 }

@@ -121,7 +121,7 @@ GateReport ThirtyWorlds(int far, const std::string& rules = "") {
   return *report;
 }
 
-const MetricMove& FirstOf(const GateReport& report, const std::string& metric) {
+const MetricMove& FirstOf(const GateReport& report, std::string_view metric) {
   return *std::ranges::find_if(report.comparison.moves,
                                [&](const MetricMove& move) { return move.identity.metric == metric; });
 }
