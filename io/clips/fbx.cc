@@ -8,12 +8,15 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <fstream>
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "engine/base/names.h"
 #include "io/clips/fbx_rotations.h"
 #include "io/process/forked_copy.h"
 #include "io/process/pinned_environment.h"
@@ -92,8 +95,8 @@ std::optional<std::string> ReceiveBlock(int socket, std::size_t maximum, bool& i
   return ReceiveAll(socket, bytes.data(), size) ? std::optional(std::move(bytes)) : std::nullopt;
 }
 
-/// The child process: answers each file with kSaidGlb, the name of the reader, a line break and the GLB file, or with
-/// kSaidComplaint and a complaint.
+/// The child process: answers each file with kSaidGlb, two lines (the reader's name, the longest time between keys) and
+/// the GLB file, or with kSaidComplaint and a complaint.
 int ReadFilesInChild(int socket) {
   Limit(RLIMIT_AS, MappedBytes() + kMemoryBytes);
   Limit(RLIMIT_CORE, 0);
@@ -109,15 +112,18 @@ int ReadFilesInChild(int socket) {
     missing = std::string(kModule) + " is not a module of this program";
   } else {
     read = *static_cast<GlbOfFbxBytes* const*>(symbol);
-    name = NameOfReader() + "\n";
+    name = NameOfReader();
   }
   bool is_too_long = false;
   // Answer files until the parent closes the socket.
   while (const auto bytes = ReceiveBlock(socket, kMaxGlbBytes, is_too_long)) {
     AllowProcessorTime(kProcessorSeconds);
     std::string said = missing;
-    const bool went_well = read != nullptr && read(*bytes, said);
-    if (!SendBlock(socket, (went_well ? kSaidGlb + name : std::string(1, kSaidComplaint)) + said)) break;
+    double longest_s = 0;
+    const bool went_well = read != nullptr && read(*bytes, said, longest_s);
+    const std::string head =
+        went_well ? fmt::format("{}{}\n{}\n", kSaidGlb, name, longest_s) : std::string(1, kSaidComplaint);
+    if (!SendBlock(socket, head + said)) break;
   }
   return 0;
 }
@@ -145,12 +151,22 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
   if (SendBlock(child_->socket(), bytes)) said = ReceiveBlock(child_->socket(), kMaxGlbBytes, is_too_long);
   // The child answered: return the GLB file, or its complaint.
   if (said && said->starts_with(kSaidGlb)) {
-    const std::size_t line = said->find('\n');
-    FbxMotion motion{.glb = said->substr(line + 1), .reader = said->substr(1, line - 1)};
+    const std::size_t name = said->find('\n'), longest = said->find('\n', name + 1);
+    FbxMotion motion{.glb = said->substr(longest + 1), .reader = said->substr(1, name - 1)};
+    std::vector<std::string> remarks;
     if (inactive > 0) {
-      motion.remark = fmt::format(
-          "RotationActive is 0 at {} joints: their pre-rotations, post-rotations and orders are left out", inactive);
+      remarks.push_back(fmt::format(
+          "RotationActive is not set at {} joints: their pre-rotations, post-rotations and orders are left out",
+          inactive));
     }
+    constexpr double kLong = 0.1;  // seconds; between closer keys, no curve goes far from a straight line
+    if (const double apart = std::strtod(said->c_str() + name + 1, nullptr); apart > kLong) {
+      remarks.push_back(
+          fmt::format("its keys are up to {:.2f} s apart: between them joints go the shortest way at an "
+                      "even speed, whatever curves the file has",
+                      apart));
+    }
+    motion.remark = Join(remarks, "; ");
     return motion;
   }
   if (said) {

@@ -10,8 +10,9 @@
 namespace etude {
 
 /// The function of the module `etude_clips_assimp.so`. It converts the bytes of an FBX file to a GLB file: on success
-/// it returns true and `said` holds the GLB bytes, on failure it returns false and `said` holds a complaint.
-using GlbOfFbxBytes = bool(std::string_view bytes, std::string& said);
+/// it returns true, `said` holds the GLB bytes and `longest_s` the longest time between two different keys of a joint;
+/// on failure it returns false and `said` holds a complaint.
+using GlbOfFbxBytes = bool(std::string_view bytes, std::string& said, double& longest_s);
 
 /// Returns true if `bytes` begin as an FBX file does, binary or text.
 bool IsFbx(std::string_view bytes);
@@ -20,7 +21,7 @@ bool IsFbx(std::string_view bytes);
 struct FbxMotion {
   std::string glb;          ///< a GLB file with the nodes and animations of the FBX file, in metres, Y up
   std::string reader;       ///< the library that read it and its build ID: "libassimp.so.5 (0f3c…)"
-  std::string remark = "";  ///< what was left out before reading; "" if nothing was
+  std::string remark = "";  ///< what was left out or replaced; "" if nothing was
 };
 
 /// The beginning of the complaint about a file that crashed its reader; the signal's number follows.

@@ -12,7 +12,7 @@ namespace etude {
 namespace {
 
 constexpr std::array<std::string_view, 3> kIgnored = {"PreRotation", "PostRotation", "RotationOrder"};
-constexpr std::string_view kActive = "RotationActive", kFbxTextHead = "; FBX";
+constexpr std::string_view kActive = "RotationActive", kTemplate = "FbxNode", kFbxTextHead = "; FBX";
 
 bool IsIgnored(std::string_view name) { return std::ranges::find(kIgnored, name) != kIgnored.end(); }
 
@@ -93,26 +93,48 @@ bool IsZero(std::string_view bytes, const FbxProperty& property) {
   });
 }
 
+/// Reads the entries of a node's table of properties.
+std::vector<FbxProperty> TableOf(std::string_view bytes, const FbxNode& node) {
+  std::vector<FbxProperty> entries;
+  for (const FbxNode& table : NodesIn(bytes, node.children)) {
+    if (table.name != "Properties70") continue;
+    for (const FbxNode& entry : NodesIn(bytes, table.children)) entries.push_back(PropertyOf(bytes, entry.properties));
+  }
+  return entries;
+}
+
+/// Returns whether the template of models sets RotationActive.
+bool IsActiveByTemplate(std::string_view bytes, const FbxNode& definitions) {
+  bool is_active = false;
+  for (const FbxNode& type : NodesIn(bytes, definitions.children)) {
+    for (const FbxNode& preset : NodesIn(bytes, type.children)) {
+      if (preset.name != "PropertyTemplate" || PropertyOf(bytes, preset.properties).name != kTemplate) continue;
+      for (const FbxProperty& entry : TableOf(bytes, preset)) {
+        if (entry.name == kActive) is_active = !IsZero(bytes, entry);
+      }
+    }
+  }
+  return is_active;
+}
+
 std::size_t LeaveOutOfBinary(std::string_view bytes, std::string& changed) {
   constexpr std::size_t kHeadBytes = 27;
   std::size_t models = 0;
+  bool active_by_template = false;
   if (bytes.size() < kHeadBytes) return 0;
-  for (const FbxNode& objects : NodesIn(bytes, {kHeadBytes, bytes.size()})) {
-    if (objects.name != "Objects") continue;
-    for (const FbxNode& model : NodesIn(bytes, objects.children)) {
+  for (const FbxNode& part : NodesIn(bytes, {kHeadBytes, bytes.size()})) {
+    if (part.name == "Definitions") active_by_template = IsActiveByTemplate(bytes, part);
+    if (part.name != "Objects") continue;
+    for (const FbxNode& model : NodesIn(bytes, part.children)) {
       if (model.name != "Model") continue;
       // Collect the model's own properties.
       std::vector<FbxProperty> ignored;
-      bool is_off = false;
-      for (const FbxNode& table : NodesIn(bytes, model.children)) {
-        if (table.name != "Properties70") continue;
-        for (const FbxNode& entry : NodesIn(bytes, table.children)) {
-          FbxProperty property = PropertyOf(bytes, entry.properties);
-          if (property.name == kActive) is_off = !property.numbers.empty() && IsZero(bytes, property);
-          if (IsIgnored(property.name) && !IsZero(bytes, property)) ignored.push_back(std::move(property));
-        }
+      bool is_active = active_by_template;
+      for (FbxProperty& property : TableOf(bytes, model)) {
+        if (property.name == kActive) is_active = !IsZero(bytes, property);
+        if (IsIgnored(property.name) && !IsZero(bytes, property)) ignored.push_back(std::move(property));
       }
-      if (!is_off || ignored.empty()) continue;
+      if (is_active || ignored.empty()) continue;
       // Overwrite with zeros in a copy; the size stays the same.
       if (changed.empty()) changed = bytes;
       for (const FbxProperty& property : ignored) {
@@ -151,29 +173,30 @@ std::optional<std::pair<std::string_view, FbxRange>> PropertyInLine(std::string_
 bool AreZeros(std::string_view numbers) { return numbers.find_first_of("123456789") == std::string_view::npos; }
 
 std::size_t LeaveOutOfText(std::string_view text, std::string& changed) {
-  std::vector<FbxRange> zeroed;
+  std::vector<FbxRange> zeroed, ignored;
   std::size_t models = 0;
-  bool in_model = false, in_table = false, is_off = false;
-  std::vector<FbxRange> ignored;
+  bool in_model = false, in_template = false, in_table = false, active_by_template = false, is_active = false;
   for (std::size_t begin = 0; begin < text.size();) {
     const FbxRange line{begin, std::min(text.find('\n', begin), text.size())};
     begin = line.end + 1;
     const std::string_view here = TrimmedLine(text.substr(line.begin, line.end - line.begin));
     if (here.starts_with("Model:")) in_model = true;
-    if (in_model && here.starts_with("Properties70:")) {
+    if (here.starts_with("PropertyTemplate:")) in_template = here.find(kTemplate) != std::string_view::npos;
+    if ((in_model || in_template) && here.starts_with("Properties70:")) {
       in_table = true;
-      is_off = false;
+      is_active = active_by_template;
       ignored.clear();
     } else if (in_table && here == "}") {
-      if (is_off && !ignored.empty()) {
+      if (in_template) active_by_template = is_active;
+      if (in_model && !is_active && !ignored.empty()) {
         ++models;
         zeroed.insert(zeroed.end(), ignored.begin(), ignored.end());
       }
-      in_table = in_model = false;
+      in_table = in_model = in_template = false;
     } else if (const auto property = in_table ? PropertyInLine(text, line) : std::nullopt) {
       const auto& [name, numbers] = *property;
       const bool are_zeros = AreZeros(text.substr(numbers.begin, numbers.end - numbers.begin));
-      if (name == kActive) is_off = are_zeros;
+      if (name == kActive) is_active = !are_zeros;
       if (IsIgnored(name) && !are_zeros) ignored.push_back(numbers);
     }
   }

@@ -137,9 +137,15 @@ class Fbx(MotionFileCase):
         path, places = self.fbx("inactive.fbx", 1, "y", inactive=("LeftArm", "RightForeArm"))
         self.assertLess(self.apart_from_truth(path, places), 1e-4)
         note = json.loads(self.etude("clip", "info", path, "--json").stdout)["clips"][0]["body"]["note"]
-        self.assertIn("RotationActive is 0 at 2 joints: their pre-rotations, post-rotations and orders are left out", note)
+        self.assertIn("RotationActive is not set at 2 joints: their pre-rotations, post-rotations and orders are left out", note)
         path, _ = self.fbx("active.fbx", 1, "y")
         self.assertNotIn("RotationActive", self.etude("clip", "info", path, "--json").stdout)
+
+    def test_fbx_keys_that_are_far_apart_are_told(self):
+        for rate, told in ((30, False), (2, True)):
+            path, _ = self.fbx("far.fbx", 1, "y", frames=4, rate=rate)
+            note = json.loads(self.etude("clip", "info", path, "--json").stdout)["clips"][0]["body"]["note"]
+            self.assertEqual("its keys are up to 0.50 s apart: between them joints go the shortest way" in note, told, note)
 
     def test_fbx_without_an_animation_is_told_so(self):
         path, _ = self.fbx("rest.fbx", 1, "y")

@@ -2,8 +2,10 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <exception>
@@ -43,6 +45,9 @@ class MotionGlb {
     AddNode(*scene.mRootNode);
     for (unsigned i = 0; i < scene.mNumAnimations; ++i) AddAnimation(*scene.mAnimations[i]);
   }
+
+  /// Returns the longest time between two different keys of one channel, in seconds.
+  double longest_s() const { return longest_s_; }
 
   std::string Bytes() {
     Json document = {{"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}, {"nodes", nodes_}};
@@ -97,6 +102,13 @@ class MotionGlb {
         for (const float number : numbers_of(keys[i].mValue)) values.push_back(number);
       }
       if (count == 0) return;
+      constexpr float kSame = 0.01f;  // of a quaternion's number, a metre, or a scale
+      const std::size_t width = values.size() / count;
+      for (std::size_t i = width; i < values.size(); ++i) {
+        const std::size_t key = i / width;
+        if (std::abs(values[i] - values[i - width]) < kSame) continue;
+        longest_s_ = std::max(longest_s_, static_cast<double>(times[key]) - times[key - 1]);
+      }
       channels.push_back({{"sampler", samplers.size()}, {"target", {{"node", node}, {"path", path}}}});
       samplers.push_back({{"input", AddNumbers(times, count)}, {"output", AddNumbers(values, count)}});
     };
@@ -133,9 +145,10 @@ class MotionGlb {
   Json nodes_ = Json::array(), animations_ = Json::array(), accessors_ = Json::array(), views_ = Json::array();
   std::map<std::string, std::size_t> by_name_;  ///< the first node of each name
   std::string numbers_;
+  double longest_s_ = 0;
 };
 
-bool GlbOfFbxByAssimp(std::string_view bytes, std::string& said) {
+bool GlbOfFbxByAssimp(std::string_view bytes, std::string& said, double& longest_s) {
   try {
     Assimp::Importer importer;
     // Fold the pivots into one node for each joint, because other formats do not know pivots.
@@ -151,7 +164,9 @@ bool GlbOfFbxByAssimp(std::string_view bytes, std::string& said) {
       aiMatrix4x4::RotationX(static_cast<ai_real>(-sign * std::numbers::pi / 2), turn);
       scene->mRootNode->mTransformation = turn * scene->mRootNode->mTransformation;
     }
-    said = MotionGlb(*scene).Bytes();
+    MotionGlb motion(*scene);
+    said = motion.Bytes();
+    longest_s = motion.longest_s();
     return true;
   } catch (const std::exception& error) {
     said = std::string("an FBX file that cannot be read: ") + error.what();

@@ -66,8 +66,10 @@ FbxWriter::Node Entry(const std::string& name, std::int32_t number) {
   return {"P", TextValue(name) + TextValue("int") + TextValue("") + TextValue("") + "I" + NumberBytes(number), 5};
 }
 
-/// A file of three models, whose middle one tells `active`; `pre` is its PreRotation.
-std::string Models(std::uint32_t version, std::int32_t active, const std::vector<double>& pre, std::int32_t order) {
+/// A file of three models, whose middle one tells `active`; `pre` is its PreRotation. The first one tells nothing, so
+/// that the template's `by_template` holds; `first` is its PreRotation.
+std::string Models(std::uint32_t version, std::int32_t active, const std::vector<double>& pre, std::int32_t order,
+                   std::int32_t by_template = 1, const std::vector<double>& first = {0, 90, 0}) {
   const auto model = [](std::vector<FbxWriter::Node> entries) {
     return FbxWriter::Node{
         "Model",
@@ -77,11 +79,21 @@ std::string Models(std::uint32_t version, std::int32_t active, const std::vector
   };
   const std::vector<double> turn = {0, 90, 0};
   return FbxWriter(version).File(
-      {{"Definitions", "", 0, {{"Count", "I" + NumberBytes(std::int32_t{1}), 1}}},
+      {{"Definitions",
+        "",
+        0,
+        {{"Count", "I" + NumberBytes(std::int32_t{1}), 1},
+         {"ObjectType",
+          TextValue("Model"),
+          1,
+          {{"PropertyTemplate",
+            TextValue("FbxNode"),
+            1,
+            {{"Properties70", "", 0, {Entry("RotationActive", by_template)}}}}}}}},
        {"Objects",
         "",
         0,
-        {model({Entry("PreRotation", turn)}),
+        {model({Entry("PreRotation", first)}),
          model({Entry("PreRotation", pre), Entry("RotationActive", active), Entry("RotationOrder", order),
                 Entry("Lcl Rotation", turn)}),
          model({Entry("RotationActive", 1), Entry("PreRotation", turn), Entry("PostRotation", turn)})}}});
@@ -95,25 +107,34 @@ TEST(FbxRotations, AreZeroInBinaryFilesWhereTheyAreNotActive) {
     EXPECT_EQ(LeaveOutInactiveRotations(Models(version, 1, {10, 20, -30}, 5), changed), 0u) << "the control";
     EXPECT_EQ(changed, "");
     EXPECT_EQ(LeaveOutInactiveRotations(Models(version, 0, {0, 0, 0}, 0), changed), 0u) << "nothing to leave out";
+    EXPECT_EQ(LeaveOutInactiveRotations(Models(version, 1, {10, 20, -30}, 5, 0), changed), 1u) << "by the template";
+    EXPECT_TRUE(changed == Models(version, 1, {10, 20, -30}, 5, 0, {0, 0, 0})) << version;
   }
 }
 
 TEST(FbxRotations, AreZeroInTextWhereTheyAreNotActive) {
-  const auto text = [](int active, const char* pre, int order) {
+  const auto told = [](int active) {
+    return fmt::format("\t\t\tP: \"RotationActive\", \"bool\", \"\", \"\",{}\n", active);
+  };
+  const auto text = [](const std::string& by_template, const std::string& active, const char* pre, int order) {
     return fmt::format(
-        "; FBX 7.4.0 project file\nDefinitions: {{\n\tProperties70: {{\n\t\tP: \"RotationActive\", \"bool\", \"\", "
-        "\"\",0\n\t}}\n}}\nObjects: {{\n\tModel: 7, \"Model::Arm\", \"LimbNode\" {{\n\t\tProperties70: {{\n\t\t\tP: "
-        "\"PreRotation\", \"Vector3D\", \"Vector\", \"\",{}\n\t\t\tP: \"RotationActive\", \"bool\", \"\", "
-        "\"\",{}\n\t\t\tP: "
+        "; FBX 7.4.0 project file\nDefinitions: {{\n\tObjectType: \"Model\" {{\n\t\tPropertyTemplate: \"FbxNode\" {{\n"
+        "\t\tProperties70: {{\n{}\t\t}}\n\t}}\n\t}}\n}}\nObjects: {{\n\tModel: 7, \"Model::Arm\", \"LimbNode\" {{\n"
+        "\t\tProperties70: {{\n\t\t\tP: \"PreRotation\", \"Vector3D\", \"Vector\", \"\",{}\n{}\t\t\tP: "
         "\"RotationOrder\", \"enum\", \"\", \"\",{}\n\t\t\tP: \"Lcl Rotation\", \"Lcl Rotation\", \"\", "
         "\"A\",1,2,3\n\t\t}}\n\t}}\n}}\n",
-        pre, active, order);
+        by_template, pre, active, order);
   };
   std::string changed;
-  EXPECT_EQ(LeaveOutInactiveRotations(text(0, "0,90,0", 5), changed), 1u);
-  EXPECT_EQ(changed, text(0, "0,0,0", 0));
-  EXPECT_EQ(LeaveOutInactiveRotations(text(1, "0,90,0", 5), changed), 0u);
-  EXPECT_EQ(changed, "");
+  // The model's own word holds; without it, the template's; without that, none is active, as in the FBX SDK.
+  for (const auto& [by_template, active] : {std::pair(told(1), told(0)), {told(0), ""}, {"", ""}, {"", told(0)}}) {
+    EXPECT_EQ(LeaveOutInactiveRotations(text(by_template, active, "0,90,0", 5), changed), 1u) << by_template << active;
+    EXPECT_EQ(changed, text(by_template, active, "0,0,0", 0));
+  }
+  for (const auto& [by_template, active] : {std::pair(told(0), told(1)), {told(1), ""}, {"", told(1)}}) {
+    EXPECT_EQ(LeaveOutInactiveRotations(text(by_template, active, "0,90,0", 5), changed), 0u) << by_template << active;
+    EXPECT_EQ(changed, "");
+  }
 }
 
 TEST(FbxRotations, OfDamagedFilesAreReadWithinTheirBytes) {
