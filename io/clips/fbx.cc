@@ -156,7 +156,7 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
     std::vector<std::string> remarks;
     if (inactive > 0) {
       remarks.push_back(fmt::format(
-          "RotationActive is not set at {} joints: their pre-rotations, post-rotations and orders are left out",
+          "joints whose pre-rotations, post-rotations and orders are left out, because RotationActive is not set: {}",
           inactive));
     }
     constexpr double kLong = 0.1;  // seconds; between closer keys, no curve goes far from a straight line
