@@ -137,7 +137,7 @@ class Fbx(MotionFileCase):
         path, places = self.fbx("inactive.fbx", 1, "y", inactive=("LeftArm", "RightForeArm"))
         self.assertLess(self.apart_from_truth(path, places), 1e-4)
         note = json.loads(self.etude("clip", "info", path, "--json").stdout)["clips"][0]["body"]["note"]
-        self.assertIn("post-rotations and orders are left out, because RotationActive is not set: 2;", note)
+        self.assertIn("post-rotations and orders are left out, because RotationActive is not set: 2", note)
         path, _ = self.fbx("active.fbx", 1, "y")
         self.assertNotIn("RotationActive", self.etude("clip", "info", path, "--json").stdout)
 
