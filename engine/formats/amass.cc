@@ -61,11 +61,6 @@ Skeleton SmplSkeleton() {
   return skeleton;
 }
 
-const NumberArray* Find(const Npz& npz, const std::string& name) {
-  const auto found = npz.arrays.find(name);
-  return found == npz.arrays.end() ? nullptr : &found->second;
-}
-
 glm::dquat TurnOf(const double* axis_times_angle) {
   const glm::dvec3 turn(axis_times_angle[0], axis_times_angle[1], axis_times_angle[2]);
   const double angle = glm::length(turn);
@@ -81,8 +76,8 @@ std::size_t WidthOf(const NumberArray* array) {
 
 Result<Clip> ReadAmass(const Npz& npz, const std::string& file) {
   // Find the arrays and check their shapes.
-  const NumberArray *poses = Find(npz, "poses"), *places = Find(npz, "trans"), *rate = Find(npz, "mocap_framerate");
-  if (rate == nullptr) rate = Find(npz, "mocap_frame_rate");
+  const NumberArray *poses = npz.Find("poses"), *places = npz.Find("trans"), *rate = npz.Find("mocap_framerate");
+  if (rate == nullptr) rate = npz.Find("mocap_frame_rate");
   const std::size_t width = WidthOf(poses);
   if ((width != 72 && width != 156 && width != 165) || WidthOf(places) != 3 || rate == nullptr ||
       rate->values.size() != 1) {

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "engine/base/names.h"
 
 namespace etude {
 namespace {
@@ -45,26 +44,15 @@ constexpr SomaJoint kSoma[] = {{"Hips", -1},
                                {"RightToeBase", 28}};
 constexpr std::size_t kSomaJoints = std::size(kSoma);
 
-const NumberArray* ArrayIn(const Npz& arrays, const std::string& name) {
-  const auto found = arrays.arrays.find(name);
-  return found == arrays.arrays.end() ? nullptr : &found->second;
-}
-
-std::string ShapeText(const NumberArray& array) {
-  std::vector<std::string> sizes;
-  for (const std::size_t size : array.shape) sizes.push_back(std::to_string(size));
-  return Join(sizes, " × ");
-}
-
 }  // namespace
 
 bool IsKimodoNpz(const Npz& arrays) {
-  return ArrayIn(arrays, "posed_joints") != nullptr && ArrayIn(arrays, "global_rot_mats") != nullptr;
+  return arrays.Find("posed_joints") != nullptr && arrays.Find("global_rot_mats") != nullptr;
 }
 
 Result<Clip> ReadKimodo(const Npz& arrays, const std::string& file) {
   // Check the shapes and the values.
-  const NumberArray &places = *ArrayIn(arrays, "posed_joints"), &matrices = *ArrayIn(arrays, "global_rot_mats");
+  const NumberArray &places = *arrays.Find("posed_joints"), &matrices = *arrays.Find("global_rot_mats");
   const std::size_t frames = places.shape.empty() ? 0 : places.shape[0];
   if (frames == 0 || places.shape != std::vector<std::size_t>{frames, kSomaJoints, 3} ||
       matrices.shape != std::vector<std::size_t>{frames, kSomaJoints, 3, 3}) {
@@ -117,7 +105,7 @@ Result<Clip> ReadKimodo(const Npz& arrays, const std::string& file) {
 
 Result<std::optional<std::vector<bool>>> ReadFootContacts(const Npz& arrays, std::size_t frames,
                                                           const std::string& file) {
-  const NumberArray* array = ArrayIn(arrays, "foot_contacts");
+  const NumberArray* array = arrays.Find("foot_contacts");
   if (array == nullptr) return std::nullopt;
   if (array->shape != std::vector<std::size_t>{frames, 4}) {
     return Fail({file}, "foot_contacts {}; allowed: {} × 4: left heel, left toes, right heel, right toes",

@@ -173,6 +173,17 @@ Result<NumberArray> ReadNpy(std::string_view bytes, const std::string& file) {
 
 bool IsZip(std::string_view bytes) { return bytes.starts_with("PK\x03\x04"); }
 
+const NumberArray* Npz::Find(const std::string& name) const {
+  const auto found = arrays.find(name);
+  return found == arrays.end() ? nullptr : &found->second;
+}
+
+std::string ShapeText(const NumberArray& array) {
+  std::vector<std::string> sizes;
+  for (const std::size_t size : array.shape) sizes.push_back(std::to_string(size));
+  return array.shape.empty() ? "one number" : Join(sizes, " × ");
+}
+
 Result<Npz> ReadNpz(std::string_view bytes, const std::string& file) {
   zip_error_t error;
   zip_error_init(&error);

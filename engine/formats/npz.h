@@ -21,7 +21,13 @@ struct Npz {
   std::map<std::string, NumberArray> arrays;
   std::map<std::string, std::vector<std::string>> texts;  ///< lists of texts, '?' for each letter beyond ASCII
   std::vector<std::string> skipped;  ///< names of members without plain numbers: texts, pickled objects
+
+  /// Returns the array of that name, or null.
+  const NumberArray* Find(const std::string& name) const;
 };
+
+/// Returns the shape for people: "3 × 20 × 3".
+std::string ShapeText(const NumberArray& array);
 
 /// Returns true if bytes begin like a ZIP file.
 bool IsZip(std::string_view bytes);

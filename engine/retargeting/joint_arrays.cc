@@ -74,12 +74,6 @@ double UnitOfSpread(const MarkerMotion& motion) {
   return 1;
 }
 
-std::string ShapeOf(const NumberArray& array) {
-  std::vector<std::string> sizes;
-  for (const std::size_t size : array.shape) sizes.push_back(std::to_string(size));
-  return array.shape.empty() ? "one number" : Join(sizes, " × ");
-}
-
 NumberArray ArrayOf(std::vector<std::size_t> shape, std::vector<double> values = {}) {
   return {.shape = std::move(shape), .values = std::move(values)};
 }
@@ -108,7 +102,7 @@ std::vector<std::string> JointsOfLayout(std::string_view layout, std::size_t joi
 Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional<std::string>& layout,
                                    const std::string& file, std::string& note) {
   if (array.shape.size() != 3 || array.shape[2] != 3 || array.shape[0] == 0) {
-    return Fail({file}, "an array of {}; allowed: frames × joints × 3", ShapeOf(array));
+    return Fail({file}, "an array of {}; allowed: frames × joints × 3", ShapeText(array));
   }
   // Find the layout by its name or by the number of joints.
   const std::size_t frames = array.shape[0], joints = array.shape[1];
@@ -188,7 +182,7 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file) {
   const NumberArray &positions = arrays.arrays.at("positions"), &rate = arrays.arrays.at("rate_hz");
   const auto& shape = positions.shape;
   if (shape.size() != 3 || shape[0] == 0 || shape[1] == 0 || shape[2] != 3) {
-    return Fail({file}, "positions of {}; allowed: frames × joints × 3", ShapeOf(positions));
+    return Fail({file}, "positions of {}; allowed: frames × joints × 3", ShapeText(positions));
   }
   constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;
   if (rate.values.size() != 1 || !(rate.values[0] >= kMinRate_hz && rate.values[0] <= kMaxRate_hz)) {
@@ -225,7 +219,7 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file) {
 Result<BodyMotion> ReadBodyNpz(const Npz& arrays, const std::string& file) {
   ASSIGN_OR_RETURN(const auto raw, ReadRawNpz(arrays, file));
   if (raw.joints.size() != kRoleCount) {
-    return Fail({file}, "positions of {}; allowed: frames × 20 × 3", ShapeOf(arrays.arrays.at("positions")));
+    return Fail({file}, "positions of {}; allowed: frames × 20 × 3", ShapeText(arrays.arrays.at("positions")));
   }
   for (const Role role : AllRoles()) {
     if (raw.roles[Index(role)] < 0) return Fail({file}, "names: none is '{}'; allowed: the twenty roles", RoleName(role));

@@ -1,6 +1,7 @@
 """Kills of a run, its workers and the launchers of its methods, alone and together, at random moments of the first 300 ms that
 the last of them lives (every other time: that a fence stands): whoever is still there five seconds later was left behind for good.
 A round's moment is thrown from its number."""
+import contextlib
 import itertools
 import os
 import pathlib
@@ -75,10 +76,8 @@ def kill_once(etude, targets, moment_s, at_fence=False):
                 below.add(process)
                 look += children(process)
         for victim in victims:
-            try:
+            with contextlib.suppress(ProcessLookupError):
                 os.kill(victim, 9)
-            except ProcessLookupError:
-                pass
         deadline = time.monotonic() + PATIENCE_S
         if "run" in targets:
             run.wait()
@@ -96,10 +95,8 @@ def kill_once(etude, targets, moment_s, at_fence=False):
                 time.sleep(0.05)
             left |= late
         for process in left:
-            try:
+            with contextlib.suppress(ProcessLookupError):
                 os.kill(process, 9)
-            except ProcessLookupError:
-                pass
         return left, len(victims)
     finally:
         shutil.rmtree(folder, ignore_errors=True)

@@ -1,5 +1,6 @@
 """Drives a headless Chromium through its debugging pipe, with nothing but the standard library."""
 import base64
+import contextlib
 import json
 import os
 import shutil
@@ -37,10 +38,8 @@ class Browser:
 
     def __exit__(self, *_):
         self.session = None
-        try:
+        with contextlib.suppress(EOFError, OSError):
             self.send("Browser.close")
-        except (EOFError, OSError):
-            pass
         self.process.wait(30)
         os.close(self.write)
         os.close(self.read)

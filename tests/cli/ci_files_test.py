@@ -119,8 +119,7 @@ class CiFiles(EtudeCase):
                                  ({"SUITE": "solver.py"}, "solver.py is here: write METHOD into it"),
                                  ({"BASELINE": ""}, "SUITE and BASELINE must be set")]:
             with self.subTest(complaint):
-                result = self.bash(str(CI / "gate"), right | wrong | {"GITHUB_STEP_SUMMARY": str(summary)})
-                self.assertEqual(result.returncode, 2)
+                self.assertEqual(self.bash(str(CI / "gate"), right | wrong | {"GITHUB_STEP_SUMMARY": str(summary)}).returncode, 2)
                 self.assertIn("## Etude gate: bad input", summary.read_text())
                 self.assertIn(complaint, summary.read_text())
                 summary.unlink()
@@ -150,7 +149,7 @@ class CiFiles(EtudeCase):
         template = yaml.safe_load((CI / "gitlab-ci.yml").read_text())
         job = template[".etude-triage"]
         (self.repository / "motions").mkdir()
-        self.assertEqual(self.etude("clip", "convert", "builtin:clap", self.repository / "motions/clap.csv").returncode, 0)
+        self.ends(0, "clip", "convert", "builtin:clap", self.repository / "motions/clap.csv")
         result = self.bash("\n".join(job["script"]), job["variables"])
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         # The control: a clip a metre above the floor.

@@ -23,21 +23,12 @@ NO_ANIMATION = MODELS / "glTF2" / "BoxTextured-glTF-Binary" / "BoxTextured.glb"
 
 class Clips(EtudeCase):
     def works(self, *arguments):
-        result = self.etude("clip", *arguments)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.ends(0, "clip", *arguments)
         self.assertEqual(result.stderr, "")
         return result.stdout
 
     def refuses(self, *arguments, says, leaves=None):
-        result = self.etude("clip", *arguments)
-        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
-        lines = result.stderr.strip().splitlines()
-        self.assertEqual(len(lines), 1, result.stderr)
-        for words in says:
-            self.assertIn(words, lines[0])
-        if leaves is not None:
-            self.assertFalse(pathlib.Path(leaves).exists(), "a refused command left a file")
-        return result.stdout
+        self.refusal("clip", *arguments, says=says, leaves=leaves)
 
     def info(self, *arguments, code=0):
         result = self.etude("clip", "info", "--json", *arguments)
@@ -99,8 +90,7 @@ class Info(Clips):
     def test_broken_files_are_told_in_one_line_each(self):
         paths = sorted((MODELS / "glTF2").rglob("*.gl*"))
         self.assertGreater(len(paths), 20)
-        result = self.etude("clip", "info", *paths)
-        self.assertEqual(result.returncode, 2)
+        result = self.ends(2, "clip", "info", *paths)
         lines = result.stderr.splitlines()
         self.assertEqual(len(lines), len(paths), result.stderr)
         for path, line in zip(paths, lines):
@@ -288,14 +278,10 @@ clips: [{odd}, 'builtin:sway']
 trials: 1
 methods: [{{name: cut, choice: now, join: cut}}]
 """)
-        refused = self.etude("run", scenario, "-o", self.out)
-        self.assertEqual(refused.returncode, 2)
-        self.assertIn("no joint found for left_elbow", refused.stderr)
-        first = self.etude("run", scenario, "-o", self.out, "--joint-map", taught)
-        self.assertEqual(first.returncode, 0, first.stderr)
+        self.assertIn("no joint found for left_elbow", self.ends(2, "run", scenario, "-o", self.out).stderr)
+        self.ends(0, "run", scenario, "-o", self.out, "--joint-map", taught)
         taught.unlink()  # the manifest holds its text
-        again = self.etude("run", "--from", self.out / "manifest.json", "-o", self.folder / "again")
-        self.assertEqual(again.returncode, 0, again.stderr)
+        again = self.ends(0, "run", "--from", self.out / "manifest.json", "-o", self.folder / "again")
         for name in ("manifest.json", "cells.jsonl"):
             self.assertEqual((self.out / name).read_bytes(), (self.folder / "again" / name).read_bytes())
 

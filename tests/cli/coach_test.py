@@ -27,16 +27,14 @@ class Coach(EtudeCase):
         cls.expert.write_text("\n".join([head] + [f"{i / 30:.6f},{pose}" for i, pose in enumerate(poses)]) + "\n")
 
     def coach(self, *arguments, text=None):
-        result = self.etude("coach", "warm_up", *arguments, text=text)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.ends(0, "coach", "warm_up", *arguments, text=text)
         lines = [json.loads(line) for line in result.stdout.splitlines()]
         for line in [line for line in lines[1:] if "events" in line or "music" in line] + lines[1:20]:
             self.assertEqual(complaints(line, SCHEMA), [])
         return lines[0], lines[1:]
 
     def refuses(self, *arguments, says, text=None):
-        result = self.etude("coach", *arguments, text=text)
-        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+        result = self.ends(2, "coach", *arguments, text=text)
         for words in says:
             self.assertIn(words, result.stderr.strip().splitlines()[-1])
 

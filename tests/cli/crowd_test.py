@@ -11,8 +11,7 @@ FEW = ("--characters", "12", "--seconds", "0.2")
 
 class Crowd(EtudeCase):
     def test_it_tells_how_many_meet_their_targets_and_how_long_frames_take(self):
-        result = self.etude("crowd", *FEW)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.ends(0, "crowd", *FEW)
         lines = result.stdout.splitlines()
         self.assertEqual(len(lines), 3, result.stdout)
         self.assertIn("12 characters, 12 frames at 60 Hz", lines[0])
@@ -34,8 +33,7 @@ class Crowd(EtudeCase):
     def test_the_film_has_every_second_frame_of_sixty_a_second_and_the_same_bytes_whoever_draws(self):
         films = []
         for name, jobs in (("a.mp4", "1"), ("b.mp4", "3")):
-            result = self.etude("crowd", *FEW, "-o", self.folder / name, "--jobs", jobs)
-            self.assertEqual(result.returncode, 0, result.stderr)
+            self.ends(0, "crowd", *FEW, "-o", self.folder / name, "--jobs", jobs)
             films.append((self.folder / name).read_bytes())
         self.assertEqual(films[0], films[1])
         probe = subprocess.run(["ffprobe", "-v", "error", "-of", "json", "-show_entries",
@@ -52,10 +50,7 @@ class Crowd(EtudeCase):
                                 (("--seconds", "0.05"), "--seconds: 0.05 s at 60 Hz are 3 frames; allowed: 4 or more"),
                                 (("--seconds", "nan"), "--seconds"),
                                 (("-o", self.folder / "crowd.gif"), "is not the name of a film; allowed: .mp4")):
-            result = self.etude("crowd", *arguments)
-            self.assertEqual(result.returncode, 2, result.stdout)
-            self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
-            self.assertIn(says, result.stderr)
+            self.refusal("crowd", *arguments, says=says)
         self.assertFalse((self.folder / "crowd.gif").exists())
 
 

@@ -23,8 +23,7 @@ class DryRun(EtudeCase):
     def tell(self, clips):
         file = self.folder / "s.yaml"
         file.write_text(SCENARIO.format(clips=", ".join(clips)))
-        told = self.etude("run", file, "--dry-run", "-o", self.out)
-        self.assertEqual(told.returncode, 0, told.stderr)
+        told = self.ends(0, "run", file, "--dry-run", "-o", self.out)
         self.assertEqual(list(self.folder.iterdir()), [file])
         return told.stdout
 
@@ -49,8 +48,7 @@ class DryRun(EtudeCase):
         self.assertIn("no verdict: 2 clips; at least 6 are needed", self.tell(["builtin:clap", "builtin:boxing"]))
 
     def facts(self, *arguments):
-        told = self.etude("run", *arguments, "--dry-run", "--json")
-        self.assertEqual(told.returncode, 0, told.stderr)
+        told = self.ends(0, "run", *arguments, "--dry-run", "--json")
         return json.loads(told.stdout)
 
     def test_what_shipped_scenarios_cost_is_kept_and_scaled(self):

@@ -17,13 +17,7 @@ ROOT Hips
 
 class Errors(EtudeCase):
     def refuses(self, *arguments, says):
-        result = self.etude(*arguments)
-        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
-        lines = result.stderr.strip().splitlines()
-        self.assertEqual(len(lines), 1, result.stderr)
-        for words in says:
-            self.assertIn(words, lines[0])
-        self.assertFalse(self.out.exists(), "a refused run left a folder")
+        self.refusal(*arguments, says=says, leaves=self.out)
 
     def refuses_scenario(self, text, says):
         path = self.write("s.yaml", text)
@@ -157,8 +151,7 @@ class Errors(EtudeCase):
         shown = 0
         for name, (text, words) in files.items():
             path = self.write(hostile + name, text)
-            refused = self.etude(*(path if word == "FILE" else word for word in words))
-            self.assertEqual(refused.returncode, 2, f"{name}: {refused.stdout}{refused.stderr}")
+            refused = self.ends(2, *(path if word == "FILE" else word for word in words))
             self.assertEqual(unseen.findall(refused.stdout + refused.stderr), [], name)
             shown += "[U+202E]" in refused.stderr
         self.assertGreater(shown, 10)
@@ -189,8 +182,7 @@ class Errors(EtudeCase):
     def test_a_folder_that_holds_something_is_left_alone(self):
         path = self.write("s.yaml", IK)
         self.write("precious.txt", "mine")
-        result = self.etude("run", path, "-o", self.folder, "--overwrite")
-        self.assertEqual(result.returncode, 2)
+        result = self.ends(2, "run", path, "-o", self.folder, "--overwrite")
         self.assertIn("holds something that is not part of a run", result.stderr)
         self.assertEqual((self.folder / "precious.txt").read_text(), "mine")
 

@@ -122,11 +122,25 @@ class EtudeCase(unittest.TestCase):
         """Runs the program; `text` is what it reads from its standard input."""
         return subprocess.run([ETUDE, *map(str, arguments)], input=text, capture_output=True, text=True, timeout=120)
 
+    def ends(self, code, *arguments, text=None):
+        """The same, which must end with that code."""
+        result = self.etude(*arguments, text=text)
+        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
+        return result
+
+    def refusal(self, *arguments, says=(), leaves=None):
+        """The one line in which a command is refused, with all those words; it leaves no file of that name."""
+        complaint = self.ends(2, *arguments).stderr
+        self.assertEqual(complaint.count("\n"), 1, complaint)
+        for words in [says] if isinstance(says, str) else says:
+            self.assertIn(words, complaint)
+        self.assertFalse(leaves and pathlib.Path(leaves).exists(), "a refused command left a file")
+        return complaint
+
     def run_suite(self, *arguments, out=None, code=0):
         """`etude run` that must succeed, or end with 1 where a method has no answer; gives the rows."""
         out = out or self.out
-        result = self.etude("run", *arguments, "-o", out)
-        self.assertEqual(result.returncode, code, result.stderr)
+        self.ends(code, "run", *arguments, "-o", out)
         return [json.loads(line) for line in (out / "cells.jsonl").read_text().splitlines()]
 
     def wait_for_cells(self, folder, count=1, limit_s=60, kind="cell"):

@@ -19,7 +19,7 @@ class Facts(EtudeCase):
         self.scenario, run = self.run_once(IK)
         other, baseline = self.folder / "other", self.folder / "baseline.json"
         self.run_suite(self.scenario, "--seed", 2, out=other)
-        self.assertEqual(self.etude("gate", run, "--baseline", baseline, "--update").returncode, 0)
+        self.ends(0, "gate", run, "--baseline", baseline, "--update")
         first = json.loads(baseline.read_text())
         moved = next(line for line in first["values"] if line["metric"] == "position_error_cm")
         moved["values"] = [value + 1 for value in moved["values"]]

@@ -12,8 +12,7 @@ FILMED = IK + "video: {compare: [fixed, least-squares], trials: [1]}\n"
 
 class Film(EtudeCase):
     def film(self, folder):
-        reported = self.etude("report", folder)
-        self.assertEqual(reported.returncode, 0, reported.stderr)
+        self.ends(0, "report", folder)
         return (folder / "video" / "convergence.mp4").read_bytes()
 
     @heavy
@@ -34,8 +33,7 @@ class Film(EtudeCase):
 
     def test_without_recordings_of_two_the_page_says_why(self):
         self.run_suite(self.write("ik.yaml", FILMED.replace("fixed, least-squares]", "fixed]")))
-        reported = self.etude("report", self.out)
-        self.assertEqual(reported.returncode, 0, reported.stderr)
+        self.ends(0, "report", self.out)
         self.assertIn("this run kept recordings of only one method; two in the same world are needed", (self.out / "report" / "index.html").read_text())
         self.assertFalse((self.out / "video").exists())
 

@@ -68,7 +68,7 @@ class Formats(MotionFileCase):
 
     def test_markers_of_a_trc_are_a_clip(self):
         clip = self.folder / "sway.trc"
-        self.assertEqual(self.etude("clip", "convert", "builtin:sway", clip).returncode, 0)
+        self.ends(0, "clip", "convert", "builtin:sway", clip)
         ours, theirs = self.joints("builtin:sway"), self.joints(clip)
         self.assertEqual(len(ours), len(theirs))
         floor = theirs[0]["head"][1] - ours[0]["head"][1]  # a file of markers finds its own
@@ -77,7 +77,7 @@ class Formats(MotionFileCase):
             for name in a:
                 numpy.testing.assert_allclose(b[name] - [0, floor, 0], a[name], atol=2e-5, err_msg=name)
         table = self.folder / "sway.csv"
-        self.assertEqual(self.etude("clip", "convert", "builtin:sway", table).returncode, 0)
+        self.ends(0, "clip", "convert", "builtin:sway", table)
         self.assertEqual(len(self.joints(table)), len(ours))
 
     def c3d(self, labels, frames, place):
@@ -139,7 +139,7 @@ class Formats(MotionFileCase):
     def test_trc_is_written_and_read_in_any_unit_with_gaps(self):
         names, places = self.body("builtin:sway")
         path = self.folder / "sway.trc"
-        self.assertEqual(self.etude("clip", "convert", "builtin:sway", path).returncode, 0)
+        self.ends(0, "clip", "convert", "builtin:sway", path)
         self.assert_second_reader(second_readers.read_trc(path), names, places)
         for unit, each in (("mm", 1000), ("cm", 100), ("m", 1)):
             columns = "".join(f"\t{name}\t\t" for name in names)
@@ -158,7 +158,7 @@ class Formats(MotionFileCase):
     def test_c3d_is_written_in_floats(self):
         names, places = self.body("builtin:sway")
         path = self.folder / "sway.c3d"
-        self.assertEqual(self.etude("clip", "convert", "builtin:sway", path).returncode, 0)
+        self.ends(0, "clip", "convert", "builtin:sway", path)
         self.assert_second_reader(second_readers.read_c3d(path), names, places)
         self.assertEqual(path.stat().st_size % 512, 0)
         self.assert_read_back(path, places)
@@ -166,7 +166,7 @@ class Formats(MotionFileCase):
     def test_npz_is_written_for_numpy(self):
         names, places = self.body("builtin:groove")
         path = self.folder / "groove.npz"
-        self.assertEqual(self.etude("clip", "convert", "builtin:groove", path).returncode, 0)
+        self.ends(0, "clip", "convert", "builtin:groove", path)
         with numpy.load(path) as arrays:
             self.assertEqual(list(arrays["names"]), names)
             self.assertEqual((float(arrays["rate_hz"]), arrays["unit"][0], arrays["up"][0]), (30, "m", "y"))
@@ -191,8 +191,7 @@ class Formats(MotionFileCase):
         for source in ("builtin:clap", self.amass("h.npz", 156, "mocap_framerate", False)):
             for options in ((), ("--ground",), ("--retarget",), ("--ground", "--mirror"), ("--rate", "24")):
                 path = self.folder / "out.bvh"
-                result = self.etude("clip", "convert", source, path, "--overwrite", *options)
-                self.assertEqual(result.returncode, 0, result.stderr)
+                self.ends(0, "clip", "convert", source, path, "--overwrite", *options)
                 replaced, added = second_readers.read_bvh(path), second_readers.read_bvh(path, adds=True)
                 self.assertGreater(len(replaced), 15)
                 for joint, places in replaced.items():
@@ -302,7 +301,7 @@ class Formats(MotionFileCase):
 
     def test_the_bones_of_a_vrm_file_are_those_of_its_table(self):
         path = self.folder / "a.glb"
-        self.assertEqual(self.etude("clip", "convert", "builtin:sway", path).returncode, 0)
+        self.ends(0, "clip", "convert", "builtin:sway", path)
         before = self.info(path)["clips"][0]["body"]
         data = path.read_bytes()
         length = struct.unpack("<I", data[12:16])[0]
@@ -329,7 +328,7 @@ class Formats(MotionFileCase):
 
     def test_a_scale_on_the_hips_that_the_rest_pose_has_not_is_undone(self):
         path = self.folder / "a.glb"
-        self.assertEqual(self.etude("clip", "convert", "builtin:sway", path).returncode, 0)
+        self.ends(0, "clip", "convert", "builtin:sway", path)
         before, data = self.joints(path), path.read_bytes()
         length = struct.unpack("<I", data[12:16])[0]
         for factor in (0.5, 2, 100):
@@ -357,7 +356,7 @@ class Formats(MotionFileCase):
 
     def test_what_an_extension_moves_and_is_not_read_is_said(self):
         path = self.folder / "a.glb"
-        self.assertEqual(self.etude("clip", "convert", "builtin:sway", path).returncode, 0)
+        self.ends(0, "clip", "convert", "builtin:sway", path)
         self.assertNotIn("not read", self.info(path)["clips"][0]["body"]["note"])
         data = path.read_bytes()
         length = struct.unpack("<I", data[12:16])[0]
@@ -370,7 +369,7 @@ class Formats(MotionFileCase):
     def turned(self, name, unit=1.0):
         """A BVH of the sway in another unit."""
         path = self.folder / name
-        self.assertEqual(self.etude("clip", "convert", "builtin:sway", path).returncode, 0)
+        self.ends(0, "clip", "convert", "builtin:sway", path)
         if unit != 1:
             lines = path.read_text().splitlines()
             start = lines.index("MOTION") + 3
@@ -385,40 +384,32 @@ class Formats(MotionFileCase):
 
     def test_units_told_that_make_no_body_are_refused(self):
         path = self.turned("metres.bvh")
-        result = self.etude("clip", "info", path, "--unit", "cm")
-        self.assertEqual(result.returncode, 2)
+        result = self.ends(2, "clip", "info", path, "--unit", "cm")
         self.assertIn("m tall; allowed: 0.4 to 4 m; 1 unit = 100 cm (metre) would give 1.", result.stderr)
 
     def test_a_run_is_told_the_unit_and_keeps_it(self):
         clips = [self.turned("child.bvh", unit=50), self.turned("other.bvh", unit=50)]
         told = ["--clips", *clips, "--unit", "cm", "--up", "y"]
-        result = self.etude("run", self.scenario(), "-o", self.out, *told)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.ends(0, "run", self.scenario(), "-o", self.out, *told)
         manifest = json.loads((self.out / "manifest.json").read_text())
         self.assertIn("unit: cm\nup: y\n", manifest["sources"].values())
-        again = self.etude("run", "--from", self.out / "manifest.json", "-o", self.folder / "again")
-        self.assertEqual(again.returncode, 0, again.stderr)
+        self.ends(0, "run", "--from", self.out / "manifest.json", "-o", self.folder / "again")
         self.assertEqual((self.out / "cells.jsonl").read_bytes(), (self.folder / "again" / "cells.jsonl").read_bytes())
-        refused = self.etude("run", self.scenario(), "-o", self.folder / "no", "--clips", *clips, "--unit", "mm")
-        self.assertEqual(refused.returncode, 2)
+        refused = self.ends(2, "run", self.scenario(), "-o", self.folder / "no", "--clips", *clips, "--unit", "mm")
         self.assertIn("in the unit given (1 unit = 0.1 cm)", refused.stderr)
 
     def test_a_run_leaves_out_what_is_refused_when_asked(self):
         self.turned("a.bvh"), self.turned("b.bvh")
         (self.folder / "broken.bvh").write_text("HIERARCHY\nROOT\n")
         pattern = self.folder / "*.bvh"
-        strict = self.etude("run", self.scenario(), "-o", self.out, "--clips", pattern)
-        self.assertEqual(strict.returncode, 2)
-        self.assertIn("broken.bvh", strict.stderr)
-        result = self.etude("run", self.scenario(), "-o", self.out, "--clips", pattern, "--skip-refused")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("broken.bvh", self.ends(2, "run", self.scenario(), "-o", self.out, "--clips", pattern).stderr)
+        result = self.ends(0, "run", self.scenario(), "-o", self.out, "--clips", pattern, "--skip-refused")
         self.assertEqual(result.stderr.count("left out: "), 1)
         setup = json.loads((self.out / "manifest.json").read_text())["scenarios"][0]
         self.assertEqual([one["clip"] for one in setup["refused"]], [str(self.folder / "broken.bvh")])
         self.assertEqual(len(setup["clips"]), 2)
-        alone = self.etude("run", self.scenario(), "-o", self.folder / "no", "--clips", self.folder / "broken.bvh",
-                           "--skip-refused")
-        self.assertEqual(alone.returncode, 2)
+        alone = self.ends(2, "run", self.scenario(), "-o", self.folder / "no", "--clips", self.folder / "broken.bvh",
+                          "--skip-refused")
         self.assertIn("no clip can be read (1 tried); the first: ", alone.stderr)
 
 

@@ -79,7 +79,7 @@ _etude() {{
             self.assertEqual(([option.split("\t")[0] for option in said.stdout.splitlines()], said.stderr), ([completed], ""), line)
 
     def test_manual_pages_are_of_every_command(self):
-        self.assertEqual(self.etude("man", self.folder / "man").returncode, 0)
+        self.ends(0, "man", self.folder / "man")
         pages = sorted(path.name for path in (self.folder / "man").iterdir())
         self.assertIn("etude.1", pages)
         self.assertIn("etude-clip-info.1", pages)

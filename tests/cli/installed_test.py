@@ -98,7 +98,7 @@ class Installed(EtudeCase):
     def test_the_librarys_package_builds_programs_in_a_root_with_a_compiler(self):
         self.make_packages()
         clip = self.folder / "clap.bvh"
-        self.assertEqual(self.etude("clip", "convert", "builtin:clap", clip).returncode, 0)
+        self.ends(0, "clip", "convert", "builtin:clap", clip)
         packages = [next(self.folder.glob(f"{name}_*.deb")) for name in ("libetude", "libetude-dev")]
         inside = " ".join(f"/tmp/{package.name}" for package in packages)
         root = self.make_root(f"copy-in {' '.join(map(str, packages))} /tmp", f"copy-in {clip} {EXAMPLES} /srv", 'chroot "$1" sh -c ' +

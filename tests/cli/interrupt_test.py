@@ -67,7 +67,7 @@ class Interrupts(EtudeCase):
         self.assertIn("stopped; the tables were written, but not the page", self.interrupt(["report", self.out], is_filming))
         self.assertFalse(page.exists())
         self.assertEqual((self.left(), list(video.iterdir())), ([], []))
-        self.assertEqual(self.etude("report", self.out).returncode, 0)
+        self.ends(0, "report", self.out)
         before = page.read_bytes(), (video / "convergence.mp4").read_bytes()
         self.interrupt(["report", self.out], is_filming)
         self.assertEqual(before, (page.read_bytes(), (video / "convergence.mp4").read_bytes()))
@@ -106,8 +106,7 @@ class Interrupts(EtudeCase):
         def works(program):
             return pathlib.Path(f"/proc/{program.pid}/task/{program.pid}/children").read_text()
 
-        said = self.interrupt(["replay", self.out], works)
-        self.assertEqual(said, "etude: stopped; the other cells were not run again\n")
+        self.assertEqual(self.interrupt(["replay", self.out], works), "etude: stopped; the other cells were not run again\n")
 
     @heavy
     def test_a_run_interrupted_in_its_last_writing_goes_on_to_the_same_bytes(self):

@@ -57,7 +57,7 @@ class Library(EtudeCase):
         tables = []
         for clip in self.clips[0], captured:
             table = self.folder / (clip.stem + ".csv")
-            self.assertEqual(self.etude("clip", "convert", clip, table).returncode, 0)
+            self.ends(0, "clip", "convert", clip, table)
             tables.append([line.split(",") for line in table.read_text().splitlines()])
         self.assertEqual(len(tables[0]), len(tables[1]))
         for joint in "left_wrist_x_m", "right_knee_y_m":

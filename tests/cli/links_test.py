@@ -22,8 +22,7 @@ class Links(EtudeCase):
         (self.home / "key").write_text("secret\n")
 
     def refuse(self, link, *arguments):
-        done = self.etude(*arguments)
-        self.assertEqual(done.returncode, 2, (arguments, done.stdout, done.stderr))
+        done = self.ends(2, *arguments)
         self.assertIn(f"{link}: is a link", done.stderr)
         self.assertNotIn("secret", done.stdout + done.stderr)
         self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
@@ -37,9 +36,7 @@ class Links(EtudeCase):
         (self.out / "lock").unlink(missing_ok=True)
         os.mkfifo(self.out / "lock")
         for words in (["--overwrite"], ["--resume"]):
-            done = self.etude("run", scenario, "-o", self.out, *words)
-            self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertIn(f"{self.out}/lock: is no file", done.stderr)
+            self.assertIn(f"{self.out}/lock: is no file", self.ends(2, "run", scenario, "-o", self.out, *words).stderr)
         self.assertTrue((self.out / "cells.jsonl").exists())
 
     def test_are_not_written_through(self):
@@ -79,7 +76,7 @@ class Links(EtudeCase):
                 self.refuse(link, "verify", self.out, "--sample", 0)
             link.unlink()
             kept.rename(link)
-        self.assertEqual(self.etude("gate", self.out).returncode, 0)
+        self.ends(0, "gate", self.out)
 
     def test_in_recordings_are_no_clips(self):
         recording = sorted((self.out / "recordings").iterdir())[0]
@@ -90,20 +87,18 @@ class Links(EtudeCase):
 
     def test_that_a_user_names_are_the_users_word(self):
         (self.folder / "mine").symlink_to(self.out)
-        self.assertEqual(self.etude("report", self.folder / "mine", "--no-video").returncode, 0)
+        self.ends(0, "report", self.folder / "mine", "--no-video")
         self.assertTrue((self.out / "report" / "index.html").exists())
 
     def test_that_are_pipes_are_not_waited_for(self):
         (self.out / "summary.json").unlink()
         os.mkfifo(self.out / "summary.json")
-        done = self.etude("gate", self.out, "--unsealed")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("summary.json: is no file", done.stderr)
+        self.assertIn("summary.json: is no file", self.ends(2, "gate", self.out, "--unsealed").stderr)
 
     def test_in_a_shard_are_neither_gone_on_with_nor_merged(self):
         scenario, shard = self.write("t.yaml", IK), self.folder / "1"
         for i in 1, 2:
-            self.assertEqual(self.etude("run", scenario, "--shard", f"{i}/2", "-o", self.folder / str(i)).returncode, 0)
+            self.ends(0, "run", scenario, "--shard", f"{i}/2", "-o", self.folder / str(i))
         journal, kept = shard / "journal.jsonl", self.folder / "kept"
         lines = journal.read_text().splitlines(keepends=True)
         for text in "".join(lines), "".join(lines[:-3]):  # whole; with cells that are still to be run
@@ -130,22 +125,20 @@ class Links(EtudeCase):
 
     def test_are_no_answers(self):
         scenario, data, answers = self.write("t.yaml", IK), self.folder / "data", self.folder / "answers"
-        self.assertEqual(self.etude("export", scenario, "-o", data).returncode, 0)
+        self.ends(0, "export", scenario, "-o", data)
         for link in pathlib.Path.symlink_to, pathlib.Path.hardlink_to:
             with self.subTest(link.__name__):
                 for truth in sorted((data / "truth").rglob("truth.json")):
                     answer = answers / truth.parent.relative_to(data / "truth").with_suffix(".json")
                     answer.parent.mkdir(parents=True, exist_ok=True)
                     link(answer, truth)
-                done = self.etude("score", data, answers, "-o", self.folder / "scored")
-                self.assertEqual(done.returncode, 2, done.stdout)
+                done = self.ends(2, "score", data, answers, "-o", self.folder / "scored")
                 self.assertIn("ik/joint_noise_deg=2/000.json: is a link; each answer must be a separate file", done.stderr)
                 self.assertFalse((self.folder / "scored").exists())
                 shutil.rmtree(answers)
         (answers / "ik").mkdir(parents=True)
         (answers / "ik" / "joint_noise_deg=2").symlink_to(data / "truth" / "ik" / "joint_noise_deg=2")
-        done = self.etude("score", data, answers, "-o", self.folder / "scored", "--allow-missing")
-        self.assertEqual(done.returncode, 2, done.stdout)
+        done = self.ends(2, "score", data, answers, "-o", self.folder / "scored", "--allow-missing")
         self.assertIn("ik/joint_noise_deg=2: is a link", done.stderr)
 
 

@@ -131,15 +131,13 @@ class OwnMetrics(EtudeCase):
                 if metric == twin:
                     for key in ("pairs", "difference", "verdict"):
                         self.assertEqual(told[key], verdicts[ours, method][key], (twin, key))
-        self.assertEqual(self.etude("report", self.shared / "run", "--no-video").returncode, 0)
+        self.ends(0, "report", self.shared / "run", "--no-video")
         page = (self.shared / "run/report/index.html").read_text()
         for label in ("joint error in Python", "jump in Python", "F1 in Python"):
             self.assertIn(label, page)
         baseline = self.folder / "base.json"
-        gate = self.etude("gate", self.shared / "run", "--baseline", baseline, "--update")
-        self.assertEqual(gate.returncode, 0, gate.stderr)
-        held = self.etude("gate", self.shared / "run", "--baseline", baseline)
-        self.assertEqual(held.returncode, 0, held.stdout)
+        self.ends(0, "gate", self.shared / "run", "--baseline", baseline, "--update")
+        self.ends(0, "gate", self.shared / "run", "--baseline", baseline)
         kept = json.loads(baseline.read_text())
         values = {(each["condition"], each["method"], each["metric"]): each for each in kept["values"]}
         self.assertTrue(all(twin in {key[2] for key in values} for _, twin in TWINS.values()))
@@ -152,11 +150,9 @@ class OwnMetrics(EtudeCase):
         command = ["run", scenario, "--shard", "1/2", "-o", str(parts[0])]
         self.kill_at(1, "cell", command, parts[0])
         self.assertIn(cells_in_journal(parts[0]), (1, 2, 3))  # of four
-        resumed = self.etude(*command, "--jobs", 2, "--resume")
-        self.assertEqual(resumed.returncode, 0, resumed.stderr)
-        self.assertEqual(self.etude("run", scenario, "--shard", "2/2", "-o", parts[1]).returncode, 0)
-        merged = self.etude("merge", *parts, "-o", self.folder / "merged")
-        self.assertEqual(merged.returncode, 0, merged.stderr)
+        self.ends(0, *command, "--jobs", 2, "--resume")
+        self.ends(0, "run", scenario, "--shard", "2/2", "-o", parts[1])
+        self.ends(0, "merge", *parts, "-o", self.folder / "merged")
         self.assert_same_results(self.out, self.folder / "merged")
 
     def kill_at(self, count, kind, command, folder):
@@ -178,13 +174,11 @@ class OwnMetrics(EtudeCase):
         command = ["run", scenario, "-o", self.out, "--resume", "--sync-seconds", "0"]
         self.kill_at(4, "answered", command, self.out)
         self.assertEqual(cells_in_journal(self.out), 0)
-        told = self.etude("merge", self.out, "-o", self.folder / "merged")
-        self.assertIn("lacks 6 of 6 cells", told.stderr)
+        self.assertIn("lacks 6 of 6 cells", self.etude("merge", self.out, "-o", self.folder / "merged").stderr)
         self.kill_at(2, "cell", command, self.out)
         answered = (self.out / "stderr/s~own.txt").read_text().count("asked")
         self.assertIn(answered, (3, 4))  # the one that was killed over is asked again
-        rows = self.run_suite(scenario, "--resume", "--jobs", 2)
-        self.assertEqual(len(rows), 6)
+        self.assertEqual(len(self.run_suite(scenario, "--resume", "--jobs", 2)), 6)
         self.assertEqual((self.out / "stderr/s~own.txt").read_text().count("asked"), answered)
         self.run_suite(scenario, out=self.folder / "whole")
         self.assert_same_results(self.out, self.folder / "whole")
@@ -208,26 +202,17 @@ class OwnMetrics(EtudeCase):
         self.assertEqual(versions, {"mine": 3, "looks": 1, **{name: 1 for name in BAD}})
         for command in (["replay", self.whole, "--sample", "2"],
                         ["run", "--from", self.whole / "manifest.json", "-o", self.folder / "again"]):
-            refused = self.etude(*command)
-            self.assertEqual(refused.returncode, 2, command)
-            self.assertIn("m.py (s/mine)", refused.stderr)
+            self.assertIn("m.py (s/mine)", self.ends(2, *command).stderr)
         program = self.shared / "m/m.py"
         text = program.read_text()
         self.addCleanup(program.write_text, text)
         program.write_text(text.replace("* 1000", "* 1001"))
-        other = self.etude("replay", self.whole, "--sample", "2", "--allow-exec")
-        self.assertEqual(other.returncode, 1, other.stdout)
-        self.assertIn("mine", other.stdout)
+        self.assertIn("mine", self.ends(1, "replay", self.whole, "--sample", "2", "--allow-exec").stdout)
         four = self.folder / "four"
-        changed = self.run_suite(self.write("s.yaml", self.text(own("mine", more=", version: 4"))), *FEW, out=four)
-        self.assertEqual(len(changed), 4)
-        compared = self.etude("compare", self.whole, four)
-        self.assertEqual(compared.returncode, 2)
-        self.assertIn("version 3 and 4", compared.stderr)
-        allowed = self.etude("replay", four, "--sample", "2", "--allow-exec")
-        self.assertEqual(allowed.returncode, 0, allowed.stderr)
-        again = self.etude("run", "--from", four / "manifest.json", "-o", self.folder / "again", "--allow-exec")
-        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertEqual(len(self.run_suite(self.write("s.yaml", self.text(own("mine", more=", version: 4"))), *FEW, out=four)), 4)
+        self.assertIn("version 3 and 4", self.ends(2, "compare", self.whole, four).stderr)
+        self.ends(0, "replay", four, "--sample", "2", "--allow-exec")
+        self.ends(0, "run", "--from", four / "manifest.json", "-o", self.folder / "again", "--allow-exec")
         self.assert_same_results(four, self.folder / "again")
 
     def test_a_bad_one_costs_its_own_values_alone(self):
@@ -260,7 +245,7 @@ class OwnMetrics(EtudeCase):
         key.write_text("0123456789abcdef" * 4)
         key.chmod(0o600)
         data, secret = self.folder / "data", ("--seed-file", key)
-        self.assertEqual(self.etude("export", scenario, *secret, "-o", data).returncode, 0)
+        self.ends(0, "export", scenario, *secret, "-o", data)
         with open(data / "inputs/index.csv", newline="") as file:
             predictions = [pathlib.Path(line["prediction"]) for line in csv.DictReader(file)]
         for number, prediction in enumerate(predictions):
@@ -269,11 +254,8 @@ class OwnMetrics(EtudeCase):
             (self.folder / "answers" / prediction).write_text(
                 json.dumps({"angles_deg": [angle + 5 * (number == 2) for angle in truth["angles_deg"]]}))
         score = ["score", data, self.folder / "answers", "-o", self.out, "--name", "told", *secret]
-        refused = self.etude(*score)
-        self.assertEqual(refused.returncode, 2)
-        self.assertIn("m.py (s/off_m)", refused.stderr)
-        scored = self.etude(*score, "--allow-exec")
-        self.assertEqual(scored.returncode, 0, scored.stderr)
+        self.assertIn("m.py (s/off_m)", self.ends(2, *score).stderr)
+        self.ends(0, *score, "--allow-exec")
         rows = [json.loads(line) for line in (self.out / "cells.jsonl").read_text().splitlines()]
         told = [row["off_m"] for row in rows if row["method"] == "told"]
         self.assertEqual([value > 0.01 for value in sorted(told)], [False, False, True])
@@ -301,8 +283,7 @@ class OwnMetrics(EtudeCase):
                      "the metric 'twice' is defined in two ways: unit '' and 'mm'", "refused.yaml:4:")
 
     def test_expectations_and_gates_go_by_it(self):
-        gate = self.etude("gate", self.whole)
-        self.assertEqual(gate.returncode, 1, gate.stdout + gate.stderr)
+        gate = self.ends(1, "gate", self.whole)
         self.assertIn("mine", gate.stdout)
         baseline = self.folder / "base.json"
         update = self.etude("gate", self.whole, "--baseline", baseline, "--update")

@@ -10,23 +10,17 @@ class MotionFileCase(EtudeCase):
     def joints(self, path, *options):
         """The twenty joints of a clip by frame, as `etude clip convert` writes them."""
         out = self.folder / "joints.csv"
-        result = self.etude("clip", "convert", path, out, "--overwrite", *options)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.ends(0, "clip", "convert", path, out, "--overwrite", *options)
         with open(out) as file:
             rows = list(csv.DictReader(file))
         names = [name[:-4] for name in rows[0] if name.endswith("_x_m")]
         return [{name: numpy.array([float(row[f"{name}_{axis}_m"]) for axis in "xyz"]) for name in names} for row in rows]
 
     def info(self, path):
-        result = self.etude("clip", "info", path, "--json")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return json.loads(result.stdout)
+        return json.loads(self.ends(0, "clip", "info", path, "--json").stdout)
 
     def refused(self, path, complaint):
-        result = self.etude("clip", "info", path)
-        self.assertEqual(result.returncode, 2, result.stdout)
-        self.assertIn(complaint, result.stderr)
-        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.refusal("clip", "info", path, says=complaint)
 
     def scenario(self):
         return self.write("t.yaml", """scenario: t

@@ -78,12 +78,6 @@ class Motions(MotionFileCase):
     def recorded(self, cell):
         return json.loads((self.run_folder / "recordings" / (cell.replace("/", "~") + ".json")).read_text())
 
-    def refuses(self, *arguments):
-        result = self.etude(*arguments)
-        self.assertEqual(result.returncode, 2, result.stdout)
-        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
-        return result.stderr
-
     def test_of_every_task_truth_and_every_method_is_a_clip(self):
         for task, (own, *_) in TASKS.items():
             worlds = sorted({path.stem.rpartition("~")[0].replace("~", "/") for path in
@@ -109,30 +103,28 @@ class Motions(MotionFileCase):
     def test_it_stands_wherever_a_clip_may(self):
         clips = [f"{self.run_folder}#detection/-/000@{name}" for name in ("truth", "a")]
         for arguments in (("clip", "grades", *clips), ("bridge", *clips), ("teach", *clips, "-o", self.folder / "moves.yaml")):
-            result = self.etude(*arguments)
-            self.assertEqual(result.returncode, 0, result.stderr)
+            self.ends(0, *arguments)
         scenario = self.write("t.yaml", "scenario: t\nquestion: q\ntask: transition\nclips: ['builtin:clap']\ntrials: 1\n"
                                         "methods: [{name: cut, choice: now, join: cut}]\n")
         self.run_suite(scenario, "--clips", f"{self.run_folder}#transition/-/000@a", "builtin:wave")
         self.run_suite("--from", self.out / "manifest.json", out=self.folder / "again")
 
     def test_what_no_run_recorded_is_told(self):
-        self.assertIn("recorded no cell 'capture/-/007'", self.refuses("clip", "info", f"{self.run_folder}#capture/-/007@truth"))
-        self.assertIn("animation 'nobody'", self.refuses("clip", "info", f"{self.run_folder}#capture/-/000/a@nobody"))
+        self.assertIn("recorded no cell 'capture/-/007'", self.refusal("clip", "info", f"{self.run_folder}#capture/-/007@truth"))
+        self.assertIn("animation 'nobody'", self.refusal("clip", "info", f"{self.run_folder}#capture/-/000/a@nobody"))
 
     def test_a_recording_that_names_no_joints_is_refused_with_the_reason(self):
         recording = self.recorded("capture/-/000/a")
         old = self.write("old.json", json.dumps({key: recording[key] for key in ("tracks", "extras")}, separators=(",", ":")))
-        self.assertIn("a recording of version 1, which does not name its joints", self.refuses("clip", "info", old))
+        self.assertIn("a recording of version 1, which does not name its joints", self.refusal("clip", "info", old))
         recording["joints"][:2] = reversed(recording["joints"][:2])
         turned = self.write("turned.json", json.dumps(recording, separators=(",", ":")))
-        self.assertIn("'joints': ", self.refuses("clip", "info", turned))
+        self.assertIn("'joints': ", self.refusal("clip", "info", turned))
 
     def test_angles_give_the_body_back_through_their_model(self):
         for clip, is_rigid in (("builtin:aerobic", True), (CMU, False), (f"{self.run_folder}#capture/-/000@a", False)):
             out = self.folder / "angles.mot"
-            result = self.etude("clip", "convert", clip, out, "--overwrite")
-            self.assertEqual(result.returncode, 0, result.stderr)
+            self.ends(0, "clip", "convert", clip, out, "--overwrite")
             truth = self.joints(clip)
             frames, limits, rows, parents = read_mot(out)
             self.assertEqual(len(frames), len(truth))
@@ -158,7 +150,7 @@ class Motions(MotionFileCase):
 
     def test_angles_that_are_read_have_a_model_and_its_columns(self):
         out = self.folder / "angles.mot"
-        self.assertEqual(self.etude("clip", "convert", "builtin:clap", out).returncode, 0)
+        self.ends(0, "clip", "convert", "builtin:clap", out)
         told, own = (json.loads(self.etude("clip", "info", clip, "--json").stdout)["clips"][0] for clip in (out, "builtin:clap"))
         self.assertEqual((told["format"], told["rate_hz"], told["frames"]), ("MOT", 30, own["frames"]))
         text = out.read_text()
@@ -167,9 +159,9 @@ class Motions(MotionFileCase):
                                     ("turns +Z ", "turns +Q ", "turn '+Q'"), ("0.000000\t", "0.000000\tnan\t", "nan"),
                                     ("0.066667\t", "0.010000\t", "does not run backwards")):
             self.assertIn(before, text)
-            self.assertIn(says, self.refuses("clip", "info", self.write("bad.mot", text.replace(before, after, 1))))
+            self.assertIn(says, self.refusal("clip", "info", self.write("bad.mot", text.replace(before, after, 1))))
         foreign = self.write("theirs.mot", re.sub(r"(?m)^part .*\n", "", text))
-        self.assertIn("whose model is another file", self.refuses("clip", "info", foreign))
+        self.assertIn("whose model is another file", self.refusal("clip", "info", foreign))
 
     def test_angles_have_the_signs_and_limits_of_their_names(self):
         joints = self.joints("builtin:clap")[:1]
@@ -183,7 +175,7 @@ class Motions(MotionFileCase):
             for t in range(3):
                 file.write(f"{t / 30}," + ",".join(str(float(v)) for name in bent for v in bent[name]) + "\n")
         out = self.folder / "bent.mot"
-        self.assertEqual(self.etude("clip", "convert", path, out).returncode, 0)
+        self.ends(0, "clip", "convert", path, out)
         _, limits, rows, _ = read_mot(out)
         self.assertEqual(limits["knee_angle_r"][0], 0)
         self.assertGreater(limits["knee_angle_r"][1], 120)
@@ -193,7 +185,7 @@ class Motions(MotionFileCase):
 
     def test_joints_lie_where_second_readers_put_them(self):
         glb = self.folder / "own.glb"
-        self.assertEqual(self.etude("clip", "convert", CMU, glb).returncode, 0)
+        self.ends(0, "clip", "convert", CMU, glb)
         for path, most_mm in ((pathlib.Path(CMU), 1e-6), (glb, 0.01)):  # GLB holds floats
             facts = json.loads(self.etude("clip", "info", path, "--json").stdout)["clips"][0]
             worst_mm, joints = file_table.worst_mm(path, facts)
@@ -225,11 +217,11 @@ class Motions(MotionFileCase):
 
     def test_teach_is_told_units_of_clips_and_refuses_those_of_sensors(self):
         moves = self.folder / "moves.yaml"
-        self.assertIn("in the unit given", self.refuses("teach", CMU, "--unit", "mm", "-o", moves))
+        self.assertIn("in the unit given", self.refusal("teach", CMU, "--unit", "mm", "-o", moves))
         take = self.write("take.txt", kinect(arms(100)))
-        self.assertIn("--unit and --up are only for clips", self.refuses("teach", take, "--unit", "cm", "-o", moves))
+        self.assertIn("--unit and --up are only for clips", self.refusal("teach", take, "--unit", "cm", "-o", moves))
         roles = self.write("roles.yaml", "roles:\n  left_hand: RightHand\n")
-        self.assertIn("the role left_hand has the joint", self.refuses("teach", CMU, "--map", roles, "-o", moves))
+        self.assertIn("the role left_hand has the joint", self.refusal("teach", CMU, "--map", roles, "-o", moves))
 
     def test_a_picture_of_roles_also_where_some_are_missing(self):
         def pixels(path):  # of the two colours of roles: found by names, found by the build
@@ -239,7 +231,7 @@ class Motions(MotionFileCase):
             picture = numpy.frombuffer(raw.stdout, numpy.uint8).reshape(height * width, 3).astype(int)
             return [int((abs(picture - colour).max(axis=1) < 3).sum()) for colour in ((107, 194, 204), (245, 173, 84))]
         picture = self.folder / "roles.png"
-        self.assertEqual(self.etude("clip", "map", CMU, "--preview", picture).returncode, 0)
+        self.ends(0, "clip", "map", CMU, "--preview", picture)
         by_name, by_build = pixels(picture)
         self.assertGreater(by_name, 1000)
         self.assertEqual(by_build, 0)
@@ -249,7 +241,7 @@ class Motions(MotionFileCase):
         less_by_name, by_build = pixels(missing)
         self.assertLess(less_by_name, by_name, result.stderr)
         self.assertGreater(by_build, 500)
-        self.assertIn("allowed: .png", self.refuses("clip", "map", CMU, "--preview", self.folder / "roles.svg"))
+        self.assertIn("allowed: .png", self.refusal("clip", "map", CMU, "--preview", self.folder / "roles.svg"))
 
 
 if __name__ == "__main__":

@@ -65,8 +65,7 @@ class OutsideMethods(EtudeCase):
                                          "    time.sleep(5)\n    return problem.start_angles_deg\netude.serve(sleeps)\n")
         one = IK.replace("trials: 4\nsweep: {joint_noise_deg: [2, 5]}", "trials: 1").replace(
             "  - {name: fixed, solver: ccd, weights: fixed}\n  - {name: least-squares, solver: damped-least-squares}\n", "")
-        told = self.etude("run", self.write("long.yaml", one + outside("sleeps", sleeps)), "-o", self.out)
-        self.assertEqual(told.returncode, 1, "no cell is ok: " + told.stderr)
+        told = self.ends(1, "run", self.write("long.yaml", one + outside("sleeps", sleeps)), "-o", self.out)
         self.assertRegex(told.stderr, r"  0 %  0/1 cells, 0 ok, 0 s\n  0 %  0/1 cells, 0 ok, [1-9] s\n")
 
     def test_answers_of_the_wrong_shape_say_where(self):
@@ -116,21 +115,16 @@ class OutsideMethods(EtudeCase):
         self.assertTrue(mark.exists())
         mark.unlink()
         pack = self.folder / "cell.etude"
-        self.assertEqual(self.etude("replay", self.out, "--cell", cell, "--pack", pack).returncode, 0)
+        self.ends(0, "replay", self.out, "--cell", cell, "--pack", pack)
         for words in (["run", "--from", self.out / "manifest.json", "-o", self.folder / "again"],
                       ["run", "--dry-run", "--from", self.out / "manifest.json"],
                       ["replay", self.out, "--sample", "1"], ["replay", pack]):
-            refused = self.etude(*words)
-            self.assertEqual(refused.returncode, 2)
-            self.assertIn(f"would run programs, which needs --allow-exec: {program} --fast (ik/mine)", refused.stderr)
-            self.assertEqual(refused.stderr.count("\n"), 1)
-            self.assertFalse(mark.exists())
-        allowed = self.etude("replay", pack, "--allow-exec", "--no-fence")
-        self.assertEqual(allowed.returncode, 0, allowed.stderr)
+            self.refusal(*words, leaves=mark,
+                         says=f"would run programs, which needs --allow-exec: {program} --fast (ik/mine)")
+        self.ends(0, "replay", pack, "--allow-exec", "--no-fence")
         self.assertTrue(mark.exists())
         self.assertIn("its last words: 'out of luck'", (self.out / "cells.jsonl").read_text())
-        again = self.etude("replay", self.out, "--cell", cell, "--allow-exec", "--no-fence")
-        self.assertEqual(again.returncode, 0, "a failure that came again is the same: " + again.stdout)
+        self.ends(0, "replay", self.out, "--cell", cell, "--allow-exec", "--no-fence")
 
     @heavy
     def test_a_model_trained_on_exported_sessions_knows_people_whom_it_never_saw(self):
@@ -139,7 +133,7 @@ class OutsideMethods(EtudeCase):
                            "people: expert\nevents: 10\nseverity: 1\ntwo_faults: 0\nfaults: [wrong_move, skipped]\ntrials: 3\nmethods:\n"
                            + outside("rival", example, model) + "metrics: [roc_auc, f1]\n")
         data = self.folder / "data"
-        self.assertEqual(self.etude("export", suite, "-o", data, "--seed", 2).returncode, 0)
+        self.ends(0, "export", suite, "-o", data, "--seed", 2)
         python = ["/usr/bin/python3", example, "train"]
         trained = subprocess.run([*python, data, "-o", model], capture_output=True, text=True)
         self.assertEqual(trained.returncode, 0, trained.stderr)
@@ -168,15 +162,14 @@ class OutsideMethods(EtudeCase):
             result = self.etude("check-method", "--task", "ik", "--", "python3", *command)
             self.assertEqual(result.returncode, code, result.stdout + result.stderr)
             self.assertIn(words, result.stdout)
-        self.assertEqual(self.etude("check-method", "--task", "ki", "--", "true").returncode, 2)
-        self.assertEqual(self.etude("check-method", "--task", "ik", "--", "no-such-program").returncode, 2)
+        self.ends(2, "check-method", "--task", "ki", "--", "true")
+        self.ends(2, "check-method", "--task", "ik", "--", "no-such-program")
 
     @unittest.skipUnless(shutil.which("node"), "needs Node")
     @heavy
     def test_node_runs_inside_the_fence(self):
-        result = self.etude("check-method", "--task", "coach", "--seat", "policy", "--",
+        result = self.ends(0, "check-method", "--task", "coach", "--seat", "policy", "--",
                             "node", EXAMPLES / "coach_policy.mjs")
-        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         self.assertIn("9 of 9 checks passed", result.stdout)
 
     @unittest.skipUnless(shutil.which("node"), "needs Node")

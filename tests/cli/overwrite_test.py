@@ -1,4 +1,5 @@
 """`run --overwrite` while others read the run: the new run stands whole in the place of the old, and a reader sees either."""
+import contextlib
 import itertools
 import os
 import random
@@ -79,11 +80,9 @@ class Overwriting(EtudeCase):
         """The files of the run, told from others of their names; a number on the disk is given again."""
         found = set()
         for name in os.listdir(self.out) if self.out.exists() else []:
-            try:
+            with contextlib.suppress(FileNotFoundError):
                 status = os.stat(self.out / name)
                 found.add((name, status.st_ino, status.st_mtime_ns))
-            except FileNotFoundError:
-                pass
         return found
 
     def test_killed_while_it_replaces_a_run_it_leaves_the_old_one_whole_or_nothing_of_it(self):

@@ -76,8 +76,7 @@ class PoseEstimator(EtudeCase):
         self.assertEqual(told.returncode, 0, told.stderr)
         found = np.array(json.loads((answers / "pictures" / "all" / "000.json").read_text())["poses"])
         run = self.folder / f"run-{shift}"
-        scored = self.etude("score", self.data, answers, "-o", run, "--name", "estimator", "--alone")
-        self.assertEqual(scored.returncode, 0, scored.stderr)
+        self.ends(0, "score", self.data, answers, "-o", run, "--name", "estimator", "--alone")
         cell = json.loads(self.etude("rows", run).stdout)
         self.assertEqual(cell["status"], "ok")
         off = np.linalg.norm(found.reshape(self.poses.shape) - self.poses, axis=2)[:, self.limbs]

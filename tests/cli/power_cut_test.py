@@ -186,8 +186,7 @@ class PowerCut(EtudeCase):
         for files, counts in tried:
             self.assertGreaterEqual(cells_on(dict(files)), counts, "cells that were counted are lost")
             self.put(files)
-            result = self.etude(*go_on)
-            self.assertEqual(result.returncode, 0, result.stderr)
+            self.ends(0, *go_on)
             self.assert_same_results(self.whole, self.out)
         print(f"{cuts} cuts, {len(found)} different disks, {len(tried)} tried")
         return found
@@ -199,7 +198,7 @@ class PowerCut(EtudeCase):
     def test_a_merge_is_done_again_after_a_cut_at_any_call(self):
         shards = [self.folder / f"shard-{i}" for i in (1, 2)]
         for i, shard in enumerate(shards, 1):
-            self.assertEqual(self.etude("run", self.scenario, "-o", shard, "--shard", f"{i}/2").returncode, 0)
+            self.ends(0, "run", self.scenario, "-o", shard, "--shard", f"{i}/2")
         merge = ["merge", *map(str, shards), "-o", str(self.out)]
         self.check([ETUDE, *merge], [*merge, "--overwrite"])
 

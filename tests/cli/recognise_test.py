@@ -18,8 +18,7 @@ def turned(rows, turn):
 
 class Recognise(EtudeCase):
     def teach(self, *arguments):
-        result = self.etude("teach", *arguments, "-o", self.folder / "moves.yaml", "--overwrite")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.ends(0, "teach", *arguments, "-o", self.folder / "moves.yaml", "--overwrite")
         return self.folder / "moves.yaml"
 
     def events(self, *arguments, stdin=None):
@@ -50,8 +49,7 @@ class Recognise(EtudeCase):
         for recogniser in ("key-pose", "fuzzy-rules", "dtw"):
             found = [event["move"] for event in self.events(take, "--moves", moves, "--recogniser", recogniser)]
             self.assertEqual(found, ["raise", "left"], recogniser)
-        half = self.write("half.txt", kinect(arms(40)))
-        self.assertEqual(self.events(half, "--moves", moves), [])
+        self.assertEqual(self.events(self.write("half.txt", kinect(arms(40))), "--moves", moves), [])
 
     def test_live_says_the_same_as_recorded(self):
         moves = self.two_moves()
@@ -102,8 +100,7 @@ class Recognise(EtudeCase):
                 self.assertEqual([(e["move"], e["frame"]) for e in found], [(e["move"], e["frame"]) for e in wanted], name)
                 self.assertRegex(result.stderr, r"sensor rotated by (90|180|270) degrees, rotated back \(--level none keeps it\)")
             self.assertNotIn("rotated", self.etude("recognise", file, "--moves", moves, "--level", "none").stderr)
-            taught = self.etude("teach", file, "-o", self.folder / "again.yaml", "--overwrite")
-            self.assertIn("rotated back", taught.stderr)
+            self.assertIn("rotated back", self.etude("teach", file, "-o", self.folder / "again.yaml", "--overwrite").stderr)
             v2 = [row.split() for row in text.splitlines()]
             sheet = self.write("v2.txt", "\n".join(" ".join(row + row[6:9] + 4 * row[21:24]) for row in v2) + "\n")
             self.assertRegex(self.etude("sensor", "stats", sheet).stdout, r"; the sensor is turned by (90|180|270) degrees")

@@ -99,9 +99,7 @@ methods: [{name: hue}]
         self.assertEqual(first.wait(timeout=20), 130)
         self.assertEqual(second.returncode, 2)
         self.assertIn("another run is writing into it", second.stderr)
-        unfinished = self.etude("report", self.out)
-        self.assertEqual(unfinished.returncode, 2)
-        self.assertIn("this run was not finished, is still running, or is a shard", unfinished.stderr)
+        self.assertIn("this run was not finished, is still running, or is a shard", self.ends(2, "report", self.out).stderr)
 
     def test_nobody_listening_does_not_end_a_run(self):
         path = self.write("ik.yaml", IK)
@@ -137,9 +135,7 @@ methods: [{name: hue}]
     def test_a_run_is_not_overwritten_unasked(self):
         path = self.write("ik.yaml", IK)
         self.run_suite(path)
-        again = self.etude("run", path, "-o", self.out)
-        self.assertEqual(again.returncode, 2)
-        self.assertIn("already holds a run", again.stderr)
+        self.assertIn("already holds a run", self.ends(2, "run", path, "-o", self.out).stderr)
         self.run_suite(path, "--overwrite")
 
     def test_rows_and_a_packed_cell_replace_no_file_unasked(self):
@@ -148,22 +144,16 @@ methods: [{name: hue}]
         for words, file in ((["rows", self.out, "-o", text], text),
                             (["replay", self.out, "--cell", rows[0]["cell"], "--pack", pack], pack)):
             file.write_text("mine")
-            refused = self.etude(*words)
-            self.assertEqual(refused.returncode, 2)
-            self.assertIn("already exists; --overwrite replaces it", refused.stderr)
+            self.assertIn("already exists; --overwrite replaces it", self.ends(2, *words).stderr)
             self.assertEqual(file.read_text(), "mine")
-            replaced = self.etude(*words, "--overwrite")
-            self.assertEqual(replaced.returncode, 0, replaced.stderr)
-            self.assertIn(f"written: {file}\n", replaced.stdout)
+            self.assertIn(f"written: {file}\n", self.ends(0, *words, "--overwrite").stdout)
         self.assertEqual(text.read_bytes(), (self.out / "cells.jsonl").read_bytes())
-        self.assertEqual(self.etude("replay", pack).returncode, 0)
+        self.ends(0, "replay", pack)
 
     def test_lists_what_a_scenario_can_name(self):
         for what, words in {"methods": "capture", "metrics": "position_error_cm", "clips": "builtin:clap",
                             "scenarios": "quick/ik ", "recordings": "transition_frames"}.items():
-            result = self.etude("list", what)
-            self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertIn(words, result.stdout)
+            self.assertIn(words, self.ends(0, "list", what).stdout)
 
 
 if __name__ == "__main__":

@@ -34,8 +34,7 @@ class Scenarios(EtudeCase):
 
     def test_a_folder_runs_all_scenarios_of_its_files_with_shared_defaults(self):
         suite = self.write_suite()
-        listed = self.etude("list", "scenarios", suite)
-        self.assertEqual(listed.returncode, 0, listed.stderr)
+        listed = self.ends(0, "list", "scenarios", suite)
         self.assertIn("  start (ik): How far may it start?\n  3 trials × 3 conditions × methods fixed, least-squares",
                       listed.stdout)
         rows = self.run_suite(suite)
@@ -80,17 +79,11 @@ class Scenarios(EtudeCase):
             (SEVERAL, "include: [../several.yaml]\n" + SHARED, "ik.yaml:1:11: "),
         ]
         for several, shared, says in cases:
-            result = self.etude("run", self.write_suite(several, shared), "-o", self.out)
-            self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
-            self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
-            self.assertIn(says, result.stderr)
-            self.assertFalse(self.out.exists(), "a refused run left a folder")
+            self.refusal("run", self.write_suite(several, shared), "-o", self.out, says=says, leaves=self.out)
 
     def test_a_file_to_be_included_is_no_scenario(self):
         suite = self.write_suite()
-        result = self.etude("run", suite / "shared", "-o", self.out)
-        self.assertEqual(result.returncode, 2)
-        self.assertIn("ik.yaml:1:1: no scenario, only 'defaults'", result.stderr)
+        self.assertIn("ik.yaml:1:1: no scenario, only 'defaults'", self.ends(2, "run", suite / "shared", "-o", self.out).stderr)
 
     def test_clips_of_the_command_line_go_to_whatever_has_a_use_for_them(self):
         suite = self.folder / "suite"
@@ -106,8 +99,7 @@ class Scenarios(EtudeCase):
         self.assertEqual({row["clip"] for row in rows if row["task"] == "transition"}, {"builtin:clap", "builtin:boxing"})
         for paths in ([ik], [transition, ik]):
             refused = self.folder / "refused"
-            result = self.etude("run", *paths, *clips, "-o", refused)
-            self.assertEqual(result.returncode, 2, result.stdout)
+            result = self.ends(2, "run", *paths, *clips, "-o", refused)
             self.assertEqual(result.stderr, f"etude: {ik}: cannot use --clips or --library: no task of its "
                                             "scenarios makes worlds from clips\n")
             self.assertFalse(refused.exists())

@@ -113,7 +113,7 @@ class SecretWorlds(EtudeCase):
         resume = ["run", self.scenario, "-o", self.out, "--resume"]
         self.assertIn("give its key again (--seed-file)", self.refuse(*resume))
         self.assertIn('seed was "secret ' + self.digest[:8], self.refuse(*resume, "--seed-file", self.other))
-        self.assertEqual(self.etude(*resume, "--seed-file", self.key).returncode, 0)
+        self.ends(0, *resume, "--seed-file", self.key)
         for command in (["replay", self.out], ["run", "--from", self.out / "manifest.json", "-o", self.folder / "from"]):
             self.assertIn(f"its worlds are secret: --seed-file names their key, of digest {self.digest[:16]}…",
                           self.refuse(*command))
@@ -124,9 +124,9 @@ class SecretWorlds(EtudeCase):
         self.assertIn("leave out --seed-file", self.refuse("replay", self.folder / "plain", "--seed-file", self.key))
         cell = json.loads((self.out / "cells.jsonl").read_text().splitlines()[3])["cell"]
         pack = self.folder / "cell.pack"
-        self.assertEqual(self.etude("replay", self.out, "--cell", cell, "--pack", pack).returncode, 0)
+        self.ends(0, "replay", self.out, "--cell", cell, "--pack", pack)
         self.assertIn("its worlds are secret", self.refuse("replay", pack))
-        self.assertEqual(self.etude("replay", pack, "--seed-file", self.key).returncode, 0)
+        self.ends(0, "replay", pack, "--seed-file", self.key)
 
     def test_worlds_of_an_earlier_version_are_refused_with_the_reason(self):
         manifest = self.run_folder / "manifest.json"
@@ -139,18 +139,18 @@ class SecretWorlds(EtudeCase):
             self.assertIn(says, self.refuse("run", "--from", self.write("older.json", older), "-o", self.folder / "from",
                                             "--seed-file", self.key))
         shard = ["run", self.scenario, "--shard", "1/2", "-o", self.out, "--seed-file", self.key]
-        self.assertEqual(self.etude(*shard, "--reuse-key").returncode, 0)
+        self.ends(0, *shard, "--reuse-key")
         of_shard = self.out / "manifest.json"
         of_shard.write_text(re.sub(r'"secret_worlds":\s*3', '"secret_worlds":2', of_shard.read_text()))
         self.assertIn(says, self.refuse(*shard, "--resume"))
         # A run of a plain seed has no such version: it differs in its seed.
         plain = ["run", self.scenario, "--shard", "1/2", "-o", self.folder / "plain"]
-        self.assertEqual(self.etude(*plain).returncode, 0)
+        self.ends(0, *plain)
         told = self.refuse(*plain, "--resume", "--seed-file", self.key)
         self.assertIn("belongs to another run", told)
         self.assertNotIn("version", told)
         data = self.folder / "data"
-        self.assertEqual(self.etude("export", self.scenario, "-o", data, "--seed-file", self.key, "--reuse-key").returncode, 0)
+        self.ends(0, "export", self.scenario, "-o", data, "--seed-file", self.key, "--reuse-key")
         (data / "manifest.json").write_text(older)
         self.assertIn(says, self.refuse("score", data, self.folder, "-o", self.folder / "scored", "--seed-file", self.key))
 
@@ -160,15 +160,14 @@ class SecretWorlds(EtudeCase):
         manifest = older / "manifest.json"
         manifest.write_text(re.sub(r'"secret_worlds":\s*3', '"secret_worlds":2', manifest.read_text()))
         for run, code in ((self.run_folder, 0), (older, 2)):
-            update = self.etude("gate", run, "--baseline", baseline, "--update", "--unsealed")
-            self.assertEqual(update.returncode, 0, update.stderr)
+            self.ends(0, "gate", run, "--baseline", baseline, "--update", "--unsealed")
             gate = self.etude("gate", self.run_folder, "--baseline", baseline)
             self.assertEqual(gate.returncode, code, gate.stdout + gate.stderr)
         self.assertIn("or of another version of secret worlds", gate.stderr)
 
     def test_conditions_have_dice_of_their_own_that_hang_on_no_other(self):
         def truths(name, *seed):
-            self.assertEqual(self.etude("export", self.scenario, "-o", self.folder / name, *seed).returncode, 0)
+            self.ends(0, "export", self.scenario, "-o", self.folder / name, *seed)
             return {str(json.loads(file.read_text())["angles_deg"]) for file in (self.folder / name).glob("truth/*/*/*/truth.json")}
 
         self.assertEqual(len(truths("secret", "--seed-file", self.key, "--reuse-key")), 4)
@@ -206,21 +205,20 @@ class SecretWorlds(EtudeCase):
         self.assertTrue((self.out / "cells.jsonl").exists(), "what is refused overwrites nothing")
         for command in (["run", self.scenario, "-o", self.out, "--resume"], ["replay", self.out],
                         ["run", "--from", self.out / "manifest.json", "-o", again]):
-            done = self.etude(*command, *asked)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            self.ends(0, *command, *asked)
         self.assert_same_results(self.out, again)
         self.assertEqual(len(used()), 2, "--from is told, too")
-        self.assertEqual(self.etude("export", self.scenario, "-o", self.folder / "data", *asked, "--reuse-key").returncode, 0)
+        self.ends(0, "export", self.scenario, "-o", self.folder / "data", *asked, "--reuse-key")
         self.assertEqual(used()[2]["command"], "export")
         self.assertIn("--reuse-key requires --seed-file", self.refuse("run", self.scenario, "-o", self.folder / "x", "--reuse-key"))
 
     def test_worlds_that_an_export_told_are_no_secret_of_a_run(self):
         key, used = self.key_of_its_own()
         data, out = self.folder / "data", self.folder / "again"
-        self.assertEqual(self.etude("export", self.scenario, "-o", data, "--seed-file", key, "--trials", 1).returncode, 0)
+        self.ends(0, "export", self.scenario, "-o", data, "--seed-file", key, "--trials", 1)
         self.assertIn("by 'etude export'", self.refuse("run", "--from", data / "manifest.json", "-o", out, "--seed-file", key))
         self.assertEqual(len(used()), 1)
-        self.assertEqual(self.etude("run", "--from", data / "manifest.json", "-o", out, "--seed-file", key, "--reuse-key").returncode, 0)
+        self.ends(0, "run", "--from", data / "manifest.json", "-o", out, "--seed-file", key, "--reuse-key")
 
     def test_a_key_that_a_program_could_read_is_refused_or_hidden(self):
         key, _ = self.key_of_its_own()
@@ -231,7 +229,7 @@ class SecretWorlds(EtudeCase):
     def test_what_goes_on_is_a_run_that_the_list_tells_of(self):
         key, _ = self.key_of_its_own()
         shard, copy = self.folder / "shard", self.folder / "copy"
-        self.assertEqual(self.etude("run", self.scenario, "-o", shard, "--shard", "1/2", "--seed-file", key).returncode, 0)
+        self.ends(0, "run", self.scenario, "-o", shard, "--shard", "1/2", "--seed-file", key)
         copy.mkdir()
         for name in ("manifest.json", "journal.jsonl"):
             text = (shard / name).read_text()
@@ -248,8 +246,7 @@ class SecretWorlds(EtudeCase):
                           "    print('{\"type\": \"' + kind + '\", \"protocol\": 1, \"name\": \"m\", \"version\": \"1\"}', flush=True)\n")
         scenario = self.write("ik.yaml", ik_scenario(trials=2) + f"  - {{name: mine, exec: [python3, '{script}']}}\n")
         asked = lambda text: set(re.findall(r'"start_angles_deg":\[[^]]*\]', text))
-        dry = self.etude("run", scenario, "--seed-file", key, "--dry-run")
-        self.assertEqual(dry.returncode, 0, dry.stderr)
+        dry = self.ends(0, "run", scenario, "--seed-file", key, "--dry-run")
         self.assertEqual(used(), [])
         self.run_suite(scenario, "--seed-file", key, code=1)
         of_run = asked((self.out / "stderr/ik~mine.txt").read_text())
@@ -259,7 +256,7 @@ class SecretWorlds(EtudeCase):
     def test_an_export_uses_its_key_and_is_scored_by_it(self):
         key, used = self.key_of_its_own()
         data, answers = self.folder / "data", self.folder / "answers"
-        self.assertEqual(self.etude("export", self.scenario, "-o", data, "--seed-file", key, "--trials", 1).returncode, 0)
+        self.ends(0, "export", self.scenario, "-o", data, "--seed-file", key, "--trials", 1)
         self.assertIn("by 'etude export' of 'ik'", self.refuse("run", self.scenario, "-o", self.out, "--seed-file", key))
         answers.mkdir()
         scored = self.etude("score", data, answers, "--allow-missing", "-o", self.out, "--seed-file", key)
@@ -289,13 +286,12 @@ class SecretWorlds(EtudeCase):
         shard(2, self.other, "--reuse-key", "-o", self.folder / "foreign")
         self.assertIn("is a shard of a different run", self.refuse("merge", self.folder / "1", self.folder / "foreign", "-o", self.out,
                                                                "--seed-file", self.key))
-        merged = self.etude("merge", self.folder / "1", self.folder / "2", "-o", self.out, "--seed-file", self.key)
-        self.assertEqual(merged.returncode, 0, merged.stderr)
+        self.ends(0, "merge", self.folder / "1", self.folder / "2", "-o", self.out, "--seed-file", self.key)
         self.assert_same_results(self.run_folder, self.out)
 
     def test_an_export_tells_no_trial_and_is_scored_by_its_key(self):
         data = self.folder / "data"
-        self.assertEqual(self.etude("export", self.scenario, "-o", data, "--seed-file", self.key, "--reuse-key").returncode, 0)
+        self.ends(0, "export", self.scenario, "-o", data, "--seed-file", self.key, "--reuse-key")
         problems = sorted(data.glob("inputs/ik/*/*/problem.json"))
         self.assertEqual(len(problems), 4)
         answers = self.folder / "answers"
@@ -311,8 +307,7 @@ class SecretWorlds(EtudeCase):
         score = ["score", data, answers, "-o", self.out, "--alone"]
         self.assertIn("its worlds are secret", self.refuse(*score))
         self.assertIn("its worlds belong to the key", self.refuse(*score, "--seed-file", self.other))
-        scored = self.etude(*score, "--seed-file", self.key)
-        self.assertEqual(scored.returncode, 0, scored.stderr)
+        self.ends(0, *score, "--seed-file", self.key)
         for line in (self.out / "cells.jsonl").read_text().splitlines():
             self.assertLess(json.loads(line)["hidden_angle_error_deg"], 1e-9)
 
@@ -323,7 +318,7 @@ class SecretWorlds(EtudeCase):
         self.run_suite(scenario, "--seed-file", self.key, "--reuse-key", "--no-fence", out=self.folder / "unfenced")
         for folder, says in ((self.out, "seed 1, open worlds"), (self.run_folder, f"secret worlds, key {self.digest[:16]}…, other worlds under every condition"),
                              (self.folder / "unfenced", f"secret worlds, key {self.digest[:16]}…, other worlds under every condition, programs in no fence")):
-            self.assertEqual(self.etude("report", folder, "--no-video").returncode, 0)
+            self.ends(0, "report", folder, "--no-video")
             self.assertIn(f"<dd>{says}</dd>", (folder / "report" / "index.html").read_text())
             self.assertIn(says + ".\n", self.etude("compare", folder, folder).stdout)
 

@@ -35,8 +35,7 @@ class Streams(EtudeCase):
         return takes, self.write("labels.csv", labels)
 
     def refusal(self, *arguments):
-        result = self.etude(*arguments)
-        self.assertEqual(result.returncode, 2, result.stdout)
+        result = self.ends(2, *arguments)
         complaint = [line for line in result.stderr.splitlines() if line.startswith("etude")]
         self.assertEqual(len(complaint), 1, result.stderr)
         self.assertFalse(self.out.exists())
@@ -47,8 +46,7 @@ class Streams(EtudeCase):
         takes, labels = self.record()
         example, probe = ROOT / "examples/outside-methods/detection_correlation.py", ROOT / "tests/support/wire_probe.py"
         command = ["/usr/bin/python3", probe, "detection", "-", "/usr/bin/python3", example]
-        told = self.etude("check-method", "--no-fence", "--task", "detection", "--streams", takes, "--labels", labels, "--", *command)
-        self.assertEqual(told.returncode, 0, told.stdout + told.stderr)
+        told = self.ends(0, "check-method", "--no-fence", "--task", "detection", "--streams", takes, "--labels", labels, "--", *command)
         self.assertIn("9 of 9 checks passed", told.stdout)
         keeper = self.write("keeper.py", "import json, os, sys, etude\n\n@etude.method(task='detection')\nclass Keeper:\n"
                                          "    def __init__(self, setting):\n        self.moves = setting.moves\n\n"
@@ -87,30 +85,25 @@ class Streams(EtudeCase):
             self.assertEqual(scores["performances"], 8, "two right ones each")
             self.assertAlmostEqual(sum(own) / 4, scores["accuracy"], places=4)
         self.assertEqual(json.loads((self.out / "summary.json").read_text())["scenarios"][0]["unit"], "person")
-        report = self.etude("report", self.out, "--no-video")
-        self.assertEqual(report.returncode, 0, report.stderr)
+        self.ends(0, "report", self.out, "--no-video")
         page = (self.out / "report" / "index.html").read_text()
         self.assertIn("the moves that nearest takes the danced ones for", page)
         # The manifest alone repeats the run, in shards too; a packed cell needs no recording.
         again = self.folder / "again"
-        self.assertEqual(self.etude("run", "--from", self.out / "manifest.json", "-o", again).returncode, 0)
+        self.ends(0, "run", "--from", self.out / "manifest.json", "-o", again)
         self.assert_same(again)
         shards = [self.folder / f"shard-{i}" for i in (1, 2)]
         for i, shard in enumerate(shards, 1):
             self.etude("run", scenario, "--streams", takes, "--labels", labels, "--shard", f"{i}/2", "-o", shard)
         merged = self.folder / "merged"
-        result = self.etude("merge", *shards, "-o", merged)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.ends(0, "merge", *shards, "-o", merged)
         self.assert_same(merged)
         pack = self.folder / "cell.pack"
-        result = self.etude("replay", self.out, "--cell", rows[0]["cell"], "--pack", pack)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.ends(0, "replay", self.out, "--cell", rows[0]["cell"], "--pack", pack)
         for take in takes.iterdir():
             take.unlink()
-        result = self.etude("replay", pack)
-        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        gone = self.etude("run", "--from", self.out / "manifest.json", "-o", self.folder / "gone")
-        self.assertEqual(gone.returncode, 2)
+        self.ends(0, "replay", pack)
+        gone = self.ends(2, "run", "--from", self.out / "manifest.json", "-o", self.folder / "gone")
         self.assertIn("no recordings of skeletons", gone.stderr)
 
     def assert_same(self, folder):
@@ -140,12 +133,10 @@ class Streams(EtudeCase):
             lines = take.read_text().splitlines()
             take.write_text("\n".join(lines[::2]) + "\n")
         half = self.write("half.yaml", SCENARIO + f"streams: ['{takes}']\nlabels: {labels}\nreading: {{rate_hz: 15}}\n")
-        halved = self.run_suite(half, out=self.folder / "half")
-        self.assertEqual([row["status"] for row in halved], ["ok"] * 8)
+        self.assertEqual([row["status"] for row in self.run_suite(half, out=self.folder / "half")], ["ok"] * 8)
         # One of a folder that cannot be read is left out, and that is told and kept.
         (takes / "eve.txt").write_text("\n".join((takes / "anna.txt").read_text().splitlines()[:9] + ["0 1 left"]) + "\n")
-        told = self.etude("run", half, "-o", self.folder / "told")
-        self.assertEqual(told.returncode, 0, told.stderr)
+        told = self.ends(0, "run", half, "-o", self.folder / "told")
         self.assertIn("eve.txt: left out: ", told.stderr)
         manifest = json.loads((self.folder / "told" / "manifest.json").read_text())
         self.assertEqual([one["clip"] for one in manifest["scenarios"][0]["refused"]], [str(takes / "eve.txt")])
@@ -180,8 +171,7 @@ class Streams(EtudeCase):
     def test_moves_taught_beforehand_judge_one_person(self):
         takes, labels = self.record()
         moves = self.folder / "moves.yaml"
-        taught = self.etude("teach", takes / "anna.txt", takes / "bo.txt", "--labels", labels, "-o", moves)
-        self.assertEqual(taught.returncode, 0, taught.stderr)
+        self.ends(0, "teach", takes / "anna.txt", takes / "bo.txt", "--labels", labels, "-o", moves)
         scenario = self.write("taught.yaml", SCENARIO + f"moves: {moves}\nlabels: {labels}\nstreams: ['{takes}/d*.txt']\n")
         rows = self.run_suite(scenario)
         self.assertEqual([(row["clip"], row["method"]) for row in rows], [("di", "dtw"), ("di", "nearest")])
@@ -193,13 +183,12 @@ class Streams(EtudeCase):
         for move in ("clap", "boxing", "robot"):
             for person in ("anna", "bo"):
                 path = self.folder / f"{person}_{move}.bvh"
-                self.assertEqual(self.etude("clip", "convert", f"builtin:{move}", path).returncode, 0)
+                self.ends(0, "clip", "convert", f"builtin:{move}", path)
                 clips.append(path)
                 labels += f"{person}_{move},,,{move},right,{person}\n"
         path = self.write("labels.csv", labels)
         scenario = self.write("clips.yaml", SCENARIO + "noise: 0.5\nsensor: v1\n")
-        result = self.etude("run", scenario, "--clips", *clips, "--labels", path, "-o", self.out)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.ends(0, "run", scenario, "--clips", *clips, "--labels", path, "-o", self.out)
         rows = [json.loads(line) for line in (self.out / "cells.jsonl").read_text().splitlines()]
         self.assertEqual([row["clip"] for row in rows if row["method"] == "dtw"], ["anna", "bo"])
         self.assertEqual([row["move_named"] for row in rows if row["method"] == "dtw"], [1, 1])

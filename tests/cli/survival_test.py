@@ -35,8 +35,7 @@ class Survival(EtudeCase):
                                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     def resume(self, out=None):
-        result = self.etude("run", self.scenario, "-o", out or self.out, "--resume")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.ends(0, "run", self.scenario, "-o", out or self.out, "--resume")
 
     def test_killed_at_random_moments_and_resumed_it_gives_the_same_bytes(self):
         dice = random.Random(3)
@@ -99,11 +98,8 @@ class Survival(EtudeCase):
         run.wait()
         for arguments, complaint in ((["--seed", "9"], "seed was 1 and is 9"), (["--trials", "41"], "scenarios[0].trials was 40 and is 41"),
                                      (["--shard", "1/2"], "belongs to shard 1/1, not 1/2")):
-            result = self.etude("run", self.scenario, "-o", self.out, "--resume", *arguments)
-            self.assertEqual(result.returncode, 2)
-            self.assertIn(complaint, result.stderr)
-        unasked = self.etude("run", self.scenario, "-o", self.out)
-        self.assertEqual(unasked.returncode, 2)
+            self.assertIn(complaint, self.ends(2, "run", self.scenario, "-o", self.out, "--resume", *arguments).stderr)
+        unasked = self.ends(2, "run", self.scenario, "-o", self.out)
         self.assertIn("already holds an unfinished run; --resume continues it", unasked.stderr)
         self.resume()
         self.assert_same_results(self.whole, self.out)
@@ -129,24 +125,20 @@ class Survival(EtudeCase):
     def test_a_library_that_changed_is_named_and_its_acceptance_recorded(self):
         folders = self.shards()
         name = self.change_a_library(folders[1])
-        refused = self.etude("merge", *folders, "-o", self.out)
-        self.assertEqual(refused.returncode, 2, refused.stderr)
+        refused = self.ends(2, "merge", *folders, "-o", self.out)
         self.assertRegex(refused.stderr, rf'ran with other libraries than the shards before: libraries\.{name} was "\w+" '
                                          r'and is "0123456789abcdef0123"; --other-libraries merges')
         self.assertFalse(self.out.exists())
-        merged = self.etude("merge", *folders, "-o", self.out, "--other-libraries")
-        self.assertEqual(merged.returncode, 0, merged.stderr)
+        self.ends(0, "merge", *folders, "-o", self.out, "--other-libraries")
         recorded = json.loads((self.out / "other_libraries.json").read_text())
         self.assertEqual([(one["path"], one["now"]) for one in recorded],
                          [(f"libraries.{name}", '"0123456789abcdef0123"')])
-        self.assertEqual(self.etude("report", self.out, "--no-video").returncode, 0)
+        self.ends(0, "report", self.out, "--no-video")
         self.assertIn("libraries changed meanwhile", (self.out / "report" / "index.html").read_text())
         # The same of a run that is gone on with.
-        resumed = self.etude("run", self.scenario, "-o", folders[1], "--shard", "2/3", "--resume")
-        self.assertEqual(resumed.returncode, 2, resumed.stderr)
+        resumed = self.ends(2, "run", self.scenario, "-o", folders[1], "--shard", "2/3", "--resume")
         self.assertIn(f"libraries have changed since: libraries.{name} was", resumed.stderr)
-        accepted = self.etude("run", self.scenario, "-o", folders[1], "--shard", "2/3", "--resume", "--other-libraries")
-        self.assertEqual(accepted.returncode, 0, accepted.stderr)
+        self.ends(0, "run", self.scenario, "-o", folders[1], "--shard", "2/3", "--resume", "--other-libraries")
         self.assertTrue((folders[1] / "other_libraries.json").exists())
 
     def shards(self):
@@ -169,16 +161,14 @@ class Survival(EtudeCase):
             subprocess.run([ETUDE, "run", path, "--shard", f"{index}/{len(starts)}", "-o", shards[-1]], cwd=start,
                            check=True, capture_output=True)
             self.assertEqual((shards[-1] / "manifest.json").read_bytes(), (shards[0] / "manifest.json").read_bytes())
-        result = self.etude("merge", *shards, "-o", self.folder / "merged")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.ends(0, "merge", *shards, "-o", self.folder / "merged")
         self.run_suite(self.folder / "suite" / "ik.yaml", out=self.folder / "one-piece")
         self.assert_same_results(self.folder / "merged", self.folder / "one-piece")
         self.assertIn('"ik.yaml"', (shards[0] / "manifest.json").read_text())
         # Another text of that name is another suite.
         self.write("suite/ik.yaml", IK)
         self.etude("run", self.folder / "suite" / "ik.yaml", "--shard", "1/5", "-o", self.folder / "other")
-        refused = self.etude("merge", self.folder / "other", *shards[1:], "-o", self.folder / "none")
-        self.assertEqual(refused.returncode, 2)
+        refused = self.ends(2, "merge", self.folder / "other", *shards[1:], "-o", self.folder / "none")
         self.assertIn("is a shard of a different run", refused.stderr)
 
     def test_shards_merge_to_the_same_bytes_in_any_order(self):
@@ -186,8 +176,7 @@ class Survival(EtudeCase):
         host = (folders[0] / "host.json").read_bytes()
         again = self.etude("run", self.scenario, "-o", folders[0], "--shard", "1/3", "--resume")
         self.assertEqual((again.returncode, (folders[0] / "host.json").read_bytes()), (0, host))
-        result = self.etude("merge", folders[2], folders[0], folders[1], "-o", self.out)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.ends(0, "merge", folders[2], folders[0], folders[1], "-o", self.out)
         self.assert_same_results(self.whole, self.out)
 
     @heavy
@@ -197,8 +186,7 @@ class Survival(EtudeCase):
                           "damped-least-squares", "gauss-newton"))
         shards = [self.folder / "one", self.folder / "two"]
         for index, shard in enumerate(shards, 1):
-            result = self.etude("run", many, "--shard", f"{index}/2", "-o", shard)
-            self.assertEqual(result.returncode, 0, result.stderr)
+            self.ends(0, "run", many, "--shard", f"{index}/2", "-o", shard)
         merge = subprocess.Popen([ETUDE, "merge", *shards, "-o", self.out], stdout=subprocess.DEVNULL,
                                  stderr=subprocess.PIPE, text=True)
         while not (self.out / "manifest.json").exists() and merge.poll() is None:
@@ -208,9 +196,7 @@ class Survival(EtudeCase):
         self.assertEqual(merge.returncode, 130, said)
         self.assertIn("stopped; the shards are unchanged", said)
         self.assertFalse(self.out.exists())
-        whole = self.etude("merge", *shards, "-o", self.out)
-        self.assertEqual(whole.returncode, 0, whole.stderr)
-        self.assertIn("100 %  merged", whole.stderr)
+        self.assertIn("100 %  merged", self.ends(0, "merge", *shards, "-o", self.out).stderr)
 
     @heavy
     def test_a_killed_shard_is_resumed(self):
@@ -220,13 +206,12 @@ class Survival(EtudeCase):
         self.wait_for_cells(one)
         run.kill()
         run.wait()
-        self.assertEqual(self.etude("run", self.scenario, "-o", two, "--shard", "2/2").returncode, 0)
-        early = self.etude("merge", one, two, "-o", self.out)
-        self.assertEqual(early.returncode, 2)
+        self.ends(0, "run", self.scenario, "-o", two, "--shard", "2/2")
+        early = self.ends(2, "merge", one, two, "-o", self.out)
         self.assertRegex(early.stderr, r"not all 2 shards exist and are finished .*: 1/2 in \S+ lacks \d+ of 80 cells, the first ik/")
         self.assertFalse(self.out.exists())
-        self.assertEqual(self.etude("run", self.scenario, "-o", one, "--shard", "1/2", "--resume").returncode, 0)
-        self.assertEqual(self.etude("merge", one, two, "-o", self.out).returncode, 0)
+        self.ends(0, "run", self.scenario, "-o", one, "--shard", "1/2", "--resume")
+        self.ends(0, "merge", one, two, "-o", self.out)
         self.assert_same_results(self.whole, self.out)
 
     def test_shards_that_do_not_belong_together_are_refused(self):
@@ -238,15 +223,10 @@ class Survival(EtudeCase):
                                   ([*folders[:2], other], "is a shard of a different run than"),
                                   ([*folders, self.whole], "is already a whole run, not a shard"),
                                   ([*folders[:2], self.folder / "none"], "none holds no shard; 3/3 is missing")):
-            result = self.etude("merge", *shards, "-o", self.out)
-            self.assertEqual(result.returncode, 2)
-            self.assertIn(complaint, result.stderr)
-            self.assertEqual(result.stderr.count("\n"), 1)
-            self.assertFalse(self.out.exists())
+            self.refusal("merge", *shards, "-o", self.out, says=complaint, leaves=self.out)
 
     def test_a_manifest_repeats_its_run(self):
-        result = self.etude("run", "--from", self.whole / "manifest.json", "-o", self.out)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.ends(0, "run", "--from", self.whole / "manifest.json", "-o", self.out)
         self.assert_same_results(self.whole, self.out)
 
     def test_a_manifest_whose_clips_have_changed_is_refused(self):
@@ -263,15 +243,11 @@ methods:
         self.run_suite(scenario)
         lines = clip.read_text().splitlines()
         clip.write_text("\n".join(lines[:-10] + [line.replace("1", "2") for line in lines[-10:]]) + "\n")
-        result = self.etude("run", "--from", self.out / "manifest.json", "-o", self.folder / "again")
-        self.assertEqual(result.returncode, 2)
-        self.assertRegex(result.stderr, r"clip 2 of scenario t was walk \w+ \(.*\) then and is walk \w+ \(.*\) now")
-        self.assertEqual(result.stderr.count("\n"), 1)
+        self.assertRegex(self.refusal("run", "--from", self.out / "manifest.json", "-o", self.folder / "again"),
+                         r"clip 2 of scenario t was walk \w+ \(.*\) then and is walk \w+ \(.*\) now")
 
     def test_cells_replay_to_the_same_stages(self):
-        result = self.etude("replay", self.whole, "--sample", 10)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("10 of 10 cells came out the same", result.stdout)
+        self.assertIn("10 of 10 cells came out the same", self.ends(0, "replay", self.whole, "--sample", 10).stdout)
 
     def test_a_cell_that_was_tampered_with_is_found_with_its_stage(self):
         cells = self.whole / "cells.jsonl"
@@ -279,8 +255,7 @@ methods:
         rows[7]["digest_solution"] = "0123456789abcdef"
         cells.write_text("".join(json.dumps(row) + "\n" for row in rows))
         self.assertIn("cells.jsonl: was changed after the run wrote it", self.etude("replay", self.whole).stderr)
-        result = self.etude("replay", self.whole, "--unsealed")
-        self.assertEqual(result.returncode, 1)
+        result = self.ends(1, "replay", self.whole, "--unsealed")
         self.assertIn(f"differs: {rows[7]['cell']}\n  first at solution: 0123456789abcdef then,", result.stdout)
         self.assertIn("159 of 160 cells came out the same", result.stdout)
 
@@ -296,7 +271,7 @@ methods:
     def check_pack(self, cell, clips):
         bvh, glb = self.folder / "walk.bvh", self.folder / "clap.glb"
         shutil.copy("/usr/share/assimp/models/BVH/01_03.bvh", bvh)
-        self.assertEqual(self.etude("clip", "convert", "builtin:clap", glb, "--character", "bear").returncode, 0)
+        self.ends(0, "clip", "convert", "builtin:clap", glb, "--character", "bear")
         scenario = self.write("transition.yaml", f"""scenario: t
 question: Does it run?
 task: transition
@@ -308,8 +283,7 @@ methods:
 """)
         self.run_suite(scenario)
         pack = self.folder / "cell.etude"
-        packed = self.etude("replay", self.out, "--cell", cell, "--pack", pack)
-        self.assertEqual(packed.returncode, 0, packed.stderr)
+        packed = self.ends(0, "replay", self.out, "--cell", cell, "--pack", pack)
         bvh.unlink()
         glb.unlink()
         shutil.rmtree(self.out)
@@ -317,9 +291,7 @@ methods:
         self.assertEqual(replayed.returncode, 0, replayed.stderr)
         self.assertIn(f"{cell}: all stages are the same", replayed.stdout)
         pack.write_bytes(pack.read_bytes()[:-20])
-        torn = self.etude("replay", pack)
-        self.assertEqual(torn.returncode, 2)
-        self.assertIn("not a packed cell", torn.stderr)
+        self.assertIn("not a packed cell", self.ends(2, "replay", pack).stderr)
 
     def test_a_result_with_a_row_missing_or_twice_is_not_reported(self):
         cells = self.whole / "cells.jsonl"
@@ -327,9 +299,7 @@ methods:
         for changed, complaint in ((lines[:-1], "has 159 rows of scenario ik, but summary.json summarises 160"),
                                    (lines[:-1] + lines[:1], "contains the cell ik/joint_noise_deg=2/000/fixed twice")):
             cells.write_text("".join(changed))
-            result = self.etude("report", self.whole, "--no-video", "--unsealed")
-            self.assertEqual(result.returncode, 2)
-            self.assertIn(complaint, result.stderr)
+            self.assertIn(complaint, self.ends(2, "report", self.whole, "--no-video", "--unsealed").stderr)
 
     def test_a_full_disk_is_one_complaint_and_loses_nothing(self):
         limited = subprocess.run(["bash", "-c", 'ulimit -f 400; exec "$0" run "$1" -o "$2"', ETUDE, self.scenario, self.out],
@@ -342,13 +312,10 @@ methods:
 
     def test_no_option_takes_an_empty_value(self):
         for arguments in (["run", self.scenario, "-o", ""], ["gate", self.whole, "--baseline", ""], ["report", ""]):
-            result = self.etude(*arguments)
-            self.assertEqual(result.returncode, 2)
-            self.assertIn("must not be empty", result.stderr)
+            self.assertIn("must not be empty", self.ends(2, *arguments).stderr)
 
     def test_an_unknown_cell_is_named_with_the_nearest(self):
-        result = self.etude("replay", self.whole, "--cell", "ik/joint_noise_deg=2/000/fixd")
-        self.assertEqual(result.returncode, 2)
+        result = self.ends(2, "replay", self.whole, "--cell", "ik/joint_noise_deg=2/000/fixd")
         self.assertIn("did you mean 'ik/joint_noise_deg=2/000/fixed'?", result.stderr)
 
 

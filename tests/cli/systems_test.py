@@ -86,8 +86,7 @@ class Systems(EtudeCase):
         here = self.folder / "here"
         if not here.exists():
             subprocess.run([ETUDE, "run", "quick", "-o", here], check=True, capture_output=True)
-        told = self.etude("compare", here, root / "srv/etude/out/quick")
-        self.assertEqual(told.returncode, 0, told.stderr)
+        told = self.ends(0, "compare", here, root / "srv/etude/out/quick")
         self.assertIn(f"({name})", told.stdout)
         ours, theirs = ([json.loads(line) for line in (folder / "cells.jsonl").read_text().splitlines()]
                         for folder in (here, root / "srv/etude/out/quick"))

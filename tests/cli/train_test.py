@@ -37,8 +37,7 @@ class Train(EtudeCase):
         self.assertEqual((told["held_out"], len(told["scores"])), (["builtin:boxing", "builtin:bird"], 4))
         scenario = self.folder / "tuned_scenario.yaml"
         scenario.write_text(SCENARIO.format(self.folder / "tuned.yaml"))
-        rows = self.run_suite(scenario)
-        self.assertEqual(len(rows), 8)
+        self.assertEqual(len(self.run_suite(scenario)), 8)
 
     def test_the_same_seed_gives_the_same_bytes(self):
         files = []

@@ -68,7 +68,7 @@ class Triage(EtudeCase):
         self.triage(f"{self.folder}/m/*", f"{self.shared}/*", "--limits", "recorded", code=1)
         self.assertEqual({name: row["within_limits"] for name, row in self.rows().items()},
                          {"clap": 1, "floating": 0, "sway": 1})
-        self.assertEqual(self.etude("report", self.out, "--no-video").returncode, 0)
+        self.ends(0, "report", self.out, "--no-video")
         failed = [case.get("name") for case in xml.etree.ElementTree.parse(self.out / "report" / "junit.xml").iter("testcase")
                   if case.find("failure") is not None]
         self.assertEqual(failed, ["motions, floating"])
@@ -90,18 +90,16 @@ class Triage(EtudeCase):
         worse = self.folder / "worse"
         self.triage(f"first={self.folder}/a", f"second={self.folder}/b/*.csv", out=worse)
         baseline = self.folder / "baseline.json"
-        self.assertEqual(self.etude("gate", self.out, "--baseline", baseline, "--update").returncode, 0)
-        self.assertEqual(self.etude("gate", self.out, "--baseline", baseline).returncode, 0)
+        self.ends(0, "gate", self.out, "--baseline", baseline, "--update")
+        self.ends(0, "gate", self.out, "--baseline", baseline)
         facts = self.facts("compare", self.out, worse)
         self.assertEqual((facts["only_before"], facts["only_after"]), ([], []))
         self.assertEqual({(move["method"], move["metric"]) for move in facts["moves"]} & {("second", "pops"), ("first", "pops")},
                          {("second", "pops")})
         # A changed file is told by verify.
-        self.assertEqual(self.etude("verify", worse).returncode, 0)
+        self.ends(0, "verify", worse)
         self.floating("b/two.csv")
-        told = self.etude("verify", worse)
-        self.assertEqual(told.returncode, 2, told.stdout)
-        self.assertIn("b/two.csv", told.stderr)
+        self.assertIn("b/two.csv", self.ends(2, "verify", worse).stderr)
 
     def test_what_cannot_be_judged_is_a_row_and_the_others_stay(self):
         self.spoilt("m/good.csv", lambda f, joint, axis: 0)
@@ -129,12 +127,8 @@ class Triage(EtudeCase):
                 ([clap, "--limits", self.write("m.yaml", "{}\n")], "sets no limit"),
                 ([clap, "--metric", "mpjpe_root_mm"], "unknown metric of task plausibility")]:
             with self.subTest(words):
-                told = self.etude("evaluate", "--alone", *arguments, "-o", self.out)
-                self.assertEqual(told.returncode, 2, told.stdout + told.stderr)
-                self.assertIn(words, told.stderr)
-                self.assertEqual(told.stderr.count("\n"), 1, told.stderr)
-        told = self.etude("evaluate", clap, clap, "--limits", "recorded")
-        self.assertIn("--floor and --limits need --alone", told.stderr)
+                self.refusal("evaluate", "--alone", *arguments, "-o", self.out, says=words)
+        self.assertIn("--floor and --limits need --alone", self.etude("evaluate", clap, clap, "--limits", "recorded").stderr)
 
 
 if __name__ == "__main__":

@@ -182,7 +182,7 @@ class Verify(EtudeCase):
         # Others need no Etude to check it.
         for command in ["minisign", "-V", "-p", public, "-m", "signed.b2"], ["b2sum", "-c", "--quiet", "signed.b2"]:
             self.assertEqual(subprocess.run(command, cwd=self.out, capture_output=True).returncode, 0, command)
-        self.assertEqual(self.etude("gate", self.out).returncode, 0)  # what is signed is a run like any other
+        self.ends(0, "gate", self.out)  # what is signed is a run like any other
         self.assertIn("was made with key", self.differences("--sample", 0, "--check", self.keys("other", "-W")[1])[1])
         forge(self.out / "host.json", '"jobs":', '"jobs":1')  # which nothing else would find
         reseal(self.out)
@@ -216,7 +216,7 @@ class Verify(EtudeCase):
         self.assertNotIn("Not verified", self.verify("--allow-exec", expect=0))
 
     def test_what_is_no_run_is_bad_input(self):
-        self.assertEqual(self.etude("verify", self.folder / "none").returncode, 2)
+        self.ends(2, "verify", self.folder / "none")
 
 
 class Forgers(EtudeCase):
@@ -271,8 +271,7 @@ class Forgers(EtudeCase):
         self.forge_all_but(spared)
         self.assertNotEqual(self.verdict(), honest)
         # By dice that they know (the run's own seed) they are missed; all else that they say agrees with itself.
-        foreseen = self.etude("verify", self.out, "-j", 1, "--sample", 10, "--sample-seed", 1)
-        self.assertEqual(foreseen.returncode, 0, foreseen.stdout)
+        self.ends(0, "verify", self.out, "-j", 1, "--sample", 10, "--sample-seed", 1)
         unforeseen = self.etude("verify", self.out, "-j", 1)  # one in 10^11 that it misses
         self.assertEqual(unforeseen.returncode, 1, unforeseen.stdout)
         told = json.loads(self.etude("verify", self.out, "-j", 1, "--sample", "all", "--json").stdout)
@@ -305,25 +304,21 @@ class Forgers(EtudeCase):
             (self.out / name).write_text("".join(b + a for a, b in zip(lines[::2], lines[1::2])))
         shutil.copy(lie / "out" / "summary.json", self.out)
         reseal(self.out)
-        found = self.etude("verify", self.out, "-j", 1, "--sample", "all")
-        self.assertEqual(found.returncode, 1, found.stdout)
+        found = self.ends(1, "verify", self.out, "-j", 1, "--sample", "all")
         self.assertIn("row 1 is ik/joint_noise_deg=2/000/least-squares; expected ik/joint_noise_deg=2/000/fixed", found.stdout)
-        replayed = self.etude("replay", self.out)
-        self.assertEqual(replayed.returncode, 1)
-        self.assertIn("0 of 16 cells came out the same", replayed.stdout)
+        self.assertIn("0 of 16 cells came out the same", self.ends(1, "replay", self.out).stdout)
 
     def test_cannot_change_what_worlds_were_drawn_from(self):
         scenario = self.write("t.yaml", "scenario: t\nquestion: q\ntask: tracking\nclips: ['builtin:clap', 'builtin:sway']\n"
                                         "trials: 2\nmethods: [{name: a, solver: damped-least-squares}]\n")
         self.run_suite(scenario, "-j", 1)
-        self.assertEqual(self.etude("verify", self.out, "-j", 1).returncode, 0)
+        self.ends(0, "verify", self.out, "-j", 1)
         cells = self.out / "cells.jsonl"
         units = re.findall(r'"units":(\[[^]]+\])', cells.read_text())
         self.assertEqual(len(set(units)), 2)
         forge(cells, f'"units":{units[0]}', f'"units":{units[1]}')
         reseal(self.out)
-        found = self.etude("verify", self.out, "--sample", 1)
-        self.assertEqual(found.returncode, 1)
+        found = self.ends(1, "verify", self.out, "--sample", 1)
         self.assertRegex(found.stdout, r"(?m)^differs +worlds: every row .*\n  t/-/000/a: units was")
 
 

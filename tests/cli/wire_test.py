@@ -83,8 +83,7 @@ class Wire(EtudeCase):
         for task, text in exports.items():
             scenario = self.write(f"{task}.yaml", f"scenario: {task}\nquestion: q\ntrials: 1\nmethods: [{{name: a}}]\n{text}")
             data = self.folder / f"data-{task}"
-            done = self.etude("export", scenario, "-o", data)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            self.ends(0, "export", scenario, "-o", data)
             for path in sorted([*data.glob("inputs/**/setting.json"), *data.glob("inputs/**/problem.json")]):
                 found = complaints(json.loads(path.read_text()), wire_probe.payload_schema(task, "", path.stem))
                 self.assertEqual([each[:300] for each in found[:3]], [], path)

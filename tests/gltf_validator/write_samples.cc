@@ -19,8 +19,7 @@ namespace {
 
 /// A triangle near the origin, on one joint.
 SkinnedMesh Triangle(const std::string& name, int joint) {
-  SkinnedMesh mesh;
-  mesh.name = name;
+  SkinnedMesh mesh{.name = name};
   mesh.bindings.resize(1);
   mesh.bindings[0].joint = joint;
   for (int i = 0; i < 3; ++i) {

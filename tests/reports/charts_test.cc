@@ -62,9 +62,9 @@ TEST(CurveChart, OfMotionsIsDrawnAlongTheFramesOfTheFirstCondition) {
 TEST(CurveChart, IsOfTheScenariosOwnMetricAndNeverOfWhatWasNotAskedFor) {
   RunData run = TrackingRun();
   run.scenarios.front().headline_metrics = {"angle_jerk_ratio"};
-  EXPECT_THAT(CurveChart(run, run.scenarios.front())->caption, testing::HasSubstr("effector position error"));
+  EXPECT_THAT(CurveChart(run, run.scenarios.front())->caption, ::testing::HasSubstr("effector position error"));
   for (CellSeries& cell : run.series) std::ranges::fill(cell.series[1].values, 0);
-  EXPECT_THAT(CurveChart(run, run.scenarios.front())->caption, testing::HasSubstr("joint error"));
+  EXPECT_THAT(CurveChart(run, run.scenarios.front())->caption, ::testing::HasSubstr("joint error"));
   for (CellSeries& cell : run.series) cell.series.pop_back();
   EXPECT_FALSE(CurveChart(run, run.scenarios.front()).has_value());
 }
@@ -73,7 +73,8 @@ TEST(CurveChart, OfAMeanOverEffectorsIsThatOfTheWorst) {
   RunData run = TrackingRun();
   run.scenarios.front().headline_metrics = {"frames_solved", "orientation_error_deg", "mpjpe_mm"};
   for (CellSeries& cell : run.series) cell.series[1].name = "orientation_error_max_deg";
-  EXPECT_THAT(CurveChart(run, run.scenarios.front())->caption, testing::HasSubstr("worst effector orientation error"));
+  EXPECT_THAT(CurveChart(run, run.scenarios.front())->caption,
+              ::testing::HasSubstr("worst effector orientation error"));
 }
 
 TEST(CurveChart, IsTheSameWhateverCellsKeepOfSingleEffectors) {

@@ -107,10 +107,7 @@ TEST(ComparisonTable, TellsOfNoPairTwice) {
 
 /// What two laws say of one comparison, and what they say together.
 AcrossVerdict Said(Verdict under_power, Verdict under_two_rate, Verdict together) {
-  AcrossVerdict across;
-  across.condition = {{"noise", "1"}};
-  across.metric = "retention";
-  across.method = "oracle";
+  AcrossVerdict across{.condition = {{"noise", "1"}}, .metric = "retention", .method = "oracle"};
   across.baseline = "a<b";
   across.each = {{"learning=power", under_power, 0.031}, {"learning=two-rate", under_two_rate, {}}};
   across.verdict = together;
@@ -118,8 +115,7 @@ AcrossVerdict Said(Verdict under_power, Verdict under_two_rate, Verdict together
 }
 
 ScenarioSummary ScenarioOf(std::vector<AcrossVerdict> verdicts) {
-  ScenarioSummary scenario;
-  scenario.across = std::move(verdicts);
+  ScenarioSummary scenario{.across = std::move(verdicts)};
   return scenario;
 }
 

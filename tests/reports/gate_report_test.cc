@@ -7,15 +7,12 @@
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 MetricMove MoveOf(const std::string& method, const std::string& metric, Movement movement, double before,
                   double after) {
-  MetricMove move;
-  move.identity = {"ik-weights", "joint_noise_deg=5", method, metric};
-  move.movement = movement;
-  move.worlds = 60;
+  MetricMove move{.identity = {"ik-weights", "joint_noise_deg=5", method, metric}, .movement = movement, .worlds = 60};
   move.differing = movement == Movement::kSame ? 0 : 12;
   move.before = before;
   move.after = after;
@@ -27,10 +24,7 @@ MetricMove MoveOf(const std::string& method, const std::string& metric, Movement
 }
 
 GateReport Example() {
-  GateReport report;
-  report.suite = "quick";
-  report.baseline_file = "quick.json";
-  report.baseline_version = "1.0";
+  GateReport report{.suite = "quick", .baseline_file = "quick.json", .baseline_version = "1.0"};
   report.program_version = "1.1";
   report.comparison.moves = {MoveOf("fixed", "position_error_cm", Movement::kSame, 1, 1),
                              MoveOf("fixed", "iterations", Movement::kBetter, 90, 60),
@@ -43,8 +37,7 @@ GateReport Example() {
 }
 
 GateReport Nothing() {
-  GateReport report;
-  report.suite = "quick";
+  GateReport report{.suite = "quick"};
   return report;
 }
 
@@ -134,8 +127,7 @@ TEST(GateTail, QuotesWhatAShellWouldTakeApartAndTellsStatuses) {
   MetricMove move = TailMove(Movement::kWorse);
   move.identity.condition = "poses={uniform: 0.5}";
   move.identity.metric = kOkShare;
-  GateReport report;
-  report.run_folder = "it's";
+  GateReport report{.run_folder = "it's"};
   const auto lines = TailLines({&move}, report, 1);
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_EQ(lines[0].replay, "etude replay 'it'\\''s' --cell 'ik-weights/poses={uniform: 0.5}/007/adaptive'");

@@ -81,10 +81,7 @@ TEST(OverviewTable, ShowsTheVerdictAgainstTheBestOtherBesideTheBaselines) {
 /// One pair of poses, of which "fuzzy" says that they are alike and "joints" that they are not.
 RunData OnePair(double called_alike) {
   RunData run;
-  ScenarioSummary scenario;
-  scenario.name = "blind";
-  scenario.task = "pose-distance";
-  scenario.methods = {"fuzzy", "joints"};
+  ScenarioSummary scenario{.name = "blind", .task = "pose-distance", .methods = {"fuzzy", "joints"}};
   scenario.conditions.resize(1);
   run.scenarios.push_back(scenario);
   const auto add = [&](const std::string& method, bool alike, double said) {

@@ -4,13 +4,16 @@ first problem or where its name says so, does what a hostile program would do. D
 Every specimen is bounded by what it does itself, for the day on which no fence holds: few processes, each of which ends
 within seconds; few megabytes; no signal but to those whom zoo_test.py has put there to be hit.
 """
+import contextlib
 import ctypes
 import fcntl
 import json
+import mmap
 import os
 import pathlib
 import re
 import resource
+import select
 import signal
 import socket
 import stat
@@ -22,6 +25,7 @@ import time
 
 SPECIMEN, DEN = sys.argv[1], pathlib.Path(sys.argv[2])
 HARMLESS_DEVICES = {os.makedev(1, minor) for minor in (3, 5, 7, 8, 9)} | {os.makedev(5, 0)}  # null, zero, full, random, urandom, tty
+LIBC = ctypes.CDLL(None, use_errno=True)
 LIFE_S = 20  # of whatever is left behind, unless somebody ends it
 VICTIM = json.loads((DEN / "victim.json").read_text()) if (DEN / "victim.json").exists() else {}
 
@@ -58,19 +62,15 @@ def live_on():
 def harm(what):
     """Leaves a mark outside, where it can."""
     for place in (DEN / "marks", pathlib.Path("/var/tmp")):
-        try:
+        with contextlib.suppress(OSError):
             (place / f"zoo-{SPECIMEN}-{what}").write_text("was here\n")
-        except OSError:
-            pass
 
 
 def victimise(what):
     """Tells the watcher that `what` succeeded: through the one file that is everybody's."""
-    try:
+    with contextlib.suppress(OSError):
         with open(DEN / "marks" / "victims", "a") as file:
             file.write(f"{SPECIMEN}: {what}\n")
-    except OSError:
-        pass
     print(f"ZOO-VICTIM {SPECIMEN}: {what}", file=sys.stderr, flush=True)
 
 
@@ -133,7 +133,7 @@ def ignores_every_signal(problem):
 def renames_itself(problem):
     if os.fork() == 0:
         os.setsid()
-        ctypes.CDLL(None).prctl(15, b"kworker/0:1", 0, 0, 0)
+        LIBC.prctl(15, b"kworker/0:1", 0, 0, 0)
         live_on()
 
 
@@ -173,12 +173,12 @@ def is_not_reaped(problem):
 
 
 def becomes_subreaper(problem):
-    ctypes.CDLL(None).prctl(36, 1, 0, 0, 0)
+    LIBC.prctl(36, 1, 0, 0, 0)
     daemon()
 
 
 def clears_its_death_signal(problem):
-    ctypes.CDLL(None).prctl(1, 0, 0, 0, 0)
+    LIBC.prctl(1, 0, 0, 0, 0)
     daemon()
 
 
@@ -209,11 +209,9 @@ def stops_its_parent(problem):
 
 
 def kills_the_victim(problem):
-    try:
+    with contextlib.suppress(OSError):
         os.kill(VICTIM["pid"], signal.SIGUSR1)
         victimise("signalled another process")
-    except OSError:
-        pass
 
 
 def kills_all(problem):
@@ -229,7 +227,7 @@ def kills_its_group(problem):
 
 
 def reads_its_parents_memory(problem):
-    try:
+    with contextlib.suppress(OSError, StopIteration):
         with open(f"/proc/{os.getppid()}/maps") as maps:
             line = next(line for line in maps if "[heap]" in line)
         start = int(line.split("-")[0], 16)
@@ -237,30 +235,24 @@ def reads_its_parents_memory(problem):
             memory.seek(start)
             if memory.read(4096) and "etude" in pathlib.Path(f"/proc/{os.getppid()}/comm").read_text():
                 victimise("read its parent's memory")
-    except (OSError, StopIteration):
-        pass
 
 
 def reads_its_parents_files(problem):
     parent = os.getppid()
-    try:
+    with contextlib.suppress(OSError):
         links = [os.readlink(f"/proc/{parent}/fd/{name}") for name in os.listdir(f"/proc/{parent}/fd")]
         if "etude" in pathlib.Path(f"/proc/{parent}/comm").read_text() and links:
             victimise("read its parent's open files")
-    except OSError:
-        pass
 
 
 def reads_its_parents_environment(problem):
-    try:
+    with contextlib.suppress(OSError):
         if pathlib.Path(f"/proc/{os.getppid()}/environ").read_bytes() and os.getppid() > 1:
             victimise("read its parent's environment")
-    except OSError:
-        pass
 
 
 def traces_the_victim(problem):
-    if ctypes.CDLL(None, use_errno=True).ptrace(16, VICTIM["pid"], 0, 0) == 0:
+    if LIBC.ptrace(16, VICTIM["pid"], 0, 0) == 0:
         victimise("traced another process")
 
 
@@ -270,28 +262,22 @@ def lists_processes(problem):
 
 
 def writes_to_the_victims_output(problem):
-    try:
+    with contextlib.suppress(OSError):
         with open(f"/proc/{VICTIM['pid']}/fd/1", "w") as file:
             file.write("")
         victimise("opened another process's output")
-    except OSError:
-        pass
 
 
 def changes_the_victims_priority(problem):
-    try:
+    with contextlib.suppress(OSError):
         os.setpriority(os.PRIO_PROCESS, VICTIM["pid"], 5)
         victimise("changed another process's priority")
-    except OSError:
-        pass
 
 
 def limits_the_victim(problem):
-    try:
+    with contextlib.suppress(OSError, ValueError):
         resource.prlimit(VICTIM["pid"], resource.RLIMIT_CORE, (0, resource.RLIM_INFINITY))
         victimise("changed another process's limits")
-    except (OSError, ValueError):
-        pass
 
 
 # --- network and messages --------------------------------------------------------------------------------------------
@@ -322,51 +308,42 @@ def listens_at_a_port(problem):
 
 def asks_a_name_server(problem):
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as link:
-        try:
+        with contextlib.suppress(OSError):
             link.connect(("192.0.2.1", 53))  # TEST-NET-1: nobody; only a route is looked for
             victimise("has a route to the network")
-        except OSError:
-            pass
 
 
 def opens_a_raw_socket(problem):
-    try:
+    with contextlib.suppress(OSError):
         socket.socket(socket.AF_PACKET, socket.SOCK_RAW).close()
         victimise("opened a raw socket")
-    except OSError:
-        pass
 
 
 def finds_shared_memory(problem):
-    libc = ctypes.CDLL(None, use_errno=True)
-    if libc.shmget(VICTIM["shared_memory"], 1, 0) >= 0:
+    if LIBC.shmget(VICTIM["shared_memory"], 1, 0) >= 0:
         victimise("found shared memory")
 
 
 def makes_shared_memory(problem):
-    libc = ctypes.CDLL(None, use_errno=True)
-    number = libc.shmget(0x5A006E57, 4096, 0o1600)
+    number = LIBC.shmget(0x5A006E57, 4096, 0o1600)
     if number >= 0 and not is_fenced():
         victimise("made shared memory that would outlive it")
-        libc.shmctl(number, 0, None)
+        LIBC.shmctl(number, 0, None)
 
 
 def makes_a_message_queue(problem):
-    libc = ctypes.CDLL(None, use_errno=True)
-    number = libc.msgget(0x5A006E58, 0o1600)
+    number = LIBC.msgget(0x5A006E58, 0o1600)
     if number >= 0 and not is_fenced():
         victimise("made a message queue that would outlive it")
-        libc.msgctl(number, 0, None)
+        LIBC.msgctl(number, 0, None)
 
 
 # --- files -----------------------------------------------------------------------------------------------------------
 def try_to_write(path, what):
-    try:
+    with contextlib.suppress(OSError):
         with open(path, "a") as file:
             file.write("zoo")
         victimise(what)
-    except OSError:
-        pass
 
 
 def writes_into_the_run(problem):
@@ -375,20 +352,16 @@ def writes_into_the_run(problem):
 
 
 def reads_the_run(problem):
-    try:
+    with contextlib.suppress(OSError):
         if (DEN / "out" / "manifest.json").read_text():
             victimise("read the manifest of the run")
-    except OSError:
-        pass
 
 
 def removes_the_run(problem):
-    try:
+    with contextlib.suppress(OSError):
         os.rename(DEN / "out" / "stderr", DEN / "out" / "errors")
         os.rename(DEN / "out" / "errors", DEN / "out" / "stderr")
         victimise("renamed a folder of the run")
-    except OSError:
-        pass
 
 
 def writes_into_its_folder(problem):
@@ -401,42 +374,32 @@ def writes_into_home(problem):
 
 def writes_into_tmp(problem):
     for folder in ("/tmp", "/var/tmp", "/dev/shm"):
-        try:
+        with contextlib.suppress(OSError):
             pathlib.Path(folder, "zoo-left-behind").write_text("zoo")
-        except OSError:
-            pass
 
 
 def links_to_the_victims_file(problem):
-    try:
+    with contextlib.suppress(OSError):
         os.link(VICTIM["file"], DEN / "marks" / "link")
         victimise("linked to a file")
-    except OSError:
-        pass
 
 
 def changes_a_mode(problem):
-    try:
+    with contextlib.suppress(OSError):
         os.chmod(VICTIM["file"], 0o600)
         victimise("changed a file's mode")
-    except OSError:
-        pass
 
 
 def truncates_a_file(problem):
-    try:
+    with contextlib.suppress(OSError):
         os.truncate(VICTIM["file"], 0)
         victimise("truncated a file")
-    except OSError:
-        pass
 
 
 def reads_others_temporary_files(problem):
-    try:
+    with contextlib.suppress(OSError):
         if pathlib.Path(VICTIM["file"]).read_text():
             victimise("read another's temporary file")
-    except OSError:
-        pass
 
 
 def opens_all_for_writing(problem):
@@ -479,12 +442,10 @@ def is_writable(path):
 def reads_secrets_of_the_machine(problem):
     """What root may read, and nobody else."""
     for path in ("/etc/shadow", "/etc/gshadow", "/proc/slabinfo", "/proc/sys/kernel/usermodehelper/bset"):
-        try:
+        with contextlib.suppress(OSError):
             with open(path, "rb") as file:
                 if file.read(1):
                     victimise(f"read {path}")
-        except OSError:
-            pass
 
 
 def reads_who_runs_it(problem):
@@ -503,67 +464,56 @@ def reads_who_runs_it(problem):
 
 def fills_the_disk(problem):
     for folder in ("/tmp", "/var/tmp", "/dev/shm", str(DEN / "marks")):
-        try:
+        with contextlib.suppress(OSError):
             with open(f"{folder}/zoo-large", "wb") as file:
                 for _ in range(32):
                     file.write(bytes(1 << 20))
             if folder == str(DEN / "marks"):
                 victimise("filled the disk")
-        except OSError:
-            pass
 
 
 def makes_many_files(problem):
-    try:
+    with contextlib.suppress(OSError):
         os.mkdir("/tmp/zoo-many")
         for i in range(20000):
             os.mknod(f"/tmp/zoo-many/{i}")
-    except OSError:
-        pass
 
 
 def mounts_over(problem):
-    libc = ctypes.CDLL(None, use_errno=True)
     os.makedirs("/tmp/zoo-mount", exist_ok=True)
-    if libc.mount(b"none", b"/tmp/zoo-mount", b"tmpfs", 0, None) == 0:
-        libc.umount2(b"/tmp/zoo-mount", 2)
+    if LIBC.mount(b"none", b"/tmp/zoo-mount", b"tmpfs", 0, None) == 0:
+        LIBC.umount2(b"/tmp/zoo-mount", 2)
         victimise("mounted a file system")
 
 
 def remounts_writable(problem):
-    libc = ctypes.CDLL(None, use_errno=True)
-    if is_fenced() and libc.mount(None, b"/", None, 32 | 4096, None) == 0:
+    if is_fenced() and LIBC.mount(None, b"/", None, 32 | 4096, None) == 0:
         victimise("made the system writable")
 
 
 def makes_a_namespace(problem):
-    libc = ctypes.CDLL(None, use_errno=True)
-    if libc.unshare(0x10000000) == 0:
+    if LIBC.unshare(0x10000000) == 0:
         victimise("made a user namespace")
 
 
 def gains_privileges(problem):
-    flag = ctypes.CDLL(None).prctl(39, 0, 0, 0, 0)
+    flag = LIBC.prctl(39, 0, 0, 0, 0)
     if flag != 1:
         victimise("may gain privileges")
 
 
 def leaves_its_root(problem):
-    try:
+    with contextlib.suppress(OSError):
         os.chroot("/tmp")
         victimise("changed its root")
-    except OSError:
-        pass
 
 
 def types_at_the_terminal(problem):
     import termios
-    try:
+    with contextlib.suppress(OSError):
         with open("/dev/tty", "w") as terminal:
             fcntl.ioctl(terminal, termios.TIOCSTI, b" ")
         victimise("typed at the terminal")
-    except OSError:
-        pass
 
 
 # --- too much --------------------------------------------------------------------------------------------------------
@@ -621,22 +571,20 @@ def hides_memory_behind_descriptors(problem):
 
 def hides_memory_in_segments(problem):
     """Only fenced: elsewhere they would outlive it."""
-    libc = ctypes.CDLL(None, use_errno=True)
-    libc.shmat.restype = ctypes.c_void_p
+    LIBC.shmat.restype = ctypes.c_void_p
     for _ in range(9 if is_fenced() else 0):
-        number = libc.shmget(0, 60 << 20, 0o1600)
+        number = LIBC.shmget(0, 60 << 20, 0o1600)
         if number < 0:
             return
-        place = libc.shmat(number, None, 0)
+        place = LIBC.shmat(number, None, 0)
         ctypes.memset(place, 1, 60 << 20)
-        libc.shmdt(ctypes.c_void_p(place))
+        LIBC.shmdt(ctypes.c_void_p(place))
     if is_fenced():
         time.sleep(1)
         victimise("held 540 MB in segments")
 
 
 def hides_memory_in_mappings(problem):
-    import mmap
     shared = mmap.mmap(-1, 540 << 20)
     for part in range(0, 540, 60):
         shared[part << 20:(part + 60) << 20] = bytes(60 << 20)
@@ -674,50 +622,44 @@ def in_children(fills, meanwhile=lambda: None):
 
 def splits_a_shared_mapping(problem):
     """1.2 GB in one piece of shared memory: each of six processes maps a sixth of it, and lets go what it has written."""
-    import mmap
-    libc = ctypes.CDLL(None, use_errno=True)
-    libc.munmap.argtypes = [ctypes.c_void_p, ctypes.c_size_t]
-    libc.madvise.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int]
+    LIBC.munmap.argtypes = [ctypes.c_void_p, ctypes.c_size_t]
+    LIBC.madvise.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int]
     part, piece = 200 << 20, 10 << 20
     shared = mmap.mmap(-1, 6 * part)
     start = ctypes.addressof(ctypes.c_char.from_buffer(shared))
 
     def fill(number):
-        libc.munmap(start, number * part)
-        libc.munmap(start + (number + 1) * part, (5 - number) * part)
+        LIBC.munmap(start, number * part)
+        LIBC.munmap(start + (number + 1) * part, (5 - number) * part)
         for at in range(start + number * part, start + (number + 1) * part, piece):
             ctypes.memset(at, 1, piece)
-            libc.madvise(at, piece, mmap.MADV_DONTNEED)
+            LIBC.madvise(at, piece, mmap.MADV_DONTNEED)
         return part / 1e6
-    in_children([lambda number=number: fill(number) for number in range(6)], lambda: libc.munmap(start, 6 * part))
+    in_children([lambda number=number: fill(number) for number in range(6)], lambda: LIBC.munmap(start, 6 * part))
     tell_of_memory("in one mapping", 1200)
 
 
 def hides_memory_behind_one_page(problem):
     """Of each of 60 pieces of shared memory one page stays mapped, and keeps all of it."""
-    libc = ctypes.CDLL(None, use_errno=True)
-    libc.mmap.restype, size = ctypes.c_void_p, 20 << 20
-    libc.munmap.argtypes = [ctypes.c_void_p, ctypes.c_size_t]
+    LIBC.mmap.restype, size = ctypes.c_void_p, 20 << 20
+    LIBC.munmap.argtypes = [ctypes.c_void_p, ctypes.c_size_t]
     for _ in range(60):
-        start = libc.mmap(None, ctypes.c_size_t(size), 3, 0x21, -1, 0)
+        start = LIBC.mmap(None, ctypes.c_size_t(size), 3, 0x21, -1, 0)
         ctypes.memset(start, 1, size)
-        libc.munmap(start + 4096, size - 4096)
+        LIBC.munmap(start + 4096, size - 4096)
     tell_of_memory("behind a page each", 60 * 21)
 
 
 def hides_memory_in_semaphores(problem):
     """600 sets of 32000 each. Only fenced: elsewhere they would outlive it."""
-    libc = ctypes.CDLL(None, use_errno=True)
     made = 0
-    while is_fenced() and made < 600 and libc.semget(0, 32000, 0o1600) >= 0:
+    while is_fenced() and made < 600 and LIBC.semget(0, 32000, 0o1600) >= 0:
         made += 1
     tell_of_memory("in semaphores", made * 32000 * 64 / 1e6)
 
 
 def hides_memory_in_page_tables(problem):
     """Pages that are read, but never written, are all one; but each has its place in a table."""
-    import mmap
-
     def fill():
         resource.setrlimit(resource.RLIMIT_AS, (resource.RLIM_INFINITY,) * 2)
         size, step = 75 << 30, 2 << 20
@@ -730,12 +672,10 @@ def hides_memory_in_page_tables(problem):
 
 def splits_memory():
     """64,000 mappings: as many as one process may have. The MB that the kernel needs for them."""
-    import mmap
-    libc = ctypes.CDLL(None, use_errno=True)
-    libc.mprotect.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int]
+    LIBC.mprotect.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int]
     splits_memory.memory = mmap.mmap(-1, 256 << 20, mmap.MAP_PRIVATE)
     start, made = ctypes.addressof(ctypes.c_char.from_buffer(splits_memory.memory)), 0
-    while made < 32000 and libc.mprotect(start + made * 8192, 4096, 0) == 0:
+    while made < 32000 and LIBC.mprotect(start + made * 8192, 4096, 0) == 0:
         made += 1
     return made * 2 * 200 / 1e6
 
@@ -748,11 +688,9 @@ def fill_socket(link, most=1 << 30):
     """Sends until it would have to wait; the MB that it took."""
     link.setblocking(False)
     sent = 0
-    try:
+    with contextlib.suppress(OSError):
         while sent < most:
             sent += link.send(bytes(100_000))
-    except OSError:
-        pass
     return sent / 1e6
 
 
@@ -819,10 +757,8 @@ def hides_memory_in_pipes(problem):
         fill.pipes, mb = [], 0
         while len(fill.pipes) < 200:
             fill.pipes.append(os.pipe())
-            try:
+            with contextlib.suppress(OSError):
                 fcntl.fcntl(fill.pipes[-1][1], 1031, 1 << 20)  # F_SETPIPE_SZ
-            except OSError:
-                pass
             os.set_blocking(fill.pipes[-1][1], False)
             mb += os.write(fill.pipes[-1][1], bytes(1 << 20)) / 1e6
         return mb
@@ -831,19 +767,18 @@ def hides_memory_in_pipes(problem):
 
 def hides_memory_in_pinned_pages(problem):
     """Of each huge page a pipe holds one byte, and so the page, though nobody maps it any more."""
-    libc = ctypes.CDLL(None, use_errno=True)
-    libc.mmap.restype, size, page = ctypes.c_void_p, 40 << 20, 2 << 20
+    LIBC.mmap.restype, size, page = ctypes.c_void_p, 40 << 20, 2 << 20
     pipes = []
     for _ in range(40):
-        start = libc.mmap(None, ctypes.c_size_t(size), 3, 0x22, -1, 0)
-        libc.madvise(ctypes.c_void_p(start), ctypes.c_size_t(size), 14)  # MADV_HUGEPAGE
+        start = LIBC.mmap(None, ctypes.c_size_t(size), 3, 0x22, -1, 0)
+        LIBC.madvise(ctypes.c_void_p(start), ctypes.c_size_t(size), 14)  # MADV_HUGEPAGE
         pipes.append(os.pipe())
         for at in range(start - start % page + page, start + size - page, page)[:15]:
             ctypes.memset(at, 1, 1)
             words = (ctypes.c_size_t * 2)(at, 1)
-            if libc.syscall({"x86_64": 278, "aarch64": 75}[os.uname().machine], pipes[-1][1], words, 1, 0) != 1:
+            if LIBC.syscall({"x86_64": 278, "aarch64": 75}[os.uname().machine], pipes[-1][1], words, 1, 0) != 1:
                 return
-        libc.munmap(ctypes.c_void_p(start), ctypes.c_size_t(size))
+        LIBC.munmap(ctypes.c_void_p(start), ctypes.c_size_t(size))
     tell_of_memory("in pinned pages", 40 * 15 * 2)
 
 
@@ -855,11 +790,9 @@ def hides_memory_in_sent_pages(problem):
             for one, _ in fill.pairs:
                 one.setblocking(False)
                 file.write(bytes(2 << 20))
-                try:
+                with contextlib.suppress(BlockingIOError):
                     for page in range(512):
                         sent += os.sendfile(one.fileno(), file.fileno(), page * 4096, 1)
-                except BlockingIOError:
-                    pass
                 file.seek(0)
                 file.truncate()
             os.unlink(file.name)
@@ -869,13 +802,12 @@ def hides_memory_in_sent_pages(problem):
 
 def hides_memory_in_filters(problem):
     """Each of 900 threads has filters of system calls of its own, which allow everything."""
-    libc = ctypes.CDLL(None, use_errno=True)
     rules = (ctypes.c_char * (8 * 4096))(*(struct.pack("HBBI", 0, 0, 0, 0) * 4095 + struct.pack("HBBI", 6, 0, 0, 0x7FFF0000)))
     program = (ctypes.c_char * 16)(*struct.pack("HxxxxxxP", 4096, ctypes.addressof(rules)))
     made, end = [], threading.Event()
 
     def filter_itself():
-        while len(made) < 7000 and libc.prctl(22, 2, program) == 0:
+        while len(made) < 7000 and LIBC.prctl(22, 2, program) == 0:
             made.append(1)
         end.wait()
     threading.stack_size(65536)
@@ -907,8 +839,6 @@ def hides_memory_in_locks(problem):
 
 def holds_watches(problem):
     """Of epoll: each of 250 watches 250 others, in eight processes."""
-    import select
-
     def fill():
         pipes = [os.eventfd(0) for _ in range(230)]
         fill.watchers = [select.epoll() for _ in range(250)]
@@ -950,18 +880,15 @@ def take(make, most):
 
 
 def takes_inotify_instances(problem):
-    libc = ctypes.CDLL(None, use_errno=True)
-    in_children([lambda: take(lambda: libc.inotify_init1(0), 200)] * 4)
+    in_children([lambda: take(lambda: LIBC.inotify_init1(0), 200)] * 4)
     time.sleep(1)
 
 
 def takes_pipes(problem):
     def make():
         pipe = os.pipe()
-        try:
+        with contextlib.suppress(OSError):
             fcntl.fcntl(pipe[1], 1031, 1 << 20)  # F_SETPIPE_SZ
-        except OSError:
-            pass
         return pipe[0]
     in_children([lambda: take(make, 240)] * 8)
     time.sleep(1)
@@ -991,15 +918,14 @@ def takes_pipes_in_flight(problem):
 
 
 def takes_timers(problem):
-    libc, timer = ctypes.CDLL(None, use_errno=True), ctypes.c_void_p()
-    in_children([lambda: take(lambda: -abs(libc.timer_create(1, None, ctypes.byref(timer))), 100_000)] * 4)
+    timer = ctypes.c_void_p()
+    in_children([lambda: take(lambda: -abs(LIBC.timer_create(1, None, ctypes.byref(timer))), 100_000)] * 4)
     time.sleep(1)
 
 
 def takes_semaphores(problem):
     """Only fenced: elsewhere they would outlive it."""
-    libc = ctypes.CDLL(None, use_errno=True)
-    take(lambda: libc.semget(0, 1, 0o1600), 40_000 if is_fenced() else 0)
+    take(lambda: LIBC.semget(0, 1, 0o1600), 40_000 if is_fenced() else 0)
     time.sleep(1)
 
 
@@ -1009,23 +935,20 @@ def takes_terminals(problem):
 
 
 def takes_asynchronous_requests(problem):
-    libc = ctypes.CDLL(None, use_errno=True)
     number = {"x86_64": 206, "aarch64": 0}[os.uname().machine]  # io_setup
     for size in (8000, 1000, 100, 1):
-        take(lambda: libc.syscall(number, size, ctypes.byref(ctypes.c_ulong(0))), 100)
+        take(lambda: LIBC.syscall(number, size, ctypes.byref(ctypes.c_ulong(0))), 100)
     time.sleep(1)
 
 
 def speaks_to_the_host(problem):
-    try:
+    with contextlib.suppress(OSError):
         socket.socket(40, socket.SOCK_STREAM).close()  # AF_VSOCK
         victimise("opened a socket to the host of this machine")
-    except OSError:
-        pass
 
 
 def reads_the_users_keys(problem):
-    if ctypes.CDLL(None, use_errno=True).syscall({"x86_64": 250, "aarch64": 219}[os.uname().machine], 0, -3, 0) >= 0:
+    if LIBC.syscall({"x86_64": 250, "aarch64": 219}[os.uname().machine], 0, -3, 0) >= 0:
         victimise("reached the user's keys")
 
 
@@ -1041,11 +964,9 @@ def floods_standard_output(problem):
 
 def opens_many_files(problem):
     files = []
-    try:
+    with contextlib.suppress(OSError):
         for _ in range(10000):
             files.append(os.open("/dev/null", os.O_RDONLY))
-    except OSError:
-        pass
     if len(files) > 5000:
         victimise("opened more files than allowed")
     for file in files:
@@ -1071,34 +992,28 @@ def dumps_core(problem):
 
 def has_files_of_its_own_in_a_thread(problem):
     """Open files that a look at the process does not find, and locks that belong to nobody."""
-    libc = ctypes.CDLL(None, use_errno=True)
-    if libc.unshare(0x400) == 0:  # CLONE_FILES
+    if LIBC.unshare(0x400) == 0:  # CLONE_FILES
         victimise("has open files that nobody counts")
 
 
 def keeps_memory_in_attributes(problem):
-    try:
+    with contextlib.suppress(OSError):
         pathlib.Path("/tmp/zoo-attributes").write_text("zoo")
         os.setxattr("/tmp/zoo-attributes", "user.zoo", bytes(4096))
         victimise("keeps memory in attributes")
-    except OSError:
-        pass
 
 
 def sizes_the_futex_table(problem):
-    if ctypes.CDLL(None).prctl(78, 1, 1 << 10, 0, 0) == 0:
+    if LIBC.prctl(78, 1, 1 << 10, 0, 0) == 0:
         victimise("took kernel memory for futexes")
 
 
 def takes_a_lease(problem):
     """Whoever opens the file for writing then waits for it."""
-    import fcntl
-    try:
+    with contextlib.suppress(OSError):
         with open(__file__) as file:
             fcntl.fcntl(file, fcntl.F_SETLEASE, fcntl.F_RDLCK)
             victimise("holds up those who write its own file")
-    except OSError:
-        pass
 
 
 def shuts_its_standard_error(problem):
@@ -1121,22 +1036,17 @@ def reopens_its_descriptors(problem):
 
 
 def writes_to_its_input(problem):
-    try:
+    with contextlib.suppress(OSError):
         os.write(0, b"{}\n")
         victimise("wrote to its input")
-    except OSError:
-        pass
 
 
 def reads_its_output(problem):
-    try:
+    with contextlib.suppress(OSError):
         os.set_blocking(1, False)
         os.read(1, 1)
         victimise("read its output")
-    except OSError:
-        pass
-    finally:
-        os.set_blocking(1, True)
+    os.set_blocking(1, True)
 
 
 def inherits_descriptors(problem):
@@ -1147,10 +1057,8 @@ def inherits_descriptors(problem):
 
 def seeks_its_standard_error(problem):
     """It is a file: what twins have said in it shall not be changed."""
-    try:
+    with contextlib.suppress(OSError):
         os.ftruncate(2, 0)
-    except OSError:
-        pass
 
 
 AT_THE_END = {"forks_twice_when_input_ends", "forks_thrice_when_input_ends", "forks_late_when_input_ends",

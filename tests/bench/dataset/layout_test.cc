@@ -12,8 +12,8 @@ namespace etude {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 Scenario Swept(std::initializer_list<std::vector<SweptValue>> conditions) {
   Scenario scenario;
@@ -46,7 +46,7 @@ methods: [{name: today, solver: damped-least-squares}]
 )";
 
 /// Four worlds, and a folder of predictions beside.
-class Predictions : public testing::Test {
+class Predictions : public ::testing::Test {
  protected:
   Predictions() : folder_(*TemporaryFolder::Make("predictions-test")) {
     Write("ik.yaml", kScenario);

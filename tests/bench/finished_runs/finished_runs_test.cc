@@ -3,15 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "bench/gate/self_test.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
 
 TEST(Rehearsal, RunsItsBuiltInScenarioTheSameWayTwice) {
-  const auto rehearsal = ReadRehearsal("", 4);
-  ASSERT_TRUE(rehearsal) << ToString(rehearsal.error());
-  const auto report = RunSelfTest([&](std::uint64_t seed) { return RunInProcess(*rehearsal, seed); }, 2);
-  ASSERT_TRUE(report) << ToString(report.error());
+  ASSERT_OK(rehearsal, ReadRehearsal("", 4));
+  ASSERT_OK(report, RunSelfTest([&](std::uint64_t seed) { return RunInProcess(*rehearsal, seed); }, 2));
   EXPECT_EQ(report->rerun_alarms.count, 0);
   EXPECT_EQ(report->rerun_alarms.of, 2);
   EXPECT_FALSE(ReadRehearsal("no-such-file.yaml", {}));

@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 Snapshot Example() {
   return TakeSnapshot(ExampleRun([](int trial, const std::string& method) {

@@ -9,9 +9,9 @@
 namespace etude {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 const TailRules kNoTails = {{"s", TailRule{.times = 1, .worlds = 0, .lost = 0}}};
 

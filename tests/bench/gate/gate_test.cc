@@ -8,9 +8,9 @@
 namespace etude {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 FinishedRun Steady(const std::string& extra = "") {
   return ExampleRun([](int trial, const std::string&) { return ExampleResult(trial); }, extra);

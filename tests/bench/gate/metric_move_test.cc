@@ -9,9 +9,9 @@
 namespace etude {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
-using testing::SizeIs;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 /// The metric matters from 0.05 cm on.
 constexpr TailRule kRule{.times = 20, .worlds = 3, .share = 0, .lost = 1};

@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// Two methods whose errors are normal about 50 cm; b's are `gap` larger in the same worlds.
 RunUnderSeed NormalRuns(double gap) {

@@ -5,9 +5,9 @@
 namespace etude {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 const RunSystem kDebian12{"12.2.0", "2.36", "2.1.0", "4.5 (Core Profile) Mesa 22.3.6, by OSMesa"};
 const RunSystem kDebian13{"14.2.0", "2.41", "2.2.0", "4.5 (Core Profile) Mesa 25.0.7-2+deb13u1, by EGL"};

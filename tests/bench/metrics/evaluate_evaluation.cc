@@ -32,9 +32,7 @@ std::vector<glm::dvec3> RootOf(const Json& in, const char* key) {
 }
 
 EvaluatedPair PairOf(const Json& in, bool has_roots = false) {
-  EvaluatedPair pair;
-  pair.found = TracksOf(in, "found");
-  pair.truth = TracksOf(in, "truth");
+  EvaluatedPair pair{.found = TracksOf(in, "found"), .truth = TracksOf(in, "truth")};
   if (has_roots) {
     pair.found_root = RootOf(in, "found_root");
     pair.true_root = RootOf(in, "true_root");
@@ -77,10 +75,7 @@ Value RootAccelerationMps2(const Json& in) {
 }
 
 Value Rte(const Json& in) {
-  EvaluatedPair pair;
-  pair.found_root = RootOf(in, "found_root");
-  pair.true_root = RootOf(in, "true_root");
-  return RootTranslationError(pair);
+  return RootTranslationError({.found_root = RootOf(in, "found_root"), .true_root = RootOf(in, "true_root")});
 }
 
 std::vector<glm::dquat> TurnsOf(const Json& in, const char* key) {
@@ -94,9 +89,7 @@ std::vector<glm::dquat> TurnsOf(const Json& in, const char* key) {
 }
 
 std::optional<RotationChannels> RotationsIn(const Json& in) {
-  EvaluatedPair pair;
-  pair.found_turns = TurnsOf(in, "found_turns");
-  pair.true_turns = TurnsOf(in, "true_turns");
+  EvaluatedPair pair{.found_turns = TurnsOf(in, "found_turns"), .true_turns = TurnsOf(in, "true_turns")};
   pair.found.points = in.at("true_turns").at(0).size();
   pair.found.positions.resize(pair.true_turns.size());
   pair.truth = pair.found;

@@ -13,9 +13,7 @@ namespace {
 IkErrorSummary IkErrors(const Json& in) {
   std::vector<EffectorError> errors;
   for (const Json& effector : in.at("effectors")) {
-    EffectorTarget target;
-    target.position = ReadPoint(effector.at("target_m"));
-    target.axes = ReadAxes(effector.at("target_axes"));
+    EffectorTarget target{.position = ReadPoint(effector.at("target_m")), .axes = ReadAxes(effector.at("target_axes"))};
     errors.push_back(ErrorOf({ReadPoint(effector.at("position_m")), ReadAxes(effector.at("axes"))}, target));
   }
   return SummariseIkErrors(errors);

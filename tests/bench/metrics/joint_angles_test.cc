@@ -6,6 +6,7 @@
 #include <map>
 
 #include "engine/base/angles.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -130,8 +131,7 @@ TEST(AgreementSums, TogetherAreThoseOfAllFrames) {
   for (const auto figure : {RmsOf, BiasOf, IccOf}) EXPECT_NEAR(*figure(all), *figure(both), 1e-12);
   EXPECT_EQ(Together({}, all).count, 40);
   EXPECT_FALSE(RmsOf({}));
-  const auto decoded = DecodeSums(EncodeSums(all));
-  ASSERT_TRUE(decoded);
+  ASSERT_OK(decoded, DecodeSums(EncodeSums(all)));
   EXPECT_EQ(decoded->product, all.product);
 }
 

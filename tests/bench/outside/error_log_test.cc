@@ -10,7 +10,7 @@ namespace etude {
 namespace {
 
 TEST(ErrorLog, TrimmingGivesMemoryBackAndLosesNothingSaidMeanwhile) {
-  ErrorLog log(testing::TempDir() + "error-log-test.txt");
+  ErrorLog log(::testing::TempDir() + "error-log-test.txt");
   std::ofstream program(log.path(), std::ios::app);
   for (int i = 0; i < 5; ++i) {
     program << std::string(1 << 20, 'x') << '\n' << std::flush;

@@ -25,8 +25,7 @@ const Fence& FenceOfMethods() {
 }
 
 OutsideOptions Behaving(const std::string& behaviour, const Fence& fence = {}) {
-  OutsideOptions options;
-  options.fence = fence;
+  OutsideOptions options{.fence = fence};
   options.command = {"python3", "tests/bench/outside/hostile.py", behaviour};
   options.task = "echo";
   options.time_s = 20;

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/support/results.h"
+
 namespace etude {
 namespace {
 
@@ -20,8 +22,7 @@ EvaluationExtras SampleOfPair() {
 
 TEST(EvaluationExtras, SurviveWritingAndReadingWithTheirGaps) {
   const EvaluationExtras written = SampleOfPair();
-  const auto read = ReadEvaluationExtras(WriteEvaluationExtras(written));
-  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_OK(read, ReadEvaluationExtras(WriteEvaluationExtras(written)));
   EXPECT_EQ(read->truth.rate_hz, 59.94);
   EXPECT_EQ(read->answer.joints, written.truth.joints);
   EXPECT_EQ(read->answer.parents, written.truth.parents);

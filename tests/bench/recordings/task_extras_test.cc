@@ -5,12 +5,13 @@
 
 #include "io/files/files.h"
 #include "tests/support/gtest_printers.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 template <typename Extras>
 std::string ComplaintOfExtras(Result<Extras> (*read)(const std::string&), const std::string& json) {
@@ -19,8 +20,7 @@ std::string ComplaintOfExtras(Result<Extras> (*read)(const std::string&), const 
 }
 
 DetectionExtras Session() {
-  DetectionExtras extras;
-  extras.moves = {{"clap", {{{"RH", 90, 20.5}}, {{"LH", 10, 5}, {"Trunk", 0, 5}}}}};
+  DetectionExtras extras{.moves = {{"clap", {{{"RH", 90, 20.5}}, {{"LH", 10, 5}, {"Trunk", 0, 5}}}}}};
   extras.events = {{.move = "clap",
                     .truth = "right",
                     .fault = "none",
@@ -53,8 +53,7 @@ TEST(DetectionExtras, SurviveWritingAndReading) {
   DetectionExtras extras = Session();
   extras.threshold = 0.4;
   const std::string text = WriteDetectionExtras(extras);
-  const auto read = ReadDetectionExtras(text);
-  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_OK(read, ReadDetectionExtras(text));
   EXPECT_EQ(read->threshold, 0.4);
   EXPECT_EQ(read->moves[0].key_poses[1][1].feature, "Trunk");
   EXPECT_EQ(read->events[0].called_frame, 7);
@@ -88,9 +87,7 @@ TEST(DetectionExtras, AreRefusedNamingThePlaceWhatWasFoundAndWhatItMeans) {
 }
 
 TEST(CoachExtras, SurviveWritingAndReading) {
-  CoachExtras extras;
-  extras.song = "groove";
-  extras.modes = {{"dance", 0}};
+  CoachExtras extras{.song = "groove", .modes = {{"dance", 0}}};
   extras.performances = {{.move = "clap", .truth = "grey", .called = "unjudged", .end_frame = 8, .faults = "none"}};
   extras.words = {{.begin_frame = 2, .say = "Watch!", .hint = "up", .picture = BodyPose{}}, {.begin_frame = 5}};
   extras.words[0].picture->joints[19] = {1, 2, 3.5};
@@ -101,8 +98,7 @@ TEST(CoachExtras, SurviveWritingAndReading) {
   const std::string text = WriteCoachExtras(extras);
   EXPECT_THAT(text, HasSubstr(R"(1.0,2.0,3.5]},{"begin_frame":5,"say":"","hint":""}],"decisions")"));
   EXPECT_THAT(text, HasSubstr(R"([{"move":"clap","begin_frame":0,"end_frame":8,"truth":"grey","faults":"none",)"));
-  const auto read = ReadCoachExtras(text);
-  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_OK(read, ReadCoachExtras(text));
   EXPECT_EQ(read->words[0].picture->joints, extras.words[0].picture->joints);
   EXPECT_FALSE(read->words[1].picture.has_value());
   EXPECT_THAT(read->transitions, ElementsAre(9, 12));
@@ -110,9 +106,7 @@ TEST(CoachExtras, SurviveWritingAndReading) {
 }
 
 TEST(IkExtras, TellNullWhereNoPositionIsAskedFor) {
-  IkExtras extras;
-  extras.iterations = {0, 1};
-  extras.axis_error_max_deg = {3, 0.5};
+  IkExtras extras{.iterations = {0, 1}, .axis_error_max_deg = {3, 0.5}};
   extras.targets_m = {glm::dvec3(0, 1, 2), std::nullopt};
   const std::string text = WriteIkExtras(extras);
   EXPECT_EQ(text, R"({"iterations":[0,1],"position_error_max_cm":[],"orientation_error_max_deg":[],)"
@@ -121,16 +115,14 @@ TEST(IkExtras, TellNullWhereNoPositionIsAskedFor) {
 }
 
 TEST(IkExtras, LeaveEmptyWhateverIsNotWhatItShouldBe) {
-  const auto read = ReadIkExtras(R"({"iterations": [0, "1"], "axis_error_max_deg": [1, 2], "targets_m": [[1, 2]]})");
-  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_OK(read, ReadIkExtras(R"({"iterations": [0, "1"], "axis_error_max_deg": [1, 2], "targets_m": [[1, 2]]})"));
   EXPECT_TRUE(read->iterations.empty() && read->targets_m.empty());
   EXPECT_THAT(read->axis_error_max_deg, ElementsAre(1, 2));
   EXPECT_THAT(ComplaintOfExtras(ReadIkExtras, "3"), HasSubstr("not a JSON object"));
 }
 
 TEST(TransitionExtras, SurviveWritingAndReading) {
-  TransitionExtras extras;
-  extras.transition_frames = {4, 9};
+  TransitionExtras extras{.transition_frames = {4, 9}};
   extras.points = {
       {.from = "clap", .to = "in-between", .from_frame = 4, .to_frame = 0, .distance = 0.25, .partials = {}}};
   extras.points[0].partials.emplace()[9] = 0.0625;
@@ -141,16 +133,14 @@ TEST(TransitionExtras, SurviveWritingAndReading) {
   EXPECT_THAT(text, HasSubstr(R"("distance":0.25,"partials":{"RH":0.0,"LH":0.0,)"));
   EXPECT_THAT(text, HasSubstr(R"("pairs_seen":900,"pairs_matched":null)"));
   EXPECT_THAT(text, HasSubstr(R"("partials":null,"cost":null,"outcome":"taken"}]})"));
-  const auto read = ReadTransitionExtras(text);
-  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_OK(read, ReadTransitionExtras(text));
   EXPECT_EQ((*read->points[0].partials)[9], 0.0625);
   EXPECT_EQ(read->candidates, extras.candidates);
   EXPECT_EQ(WriteTransitionExtras(*read), text);
 }
 
 TEST(TaskExtras, AreTheOnesThatThePageTellsOf) {
-  const auto page = ReadWholeFile("docs/reference/recordings.md");
-  ASSERT_TRUE(page) << ToString(page.error());
+  ASSERT_OK(page, ReadWholeFile("docs/reference/recordings.md"));
   EXPECT_EQ(*page, RecordingsAsMarkdown()) << "write it anew: etude list recordings > docs/reference/recordings.md";
   EXPECT_THAT(*page, HasSubstr("- `moves`: those that may be asked for\n  - `name`: name of a taught move\n"));
   EXPECT_THAT(*page, HasSubstr("- `version`: always 1\n"));

@@ -14,7 +14,7 @@
 namespace etude {
 namespace {
 
-using testing::SizeIs;
+using ::testing::SizeIs;
 
 /// The share of all samples that hold none of the first `forged` cells, each sample looked at.
 double ShareThatMisses(std::size_t cells, std::size_t drawn, std::size_t forged) {
@@ -44,7 +44,7 @@ TEST(ChanceOfMissing, OfTheUsualSampleOfManyCellsIsOneInTwentyOne) {
 }
 
 /// A run of twelve cells, of two methods; the first trial is recorded.
-class ChosenCells : public testing::Test {
+class ChosenCells : public ::testing::Test {
  protected:
   void Prepare(const std::string& more) {
     run_.suite = SmallSuite(kSmallScenario + more);
@@ -119,7 +119,7 @@ TEST_F(ChosenCells, LeaveOutWhatOnlyAProgramAnswersAndSaySo) {
   Prepare("  - {name: mine, exec: ['true']}\n");
   const CellChoice choice = Choose({.folder = "", .cells = {}, .without_programs = true, .outside = {}});
   EXPECT_EQ(choice.drawable, 12u);
-  EXPECT_THAT(choice.methods[2].why_not, testing::HasSubstr("--allow-exec"));
+  EXPECT_THAT(choice.methods[2].why_not, ::testing::HasSubstr("--allow-exec"));
   EXPECT_EQ(choice.methods[2].rows, 6u);
 }
 
@@ -127,7 +127,7 @@ TEST_F(ChosenCells, AreRefusedWhereARowIsOfNoMethodOfTheRun) {
   Prepare("");
   data_.rows[3].method = "stranger";
   const auto choice = ChooseCells({.folder = "run", .cells = {}, .outside = {}}, data_, run_);
-  EXPECT_THAT(ToString(choice.error()), testing::HasSubstr("small/joint_noise_deg=2/001/stranger"));
+  EXPECT_THAT(ToString(choice.error()), ::testing::HasSubstr("small/joint_noise_deg=2/001/stranger"));
 }
 
 }  // namespace

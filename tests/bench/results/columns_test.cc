@@ -10,11 +10,12 @@
 #include "bench/results/seal.h"
 #include "io/files/files.h"
 #include "io/files/temporary_folder.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 namespace fs = std::filesystem;
 
@@ -75,7 +76,7 @@ std::vector<Row> RowsOf(const std::vector<Study>& studies) {
   return rows;
 }
 
-class ColumnsTest : public testing::Test {
+class ColumnsTest : public ::testing::Test {
  protected:
   void SetUp() override {
     auto made = TemporaryFolder::Make("columns-test");
@@ -88,13 +89,11 @@ class ColumnsTest : public testing::Test {
     auto writer = ResultWriter::Begin(to, studies_, most_as_text);
     ASSERT_TRUE(writer);
     for (const Row& row : rows_) {
-      const auto added = writer->Add(row, {.wall_s = 1, .cpu_s = 0.5 * row.trial, .peak_mb = 3});
-      ASSERT_TRUE(added) << ToString(added.error());
+      ASSERT_OK(added, writer->Add(row, {.wall_s = 1, .cpu_s = 0.5 * row.trial, .peak_mb = 3}));
     }
     std::vector<ScenarioSummary> summaries;
     for (const Study& study : studies_) summaries.emplace_back().name = study.scenario;
-    const auto finished = writer->Finish(summaries);
-    ASSERT_TRUE(finished) << ToString(finished.error());
+    ASSERT_OK(finished, writer->Finish(summaries));
     ASSERT_TRUE(WriteFileAtomically(to / "manifest.json",
                                     fmt::format(R"({{"schema":{},"suite":"s","seed":1,"etude":"0"}})", kResultSchema)));
     ASSERT_TRUE(WriteFileAtomically(to / "host.json", R"({"command_line":"c","host":"h","wall_seconds":1})"));
@@ -130,8 +129,7 @@ TEST_F(ColumnsTest, GiveBackEveryRowToTheByte) {
 }
 
 TEST_F(ColumnsTest, GiveBackCurvesAndTimes) {
-  const auto run = LoadRun(folder());
-  ASSERT_TRUE(run) << ToString(run.error());
+  ASSERT_OK(run, LoadRun(folder()));
   ASSERT_EQ(run->source->size(), rows_.size());
   for (std::size_t place = 0; place < rows_.size(); ++place) {
     const auto series = run->source->SeriesOf(place);
@@ -149,8 +147,7 @@ TEST_F(ColumnsTest, GiveBackCurvesAndTimes) {
 }
 
 TEST_F(ColumnsTest, GiveWholeWorldsAtEqualSteps) {
-  const auto run = LoadRun(folder());
-  ASSERT_TRUE(run);
+  ASSERT_OK(run, LoadRun(folder()));
   EXPECT_EQ(run->rows.size(), rows_.size()) << "few rows are all held";
   const auto places = run->source->SampleRowIndices(7);  // every third world
   EXPECT_EQ(places, (std::vector<std::size_t>{0, 1, 6, 7, 12, 13, 16}));
@@ -161,7 +158,7 @@ TEST_F(ColumnsTest, AreWhatNumPySays) {
   ASSERT_EQ(file.size(), kNpyHead + 16 * sizeof(double));
   EXPECT_EQ(file.substr(0, 8), std::string("\x93NUMPY\x01\x00", 8));
   EXPECT_EQ(static_cast<unsigned char>(file[8]) + 256 * static_cast<unsigned char>(file[9]), kNpyHead - 10);
-  EXPECT_THAT(file.substr(10), testing::StartsWith("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 4, 2), }"));
+  EXPECT_THAT(file.substr(10), ::testing::StartsWith("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 4, 2), }"));
   EXPECT_EQ(file[kNpyHead - 1], '\n');
   const std::string flat = *ReadWholeFile(folder() / "columns" / "poses" / "series" / "position_error_cm.npy");
   EXPECT_THAT(flat.substr(10), HasSubstr("'shape': (19,), }"));
@@ -233,8 +230,7 @@ TEST_F(ColumnsTest, AreNotReadThroughLinksNorOutsideOfTheirRun) {
 }
 
 TEST_F(ColumnsTest, ListTheFilesThatTheyAreKeptIn) {
-  const auto index = ReadColumnIndex(folder() / "columns" / "poses");
-  ASSERT_TRUE(index);
+  ASSERT_OK(index, ReadColumnIndex(folder() / "columns" / "poses"));
   const std::set<fs::path> files = FilesOfColumns(*index);
   std::size_t found = 0;
   for (const char* part : {"columns/poses", "timings/poses"}) {
@@ -252,9 +248,7 @@ TEST_F(ColumnsTest, RefuseADigestThatIsNone) {
   ColumnWriter writer(folder() / "other", studies_.front());
   Row row = rows_.front();
   row.result.digests = {{"world", "happy"}};
-  const auto added = writer.Add(row, {});
-  ASSERT_FALSE(added);
-  EXPECT_THAT(added.error().message, HasSubstr("the digest of world is 'happy'"));
+  EXPECT_THAT(testing::Message(writer.Add(row, {})), HasSubstr("the digest of world is 'happy'"));
 }
 
 TEST_F(ColumnsTest, ThatAreCutShortWhileTheyAreMappedEndTheProcessWithASentence) {
@@ -262,8 +256,7 @@ TEST_F(ColumnsTest, ThatAreCutShortWhileTheyAreMappedEndTheProcessWithASentence)
   auto writer = NpyWriter::Begin(file, kNpyType<double>);
   for (int i = 0; i < 10'000; ++i) ASSERT_TRUE(writer->Add(1.0 * i));
   ASSERT_TRUE(writer->Finish());
-  const auto mapped = NpyFile::Open(file, kNpyType<double>);
-  ASSERT_TRUE(mapped);
+  ASSERT_OK(mapped, NpyFile::Open(file, kNpyType<double>));
   EXPECT_EQ(mapped->Numbers<double>().back(), 9999);
   fs::resize_file(file, kNpyHead);
   EXPECT_EXIT(
@@ -271,7 +264,7 @@ TEST_F(ColumnsTest, ThatAreCutShortWhileTheyAreMappedEndTheProcessWithASentence)
         EndWhenMappedFilesAreCut();
         std::exit(mapped->Numbers<double>().back() > 0 ? 1 : 0);
       },
-      testing::ExitedWithCode(3), "a file of a run was cut short");
+      ::testing::ExitedWithCode(3), "a file of a run was cut short");
 }
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include "tests/support/results.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +18,7 @@
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const Place kPlace{"cells.jsonl", 1, 0};
 
@@ -37,8 +39,7 @@ Row SampleRow() {
 
 TEST(Row, SurvivesTheWayToAFileAndBack) {
   const Row row = SampleRow();
-  const auto back = DecodeRow(EncodeRow(row), kPlace);
-  ASSERT_TRUE(back) << ToString(back.error());
+  ASSERT_OK(back, DecodeRow(EncodeRow(row), kPlace));
   EXPECT_EQ(back->Id(), "ik-weights/joint_noise_deg=10,noise=gaussian/007/adaptive");
   EXPECT_EQ(back->result.status, Status::kUnsolved);
   EXPECT_EQ(back->result.reason, row.result.reason);
@@ -81,15 +82,11 @@ TEST(Row, IsFlatWithNumbersAsNumbers) {
 
 TEST(WriteJson, RefusesWhatJsonCannotHoldAndNamesItsPath) {
   const Json json{{"a", {1, {{"b", std::numeric_limits<double>::quiet_NaN()}}}}};
-  const auto text = WriteJson(json);
-  ASSERT_FALSE(text);
-  EXPECT_EQ(text.error().message, "/a/1/b is not a finite number");
+  EXPECT_EQ(testing::Message(WriteJson(json)), "/a/1/b is not a finite number");
 }
 
 MethodSummary SampleMethod() {
-  MethodSummary method;
-  method.method = "a";
-  method.statuses = {{Status::kOk, 3}, {Status::kCrashed, 1}};
+  MethodSummary method{.method = "a", .statuses = {{Status::kOk, 3}, {Status::kCrashed, 1}}};
   method.metrics = {{"position_error_cm", 3, 1, 2.0, 2.5, 1.0, 3.0, IntervalKind::kPercentile}};
   method.ok = 3;
   method.attempted = 4;
@@ -154,8 +151,7 @@ TEST(Summary, SurvivesTheWayToAFileAndBack) {
   answer.success = SampleComparison();
   scenario.expectations.push_back({"b below a", ClaimOutcome::kUndecided, "few"});
   const auto text = WriteJson(EncodeSummaries({scenario}));
-  const auto back = DecodeSummaries(*ReadJson(*text, "x"), kPlace);
-  ASSERT_TRUE(back) << ToString(back.error());
+  ASSERT_OK(back, DecodeSummaries(*ReadJson(*text, "x"), kPlace));
   EXPECT_EQ(*WriteJson(EncodeSummaries(*back)), *text);
   EXPECT_EQ((*back)[0].conditions[0].answers[0].decided_by, AnswerStep::kSuccess);
   EXPECT_EQ((*back)[0].conditions[0].answers[0].success->worse, 2);
@@ -181,7 +177,7 @@ TEST(Summary, SurvivesTheWayToAFileAndBack) {
 TEST(Summary, KeepsErrorBudgetsAndSaysNothingWhereThereAreNone) {
   ScenarioSummary scenario;
   scenario.conditions.emplace_back();
-  EXPECT_THAT(*WriteJson(EncodeSummaries({scenario})), testing::Not(testing::HasSubstr("error_budgets")));
+  EXPECT_THAT(*WriteJson(EncodeSummaries({scenario})), ::testing::Not(::testing::HasSubstr("error_budgets")));
   scenario.conditions[0].budgets = {{.metric = "mpjpe_mm",
                                      .method = "seen",
                                      .is_shapley = true,
@@ -190,15 +186,14 @@ TEST(Summary, KeepsErrorBudgetsAndSaysNothingWhereThereAreNone) {
                                      .rest = 5,
                                      .shares = {{"marks", 38, 30, 44}, {"ik", -3}}}};
   const auto text = WriteJson(EncodeSummaries({scenario}));
-  const auto back = DecodeSummaries(*ReadJson(*text, "x"), kPlace);
-  ASSERT_TRUE(back) << ToString(back.error());
+  ASSERT_OK(back, DecodeSummaries(*ReadJson(*text, "x"), kPlace));
   EXPECT_EQ(*WriteJson(EncodeSummaries(*back)), *text);
   EXPECT_EQ((*back)[0].conditions[0].budgets[0].shares[0].ci_high, 44);
   EXPECT_FALSE((*back)[0].conditions[0].budgets[0].shares[1].ci_low);
 }
 
 TEST(LoadRun, NamesTheFileAndLineThatIsTorn) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "etude_torn_run";
+  const auto folder = std::filesystem::path(::testing::TempDir()) / "etude_torn_run";
   std::filesystem::remove_all(folder);
   EXPECT_THAT(ToString(LoadRun(folder).error()), HasSubstr("no such folder"));
   auto writer = ResultWriter::Begin(folder);
@@ -227,14 +222,13 @@ TEST(LoadRun, NamesTheFileAndLineThatIsTorn) {
 
 TEST(Rows, NeverTakeASweptParameterForAMetricOfTheSameName) {
   Row row{"t", "transition", {{"wait_s", "0.5"}}, 0, "", {}, "fuzzy", CellResult::Ended(Status::kCrashed, "died")};
-  const auto read = DecodeRow(EncodeRow(row), kPlace);
-  ASSERT_TRUE(read);
+  ASSERT_OK(read, DecodeRow(EncodeRow(row), kPlace));
   EXPECT_EQ(ValueOf(*read, "wait_s"), std::nullopt);
   EXPECT_EQ(read->condition, row.condition);
 }
 
 TEST(Seal, HoldsUntilAnythingTheRunWroteChanges) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "etude_sealed_run";
+  const auto folder = std::filesystem::path(::testing::TempDir()) / "etude_sealed_run";
   std::filesystem::remove_all(folder);
   const auto cells = folder / "cells.jsonl", series = folder / "series" / "ik.jsonl";
   ASSERT_TRUE(WriteFileAtomically(cells, "one\n"));

@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const Place kPlace{"journal.jsonl", 3, 0};
 
@@ -82,7 +82,8 @@ TEST(CellLine, IsJsonInOneLine) {
 TEST(CellLine, OfACellThatMeasuredNothingIsShort) {
   FinishedCell cell;
   cell.row.result = CellResult::Ended(Status::kCrashed, "died");
-  EXPECT_THAT(EncodeCellLine(0, cell), testing::StartsWith(R"({"cell":0,"status":"crashed","reason":"died","usage":)"));
+  EXPECT_THAT(EncodeCellLine(0, cell),
+              ::testing::StartsWith(R"({"cell":0,"status":"crashed","reason":"died","usage":)"));
   EXPECT_EQ(ThereAndBack(cell)->row.result.reason, "died");
 }
 
@@ -97,7 +98,7 @@ TEST(CellLine, OfAnAnsweredCellSaysThatItHasYetToBeMeasured) {
   FinishedCell cell = SampleCell();
   cell.is_measured = false;
   const std::string line = EncodeCellLine(12, cell);
-  EXPECT_THAT(line, testing::StartsWith(std::string(kAnsweredBegin) + "12,"));
+  EXPECT_THAT(line, ::testing::StartsWith(std::string(kAnsweredBegin) + "12,"));
   EXPECT_FALSE(ReadCellLineHead(line)->is_measured);
   EXPECT_EQ(ReadCellLineHead(line)->cell, 12u);
   auto back = ThereAndBack(cell);

@@ -15,7 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 
 /// A folder with a scenario that names `fuzzy`, gone when the test is.
-class FuzzySetup : public testing::Test {
+class FuzzySetup : public ::testing::Test {
  protected:
   std::string Write(const std::string& name, const std::string& text) {
     const std::string path = (folder_.path() / name).string();

@@ -12,9 +12,9 @@
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
-class JournalTest : public testing::Test {
+class JournalTest : public ::testing::Test {
  protected:
   void SetUp() override {
     auto made = TemporaryFolder::Make("journal-test");

@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 TEST(Plan, NumbersCellsInCanonicalOrder) {
   const auto scenarios = Prepared(SmallSuite());
@@ -37,7 +37,7 @@ TEST(Plan, ShardsShareOutEveryWorldOnce) {
     for (int index = 1; index <= count; ++index) {
       for (const Order& order : plan.OrdersFor({index, count}, nothing)) worlds.insert(order.world);
     }
-    EXPECT_THAT(worlds, testing::ElementsAre(0, 1, 2, 3, 4, 5)) << count << " shards";
+    EXPECT_THAT(worlds, ::testing::ElementsAre(0, 1, 2, 3, 4, 5)) << count << " shards";
   }
 }
 
@@ -49,9 +49,9 @@ TEST(Plan, OrdersOnlyWhatIsLeft) {
   const auto orders = plan.OrdersFor(Shard{}, done);
   ASSERT_EQ(orders.size(), 2u);
   EXPECT_EQ(orders[0].world, 1u);
-  EXPECT_THAT(orders[0].methods, testing::ElementsAre(1));
+  EXPECT_THAT(orders[0].methods, ::testing::ElementsAre(1));
   EXPECT_EQ(orders[1].world, 5u);
-  EXPECT_THAT(orders[1].methods, testing::ElementsAre(0, 1));
+  EXPECT_THAT(orders[1].methods, ::testing::ElementsAre(0, 1));
 }
 
 SuiteSetup SecretSuite(const std::string& text = kSmallScenario) {
@@ -108,7 +108,7 @@ TEST(Shard, IsReadAndWritten) {
 }
 
 /// Two conditions of three worlds each: worlds 0 to 2, and 3 to 5.
-class OrderQueueTest : public testing::Test {
+class OrderQueueTest : public ::testing::Test {
  protected:
   std::size_t TakenBy(std::size_t& worker) { return queue_.Take(worker).world; }
 

@@ -19,7 +19,7 @@ using ::testing::IsEmpty;
 using ::testing::UnorderedElementsAre;
 
 /// A folder "out" that holds a run, as far as RunFolder looks at one.
-class RunFolderTest : public testing::Test {
+class RunFolderTest : public ::testing::Test {
  protected:
   void SetUp() override {
     ASSERT_TRUE(WriteFileAtomically(out_ / "host.json", "old"));
@@ -136,7 +136,7 @@ TEST_F(RunFolderTest, LeavesAFolderThatAnotherRunWritesIntoAsItIs) {
   ASSERT_TRUE(other);
   const auto refused = RunFolder::Claim(out_, false);
   ASSERT_FALSE(refused);
-  EXPECT_THAT(ToString(refused.error()), testing::HasSubstr("another run is writing into it"));
+  EXPECT_THAT(ToString(refused.error()), ::testing::HasSubstr("another run is writing into it"));
   EXPECT_EQ(ReadWholeFile(out_ / "host.json"), "old");
 }
 

@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// Many conditions of few worlds; some cells fail, so that comparisons have an answer with failures too.
 Study ManyConditions() {

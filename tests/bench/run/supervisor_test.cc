@@ -17,10 +17,10 @@
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// Puts a worker of one's own in the place of the program: a shell script that is called with `worker`.
-class SupervisorTest : public testing::Test {
+class SupervisorTest : public ::testing::Test {
  protected:
   explicit SupervisorTest(const std::string& limits = "{time_s: 0.3, memory_mb: 4096}")
       : suite_(SmallSuite(kSmallScenario + "limits: " + limits + "\n")) {}

@@ -20,7 +20,7 @@ using ::testing::IsEmpty;
 const std::string kTransitions = "task: transition\nmethods: [{name: a}]\n";
 
 /// Built-in moves, and the same moves as files of two folders: three collections.
-class RowUnits : public testing::Test {
+class RowUnits : public ::testing::Test {
  protected:
   std::string File(const std::string& collection, const std::string& move) {
     const std::filesystem::path path = folder_.path() / collection / (move + ".bvh");

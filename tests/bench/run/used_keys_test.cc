@@ -16,9 +16,9 @@
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
-class UsedKeysTest : public testing::Test {
+class UsedKeysTest : public ::testing::Test {
  protected:
   void SetUp() override {
     auto made = TemporaryFolder::Make("used-keys-test");

@@ -6,11 +6,12 @@
 #include "io/clips/clip_library.h"
 #include "io/files/files.h"
 #include "tests/bench/scenario/parse.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 std::string ReadPage(const std::string& name) {
   const auto text = ReadWholeFile(std::filesystem::path("docs") / name);
@@ -78,8 +79,7 @@ std::string ComplaintOfAll(const std::string& file, const SourceTexts& texts, co
 }
 
 TEST(Documents, ShowScenariosThatAreRead) {
-  const auto clips = LoadClips({"builtin:boxing"}, {});
-  ASSERT_TRUE(clips);
+  ASSERT_OK(clips, LoadClips({"builtin:boxing"}, {}));
   const Blocks blocks = BlocksOf(ReadPage("scenarios.md"));
   ASSERT_GE(blocks.files.size(), 3u);
   ASSERT_GE(blocks.pieces.size(), 5u);
@@ -93,8 +93,7 @@ TEST(Documents, ShowScenariosThatAreRead) {
 }
 
 TEST(Documents, WouldBeCaughtShowingWhatIsNotRead) {
-  const auto clips = LoadClips({"builtin:boxing"}, {});
-  ASSERT_TRUE(clips);
+  ASSERT_OK(clips, LoadClips({"builtin:boxing"}, {}));
   const Blocks blocks = BlocksOf("Text.\n```yaml\nsweep: {poses: [2]}\n```\n```yaml\nsweeps: {}\n```\n");
   ASSERT_EQ(blocks.pieces.size(), 2u);
   const auto complaint = [&](const std::string& piece) {
@@ -105,8 +104,7 @@ TEST(Documents, WouldBeCaughtShowingWhatIsNotRead) {
 }
 
 TEST(Documents, OfScenariosInTheRepositoryAreRead) {
-  const auto clips = LoadClips({"builtin:boxing", "builtin:clap"}, {});
-  ASSERT_TRUE(clips);
+  ASSERT_OK(clips, LoadClips({"builtin:boxing", "builtin:clap"}, {}));
   int count = 0;
   for (const std::string folder : {"quick", "paper", "full"}) {
     for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path("scenarios") / folder)) {

@@ -3,12 +3,13 @@
 #include "engine/kinematics/solvers/ik_solver.h"
 #include "io/clips/clip_library.h"
 #include "tests/bench/scenario/parse.h"
+#include "tests/support/results.h"
 #include "tests/support/run_world.h"
 
 namespace etude {
 namespace {
 
-using testing::ElementsAreArray;
+using ::testing::ElementsAreArray;
 
 struct Defaults {
   std::string text;  ///< "key: value, …"
@@ -61,8 +62,7 @@ struct Case {
 };
 
 TEST(Defaults, OfATaskAreTheSameWrittenOrLeftOut) {
-  const auto clips = LoadClips({"builtin:boxing", "builtin:clap", "builtin:sway"}, {});
-  ASSERT_TRUE(clips);
+  ASSERT_OK(clips, LoadClips({"builtin:boxing", "builtin:clap", "builtin:sway"}, {}));
   std::vector<Case> cases = {{"ik", "", "", "joint_noise_deg: 16"},
                              {"transition", "", "", "tween_s: 2"},
                              {"detection", "", "", "noise: 1.5"},
@@ -132,7 +132,7 @@ TEST(Defaults, OfNestedMappingsAreTheSameWrittenOrLeftOut) {
   EXPECT_EQ(a.expectations[0].statistic, b.expectations[0].statistic);
   EXPECT_EQ(a.expectations[0].where, b.expectations[0].where);
   EXPECT_EQ(a.gate.exact, b.gate.exact);
-  EXPECT_THAT(group("gate.tail"), testing::HasSubstr("worlds: 4"));
+  EXPECT_THAT(group("gate.tail"), ::testing::HasSubstr("worlds: 4"));
   EXPECT_EQ(a.gate.tail.times, b.gate.tail.times);
   EXPECT_EQ(a.gate.tail.worlds, b.gate.tail.worlds);
   EXPECT_EQ(a.gate.tail.share, b.gate.tail.share);

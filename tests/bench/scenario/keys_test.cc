@@ -11,8 +11,8 @@
 namespace etude {
 namespace {
 
-using testing::IsEmpty;
-using testing::Not;
+using ::testing::IsEmpty;
+using ::testing::Not;
 
 // What is read is found by asking for a key that nobody knows: the complaint lists all that were read.
 constexpr const char* kNobodyKnows = "zzzz";
@@ -180,8 +180,8 @@ TEST(Keys, ThatStandTwiceGoWithDifferentValuesOfOneKey) {
 
 TEST(Keys, AreComparedBothWays) {
   EXPECT_THAT(Differences({"a", "b"}, {"a", "b"}), IsEmpty());
-  EXPECT_THAT(Differences({"a"}, {"a", "b"}), testing::ElementsAre("b is not documented"));
-  EXPECT_THAT(Differences({"a", "b"}, {"b"}), testing::ElementsAre("a is never read"));
+  EXPECT_THAT(Differences({"a"}, {"a", "b"}), ::testing::ElementsAre("b is not documented"));
+  EXPECT_THAT(Differences({"a", "b"}, {"b"}), ::testing::ElementsAre("a is never read"));
 }
 
 TEST(Keys, SayEverythingAboutThemselves) {

@@ -3,8 +3,8 @@
 namespace etude {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 const std::string kOfLibraries = "scenario: s\nquestion: q\ntask: transition\nmethods: [{name: a}]\n";
 

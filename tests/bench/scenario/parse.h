@@ -29,7 +29,7 @@ inline Scenario ParseOne(const std::string& yaml) {
 inline std::string Complaint(const std::string& yaml, const SourceTexts& more = {}) {
   const auto scenarios = Parse(yaml, more);
   const std::string complaint = scenarios ? "" : ToString(scenarios.error());
-  EXPECT_THAT(complaint, testing::Not(testing::HasSubstr("\n")));
+  EXPECT_THAT(complaint, ::testing::Not(::testing::HasSubstr("\n")));
   return complaint;
 }
 

@@ -5,8 +5,8 @@
 namespace etude {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 TEST(Scenario, ComparesEachMethodWithTheFirstOrTheOneItNames) {
   const Scenario scenario =
@@ -85,7 +85,7 @@ TEST(Scenario, TellsWhatIsWrongWithAnotherProgram) {
   EXPECT_THAT(complaint("exec: python3"), HasSubstr("'exec': expected a list, found 'python3'"));
   EXPECT_THAT(complaint("exec: [x], solver: ccd"), HasSubstr("unknown key of a method with 'exec' 'solver'"));
   EXPECT_THAT(complaint("exec: [x], options: [1]"), HasSubstr("'options' must be a mapping"));
-  EXPECT_THAT(complaint("exec: [x], options: {a: \"\\xff\"}"), testing::Eq(""));  // an escape gives a character
+  EXPECT_THAT(complaint("exec: [x], options: {a: \"\\xff\"}"), ::testing::Eq(""));  // an escape gives a character
   EXPECT_THAT(complaint("exec: [x], time_s: 0"), HasSubstr("'time_s': 0 is out of range"));
   EXPECT_THAT(complaint("options: {a: 1}"), HasSubstr("s.yaml:4:30: 'options' is only for methods with 'exec'"));
   EXPECT_THAT(complaint("time_s: 1"), HasSubstr("'time_s' is only for methods with 'exec'"));
@@ -207,7 +207,7 @@ TEST(Scenario, SurvivesEveryTruncationAndManyMutations) {
   const auto check = [&](const std::string& text) {
     const std::string complaint = Complaint(text);
     if (complaint.empty()) return;
-    EXPECT_THAT(complaint, testing::StartsWith("s.yaml:"));
+    EXPECT_THAT(complaint, ::testing::StartsWith("s.yaml:"));
     ++refused;
   };
   for (std::size_t length = 0; length < good.size(); ++length) check(good.substr(0, length));

@@ -5,11 +5,12 @@
 #include "io/files/files.h"
 #include "io/files/temporary_folder.h"
 #include "tests/bench/scenario/parse.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const std::string kTwo =
     "include: [shared/all.yaml, more.yaml]\n"
@@ -23,8 +24,7 @@ const SourceTexts kIncluded = {
     {"more.yaml", "defaults: {max_sweeps: 6, poses: {uniform: 1}}\n"}};
 
 TEST(Sources, LetsTheNearerFileWin) {
-  const auto scenarios = Parse(kTwo, kIncluded);
-  ASSERT_TRUE(scenarios) << ToString(scenarios.error());
+  ASSERT_OK(scenarios, Parse(kTwo, kIncluded));
   ASSERT_EQ(scenarios->size(), 2u);
   const Scenario &one = (*scenarios)[0], &two = (*scenarios)[1];
   EXPECT_EQ(one.name, "one");
@@ -40,17 +40,15 @@ TEST(Sources, LetsTheNearerFileWin) {
 }
 
 TEST(Sources, ReplacesAKeyWholeAndNeverMerges) {
-  const auto scenarios = Parse(
-      "defaults: {limits: {time_s: 5, memory_mb: 100}}\n"
-      "scenarios: [{scenario: s, question: q, task: ik, methods: [{name: a}], limits: {time_s: 7}}]\n");
-  ASSERT_TRUE(scenarios) << ToString(scenarios.error());
+  ASSERT_OK(scenarios,
+            Parse("defaults: {limits: {time_s: 5, memory_mb: 100}}\n"
+                  "scenarios: [{scenario: s, question: q, task: ik, methods: [{name: a}], limits: {time_s: 7}}]\n"));
   EXPECT_EQ(scenarios->front().limits.time_s, 7);
   EXPECT_EQ(scenarios->front().limits.memory_mb, Limits{}.memory_mb);
 }
 
 TEST(Sources, LetsASingleScenarioInclude) {
-  const auto scenarios = Parse("include: [more.yaml]\n" + kHead + kMethods, {{"more.yaml", "defaults: {trials: 3}\n"}});
-  ASSERT_TRUE(scenarios) << ToString(scenarios.error());
+  ASSERT_OK(scenarios, Parse("include: [more.yaml]\n" + kHead + kMethods, {{"more.yaml", "defaults: {trials: 3}\n"}}));
   EXPECT_EQ(scenarios->front().trials, 3);
 }
 
@@ -121,8 +119,7 @@ TEST(Sources, RefusesCopiesThatWouldFillTheMemory) {
 }
 
 TEST(Sources, ReadsFilesAndAllThatTheyInclude) {
-  const auto made = TemporaryFolder::Make("sources");
-  ASSERT_TRUE(made);
+  ASSERT_OK(made, TemporaryFolder::Make("sources"));
   const std::filesystem::path folder = made->path();
   const auto write = [&](const std::string& name, const std::string& text) {
     ASSERT_TRUE(WriteFileAtomically(folder / name, text));
@@ -131,12 +128,10 @@ TEST(Sources, ReadsFilesAndAllThatTheyInclude) {
   write("main.yaml", kTwo);
   SourceTexts texts;
   const auto missing = ReadScenarios(main, texts);
-  ASSERT_FALSE(missing);
-  EXPECT_THAT(ToString(missing.error()), HasSubstr("main.yaml:1:11: "));
-  EXPECT_THAT(ToString(missing.error()), HasSubstr("all.yaml"));
+  EXPECT_THAT(testing::Refusal(missing), HasSubstr("main.yaml:1:11: "));
+  EXPECT_THAT(testing::Refusal(missing), HasSubstr("all.yaml"));
   for (const auto& [name, text] : kIncluded) write(name, text);
-  const auto read = ReadScenarios(main, texts);
-  ASSERT_TRUE(read);
+  ASSERT_OK(read, ReadScenarios(main, texts));
   EXPECT_EQ(read->size(), 2u);
   EXPECT_EQ(texts.size(), 4u);
   EXPECT_EQ(texts.count((folder / "shared/deep.yaml").string()), 1u);

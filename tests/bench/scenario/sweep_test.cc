@@ -3,8 +3,8 @@
 namespace etude {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 std::vector<std::string> Labels(const std::string& sweep) {
   std::vector<std::string> labels;

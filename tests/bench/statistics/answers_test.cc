@@ -23,11 +23,7 @@ struct CellValues {
 using WorldOf = std::function<std::array<CellValues, 3>(int trial)>;
 
 Study IkStudy(int trials) {
-  Study study;
-  study.scenario = "s";
-  study.task = "ik";
-  study.trials = trials;
-  study.methods = {{"a", "a"}, {"b", "a"}, {"c", "a"}};
+  Study study{.scenario = "s", .task = "ik", .trials = trials, .methods = {{"a", "a"}, {"b", "a"}, {"c", "a"}}};
   study.conditions = {{}};
   study.metrics = {"position_error_cm"};
   study.success = "solved_practical";

@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const MetricInfo& Metric() { return *FindMetric("mpjpe_mm"); }  // lower is better, 1 mm matters
 

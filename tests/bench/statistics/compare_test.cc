@@ -12,10 +12,7 @@ namespace etude {
 namespace {
 
 MetricInfo Metric(Direction direction, double practical) {
-  MetricInfo metric;
-  metric.id = "position_error_cm";
-  metric.direction = direction;
-  metric.practical = practical;
+  MetricInfo metric{.id = "position_error_cm", .direction = direction, .practical = practical};
   return metric;
 }
 

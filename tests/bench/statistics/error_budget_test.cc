@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 using Errors = std::function<double(const std::string& method, int trial)>;
 
 constexpr const char* kWholeYaml = R"(

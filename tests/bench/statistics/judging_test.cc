@@ -14,9 +14,9 @@
 namespace etude {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 std::vector<std::optional<double>> Corrected(std::vector<std::optional<double>> p_values) {
   return HolmCorrected(p_values);
@@ -207,8 +207,7 @@ TEST(JudgeFamily, RaisesAFalseAlarmInOneScenarioOfTwenty) {
 
 /// "a" against "base" under one law and one noise.
 ConditionSummary Under(const std::string& law, const std::string& noise, Verdict verdict, double difference) {
-  ConditionSummary condition;
-  condition.condition = {{"learning", law}, {"noise", noise}};
+  ConditionSummary condition{.condition = {{"learning", law}, {"noise", noise}}};
   Comparison comparison;
   comparison.metric = "retention";
   comparison.baseline = "base";
@@ -220,8 +219,7 @@ ConditionSummary Under(const std::string& law, const std::string& noise, Verdict
 }
 
 Study Asking(std::vector<std::string> across) {
-  Study study;
-  study.across = std::move(across);
+  Study study{.across = std::move(across)};
   return study;
 }
 

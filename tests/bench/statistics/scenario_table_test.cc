@@ -6,6 +6,7 @@
 #include "bench/scenario/scenario.h"
 #include "bench/statistics/summary.h"
 #include "tests/bench/scenario/parse.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -112,10 +113,9 @@ TEST(FindRival, ChoosesOnOtherWorldsThanThoseItIsJudgedOn) {
     return (method == "b") == (trial % 2 == 0) ? 1.0 : 9.0;
   });
   const ConditionTable& condition = table.conditions()[0];
-  const auto rival = FindRival(study, condition, study.methods[0]);
-  ASSERT_TRUE(rival);
+  ASSERT_OK(rival, FindRival(study, condition, study.methods[0]));
   EXPECT_EQ(rival->Name(), "c or b");
-  EXPECT_THAT(rival->Note(), testing::HasSubstr("on the other half of the worlds"));
+  EXPECT_THAT(rival->Note(), ::testing::HasSubstr("on the other half of the worlds"));
   const PairedWorlds worlds = WorldsAgainst(*rival, condition, "a", "position_error_cm");
   ASSERT_EQ(worlds.pairs.size(), 12u);
   for (const Pair& pair : worlds.pairs) EXPECT_EQ(pair.baseline, 9);

@@ -53,7 +53,7 @@ ScenarioTable Tabulate(const Study& study, std::span<const Row> rows) {
   return table;
 }
 
-class SummaryTest : public testing::Test {
+class SummaryTest : public ::testing::Test {
  protected:
   Study study = StudyOf(ParseOne(kYaml));
   std::vector<Row> rows = Rows(study);
@@ -132,7 +132,7 @@ TEST_F(SummaryTest, CountsTheWorldsWithoutAPairAndSaysSo) {
   EXPECT_EQ(comparison.only_baseline, 1);
   EXPECT_EQ(comparison.only_method, 0);
   EXPECT_EQ(comparison.neither, 0);
-  EXPECT_THAT(comparison.notes, testing::Contains(testing::HasSubstr("only “a” has a value in 1")));
+  EXPECT_THAT(comparison.notes, ::testing::Contains(::testing::HasSubstr("only “a” has a value in 1")));
   // A world that was skipped for both is no loss of either.
   for (Row& row : rows) {
     if (row.trial == 9) row.result = CellResult::Ended(Status::kSkipped, "no labels");
@@ -201,15 +201,12 @@ TEST_F(SummaryTest, AnExpectationIsHeldToItsConfidence) {
   below.confidence = 0.999;  // nine pairs reach p = 0.0039 at best
   const ExpectationResult result = JudgeExpectation(below, study, Tabulate(study, rows), 1);
   EXPECT_EQ(result.outcome, ClaimOutcome::kUndecided);
-  EXPECT_THAT(result.detail, testing::HasSubstr("9 of them differ, and 99.9 % needs at least 11"));
-  EXPECT_THAT(result.detail, testing::HasSubstr("on 9 worlds, 1 more have no pair of values"));
+  EXPECT_THAT(result.detail, ::testing::HasSubstr("9 of them differ, and 99.9 % needs at least 11"));
+  EXPECT_THAT(result.detail, ::testing::HasSubstr("on 9 worlds, 1 more have no pair of values"));
 }
 
 TEST_F(SummaryTest, AMissingValueNeverMeetsABound) {
-  Expectation bound;
-  bound.metric = "position_error_cm";
-  bound.of = "b";
-  bound.at_most = 100;
+  Expectation bound{.metric = "position_error_cm", .of = "b", .at_most = 100};
   EXPECT_EQ(JudgeExpectation(bound, study, Tabulate(study, rows), 1).outcome, ClaimOutcome::kUndecided);
 }
 

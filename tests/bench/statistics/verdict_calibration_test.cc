@@ -36,9 +36,8 @@ Moments MomentsOf(const SampleDesign& design, double effect) {
 
 TEST(DrawSample, HasTheMeanAndTheCorrelationItSays) {
   for (SampleLaw law : kAllLaws) {
-    const SampleDesign design{.law = law, .units = 10, .trials = 2, .alike = 0.5};
     for (double effect : {0.0, 2.0}) {
-      const Moments found = MomentsOf(design, effect);
+      const Moments found = MomentsOf({.law = law, .units = 10, .trials = 2, .alike = 0.5}, effect);
       EXPECT_NEAR(found.mean, effect * JustMatters(law), 0.03) << SampleLawName(law);
       if (effect > 0) continue;
       const double sixth = law == SampleLaw::kShares || law == SampleLaw::kCensored ? 6 : 3;
@@ -123,8 +122,7 @@ TEST(VerdictRatesMarkdown, HasALineForEveryDesignOfAllLaws) {
 // with a chance of 0.05 / 280 (500 + 3.57 × 21.8 = 578), of 6 % more than 684.
 TEST(KeepsPromise, NeedsFewFalseAlarmsForCertainAndIntervalsThatHoldTheTruth) {
   constexpr std::size_t kDesigns = 280;
-  VerdictRates rates;
-  rates.false_alarms = {.count = 577, .of = 10'000, .percent = 5.77, .low = 5.3, .high = 6.5};
+  VerdictRates rates{.false_alarms = {.count = 577, .of = 10'000, .percent = 5.77, .low = 5.3, .high = 6.5}};
   rates.coverage_without = 93;
   EXPECT_TRUE(KeepsPromise(rates, kDesigns));
   const auto breaks = [&](auto change) {

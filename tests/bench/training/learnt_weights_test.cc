@@ -6,6 +6,7 @@
 
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -15,8 +16,7 @@ TrainingClips BuiltinClips() { return *GatherTrainingClips({}, {}, MakeBodyPropo
 TEST(TrainingClips, AreEveryBuiltInMoveOnceAndWhatElseTheLibraryHas) {
   const BodyMotion clips[] = {LoadBuiltinMove("clap")->motion, LoadBuiltinMove("sway")->motion};
   const BodyProportions proportions = MakeBodyProportions(PoseOf(Controls{}), 0.9);
-  const auto training = GatherTrainingClips(clips, {"builtin:clap", "mine.bvh"}, proportions);
-  ASSERT_TRUE(training);
+  ASSERT_OK(training, GatherTrainingClips(clips, {"builtin:clap", "mine.bvh"}, proportions));
   std::vector<std::string> expected;
   for (const std::string& name : BuiltinMoveNames()) expected.push_back("builtin:" + name);
   expected.push_back("mine.bvh");
@@ -51,8 +51,7 @@ TEST(LearntWeights, OfAJudgedClipDoNotMoveWhenItDoes) {
 }
 
 TEST(LearntWeights, FixedOnesAreTheSystems) {
-  FuzzySystem system;
-  system.weights = {8, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  FuzzySystem system{.weights = {8, 0, 0, 0, 0, 0, 0, 0, 0, 0}};
   LearntWeights learnt(TrainingClips{}, system);
   EXPECT_EQ(learnt.For(WeightSource::kFixed, "a", "b"), system.weights);
   EXPECT_EQ(learnt.FitOf(WeightSource::kGenetic, "a", "b").status, WeightFitStatus::kOneClassOnly);

@@ -6,6 +6,7 @@
 #include "bench/training/training_pairs.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -59,18 +60,16 @@ TEST(MembershipGenes, KeepBreakpointsInOrderAndSidesAlike) {
 
 TEST(Tuning, DoesNoWorseThanThePaperOnWhatItSaw) {
   const TrainingClips clips = SomeClips();
-  const GeneticOptions brief{.population = 12, .generations = 8};
   const auto pairs = LabelPairsAcross(clips.frames);
   const double before = PairTable(pairs).SoftF1(PaperWeights(), 0.4, 0.5);
   for (Tuning tuning : {Tuning::kGenetic, Tuning::kGeneticMemberships}) {
-    const TunedSystem tuned = TuneSystem(clips.frames, tuning, brief);
+    const TunedSystem tuned = TuneSystem(clips.frames, tuning, {.population = 12, .generations = 8});
     ASSERT_EQ(tuned.status, WeightFitStatus::kFitted);
     EXPECT_EQ(tuned.generations, 8);
     const auto regraded = LabelPairsAcross(clips.frames, tuned.system.memberships);
     EXPECT_GE(PairTable(regraded).SoftF1(tuned.system.weights, 0.4, 0.5), before);
     const auto text = WriteFuzzySystem(tuned.system);
-    const auto back = ReadFuzzySystem(text, "tuned.yaml");
-    ASSERT_TRUE(back) << ToString(back.error());
+    ASSERT_OK(back, ReadFuzzySystem(text, "tuned.yaml"));
   }
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "tests/support/results.h"
+
 namespace etude {
 namespace {
 
@@ -57,8 +59,7 @@ TEST(BoardViews, PicturesOfBoardsGiveTwoCamerasBack) {
   BoardViews views({kBoard});
   for (std::size_t moment = 0; moment < std::size(boards); ++moment) {
     for (std::size_t c = 0; c < 2; ++c) {
-      const auto corners = views.Add(c, std::to_string(moment), Photograph(cameras[c], boards[moment]));
-      ASSERT_TRUE(corners) << ToString(corners.error());
+      ASSERT_OK(corners, views.Add(c, std::to_string(moment), Photograph(cameras[c], boards[moment])));
       EXPECT_GT(*corners, 10u) << moment << ", " << c;
     }
   }

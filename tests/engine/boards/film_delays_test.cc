@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/support/results.h"
+
 namespace etude {
 namespace {
 
@@ -53,13 +55,11 @@ TEST(FindFilmDelays, FindsHowLateAFilmIsAndItsCamerasWithIt) {
   const double periods[] = {kPeriodS, kPeriodS};
   std::vector<Camera> truth;
   const auto sightings = SightingsOf({.delay_s = 0.7 * kPeriodS}, truth);
-  const auto steps = FindFilmDelays(kSizes, sightings, periods, 2 * kPeriodS);
-  ASSERT_TRUE(steps) << ToString(steps.error());
+  ASSERT_OK(steps, FindFilmDelays(kSizes, sightings, periods, 2 * kPeriodS));
   EXPECT_EQ(steps->delay_s[0], 0);
   EXPECT_NEAR(steps->delay_s[1], 0.7 * kPeriodS, 0.04 * kPeriodS);
   EXPECT_GT(steps->before_px, 3 * steps->after_px);
-  const auto rig = CalibrateFromPlanes(kSizes, SynchronisedViews(sightings, periods, steps->delay_s));
-  ASSERT_TRUE(rig) << ToString(rig.error());
+  ASSERT_OK(rig, CalibrateFromPlanes(kSizes, SynchronisedViews(sightings, periods, steps->delay_s)));
   EXPECT_LT(rig->rms_px, 0.4);
   for (const Camera& camera : rig->cameras) EXPECT_NEAR(camera.intrinsics.fx, 900, 9);
   EXPECT_NEAR(glm::distance(rig->cameras[0].p_WC, rig->cameras[1].p_WC), glm::distance(truth[0].p_WC, truth[1].p_WC),
@@ -70,8 +70,7 @@ TEST(FindFilmDelays, LeavesFilmsInStepAlone) {
   const double periods[] = {kPeriodS, kPeriodS};
   std::vector<Camera> truth;
   const auto sightings = SightingsOf({}, truth);
-  const auto steps = FindFilmDelays(kSizes, sightings, periods, 2 * kPeriodS);
-  ASSERT_TRUE(steps) << ToString(steps.error());
+  ASSERT_OK(steps, FindFilmDelays(kSizes, sightings, periods, 2 * kPeriodS));
   EXPECT_EQ(steps->delay_s, std::vector<double>(2));
   EXPECT_LT(steps->after_px, 0.2);
 }
@@ -82,8 +81,7 @@ TEST(SynchronisedViews, OfAnotherRateStandAtTheFirstFilmsMoments) {
   const auto sightings = SightingsOf({.other_period_s = periods[1]}, truth);
   const auto views = SynchronisedViews(sightings, periods, delay_s);
   ASSERT_EQ(views.size(), sightings.size());  // none is lost: those between the first film's moments stand alone
-  const auto rig = CalibrateFromPlanes(kSizes, views);
-  ASSERT_TRUE(rig) << ToString(rig.error());
+  ASSERT_OK(rig, CalibrateFromPlanes(kSizes, views));
   EXPECT_LT(rig->rms_px, 0.4);
   EXPECT_NEAR(glm::distance(rig->cameras[0].p_WC, rig->cameras[1].p_WC), glm::distance(truth[0].p_WC, truth[1].p_WC),
               0.01);
@@ -93,11 +91,9 @@ TEST(LocateBoards, TellsKnownCamerasResidual) {
   const double periods[] = {kPeriodS, kPeriodS}, in_step[] = {0, 0}, late[] = {0, 0.5 * kPeriodS};
   std::vector<Camera> truth;
   const auto sightings = SightingsOf({}, truth);
-  const auto right = LocateBoards(truth, SynchronisedViews(sightings, periods, in_step));
-  ASSERT_TRUE(right) << ToString(right.error());
+  ASSERT_OK(right, LocateBoards(truth, SynchronisedViews(sightings, periods, in_step)));
   EXPECT_LT(right->rms_px, 0.12);
-  const auto wrong = LocateBoards(truth, SynchronisedViews(sightings, periods, late));
-  ASSERT_TRUE(wrong) << ToString(wrong.error());
+  ASSERT_OK(wrong, LocateBoards(truth, SynchronisedViews(sightings, periods, late)));
   EXPECT_GT(wrong->rms_px, 1);
 }
 

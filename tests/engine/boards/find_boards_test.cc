@@ -16,6 +16,7 @@
 #include "engine/boards/printed_board.h"
 #include "engine/cameras/camera.h"
 #include "sim/random/stream.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -161,10 +162,8 @@ TEST(FindBoards, RenderedBoardsCalibrateACameraAsOpenCvDoes) {
     }
     const std::vector<TargetView> views = search.views();
     ASSERT_GE(views.size(), 5u);
-    const auto ours = CalibrateFromPlanes(search.sizes(), views);
-    ASSERT_TRUE(ours) << ToString(ours.error());
-    const auto theirs = CalibrateByOpenCv(views, search.sizes()[0], LensModel::kRadial2);
-    ASSERT_TRUE(theirs) << ToString(theirs.error());
+    ASSERT_OK(ours, CalibrateFromPlanes(search.sizes(), views));
+    ASSERT_OK(theirs, CalibrateByOpenCv(views, search.sizes()[0], LensModel::kRadial2));
     EXPECT_NEAR(ours->rms_px, theirs->rms_px, 1e-5);  // OpenCV takes corners as floats
     EXPECT_LT(ours->rms_px, 0.2);
     const Intrinsics &a = ours->cameras[0].intrinsics, &b = theirs->intrinsics;
@@ -175,8 +174,7 @@ TEST(FindBoards, RenderedBoardsCalibrateACameraAsOpenCvDoes) {
       }
     }
     EXPECT_NEAR(ours->cameras[0].distortion.k1, theirs->distortion.k1, 1e-4);
-    const auto pinhole = CalibrateByOpenCv(views, search.sizes()[0], LensModel::kPinhole);
-    ASSERT_TRUE(pinhole);
+    ASSERT_OK(pinhole, CalibrateByOpenCv(views, search.sizes()[0], LensModel::kPinhole));
     EXPECT_GT(pinhole->rms_px, ours->rms_px + 0.05) << "the control: without the lens";
     EXPECT_FALSE(CalibrateByOpenCv(views, search.sizes()[0], LensModel::kAsInCamera));
     EXPECT_FALSE(CalibrateByOpenCv({}, search.sizes()[0], LensModel::kRadial2)) << "its complaint, not its end";

@@ -23,8 +23,7 @@ MeasurableBody Arm(double upper = 0.5, double lower = 0.4) {
 }
 
 TreeState PoseAt(double t) {
-  TreeState state;
-  state.root_position = {0.2 * t, 0.1 * std::sin(t), 0.05 * t};
+  TreeState state{.root_position = {0.2 * t, 0.1 * std::sin(t), 0.05 * t}};
   state.root_frame = glm::dmat3(glm::rotate(glm::dmat4(1), 0.4 + 0.3 * t, glm::normalize(glm::dvec3(1, 2, 3))));
   for (int i = 0; i < 7; ++i) state.angles.push_back(0.6 * std::sin(1.3 * i + 0.5 + t));
   return state;
@@ -71,9 +70,7 @@ double LargestError(const MeasurableBody& body, const BundleSolution& found, con
 }
 
 BundleOptions Exact() {
-  BundleOptions options;
-  options.max_iterations = 100;
-  options.min_decrease = 1e-14;
+  BundleOptions options{.max_iterations = 100, .min_decrease = 1e-14};
   return options;
 }
 

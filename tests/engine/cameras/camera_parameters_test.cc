@@ -9,6 +9,7 @@
 
 #include "engine/base/angles.h"
 #include "sim/random/stream.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -79,8 +80,7 @@ TEST(CameraParameters, AreTheSameAfterRecomposingAndDecomposing) {
     for (auto& row : scaled.h) {
       for (double& value : row) value *= 7.5;  // a matrix is known up to its scale
     }
-    const auto back = Decompose(scaled);
-    ASSERT_TRUE(back) << ToString(back.error());
+    ASSERT_OK(back, Decompose(scaled));
     for (std::size_t i = 0; i < 12; ++i) {
       EXPECT_NEAR(Listed(*back)[i], Listed(p)[i], 1e-9 * std::max(1.0, std::abs(Listed(p)[i]))) << seed << ", " << i;
     }
@@ -94,8 +94,7 @@ TEST(CameraParameters, AreTheSameAfterRecomposingAndDecomposing) {
 TEST(CameraParameters, AreFoundWhereTwoAxesOfRotationFallTogether) {
   CameraParameters p = AnyParameters(3);
   p.phi = kPi / 2;
-  const auto back = Decompose(Recompose(p));
-  ASSERT_TRUE(back);
+  ASSERT_OK(back, Decompose(Recompose(p)));
   const ProjectionMatrix again = Recompose(*back), wanted = Recompose(p);
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 4; ++j) EXPECT_NEAR(again.h[i][j], wanted.h[i][j], 1e-7);

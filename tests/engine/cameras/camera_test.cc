@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/support/results.h"
+
 namespace etude {
 namespace {
 
@@ -32,8 +34,7 @@ TEST(Distortion, IsOpenCvsFormula) {
 TEST(Distortion, IsUndone) {
   for (double x = -0.6; x < 0.61; x += 0.05) {
     for (double y = -0.5; y < 0.51; y += 0.05) {
-      const auto back = Undistort(kLens, Distort(kLens, {x, y}));
-      ASSERT_TRUE(back);
+      ASSERT_OK(back, Undistort(kLens, Distort(kLens, {x, y})));
       EXPECT_NEAR(back->x, x, 1e-11);
       EXPECT_NEAR(back->y, y, 1e-11);
     }
@@ -92,8 +93,7 @@ TEST(Distortion, HidesWhatALensWouldFoldBackIntoThePicture) {
 
 TEST(Camera, ShowsItsTargetAtThePrincipalPoint) {
   const Camera camera = LookAt({}, {3, 1.4, 2}, {0.2, 0.9, -0.1});
-  const auto pixel = Project(MatrixOf(camera), {0.2, 0.9, -0.1});
-  ASSERT_TRUE(pixel);
+  ASSERT_OK(pixel, Project(MatrixOf(camera), {0.2, 0.9, -0.1}));
   EXPECT_NEAR(pixel->x, 320, 1e-9);
   EXPECT_NEAR(pixel->y, 240, 1e-9);
 }
@@ -129,9 +129,7 @@ TEST(Camera, SeesNothingBehindItOrInItsPlane) {
 }
 
 TEST(Camera, SkewMovesAPixelByItsHeight) {
-  Intrinsics skewed;
-  skewed.skew = 40;
-  const ProjectionMatrix matrix = MatrixOf(LookAt(skewed, {0, 1, 4}, {0, 1, 0}));
+  const ProjectionMatrix matrix = MatrixOf(LookAt({.skew = 40}, {0, 1, 4}, {0, 1, 0}));
   // u = fx·x + skew·y + cx with y = −0.5 m / 4 m.
   EXPECT_NEAR(Project(matrix, {0, 1.5, 0})->x, 320 - 40 * 0.125, 1e-9);
 }
@@ -154,8 +152,7 @@ TEST(Distortion, OfMoreCoefficientsAndFisheyesIsUndone) {
   const Distortion fisheye{.k1 = -0.02, .k2 = 0.004, .k3 = -0.001, .k4 = 0.0003, .is_fisheye = true};
   for (const Distortion& d : {all, fisheye, Distortion{.is_fisheye = true}}) {
     for (const glm::dvec2 ray : {glm::dvec2(0, 0), {0.3, -0.2}, {-0.5, 0.4}, {0.01, 0.6}}) {
-      const auto back = Undistort(d, Distort(d, ray));
-      ASSERT_TRUE(back);
+      ASSERT_OK(back, Undistort(d, Distort(d, ray)));
       EXPECT_LT(glm::distance(*back, ray), 1e-9);
     }
   }

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <vector>
 
+#include "tests/support/results.h"
+
 namespace etude {
 namespace {
 
@@ -70,8 +72,7 @@ TEST(OpenCvFile, GivesTheCameraBackWithItsLens) {
   camera.distortion = {.k1 = -0.21, .k2 = 0.03, .p1 = 1e-3, .p2 = -2e-3, .k3 = 0.004};
   const std::string text = WriteOpenCvCamera(camera);
   EXPECT_EQ(MatrixNamed(text, "distortion_coefficients"), (std::vector<double>{-0.21, 0.03, 1e-3, -2e-3, 0.004}));
-  const auto back = ReadOpenCvCamera(text);
-  ASSERT_TRUE(back) << ToString(back.error());
+  ASSERT_OK(back, ReadOpenCvCamera(text));
   EXPECT_EQ(back->distortion, camera.distortion);
   EXPECT_EQ(back->intrinsics.width, 800);
   EXPECT_EQ(back->intrinsics.skew, 1.5);
@@ -81,13 +82,15 @@ TEST(OpenCvFile, GivesTheCameraBackWithItsLens) {
 }
 
 TEST(OpenCvFile, ReadsFourCoefficientsAndNoExtrinsics) {
-  const auto camera = ReadOpenCvCamera(
-      "%YAML:1.0\n---\nimage_width: 640\nimage_height: 480\n"
-      "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [ 600., 0., 319.5, 0.,\n       "
-      "6.1e+02, 239.5, 0., "
-      "0., 1. ]\ndistortion_coefficients: !!opencv-matrix\n   rows: 4\n   cols: 1\n   dt: d\n   data: [ -0.1, 0.02, "
-      "0., 0.001 ]\n");
-  ASSERT_TRUE(camera) << ToString(camera.error());
+  ASSERT_OK(
+      camera,
+      ReadOpenCvCamera(
+          "%YAML:1.0\n---\nimage_width: 640\nimage_height: 480\n"
+          "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [ 600., 0., 319.5, 0.,\n       "
+          "6.1e+02, 239.5, 0., "
+          "0., 1. ]\ndistortion_coefficients: !!opencv-matrix\n   rows: 4\n   cols: 1\n   dt: d\n   data: [ -0.1, "
+          "0.02, "
+          "0., 0.001 ]\n"));
   EXPECT_EQ(camera->intrinsics.fy, 610);
   EXPECT_EQ(camera->intrinsics.cx, 320);
   EXPECT_EQ(camera->distortion, (Distortion{.k1 = -0.1, .k2 = 0.02, .p2 = 0.001}));

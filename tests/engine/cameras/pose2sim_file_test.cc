@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "tests/support/results.h"
+
 namespace etude {
 namespace {
 
@@ -29,8 +31,7 @@ void ExpectAlike(const Camera& a, const Camera& b) {
 
 TEST(Pose2SimFile, GivesItsCamerasBack) {
   const std::vector<NamedCamera> cameras{Crooked(), Plain()};
-  const auto back = ReadPose2SimCalibration(WritePose2SimCalibration(cameras));
-  ASSERT_TRUE(back) << ToString(back.error());
+  ASSERT_OK(back, ReadPose2SimCalibration(WritePose2SimCalibration(cameras)));
   ASSERT_EQ(back->size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ((*back)[i].name, cameras[i].name);
@@ -41,8 +42,7 @@ TEST(Pose2SimFile, GivesItsCamerasBack) {
 TEST(Pose2SimFile, KeepsAThirdRadialCoefficientWhereThereIsOne) {
   NamedCamera camera = Plain();
   camera.camera.distortion = {.k1 = 0.1, .k3 = 0.03};
-  const auto back = ReadPose2SimCalibration(WritePose2SimCalibration(std::vector{camera}));
-  ASSERT_TRUE(back);
+  ASSERT_OK(back, ReadPose2SimCalibration(WritePose2SimCalibration(std::vector{camera})));
   EXPECT_EQ(back->front().camera.distortion, camera.camera.distortion);
 }
 
@@ -108,16 +108,16 @@ std::string Broken(const std::string& from, const std::string& to) {
 TEST(Pose2SimFile, ReadsFisheyesMatricesAndListsOverLines) {
   NamedCamera fisheye = Crooked();
   fisheye.camera.distortion = {.k1 = -0.02, .k2 = 0.004, .k3 = -0.001, .k4 = 0.0003, .is_fisheye = true};
-  const auto back = ReadPose2SimCalibration(WritePose2SimCalibration(std::vector{fisheye}));
-  ASSERT_TRUE(back) << ToString(back.error());
+  ASSERT_OK(back, ReadPose2SimCalibration(WritePose2SimCalibration(std::vector{fisheye})));
   EXPECT_EQ(back->front().camera.distortion, fisheye.camera.distortion);
-  const auto caliscope = ReadPose2SimCalibration(
-      "[cameras.3]\nsize = [640, 480] # px\nmatrix = [\n [600.0, 0.0, 320.0],\n [0.0, 600.0, 240.0],\n [0.0, 0.0, "
-      "1.0],\n]\n"
-      "distortions = []\nrotation = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]\ntranslation = [0.0, 0.0, "
-      "2.0]\n"
-      "[cameras.4]\nignore = true\nmatrix = [1]\n");
-  ASSERT_TRUE(caliscope) << ToString(caliscope.error());
+  ASSERT_OK(
+      caliscope,
+      ReadPose2SimCalibration(
+          "[cameras.3]\nsize = [640, 480] # px\nmatrix = [\n [600.0, 0.0, 320.0],\n [0.0, 600.0, 240.0],\n [0.0, 0.0, "
+          "1.0],\n]\n"
+          "distortions = []\nrotation = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]\ntranslation = [0.0, 0.0, "
+          "2.0]\n"
+          "[cameras.4]\nignore = true\nmatrix = [1]\n"));
   ASSERT_EQ(caliscope->size(), 1u);
   EXPECT_EQ(caliscope->front().name, "cam_3");
   // Z up: the file's x, which the camera looks along, is our z.

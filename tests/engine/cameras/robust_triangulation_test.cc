@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tests/engine/cameras/camera_at.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -73,8 +74,7 @@ std::vector<WeightedSighting> Sightings() {
 }
 
 TEST(TriangulateRobustly, GivesThePointBackFromExactSightings) {
-  const auto point = TriangulateRobustly(Sightings());
-  ASSERT_TRUE(point);
+  ASSERT_OK(point, TriangulateRobustly(Sightings()));
   EXPECT_LT(glm::distance(point->position, kPlace), 1e-9);
   EXPECT_EQ(point->agrees, std::vector<bool>(5, true));
 }
@@ -83,8 +83,7 @@ TEST(TriangulateRobustly, LeavesOutTwoOfFiveThatShowSomethingElse) {
   auto sightings = Sightings();
   sightings[1].sighting.pixel += glm::dvec2(120, 40);
   sightings[3].sighting.pixel += glm::dvec2(-90, 150);
-  const auto point = TriangulateRobustly(sightings);
-  ASSERT_TRUE(point);
+  ASSERT_OK(point, TriangulateRobustly(sightings));
   EXPECT_LT(glm::distance(point->position, kPlace), 1e-9);
   EXPECT_EQ(point->agrees, (std::vector<bool>{true, false, true, false, true}));
   std::vector<Sighting> all;
@@ -107,8 +106,7 @@ TEST(TriangulateRobustly, FindsTheLeastWeightedSquares) {
     }
     return sum;
   };
-  const auto point = TriangulateRobustly(sightings);
-  ASSERT_TRUE(point);
+  ASSERT_OK(point, TriangulateRobustly(sightings));
   for (int axis = 0; axis < 3; ++axis) {
     for (const double step : {1e-4, -1e-4}) {
       glm::dvec3 aside = point->position;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/engine/cameras/camera_at.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -148,8 +149,7 @@ TEST(TriangulationOfMany, OfTwoEquallyFarCamerasIsThatOfTwo) {
 const glm::dvec3 kSeen(0.3, 1.2, -0.4);
 
 TEST(EpipolarGeometry, OfOnePointsPixelsTheDistanceIsNothing) {
-  const auto geometry = EpipolarGeometry::Of(CameraAt(-30), CameraAt(50));
-  ASSERT_TRUE(geometry);
+  ASSERT_OK(geometry, EpipolarGeometry::Of(CameraAt(-30), CameraAt(50)));
   EXPECT_NEAR(geometry->DistancePx(*Project(CameraAt(-30), kSeen), *Project(CameraAt(50), kSeen)), 0, 1e-9);
 }
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/engine/capture/marked_body.h"
+#include "tests/support/gaps.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -37,8 +39,7 @@ std::vector<BodyPose> Poses(int count, double step, const CaptureBody& body) {
 double LargestError(const AdjustedTake& take, const std::vector<BodyPose>& truth) {
   double largest = 0;
   for (std::size_t k = 0; k < truth.size(); ++k) {
-    const BodyPose pose = ToBodyPose(take.body, take.states[k]);
-    for (const Role role : AllRoles()) largest = std::max(largest, glm::distance(pose[role], truth[k][role]));
+    largest = std::max(largest, WorstJointDistance(ToBodyPose(take.body, take.states[k]), truth[k]));
   }
   return largest;
 }
@@ -116,8 +117,7 @@ TEST(AdjustTake, IsNotSolvedWhereNothingIsSeen) {
 TEST(MeasureLengths, FindsThoseOfExactMarksAndNothingWhereNothingIsSeen) {
   const FilmedTake film(Poses(30, 0.1, PaperBody(kTall)));
   const auto measured = MeasureJoints(film.pictures());
-  const auto lengths = MeasureLengths(film.pictures(), measured);
-  ASSERT_TRUE(lengths);
+  ASSERT_OK(lengths, MeasureLengths(film.pictures(), measured));
   const auto found = ListOf(*lengths), truth = ListOf(kTall);
   for (std::size_t i = 0; i < truth.size(); ++i) EXPECT_NEAR(found[i], truth[i], 1e-4) << i;
 
@@ -139,8 +139,7 @@ TEST(MeasureLengths, IsCloserThanTheDistancesOfTriangulatedJoints) {
       }
     }
   }
-  const auto lengths = MeasureLengths(film.pictures(), MeasureJoints(film.pictures()));
-  ASSERT_TRUE(lengths);
+  ASSERT_OK(lengths, MeasureLengths(film.pictures(), MeasureJoints(film.pictures())));
   const auto found = ListOf(*lengths), truth = ListOf(kTall);
   for (std::size_t i = 0; i < truth.size(); ++i) EXPECT_NEAR(found[i], truth[i], 0.015) << i;
 }

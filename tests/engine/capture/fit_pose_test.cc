@@ -9,6 +9,8 @@
 #include "engine/motion/rest_body.h"
 #include "tests/engine/capture/marked_body.h"
 #include "tests/engine/kinematics/rest_bodies.h"
+#include "tests/support/gaps.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -32,20 +34,13 @@ TreeState SomePose(const CaptureBody& body, int trial) {
   return state;
 }
 
-double WorstGap(const BodyPose& a, const BodyPose& b) {
-  double worst = 0;
-  for (const Role role : AllRoles()) worst = std::max(worst, glm::distance(a[role], b[role]));
-  return worst;
-}
-
 TEST(PoseFitter, FindsEveryPoseOfTheBodyFromItsJoints) {
   const CaptureBody body = PlainBody();
   const PoseFitter fitter(body);
   for (int trial = 0; trial < 30; ++trial) {
     const BodyPose truth = ToBodyPose(body, SomePose(body, trial));
-    const auto found = fitter.Fit(TargetsAt(truth));
-    ASSERT_TRUE(found);
-    EXPECT_LT(WorstGap(ToBodyPose(body, found->state), truth), 1e-6) << trial;
+    ASSERT_OK(found, fitter.Fit(TargetsAt(truth)));
+    EXPECT_LT(WorstJointDistance(ToBodyPose(body, found->state), truth), 1e-6) << trial;
   }
 }
 
@@ -54,7 +49,7 @@ TEST(PoseFitter, FindsPosesOfPaperBsBodyWithinIt) {
   const CaptureBody body = FittedBody(RestBodyOf(poses)).value();
   const PoseFitter fitter(body);
   for (const BodyPose& pose : poses) {
-    EXPECT_LT(WorstGap(ToBodyPose(body, fitter.Fit(TargetsAt(pose))->state), pose), 1e-6);
+    EXPECT_LT(WorstJointDistance(ToBodyPose(body, fitter.Fit(TargetsAt(pose))->state), pose), 1e-6);
   }
 }
 
@@ -64,7 +59,7 @@ TEST(PoseFitter, FindsEveryPoseOfABodyWhoseHipsTurn) {
   const PoseFitter fitter(body);
   for (int trial = 0; trial < 30; ++trial) {
     const BodyPose truth = ToBodyPose(body, SomePose(body, trial));
-    EXPECT_LT(WorstGap(ToBodyPose(body, fitter.Fit(TargetsAt(truth))->state), truth), 1e-6) << trial;
+    EXPECT_LT(WorstJointDistance(ToBodyPose(body, fitter.Fit(TargetsAt(truth))->state), truth), 1e-6) << trial;
   }
 }
 
@@ -74,7 +69,7 @@ TEST(PoseFitter, FindsBendsThatNoPlaceTells) {
   const PoseFitter fitter(body);
   for (int trial = 0; trial < 30; ++trial) {
     const BodyPose truth = ToBodyPose(body, SomePose(body, trial));
-    EXPECT_LT(WorstGap(ToBodyPose(body, fitter.Fit(TargetsAt(truth))->state), truth), 5e-5) << trial;
+    EXPECT_LT(WorstJointDistance(ToBodyPose(body, fitter.Fit(TargetsAt(truth))->state), truth), 5e-5) << trial;
   }
 }
 
@@ -86,8 +81,7 @@ TEST(PoseFitter, LeavesWhatNobodySeesToTheBody) {
   PoseTargets wanted = TargetsAt(truth);
   wanted.weights[Index(kSpine)] = 0;
   wanted.places[kSpine] = glm::dvec3(std::numeric_limits<double>::quiet_NaN());
-  const auto found = fitter.Fit(wanted);
-  ASSERT_TRUE(found);
+  ASSERT_OK(found, fitter.Fit(wanted));
   const BodyPose pose = ToBodyPose(body, found->state);
   for (const Role role : AllRoles()) {
     if (role == kSpine) continue;
@@ -106,8 +100,8 @@ TEST(PoseFitter, ComesAsNearAsItCanToJointsThatFitNoBody) {
   const BodyPose found = ToBodyPose(body, fitter.Fit(TargetsAt(wanted))->state);
   // Along the hand both ends share what is missing; nothing else is torn by more.
   EXPECT_NEAR(glm::distance(found[kLeftHand], found[kLeftWrist]), glm::length(along), 1e-9);
-  EXPECT_LT(WorstGap(found, wanted), 0.5 * glm::length(along));
-  EXPECT_GT(WorstGap(found, wanted), 0.1 * glm::length(along));
+  EXPECT_LT(WorstJointDistance(found, wanted), 0.5 * glm::length(along));
+  EXPECT_GT(WorstJointDistance(found, wanted), 0.1 * glm::length(along));
 }
 
 TEST(PoseFitter, RefusesWhatIsNotFiniteAndABodyWithoutAPlace) {

@@ -6,6 +6,7 @@
 #include "engine/capture/recover_frames.h"
 #include "tests/engine/capture/marked_body.h"
 #include "tests/support/gtest_printers.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -37,8 +38,7 @@ struct Stages {
 
   CapturedMotion Run(const MeasureInputs& pictures, const CaptureBody& body,
                      const std::vector<bool>& marked = {}) const {
-    CapturedMotion motion;
-    motion.measured = MeasureFrames(pictures, measure);
+    CapturedMotion motion{.measured = MeasureFrames(pictures, measure)};
     motion.seen = BridgeGaps(motion.measured, bridge);
     motion.frames = RecoverFrames({.body = body, .seen = motion.seen, .marked = marked}, recover);
     return motion;
@@ -57,8 +57,7 @@ TEST(MarkedTake, MakesAClipOfMarkedPicturesOfTwoCamerasOrThree) {
     }
     const TakeMarks marks = ExactMarks(truth, studio);
 
-    const auto cameras = CalibrateCameras(pairs);
-    ASSERT_TRUE(cameras) << ToString(cameras.error());
+    ASSERT_OK(cameras, CalibrateCameras(pairs));
     const CaptureBody body = PaperBody(MeasureLimbLengths(truth));
     Stages stages;
     stages.measure.min_plane_angle = Radians(1);  // exact marks need no margin

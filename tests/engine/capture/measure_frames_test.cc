@@ -1,4 +1,3 @@
-#include "engine/base/directions.h"
 #include "engine/capture/measure_frames.h"
 
 #include <gtest/gtest.h>
@@ -6,9 +5,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/directions.h"
 #include "engine/cameras/limb_direction.h"
 #include "engine/kinematics/limb_lengths.h"
 #include "tests/engine/capture/marked_body.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -101,8 +102,7 @@ TEST(MeasureFrames, SeesWithAThirdCameraALimbThatLiesInAPlaneThroughTheOthers) {
   pose[Role::kLeftWrist] = {0.4, 1, 0.1};  // level as the first two cameras' centres
   const std::size_t forearm = Index(Role::kLeftWrist);
   EXPECT_FALSE(MeasureFrame(level, ExactMarks({pose}, level)).directions[forearm]);
-  const auto found = MeasureFrame(with_high, ExactMarks({pose}, with_high)).directions[forearm];
-  ASSERT_TRUE(found);
+  ASSERT_OK(found, MeasureFrame(with_high, ExactMarks({pose}, with_high)).directions[forearm]);
   EXPECT_LT(Degrees(AngleBetween(*found, {1, 0, 0})), 1e-6);
 }
 

@@ -4,6 +4,7 @@
 
 #include "engine/kinematics/limb_lengths.h"
 #include "tests/engine/capture/marked_body.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -74,8 +75,7 @@ TEST(MeasureJoints, FindsEveryJointOfExactMarks) {
       if (!IsMarkedRole(role)) continue;
       EXPECT_LT(glm::distance(measured[k].joints[Index(role)].position, poses[k][role]), 1e-9) << RoleName(role);
     }
-    const auto pose = CompleteJoints(BridgeJoints(measured)[k], ModelPose());
-    ASSERT_TRUE(pose);
+    ASSERT_OK(pose, CompleteJoints(BridgeJoints(measured)[k], ModelPose()));
     for (const Role role : AllRoles()) EXPECT_LT(glm::distance((*pose)[role], poses[k][role]), 1e-9) << RoleName(role);
   }
 }
@@ -135,16 +135,14 @@ TEST(CompleteJoints, HangsWhatWasNeverSeenOnWhatWas) {
   OptionalJoints joints;
   EXPECT_FALSE(CompleteJoints(joints, pose));
   joints[Index(Role::kLeftHip)] = pose[Role::kLeftHip] + glm::dvec3(1, 2, 3);
-  const auto shifted = CompleteJoints(joints, pose);
-  ASSERT_TRUE(shifted);
+  ASSERT_OK(shifted, CompleteJoints(joints, pose));
   for (const Role role : AllRoles()) {
     EXPECT_LT(glm::distance((*shifted)[role], pose[role] + glm::dvec3(1, 2, 3)), 1e-9) << RoleName(role);
   }
   // Both hips of a body turned by 90°: the rest turns with them.
   const FloorMove turn{.yaw = kPi / 2};
   for (const Role role : {Role::kLeftHip, Role::kRightHip}) joints[Index(role)] = turn.Apply(pose)[role];
-  const auto turned = CompleteJoints(joints, pose);
-  ASSERT_TRUE(turned);
+  ASSERT_OK(turned, CompleteJoints(joints, pose));
   EXPECT_LT(glm::distance((*turned)[Role::kHead], turn.Apply(pose)[Role::kHead]), 0.1);
 }
 

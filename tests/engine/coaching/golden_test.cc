@@ -124,8 +124,7 @@ TEST(Coaching, CutsWhereItsWayFindsNoTransition) {
     EXPECT_EQ(path->clip, library.ClipOfSlow(1));
     const glm::dvec3 left = clips[from].poses[40][Role::kHipCentre], begun = path->frames[0][Role::kHipCentre];
     EXPECT_LT(glm::length(glm::dvec2(begun.x - left.x, begun.z - left.z)), 1e-9) << "laid where the other one stood";
-    const FloorMove home{.yaw = 0.3, .x = 1};
-    EXPECT_EQ(transitions.FindHome(from, 40, home, to)->frames[3].joints, clips[to].poses[3].joints);
+    EXPECT_EQ(transitions.FindHome(from, 40, {.yaw = 0.3, .x = 1}, to)->frames[3].joints, clips[to].poses[3].joints);
   }
 }
 

@@ -125,8 +125,7 @@ TEST_P(RandomPlayers, GetTheSameOfACopyAndChangeNothingInTheState) {
   for (int i = 0; i < 600; ++i) Next();
   const CoachState copy = session_.state();
   SensedFrame frame = session_.Sensed();
-  FeatureFrame features;
-  features.body_seen = true;
+  FeatureFrame features{.body_seen = true};
   const CoachInput input{.seen = {frame, features}, .evidence = {.asked = 0.7, .spotted = {}}, .music_s = 3.0};
   const CoachStep once = session_.coach().Step(copy, input), again = session_.coach().Step(copy, input);
   EXPECT_EQ(once.output.body.joints, again.output.body.joints);

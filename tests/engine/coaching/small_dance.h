@@ -87,8 +87,7 @@ class SmallSession {
 
   const CoachOutput& Next() {
     const SensedFrame frame = Sensed();
-    FeatureFrame features;
-    features.body_seen = player.seen;
+    FeatureFrame features{.body_seen = player.seen};
     CoachInput input{.seen = {frame, features},
                      .evidence = {.asked = state_.open ? player.evidence : 0, .spotted = {}},
                      .other_side = player.other_side,

@@ -3,6 +3,7 @@
 
 #include "engine/document/fields.h"
 #include "engine/document/node.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -23,8 +24,7 @@ std::string Complaint(const std::string& yaml) {
 }
 
 TEST(Document, KnowsTheLineAndColumnOfEveryValue) {
-  const auto node = ParseYaml("a: 1\nb:\n  - x\n  - {c: 2}\n", "t.yaml");
-  ASSERT_TRUE(node);
+  ASSERT_OK(node, ParseYaml("a: 1\nb:\n  - x\n  - {c: 2}\n", "t.yaml"));
   const Node& inner = node->Find("b")->items[1];
   EXPECT_EQ(ToString(inner.Find("c")->place), "t.yaml:4:9");
   EXPECT_EQ(ToString(node->Find("b")->items[0].place), "t.yaml:3:5");

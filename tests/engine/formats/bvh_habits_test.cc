@@ -6,6 +6,7 @@
 
 #include "engine/formats/bvh.h"
 #include "tests/engine/formats/small_bvh.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -23,8 +24,7 @@ std::string ReplacedEverywhere(std::string_view text, std::string_view from, std
 
 void ExpectTheSmallMotion(const std::string& text) {
   const auto expected = ReadBvh(kSmallBvh, "small.bvh");
-  const auto clip = ReadBvh(text, "habit.bvh");
-  ASSERT_TRUE(clip) << ToString(clip.error());
+  ASSERT_OK(clip, ReadBvh(text, "habit.bvh"));
   EXPECT_EQ(clip->rate_hz, expected->rate_hz);
   EXPECT_EQ(clip->frames, expected->frames);
   EXPECT_EQ(RestPose(clip->skeleton), RestPose(expected->skeleton));
@@ -107,14 +107,12 @@ TEST(BvhHabits, IncludeJointsWithoutOrWithFewChannels) {
   std::string text = Replaced(kSmallBvh, "    CHANNELS 3 Zrotation Yrotation Xrotation\n", "");
   text = ReplacedEverywhere(text, "1 2 3 0 0 0 90 0 0", "1 2 3 0 0 0");
   text = ReplacedEverywhere(text, "1 2 3 90 0 0 0 0 0", "1 2 3 90 0 0");
-  const auto none = ReadBvh(text, "none.bvh");
-  ASSERT_TRUE(none) << ToString(none.error());
+  ASSERT_OK(none, ReadBvh(text, "none.bvh"));
   EXPECT_EQ(none->frames[1][1], none->skeleton.joints[1].rest);
   // Two rotations about the same frame's axes, in the order written.
   text = Replaced(kSmallBvh, "CHANNELS 3 Zrotation Yrotation Xrotation", "CHANNELS 2 Xrotation Zrotation");
   text = Replaced(Replaced(text, "90 0 0 0 0 0", "90 0 0 30 40"), "0 0 0 90 0 0", "0 0 0 0 90");
-  const auto two = ReadBvh(text, "two.bvh");
-  ASSERT_TRUE(two) << ToString(two.error());
+  ASSERT_OK(two, ReadBvh(text, "two.bvh"));
   const glm::dquat expected =
       glm::angleAxis(glm::radians(30.0), glm::dvec3(1, 0, 0)) * glm::angleAxis(glm::radians(40.0), glm::dvec3(0, 0, 1));
   EXPECT_NEAR(std::abs(glm::dot(two->frames[0][1].rotation, expected)), 1, 1e-15);
@@ -124,8 +122,7 @@ TEST(BvhHabits, OfARowTooManyAreTold) {
   std::vector<std::string> remarks;
   ASSERT_TRUE(ReadBvh(kSmallBvh, "small.bvh", &remarks));
   EXPECT_TRUE(remarks.empty()) << "the control";
-  const auto clip = ReadBvh(Replaced(kSmallBvh, "Frames: 2", "Frames: 1"), "small.bvh", &remarks);
-  ASSERT_TRUE(clip);
+  ASSERT_OK(clip, ReadBvh(Replaced(kSmallBvh, "Frames: 2", "Frames: 1"), "small.bvh", &remarks));
   EXPECT_EQ(clip->frames.size(), 1u);
   EXPECT_EQ(remarks, (std::vector<std::string>{"2 rows where 1 frames are announced: the last row was dropped"}));
 }
@@ -136,8 +133,7 @@ TEST(BvhHabits, IncludePlacesInTheChannelsAlone) {
   text = Replaced(Replaced(text, "OFFSET 5 0 0", "OFFSET 0 0 0"), "90 0 0 0 0 0", "90 0 0 0 10 1 0 0 0");
   text = Replaced(text, "0 0 0 90 0 0", "0 0 0 0 11 1 90 0 0");
   std::vector<std::string> remarks;
-  const auto clip = ReadBvh(text, "places.bvh", &remarks);
-  ASSERT_TRUE(clip) << ToString(clip.error());
+  ASSERT_OK(clip, ReadBvh(text, "places.bvh", &remarks));
   EXPECT_EQ(clip->skeleton.joints[1].rest.translation, glm::dvec3(0, 10, 1));
   EXPECT_EQ(clip->frames[1][1].translation, glm::dvec3(0, 11, 1));
   EXPECT_EQ(remarks,
@@ -150,16 +146,14 @@ TEST(BvhHabits, IncludePlacesRelativeToTheOffset) {
                            "OFFSET 0 10 0\nCHANNELS 3 Xposition Yposition Zposition\nJOINT c\n{\nOFFSET 5 0 0\nCHANNELS 3 "
                            "Xposition Yposition Zposition\n}\n}\n}\nMOTION\nFrames: 2\nFrame Time: .1\n";
   std::vector<std::string> remarks;
-  const auto relative = ReadBvh(head + "1 2 3 0 0 0 0 0 0\n1 2 3 0 .5 0 0 0 .1\n", "relative.bvh", &remarks);
-  ASSERT_TRUE(relative) << ToString(relative.error());
+  ASSERT_OK(relative, ReadBvh(head + "1 2 3 0 0 0 0 0 0\n1 2 3 0 .5 0 0 0 .1\n", "relative.bvh", &remarks));
   EXPECT_EQ(relative->frames[1][0].translation, glm::dvec3(1, 2, 3)) << "the root's places are the world's";
   EXPECT_EQ(relative->frames[1][1].translation, glm::dvec3(0, 10.5, 0));
   EXPECT_EQ(relative->frames[1][2].translation, glm::dvec3(5, 0, .1));
   EXPECT_EQ(remarks,
             (std::vector<std::string>{"the joints' positions are relative to their OFFSETs, which were added"}));
   // The control: absolute places replace the OFFSETs, also those of a joint that moves a little.
-  const auto absolute = ReadBvh(head + "1 2 3 0 10 0 5 0 0\n1 2 3 0 10.5 0 5 0 .1\n", "absolute.bvh", &remarks);
-  ASSERT_TRUE(absolute);
+  ASSERT_OK(absolute, ReadBvh(head + "1 2 3 0 10 0 5 0 0\n1 2 3 0 10.5 0 5 0 .1\n", "absolute.bvh", &remarks));
   EXPECT_EQ(absolute->frames[1][1].translation, glm::dvec3(0, 10.5, 0));
   EXPECT_EQ(absolute->frames[1][2].translation, glm::dvec3(5, 0, .1));
   EXPECT_EQ(remarks.size(), 1u);

@@ -9,6 +9,7 @@
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
 #include "tests/support/random_clip.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -90,15 +91,13 @@ TEST(BvhReadings, AgreeOnWhateverIsWritten) {
                                                  .scales = seed % 4 == 3});
     EXPECT_EQ(ReadingsApart(WriteBvh(clip)), 0) << seed;
   }
-  const auto boxing = LoadBuiltinMove("boxing");
-  ASSERT_TRUE(boxing);
+  ASSERT_OK(boxing, LoadBuiltinMove("boxing"));
   EXPECT_EQ(ReadingsApart(WriteBvh(RigClip(boxing->motion, StandingPose(), "boxing"))), 0);
 }
 
 TEST(BvhReadings, AreThatOfOurReader) {
   const std::string text = WriteBvh(testing::RandomClip(4, {.moving_offsets = true}));
-  const auto again = ReadBvh(text, "again.bvh");
-  ASSERT_TRUE(again) << ToString(again.error());
+  ASSERT_OK(again, ReadBvh(text, "again.bvh"));
   const auto places = PlacesIn(text, Positions::kAreAddedToOffset);
   ASSERT_EQ(places.size(), again->frames.size() * again->skeleton.joints.size());
   std::vector<GlobalTransform> globals;

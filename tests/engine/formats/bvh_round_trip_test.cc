@@ -10,6 +10,7 @@
 #include "engine/motion/edit.h"
 #include "tests/support/person.h"
 #include "tests/support/random_clip.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -77,8 +78,7 @@ TEST(BvhRoundTrip, KeepsEveryRealClipToThePrintedPrecision) {
     if (entry.path().extension() != ".bvh") continue;
     SCOPED_TRACE(entry.path());
     std::ifstream in(entry.path(), std::ios::binary);
-    const auto clip = ReadBvh(std::string(std::istreambuf_iterator<char>(in), {}), "real.bvh");
-    ASSERT_TRUE(clip) << ToString(clip.error());
+    ASSERT_OK(clip, ReadBvh(std::string(std::istreambuf_iterator<char>(in), {}), "real.bvh"));
     const Clip again = Again(*clip);
     ExpectTheSameToThePrintedPrecision(*clip, again);
     EXPECT_TRUE(WriteBvh(again) == WriteBvh(*clip)) << "written again, the text is another";

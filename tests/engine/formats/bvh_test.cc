@@ -8,6 +8,7 @@
 #include "engine/base/angles.h"
 #include "tests/engine/formats/small_bvh.h"
 #include "tests/support/person.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -41,8 +42,7 @@ glm::dmat3 AxisMatrix(char axis, double degrees) {
 }
 
 TEST(Bvh, ReadsTheTreeOfJointsAndEndSites) {
-  const auto clip = ReadBvh(kSmallBvh, "some/folder/wave.v2.bvh");
-  ASSERT_TRUE(clip) << ToString(clip.error());
+  ASSERT_OK(clip, ReadBvh(kSmallBvh, "some/folder/wave.v2.bvh"));
   EXPECT_EQ(clip->name, "wave.v2");
   ASSERT_EQ(clip->skeleton.joints.size(), 3u);
   EXPECT_EQ(clip->skeleton.joints[0].name, "Hips");
@@ -56,8 +56,7 @@ TEST(Bvh, ReadsTheTreeOfJointsAndEndSites) {
 }
 
 TEST(Bvh, PlacesJointsWhereForwardKinematicsByHandDoes) {
-  const auto clip = ReadBvh(kSmallBvh, "small.bvh");
-  ASSERT_TRUE(clip);
+  ASSERT_OK(clip, ReadBvh(kSmallBvh, "small.bvh"));
   // The root turned by 90° about Z: up becomes −X, the arm's +X becomes up.
   const auto turned_root = Globals(*clip, 0);
   ExpectBvhNear(turned_root[0].position, {1, 2, 3});
@@ -77,8 +76,7 @@ TEST(Bvh, MultipliesRotationsInTheOrderOfTheChannels) {
         fmt::format("CHANNELS 3 {}rotation {}rotation {}rotation", order[0], order[1], order[2]);
     std::string text = Replaced(kSmallBvh, "CHANNELS 3 Zrotation Yrotation Xrotation", channels);
     text = Replaced(text, "1 2 3 90 0 0 0 0 0", "0 0 0 0 0 0 20 -35 70");
-    const auto clip = ReadBvh(text, "order.bvh");
-    ASSERT_TRUE(clip) << ToString(clip.error());
+    ASSERT_OK(clip, ReadBvh(text, "order.bvh"));
     const glm::dmat3 expected = AxisMatrix(order[0], 20) * AxisMatrix(order[1], -35) * AxisMatrix(order[2], 70);
     ExpectBvhNear(Globals(*clip, 0)[2].position, glm::dvec3(0, 10, 0) + expected * glm::dvec3(5, 0, 0));
     ++checked;
@@ -93,8 +91,7 @@ TEST(Bvh, KeepsTheChannelOrderOfEveryJoint) {
   text = Replaced(text, "CHANNELS 3 Zrotation Yrotation Xrotation", "CHANNELS 1 Zrotation");
   text = Replaced(text, "1 2 3 90 0 0 0 0 0", "90 3 1 0 2 0 90");
   text = Replaced(text, "1 2 3 0 0 0 90 0 0", "0 3 1 0 2 0 0");
-  const auto clip = ReadBvh(text, "mixed.bvh");
-  ASSERT_TRUE(clip) << ToString(clip.error());
+  ASSERT_OK(clip, ReadBvh(text, "mixed.bvh"));
   const auto globals = Globals(*clip, 0);
   ExpectBvhNear(globals[0].position, {1, 2, 3});
   ExpectBvhNear(globals[1].position, {1, 12, 3});  // about Y: up stays up
@@ -106,8 +103,7 @@ TEST(Bvh, PositionChannelsReplaceTheOffsetOfAnyJoint) {
   text = Replaced(text, "CHANNELS 3 Zrotation Yrotation Xrotation", "CHANNELS 2 Zposition Xposition");
   text = Replaced(text, "1 2 3 90 0 0 0 0 0", "1 2 3 0 0 0 6 4");
   text = Replaced(text, "1 2 3 0 0 0 90 0 0", "1 2 3 0 0 0 0 0");
-  const auto clip = ReadBvh(text, "positions.bvh");
-  ASSERT_TRUE(clip) << ToString(clip.error());
+  ASSERT_OK(clip, ReadBvh(text, "positions.bvh"));
   ExpectBvhNear(clip->frames[0][0].translation, {1, 2, 3});
   ExpectBvhNear(clip->frames[0][1].translation, {4, 10, 6});  // Y has no channel and keeps its offset
   ExpectBvhNear(clip->skeleton.joints[0].rest.translation, {7, 8, 9});
@@ -132,22 +128,19 @@ TEST(Bvh, ReadsWindowsLineEndsTabsOddCaseAndAMissingLastNewline) {
   text = Replaced(Replaced(text, "ROOT Hips", "\n\nroot My Hips"), "Frames: 2", "FRAMES :2");
   text = "\xEF\xBB\xBF" + Replaced(text, "Xposition Y", "XPosition\r\n\tY");
   while (text.back() != '0') text.pop_back();
-  const auto clip = ReadBvh(text, "windows.bvh");
-  ASSERT_TRUE(clip) << ToString(clip.error());
+  ASSERT_OK(clip, ReadBvh(text, "windows.bvh"));
   EXPECT_EQ(clip->skeleton.joints[0].name, "My Hips");
   ExpectBvhNear(Globals(*clip, 0)[2].position, {-9, 7, 3});
 }
 
 TEST(Bvh, DropsTheOneFrameThatSomeExportersWriteBeyondTheirCount) {
-  const auto clip = ReadBvh(Replaced(kSmallBvh, "Frames: 2", "Frames: 1"), "boxing.bvh");
-  ASSERT_TRUE(clip) << ToString(clip.error());
+  ASSERT_OK(clip, ReadBvh(Replaced(kSmallBvh, "Frames: 2", "Frames: 1"), "boxing.bvh"));
   EXPECT_EQ(clip->frames.size(), 1u);
   ExpectBvhNear(Globals(*clip, 0)[2].position, {-9, 7, 3});
 }
 
 TEST(Bvh, WritesAFileThatCanBeReadByEye) {
-  const auto clip = ReadBvh(kSmallBvh, "small.bvh");
-  ASSERT_TRUE(clip);
+  ASSERT_OK(clip, ReadBvh(kSmallBvh, "small.bvh"));
   EXPECT_EQ(WriteBvh(*clip),
             "HIERARCHY\n"
             "ROOT Hips\n"
@@ -182,8 +175,7 @@ TEST(Bvh, WritesJointsDepthFirstWhateverTheirOrder) {
   Clip clip = testing::AtRest(skeleton, 1);
   clip.frames[0][1].rotation = testing::Turn(0.5, {0, 0, 1});
   clip.frames[0][2].rotation = testing::Turn(0.7, {1, 0, 0});
-  const auto read = ReadBvh(WriteBvh(clip), "code.bvh");
-  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_OK(read, ReadBvh(WriteBvh(clip), "code.bvh"));
   std::vector<std::string> names;
   for (const Joint& joint : read->skeleton.joints) names.push_back(joint.name);
   EXPECT_THAT(names, ElementsAre("root", "left", "left_tip", "right", "right_tip"));
@@ -198,8 +190,7 @@ TEST(Bvh, WritesPositionsOfAJointThatLeavesItsOffset) {
   auto clip = ReadBvh(kSmallBvh, "small.bvh");
   ASSERT_TRUE(clip);
   clip->frames[1][1].translation = {0, 12.5, 0};
-  const auto read = ReadBvh(WriteBvh(*clip), "stretched.bvh");
-  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_OK(read, ReadBvh(WriteBvh(*clip), "stretched.bvh"));
   ExpectBvhNear(read->frames[0][1].translation, {0, 10, 0});
   ExpectBvhNear(read->frames[1][1].translation, {0, 12.5, 0});
 }
@@ -211,8 +202,7 @@ TEST(Bvh, WritesRotationsAtTheEulerAnglesOwnPole) {
     const glm::dquat wanted =
         testing::Turn(0.4, {0, 0, 1}) * testing::Turn(Radians(x), {1, 0, 0}) * testing::Turn(-1, {0, 1, 0});
     clip->frames[0][1].rotation = wanted;
-    const auto read = ReadBvh(WriteBvh(*clip), "pole.bvh");
-    ASSERT_TRUE(read);
+    ASSERT_OK(read, ReadBvh(WriteBvh(*clip), "pole.bvh"));
     EXPECT_NEAR(std::abs(glm::dot(read->frames[0][1].rotation, wanted)), 1, 1e-14) << x;
   }
 }

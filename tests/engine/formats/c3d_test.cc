@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "tests/support/c3d_writer.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -56,8 +57,7 @@ TEST(C3d, ReadsMoreThan255PointsAndThoseWithoutNames) {
   writer.second_labels_from = 130;
   writer.labels.clear();
   for (int i = 0; i < 260; ++i) writer.labels += i == 7 ? "    " : "P" + std::to_string(100 + i);
-  const auto read = ReadC3d(writer.Write(), "a.c3d");
-  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_OK(read, ReadC3d(writer.Write(), "a.c3d"));
   ASSERT_EQ(read->markers.names.size(), 260u);
   EXPECT_EQ(read->markers.names[7], "point 8");
   EXPECT_EQ(read->markers.names[259], "P359");
@@ -72,8 +72,7 @@ TEST(C3d, HasAsManyFramesAsLongFramesTells) {
       writer.frames = 66'000;
       writer.header_frames = header_frames;
       writer.long_frames = 66'000;
-      const auto read = ReadC3d(writer.Write(), "a.c3d");
-      ASSERT_TRUE(read) << ToString(read.error());
+      ASSERT_OK(read, ReadC3d(writer.Write(), "a.c3d"));
       EXPECT_EQ(read->markers.frames.size(), 66'000u);
       EXPECT_EQ(read->markers.remark, "");
     }
@@ -84,8 +83,7 @@ TEST(C3d, TellsOfDataBeyondTheLastFrame) {
   C3dWriter writer(kIntel, true);
   writer.frames = 100;
   writer.header_frames = 40;
-  const auto read = ReadC3d(writer.Write(), "a.c3d");
-  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_OK(read, ReadC3d(writer.Write(), "a.c3d"));
   EXPECT_EQ(read->markers.frames.size(), 40u);
   EXPECT_EQ(read->markers.remark, "data of 60 more frames follow the 40 that its header states; they were not read");
   writer.header_frames = 100;
@@ -98,8 +96,7 @@ TEST(C3d, TakesWhatIsNoNumberForAGap) {
   std::string bytes = C3dWriter(kIntel, true).Write();
   const float nan = std::numeric_limits<float>::quiet_NaN();
   bytes.replace(bytes.size() - 16, 4, reinterpret_cast<const char*>(&nan), 4);
-  const auto read = ReadC3d(bytes, "a.c3d");
-  ASSERT_TRUE(read);
+  ASSERT_OK(read, ReadC3d(bytes, "a.c3d"));
   EXPECT_FALSE(read->markers.frames[2][1]);
   EXPECT_TRUE(read->markers.frames[2][0]);
 }
@@ -107,8 +104,7 @@ TEST(C3d, TakesWhatIsNoNumberForAGap) {
 TEST(C3d, TakesNoMoreNamesThanThereArePoints) {
   std::string bytes = C3dWriter(kIntel, true).Write();
   bytes[bytes.find("LABELS") + 9] = 7;  // dimensions, whose product is some 10¹⁰
-  const auto read = ReadC3d(bytes, "a.c3d");
-  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_OK(read, ReadC3d(bytes, "a.c3d"));
   EXPECT_EQ(read->markers.names.size(), 2u);
 }
 

@@ -37,7 +37,17 @@ auto From(const std::string& file, Read<T> read) {
   return [file, read](const std::string& text) { return read(text, file); };
 }
 
-Result<Clip> ReadBvhText(const std::string& text) { return ReadBvh(text, "a.bvh"); }
+/// What is read must be finite, and what is refused have a place.
+Result<Clip> ReadBvhText(const std::string& text) {
+  auto clip = ReadBvh(text, "a.bvh");
+  std::vector<GlobalTransform> globals;
+  for (std::size_t f = 0; clip && f < clip->frames.size(); ++f) {
+    ComputeGlobals(clip->skeleton, clip->frames[f], globals);
+    for (const GlobalTransform& global : globals) EXPECT_TRUE(testing::IsFinite(global.position)) << text;
+  }
+  EXPECT_TRUE(clip || (clip.error().place.line > 0 && clip.error().place.column > 0)) << ToString(clip.error());
+  return clip;
+}
 
 TEST(Formats, BvhComplaintsAreAsTheyWere) {
   const std::string habits =

@@ -11,6 +11,7 @@
 #include "engine/base/angles.h"
 #include "engine/retargeting/joint_map.h"
 #include "engine/retargeting/to_body.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -58,8 +59,7 @@ TEST(DeepMimic, StandsWhereItsRootIsTold) {
   const std::string text = Motion({Standing(), Standing()});
   EXPECT_TRUE(IsDeepMimicMotion(text));
   EXPECT_FALSE(IsDeepMimicMotion("{\"asset\": {\"version\": \"2.0\"}}"));
-  const auto clip = ReadDeepMimicMotion(text, "walk.txt");
-  ASSERT_TRUE(clip) << ToString(clip.error());
+  ASSERT_OK(clip, ReadDeepMimicMotion(text, "walk.txt"));
   EXPECT_DOUBLE_EQ(clip->rate_hz, 25);
   ExpectJointAt(PlaceOf(*clip, 0, "root"), {0.5, 0.9, -0.25});
   ExpectJointAt(PlaceOf(*clip, 1, "left_ankle"), {0.5, 0.9 - 0.421546 - 0.409870, -0.25 - 0.084887});
@@ -72,8 +72,7 @@ TEST(DeepMimic, KneesBendBackwardsElbowsForwardsAndQuaternionsAreWxyz) {
   frame[20] = -kPi / 2;     // right knee
   frame[29] = kPi / 2;      // right elbow
   frame[4] = frame[6] = 3;  // the root turned to the left; not of length 1
-  const auto clip = ReadDeepMimicMotion(Motion({frame}), "walk.txt");
-  ASSERT_TRUE(clip) << ToString(clip.error());
+  ASSERT_OK(clip, ReadDeepMimicMotion(Motion({frame}), "walk.txt"));
   // Turned by 90° about +Y, what faced +X faces −Z, and the right hip is at +X.
   const glm::dvec3 root(0.5, 0.9, -0.25);
   ExpectJointAt(PlaceOf(*clip, 0, "right_hip") - root, {0.084887, 0, 0});
@@ -82,12 +81,9 @@ TEST(DeepMimic, KneesBendBackwardsElbowsForwardsAndQuaternionsAreWxyz) {
 }
 
 TEST(DeepMimic, IsUnderstoodAsABody) {
-  const auto clip = ReadDeepMimicMotion(Motion({Standing(), Standing()}), "walk.txt");
-  ASSERT_TRUE(clip);
-  const auto map = FindJointMap(clip->skeleton, "walk.txt");
-  ASSERT_TRUE(map) << ToString(map.error());
-  const auto body = ToBodyMotion(*clip, *map, "walk.txt");
-  ASSERT_TRUE(body) << ToString(body.error());
+  ASSERT_OK(clip, ReadDeepMimicMotion(Motion({Standing(), Standing()}), "walk.txt"));
+  ASSERT_OK(map, FindJointMap(clip->skeleton, "walk.txt"));
+  ASSERT_OK(body, ToBodyMotion(*clip, *map, "walk.txt"));
   EXPECT_EQ(body->unit, "metre");
   EXPECT_NEAR(Heading(body->motion.poses[0]), kPi / 2, 1e-9) << "it faces +X";
 }

@@ -4,6 +4,8 @@
 
 #include <sstream>
 
+#include "tests/support/results.h"
+
 namespace etude {
 namespace {
 
@@ -35,8 +37,7 @@ TEST(KinectText, ReadsPlacesWithAndWithoutOrientationsAndWithAnySeparator) {
 }
 
 TEST(KinectText, GivesTheTwentyRolesOfAKinectV1) {
-  const auto read = ReadKinectV2Text(Row(0, true), "k.txt");
-  ASSERT_TRUE(read);
+  ASSERT_OK(read, ReadKinectV2Text(Row(0, true), "k.txt"));
   const RolePositions places = PlacesOf((*read)[0]);
   // By the numbers of the SDK's JointType.
   const std::pair<Role, int> expected[] = {{Role::kHipCentre, 0},       {Role::kSpine, 1},     {Role::kHead, 3},
@@ -51,8 +52,7 @@ TEST(KinectText, TakesZerosAndNanForMissingJoints) {
   row.replace(0, row.find(" 0.2 "), "0 0 0");
   const std::size_t second = row.find("0.2 ");
   row.replace(second, 3, "nan");
-  const auto read = ReadKinectV2Text(row, "k.txt");
-  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_OK(read, ReadKinectV2Text(row, "k.txt"));
   EXPECT_FALSE((*read)[0][0]);
   EXPECT_FALSE((*read)[0][1]);
   EXPECT_TRUE((*read)[0][2]);

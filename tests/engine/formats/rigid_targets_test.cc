@@ -4,6 +4,8 @@
 
 #include <sstream>
 
+#include "tests/support/results.h"
+
 namespace etude {
 namespace {
 
@@ -18,8 +20,7 @@ std::string TargetRow(double unit, double w = 1) {
 
 TEST(RigidTargets, ReadsMillimetresAndMetres) {
   for (const double unit : {1000.0, 1.0}) {
-    const auto read = ReadRigidTargets(TargetRow(unit) + "\n" + TargetRow(unit), "v.txt");
-    ASSERT_TRUE(read) << ToString(read.error());
+    ASSERT_OK(read, ReadRigidTargets(TargetRow(unit) + "\n" + TargetRow(unit), "v.txt"));
     ASSERT_EQ(read->size(), 2u);
     const auto& head = (*read)[1][static_cast<std::size_t>(BodyTarget::kHead)];
     ASSERT_TRUE(head);
@@ -29,12 +30,10 @@ TEST(RigidTargets, ReadsMillimetresAndMetres) {
 }
 
 TEST(RigidTargets, TakesQuaternionsOfLengthZeroForUnseenTargetsAndRefusesOddOnes) {
-  const auto unseen = ReadRigidTargets(TargetRow(1, 0), "v.txt");
-  ASSERT_TRUE(unseen);
+  ASSERT_OK(unseen, ReadRigidTargets(TargetRow(1, 0), "v.txt"));
   EXPECT_FALSE((*unseen)[0][3]);
-  const auto odd = ReadRigidTargets(TargetRow(1) + "\n" + TargetRow(1, 2), "v.txt");
-  ASSERT_FALSE(odd);
-  EXPECT_EQ(ToString(odd.error()), "v.txt:2: target 0: a quaternion of length 2; allowed: 1");
+  EXPECT_EQ(testing::Refusal(ReadRigidTargets(TargetRow(1) + "\n" + TargetRow(1, 2), "v.txt")),
+            "v.txt:2: target 0: a quaternion of length 2; allowed: 1");
   EXPECT_FALSE(ReadRigidTargets("1 2 3\n", "v.txt"));
 }
 

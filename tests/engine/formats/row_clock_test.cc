@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/formats/motive_csv.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -51,8 +52,7 @@ double FarthestFromCurve(const MarkerMotion& motion, double start_s = 0) {
 
 TEST(RowClock, EvenRowsStayAsTheyAre) {
   for (const double rate : {1.0, 24.0, 29.97, 30.0, 59.94, 100.0, 119.88, 120.0, 1000.0}) {
-    const auto laid = LayOnClock(RowsAt(TimesAt(rate, 90)), "a");
-    ASSERT_TRUE(laid) << ToString(laid.error());
+    ASSERT_OK(laid, LayOnClock(RowsAt(TimesAt(rate, 90)), "a"));
     EXPECT_NEAR(laid->rate_hz, rate, 1e-9 * rate);
     EXPECT_EQ(laid->frames.size(), 90u);
     EXPECT_EQ(laid->remark, "");
@@ -63,8 +63,7 @@ TEST(RowClock, EvenRowsStayAsTheyAre) {
 TEST(RowClock, MissingRowsAreGapsOfTheirLength) {
   for (const double rate : {15.0, 29.97, 30.0, 120.0}) {
     for (const auto& [lost, found] : {std::pair(20, 35), std::pair(1, 2), std::pair(57, 59)}) {
-      const auto laid = LayOnClock(RowsAt(TimesAt(rate, 60, lost, found)), "a");
-      ASSERT_TRUE(laid) << ToString(laid.error());
+      ASSERT_OK(laid, LayOnClock(RowsAt(TimesAt(rate, 60, lost, found)), "a"));
       ASSERT_EQ(laid->frames.size(), 60u) << rate << " " << lost;
       EXPECT_NEAR(laid->rate_hz, rate, 1e-9 * rate);
       for (int k = 0; k < 60; ++k) {
@@ -78,14 +77,12 @@ TEST(RowClock, MissingRowsAreGapsOfTheirLength) {
 
 TEST(RowClock, TimesMayBePrintedWithFewDecimals) {
   for (const double rate : {24.0, 30.0, 50.0, 100.0}) {
-    const auto laid = LayOnClock(RowsAt(TimesAt(rate, 60, 20, 35), rate, 0.01), "a");
-    ASSERT_TRUE(laid) << ToString(laid.error());
+    ASSERT_OK(laid, LayOnClock(RowsAt(TimesAt(rate, 60, 20, 35), rate, 0.01), "a"));
     EXPECT_EQ(laid->rate_hz, rate);
     EXPECT_EQ(laid->frames.size(), 60u) << rate;
     EXPECT_LT(FarthestFromCurve(*laid), 1e-9) << "rows are used as they are";
   }
-  const auto untold = LayOnClock(RowsAt(TimesAt(120, 500, 200, 230), 0, 0.001), "a");
-  ASSERT_TRUE(untold);
+  ASSERT_OK(untold, LayOnClock(RowsAt(TimesAt(120, 500, 200, 230), 0, 0.001), "a"));
   EXPECT_EQ(untold->rate_hz, 120);
   EXPECT_EQ(untold->frames.size(), 500u);
   EXPECT_LT(FarthestFromCurve(*untold), 1e-9);
@@ -94,8 +91,7 @@ TEST(RowClock, TimesMayBePrintedWithFewDecimals) {
 TEST(RowClock, ARowAtAWrongTimeChangesNoRate) {
   std::vector<double> times = TimesAt(30, 70);
   times[40] -= 0.45 / 30;
-  const auto laid = LayOnClock(RowsAt(times), "a");
-  ASSERT_TRUE(laid) << ToString(laid.error());
+  ASSERT_OK(laid, LayOnClock(RowsAt(times), "a"));
   EXPECT_EQ(laid->rate_hz, 30);
   EXPECT_EQ(laid->frames.size(), 70u);
   EXPECT_LT(FarthestFromCurve(*laid), 0.002);
@@ -105,8 +101,7 @@ TEST(RowClock, UnevenTimesAreInterpolatedAndTold) {
   // A camera whose period changes by up to a third, and whose clock is right.
   std::vector<double> times;
   for (int k = 0; k < 90; ++k) times.push_back(k / 30.0 + 0.01 * std::sin(1.7 * k) + 0.01);
-  const auto laid = LayOnClock(RowsAt(times), "a");
-  ASSERT_TRUE(laid) << ToString(laid.error());
+  ASSERT_OK(laid, LayOnClock(RowsAt(times), "a"));
   EXPECT_NEAR(laid->rate_hz, 30, 0.1);
   EXPECT_THAT(laid->remark, HasSubstr("uneven times: "));
   for (const auto& frame : laid->frames) EXPECT_TRUE(frame[0]);
@@ -114,13 +109,11 @@ TEST(RowClock, UnevenTimesAreInterpolatedAndTold) {
 }
 
 TEST(RowClock, TheRateThatAHeaderTellsYieldsToTheTimes) {
-  const auto other = LayOnClock(RowsAt(TimesAt(29.97, 300), 30), "a");
-  ASSERT_TRUE(other);
+  ASSERT_OK(other, LayOnClock(RowsAt(TimesAt(29.97, 300), 30), "a"));
   EXPECT_NEAR(other->rate_hz, 29.97, 1e-9);
   EXPECT_EQ(other->remark, "DataRate states 30 Hz, but the column Time runs at 29.97 Hz, which is used");
   EXPECT_LT(FarthestFromCurve(*other), 1e-9);
-  const auto missing = LayOnClock(RowsAt(TimesAt(30, 60, 20, 35), 30), "a");
-  ASSERT_TRUE(missing);
+  ASSERT_OK(missing, LayOnClock(RowsAt(TimesAt(30, 60, 20, 35), 30), "a"));
   EXPECT_EQ(missing->rate_hz, 30) << "a mean rate would be 22.4 Hz";
 }
 
@@ -129,8 +122,7 @@ TEST(RowClock, OfEqualTimesTheLastCounts) {
   times.insert(times.begin() + 11, times[10]);
   auto rows = RowsAt(times);
   rows.markers.frames[10][0] = glm::dvec3(9);
-  const auto laid = LayOnClock(std::move(rows), "a");
-  ASSERT_TRUE(laid) << ToString(laid.error());
+  ASSERT_OK(laid, LayOnClock(std::move(rows), "a"));
   EXPECT_EQ(laid->frames.size(), 40u);
   EXPECT_LT(FarthestFromCurve(*laid), 1e-9);
   EXPECT_EQ(laid->remark, "1 rows have the same time as another; the last of these is used");
@@ -185,8 +177,7 @@ std::string MotiveTake(bool has_times) {
 
 TEST(RowClock, OfMotiveIsItsColumnTimeElseItsFrameNumbers) {
   for (const bool has_times : {true, false}) {
-    const auto take = ReadMotiveCsv(MotiveTake(has_times), "a.csv");
-    ASSERT_TRUE(take) << ToString(take.error());
+    ASSERT_OK(take, ReadMotiveCsv(MotiveTake(has_times), "a.csv"));
     EXPECT_EQ(take->rate_hz, 120);
     ASSERT_EQ(take->frames.size(), 240u) << has_times;
     EXPECT_FALSE(take->frames[110][0]);
@@ -206,8 +197,7 @@ TEST(RowClock, OfTrcIsItsColumnTimeElseItsFrameNumbers) {
       text += fmt::format("{}\t{}\t{:.7f}\t{:.7f}\t{:.7f}\n", k + 1, has_times ? fmt::format("{:.3f}", k / 30.0) : "",
                           at.x, at.y, at.z);
     }
-    const auto read = ReadTrc(text, "a.trc");
-    ASSERT_TRUE(read) << ToString(read.error());
+    ASSERT_OK(read, ReadTrc(text, "a.trc"));
     EXPECT_EQ(read->rate_hz, 30);
     ASSERT_EQ(read->frames.size(), 60u) << has_times;
     EXPECT_LT(FarthestFromCurve(*read), 1e-6);

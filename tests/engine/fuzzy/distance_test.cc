@@ -7,6 +7,7 @@
 
 #include "sim/random/stream.h"
 #include "tests/engine/fuzzy/posed_body.h"
+#include "tests/support/gaps.h"
 
 namespace etude {
 namespace {
@@ -17,31 +18,22 @@ double DistanceOf(const PosedBody& a, const PosedBody& b) {
   return ComputeDistance(GradesOf(a), GradesOf(b), PaperWeights()).value;
 }
 
-double WorstJointCm(const PosedBody& a, const PosedBody& b) {
-  const BodyPose p = a.Pose(), q = b.Pose();
-  double worst = 0;
-  for (Role role : AllRoles()) worst = std::max(worst, glm::distance(p[role], q[role]));
-  return worst * 100;
-}
+double WorstJointCm(const PosedBody& a, const PosedBody& b) { return 100 * WorstJointDistance(a.Pose(), b.Pose()); }
 
 /// One arm (the right one) or one leg (the right one) put somewhere.
 PosedBody WithArm(const glm::dvec3& upper, const glm::dvec3& lower) {
-  PosedBody body;
-  body.right_arm = {upper, lower};
+  PosedBody body{.right_arm = {upper, lower}};
   return body;
 }
 PosedBody WithLeg(const glm::dvec3& upper, const glm::dvec3& lower) {
-  PosedBody body;
-  body.right_leg = {upper, lower};
+  PosedBody body{.right_leg = {upper, lower}};
   return body;
 }
 PosedBody WithStraightLeg(double degrees, const glm::dvec3& towards) {
   return WithLeg(PosedBody::Raised(degrees, towards), PosedBody::Raised(degrees, towards));
 }
 PosedBody WithBothArms(const glm::dvec3& left, const glm::dvec3& right) {
-  PosedBody body;
-  body.left_arm = {left, left};
-  body.right_arm = {right, right};
+  PosedBody body{.left_arm = {left, left}, .right_arm = {right, right}};
   return body;
 }
 
@@ -56,8 +48,7 @@ struct BlindSpot {
 // stated figures come from a body with other limb lengths, hence the tolerances (its shoulders, twisted,
 // were 11 cm off; these are broader).
 TEST(FuzzyDistance, IsBlindToTheEightMeasuredPairs) {
-  PosedBody twisted;
-  twisted.twist = Radians(60);
+  PosedBody twisted{.twist = Radians(60)};
   const BlindSpot pairs[] = {
       {"arm forward, sideways", WithArm(kForward, kForward), WithArm(-kLeftwards, -kLeftwards), 0.02, 67},
       {"both arms forward, T", WithBothArms(kForward, kForward), WithBothArms(kLeftwards, -kLeftwards), 0.02, 69},

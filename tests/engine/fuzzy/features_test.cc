@@ -19,8 +19,7 @@ TEST(Features, OfAStandingBodyAreAllAtRest) {
 }
 
 TEST(Features, ReadTheAnglesALimbWasPutAt) {
-  PosedBody body;
-  body.right_arm = {PosedBody::Raised(120, -kLeftwards), PosedBody::Raised(150, -kLeftwards)};
+  PosedBody body{.right_arm = {PosedBody::Raised(120, -kLeftwards), PosedBody::Raised(150, -kLeftwards)}};
   body.left_leg = {PosedBody::Raised(50, kForward), PosedBody::Raised(-20, kForward)};
   const PoseFeatures features = FeaturesOf(body);
   EXPECT_NEAR(features[kRH], 120, 1e-9);
@@ -32,8 +31,7 @@ TEST(Features, ReadTheAnglesALimbWasPutAt) {
 }
 
 TEST(Features, DoNotChangeWhenTheBodyTurnsAndWalks) {
-  PosedBody body;
-  body.right_arm = {PosedBody::Raised(70, kForward), kUp};
+  PosedBody body{.right_arm = {PosedBody::Raised(70, kForward), kUp}};
   const BodyPose pose = body.Pose();
   const BodyPose moved = FloorMove{.yaw = 2.1, .x = -3, .z = 5}.Apply(pose);
   const PoseFeatures here = ComputeFeatures(pose, 0.9), there = ComputeFeatures(moved, 0.9);

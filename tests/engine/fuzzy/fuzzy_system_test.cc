@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include "tests/support/results.h"
+
 namespace etude {
 namespace {
 
@@ -36,8 +38,7 @@ std::string Written(const FuzzySystem& system) { return WriteFuzzySystem(system)
 
 TEST(FuzzySystem, ShipsThePapersAndAnother) {
   for (const std::string& name : BuiltinFuzzySystemNames()) {
-    const auto system = LoadBuiltinFuzzySystem(name, {});
-    ASSERT_TRUE(system) << ToString(system.error());
+    ASSERT_OK(system, LoadBuiltinFuzzySystem(name, {}));
     EXPECT_EQ(system->name, name);
   }
   EXPECT_THAT(BuiltinFuzzySystemNames(), ::testing::ElementsAre("gaussian", "paper"));
@@ -77,8 +78,7 @@ TEST(FuzzySystem, ScalesWeightsToSumToEight) {
   for (const auto& [from, to] : {std::pair{"weight: 1\n", "weight: 4\n"}, std::pair{"weight: 0.5", "weight: 2"}}) {
     for (std::size_t at; (at = text.find(from)) != std::string::npos;) text.replace(at, std::string(from).size(), to);
   }
-  const auto system = ReadFuzzySystem(text, "f.yaml");
-  ASSERT_TRUE(system) << ToString(system.error());
+  ASSERT_OK(system, ReadFuzzySystem(text, "f.yaml"));
   for (std::size_t k = 0; k < kFeatureCount; ++k) EXPECT_DOUBLE_EQ(system->weights[k], PaperWeights()[k]);
 }
 

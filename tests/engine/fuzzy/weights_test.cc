@@ -22,7 +22,6 @@ PerFeature OnlyGap(std::size_t feature, double gap) {
   return gaps;
 }
 
-const WeightFitOptions kNoRidge{.ridge = 1e-9};
 
 // A saturated model has a closed form: with one group of pairs per unknown, every group's fitted
 // chance is its share, so b = logit(share of the group without gaps), w_k = (b − logit(share_k)) / gap_k.
@@ -37,7 +36,7 @@ TEST(FitWeights, MatchesTheClosedFormOfASaturatedModel) {
     AddPairs(pairs, OnlyGap(k, gap), shares[k]);
     expected[k] = (logit(90) - logit(shares[k])) / gap;
   }
-  const WeightFit fit = FitWeights(pairs, kNoRidge);
+  const WeightFit fit = FitWeights(pairs, {.ridge = 1e-9});
   ASSERT_EQ(fit.status, WeightFitStatus::kFitted);
   const double scale = kWeightSum / Sum(expected);
   for (std::size_t k = 0; k < kFeatureCount; ++k) EXPECT_NEAR(fit.weights[k], expected[k] * scale, 1e-6) << k;

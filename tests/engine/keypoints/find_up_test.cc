@@ -13,6 +13,7 @@
 #include "engine/cameras/triangulation.h"
 #include "engine/keypoints/place_rig.h"
 #include "tests/support/random_clip.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -252,12 +253,10 @@ TEST(FindUp, AFilesOwnAxisIsKeptWhateverThePosture) {
     const auto motion = Motion(kPostures[i], dice);
     const auto cameras = TripodCameras(3, 1, dice);
     const Take as_said = FilmedTake(motion, cameras, 1, glm::dmat3(1), {1, 2, 3}, dice);
-    const auto kept = PlaceRig(as_said.rig, as_said.points, kPostureRate, {});
-    ASSERT_TRUE(kept) << ToString(kept.error());
+    ASSERT_OK(kept, PlaceRig(as_said.rig, as_said.points, kPostureRate, {}));
     EXPECT_EQ(kept->R, glm::dmat3(1)) << kPostures[i] << ": " << kept->told;
     const Take z_up = FilmedTake(motion, cameras, 1, AboutX(kPi / 2), {1, 2, 3}, dice);
-    const auto found = PlaceRig(z_up.rig, z_up.points, kPostureRate, {});
-    ASSERT_TRUE(found) << ToString(found.error());
+    ASSERT_OK(found, PlaceRig(z_up.rig, z_up.points, kPostureRate, {}));
     EXPECT_LT(AngleBetween(found->R * z_up.up, {0, 1, 0}), 1e-9) << kPostures[i] << ": " << found->told;
     EXPECT_THAT(found->told, HasSubstr("up is z (found: "));
   }
@@ -286,8 +285,7 @@ TEST(FindUp, AHandstandIsNotTurnedUpsideDownAndMayBeAskedFor) {
   }
   const Take take = FilmedTake(motion, TripodCameras(2, 1, dice), 0, glm::dmat3(1), {0, 0, 0}, dice);
   for (const char* up : {"auto", "y"}) {
-    const auto place = PlaceRig(take.rig, take.points, kPostureRate, {.up = up});
-    ASSERT_TRUE(place) << ToString(place.error());
+    ASSERT_OK(place, PlaceRig(take.rig, take.points, kPostureRate, {.up = up}));
     EXPECT_EQ(place->R, glm::dmat3(1)) << place->told;
   }
 }

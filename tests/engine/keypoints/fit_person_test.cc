@@ -6,6 +6,7 @@
 #include "engine/base/angles.h"
 #include "engine/keypoints/recover_person.h"
 #include "tests/engine/keypoints/walkers.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -42,8 +43,7 @@ double SquaresOff(const CaptureBody& body, const TreeState& state, const Landmar
 TEST(MedianBody, HasTheBonesOfMostFrames) {
   std::vector<LandmarkPositions> frames = Walk(0);
   for (std::size_t k = 0; k < kWalkFrames / 3; ++k) *frames[k][Index(Landmark::kLeftKnee)] += glm::dvec3(0.3, 0, 0);
-  const auto body = MedianBody(frames);
-  ASSERT_TRUE(body) << ToString(body.error());
+  ASSERT_OK(body, MedianBody(frames));
   const auto bone = [&](Role role) { return body->bones[Index(role)]; };
   EXPECT_NEAR(bone(Role::kLeftKnee), 0.43, 1e-9);
   EXPECT_NEAR(bone(Role::kRightAnkle), 0.42, 1e-9);
@@ -55,9 +55,8 @@ TEST(MedianBody, HasTheBonesOfMostFrames) {
 TEST(MedianBody, SaysWhichBoneNobodySaw) {
   std::vector<LandmarkPositions> frames = Walk(0);
   for (LandmarkPositions& frame : frames) frame[Index(Landmark::kRightElbow)].reset();
-  const auto body = MedianBody(frames);
-  ASSERT_FALSE(body);
-  EXPECT_THAT(body.error().message, HasSubstr("no frame shows the distance of right_elbow from right_shoulder"));
+  EXPECT_THAT(testing::Message(MedianBody(frames)),
+              HasSubstr("no frame shows the distance of right_elbow from right_shoulder"));
 }
 
 TEST(FitPerson, GivesAKnownMotionBack) {

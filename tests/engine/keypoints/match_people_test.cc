@@ -5,6 +5,7 @@
 #include "engine/base/result.h"
 #include "engine/keypoints/pixel_fit.h"
 #include "engine/keypoints/recover_person.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -124,8 +125,7 @@ TEST(PixelFit, TurnsClockwiseAndBack) {
 TEST(BodyOfBones, HasBonesOfTheseLengths) {
   std::array<double, kRoleCount> lengths;
   for (std::size_t i = 0; i < kRoleCount; ++i) lengths[i] = 0.2 + 0.01 * static_cast<double>(i);
-  const auto body = BodyOfBones(lengths);
-  ASSERT_TRUE(body) << ToString(body.error());
+  ASSERT_OK(body, BodyOfBones(lengths));
   for (const Bone& bone : AllBones()) {
     EXPECT_NEAR(body->bones[Index(bone.child)], lengths[Index(bone.child)], 1e-12) << RoleName(bone.child);
   }

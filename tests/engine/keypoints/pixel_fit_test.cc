@@ -7,14 +7,14 @@
 
 #include "engine/keypoints/agreement.h"
 #include "engine/keypoints/people.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
 
 TEST(PixelFit, PutsALetterboxedPictureBetweenItsBars) {
   // A picture of 1088 × 1920 in a film of 1080 × 1920: smaller by 0.9926, with bars of 7 pixels.
-  const auto fit = FitPictures(FitMode::kLetterbox, {1088, 1920}, {1080, 1920});
-  ASSERT_TRUE(fit);
+  ASSERT_OK(fit, FitPictures(FitMode::kLetterbox, {1088, 1920}, {1080, 1920}));
   EXPECT_NEAR(fit->scale.x, 0.99265, 1e-5);
   EXPECT_NEAR(fit->scale.y, 0.99265, 1e-5);
   EXPECT_NEAR(fit->shift.x, 0, 1e-9);
@@ -29,9 +29,8 @@ TEST(PixelFit, StretchesCropsAndRefuses) {
   EXPECT_EQ(stretch->ToFilm({10, 10}), glm::dvec2(20, 5));
   const auto crop = FitPictures(FitMode::kCrop, {100, 50}, {80, 50});
   EXPECT_EQ(crop->ToFilm({10, 10}), glm::dvec2(0, 10));
-  const auto none = FitPictures(FitMode::kNone, {1088, 1920}, {1080, 1920});
-  ASSERT_FALSE(none);
-  EXPECT_THAT(none.error().message, ::testing::HasSubstr("1080 x 1920 pixels, but the rig's camera has 1088 x 1920"));
+  EXPECT_THAT(testing::Message(FitPictures(FitMode::kNone, {1088, 1920}, {1080, 1920})),
+              ::testing::HasSubstr("1080 x 1920 pixels, but the rig's camera has 1088 x 1920"));
   EXPECT_TRUE(FitPictures(FitMode::kNone, {640, 480}, {640, 480})->IsNone());
 }
 
@@ -80,18 +79,15 @@ TEST(Agreement, ResamplesStraightBetweenFramesAndBridgesNoGap) {
 
 TEST(Agreement, MeasuresHowTwoRatesThatAreOneDriftApart) {
   const MarkerMotion motion = MovingMarkers(30, 300), reference = MovingMarkers(29.97, 300);
-  const auto clock = MeasureClock(motion, reference);
-  ASSERT_TRUE(clock);
+  ASSERT_OK(clock, MeasureClock(motion, reference));
   EXPECT_NEAR(clock->DriftOver(300), -0.3, 0.02);
   EXPECT_LT(clock->after, 0.1 * clock->before);
   const MarkerMotion set = AtClock(reference, *clock, 300, 30);
   EXPECT_LT(CompareAllMarkers(motion, set).median_mm, 0.2 * CompareAllMarkers(motion, reference).median_mm);
-  const auto late = MeasureClock(motion, MovingMarkers(30, 300, -1.5 / 30));
-  ASSERT_TRUE(late);
+  ASSERT_OK(late, MeasureClock(motion, MovingMarkers(30, 300, -1.5 / 30)));
   EXPECT_NEAR(late->at, 1.5, 0.02);
   EXPECT_NEAR(late->DriftOver(300), 0, 0.02);
-  const auto same = MeasureClock(motion, motion);
-  ASSERT_TRUE(same);
+  ASSERT_OK(same, MeasureClock(motion, motion));
   EXPECT_EQ(same->at, 0);
   EXPECT_EQ(same->stretch, 0);
   MarkerMotion others = motion;

@@ -8,6 +8,7 @@
 
 #include "engine/base/angles.h"
 #include "engine/cameras/camera.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -60,8 +61,7 @@ glm::dmat3 TurnAboutX(double degrees) { return glm::mat3_cast(glm::angleAxis(Rad
 constexpr double kPlaceRate = 30;
 
 TEST(PlaceRig, LeavesARigAsItIsWhoseUnitAndAxesFitThePerson) {
-  const auto place = PlaceRig(SomeRig(), Stander([](glm::dvec3 p) { return p; }, 5), kPlaceRate, {});
-  ASSERT_TRUE(place) << ToString(place.error());
+  ASSERT_OK(place, PlaceRig(SomeRig(), Stander([](glm::dvec3 p) { return p; }, 5), kPlaceRate, {}));
   EXPECT_TRUE(place->IsNone());
   EXPECT_NEAR(place->stature_m, 1.7, 1e-9);
   EXPECT_EQ(place->told,
@@ -79,21 +79,17 @@ TEST(PlaceRig, FindsTheUnitThatMakesItAPerson) {
   }
   const auto child = PlaceRig(SomeRig(), Stander([](glm::dvec3 p) { return p * 350.0; }), kPlaceRate, {});
   EXPECT_DOUBLE_EQ(child.value().scale, 0.001) << "0.6 m tall: nobody else's unit makes that";
-  const auto none = PlaceRig(SomeRig(), Stander([](glm::dvec3 p) { return p * 1e5; }), kPlaceRate, {});
-  ASSERT_FALSE(none);
-  EXPECT_THAT(none.error().message, HasSubstr("1.7e+05 units tall, which is no person's height in m, cm, mm, inch or "
-                                              "foot; for one of 1.7 m use --rig-unit 1e-05"));
+  EXPECT_THAT(testing::Message(PlaceRig(SomeRig(), Stander([](glm::dvec3 p) { return p * 1e5; }), kPlaceRate, {})),
+              HasSubstr("1.7e+05 units tall, which is no person's height in m, cm, mm, inch or "
+                        "foot; for one of 1.7 m use --rig-unit 1e-05"));
 }
 
 TEST(PlaceRig, TakesTheUnitThatIsToldAndNoOtherPersonThanOne) {
   RigFile rig = SomeRig();
   rig.has_unit = false;
   const auto points = Stander([](glm::dvec3 p) { return p * 4.0; });
-  const auto asked = PlaceRig(rig, points, kPlaceRate, {});
-  ASSERT_FALSE(asked);
-  EXPECT_THAT(asked.error().message, HasSubstr("for a person of 1.7 m it is 0.25 m"));
-  const auto told = PlaceRig(rig, points, kPlaceRate, {.unit = "0.3"});
-  ASSERT_TRUE(told) << ToString(told.error());
+  EXPECT_THAT(testing::Message(PlaceRig(rig, points, kPlaceRate, {})), HasSubstr("for a person of 1.7 m it is 0.25 m"));
+  ASSERT_OK(told, PlaceRig(rig, points, kPlaceRate, {.unit = "0.3"}));
   EXPECT_DOUBLE_EQ(told->scale, 0.3);
   EXPECT_THAT(told->told, HasSubstr("lengths in units of 0.3 m (as given; a person of 2.04 m)"));
   for (const char* unit : {"mm", "0.4"}) {
@@ -124,8 +120,7 @@ TEST(PlaceRig, PutsAWorldThatIsACamerasFrameSquareToTheFloorOfTheFeet) {
   rig.cameras[0] = {"cam1", Camera{}};
   const auto to_camera = [&](glm::dvec3 p) { return first.R_CW * (p - first.p_WC); };
   for (const double lean_deg : {0.0, 8.0}) {
-    const auto place = PlaceRig(rig, Stander(to_camera, lean_deg), kPlaceRate, {});
-    ASSERT_TRUE(place) << ToString(place.error());
+    ASSERT_OK(place, PlaceRig(rig, Stander(to_camera, lean_deg), kPlaceRate, {}));
     EXPECT_THAT(place->told, HasSubstr("up is found from resting feet, to within 1."));
     EXPECT_THAT(place->told, HasSubstr("(the world was cam1's own frame)"));
     for (const glm::dvec3 p : {glm::dvec3(0), glm::dvec3(0.8, 0, 0.6), glm::dvec3(0, 1.7, 0)}) {
@@ -136,13 +131,11 @@ TEST(PlaceRig, PutsAWorldThatIsACamerasFrameSquareToTheFloorOfTheFeet) {
 
 TEST(PlaceRig, TellsOfAFloorThatIsOffLevelAndLevelsItWhenAsked) {
   const auto tilted = Stander([](glm::dvec3 p) { return TurnAboutX(12) * p; });
-  const auto kept = PlaceRig(SomeRig(), tilted, kPlaceRate, {});
-  ASSERT_TRUE(kept) << ToString(kept.error());
+  ASSERT_OK(kept, PlaceRig(SomeRig(), tilted, kPlaceRate, {}));
   EXPECT_TRUE(kept->IsNone());
   EXPECT_THAT(kept->told,
               HasSubstr("although by resting feet it is 12° off level; if these are right, give --rig-up floor"));
-  const auto level = PlaceRig(SomeRig(), tilted, kPlaceRate, {.up = "floor"});
-  ASSERT_TRUE(level) << ToString(level.error());
+  ASSERT_OK(level, PlaceRig(SomeRig(), tilted, kPlaceRate, {.up = "floor"}));
   const glm::dvec3 up = level->R * TurnAboutX(12) * glm::dvec3(0, 1, 0);
   EXPECT_GT(up.y, std::cos(Radians(0.1)));
   RigFile boards = SomeRig();
@@ -160,9 +153,8 @@ TEST(PlaceRig, RefusesAPersonUpsideDownAndFramesWithoutOne) {
   ASSERT_TRUE(side) << "lying is allowed";
   EXPECT_LT(glm::distance(side->R * glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)), 1e-12);
   EXPECT_NEAR(glm::determinant(side->R), 1, 1e-12);
-  const auto nobody = PlaceRig(SomeRig(), std::vector<LandmarkPositions>(5), kPlaceRate, {});
-  ASSERT_FALSE(nobody);
-  EXPECT_THAT(nobody.error().message, HasSubstr("no frame shows hips, knees, ankles and shoulders"));
+  EXPECT_THAT(testing::Message(PlaceRig(SomeRig(), std::vector<LandmarkPositions>(5), kPlaceRate, {})),
+              HasSubstr("no frame shows hips, knees, ankles and shoulders"));
 }
 
 TEST(PlaceRig, PutsTheFloorWhereItIsAskedFor) {
@@ -179,8 +171,7 @@ TEST(PlaceRig, PutsTheFloorWhereItIsAskedFor) {
 TEST(PlaceRig, WithoutAPersonTakesWhatIsTold) {
   RigFile rig = SomeRig();
   EXPECT_TRUE(PlaceRig(rig, {})->IsNone());
-  const auto place = PlaceRig(rig, {.unit = "mm", .up = "z", .floor = "0.2"});
-  ASSERT_TRUE(place) << ToString(place.error());
+  ASSERT_OK(place, PlaceRig(rig, {.unit = "mm", .up = "z", .floor = "0.2"}));
   EXPECT_LT(glm::distance((*place)({0, 0, 1000}), glm::dvec3(0, 0.8, 0)), 1e-12);
   rig.unit_m = 0.01;
   EXPECT_DOUBLE_EQ(PlaceRig(rig, {.unit = "mm"})->scale, 0.1);
@@ -205,10 +196,7 @@ TEST(PlaceRig, RefusesWordsThatMeanNothing) {
 
 TEST(Placed, CamerasShowPlacedPointsWhereTheyShowedThemBefore) {
   const Camera camera = LookAt({}, {1, 2, 3}, {0, 1, 0});
-  RigPlacement place;
-  place.scale = 0.3048;
-  place.R = TurnAboutX(70);
-  place.shift = {0.1, -0.4, 0.2};
+  RigPlacement place{.scale = 0.3048, .R = TurnAboutX(70), .shift = {0.1, -0.4, 0.2}};
   const Camera placed = Placed(place, camera);
   for (const glm::dvec3 p : {glm::dvec3(0, 1, 0), glm::dvec3(0.4, 1.3, 0.5), glm::dvec3(-0.6, 0.2, -1)}) {
     EXPECT_LT(glm::distance(*Project(placed, place(p)), *Project(camera, p)), 1e-9);

@@ -10,6 +10,7 @@
 #include "engine/base/angles.h"
 #include "engine/keypoints/agreement.h"
 #include "tests/engine/keypoints/walkers.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -112,8 +113,7 @@ TEST(MatchPeople, LeavesAPersonAloneWhomNoOtherCameraSees) {
 
 TEST(RecoverPerson, GivesExactKeypointsPlacesBackThroughLenses) {
   const std::vector<Camera> cameras = FourCameras();
-  const auto person = Recover(cameras, TwoWalkers(cameras, 0), WalkOptions());
-  ASSERT_TRUE(person) << ToString(person.error());
+  ASSERT_OK(person, Recover(cameras, TwoWalkers(cameras, 0), WalkOptions()));
   const double first = WorstOff(person->landmarks, kFirstX, 0, 0),
                second = WorstOff(person->landmarks, kSecondX, 0.2, 0.4);
   EXPECT_LT(std::min(first, second), 1e-6);
@@ -151,15 +151,13 @@ double WorstJoint(const RecoveredPerson& person) {
 
 TEST(RecoverPerson, ItsSkeletonStandsWhereThePointsAre) {
   const std::vector<Camera> cameras = FourCameras();
-  const auto person = Recover(cameras, OneWalker(cameras, 0), WalkOptions());
-  ASSERT_TRUE(person) << ToString(person.error());
+  ASSERT_OK(person, Recover(cameras, OneWalker(cameras, 0), WalkOptions()));
   EXPECT_LT(WorstJoint(*person), 1e-5);
 }
 
 TEST(RecoverPerson, ItsSkeletonIsNearerToTheTruthThanNoisyPoints) {
   const std::vector<Camera> cameras = FourCameras();
-  const auto person = Recover(cameras, OneWalker(cameras, 2), WalkOptions());
-  ASSERT_TRUE(person) << ToString(person.error());
+  ASSERT_OK(person, Recover(cameras, OneWalker(cameras, 2), WalkOptions()));
   std::vector<LandmarkPositions> walk;
   for (std::size_t k = 0; k < kPersonFrames; ++k) walk.push_back(Walker(0, 0, static_cast<double>(k) / kRate));
   const MarkerMotion truth = JointMarkers(walk, kRate);
@@ -173,8 +171,7 @@ TEST(RecoverPerson, ItsSkeletonIsNearerToTheTruthThanNoisyPoints) {
 
 TEST(RecoverPerson, ItsClipHasTheJointsWhereTheMotionHas) {
   const std::vector<Camera> cameras = FourCameras();
-  const auto person = Recover(cameras, OneWalker(cameras, 2), WalkOptions());
-  ASSERT_TRUE(person) << ToString(person.error());
+  ASSERT_OK(person, Recover(cameras, OneWalker(cameras, 2), WalkOptions()));
   std::vector<GlobalTransform> globals;
   for (const Role role : {Role::kLeftKnee, Role::kRightAnkle, Role::kLeftElbow, Role::kRightWrist, Role::kHead}) {
     const int joint = person->clip.skeleton.Find(std::string(RoleName(role)));
@@ -193,9 +190,8 @@ TEST(RecoverPerson, RefusesWhatIsNoSession) {
   std::vector<Camera> moved{cameras[0], cameras[1]};
   const double sine = std::sin(Radians(10)), cosine = std::cos(Radians(10));
   moved[1].R_CW = glm::transpose(glm::dmat3(1, 0, 0, 0, cosine, -sine, 0, sine, cosine)) * moved[1].R_CW;
-  const auto alone = Recover(moved, std::span(people).first(2), WalkOptions());
-  ASSERT_FALSE(alone);
-  EXPECT_THAT(alone.error().message, HasSubstr("no person is seen consistently"));
+  EXPECT_THAT(testing::Message(Recover(moved, std::span(people).first(2), WalkOptions())),
+              HasSubstr("no person is seen consistently"));
   RecoverPersonOptions third = WalkOptions();
   third.person = 2;
   EXPECT_THAT(Recover(cameras, people, third).error().message, HasSubstr("person 3: 2 seen by two cameras"));
@@ -295,8 +291,7 @@ TEST(RecoverPerson, ShowsTheLastPoseWhereNobodyIsSeenAndTheFirstBeforeThat) {
       if (k < 4 || k >= 40) camera[k].clear();
     }
   }
-  const auto person = Recover(cameras, people, WalkOptions());
-  ASSERT_TRUE(person) << ToString(person.error());
+  ASSERT_OK(person, Recover(cameras, people, WalkOptions()));
   for (std::size_t k = 0; k < kPersonFrames; ++k) {
     EXPECT_EQ(person->is_held[k], k < 4 || k >= 40) << k;
     const std::size_t shown = std::clamp<std::size_t>(k, 4, 39);
@@ -312,16 +307,14 @@ TEST(RecoverPerson, MendsSidesAndSetsItsLimitByTheResidualsWhenAsked) {
   RecoverPersonOptions options = UsualRecovery(kRate, 1280);
   options.mends = true;
   options.min_outlier_px = 3;
-  const auto mended = Recover(cameras, people, options);
-  ASSERT_TRUE(mended) << ToString(mended.error());
+  ASSERT_OK(mended, Recover(cameras, people, options));
   ASSERT_EQ(mended->mends.size(), 1u);
   EXPECT_EQ(mended->mends[0].camera, 2u);
   EXPECT_LT(WorstOff(mended->landmarks, 0, 0, 0), 0.03);
   EXPECT_GE(mended->outlier_px, 3);
   EXPECT_LT(mended->outlier_px, 10);
   options.mends = false;
-  const auto raw = Recover(cameras, people, options);
-  ASSERT_TRUE(raw) << ToString(raw.error());
+  ASSERT_OK(raw, Recover(cameras, people, options));
   EXPECT_TRUE(raw->mends.empty());
   EXPECT_DOUBLE_EQ(raw->outlier_px, 0.03 * 1280);
   EXPECT_GT(raw->report.rejected[2], mended->report.rejected[2]) << "the control";

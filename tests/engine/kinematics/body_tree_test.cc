@@ -12,41 +12,37 @@ namespace {
 using enum Role;
 
 TEST(BodyTree, HasPaperBs29DegreesOfFreedomAndFourEffectors) {
-  const KinematicTree tree = MakeBodyTree({});
-  EXPECT_EQ(tree.dof_count(), 29);
-  ASSERT_EQ(tree.effectors.size(), 4u);
-  EXPECT_EQ(tree.effectors[0].name, "right_foot");
-  EXPECT_EQ(tree.effectors[3].name, "head");
+  EXPECT_EQ(Body().dof_count(), 29);
+  ASSERT_EQ(Body().effectors.size(), 4u);
+  EXPECT_EQ(Body().effectors[0].name, "right_foot");
+  EXPECT_EQ(Body().effectors[3].name, "head");
 }
 
 // A root has no parent to stand away from: the state alone says where it is.
 TEST(BodyTree, StandsWhereItsStatePutsTheRoot) {
-  const KinematicTree tree = MakeBodyTree({});
-  EXPECT_EQ(tree.joints[0].parent, -1);
-  EXPECT_EQ(tree.joints[0].p_PJ, glm::dvec3(0));
-  TreeState state = StandingState(tree);
+  EXPECT_EQ(Body().joints[0].parent, -1);
+  EXPECT_EQ(Body().joints[0].p_PJ, glm::dvec3(0));
+  TreeState state = StandingState(Body());
   state.root_position = {1, 2, 3};
-  EXPECT_EQ(ComputeFrames(tree, state).joints[0].position, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(ComputeFrames(Body(), state).joints[0].position, glm::dvec3(1, 2, 3));
 }
 
 // Every limb's Z axis runs from its role to the next one's, in any pose.
 TEST(BodyTree, LimbsRunFromRoleToRole) {
-  const KinematicTree tree = MakeBodyTree({});
-  ASSERT_EQ(tree.joints.size(), BodyTreeLimbs().size());
+  ASSERT_EQ(Body().joints.size(), BodyTreeLimbs().size());
   for (int trial = 0; trial < 10; ++trial) {
-    const TreeState state = RandomPose(tree, trial, 1.0);
-    const BodyPose pose = ToBodyPose(tree, state);
-    const TreeFrames frames = ComputeFrames(tree, state);
-    for (std::size_t i = 0; i < tree.joints.size(); ++i) {
+    const TreeState state = RandomPose(Body(), trial, 1.0);
+    const BodyPose pose = ToBodyPose(Body(), state);
+    const TreeFrames frames = ComputeFrames(Body(), state);
+    for (std::size_t i = 0; i < Body().joints.size(); ++i) {
       const glm::dvec3 limb = pose[BodyTreeLimbs()[i].to] - pose[BodyTreeLimbs()[i].from];
-      EXPECT_LT(glm::distance(glm::normalize(limb), frames.joints[i].axes[2]), 1e-12) << tree.joints[i].name;
+      EXPECT_LT(glm::distance(glm::normalize(limb), frames.joints[i].axes[2]), 1e-12) << Body().joints[i].name;
     }
   }
 }
 
 TEST(BodyTree, StandsUprightFacingForwardWithHangingArms) {
-  const KinematicTree tree = MakeBodyTree({});
-  const BodyPose pose = ToBodyPose(tree, StandingState(tree));
+  const BodyPose pose = ToBodyPose(Body(), StandingState(Body()));
   EXPECT_GT(pose[kLeftHip].x, pose[kRightHip].x) << "left is +X";
   EXPECT_GT(pose[kLeftShoulder].x, pose[kRightShoulder].x);
   EXPECT_NEAR(pose[kHead].y - pose[kHipCentre].y, 0.75, 1e-12);
@@ -60,14 +56,13 @@ TEST(BodyTree, StandsUprightFacingForwardWithHangingArms) {
 
 // The signs of B6's limits: each joint's wider side is the way that joint really bends.
 TEST(BodyTree, BendsTheWayPeopleBend) {
-  const KinematicTree tree = MakeBodyTree({});
-  const TreeState standing = StandingState(tree);
+  const TreeState standing = StandingState(Body());
   const auto bent = [&](BodyTreeJoint joint, int axis, double degrees) {
     TreeState state = standing;
-    state.angles[tree.joints[joint].first_dof + axis] = Radians(degrees);
-    return ToBodyPose(tree, state);
+    state.angles[Body().joints[joint].first_dof + axis] = Radians(degrees);
+    return ToBodyPose(Body(), state);
   };
-  const BodyPose rest = ToBodyPose(tree, standing);
+  const BodyPose rest = ToBodyPose(Body(), standing);
   EXPECT_GT(bent(kTreeLeftElbow, 0, 90)[kLeftHand].z, rest[kLeftHand].z + 0.3);
   EXPECT_GT(bent(kTreeRightElbow, 0, 90)[kRightHand].z, rest[kRightHand].z + 0.3);
   EXPECT_GT(bent(kTreeLeftShoulder, 0, 170)[kLeftHand].y, rest[kHead].y);

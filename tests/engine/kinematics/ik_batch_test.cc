@@ -76,7 +76,8 @@ TEST(IkBatch, FindsTheFaultsThatAreFoundInSingleProblems) {
       [](IkProblem& p) { p.targets[2].axis_weights.x = -1; },
       [](IkProblem& p) { p.targets.pop_back(); },
       [](IkProblem& p) { p.start.angles.pop_back(); },
-      [](IkProblem& p) { p.limits.pop_back(); }};
+      [](IkProblem& p) { p.limits.pop_back(); },
+      [](IkProblem& p) { p.targets[0].axes[0] = glm::normalize(p.targets[0].axes[0] + 0.1 * p.targets[0].axes[1]); }};
   std::vector<IkProblem> problems;
   std::vector<int> sound;
   for (std::size_t i = 0; i < changes.size(); ++i) {

@@ -124,18 +124,6 @@ TEST(WorstError, MayBeOfAnyEffector) {
   }
 }
 
-TEST(Faults, AreAxesThatAreNoRotation) {
-  const IkProblem sound = PositionsOf({kEndRightFoot});
-  EXPECT_EQ(FindFault(Body(), sound, {}), "");
-  IkProblem mirrored = sound;
-  mirrored.targets[kEndRightFoot].axes[0] *= -1.0;
-  EXPECT_NE(FindFault(Body(), mirrored, {}), "");
-  IkProblem sheared = sound;
-  sheared.targets[kEndRightFoot].axes[0] =
-      glm::normalize(sheared.targets[kEndRightFoot].axes[0] + 0.1 * sheared.targets[kEndRightFoot].axes[1]);
-  EXPECT_NE(FindFault(Body(), sheared, {}), "");
-}
-
 // The test vector: 4 cm off, axes off by 10°, 20°, 0°.
 EffectorWeights Weights(WeightRule rule) { return ComputeWeights(rule, 0.04, {Radians(10), Radians(20), 0}); }
 

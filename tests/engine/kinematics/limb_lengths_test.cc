@@ -1,4 +1,3 @@
-#include "engine/base/directions.h"
 #include "engine/kinematics/limb_lengths.h"
 
 #include <gtest/gtest.h>
@@ -6,8 +5,10 @@
 #include <limits>
 #include <vector>
 
+#include "engine/base/directions.h"
 #include "engine/kinematics/body_tree.h"
 #include "tests/engine/kinematics/observed_tree.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -38,9 +39,8 @@ TEST(LimbLengths, FixingFindsEveryJointOfAConsistentObservation) {
   const KinematicTree tree = MakeBodyTree(kChild);
   for (int trial = 0; trial < 20; ++trial) {
     const BodyPose truth = ToBodyPose(tree, RandomPose(tree, trial, 1.0));
-    const auto fixed = FixLimbLengths(Observe(truth), kChild);
-    ASSERT_TRUE(fixed);
-    EXPECT_LT(LargestGap(*fixed, truth), 1e-12);
+    ASSERT_OK(fixed, FixLimbLengths(Observe(truth), kChild));
+    EXPECT_LT(WorstJointDistance(*fixed, truth), 1e-12);
   }
 }
 
@@ -48,16 +48,14 @@ TEST(LimbLengths, StrokesMayHaveAnyLength) {
   const BodyPose truth = ToBodyPose(MakeBodyTree({}), RandomPose(MakeBodyTree({}), 0, 1.0));
   LimbObservation observation = Observe(truth);
   for (glm::dvec3& direction : observation.directions) direction *= 37.0;
-  EXPECT_LT(LargestGap(*FixLimbLengths(observation, {}), truth), 1e-12);
+  EXPECT_LT(WorstJointDistance(*FixLimbLengths(observation, {}), truth), 1e-12);
 }
 
 TEST(LimbLengths, AreRightAfterFixingADisturbedObservation) {
-  const KinematicTree tree = MakeBodyTree({});
   for (int trial = 0; trial < 20; ++trial) {
-    const BodyPose truth = ToBodyPose(tree, RandomPose(tree, trial, 0.8));
+    const BodyPose truth = ToBodyPose(Body(), RandomPose(Body(), trial, 0.8));
     const LimbObservation observation = Disturb(Observe(truth), trial, 0.02, 5);
-    const auto fixed = FixLimbLengths(observation, {});
-    ASSERT_TRUE(fixed);
+    ASSERT_OK(fixed, FixLimbLengths(observation, {}));
     ExpectLengths(*fixed, {});
     EXPECT_EQ((*fixed)[kLeftFoot], observation.ends[kLeftFoot]) << "the root stays where it was seen";
     EXPECT_GT(glm::distance((*fixed)[kHead], observation.ends[kHead]), 1e-4) << "other ends move";
@@ -67,8 +65,7 @@ TEST(LimbLengths, AreRightAfterFixingADisturbedObservation) {
 }
 
 TEST(LimbLengths, FixingKeepsTheSeenDirectionsOfArmsAndLegs) {
-  const KinematicTree tree = MakeBodyTree({});
-  const LimbObservation seen = Disturb(Observe(ToBodyPose(tree, RandomPose(tree, 1, 0.8))), 1, 0.02, 5);
+  const LimbObservation seen = Disturb(Observe(ToBodyPose(Body(), RandomPose(Body(), 1, 0.8))), 1, 0.02, 5);
   const BodyPose fixed = *FixLimbLengths(seen, {});
   for (Role limb : ObservedLimbs()) {
     const glm::dvec3 direction = fixed[limb] - fixed[*ParentOf(limb)];
@@ -78,8 +75,7 @@ TEST(LimbLengths, FixingKeepsTheSeenDirectionsOfArmsAndLegs) {
 
 TEST(LimbLengths, UnusableObservationsGiveNothing) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  const KinematicTree tree = MakeBodyTree({});
-  const LimbObservation sound = Observe(ToBodyPose(tree, RandomPose(tree, 0, 0.5)));
+  const LimbObservation sound = Observe(ToBodyPose(Body(), RandomPose(Body(), 0, 0.5)));
   ASSERT_TRUE(FixLimbLengths(sound, {}));
   LimbObservation lost_hand = sound;
   lost_hand.ends[kLeftHand].x = kNaN;
@@ -115,15 +111,12 @@ const std::vector<std::vector<Role>> kEndsLost = {{kLeftFoot},
 
 // What is lacking comes from the very pose that was observed: then nothing is lost.
 TEST(CompleteObservation, GivesThePoseBackThatItIsLike) {
-  const KinematicTree tree = MakeBodyTree({});
   for (int trial = 0; trial < 10; ++trial) {
-    const BodyPose truth = ToBodyPose(tree, RandomPose(tree, trial, 0.8));
+    const BodyPose truth = ToBodyPose(Body(), RandomPose(Body(), trial, 0.8));
     for (const auto& lost : kEndsLost) {
-      const auto whole = CompleteObservation(Without(Observe(truth), lost), {}, truth, true);
-      ASSERT_TRUE(whole);
-      const auto fixed = FixLimbLengths(*whole, {});
-      ASSERT_TRUE(fixed);
-      EXPECT_LT(LargestGap(*fixed, truth), 1e-9) << "without " << lost.size() << " ends";
+      ASSERT_OK(whole, CompleteObservation(Without(Observe(truth), lost), {}, truth, true));
+      ASSERT_OK(fixed, FixLimbLengths(*whole, {}));
+      EXPECT_LT(WorstJointDistance(*fixed, truth), 1e-9) << "without " << lost.size() << " ends";
       for (Role end : lost) EXPECT_TRUE(whole->lacks_end[Index(end)]) << "still no target";
     }
   }
@@ -131,20 +124,18 @@ TEST(CompleteObservation, GivesThePoseBackThatItIsLike) {
 
 // The body has moved and turned no limb but its whole: what is seen carries what is not.
 TEST(CompleteObservation, MovesWhatWasNotSeenWithWhatWas) {
-  const KinematicTree tree = MakeBodyTree({});
-  const BodyPose like = ToBodyPose(tree, RandomPose(tree, 1, 0.8));
+  const BodyPose like = ToBodyPose(Body(), RandomPose(Body(), 1, 0.8));
   BodyPose moved = like;
   for (glm::dvec3& joint : moved.joints) joint += glm::dvec3(0.5, 0.1, -0.3);
   for (const auto& lost : kEndsLost) {
     if (lost.size() == 5) continue;  // then nothing tells of the move
     const auto whole = CompleteObservation(Without(Observe(moved), lost), {}, like, true);
-    EXPECT_LT(LargestGap(*FixLimbLengths(*whole, {}), moved), 1e-9) << "without " << lost.size() << " ends";
+    EXPECT_LT(WorstJointDistance(*FixLimbLengths(*whole, {}), moved), 1e-9) << "without " << lost.size() << " ends";
   }
 }
 
 TEST(CompleteObservation, TurnsALimbWithTheOneItHangsFrom) {
-  const KinematicTree tree = MakeBodyTree({});
-  const BodyPose like = ToBodyPose(tree, RandomPose(tree, 2, 0.8));
+  const BodyPose like = ToBodyPose(Body(), RandomPose(Body(), 2, 0.8));
   const LimbObservation before = Observe(like);
   LimbObservation seen = before;
   // The upper arm swings by 40° about an axis normal to it.
@@ -152,8 +143,7 @@ TEST(CompleteObservation, TurnsALimbWithTheOneItHangsFrom) {
   const glm::dvec3 axis = glm::normalize(glm::cross(upper, glm::dvec3(0.3, 0.5, 0.2)));
   const glm::dmat3 turn = AxisRotation(axis, Radians(40));
   seen.directions[Index(kLeftElbow)] = turn * upper;
-  const auto whole = CompleteObservation(Without(seen, {}, {kLeftWrist, kLeftHand, kHead}), {}, like, true);
-  ASSERT_TRUE(whole);
+  ASSERT_OK(whole, CompleteObservation(Without(seen, {}, {kLeftWrist, kLeftHand, kHead}), {}, like, true));
   for (Role limb : {kLeftWrist, kLeftHand}) {
     EXPECT_LT(AngleBetween(whole->directions[Index(limb)], turn * before.directions[Index(limb)]), 1e-7)
         << RoleName(limb);
@@ -162,17 +152,14 @@ TEST(CompleteObservation, TurnsALimbWithTheOneItHangsFrom) {
 }
 
 TEST(CompleteObservation, LeavesACompleteOneAsItIs) {
-  const KinematicTree tree = MakeBodyTree({});
-  const LimbObservation seen = Disturb(Observe(ToBodyPose(tree, RandomPose(tree, 3, 0.8))), 3, 0.02, 5);
-  const auto whole = CompleteObservation(seen, {}, {}, false);
-  ASSERT_TRUE(whole);
+  const LimbObservation seen = Disturb(Observe(ToBodyPose(Body(), RandomPose(Body(), 3, 0.8))), 3, 0.02, 5);
+  ASSERT_OK(whole, CompleteObservation(seen, {}, {}, false));
   EXPECT_EQ(whole->ends.joints, seen.ends.joints);
   EXPECT_EQ(whole->directions, seen.directions);
 }
 
 TEST(CompleteObservation, PlacesNoBodyOfWhichNoEndWasEverSeen) {
-  const KinematicTree tree = MakeBodyTree({});
-  const BodyPose truth = ToBodyPose(tree, RandomPose(tree, 0, 0.8));
+  const BodyPose truth = ToBodyPose(Body(), RandomPose(Body(), 0, 0.8));
   const LimbObservation seen = Without(Observe(truth), {kLeftFoot, kRightFoot, kLeftHand, kRightHand, kHead});
   EXPECT_FALSE(CompleteObservation(seen, {}, truth, false));
   EXPECT_TRUE(CompleteObservation(seen, {}, truth, true));

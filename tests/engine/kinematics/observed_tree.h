@@ -6,15 +6,9 @@
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/limb_lengths.h"
 #include "tests/engine/kinematics/posed_tree.h"
+#include "tests/support/gaps.h"
 
 namespace etude {
-
-/// Of all joints of two poses, metres.
-inline double LargestGap(const BodyPose& a, const BodyPose& b) {
-  double largest = 0;
-  for (Role role : AllRoles()) largest = std::max(largest, glm::distance(a[role], b[role]));
-  return largest;
-}
 
 /// What faultless cameras and strokes would tell of `pose`.
 inline LimbObservation Observe(const BodyPose& pose) {

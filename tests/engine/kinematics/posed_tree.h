@@ -40,10 +40,7 @@ inline IkProblem DisturbedProblem(const KinematicTree& tree, const TreeState& tr
     problem.start.angles[i] = std::clamp(angle, tree.limits[i].lower, tree.limits[i].upper);
   }
   for (const LimbFrame& effector : ComputeFrames(tree, truth).effectors) {
-    EffectorTarget target;
-    target.position = effector.position;
-    target.axes = effector.axes;
-    problem.targets.push_back(target);
+    problem.targets.push_back({.position = effector.position, .axes = effector.axes});
   }
   return problem;
 }

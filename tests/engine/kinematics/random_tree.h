@@ -13,8 +13,7 @@ inline KinematicTree RandomTree(int trial, int joints) {
     return RotationXyz({random.Uniform(-kPi, kPi), random.Uniform(-1.5, 1.5), random.Uniform(-kPi, kPi)});
   };
   const auto below = [&](int count) { return static_cast<int>(random.IndexBelow(static_cast<std::uint64_t>(count))); };
-  KinematicTree tree;
-  tree.standing_root = turn();
+  KinematicTree tree{.standing_root = turn()};
   tree.joints.push_back({.name = "root"});
   for (int i = 1; i < joints; ++i) {
     const int dofs = below(4);

@@ -5,6 +5,7 @@
 #include "engine/kinematics/body_tree.h"
 #include "engine/retargeting/joint_map.h"
 #include "tests/engine/kinematics/observed_tree.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -44,18 +45,16 @@ int ExpectPose(const Clip& clip, const LocalPose& frame, const BodyPose& pose, d
 }
 
 TEST(TreeToBody, TheClipPutsAllTwentyJointsWhereTheTreeHasThem) {
-  const KinematicTree tree = MakeBodyTree({});
-  const std::vector<TreeState> states = SomeStates(tree);
-  const Clip clip = ToClip(tree, states, 30, "captured");
+  const std::vector<TreeState> states = SomeStates(Body());
+  const Clip clip = ToClip(Body(), states, 30, "captured");
   ASSERT_EQ(clip.frames.size(), states.size());
   for (std::size_t f = 0; f < states.size(); ++f) {
-    EXPECT_EQ(ExpectPose(clip, clip.frames[f], ToBodyPose(tree, states[f]), 1e-12), 20);
+    EXPECT_EQ(ExpectPose(clip, clip.frames[f], ToBodyPose(Body(), states[f]), 1e-12), 20);
   }
 }
 
 TEST(TreeToBody, OnlyTheRootMovesWithinItsParent) {
-  const KinematicTree tree = MakeBodyTree({});
-  const Clip clip = ToClip(tree, SomeStates(tree), 30, "captured");
+  const Clip clip = ToClip(Body(), SomeStates(Body()), 30, "captured");
   for (const LocalPose& frame : clip.frames) {
     for (std::size_t j = 1; j < frame.size(); ++j) {
       EXPECT_EQ(frame[j].translation, clip.skeleton.joints[j].rest.translation) << "limbs are rigid";
@@ -67,31 +66,26 @@ TEST(TreeToBody, OnlyTheRootMovesWithinItsParent) {
 }
 
 TEST(TreeToBody, TheClipSurvivesABvhFile) {
-  const KinematicTree tree = MakeBodyTree({});
-  const std::vector<TreeState> states = SomeStates(tree);
-  const auto read = ReadBvh(WriteBvh(ToClip(tree, states, 30, "captured")), "captured.bvh");
-  ASSERT_TRUE(read) << ToString(read.error());
+  const std::vector<TreeState> states = SomeStates(Body());
+  ASSERT_OK(read, ReadBvh(WriteBvh(ToClip(Body(), states, 30, "captured")), "captured.bvh"));
   for (std::size_t f = 0; f < states.size(); ++f) {
-    EXPECT_EQ(ExpectPose(*read, read->frames[f], ToBodyPose(tree, states[f]), 1e-5), 20) << "six decimals";
+    EXPECT_EQ(ExpectPose(*read, read->frames[f], ToBodyPose(Body(), states[f]), 1e-5), 20) << "six decimals";
   }
 }
 
 TEST(TreeToBody, TheClipsJointsAreFoundByTheirNames) {
-  const KinematicTree tree = MakeBodyTree({});
-  const std::vector<TreeState> states = SomeStates(tree);
-  const Clip clip = ToClip(tree, states, 30, "captured");
-  const auto map = FindJointMap(clip.skeleton, "captured.bvh");
-  ASSERT_TRUE(map) << ToString(map.error());
+  const std::vector<TreeState> states = SomeStates(Body());
+  const Clip clip = ToClip(Body(), states, 30, "captured");
+  ASSERT_OK(map, FindJointMap(clip.skeleton, "captured.bvh"));
   EXPECT_TRUE(map->composed.empty());
   std::vector<GlobalTransform> globals;
   ComputeGlobals(clip.skeleton, clip.frames[0], globals);
-  const BodyPose mapped = Evaluate(*map, globals), expected = ToBodyPose(tree, states[0]);
+  const BodyPose mapped = Evaluate(*map, globals), expected = ToBodyPose(Body(), states[0]);
   for (Role role : AllRoles()) EXPECT_LT(glm::distance(mapped[role], expected[role]), 1e-12) << RoleName(role);
 }
 
 TEST(TreeToBody, TheSpineLiesOnTheTrunk) {
-  const KinematicTree tree = MakeBodyTree({});
-  const BodyPose pose = ToBodyPose(tree, RandomPose(tree, 0, 1.0));
+  const BodyPose pose = ToBodyPose(Body(), RandomPose(Body(), 0, 1.0));
   EXPECT_NEAR(glm::distance(pose[kHipCentre], pose[kSpine]), kSpineShare * 0.5, 1e-12);
   EXPECT_NEAR(glm::distance(pose[kSpine], pose[kShoulderCentre]), (1 - kSpineShare) * 0.5, 1e-12);
   EXPECT_LT(glm::distance(pose[kHipCentre], 0.5 * (pose[kLeftHip] + pose[kRightHip])), 1e-12);

@@ -9,6 +9,7 @@
 #include "engine/motion/clip.h"
 #include "tests/support/person.h"
 #include "tests/support/random_clip.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -62,17 +63,14 @@ TEST(Resample, ChangesNothingAtTheSameRateAndTakesFramesAsTheyAreAtAWholePart) {
 
 TEST(Trim, KeepsTheFramesNearestToBothEnds) {
   const Clip clip = Turning({0, 1, 0}, 1, 101, 100);
-  const auto whole = Trim(clip, 0, 1);
-  ASSERT_TRUE(whole);
+  ASSERT_OK(whole, Trim(clip, 0, 1));
   EXPECT_EQ(whole->frames, clip.frames);
-  const auto part = Trim(clip, 0.1049, 0.2051);
-  ASSERT_TRUE(part);
+  ASSERT_OK(part, Trim(clip, 0.1049, 0.2051));
   ASSERT_EQ(part->frames.size(), 12u);
   EXPECT_EQ(part->frames.front(), clip.frames[10]);
   EXPECT_EQ(part->frames.back(), clip.frames[21]);
   EXPECT_EQ(part->rate_hz, 100);
-  const auto one = Trim(clip, 0.5, 0.5);
-  ASSERT_TRUE(one);
+  ASSERT_OK(one, Trim(clip, 0.5, 0.5));
   EXPECT_EQ(one->frames.size(), 1u);
 }
 

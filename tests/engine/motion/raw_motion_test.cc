@@ -7,9 +7,7 @@ namespace {
 
 /// One joint that moves along X by a metre a frame.
 RawMotion Striding(double rate_hz, std::size_t frames) {
-  RawMotion motion;
-  motion.rate_hz = rate_hz;
-  motion.joints = {"a"};
+  RawMotion motion{.rate_hz = rate_hz, .joints = {"a"}};
   for (std::size_t f = 0; f < frames; ++f) motion.positions.emplace_back(static_cast<double>(f), 0, 0);
   return motion;
 }

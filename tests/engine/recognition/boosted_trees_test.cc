@@ -7,6 +7,7 @@
 #include "engine/recognition/learnt_model.h"
 #include "engine/recognition/recognise.h"
 #include "tests/engine/recognition/waving_body.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -131,8 +132,7 @@ TEST(LearntRecogniser, JudgesWhatIsAskedForAndWhatIsSpottedEachByItsModel) {
     const LearntModel model{.asked = {.bias = bias, .trees = {}}, .spotted = {.bias = -bias, .trees = {}}};
     const auto recogniser = MakeLearntRecogniser(taught, {}, model);
     const std::vector<AskedMove> asked = {{0, {0, static_cast<int>(shown.frames.size())}}};
-    const auto trace = FollowStream(*recogniser, 1, SeeStream(shown, {}), asked);
-    ASSERT_TRUE(trace) << ToString(trace.error());
+    ASSERT_OK(trace, FollowStream(*recogniser, 1, SeeStream(shown, {}), asked));
     double most_spotted = 0;
     for (std::size_t frame = 0; frame < shown.frames.size(); ++frame) {
       most_spotted = std::max(most_spotted, trace->SpottedAt(frame)[0]);

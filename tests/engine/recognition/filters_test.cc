@@ -15,8 +15,7 @@ constexpr double kExact = 1e-12;
 SkeletonStream StreamOf(const std::vector<double>& heights) {
   SkeletonStream stream;
   for (double height : heights) {
-    SensedFrame frame;
-    frame.body_seen = true;
+    SensedFrame frame{.body_seen = true};
     for (SensedJoint& joint : frame.joints) joint = {{0, height, 0}, TrackingState::kTracked};
     stream.frames.push_back(frame);
   }

@@ -8,8 +8,7 @@ namespace etude {
 namespace {
 
 FeatureFrame ArmAt(double degrees, TrackingState state = TrackingState::kTracked) {
-  FeatureFrame frame;
-  frame.body_seen = true;
+  FeatureFrame frame{.body_seen = true};
   frame.features[Feature::kRH] = degrees;
   frame.states[static_cast<std::size_t>(Feature::kRH)] = state;
   return frame;

@@ -231,8 +231,7 @@ TEST(FollowStream, RefusesWindowsThatItCannotFollow) {
 }
 
 TEST(JudgeWindow, OfNoFramesIsNothing) {
-  const EvidenceTrace trace{.moves = 1, .asked = {0.9, 0.9}, .spotted = {0, 0}};
-  const Judgement judgement = JudgeWindow(trace, {1, 1}, 0.5);
+  const Judgement judgement = JudgeWindow({.moves = 1, .asked = {0.9, 0.9}, .spotted = {0, 0}}, {1, 1}, 0.5);
   EXPECT_EQ(judgement.score, 0);
   EXPECT_FALSE(judgement.recognised_at);
   EXPECT_TRUE(judgement.running_score.empty());

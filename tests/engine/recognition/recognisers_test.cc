@@ -127,8 +127,7 @@ INSTANTIATE_TEST_SUITE_P(All, UntrainedRecogniser, ::testing::ValuesIn(Kinds(fal
 
 TEST(RuleStrength, IsOneWhereTaughtAndTheLeastOverlapElsewhere) {
   const TaughtPose pose{{{Feature::kRH, 90, 20}, {Feature::kLH, 20, 20}}};
-  FeatureFrame frame;
-  frame.body_seen = true;
+  FeatureFrame frame{.body_seen = true};
   frame.features[Feature::kRH] = 90;
   frame.features[Feature::kLH] = 20;
   EXPECT_DOUBLE_EQ(RuleStrength(frame, pose, {}, PaperMemberships()), 1.0);

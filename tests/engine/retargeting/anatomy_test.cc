@@ -6,6 +6,7 @@
 #include "engine/base/angles.h"
 #include "engine/retargeting/joint_map.h"
 #include "tests/support/body_of_person.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -24,8 +25,7 @@ AnatomyProposal ProposalFor(const Skeleton& skeleton) {
 }
 
 TEST(Anatomy, FindsThePersonWithoutAnyName) {
-  const auto map = FindJointMap(Nameless(), "nameless.bvh");
-  ASSERT_TRUE(map) << ToString(map.error());
+  ASSERT_OK(map, FindJointMap(Nameless(), "nameless.bvh"));
   EXPECT_EQ(map->by_anatomy.size(), 12u);
   EXPECT_GE(map->confidence, 0.9);
   BodyPose body = testing::BodyAtRest(Nameless(), *map);

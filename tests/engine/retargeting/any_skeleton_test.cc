@@ -6,6 +6,7 @@
 
 #include "engine/retargeting/map_file.h"
 #include "tests/support/read_body.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -63,10 +64,8 @@ TEST(AnySkeleton, IsRefusedOrGivesAFiniteBodyAndAMapThatReadsBack) {
       ++unmapped;
       continue;
     }
-    const auto taught = ReadJointMapFile(WriteJointMapFile(clip.skeleton, *map), "any.yaml");
-    ASSERT_TRUE(taught) << ToString(taught.error());
-    const auto again = FindJointMap(clip.skeleton, "any.bvh", &*taught);
-    ASSERT_TRUE(again) << ToString(again.error());
+    ASSERT_OK(taught, ReadJointMapFile(WriteJointMapFile(clip.skeleton, *map), "any.yaml"));
+    ASSERT_OK(again, FindJointMap(clip.skeleton, "any.bvh", &*taught));
     for (const Role role : AllRoles()) {
       ASSERT_EQ((*again)[role].joint, (*map)[role].joint) << RoleName(role);
       ASSERT_EQ((*again)[role].offset, (*map)[role].offset) << RoleName(role);

@@ -11,6 +11,7 @@
 
 #include "engine/retargeting/map_file.h"
 #include "tests/support/body_of_person.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -64,19 +65,17 @@ TEST(JointMap, RefusesAClipWithTheListOfMissingRolesAndOfItsJoints) {
   horse.joints[horse.Find("LeftForeArm")].name = "LeftForeHoof";
   for (const char* name : {"RightUpLeg", "RightLeg", "RightFoot"}) horse.joints[horse.Find(name)].name = "Wheel";
   const auto map = FindJointMap(horse, "horse.bvh");
-  ASSERT_FALSE(map);
-  EXPECT_THAT(ToString(map.error()),
+  EXPECT_THAT(testing::Refusal(map),
               HasSubstr("horse.bvh: no joint found for left_elbow (a 'forearm'), right_hip, right_knee, right_ankle; "
                         "joints in the file: 'Hips', 'Spine', 'Neck', 'Head', 'LeftShoulder'"));
-  EXPECT_THAT(map.error().message, HasSubstr("'LeftForeHoof'"));
+  EXPECT_THAT(testing::Message(map), HasSubstr("'LeftForeHoof'"));
 }
 
 TEST(JointMap, TakesTheHeadThatIsThereWhateverItIsCalled) {
   Skeleton rigify = testing::PersonSkeleton();
   rigify.joints[rigify.Find("Neck")].name = "spine.004";
   rigify.joints[rigify.Find("Head")].name = "spine.006";
-  const auto map = FindJointMap(rigify, "rigify.glb");
-  ASSERT_TRUE(map) << ToString(map.error());
+  ASSERT_OK(map, FindJointMap(rigify, "rigify.glb"));
   EXPECT_EQ((*map)[kHead].joint, rigify.Find("Head_End"));
   ExpectNear(BodyAtRest(rigify, *map)[kHead], {0, 165, 0});
 }
@@ -100,26 +99,21 @@ TEST(JointMap, GivesTheRolesThatAreThereWhereOthersAreMissing) {
 TEST(JointMap, RefusesTwoHalvesWithoutACommonJoint) {
   Skeleton halves = testing::PersonSkeleton();
   halves.joints[halves.Find("RightUpLeg")].parent = -1;
-  const auto map = FindJointMap(halves, "halves.bvh");
-  ASSERT_FALSE(map);
-  EXPECT_EQ(map.error().message, "'LeftUpLeg' and 'RightUpLeg', the hips, have no common ancestor");
+  EXPECT_EQ(testing::Message(FindJointMap(halves, "halves.bvh")),
+            "'LeftUpLeg' and 'RightUpLeg', the hips, have no common ancestor");
 }
 
 TEST(JointMap, RefusesAKneeThatDoesNotHangFromItsHip) {
   Skeleton crossed = testing::PersonSkeleton();
   crossed.joints[crossed.Find("RightLeg")].parent = crossed.Find("LeftUpLeg");
-  const auto map = FindJointMap(crossed, "crossed.bvh");
-  ASSERT_FALSE(map);
-  EXPECT_EQ(map.error().message,
+  EXPECT_EQ(testing::Message(FindJointMap(crossed, "crossed.bvh")),
             "the role right_knee has the joint 'RightLeg', which does not descend from 'RightUpLeg', the right_hip");
 }
 
 TEST(JointMap, RefusesTwoHipsOnOneSide) {
   Skeleton lopsided = testing::PersonSkeleton();
   lopsided.joints[lopsided.Find("RightUpLeg")].rest.translation.x = 3;
-  const auto map = FindJointMap(lopsided, "lopsided.bvh");
-  ASSERT_FALSE(map);
-  EXPECT_THAT(map.error().message, HasSubstr("lie on the same side of 'Hips'"));
+  EXPECT_THAT(testing::Message(FindJointMap(lopsided, "lopsided.bvh")), HasSubstr("lie on the same side of 'Hips'"));
 }
 
 TEST(JointMap, ComposesTipsThatTheFileHasAtUnbelievableDistances) {
@@ -128,8 +122,7 @@ TEST(JointMap, ComposesTipsThatTheFileHasAtUnbelievableDistances) {
   mass.joints[mass.Find("RightHand_End")].rest.translation = {161, 0.1, 0.9};
   mass.joints[mass.Find("Head")].rest.translation = {0, 8, 3.5};
   mass.joints[mass.Find("Head_End")].rest.translation = {0, 0, 0};
-  const auto map = FindJointMap(mass, "mass.bvh");
-  ASSERT_TRUE(map) << ToString(map.error());
+  ASSERT_OK(map, FindJointMap(mass, "mass.bvh"));
   EXPECT_THAT(map->composed, ElementsAre(kLeftHand, kRightHand, kHead));
   // In the person's own proportions they come to where the end sites were.
   const BodyPose body = BodyAtRest(mass, *map);
@@ -202,8 +195,7 @@ TEST(JointMap, TakesNoEyeForTheCrownOfTheHead) {
   const int head = daz.Find("Head"), crown = daz.Find("Head_End");
   daz.joints[crown].name = "leftEye";
   daz.joints[crown].rest.translation = {3, 7, 8};
-  const auto map = FindJointMap(daz, "daz.bvh");
-  ASSERT_TRUE(map) << ToString(map.error());
+  ASSERT_OK(map, FindJointMap(daz, "daz.bvh"));
   EXPECT_EQ((*map)[Role::kHead].joint, head);
   EXPECT_THAT(map->composed, ::testing::Contains(Role::kHead));
   // The control: straight on from the trunk it is the crown.
@@ -234,13 +226,11 @@ BodyPose BodyInMotion(const Clip& clip, const JointMap& map) {
 TEST(JointMap, JudgesTipsInMotionWhereTheRestPoseIsNone) {
   const glm::dquat back = testing::Turn(-1.6, {1, 0, 0}), up = testing::Turn(-2.2, {1, 0, 0});
   const Clip clip = TurnedAtRest(back, up);
-  const auto map = FindJointMap(clip.skeleton, "turned.bvh", nullptr, clip.frames);
-  ASSERT_TRUE(map) << ToString(map.error());
+  ASSERT_OK(map, FindJointMap(clip.skeleton, "turned.bvh", nullptr, clip.frames));
   EXPECT_THAT(map->composed, ElementsAre());
   testing::ExpectThePersonsPlaces(BodyInMotion(clip, *map), 1, 1e-9);
   // The control: by the rest pose alone the head is composed, and lies elsewhere in motion.
-  const auto at_rest = FindJointMap(clip.skeleton, "turned.bvh");
-  ASSERT_TRUE(at_rest);
+  ASSERT_OK(at_rest, FindJointMap(clip.skeleton, "turned.bvh"));
   EXPECT_GT(glm::distance(BodyInMotion(clip, *at_rest)[kHead], {0, 165, 0}), 20);
 }
 
@@ -249,8 +239,7 @@ TEST(JointMap, ComposesInMotionWhatTheRestPosePointsElsewhere) {
   const int crown = clip.skeleton.Find("Head_End");
   clip.skeleton = Without(clip.skeleton, "Head_End");
   for (LocalPose& frame : clip.frames) frame.erase(frame.begin() + crown);
-  const auto map = FindJointMap(clip.skeleton, "turned.bvh", nullptr, clip.frames);
-  ASSERT_TRUE(map) << ToString(map.error());
+  ASSERT_OK(map, FindJointMap(clip.skeleton, "turned.bvh", nullptr, clip.frames));
   EXPECT_THAT(map->composed, ElementsAre(kHead));
   ExpectNear(BodyInMotion(clip, *map)[kHead], {0, 165, 0}, 1e-9);
 }
@@ -266,7 +255,7 @@ TEST(JointMap, IsOneForASkeletonWhoseTipsAreEndSitesOrNodes) {
   Skeleton nodes = sites;
   for (Joint& joint : nodes.joints) joint.is_end_site = false;
   const auto of_sites = FindJointMap(sites, "a.bvh"), of_nodes = FindJointMap(nodes, "a.glb");
-  ASSERT_TRUE(of_sites) << ToString(of_sites.error());
+  ASSERT_TRUE(of_sites);
   ASSERT_TRUE(of_nodes) << ToString(of_nodes.error());
   EXPECT_EQ(of_sites->composed, of_nodes->composed);
   for (const Role role : AllRoles()) {
@@ -290,8 +279,7 @@ TEST(JointMap, TakesAStandingFrameForARestPoseThatIsNone) {
       }
     }
   }
-  const auto map = FindJointMap(clip.skeleton, "folded.bvh", nullptr, clip.frames);
-  ASSERT_TRUE(map) << ToString(map.error());
+  ASSERT_OK(map, FindJointMap(clip.skeleton, "folded.bvh", nullptr, clip.frames));
   testing::ExpectThePersonsPlaces(BodyInMotion(clip, *map), 1, 1e-6);
 }
 
@@ -305,8 +293,7 @@ TEST(JointMap, ComposesFeetForwardAndASpineHalfWayWhenThereAreNone) {
     if (joint.parent == spine) joint = {joint.name, 0, {.translation = joint.rest.translation + glm::dvec3(0, 20, 0)}};
   }
   bare = Without(bare, "Spine");
-  const auto map = FindJointMap(bare, "bare.bvh");
-  ASSERT_TRUE(map) << ToString(map.error());
+  ASSERT_OK(map, FindJointMap(bare, "bare.bvh"));
   EXPECT_THAT(map->composed, ElementsAre(kSpine, kLeftFoot, kRightFoot));
   const BodyPose body = BodyAtRest(bare, *map);
   ExpectNear(body[kLeftFoot], {9, 5, 18});
@@ -316,8 +303,7 @@ TEST(JointMap, ComposesFeetForwardAndASpineHalfWayWhenThereAreNone) {
 TEST(JointMap, ComposedPointsTurnWithTheirJoint) {
   Skeleton mass = testing::PersonSkeleton();
   mass = Without(mass, "LeftHand_End");
-  const auto map = FindJointMap(mass, "mass.bvh");
-  ASSERT_TRUE(map);
+  ASSERT_OK(map, FindJointMap(mass, "mass.bvh"));
   Clip clip = testing::AtRest(mass);
   testing::At(clip, 0, "LeftHand").rotation = testing::Turn(std::numbers::pi / 2, {0, 0, 1});
   std::vector<GlobalTransform> globals;
@@ -349,8 +335,7 @@ Clip FoldedAtRest() {
 
 TEST(JointMap, FindsThePersonWhoseRestPoseIsFoldedUp) {
   const Clip folded = FoldedAtRest();
-  const auto map = FindJointMap(folded.skeleton, "folded.bvh");
-  ASSERT_TRUE(map) << ToString(map.error());
+  ASSERT_OK(map, FindJointMap(folded.skeleton, "folded.bvh"));
   std::vector<GlobalTransform> globals;
   ComputeGlobals(folded.skeleton, folded.frames[0], globals);
   const BodyPose body = Evaluate(*map, globals);
@@ -365,8 +350,7 @@ TEST(JointMap, FindsThePersonWhoseRestPoseIsFoldedUp) {
 
 TEST(JointMap, KeepsTheHipCentreMidwayWhenTheHipsThemselvesMove) {
   const Skeleton person = testing::PersonSkeleton();
-  const auto map = FindJointMap(person, "person.bvh");
-  ASSERT_TRUE(map);
+  ASSERT_OK(map, FindJointMap(person, "person.bvh"));
   Clip clip = testing::AtRest(person);
   testing::At(clip, 0, "LeftUpLeg").translation = {11, -5, 4};
   std::vector<GlobalTransform> globals;
@@ -404,8 +388,7 @@ Skeleton AsGltfNodes(const Skeleton& person, double scale) {
 
 TEST(JointMap, FindsThePersonAmongTheNodesOfAGltf) {
   const Skeleton nodes = AsGltfNodes(testing::PersonSkeleton(), 0.01);
-  const auto map = FindJointMap(nodes, "person.glb");
-  ASSERT_TRUE(map) << ToString(map.error());
+  ASSERT_OK(map, FindJointMap(nodes, "person.glb"));
   testing::ExpectThePersonsPlaces(BodyAtRest(nodes, *map), 0.01);
   EXPECT_NE((*map)[kLeftShoulder].joint, nodes.Find("LeftArm")) << "that is the mesh";
 }
@@ -417,8 +400,7 @@ TEST(JointMap, ComposesPointsInTheFrameOfTurnedAndScaledJoints) {
     bare = Without(bare, name);
   }
   const Skeleton nodes = AsGltfNodes(bare, 0.01);
-  const auto map = FindJointMap(nodes, "bare.glb");
-  ASSERT_TRUE(map) << ToString(map.error());
+  ASSERT_OK(map, FindJointMap(nodes, "bare.glb"));
   EXPECT_THAT(map->composed, ElementsAre(kShoulderCentre, kLeftHand, kRightHand, kLeftFoot, kRightFoot, kHead));
   const BodyPose body = BodyAtRest(nodes, *map);
   ExpectNear(body[kLeftHand], {0.90, 1.37, 0});
@@ -431,8 +413,7 @@ TEST(JointMap, ComposesPointsInTheFrameOfTurnedAndScaledJoints) {
 TEST(JointMap, ComposesPointsOfJointsWithoutSizeOnTheJointItself) {
   Skeleton person = Without(testing::PersonSkeleton(), "LeftHand_End");
   person.joints[person.Find("LeftHand")].rest.scale = {0, 0, 0};
-  const auto map = FindJointMap(person, "person.glb");
-  ASSERT_TRUE(map) << ToString(map.error());
+  ASSERT_OK(map, FindJointMap(person, "person.glb"));
   ExpectNear(BodyAtRest(person, *map)[kLeftHand], {72, 137, 0});
 }
 
@@ -444,17 +425,14 @@ TEST(JointMap, TakesFeetThatHangFromControlsInsteadOfTheLegs) {
     foot.rest.translation = {side == std::string("Left") ? 9 : -9, -90, 0};
     rig.joints[rig.Find(side + std::string("ToeBase_End"))].rest.translation = {0, 0, -20};
   }
-  const auto map = FindJointMap(rig, "rig.glb");
-  ASSERT_TRUE(map) << ToString(map.error());
+  ASSERT_OK(map, FindJointMap(rig, "rig.glb"));
   EXPECT_THAT(map->composed, ElementsAre(kLeftFoot, kRightFoot)) << "what hangs from a control is no foot";
   ExpectNear(BodyAtRest(rig, *map)[kLeftAnkle], {9, 5, 0});
   ExpectNear(BodyAtRest(rig, *map)[kLeftFoot], {9, 5, 18});
   // The control: another leg is no control.
   Skeleton crossed = testing::PersonSkeleton();
   crossed.joints[crossed.Find("RightFoot")].parent = crossed.Find("LeftLeg");
-  const auto refused = FindJointMap(crossed, "crossed.glb");
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().message,
+  EXPECT_EQ(testing::Message(FindJointMap(crossed, "crossed.glb")),
             "the role right_ankle has the joint 'RightFoot', which does not descend from 'RightLeg', the right_knee");
 }
 
@@ -470,8 +448,7 @@ TEST(JointMap, TakesTaughtJointsBeforeAnyName) {
             "the role left_hand has the joint 'LeftHand', which does not descend from 'LeftHand', the left_wrist");
 
   const JointMapOverrides better{{{kLeftElbow, {"Hoof", {}}}, {kRightAnkle, {"Wheel", {}}}, {kHead, {"Head", {}}}}};
-  const auto map = FindJointMap(horse, "horse.bvh", &better);
-  ASSERT_TRUE(map) << ToString(map.error());
+  ASSERT_OK(map, FindJointMap(horse, "horse.bvh", &better));
   ExpectNear(BodyAtRest(horse, *map)[kLeftElbow], {47, 137, 0});
   ExpectNear(BodyAtRest(horse, *map)[kHead], {0, 150, 0});
 }
@@ -481,10 +458,9 @@ TEST(JointMap, RefusesATaughtHeadOrSpineThatIsPartOfALimb) {
   person.joints[person.Find("Neck")].name = "Giraffe";  // without it, no neck is there for the head to hang from
   for (const auto& [role, joint] : {std::pair(kHead, "RightLeg"), std::pair(kSpine, "LeftUpLeg")}) {
     const JointMapOverrides taught{{{role, {joint, {}}}}};
-    const auto refused = FindJointMap(person, "person.bvh", &taught);
-    ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().message, std::string("the role ") + std::string(RoleName(role)) + " has the joint '" +
-                                           joint + "', which is part of a limb");
+    EXPECT_EQ(testing::Message(FindJointMap(person, "person.bvh", &taught)),
+              std::string("the role ") + std::string(RoleName(role)) + " has the joint '" + joint +
+                  "', which is part of a limb");
   }
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/body_of_person.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -13,8 +14,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 TEST(JointMapFile, NamesJointsByRole) {
-  const auto taught = ReadJointMapFile("roles:\n  left_elbow: LForeArm\n  head: 'Skull: top'\n", "map.yaml");
-  ASSERT_TRUE(taught) << ToString(taught.error());
+  ASSERT_OK(taught, ReadJointMapFile("roles:\n  left_elbow: LForeArm\n  head: 'Skull: top'\n", "map.yaml"));
   ASSERT_EQ(taught->joints.size(), 2u);
   EXPECT_EQ(taught->joints.at(kLeftElbow).name, "LForeArm");
   EXPECT_EQ(taught->joints.at(kHead).name, "Skull: top");
@@ -22,8 +22,7 @@ TEST(JointMapFile, NamesJointsByRole) {
 }
 
 TEST(JointMapFile, MayTellUnitUpAndRateAlone) {
-  const auto taught = ReadJointMapFile("unit: cm\nup: z\nrate: 59.94\n", "map.yaml");
-  ASSERT_TRUE(taught) << ToString(taught.error());
+  ASSERT_OK(taught, ReadJointMapFile("unit: cm\nup: z\nrate: 59.94\n", "map.yaml"));
   EXPECT_TRUE(taught->joints.empty());
   EXPECT_EQ(taught->metres_per_unit, 0.01);
   EXPECT_EQ(taught->up, UpAxis::kZ);
@@ -57,8 +56,7 @@ TEST(JointMapFile, ComplainsWhereItIsWrong) {
 }
 
 TEST(JointMapFile, ComplainsAboutAJointThatTheClipDoesNotHave) {
-  const auto taught = ReadJointMapFile("roles:\n  left_elbow: LeftForArm\n", "map.yaml");
-  ASSERT_TRUE(taught);
+  ASSERT_OK(taught, ReadJointMapFile("roles:\n  left_elbow: LeftForArm\n", "map.yaml"));
   const auto map = FindJointMap(testing::PersonSkeleton(), "person.bvh", &*taught);
   ASSERT_FALSE(map);
   EXPECT_THAT(ToString(map.error()),
@@ -67,14 +65,12 @@ TEST(JointMapFile, ComplainsAboutAJointThatTheClipDoesNotHave) {
 }
 
 void ExpectRoundTrip(const Skeleton& skeleton) {
-  const auto map = FindJointMap(skeleton, "person.bvh");
-  ASSERT_TRUE(map) << ToString(map.error());
+  ASSERT_OK(map, FindJointMap(skeleton, "person.bvh"));
   const std::string text = WriteJointMapFile(skeleton, *map);
   const auto taught = ReadJointMapFile(text, "map.yaml");
   ASSERT_TRUE(taught) << ToString(taught.error()) << "\n" << text;
   EXPECT_EQ(taught->joints.size(), kRoleCount - map->composed.size());
-  const auto again = FindJointMap(skeleton, "person.bvh", &*taught);
-  ASSERT_TRUE(again) << ToString(again.error());
+  ASSERT_OK(again, FindJointMap(skeleton, "person.bvh", &*taught));
   EXPECT_EQ(again->composed, map->composed);
   for (const Role role : AllRoles()) {
     EXPECT_EQ((*again)[role].joint, (*map)[role].joint) << RoleName(role);
@@ -114,14 +110,11 @@ TEST(JointMapFile, LeavesOutAJointThatBearsTheNameOfAnother) {
   for (Joint& joint : person.joints) ++joint.parent;
   person.joints[0].parent = person.joints[1].parent = -1;
   person.joints[person.Find("Head_End")].name = "Head";
-  const auto map = FindJointMap(person, "person.bvh");
-  ASSERT_TRUE(map) << ToString(map.error());
+  ASSERT_OK(map, FindJointMap(person, "person.bvh"));
   const std::string text = WriteJointMapFile(person, *map);
   EXPECT_THAT(text, HasSubstr("\n  # head: the joint \"Head\" that is not the first of this name\n"));
-  const auto taught = ReadJointMapFile(text, "map.yaml");
-  ASSERT_TRUE(taught);
-  const auto again = FindJointMap(person, "person.bvh", &*taught);
-  ASSERT_TRUE(again) << ToString(again.error());
+  ASSERT_OK(taught, ReadJointMapFile(text, "map.yaml"));
+  ASSERT_OK(again, FindJointMap(person, "person.bvh", &*taught));
   EXPECT_EQ((*again)[kHead].joint, (*map)[kHead].joint);
 }
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <functional>
 
+#include "tests/support/results.h"
+
 namespace etude {
 namespace {
 
@@ -67,8 +69,7 @@ double FurthestJoint(const BodyMotion& motion, double floor = 0) {
 }
 
 TEST(Markers, OfOurOwnNamesAreTheJointsAsTheyWereWritten) {
-  const auto bodies = FindMarkerBodies(OwnJoints(), "a.trc");
-  ASSERT_TRUE(bodies) << ToString(bodies.error());
+  ASSERT_OK(bodies, FindMarkerBodies(OwnJoints(), "a.trc"));
   ASSERT_EQ(bodies->size(), 1u);
   EXPECT_EQ(bodies->front().motion.rate_hz, 50);
   EXPECT_EQ(bodies->front().motion.poses.size(), kTakeFrames);
@@ -287,8 +288,7 @@ TEST(Markers, OfTwoSetsTheBetterCountAndTheOtherCanBeChosen) {
     const double above = role == kLeftShoulder || role == kRightShoulder ? 0.0469 : 0;
     for (std::size_t t = 0; t < poses.size(); ++t) take.frames[t].emplace_back(poses[t][role] + glm::dvec3(0, above, 0));
   }
-  const auto best = FindMarkerBodies(take, "a.trc");
-  ASSERT_TRUE(best) << ToString(best.error());
+  ASSERT_OK(best, FindMarkerBodies(take, "a.trc"));
   EXPECT_THAT(
       best->front().Note(),
       HasSubstr(
@@ -299,19 +299,16 @@ TEST(Markers, OfTwoSetsTheBetterCountAndTheOtherCanBeChosen) {
     EXPECT_LT(glm::distance(best->front().motion.poses[3][role], poses[3][role] - glm::dvec3(0, 0.02, 0)), 0.002)
         << RoleName(role);
   }
-  const auto other = FindMarkerBodies(take, "a.trc", {.set = "body_25"});
-  ASSERT_TRUE(other);
+  ASSERT_OK(other, FindMarkerBodies(take, "a.trc", {.set = "body_25"}));
   EXPECT_THAT(other->front().Note(), HasSubstr("OpenPose BODY_25, not OpenCap's augmented markers"));
-  const auto refused = FindMarkerBodies(take, "a.trc", {.set = "plug-in-gait"});
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(ToString(refused.error()), HasSubstr("Plug-in Gait lacks left_shoulder"));
+  EXPECT_THAT(testing::Refusal(FindMarkerBodies(take, "a.trc", {.set = "plug-in-gait"})),
+              HasSubstr("Plug-in Gait lacks left_shoulder"));
 }
 
 TEST(Markers, TakeTheUnitThatIsTold) {
   MarkerMotion take = Keypoints(Frames(StandingAt), [](glm::dvec3 p) { return 0.5 * p; });
   take.metres_per_unit = 0.001;
-  const auto told = FindMarkerBodies(take, "a.trc", {.metres_per_unit = 0.002});
-  ASSERT_TRUE(told);
+  ASSERT_OK(told, FindMarkerBodies(take, "a.trc", {.metres_per_unit = 0.002}));
   EXPECT_NEAR(told->front().motion.poses[0][Role::kHipCentre].y, 0.88, 1e-9);
   EXPECT_THAT(told->front().Note(), HasSubstr("1 unit = 0.2 cm (given), instead of the file's 0.1 cm"));
   EXPECT_THAT(ToString(FindMarkerBodies(take, "a.trc", {.metres_per_unit = 1}).error()),
@@ -321,8 +318,7 @@ TEST(Markers, TakeTheUnitThatIsTold) {
 TEST(Markers, AtZeroAreGapsUnlessTheyAreAlwaysThere) {
   MarkerMotion take = OwnJoints();
   for (std::size_t t = 10; t < 14; ++t) take.frames[t][Index(Role::kLeftHip)] = glm::dvec3(0);
-  const auto bridged = FindMarkerBodies(take, "a.trc");
-  ASSERT_TRUE(bridged) << ToString(bridged.error());
+  ASSERT_OK(bridged, FindMarkerBodies(take, "a.trc"));
   EXPECT_LT(FurthestJoint(bridged->front().motion), 1e-12);
   EXPECT_EQ(bridged->front().Note(),
             "Etude's joints; 4 positions interpolated in gaps; 4 positions at 0, 0, 0 taken as gaps");
@@ -340,8 +336,7 @@ TEST(Markers, InAWrongUnitAreTakenForAPersonOrRefused) {
     for (auto& frame : take.frames) {
       for (auto& place : frame) *place *= factor;
     }
-    const auto bodies = FindMarkerBodies(take, "a.trc");
-    ASSERT_TRUE(bodies) << ToString(bodies.error());
+    ASSERT_OK(bodies, FindMarkerBodies(take, "a.trc"));
     EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12);
     EXPECT_THAT(bodies->front().Note(), HasSubstr(fmt::format("m tall: it is taken to be {:g} times as tall", 1 / factor)));
   }
@@ -349,9 +344,8 @@ TEST(Markers, InAWrongUnitAreTakenForAPersonOrRefused) {
   for (auto& frame : take.frames) {
     for (auto& place : frame) *place *= 4;
   }
-  const auto giant = FindMarkerBodies(take, "a.trc");
-  ASSERT_FALSE(giant);
-  EXPECT_THAT(ToString(giant.error()), HasSubstr("a.trc: its markers show a body 6.65 m tall"));
+  EXPECT_THAT(testing::Refusal(FindMarkerBodies(take, "a.trc")),
+              HasSubstr("a.trc: its markers show a body 6.65 m tall"));
 }
 
 TEST(Markers, OfPlugInGaitGiveJointsInsideTheLimbs) {
@@ -394,8 +388,7 @@ TEST(Markers, OfPlugInGaitGiveJointsInsideTheLimbs) {
                                        pose[Role::kRightFoot],
                                        pose[Role::kLeftHip]};
       });
-  const auto bodies = FindMarkerBodies(take, "a.c3d");
-  ASSERT_TRUE(bodies) << ToString(bodies.error());
+  ASSERT_OK(bodies, FindMarkerBodies(take, "a.c3d"));
   const MarkerBody& body = bodies->front();
   EXPECT_EQ(body.name, "Me");
   EXPECT_THAT(
@@ -441,8 +434,7 @@ TEST(Markers, OfPoseEstimatorsAreTakenAndWhatTheyLackIsPlacedByRule) {
                                    at(Role::kLeftFoot),
                                    at(Role::kRightFoot)};
   });
-  const auto bodies = FindMarkerBodies(take, "a.trc");
-  ASSERT_TRUE(bodies) << ToString(bodies.error());
+  ASSERT_OK(bodies, FindMarkerBodies(take, "a.trc"));
   EXPECT_THAT(bodies->front().Note(), HasSubstr("OpenPose BODY_25; placed by rule: spine, left_hand, right_hand"));
   EXPECT_LT(FurthestJoint(bodies->front().motion, 0.02), 0.03);
 }
@@ -453,8 +445,7 @@ TEST(Markers, GapsAreBridgedAndLongOnesCutOff) {
   const std::size_t wrist = Index(Role::kLeftWrist), knee = Index(Role::kRightKnee);
   for (std::size_t t = 5; t < 9; ++t) take.frames[t][wrist].reset();
   for (std::size_t t = 25; t < 38; ++t) take.frames[t][knee].reset();
-  const auto bodies = FindMarkerBodies(take, "a.trc");
-  ASSERT_TRUE(bodies);
+  ASSERT_OK(bodies, FindMarkerBodies(take, "a.trc"));
   EXPECT_EQ(bodies->front().motion.poses.size(), 25u);
   EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12) << "the sway is straight";
   EXPECT_EQ(bodies->front().Note(),
@@ -470,8 +461,7 @@ TEST(Markers, OfTwoPeopleAreTwoBodies) {
   for (std::size_t t = 0; t < kTakeFrames; ++t) {
     take.frames[t].insert(take.frames[t].end(), other.frames[t].begin(), other.frames[t].end());
   }
-  const auto bodies = FindMarkerBodies(take, "a.c3d");
-  ASSERT_TRUE(bodies);
+  ASSERT_OK(bodies, FindMarkerBodies(take, "a.c3d"));
   ASSERT_EQ(bodies->size(), 2u);
   EXPECT_EQ((*bodies)[0].name, "Ann");
   EXPECT_EQ((*bodies)[1].name, "Bob");
@@ -481,9 +471,8 @@ TEST(Markers, OfNoKnownSetAreRefusedWithWhatIsLacking) {
   MarkerMotion take = OwnJoints();
   take.names[Index(Role::kLeftKnee)] = "knee";
   const auto refused = FindMarkerBodies(take, "a.c3d");
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(ToString(refused.error()), HasSubstr("a.c3d: its markers (hip_centre, "));
-  EXPECT_THAT(ToString(refused.error()),
+  EXPECT_THAT(testing::Refusal(refused), HasSubstr("a.c3d: its markers (hip_centre, "));
+  EXPECT_THAT(testing::Refusal(refused),
               HasSubstr("are not of a known set (nearest: Etude's joints lacks left_knee); known: "));
 }
 

@@ -7,6 +7,7 @@
 #include "engine/retargeting/proportions.h"
 #include "tests/support/gtest_printers.h"
 #include "tests/support/person.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -67,8 +68,7 @@ TEST(MeasureBody, HasTheJointsThatTurnAndNoOthers) {
 TEST(MeasureBody, IsMadeOfTheRolesWhereTheyDoNotHangOnTheHips) {
   const Clip clip = Moving();
   auto map = FindJointMap(clip.skeleton, "person.bvh");
-  const auto conversion = ToBodyMotion(clip, *map, "person.bvh");
-  ASSERT_TRUE(conversion) << ToString(conversion.error());
+  ASSERT_OK(conversion, ToBodyMotion(clip, *map, "person.bvh"));
   EXPECT_EQ(MeasureBody(clip, *map, *conversion).joints.front().name, "Hips");
   map->points[Index(kHipCentre)].joint = clip.skeleton.Find("LeftLeg");  // hips that carry a shank, and nothing else
   const RestBody roles = MeasureBody(clip, *map, *conversion);

@@ -10,7 +10,9 @@
 
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
+#include "tests/support/gaps.h"
 #include "tests/support/read_body.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -51,16 +53,6 @@ double WorstLength(const BodyMotion& motion, const BodyPose& body) {
   return worst;
 }
 
-double WorstDistance(const BodyMotion& a, const BodyMotion& b) {
-  double worst = 0;
-  for (std::size_t frame = 0; frame < a.poses.size(); ++frame) {
-    for (const Role role : AllRoles()) {
-      worst = std::max(worst, glm::distance(a.poses[frame][role], b.poses[frame][role]));
-    }
-  }
-  return worst;
-}
-
 /// Metres that the fastest joint moves into the frame. Hands aside: those of files end anywhere from wrist to finger
 /// tips, so that a new hand can be three times as long and fast.
 double FastestStep(const BodyMotion& motion, std::size_t frame) {
@@ -93,14 +85,14 @@ TEST_P(Retargeted, HasTheTargetsLimbs) {
 
 TEST_P(Retargeted, IsTheSameMotionOnTheSameBody) {
   const BodyMotion motion = MoveMotion(GetParam());
-  EXPECT_LT(WorstDistance(Retarget(motion, StandingPose()), motion), 1e-9);
+  EXPECT_LT(WorstJointDistance(Retarget(motion, StandingPose()), motion), 1e-9);
 }
 
 TEST_P(Retargeted, IsTheScaledMotionOnAScaledBody) {
   BodyMotion motion = MoveMotion(GetParam());
   const BodyMotion child = Retarget(motion, Scaled(StandingPose(), 0.65));
   for (BodyPose& pose : motion.poses) pose = Scaled(pose, 0.65);
-  EXPECT_LT(WorstDistance(child, motion), 1e-9);
+  EXPECT_LT(WorstJointDistance(child, motion), 1e-9);
 }
 
 TEST_P(Retargeted, StandsAndSlidesAsBefore) {
@@ -133,8 +125,7 @@ TEST(RetargetedRealClip, HasTheTargetsLimbsAndJumpsNowhere) {
   for (const char* name : {"01_01.bvh", "Boxing_Toes.bvh"}) {
     std::ifstream in(std::string("/usr/share/assimp/models/BVH/") + name, std::ios::binary);
     ASSERT_TRUE(in) << "not installed: package assimp-testmodels";
-    const auto read = testing::ReadBody(std::string(std::istreambuf_iterator<char>(in), {}), name);
-    ASSERT_TRUE(read) << ToString(read.error());
+    ASSERT_OK(read, testing::ReadBody(std::string(std::istreambuf_iterator<char>(in), {}), name));
     const BodyMotion& motion = read->motion;
     const BodyMotion retargeted = Retarget(motion, StandingPose());
     EXPECT_LT(WorstLength(retargeted, StandingPose()), 1e-9) << name;

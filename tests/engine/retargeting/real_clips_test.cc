@@ -8,6 +8,7 @@
 #include "engine/formats/bvh.h"
 #include "engine/motion/statistics.h"
 #include "tests/support/read_body.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -36,12 +37,10 @@ class RealClips : public ::testing::TestWithParam<RealClip> {
 };
 
 TEST_P(RealClips, ComeBackFromWritingToThePrintedPrecision) {
-  const auto clip = ReadBvh(bytes_, GetParam().file);
-  ASSERT_TRUE(clip) << ToString(clip.error());
+  ASSERT_OK(clip, ReadBvh(bytes_, GetParam().file));
   EXPECT_EQ(clip->frames.size(), GetParam().frames);
   EXPECT_EQ(clip->rate_hz, GetParam().rate_hz);
-  const auto again = ReadBvh(WriteBvh(*clip), GetParam().file);
-  ASSERT_TRUE(again) << ToString(again.error());
+  ASSERT_OK(again, ReadBvh(WriteBvh(*clip), GetParam().file));
 
   ASSERT_EQ(again->skeleton.joints.size(), clip->skeleton.joints.size());
   for (std::size_t i = 0; i < clip->skeleton.joints.size(); ++i) {
@@ -68,8 +67,7 @@ TEST_P(RealClips, ComeBackFromWritingToThePrintedPrecision) {
 }
 
 TEST_P(RealClips, BecomePeopleOfCommonHeightWithTheirFeetOnTheFloor) {
-  const auto body = testing::ReadBody(bytes_, GetParam().file);
-  ASSERT_TRUE(body) << ToString(body.error());
+  ASSERT_OK(body, testing::ReadBody(bytes_, GetParam().file));
   EXPECT_DOUBLE_EQ(body->metres_per_unit, GetParam().metres_per_unit);
   EXPECT_EQ(body->dropped_frames, GetParam().begins_with_t_pose ? 1u : 0u);
 
@@ -86,8 +84,7 @@ TEST_P(RealClips, BecomePeopleOfCommonHeightWithTheirFeetOnTheFloor) {
 }
 
 TEST_P(RealClips, KeepLeftLeft) {
-  const auto body = testing::ReadBody(bytes_, GetParam().file);
-  ASSERT_TRUE(body) << ToString(body.error());
+  ASSERT_OK(body, testing::ReadBody(bytes_, GetParam().file));
   double toes_forward = 0;
   for (const BodyPose& pose : body->motion.poses) {
     const BodyPose own = ToOrigin(pose).Apply(pose);  // facing +Z

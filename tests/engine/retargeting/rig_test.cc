@@ -9,6 +9,7 @@
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
 #include "tests/engine/retargeting/turned_bodies.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -94,8 +95,7 @@ TEST(PoseRig, SeesTheTwistOfAnUpperArmByItsBentElbow) {
 
 TEST(PoseRig, GivesTheMirrorImageOfAMirrorImage) {
   const BodyPose rest = StandingPose();
-  const auto move = LoadBuiltinMove("boxing");
-  ASSERT_TRUE(move) << ToString(move.error());
+  ASSERT_OK(move, LoadBuiltinMove("boxing"));
   for (const BodyPose& pose : move->motion.poses) {
     const LocalPose local = PoseRig(pose, rest), mirrored = PoseRig(MirrorImage(pose), rest);
     for (const Role role : AllRoles()) {
@@ -110,8 +110,7 @@ class PoseRigAlongAMove : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(PoseRigAlongAMove, PutsEveryJointWhereThePoseHasIt) {
   const BodyPose rest = StandingPose();
-  const auto move = LoadBuiltinMove(GetParam());
-  ASSERT_TRUE(move) << ToString(move.error());
+  ASSERT_OK(move, LoadBuiltinMove(GetParam()));
   for (BodyPose pose : move->motion.poses) {
     EXPECT_LT(WorstJoint(rest, pose), 1e-12);
     // A child's limbs, unlike the rest pose's.
@@ -122,8 +121,7 @@ TEST_P(PoseRigAlongAMove, PutsEveryJointWhereThePoseHasIt) {
 
 TEST_P(PoseRigAlongAMove, TurnsNoFasterThanLimbsDo) {
   const BodyPose rest = StandingPose();
-  const auto move = LoadBuiltinMove(GetParam());
-  ASSERT_TRUE(move) << ToString(move.error());
+  ASSERT_OK(move, LoadBuiltinMove(GetParam()));
   const Clip clip = RigClip(move->motion, rest, move->name);
   ASSERT_GT(clip.frames.size(), 10u);
   double worst = 0;
@@ -158,8 +156,7 @@ TEST(PoseRig, StaysFiniteForABodyWithoutSize) {
 }
 
 TEST(RigClip, KeepsFramesRateAndName) {
-  const BodyMotion motion{.rate_hz = 25, .poses = {StandingPose(), StandingPose()}};
-  const Clip clip = RigClip(motion, StandingPose(), "still");
+  const Clip clip = RigClip({.rate_hz = 25, .poses = {StandingPose(), StandingPose()}}, StandingPose(), "still");
   EXPECT_EQ(clip.name, "still");
   EXPECT_EQ(clip.rate_hz, 25);
   EXPECT_EQ(clip.frames.size(), 2u);

@@ -157,9 +157,7 @@ TEST(LikeliestAccelerationDensity, IsLargeForAPointThatTurnsAndSmallForOneThatTr
   EXPECT_GT(of_swinging, 5);
   // None of the densities tried is likelier.
   const auto likelihood = [&](double density) {
-    PointMotion motion;
-    motion.acceleration_density = density;
-    return SmoothTrack(swinging, motion).log_likelihood;
+    return SmoothTrack(swinging, {.acceleration_density = density}).log_likelihood;
   };
   EXPECT_GE(likelihood(of_swinging), likelihood(4 * of_swinging));
   EXPECT_GE(likelihood(of_swinging), likelihood(of_swinging / 4));

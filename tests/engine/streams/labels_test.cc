@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/results.h"
+
 namespace etude {
 namespace {
 
@@ -16,8 +18,7 @@ TEST(Labels, CsvTellsPerformancesActionPointsAndWholeRecordings) {
       "seq-1,0.5,3.1,arms-open,right,anna\n"
       "seq-1,4,,arms-open,right,anna\n"
       "seq-2,,,arms-open,half,bo\n";
-  const auto labels = ReadLabels(text, "l.csv");
-  ASSERT_TRUE(labels) << ToString(labels.error());
+  ASSERT_OK(labels, ReadLabels(text, "l.csv"));
   ASSERT_EQ(labels->size(), 3u);
   EXPECT_EQ((*labels)[0].from_s, 0.5);
   EXPECT_EQ((*labels)[0].to_s, 3.1);
@@ -39,16 +40,14 @@ TEST(Labels, CsvTellsPerformancesActionPointsAndWholeRecordings) {
 }
 
 TEST(Labels, ColumnsMayStandInAnyOrderWithoutPersonAmongRemarks) {
-  const auto labels = ReadLabels("# by hand\nmove, truth, clip, from_s, to_s\r\n\r\nwave, right, a, 1, 2\r\n", "l.csv");
-  ASSERT_TRUE(labels) << ToString(labels.error());
+  ASSERT_OK(labels, ReadLabels("# by hand\nmove, truth, clip, from_s, to_s\r\n\r\nwave, right, a, 1, 2\r\n", "l.csv"));
   EXPECT_EQ((*labels)[0].clip, "a");
   EXPECT_EQ((*labels)[0].person, "");
 }
 
 TEST(Labels, TicksOfATagStreamAreMicrosecondsOfTheRecording) {
   // Of the data set's own load_tagstream: usec = (tick · 1000 + 49875/2) / 49875, which rounds.
-  const auto labels = ReadLabels("XQPCTick;Tag\n2202252000;G1 lift outstretched arms\n", "p.tagstream", "p");
-  ASSERT_TRUE(labels) << ToString(labels.error());
+  ASSERT_OK(labels, ReadLabels("XQPCTick;Tag\n2202252000;G1 lift outstretched arms\n", "p.tagstream", "p"));
   EXPECT_NEAR(*(*labels)[0].from_s, 44.15542857, 1e-8);
   EXPECT_TRUE((*labels)[0].IsActionPoint());
   EXPECT_TRUE((*labels)[0].by_own_clock);

@@ -4,6 +4,7 @@
 
 #include "engine/formats/joint_csv.h"
 #include "tests/engine/streams/small_files.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -41,10 +42,8 @@ Heard Listen(const std::string& text, const StreamOptions& options = {}) {
 void ExpectAsRecorded(const std::string& text) {
   const Heard heard = Listen(text);
   EXPECT_EQ(heard.complaint, "");
-  const auto recording = ReadStreamRecording(text, "s");
-  ASSERT_TRUE(recording) << ToString(recording.error());
-  const auto made = MakeStream(*recording, "s");
-  ASSERT_TRUE(made);
+  ASSERT_OK(recording, ReadStreamRecording(text, "s"));
+  ASSERT_OK(made, MakeStream(*recording, "s"));
   ASSERT_EQ(heard.frames.size(), made->stream.frames.size());
   for (std::size_t t = 0; t < heard.frames.size(); ++t) {
     for (const Role role : AllRoles()) {

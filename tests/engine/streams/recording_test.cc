@@ -8,6 +8,7 @@
 #include "engine/formats/trc.h"
 #include "engine/streams/stream_maker.h"
 #include "tests/engine/streams/small_files.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -145,8 +146,7 @@ TEST(Streams, ABodyThatGoesOnUnderAnotherNameIsOnePerson) {
   const auto shown = [](const StreamRecording& recording) {
     return std::ranges::count_if(recording.frames, [](const RecordedFrame& f) { return f.places[0].has_value(); });
   };
-  const auto joined = ReadStreamRecording(text(0.1, 2), "s", {.body = 0});
-  ASSERT_TRUE(joined) << ToString(joined.error());
+  ASSERT_OK(joined, ReadStreamRecording(text(0.1, 2), "s", {.body = 0}));
   EXPECT_EQ(shown(*joined), 19);
   EXPECT_EQ(joined->remarks.front(), "body 11 continues as body 22 from frame 13 on: taken to be one person");
   EXPECT_EQ(joined->remarks.back(), "2 bodies, of which body 0 is read");

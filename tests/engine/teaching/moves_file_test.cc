@@ -4,6 +4,7 @@
 
 #include "engine/teaching/teach_move.h"
 #include "tests/engine/teaching/arms.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -28,8 +29,7 @@ std::string MovesComplaint(const std::string& text) {
 TEST(MovesFile, ComesBackAsItWasWritten) {
   const std::vector<TaughtMove> moves = TwoMoves();
   const std::string text = WriteMoves(moves);
-  const auto read = ReadMoves(text, "m.yaml");
-  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_OK(read, ReadMoves(text, "m.yaml"));
   EXPECT_EQ(WriteMoves(*read), text);
   ASSERT_EQ(read->size(), 2u);
   const TaughtMove &before = moves[0], &after = (*read)[0];
@@ -50,11 +50,11 @@ TEST(MovesFile, ComesBackAsItWasWritten) {
 }
 
 TEST(MovesFile, MayBeWrittenByHandWithKeyPosesAlone) {
-  const auto read = ReadMoves(
-      "moves:\n  - name: arms-out\n    key_poses:\n      - {tolerance_deg: 20, RH: 90, LH: {degrees: 90, "
-      "tolerance_deg: 15}}\n",
-      "m.yaml");
-  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_OK(
+      read,
+      ReadMoves("moves:\n  - name: arms-out\n    key_poses:\n      - {tolerance_deg: 20, RH: 90, LH: {degrees: 90, "
+                "tolerance_deg: 15}}\n",
+                "m.yaml"));
   const std::vector<PoseTarget>& targets = (*read)[0].poses[0].targets;
   EXPECT_EQ(targets[0].tolerance_deg, 20);
   EXPECT_EQ(targets[1].tolerance_deg, 15);

@@ -5,6 +5,7 @@
 #include "engine/recognition/recognise.h"
 #include "engine/recognition/recognisers.h"
 #include "tests/engine/teaching/arms.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -13,8 +14,7 @@ using testing::ArmsAt;
 using testing::Raise;
 
 TEST(TeachMove, FindsTheAnglesThatChangeAndTheirExtremes) {
-  const auto move = TeachMove("raise", {Raise(10, 100)});
-  ASSERT_TRUE(move) << ToString(move.error());
+  ASSERT_OK(move, TeachMove("raise", {Raise(10, 100)}));
   ASSERT_EQ(move->poses.size(), 2u);
   const double expected[] = {10, 100};
   for (std::size_t k = 0; k < 2; ++k) {
@@ -30,23 +30,19 @@ TEST(TeachMove, FindsTheAnglesThatChangeAndTheirExtremes) {
 
 TEST(TeachMove, TolerancesFollowTheSpreadOfExamplesWithinTheirBounds) {
   // At the top 90, 100 and 110 degrees: deviation 10, at different speeds.
-  const auto move = TeachMove("raise", {Raise(10, 90, 1.5), Raise(10, 100, 2), Raise(10, 110, 3)});
-  ASSERT_TRUE(move);
+  ASSERT_OK(move, TeachMove("raise", {Raise(10, 90, 1.5), Raise(10, 100, 2), Raise(10, 110, 3)}));
   ASSERT_EQ(move->poses.size(), 2u);
   EXPECT_NEAR(move->poses[1].targets[0].degrees, 99, 4);
   EXPECT_NEAR(move->poses[1].targets[0].tolerance_deg, 25, 4);
   EXPECT_EQ(move->poses[0].targets[0].tolerance_deg, TeachOptions{}.least_tolerance_deg);
-  const auto wide = TeachMove("raise", {Raise(10, 60), Raise(10, 100), Raise(10, 160)});
-  ASSERT_TRUE(wide);
+  ASSERT_OK(wide, TeachMove("raise", {Raise(10, 60), Raise(10, 100), Raise(10, 160)}));
   EXPECT_EQ(wide->poses[1].targets[0].tolerance_deg, TeachOptions{}.most_tolerance_deg);
 }
 
 TEST(TeachMove, WhatWasTaughtIsFoundAgainAndALesserMoveIsNot) {
-  const auto move = TeachMove("raise", {Raise(10, 100)});
-  ASSERT_TRUE(move);
+  ASSERT_OK(move, TeachMove("raise", {Raise(10, 100)}));
   const std::vector<TaughtMove> taught = {*move};
-  const auto recogniser = MakeRecogniser({}, taught);
-  ASSERT_TRUE(recogniser) << ToString(recogniser.error());
+  ASSERT_OK(recogniser, MakeRecogniser({}, taught));
   const auto found = [&](const SkeletonStream& stream) {
     const SeenStream seen = SeeStream(stream, {});
     const auto trace = FollowStream(**recogniser, 1, seen, {});
@@ -60,8 +56,7 @@ TEST(TeachMove, WhatWasTaughtIsFoundAgainAndALesserMoveIsNot) {
 }
 
 TEST(TeachMove, AMoveThatHardlyMovesIsTheArmsPose) {
-  const auto move = TeachMove("stand", {Raise(40, 42)});
-  ASSERT_TRUE(move);
+  ASSERT_OK(move, TeachMove("stand", {Raise(40, 42)}));
   ASSERT_EQ(move->poses.size(), 1u);
   EXPECT_EQ(move->poses[0].targets.size(), 4u);
 }
@@ -70,12 +65,9 @@ TEST(TeachMove, RefusesNothingToLearnFromAndWhatIsTooShortOrTooLong) {
   EXPECT_FALSE(TeachMove("x", {}));
   SkeletonStream nobody = Raise(10, 100);
   for (SensedFrame& frame : nobody.frames) frame.body_seen = false;
-  const auto unseen = TeachMove("x", {nobody});
-  ASSERT_FALSE(unseen);
-  EXPECT_NE(unseen.error().message.find("shows a body for 0.00 s"), std::string::npos);
-  const auto endless = TeachMove("x", {Raise(10, 100, 70)});
-  ASSERT_FALSE(endless);
-  EXPECT_NE(endless.error().message.find("lasts 71.0 s; allowed: 60 s"), std::string::npos);
+  EXPECT_NE(testing::Message(TeachMove("x", {nobody})).find("shows a body for 0.00 s"), std::string::npos);
+  EXPECT_NE(testing::Message(TeachMove("x", {Raise(10, 100, 70)})).find("lasts 71.0 s; allowed: 60 s"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/angles.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -85,8 +86,7 @@ TEST(ReadMarks, FindsTheCentreOfADiscWhereverItsPixelsFall) {
     const glm::dvec2 centre(20 + 0.1 * (i % 10), 20 + 0.1 * (i / 10));
     ColourImage picture(40, 40);
     DrawDisc(picture, EffectorMarks()[2], centre);
-    const auto found = ReadMarks(picture).effectors[2];
-    ASSERT_TRUE(found);
+    ASSERT_OK(found, ReadMarks(picture).effectors[2]);
     EXPECT_LT(glm::distance(*found, centre), 0.2) << i;
   }
 }
@@ -110,8 +110,7 @@ TEST(ReadMarks, FindsTheCentreOfADiscThatIsPartlyCovered) {
         ++visible;
       }
     }
-    const auto found = ReadMarks(picture).effectors[2];
-    ASSERT_TRUE(found);
+    ASSERT_OK(found, ReadMarks(picture).effectors[2]);
     error += glm::distance(*found, centre) / kDirections;
     error_of_mean += glm::distance(sum / visible, centre) / kDirections;
   }

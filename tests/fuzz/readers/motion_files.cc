@@ -21,6 +21,7 @@
 #include "tests/engine/streams/small_files.h"
 #include "tests/fuzz/readers/target.h"
 #include "tests/support/c3d_writer.h"
+#include "tests/support/person.h"
 #include "tests/support/random_clip.h"
 
 namespace etude::fuzz {
@@ -50,30 +51,8 @@ std::string SmallBvh(int frames) {
   return text;
 }
 
-/// A person of sixteen joints, as deep as people go, all but standing still.
-std::string PersonBvh() {
-  std::string text =
-      "HIERARCHY\nROOT Hips\n{ OFFSET 0 90 0 CHANNELS 6 Xposition Yposition Zposition Zrotation "
-      "Xrotation Yrotation\n";
-  const auto chain = [&](std::initializer_list<const char*> joints) {
-    for (const char* joint : joints) text += fmt::format("JOINT {} CHANNELS 3 Zrotation Xrotation Yrotation\n", joint);
-    text += "End Site { OFFSET 0 5 8 }\n";
-    for (std::size_t i = 0; i < joints.size(); ++i) text += "}\n";
-  };
-  chain({"LeftUpLeg { OFFSET 10 0 0", "LeftLeg { OFFSET 0 -40 0", "LeftFoot { OFFSET 0 -40 0"});
-  chain({"RightUpLeg { OFFSET -10 0 0", "RightLeg { OFFSET 0 -40 0", "RightFoot { OFFSET 0 -40 0"});
-  text += "JOINT Spine { OFFSET 0 20 0 CHANNELS 3 Zrotation Xrotation Yrotation\n";
-  chain({"LeftArm { OFFSET 20 25 0", "LeftForeArm { OFFSET 25 0 0", "LeftHand { OFFSET 25 0 0"});
-  chain({"RightArm { OFFSET -20 25 0", "RightForeArm { OFFSET -25 0 0", "RightHand { OFFSET -25 0 0"});
-  chain({"Neck { OFFSET 0 30 0", "Head { OFFSET 0 10 0"});
-  text += "}\n}\nMOTION\nFrames: 2\nFrame Time: 0.0333333\n";
-  for (int t = 0; t < 2; ++t) {
-    text += "0 90 0";
-    for (int i = 0; i < 3 * 16; ++i) text += fmt::format(" {}", t);
-    text += '\n';
-  }
-  return text;
-}
+/// A person, standing still.
+std::string PersonBvh() { return WriteBvh(testing::AtRest(testing::PersonSkeleton(), 2)); }
 
 std::vector<std::string> BvhSeeds() { return {SmallBvh(1), SmallBvh(4), PersonBvh()}; }
 
@@ -161,31 +140,12 @@ void AcclaimMotionFile(std::string_view bytes) {
   if (clip) MakeBody(*clip);
 }
 
-/// Two frames of AMASS, as NumPy packs them.
-constexpr std::string_view kAmassInHexadecimal =
-    "504b03041400000008000000210068d39d04520000006005000009001400706f7365732e6e70790100100060050000000000005200000000"
-    "0000009bec17ea1b10c9c850c650ad9e925a9c5ca46ea5a06e9366a2aea3a09e965f54529498179f5f94920a12774bcc294e058a17672416"
-    "a402f91a463a0a86a6669a3a0ab50a64022e8651300a46c12818a60000504b03041400000008000000210078b32618490000009800000009"
-    "0014007472616e732e6e707901001000980000000000000049000000000000009bec17ea1b10c9c850c650ad9e925a9c5ca46ea5a06e9366"
-    "a2aea3a09e965f54529498179f5f94920a12774bcc294e058a17672416a402f91a463a0ac69a3a0ab50a64032e061c0000504b0304140000"
-    "00080000002100eb016ed34700000088000000130014006d6f6361705f6672616d65726174652e6e70790100100088000000000000004700"
-    "0000000000009bec17ea1b10c9c850c650ad9e925a9c5ca46ea5a06e9366a1aea3a09e965f54529498179f5f94920a12774bcc294e058a17"
-    "672416a402f91a9a3a0ab50a14012e063088730000504b030414000000080000002100e2f6377546000000840000000a00140067656e6465"
-    "722e6e707901001000840000000000000046000000000000009bec17ea1b10c9c850c650ad9e925a9c5ca46ea5a06e136aa8aea3a09e965f"
-    "54529498179f5f94920a12774bcc294e058a17672416a402f91a9a3a0ab50a1401ae3406060600504b010214031400000008000000210068"
-    "d39d045200000060050000090000000000000000000000800100000000706f7365732e6e7079504b010214031400000008000000210078b3"
-    "2618490000009800000009000000000000000000000080018d0000007472616e732e6e7079504b0102140314000000080000002100eb016e"
-    "d347000000880000001300000000000000000000008001110100006d6f6361705f6672616d65726174652e6e7079504b0102140314000000"
-    "080000002100e2f6377546000000840000000a000000000000000000000080019d01000067656e6465722e6e7079504b0506000000000400"
-    "0400e70000001f0200000000";
-
-std::string FromHexadecimal(std::string_view digits) {
-  const auto value = [](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };
-  std::string bytes;
-  for (std::size_t i = 0; i + 1 < digits.size(); i += 2) {
-    bytes += static_cast<char>(value(digits[i]) << 4 | value(digits[i + 1]));
-  }
-  return bytes;
+/// Two frames of AMASS.
+std::string AmassSeed() {
+  return WriteNpz({{"poses", {.shape = {2, 72}, .values = std::vector<double>(144, 0.1)}},
+                   {"trans", {.shape = {2, 3}, .values = std::vector<double>(6, 1)}},
+                   {"mocap_framerate", {.shape = {}, .values = {30}}}},
+                  {{"gender", {"female"}}});
 }
 
 void NpzFile(std::string_view bytes) {
@@ -259,25 +219,25 @@ std::vector<Target> MotionTargets() {
       {"gltf",
        Gltf,
        GltfSeeds,
-       {"\"skins\"",
-        "\"joints\"",
-        "\"inverseBindMatrices\"",
-        "\"sparse\"",
-        "\"indices\"",
-        "\"JOINTS_0\"",
-        "\"WEIGHTS_0\"",
-        "\"CUBICSPLINE\"",
-        "\"STEP\"",
-        "\"matrix\"",
-        "\"normalized\"",
+       {R"("skins")",
+        R"("joints")",
+        R"("inverseBindMatrices")",
+        R"("sparse")",
+        R"("indices")",
+        R"("JOINTS_0")",
+        R"("WEIGHTS_0")",
+        R"("CUBICSPLINE")",
+        R"("STEP")",
+        R"("matrix")",
+        R"("normalized")",
         "MAT4",
         "VEC4",
         "5121",
         "5123",
-        "\"extensionsRequired\"",
+        R"("extensionsRequired")",
         "data:application/octet-stream;base64,",
-        "\"weights\"",
-        "\"targets\"",
+        R"("weights")",
+        R"("targets")",
         "-1"}},
       {"trc", Trc, [] { return std::vector{WriteTrc(testing::WavingMotion(3), "seed")}; }, {"Units", "cm", "nan"}},
       {"joint-csv", Csv, [] { return std::vector{WriteJointCsv(testing::WavingMotion(3))}; }, {"nan", "1e400"}},
@@ -292,10 +252,7 @@ std::vector<Target> MotionTargets() {
        AcclaimMotionFile,
        [] { return std::vector<std::string>{":DEGREES\n1\nroot 1 2 3 4 5 6\nupper 7 8 9\n2\nupper 1 2 3\n"}; },
        {":RADIANS", "1e308", "nan"}},
-      {"npz",
-       NpzFile,
-       [] { return std::vector{FromHexadecimal(kAmassInHexadecimal)}; },
-       {"'shape': (", "<f8", "NUMPY"}},
+      {"npz", NpzFile, [] { return std::vector{AmassSeed()}; }, {"'shape': (", "<f8", "NUMPY"}},
       {"npy", NpyFile, [] { return std::vector{NpySeed()}; }, {"'shape': (", "<f8", "NUMPY", "17", "25"}},
       {"motive", MotiveFile, [] { return std::vector<std::string>{kMotiveTake}; }, {"Marker", "Local", "nan", ",,,"}},
       {"opensim", AnglesFile, [] { return std::vector{AnglesSeed()}; }, {"inDegrees=no", "ground", "-Z", "1e308"}},

@@ -58,18 +58,14 @@ Row SomeRow(std::size_t cell) {
 class RunFolder {
  public:
   explicit RunFolder(bool as_columns) {
-    Study study;
-    study.scenario = "small";
-    study.task = "ik";
-    study.trials = 3;
+    Study study{.scenario = "small", .task = "ik", .trials = 3};
     study.methods = {{"fixed", "fixed", false}, {"least-squares", "fixed", false}};
     study.conditions = {{{"joint_noise_deg", "2"}}, {{"joint_noise_deg", "5"}}};
     auto writer = std::move(ResultWriter::Begin(folder_.path(), {&study, 1}, as_columns ? 0 : 100).value());
     for (std::size_t cell = 0; cell < SmallPlan().cell_count(); ++cell) {
       Required(writer.Add(SomeRow(cell), {}), "a row of the seed");
     }
-    ScenarioSummary summary;
-    summary.name = "small";
+    ScenarioSummary summary{.name = "small"};
     Required(writer.Finish({summary}), "the seed");
     folder_.With("manifest.json", MakeManifest(SmallSuite(), SmallScenarios(), "0")->dump());
     folder_.With("host.json", R"({"command_line":"c","host":"h","wall_seconds":1})");
@@ -211,8 +207,7 @@ void Extras(std::string_view bytes) {
 }
 
 std::string ExtrasSeed() {
-  CaptureExtras extras;
-  extras.brightness = {1, 1.01};
+  CaptureExtras extras{.brightness = {1, 1.01}};
   Mask mask(8, 4);
   extras.views.push_back({LookAt({}, {2, 1.5, 3}, {0, 1, 0}), {mask, mask}});
   extras.moments.push_back({1, {}, {{{{1, 2}, {3, 4}, {5, 6, 7}}}}});

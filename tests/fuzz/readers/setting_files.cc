@@ -35,8 +35,7 @@ void Moves(std::string_view bytes) {
 }
 
 std::vector<std::string> MoveSeeds() {
-  SensedFrame frame;
-  frame.body_seen = true;
+  SensedFrame frame{.body_seen = true};
   TaughtMove posed{.name = "arms-open", .poses = {{{{Feature::kRH, 57, 20}}}}};
   TaughtMove shown{.name = "shown"};
   shown.examples.push_back({.rate_hz = 30, .frames = {frame, frame}});

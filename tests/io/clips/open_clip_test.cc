@@ -6,6 +6,8 @@
 #include "io/clips/references.h"
 #include "sim/choreography/song.h"
 #include "tests/io/clips/clip_folder.h"
+#include "tests/support/gaps.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -35,8 +37,7 @@ class OpenClipTest : public ClipFolder {
 };
 
 TEST_F(OpenClipTest, EveryAnimationIsAClipOfItsOwn) {
-  const auto clips = ReadClips(dance_);
-  ASSERT_TRUE(clips) << ToString(clips.error());
+  ASSERT_OK(clips, ReadClips(dance_));
   ASSERT_EQ(clips->size(), 2u);
   EXPECT_EQ(clips->at(0).name, "dance#Armature|Jump");
   EXPECT_EQ(clips->at(1).source, dance_ + "#Armature|Walk");
@@ -45,8 +46,7 @@ TEST_F(OpenClipTest, EveryAnimationIsAClipOfItsOwn) {
 
 TEST_F(OpenClipTest, AnAnimationIsChosenByNameOrByItsEnd) {
   for (const std::string name : {"#Armature|Walk", "#Walk"}) {
-    const auto clips = ReadClips(dance_ + name);
-    ASSERT_TRUE(clips) << ToString(clips.error());
+    ASSERT_OK(clips, ReadClips(dance_ + name));
     ASSERT_EQ(clips->size(), 1u);
     EXPECT_EQ(clips->front().source, dance_ + "#Armature|Walk");
   }
@@ -61,8 +61,7 @@ TEST_F(OpenClipTest, FilesWithoutMotionAndChoicesWithoutMeaningAreRefused) {
 
 TEST_F(OpenClipTest, AFileThatItselfHoldsASignIsThatFile) {
   const std::string sharp = Write("take#2.bvh", kTwoJoints);
-  const auto clips = ReadClips(sharp);
-  ASSERT_TRUE(clips) << ToString(clips.error());
+  ASSERT_OK(clips, ReadClips(sharp));
   EXPECT_EQ(clips->front().name, "take#2");
   Write("numbers[1].bvh", kTwoJoints);
   EXPECT_THAT(Expanded(In("numbers[1].bvh")), ElementsAre(In("numbers[1].bvh")));
@@ -72,17 +71,15 @@ TEST_F(OpenClipTest, PatternsStandForFilesInOrderEachWithTheAnimation) {
   const std::string a = Write("a.bvh", kTwoJoints), b = Write("b.bvh", kTwoJoints);
   EXPECT_THAT(Expanded(In("*.bvh")), ElementsAre(a, b));
   EXPECT_THAT(Expanded(In("d*.gltf#Walk")), ElementsAre(dance_ + "#Walk"));
-  const auto none = ExpandReference(In("*.fbx"), {.file = "s.yaml", .line = 3, .column = 9});
-  ASSERT_FALSE(none);
-  EXPECT_THAT(ToString(none.error()), HasSubstr("s.yaml:3:9: no clip matches '"));
+  EXPECT_THAT(testing::Refusal(ExpandReference(In("*.fbx"), {.file = "s.yaml", .line = 3, .column = 9})),
+              HasSubstr("s.yaml:3:9: no clip matches '"));
 }
 
 TEST_F(OpenClipTest, BuiltinsAreMovesActsAndSongs) {
   EXPECT_EQ(Expanded("builtin:*").size(), BuiltinMoveNames().size());
   EXPECT_EQ(Expanded("builtin:acts").size(), BuiltinActNames().size());
   ASSERT_EQ(Expanded("builtin:songs").size(), BuiltinSongNames().size());
-  const auto song = LoadBuiltinClip(BuiltinSongNames().front(), {});
-  ASSERT_TRUE(song);
+  ASSERT_OK(song, LoadBuiltinClip(BuiltinSongNames().front(), {}));
   EXPECT_FALSE(song->move) << "a song is no move that a recogniser was taught";
   EXPECT_TRUE(LoadBuiltinClip("clap", {})->move);
   EXPECT_TRUE(LoadBuiltinClip("wave", {}));
@@ -92,40 +89,27 @@ TEST_F(OpenClipTest, BuiltinsAreMovesActsAndSongs) {
 TEST_F(OpenClipTest, ABuiltinClipIsUnderstoodAsTheVeryBodyThatDancedIt) {
   auto clips = ReadClips("builtin:boxing");
   ASSERT_TRUE(clips);
-  const auto opened = UnderstandClip(std::move(clips->front()), {});
-  ASSERT_TRUE(opened);
+  ASSERT_OK(opened, UnderstandClip(std::move(clips->front()), {}));
   const BodyMotion danced = LoadBuiltinMove("boxing")->motion;
-  ASSERT_EQ(opened->body.motion.poses.size(), danced.poses.size());
-  double worst = 0;
-  for (std::size_t i = 0; i < danced.poses.size(); ++i) {
-    for (const Role role : AllRoles()) {
-      worst = std::max(worst, glm::distance(opened->body.motion.poses[i][role], danced.poses[i][role]));
-    }
-  }
-  EXPECT_LT(worst, 1e-9);
+  EXPECT_LT(WorstJointDistance(opened->body.motion, danced), 1e-9);
 }
 
 TEST_F(OpenClipTest, ALibraryTakesAllKindsInOrderAndNamesWhatItCannotUnderstand) {
   const std::string real = "/usr/share/assimp/models/BVH/01_03.bvh";
-  const auto library = LoadClips({"builtin:clap", real, "builtin:wave"}, {});
-  ASSERT_TRUE(library) << ToString(library.error());
+  ASSERT_OK(library, LoadClips({"builtin:clap", real, "builtin:wave"}, {}));
   ASSERT_EQ(library->clips.size(), 3u);
   EXPECT_EQ(library->clips[1].name, "01_03");
   EXPECT_EQ(library->clips[1].source, real);
   EXPECT_THAT(library->clips[1].changes.front(), HasSubstr("1 unit = 5.6"));
   EXPECT_FALSE(library->clips[1].move);
-  const auto broken = LoadClips({"builtin:clap", dance_}, {});
-  ASSERT_FALSE(broken);
-  EXPECT_THAT(ToString(broken.error()), HasSubstr("dance.gltf#Armature|Jump: no joint found for left_shoulder"));
+  EXPECT_THAT(testing::Refusal(LoadClips({"builtin:clap", dance_}, {})),
+              HasSubstr("dance.gltf#Armature|Jump: no joint found for left_shoulder"));
 }
 
 TEST_F(OpenClipTest, WhatIsTaughtComesBeforeWhatIsFound) {
   const std::string real = "/usr/share/assimp/models/BVH/01_03.bvh";
-  const auto taught = ReadJointMapFile("roles:\n  left_hand: RightHand\n", "m.yaml");
-  ASSERT_TRUE(taught) << ToString(taught.error());
-  OpenOptions options;
-  options.roles = *taught;
-  const auto swapped = LoadClips({real}, {}, options);
+  ASSERT_OK(taught, ReadJointMapFile("roles:\n  left_hand: RightHand\n", "m.yaml"));
+  const auto swapped = LoadClips({real}, {}, {.roles = *taught});
   ASSERT_FALSE(swapped) << "a left hand on the right arm";
   EXPECT_THAT(ToString(swapped.error()), HasSubstr("the role left_hand has the joint 'RightHand'"));
 }
@@ -140,12 +124,10 @@ class ClipFileTest : public ClipFolder {
 };
 
 TEST_F(ClipFileTest, TheFormatIsToldByContentNotByName) {
-  const auto bvh = ReadClipFile(Write("really_bvh.glb", kTwoJoints));
-  ASSERT_TRUE(bvh) << ToString(bvh.error());
+  ASSERT_OK(bvh, ReadClipFile(Write("really_bvh.glb", kTwoJoints)));
   EXPECT_EQ(bvh->format, ClipFormat::kBvh);
   EXPECT_EQ(bvh->clips.size(), 1u);
-  const auto gltf = ReadClipFile(Write("really_gltf.bvh", GltfWith("")));
-  ASSERT_TRUE(gltf) << ToString(gltf.error());
+  ASSERT_OK(gltf, ReadClipFile(Write("really_gltf.bvh", GltfWith(""))));
   EXPECT_EQ(gltf->format, ClipFormat::kGltf);
   EXPECT_TRUE(gltf->clips.empty());
   EXPECT_EQ(gltf->figure.skeleton.joints.size(), 2u);
@@ -191,8 +173,7 @@ TEST_F(ClipFileTest, AFileThatIsTooLargeIsRefusedBeforeItIsRead) {
 
 TEST_F(ClipFileTest, BuffersAreReadFromTheFilesOwnFolder) {
   Write("deeper/numbers.bin", AnimationBytes());
-  const auto file = ReadClipFile(Write("a.gltf", GltfWithAnimations("deeper/numbers.bin")));
-  ASSERT_TRUE(file) << ToString(file.error());
+  ASSERT_OK(file, ReadClipFile(Write("a.gltf", GltfWithAnimations("deeper/numbers.bin"))));
   EXPECT_EQ(file->clips.size(), 2u);
   EXPECT_NE(Complaint(Write("b.gltf", GltfWithAnimations("absent.bin"))).find("'absent.bin': No such file"),
             std::string::npos);
@@ -226,8 +207,7 @@ TEST_F(ClipFileTest, TexturesAreTheSameWhereverTheyStand) {
   std::vector<SharedTexture> textures;
   for (const std::string name : {"/BoxTextured.gltf", "-Embedded/BoxTextured.gltf", "-Binary/BoxTextured.glb"}) {
     if (!std::filesystem::exists(models + name)) GTEST_SKIP() << "no " << models << name;
-    const auto file = ReadClipFile(models + name);
-    ASSERT_TRUE(file) << ToString(file.error());
+    ASSERT_OK(file, ReadClipFile(models + name));
     ASSERT_EQ(file->figure.materials.size(), 1u);
     textures.push_back(file->figure.materials[0].texture);
     ASSERT_TRUE(textures.back()) << name;

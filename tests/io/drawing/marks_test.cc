@@ -98,8 +98,8 @@ TEST(Marks, StandOutFromBothBackgrounds) {
 TEST(Marks, BeginAgainAfterEightAndEscapeTheirTitles) {
   EXPECT_EQ(MarkUse(1, 9, 10.04, 5, " data-t=\"3\""),
             "<use href=\"#k1\" class=\"f1\" x=\"10.0\" y=\"5.0\" data-t=\"3\"/>");
-  EXPECT_THAT(MarkUse(8, 0, 0, 0, "", "<b>"), testing::HasSubstr("#k0\""));
-  EXPECT_THAT(MarkUse(8, 0, 0, 0, "", "<b>"), testing::HasSubstr("<title>&lt;b&gt;</title>"));
+  EXPECT_THAT(MarkUse(8, 0, 0, 0, "", "<b>"), ::testing::HasSubstr("#k0\""));
+  EXPECT_THAT(MarkUse(8, 0, 0, 0, "", "<b>"), ::testing::HasSubstr("<title>&lt;b&gt;</title>"));
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ TEST(Axis, OfDifferencesAlwaysHoldsZero) {
 }
 
 TEST(Swarm, MovesNeighboursAsideWithinItsBounds) {
-  EXPECT_THAT(SwarmOffsets({10, 200}, 20), testing::Each(0));
+  EXPECT_THAT(SwarmOffsets({10, 200}, 20), ::testing::Each(0));
   const auto offsets = SwarmOffsets(std::vector<double>(100, 50.0), 20);
   for (const double offset : offsets) EXPECT_LE(std::abs(offset), 20);
   std::vector<double> sorted = offsets;

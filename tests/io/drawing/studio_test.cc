@@ -14,6 +14,7 @@
 #include "sim/character/characters.h"
 #include "sim/character/posed.h"
 #include "sim/choreography/canonical_body.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -41,7 +42,7 @@ class StudioPictures : public ::testing::Test {
   Renderer* renderer_ = *SharedRenderer();
 };
 
-int LargestGap(const ColourImage& a, const ColourImage& b) {
+int WorstJointDistance(const ColourImage& a, const ColourImage& b) {
   int largest = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i) {
     const Rgb8 &p = a.pixels[i], &q = b.pixels[i];
@@ -56,7 +57,7 @@ TEST_F(StudioPictures, DoNotDependOnThoseBefore) {
     Studio fresh(180, 240, detail, BoundsOfBear()), used(180, 240, detail, BoundsOfBear());
     const ColourImage picture = Draw(fresh, here);
     Draw(used, here);
-    EXPECT_GT(LargestGap(Draw(used, there), picture), 20) << "another picture";
+    EXPECT_GT(WorstJointDistance(Draw(used, there), picture), 20) << "another picture";
     EXPECT_EQ(Draw(used, here).pixels, picture.pixels);
   }
 }
@@ -149,8 +150,7 @@ TEST(FilmWorkers, HandOverEveryFrameInOrderHoweverManyDraw) {
     std::vector<std::uint8_t> wanted(64 * 32 * 3 / 2);
     for (int frame = 0; frame < 45; ++frame) {
       Numbered(frame).ToI420(wanted.data());
-      const auto picture = film->Next();
-      ASSERT_TRUE(picture) << ToString(picture.error());
+      ASSERT_OK(picture, film->Next());
       EXPECT_TRUE(std::ranges::equal(*picture, wanted)) << frame << " of " << jobs;
     }
     EXPECT_FALSE(film->Next());
@@ -172,8 +172,7 @@ TEST(FilmWorkers, DrawWhatOneSourceFeedsThemInOrder) {
     std::vector<std::uint8_t> wanted(64 * 32 * 3 / 2);
     for (int frame = 0; frame < 20; ++frame) {
       Numbered(frame).ToI420(wanted.data());
-      const auto picture = film->Next();
-      ASSERT_TRUE(picture) << ToString(picture.error());
+      ASSERT_OK(picture, film->Next());
       EXPECT_TRUE(std::ranges::equal(*picture, wanted)) << frame << " of " << jobs;
     }
     EXPECT_EQ(fed, 20);
@@ -190,8 +189,7 @@ TEST(FilmWorkers, AFeedThatFailsEndsTheFilmWithItsReason) {
   ASSERT_TRUE(film);
   auto picture = film->Next();
   for (int frames = 0; picture && frames < 20; ++frames) picture = film->Next();
-  ASSERT_FALSE(picture);
-  EXPECT_EQ(ToString(picture.error()), "left.mp4: ends before frame 8");
+  EXPECT_EQ(testing::Refusal(picture), "left.mp4: ends before frame 8");
 }
 
 TEST(FilmWorkers, OneThatDiesIsAnErrorNotAnEndlessWait) {
@@ -213,8 +211,7 @@ TEST(EncodeFrames, GivesTheSameFileForAnyNumberOfProcesses) {
   std::vector<std::string> films;
   for (const int jobs : {1, 3}) {
     const auto path = folder.path() / "film.mp4";
-    const auto made = EncodeFrames(path, 30, 30, Numbered, {.jobs = jobs});
-    ASSERT_TRUE(made) << ToString(made.error());
+    ASSERT_OK(made, EncodeFrames(path, 30, 30, Numbered, {.jobs = jobs}));
     films.push_back(*ReadWholeFile(path));
   }
   EXPECT_GT(films[0].size(), 1000u);

@@ -9,16 +9,17 @@
 
 #include "io/files/files.h"
 #include "io/files/temporary_folder.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
 /// A folder that somebody else has filled, and beside it a file of ours that they want.
-class FilesInside : public testing::Test {
+class FilesInside : public ::testing::Test {
  protected:
   FilesInside() : scratch_(*TemporaryFolder::Make("inside-test")) {
     fs::create_directories(theirs_ / "report");
@@ -104,9 +105,8 @@ TEST_F(FilesInside, AreNotWrittenFirstIntoAnothersFile) {
 TEST_F(FilesInside, ThatHaveAnotherNameAreReadAndNotWritten) {
   fs::create_hard_link(ours_ / "key", theirs_ / "journal");
   for (const int flags : {O_WRONLY | O_APPEND, O_WRONLY | O_CREAT | O_TRUNC, O_RDWR}) {
-    const auto opened = OpenFile(Inside(theirs_) / "journal", flags);
-    ASSERT_FALSE(opened);
-    EXPECT_THAT(ToString(opened.error()), HasSubstr("run/journal: has another name (a hard link)"));
+    EXPECT_THAT(testing::Refusal(OpenFile(Inside(theirs_) / "journal", flags)),
+                HasSubstr("run/journal: has another name (a hard link)"));
   }
   EXPECT_EQ(Ours(), "secret");
   EXPECT_EQ(ReadWholeFile(Inside(theirs_) / "journal"), "secret");

@@ -9,15 +9,16 @@
 #include <fstream>
 
 #include "io/files/temporary_folder.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
 TEST(Files, ReadBackWhatTheyWroteAndLeaveNothingBeside) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "etude files";
+  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "etude files";
   ASSERT_TRUE(WriteFileAtomically(folder / "a.txt", "bytes"));
   EXPECT_EQ(ReadWholeFile(folder / "a.txt"), "bytes");
   EXPECT_FALSE(std::filesystem::exists(TemporaryName(folder / "a.txt")));
@@ -49,8 +50,7 @@ TEST(Files, TakeTheNameThatAKilledWriterHasLeft) {
 
 TEST(Files, OfAPlainNameAreWrittenWhereWeStand) {
   const std::filesystem::path before = std::filesystem::current_path();
-  const auto folder = TemporaryFolder::Make("files-test");
-  ASSERT_TRUE(folder);
+  ASSERT_OK(folder, TemporaryFolder::Make("files-test"));
   std::filesystem::current_path(folder->path());
   const auto written = WriteFileAtomically("plain.txt", "bytes");
   std::filesystem::current_path(before);

@@ -5,24 +5,24 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/results.h"
+
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 TEST(Json, IsWrittenInTheOrderGivenAndReadsBackTheSame) {
   const Json json{{"b", 0.1}, {"a", {1, nullptr, "\u00e9"}}};
-  const auto text = WriteJson(json);
-  ASSERT_TRUE(text);
+  ASSERT_OK(text, WriteJson(json));
   EXPECT_EQ(*text, "{\"b\":0.1,\"a\":[1,null,\"\u00e9\"]}");
   EXPECT_EQ(*ReadJson(*text, "x"), json);
 }
 
 TEST(Json, RefusesWhatIsNotAFiniteNumberAndNamesItsPath) {
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
-    const auto text = WriteJson({{"cells", {1.0, {{"error", bad}}}}});
-    ASSERT_FALSE(text);
-    EXPECT_EQ(ToString(text.error()), "/cells/1/error is not a finite number");
+    EXPECT_EQ(testing::Refusal(WriteJson({{"cells", {1.0, {{"error", bad}}}}})),
+              "/cells/1/error is not a finite number");
   }
 }
 

@@ -6,13 +6,14 @@
 
 #include "io/files/files.h"
 #include "io/files/temporary_folder.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
-class ReadPeople : public testing::Test {
+class ReadPeople : public ::testing::Test {
  protected:
   ReadPeople() : folder_(*TemporaryFolder::Make("read-people")) {}
   std::filesystem::path Write(const std::string& name, const std::string& text) {
@@ -40,8 +41,7 @@ TEST_F(ReadPeople, TakesOpenPosesFramesInTheOrderOfTheirNumbers) {
   Write("a/f_10.json", OpenPose(25, "30, 40, 0.7"));
   Write("a/f_9.json", OpenPose(25));
   Write("a/f_0100.json", R"({"people": []})");
-  const auto film = ReadKeypoints(folder_.path() / "a", "body_25b");
-  ASSERT_TRUE(film) << ToString(film.error());
+  ASSERT_OK(film, ReadKeypoints(folder_.path() / "a", "body_25b"));
   ASSERT_EQ(film->frames.size(), 3u);
   EXPECT_EQ(film->frames[0][0][Landmark::kNose].pixel, glm::dvec2(10.5, 20.5));
   EXPECT_DOUBLE_EQ(film->frames[1][0][Landmark::kNose].confidence, 0.7);
@@ -56,8 +56,7 @@ TEST_F(ReadPeople, FramesWithoutAFileAreFramesWithoutPeople) {
     Write(fmt::format("b/{}.json", 5 * k + 300), OpenPose(18, fmt::format("{}, 20, 0.5", k)));
   }
   for (const char* folder : {"a", "b"}) {
-    const auto film = ReadKeypoints(folder_.path() / folder, "");
-    ASSERT_TRUE(film) << ToString(film.error());
+    ASSERT_OK(film, ReadKeypoints(folder_.path() / folder, ""));
     ASSERT_EQ(film->frames.size(), 60u) << folder;
     for (std::size_t k = 0; k < 60; ++k) {
       ASSERT_EQ(film->frames[k].size(), k < 20 || k >= 35 ? 1u : 0u) << folder << k;
@@ -84,8 +83,7 @@ TEST_F(ReadPeople, FramesAreLaidOnTheirTimes) {
   };
   for (const auto& [key, unit] :
        {std::pair("timestamp_ms", 1e3), std::pair("timestamp", 1e6), std::pair("time", 1e9)}) {
-    const auto film = ReadKeypoints(list(key, unit), "");
-    ASSERT_TRUE(film) << ToString(film.error());
+    ASSERT_OK(film, ReadKeypoints(list(key, unit), ""));
     ASSERT_EQ(film->frames.size(), 60u) << key;
     EXPECT_TRUE(film->frames[27].empty());
     EXPECT_EQ(film->frames[35][0][Landmark::kNose].pixel.x, 35.5);
@@ -115,8 +113,7 @@ TEST_F(ReadPeople, PicturesOfCocoAreLaidOnTheNumbersOfTheirNames) {
 
 TEST_F(ReadPeople, TakesOpenPosesFirstFormat) {
   Write("a/0.json", R"({"version": 1.0, "people": [{"pose_keypoints": [)" + Triples(18) + "]}]}");
-  const auto film = ReadKeypoints(folder_.path() / "a", "");
-  ASSERT_TRUE(film) << ToString(film.error());
+  ASSERT_OK(film, ReadKeypoints(folder_.path() / "a", ""));
   EXPECT_EQ(film->frames[0][0][Landmark::kNose].pixel, glm::dvec2(10.5, 20.5));
 }
 
@@ -127,8 +124,7 @@ TEST_F(ReadPeople, TakesWhatPythonWritesOfKeypointsThatWereNotSeen) {
   const auto film = ReadKeypoints(folder_.path() / "a", "");
   ASSERT_FALSE(film) << "27 keypoints";
   Write("a/f_0.json", R"({"people": [{"pose_keypoints_2d": [)" + Triples(25, "NaN, NaN, NaN, 30, 40, 0.7") + "]}]}");
-  const auto seen = ReadKeypoints(folder_.path() / "a", "");
-  ASSERT_TRUE(seen) << ToString(seen.error());
+  ASSERT_OK(seen, ReadKeypoints(folder_.path() / "a", ""));
   EXPECT_EQ(seen->frames[0][0][Landmark::kNose].confidence, 0);
   EXPECT_EQ(seen->frames[0][0][Landmark::kLeftEye].pixel, glm::dvec2(30.5, 40.5));
   EXPECT_TRUE(seen->frames[1].empty()) << "nobody";
@@ -163,8 +159,7 @@ TEST_F(ReadPeople, KnowsTheOrderOfOpenPosesBody25ByItsMidHip) {
     Write(fmt::format("a/{}.json", k), people(true));
     Write(fmt::format("b/{}.json", k), people(false));
   }
-  const auto film = ReadKeypoints(folder_.path() / "a", "");
-  ASSERT_TRUE(film) << ToString(film.error());
+  ASSERT_OK(film, ReadKeypoints(folder_.path() / "a", ""));
   EXPECT_THAT(film->told, HasSubstr("body_25"));
   EXPECT_EQ(film->frames[0][0][Landmark::kRightHip].pixel, glm::dvec2(90.5, 100.5));
   EXPECT_THAT(Reason(folder_.path() / "b"), HasSubstr("choose one by --layout"));
@@ -177,8 +172,7 @@ TEST_F(ReadPeople, ReadsCocoWithFlagsOrScores) {
       "annotations": [{"image_id": 3, "keypoints": [)" +
            Triples(17, "1, 2, " + v) + "]}]}";
   };
-  const auto flags = ReadKeypoints(Write("flags.json", coco("2")), "");
-  ASSERT_TRUE(flags) << ToString(flags.error());
+  ASSERT_OK(flags, ReadKeypoints(Write("flags.json", coco("2")), ""));
   ASSERT_EQ(flags->frames.size(), 2u);
   EXPECT_TRUE(flags->frames[0].empty());
   EXPECT_DOUBLE_EQ(flags->frames[1][0][Landmark::kNose].confidence, 1);
@@ -241,8 +235,7 @@ TEST_F(ReadPeople, TakesSharesOfThePicture) {
   for (int i = 0; i < 33; ++i)
     points += std::string(i == 0 ? "" : ", ") + R"({"x": 0.25, "y": 0.5, "z": 0, "visibility": 0.9})";
   const auto path = Write("p.json", R"([{"pose_landmarks": [)" + points + R"(]}, {"pose_landmarks": null}])");
-  const auto read = ReadKeypoints(path, "", {.width = 640, .height = 480, .frames = 2});
-  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_OK(read, ReadKeypoints(path, "", {.width = 640, .height = 480, .frames = 2}));
   EXPECT_EQ(read->frames[0][0][Landmark::kLeftHeel].pixel, glm::dvec2(160, 240));
   EXPECT_TRUE(read->frames[1].empty());
   EXPECT_THAT(read->told, HasSubstr("shares of 640 x 480 pixels"));

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "io/process/pinned_environment.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -327,9 +328,9 @@ TEST(ChildProcess, KeepsItsStandardErrorInAFile) {
   for (const char* word : {"one", "two"}) Shell(std::string("echo ") + word + " >&2", path).Finish(5000);
   std::ifstream file(path);
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "before\none\ntwo\n");
-  const auto child = ChildProcess::Start({.program = "sh", .arguments = {}, .error_file = "/no/such/folder/file"});
-  ASSERT_FALSE(child);
-  EXPECT_EQ(ToString(child.error()), "/no/such/folder/file: cannot write: No such file or directory");
+  EXPECT_EQ(
+      testing::Refusal(ChildProcess::Start({.program = "sh", .arguments = {}, .error_file = "/no/such/folder/file"})),
+      "/no/such/folder/file: cannot write: No such file or directory");
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ TEST(HeldMb, CountsMemoryAndWhatTheKernelHoldsForIt) {
 }
 
 /// Folders that look like groups.
-class FakeGroups : public testing::Test {
+class FakeGroups : public ::testing::Test {
  protected:
   static void Give(const fs::path& group, const std::string& controllers) {
     fs::create_directories(group);

@@ -11,10 +11,10 @@
 namespace etude {
 namespace {
 
-using testing::Contains;
-using testing::Key;
-using testing::MatchesRegex;
-using testing::StartsWith;
+using ::testing::Contains;
+using ::testing::Key;
+using ::testing::MatchesRegex;
+using ::testing::StartsWith;
 
 TEST(LoadedLibraries, NamesEachByItsBuild) {
   const auto libraries = LoadedLibraries();

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/results.h"
+
 namespace etude {
 namespace {
 
@@ -31,8 +33,7 @@ std::string Spoilt(const std::string& what, const std::string& with) {
 }
 
 TEST(RealTake, IsReadAsItWasWritten) {
-  const auto read = ReadRealTake(WriteRealTake(SomeTake()), "take.json");
-  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_OK(read, ReadRealTake(WriteRealTake(SomeTake()), "take.json"));
   EXPECT_EQ(*read, SomeTake());
 }
 

@@ -10,6 +10,7 @@
 #include "io/clips/clip_library.h"
 #include "io/files/files.h"
 #include "io/files/temporary_folder.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -77,8 +78,7 @@ TEST(PerformancesOf, AnActionPointIsTheTimeAroundIt) {
 }
 
 TEST(LoadStreams, AFolderPassesOverWhatIsNoneAndTellsWhatIsBroken) {
-  const auto folder = TemporaryFolder::Make("streams");
-  ASSERT_TRUE(folder);
+  ASSERT_OK(folder, TemporaryFolder::Make("streams"));
   BodyMotion motion;
   motion.poses.push_back(BodyPose{});
   for (const Role role : AllRoles()) motion.poses[0][role] = glm::dvec3(0, 0.1 * static_cast<double>(Index(role)), 0);
@@ -86,8 +86,7 @@ TEST(LoadStreams, AFolderPassesOverWhatIsNoneAndTellsWhatIsBroken) {
   ASSERT_TRUE(WriteFileAtomically(root / "deep/good.csv", WriteJointCsv(motion)));
   ASSERT_TRUE(WriteFileAtomically(root / "readme.txt", "words\n"));
   ASSERT_TRUE(WriteFileAtomically(root / "broken.csv", "head_x_m,head_y_m,head_z_m\n1,2,3\n"));
-  const auto loaded = LoadStreams({root.string()}, {}, {});
-  ASSERT_TRUE(loaded) << ToString(loaded.error());
+  ASSERT_OK(loaded, LoadStreams({root.string()}, {}, {}));
   ASSERT_EQ(loaded->streams.size(), 1u);
   EXPECT_EQ(loaded->streams[0].name, "good");
   EXPECT_EQ(loaded->passed_over, 1);
@@ -127,15 +126,14 @@ std::string OpenNiBvh(double back) {
 }
 
 TEST(LoadStreams, KneesThatASensorOverstretchesAreToldAndThoseThatBendBackwardsRefused) {
-  const auto folder = TemporaryFolder::Make("openni");
-  ASSERT_TRUE(folder);
+  ASSERT_OK(folder, TemporaryFolder::Make("openni"));
   const std::string path = (std::filesystem::path(folder->path()) / "wave.bvh").string();
   const auto load = [&](double back) {
     EXPECT_TRUE(WriteFileAtomically(path, OpenNiBvh(back)));
     return LoadStream(path, {}, {});
   };
   const auto straight = load(0), bent = load(13), overstretched = load(4);
-  ASSERT_TRUE(straight) << ToString(straight.error());
+  ASSERT_TRUE(straight);
   EXPECT_EQ(straight->front().description.find("overstretch"), std::string::npos);
   ASSERT_FALSE(bent);  // by 36 degrees: no sensor's slip
   EXPECT_NE(ToString(bent.error()).find("the knees bend backwards"), std::string::npos);
@@ -146,19 +144,17 @@ TEST(LoadStreams, KneesThatASensorOverstretchesAreToldAndThoseThatBendBackwardsR
 }
 
 TEST(LoadStreams, ARecordingRootedAtTheHeadShowsTheSameBody) {
-  const auto folder = TemporaryFolder::Make("head");
-  ASSERT_TRUE(folder);
+  ASSERT_OK(folder, TemporaryFolder::Make("head"));
   const auto load = [&](const std::string& text) {
     const std::string path = (std::filesystem::path(folder->path()) / "wave.bvh").string();
     EXPECT_TRUE(WriteFileAtomically(path, text));
     return LoadStream(path, {}, {});
   };
-  const auto clip = ReadBvh(OpenNiBvh(0), "wave.bvh");
-  ASSERT_TRUE(clip) << ToString(clip.error());
+  ASSERT_OK(clip, ReadBvh(OpenNiBvh(0), "wave.bvh"));
   const Clip rooted_at_head = WithRootAt(*clip, clip->skeleton.Find("HEAD"));
   ASSERT_EQ(rooted_at_head.skeleton.joints[0].name, "HEAD");
   const auto by_torso = load(OpenNiBvh(0)), by_head = load(WriteBvh(rooted_at_head));
-  ASSERT_TRUE(by_torso) << ToString(by_torso.error());
+  ASSERT_TRUE(by_torso);
   ASSERT_TRUE(by_head) << ToString(by_head.error());
   const auto &expected = by_torso->front().stream.frames, &frames = by_head->front().stream.frames;
   ASSERT_EQ(frames.size(), expected.size());

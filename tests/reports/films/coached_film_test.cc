@@ -21,9 +21,7 @@ Renderer& Drawing() {
 }
 
 Camera FrontCamera() {
-  Intrinsics inside;
-  inside.width = 320;
-  inside.height = 132;
+  Intrinsics inside{.width = 320, .height = 132};
   inside.fx = inside.fy = 275;
   inside.cx = 160;
   inside.cy = 66;
@@ -65,9 +63,7 @@ Recording SessionRecording() {
   const BodyMotion dance = LoadBuiltinMove("clap")->motion;
   BodyMotion motion{.rate_hz = kJudgedRateHz, .poses = {}};
   for (std::size_t frame = 0; frame < 300; ++frame) motion.poses.push_back(dance.poses[frame % dance.poses.size()]);
-  CoachExtras extras;
-  extras.song = "groove";
-  extras.modes = {{"dance", 0}, {"correct", 152}, {"dance", 250}};
+  CoachExtras extras{.song = "groove", .modes = {{"dance", 0}, {"correct", 152}, {"dance", 250}}};
   extras.performances = {
       {.move = "clap", .truth = "wrong", .called = "right", .begin_frame = 60, .end_frame = 150, .faults = "skipped"}};
   extras.words = {{.begin_frame = 0, .say = "", .hint = "both arms up", .picture = {}}};

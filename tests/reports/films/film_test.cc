@@ -13,6 +13,7 @@
 #include "reports/films/stage_scene.h"
 #include "tests/reports/support/example_run.h"
 #include "tests/support/gtest_printers.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -218,12 +219,10 @@ TEST(CaptureScene, ShowsTheMethodsOfOneWorldSideBySideAndColoursTheirErrors) {
     if (track.name != "recovered") continue;
     for (BodyPose& pose : track.motion.poses) pose[Role::kLeftHand].y += 0.5;
   }
-  const auto alone = FindCaptures(run, first);
-  ASSERT_TRUE(alone);
+  ASSERT_OK(alone, FindCaptures(run, first));
   EXPECT_EQ(alone->size(), 1u);
   run.recordings.push_back(worse);
-  const auto both = FindCaptures(run, *ChooseCell(run, "capture", "recovered"));
-  ASSERT_TRUE(both) << ToString(both.error());
+  ASSERT_OK(both, FindCaptures(run, *ChooseCell(run, "capture", "recovered")));
   ASSERT_EQ(both->size(), 2u);
   CaptureScene scene(**SharedRenderer(), *both);
   EXPECT_THAT(scene.Words(), HasSubstr("the skeleton that ccd-fixed and ccd-adaptive recovered"));

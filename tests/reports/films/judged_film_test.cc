@@ -27,8 +27,7 @@ Recording SessionRecording(bool calls_right) {
     const bool dances = frame >= 30 && frame < end;
     motion.poses.push_back(dance.poses[dances ? static_cast<std::size_t>(frame - 30) : 0]);
   }
-  DetectionExtras extras;
-  extras.threshold = 0.5;
+  DetectionExtras extras{.threshold = 0.5};
   DetectionExtras::Move& taught = extras.moves.emplace_back();
   taught.name = "clap";
   for (const KeyPose& pose : Clap().key_poses) {

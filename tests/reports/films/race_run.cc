@@ -15,8 +15,7 @@ Recording RecordSettling(const Settling& cell) {
   TreeState state = StandingState(tree);
   const BodyPose truth = ToBodyPose(tree, state);
   Track truths{"truth", {}}, starts{"start", {}}, solutions{"solution", {}};
-  IkExtras extras;
-  extras.iterations = cell.iterations;
+  IkExtras extras{.iterations = cell.iterations};
   for (const int iteration : cell.iterations) {
     const double left = std::exp(-cell.rate * iteration);
     for (std::size_t i = 0; i < state.angles.size(); ++i)
@@ -36,8 +35,7 @@ Recording RecordSettling(const Settling& cell) {
 }  // namespace
 
 RunData RaceRun(const std::vector<Settling>& cells) {
-  RunData run;
-  run.suite = "race";
+  RunData run{.suite = "race"};
   ScenarioSummary& scenario = run.scenarios.emplace_back();
   scenario.name = "race";
   scenario.task = "ik";

@@ -14,10 +14,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 ScenarioSummary Bridging() {
-  ScenarioSummary scenario;
-  scenario.name = "paper-bridging";
-  scenario.task = "transition";
-  scenario.conditions = {ConditionSummary{}};
+  ScenarioSummary scenario{.name = "paper-bridging", .task = "transition", .conditions = {ConditionSummary{}}};
   return scenario;
 }
 

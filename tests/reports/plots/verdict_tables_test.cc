@@ -6,8 +6,7 @@ namespace etude {
 namespace {
 
 JudgedPerformance Faulty(const char* fault, double severity, bool is_called) {
-  JudgedPerformance one;
-  one.fault = fault;
+  JudgedPerformance one{.fault = fault};
   one.severity = severity;
   one.is_called = is_called;
   return one;

@@ -79,8 +79,7 @@ void AddCells(RunData& run, const ScenarioSummary& scenario, const ConditionSumm
 void AddCondition(RunData& run, ScenarioSummary& scenario, std::vector<SweptValue> condition,
                   const std::vector<MethodPlan>& plans, const std::vector<Verdict>& verdicts,
                   const std::string& failure) {
-  ConditionSummary summary;
-  summary.condition = std::move(condition);
+  ConditionSummary summary{.condition = std::move(condition)};
   for (std::size_t i = 0; i < plans.size(); ++i) {
     const MethodPlan& plan = plans[i];
     MethodSummary method;
@@ -274,8 +273,7 @@ Recording Explained(int first, int second, const std::string& rest) {
 Recording CaptureRecording(std::vector<double>& errors) {
   constexpr int kFrames = 60;
   BodyMotion truth, recovered;
-  CaptureExtras extras;
-  extras.texture_seed = 7;
+  CaptureExtras extras{.texture_seed = 7};
   for (const double x : {-1.1, 1.1}) {
     extras.views.push_back({LookAt(Intrinsics{}, {x, 1.3, 3.6}, {0, 0.95, 0}), {}, "/9j/4AAQ"});
   }
@@ -318,10 +316,7 @@ std::string CellOf(const RunData& run, const std::string& scenario, const std::s
 }  // namespace
 
 RunData ExampleRun() {
-  RunData run;
-  run.suite = "quick";
-  run.seed = 1;
-  run.program_version = "0.1.0";
+  RunData run{.suite = "quick", .seed = 1, .program_version = "0.1.0"};
   run.command_line = "etude run scenarios/quick -o out/quick-1";
   run.host = "Debian 12, 2 × x86-64, 4 GB";
   run.wall_seconds = 41.7;

@@ -23,8 +23,7 @@ Comparison Compared(const std::string& metric, const std::string& baseline, Verd
 }
 
 MethodSummary Method(const std::string& name, double error_deg, double iterations) {
-  MethodSummary method;
-  method.method = name;
+  MethodSummary method{.method = name};
   for (const auto& [id, value] : {std::pair("orientation_error_deg", error_deg), std::pair("iterations", iterations)}) {
     MetricSummary& summary = method.metrics.emplace_back();
     summary.id = id;
@@ -35,8 +34,7 @@ MethodSummary Method(const std::string& name, double error_deg, double iteration
 
 /// Better than its baseline; as exact as gauss-newton, which takes 4 steps where it takes 560.
 ScenarioSummary SolverSummary() {
-  ScenarioSummary scenario;
-  scenario.methods = {"fixed", "adaptive", "gauss-newton"};
+  ScenarioSummary scenario{.methods = {"fixed", "adaptive", "gauss-newton"}};
   scenario.headline_metrics = {"orientation_error_deg", "iterations"};
   ConditionSummary condition;
   condition.methods = {Method("fixed", 8.8, 600), Method("adaptive", 0.06, 560), Method("gauss-newton", 0.05, 4)};

@@ -82,9 +82,7 @@ TEST(Figures, OfPenalisedCostsAreMeansAndNoPercentages) {
   const MetricWords cost = WordsFor("iterations_par2");
   EXPECT_FALSE(cost.is_share);
   EXPECT_EQ(FormatValue(400, cost), "400");
-  MetricSummary summary;
-  summary.median = 12;
-  summary.mean = 206;
+  MetricSummary summary{.median = 12, .mean = 206};
   EXPECT_EQ(TypicalValue(summary, cost), 206);
   EXPECT_EQ(TypicalValue(summary, WordsFor("iterations")), 12);
 }

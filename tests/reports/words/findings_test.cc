@@ -33,10 +33,7 @@ ScenarioSummary OneComparison(Comparison comparison, std::vector<std::string> me
   comparison.metric = "orientation_error_deg";
   comparison.baseline = "fixed";
   comparison.method = "adaptive";
-  ScenarioSummary scenario;
-  scenario.name = "one";
-  scenario.methods = std::move(methods);
-  scenario.headline_metrics = {"orientation_error_deg"};
+  ScenarioSummary scenario{.name = "one", .methods = std::move(methods), .headline_metrics = {"orientation_error_deg"}};
   scenario.conditions.emplace_back().comparisons = {comparison};
   return scenario;
 }

@@ -9,6 +9,7 @@
 
 #include "engine/base/digest.h"
 #include "tests/sim/camera/shots.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -104,8 +105,7 @@ TEST(Jpeg, ReadsAnybodysFileLikeOurOwn) {
   const std::string jpeg = EncodeJpeg(Smooth(), 90);
   ColourImage own;
   DecodeJpeg(jpeg, own);
-  const auto read = ReadJpeg(jpeg, 160 * 120);
-  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_OK(read, ReadJpeg(jpeg, 160 * 120));
   EXPECT_EQ(read->pixels, own.pixels);
 }
 

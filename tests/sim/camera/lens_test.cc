@@ -309,9 +309,8 @@ TEST(Lens, PutsProjectedJointsOnTheBody) {
 }
 
 TEST(Lens, TakesLabelsAndDepthsFromTheNearestPixel) {
-  const CameraEffects effects{.radial_distortion = -0.1, .noise = 0};
   Camera camera = PlainCamera();
-  camera.distortion = Set(effects);
+  camera.distortion = Set({.radial_distortion = -0.1, .noise = 0});
   const LensWarp lens(camera);
   const Intrinsics& in = lens.pinhole().intrinsics;
   const RowRange rows = lens.SourceRows({0, 480});

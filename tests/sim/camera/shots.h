@@ -31,9 +31,7 @@ using Painter = std::function<Rgb8(int x, int y, double frame)>;
 inline CameraModel::Scene SceneOf(const CameraModel& model, Painter painter) {
   const int width = model.pinhole().intrinsics.width;
   return [=](double frame, const RowRange& rows, Targets) {
-    View view;
-    view.colour = ColourImage(width, rows.end - rows.first);
-    view.labels = LabelImage(width, rows.end - rows.first);
+    View view{.colour = ColourImage(width, rows.end - rows.first), .labels = LabelImage(width, rows.end - rows.first)};
     view.depth = DepthImage(width, rows.end - rows.first, 1.0f);
     for (int y = rows.first; y < rows.end; ++y) {
       for (int x = 0; x < width; ++x) view.colour.At(x, y - rows.first) = painter(x, y, frame);

@@ -14,6 +14,7 @@
 #include "engine/retargeting/rig.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -158,8 +159,7 @@ TEST_P(Figures, NeitherTearNorCollapseInAnyMoveOrAct) {
   std::ranges::copy(BuiltinActNames(), std::back_inserter(names));
   ASSERT_GT(names.size(), 15u);
   for (const std::string& name : names) {
-    const auto move = LoadBuiltinMove(name);
-    ASSERT_TRUE(move) << ToString(move.error());
+    ASSERT_OK(move, LoadBuiltinMove(name));
     for (std::size_t frame = 0; frame < move->motion.poses.size(); frame += 3) {
       const std::vector<GlobalTransform> globals = GlobalsAt(character_, move->motion.poses[frame]);
       for (const SkinnedMesh& mesh : character_.meshes) {
@@ -181,8 +181,7 @@ TEST(FiguresStretch, IsSeenWhereSkinTears) {
   SkinnedMesh& fur = bear.meshes[0];
   fur.vertices[5].bindings[0] = static_cast<int>(Index(Role::kLeftWrist));
   fur.vertices[5].weights = {1, 0, 0, 0};
-  const auto move = LoadBuiltinMove("stretch");
-  ASSERT_TRUE(move) << ToString(move.error());
+  ASSERT_OK(move, LoadBuiltinMove("stretch"));
   double most = 0;
   for (const BodyPose& pose : move->motion.poses) most = std::max(most, StretchOf(fur, GlobalsAt(bear, pose)).most);
   EXPECT_GT(most, 3);

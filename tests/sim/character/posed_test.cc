@@ -181,10 +181,7 @@ TEST(RecordedFigure, IsTheCharacterInTheBodysPosesMovedAlongTheFloor) {
   // The file's own rate is twice the body's, and its first two frames were dropped.
   clip.frames.insert(clip.frames.begin(), 2, clip.frames.front());
   clip.rate_hz = 60;
-  BodyConversion body;
-  body.metres_per_unit = 0.5;
-  body.dropped_frames = 2;
-  body.motion = motion;
+  BodyConversion body{.metres_per_unit = 0.5, .dropped_frames = 2, .motion = motion};
   const RecordedFigure figure(mannequin, clip, *map, body);
 
   const FloorMove move{.yaw = 0.7, .x = 0.2, .z = -1};

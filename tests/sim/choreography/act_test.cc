@@ -10,11 +10,12 @@
 #include "sim/choreography/slow_demonstration.h"
 #include "sim/choreography/song.h"
 #include "tests/sim/choreography/measures.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 Move Load(const std::string& name) {
   auto move = LoadBuiltinMove(name);
@@ -66,9 +67,9 @@ int SideToSide(const Move& move, Role role) {
 
 TEST(BuiltinActs, AreTheCoachs) {
   EXPECT_THAT(BuiltinActNames(),
-              testing::ElementsAre("attract", "doze", "head_shake", "praise", "puzzled", "standby", "wake", "wave"));
+              ::testing::ElementsAre("attract", "doze", "head_shake", "praise", "puzzled", "standby", "wake", "wave"));
   for (const Move& act : AllActs()) {
-    EXPECT_THAT(BuiltinActNames(), testing::Contains(act.name));
+    EXPECT_THAT(BuiltinActNames(), ::testing::Contains(act.name));
     EXPECT_TRUE(act.key_poses.empty()) << act.name;
   }
 }
@@ -210,8 +211,7 @@ poses:
 )";
 
 TEST(ParseMove, ReadsAnActThatStaysInItsLastPose) {
-  const auto act = ParseMove(kSmallAct, "nod.yaml");
-  ASSERT_TRUE(act) << ToString(act.error());
+  ASSERT_OK(act, ParseMove(kSmallAct, "nod.yaml"));
   EXPECT_EQ(act->name, "nod");
   EXPECT_EQ(act->motion.poses.size(), 61u) << "4 beats at the default 120 per minute, both ends";
   const auto bend = [&](double beat) { return Degrees(act->curves.At(beat)[MiddleControl::kNeckBend]); };
@@ -225,14 +225,10 @@ TEST(ParseMove, ReadsAnActThatStaysInItsLastPose) {
 TEST(ParseMove, TellsAnActFromAMove) {
   std::string with_targets(kSmallAct);
   with_targets += "key_poses:\n  - {beat: 1, LH: 90}\n";
-  const auto act = ParseMove(with_targets, "nod.yaml");
-  ASSERT_FALSE(act);
-  EXPECT_THAT(ToString(act.error()), HasSubstr("key_poses"));
+  EXPECT_THAT(testing::Refusal(ParseMove(with_targets, "nod.yaml")), HasSubstr("key_poses"));
   std::string move(kSmallAct);
   move.replace(0, 3, "move");
-  const auto looping = ParseMove(move, "nod.yaml");
-  ASSERT_FALSE(looping);
-  EXPECT_THAT(ToString(looping.error()), HasSubstr("loops"));
+  EXPECT_THAT(testing::Refusal(ParseMove(move, "nod.yaml")), HasSubstr("loops"));
 }
 
 TEST(SlowDemonstration, HoldsEveryKeyPoseForABeatAtHalfTheTempo) {

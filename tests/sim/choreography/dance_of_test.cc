@@ -3,16 +3,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/results.h"
+
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 TEST(DanceOf, EveryBuiltinSongIsADanceACoachCanDo) {
   for (const std::string& name : BuiltinSongNames()) {
     const auto song = LoadBuiltinSong(name);
-    const auto dance = DanceOf(*song);
-    ASSERT_TRUE(dance) << ToString(dance.error());
+    ASSERT_OK(dance, DanceOf(*song));
     EXPECT_TRUE(CheckDance(*dance)) << ToString(CheckDance(*dance).error());
     EXPECT_EQ(dance->repetitions.size(), dance->tags.size());
     EXPECT_GE(dance->moves.size(), 8U);
@@ -31,9 +32,8 @@ TEST(HintOf, SaysTheKeyPoseInWords) {
 }
 
 TEST(ReadBeats, ReadsWhatBeatTrackersAndLabelTracksWrite) {
-  const auto beats = ReadBeats("# my song\n0.5\n1.0\t1.0\tbeat\n\n1.5 x\n2,1\n2.5\n3\r\n3.5\n  4.0\n", "my.txt");
-  ASSERT_TRUE(beats) << ToString(beats.error());
-  EXPECT_THAT(*beats, testing::ElementsAre(0.5, 1.0, 1.5, 2, 2.5, 3, 3.5, 4));
+  ASSERT_OK(beats, ReadBeats("# my song\n0.5\n1.0\t1.0\tbeat\n\n1.5 x\n2,1\n2.5\n3\r\n3.5\n  4.0\n", "my.txt"));
+  EXPECT_THAT(*beats, ::testing::ElementsAre(0.5, 1.0, 1.5, 2, 2.5, 3, 3.5, 4));
   EXPECT_DOUBLE_EQ(TempoOf(*beats), 120);
 }
 
@@ -65,9 +65,7 @@ TEST(ToBeats, PutsEveryTagOnItsBeat) {
     EXPECT_NEAR(swung->tags[i].music_s, dance->tags[i].music_s + 1, 1e-9);
   }
   even.resize(50);
-  const auto too_few = ToBeats(*dance, even);
-  ASSERT_FALSE(too_few);
-  EXPECT_THAT(too_few.error().message, HasSubstr("50 beats, but 'warm_up' takes"));
+  EXPECT_THAT(testing::Message(ToBeats(*dance, even)), HasSubstr("50 beats, but 'warm_up' takes"));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
 #include "tests/sim/choreography/balance.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -249,8 +250,7 @@ TEST(Dance, StaysADancersAtEveryTempoOfTheMovesRange) {
   for (const std::string& name : BuiltinMoveNames()) {
     const Move move = LoadMove(name);
     for (double tempo_bpm : {move.slowest_bpm, move.fastest_bpm}) {
-      const auto other = AtTempo(move, tempo_bpm, {});
-      ASSERT_TRUE(other) << ToString(other.error());
+      ASSERT_OK(other, AtTempo(move, tempo_bpm, {}));
       const BodyMotion motion = Danced(*other);
       for (Role hand : {kLeftHand, kRightHand}) EXPECT_LT(TopSpeed(motion, hand), 8) << name << " at " << tempo_bpm;
       EXPECT_LE(FootSpeed(motion).value, kSliding) << name << " at " << tempo_bpm;

@@ -6,15 +6,9 @@
 
 #include "engine/motion/body.h"
 #include "sim/choreography/canonical_body.h"
+#include "tests/support/gaps.h"
 
 namespace etude {
-
-/// Returns how far apart two poses are, metres: the distance of the joint that differs most.
-inline double WorstJointDistance(const BodyPose& a, const BodyPose& b) {
-  double worst = 0;
-  for (std::size_t i = 0; i < kRoleCount; ++i) worst = std::max(worst, glm::distance(a.joints[i], b.joints[i]));
-  return worst;
-}
 
 /// A toe that counts as standing still.
 constexpr double kStillMmps = 5;

@@ -9,11 +9,12 @@
 #include "sim/choreography/canonical_body.h"
 #include "tests/sim/choreography/key_poses_shown.h"
 #include "tests/sim/choreography/measures.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const std::vector<Move>& AllMoves() {
   static const std::vector<Move> moves = [] {
@@ -35,9 +36,9 @@ const BodyPose& FrameAt(const Move& move, double beat) {
 }
 
 TEST(BuiltinMoves, AreTheTenOfThePaperAndABird) {
-  EXPECT_THAT(BuiltinMoveNames(), testing::ElementsAre("aerobic", "bird", "boxing", "clap", "fast_sway", "jump",
-                                                       "robot", "side_kick", "side_stretch", "stretch", "sway"));
-  for (const Move& move : AllMoves()) EXPECT_THAT(BuiltinMoveNames(), testing::Contains(move.name));
+  EXPECT_THAT(BuiltinMoveNames(), ::testing::ElementsAre("aerobic", "bird", "boxing", "clap", "fast_sway", "jump",
+                                                         "robot", "side_kick", "side_stretch", "stretch", "sway"));
+  for (const Move& move : AllMoves()) EXPECT_THAT(BuiltinMoveNames(), ::testing::Contains(move.name));
 }
 
 TEST(BuiltinMoves, LastAsLongAsTheirBeatsSay) {
@@ -100,17 +101,14 @@ TEST(BuiltinMoves, StartNearTheReadyStance) {
 }
 
 TEST(BuiltinMoves, HandsMeetInAClap) {
-  const auto clap = LoadBuiltinMove("clap");
-  ASSERT_TRUE(clap);
+  ASSERT_OK(clap, LoadBuiltinMove("clap"));
   const auto gap = [](const BodyPose& pose) { return glm::distance(pose[Role::kLeftHand], pose[Role::kRightHand]); };
   EXPECT_LT(gap(FrameAt(*clap, 1.12)), 0.08);
   EXPECT_GT(gap(FrameAt(*clap, 0.5)), 0.8);
 }
 
 TEST(LoadBuiltinMove, NamesTheNearestKnownMove) {
-  const auto move = LoadBuiltinMove("side_kik");
-  ASSERT_FALSE(move);
-  EXPECT_THAT(move.error().message, HasSubstr("side_kick"));
+  EXPECT_THAT(testing::Message(LoadBuiltinMove("side_kik")), HasSubstr("side_kick"));
 }
 
 constexpr std::string_view kSmallMove = R"(move: nod
@@ -133,8 +131,7 @@ std::string ComplaintAbout(const std::string& from, const std::string& to) {
 }
 
 TEST(ParseMove, ReadsAnglesLengthsAndKeyPoses) {
-  const auto move = ParseMove(kSmallMove, "nod.yaml");
-  ASSERT_TRUE(move) << ToString(move.error());
+  ASSERT_OK(move, ParseMove(kSmallMove, "nod.yaml"));
   EXPECT_EQ(move->motion.poses.size(), 30u) << "2 beats at the default 120 per minute";
   EXPECT_NEAR(move->curves.At(1)[MiddleControl::kJump], 0.03, 1e-12);
   ASSERT_EQ(move->key_poses.size(), 1u);
@@ -144,8 +141,8 @@ TEST(ParseMove, ReadsAnglesLengthsAndKeyPoses) {
 }
 
 TEST(ParseMove, TellsWhereAndWhatIsWrong) {
-  EXPECT_THAT(ComplaintAbout("neck:", "nek:"), testing::AllOf(HasSubstr("nod.yaml:5:"), HasSubstr("neck")));
-  EXPECT_THAT(ComplaintAbout("forward", "foward"), testing::AllOf(HasSubstr("nod.yaml:5:"), HasSubstr("forward")));
+  EXPECT_THAT(ComplaintAbout("neck:", "nek:"), ::testing::AllOf(HasSubstr("nod.yaml:5:"), HasSubstr("neck")));
+  EXPECT_THAT(ComplaintAbout("forward", "foward"), ::testing::AllOf(HasSubstr("nod.yaml:5:"), HasSubstr("forward")));
   EXPECT_THAT(ComplaintAbout("LH:", "LX:"), HasSubstr("nod.yaml:7:"));
   EXPECT_THAT(ComplaintAbout("bend: 20", "bend: 2000"), HasSubstr("out of range"));
   EXPECT_THAT(ComplaintAbout("bend: 20", "bend: far"), HasSubstr("expected a number"));
@@ -164,12 +161,10 @@ TEST(ParseMove, TellsWhereAndWhatIsWrong) {
 }
 
 TEST(ParseMove, SuitsItsOwnTempoUnlessARangeIsGiven) {
-  const auto move = ParseMove(kSmallMove, "nod.yaml");
-  ASSERT_TRUE(move);
+  ASSERT_OK(move, ParseMove(kSmallMove, "nod.yaml"));
   EXPECT_EQ(move->slowest_bpm, 120);
   EXPECT_EQ(move->fastest_bpm, 120);
-  const auto wide = ParseMove(std::string(kSmallMove) + "tempo_range_bpm: [90, 150]\n", "nod.yaml");
-  ASSERT_TRUE(wide) << ToString(wide.error());
+  ASSERT_OK(wide, ParseMove(std::string(kSmallMove) + "tempo_range_bpm: [90, 150]\n", "nod.yaml"));
   EXPECT_EQ(wide->slowest_bpm, 90);
   EXPECT_EQ(wide->fastest_bpm, 150);
 }
@@ -190,18 +185,15 @@ TEST(ParseMove, ReachesAPoseAsItsEaseSays) {
 TEST(ParseMove, MirrorsTheFirstHalf) {
   std::string yaml(kSmallMove);
   yaml.replace(yaml.find("beats: 2"), 8, "beats: 4\nsecond_half_mirrored: true");
-  const auto move = ParseMove(yaml, "nod.yaml");
-  ASSERT_TRUE(move) << ToString(move.error());
+  ASSERT_OK(move, ParseMove(yaml, "nod.yaml"));
   EXPECT_NEAR(move->curves.At(1.04).Of(Side::kLeft, SideControl::kArmForward),
               move->curves.At(3.04).Of(Side::kRight, SideControl::kArmForward), 1e-12);
 }
 
 TEST(FirstReached, WaitsForTheLastKeyPoseAndKeepsToItsWindow) {
-  const auto kick = LoadBuiltinMove("side_kick");
-  ASSERT_TRUE(kick);
+  ASSERT_OK(kick, LoadBuiltinMove("side_kick"));
   const double end = kick->motion.DurationSeconds();
-  const auto reached = FirstReached(kick->key_poses, kick->motion, 0, end);
-  ASSERT_TRUE(reached);
+  ASSERT_OK(reached, FirstReached(kick->key_poses, kick->motion, 0, end));
   const auto last_only = FirstReached({&kick->key_poses[1], 1}, kick->motion, 0, end);
   EXPECT_EQ(reached, last_only) << "the drawn-up knee comes before the kick";
   EXPECT_FALSE(FirstReached(kick->key_poses, kick->motion, 0, *reached - 0.02));

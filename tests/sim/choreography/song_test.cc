@@ -11,12 +11,13 @@
 #include "sim/choreography/canonical_body.h"
 #include "tests/sim/choreography/key_poses_shown.h"
 #include "tests/sim/choreography/measures.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 const std::vector<Song>& AllSongs() {
   static const std::vector<Song> songs = [] {
@@ -56,10 +57,10 @@ double JumpAt(const BodyMotion& motion, std::size_t frame) {
 }
 
 TEST(BuiltinSongs, AreASlowAMediumAndAFastOneOfEightToTwelveMovesEachTwiceInARow) {
-  EXPECT_THAT(BuiltinSongNames(), testing::ElementsAre("groove", "sprint", "warm_up"));
+  EXPECT_THAT(BuiltinSongNames(), ::testing::ElementsAre("groove", "sprint", "warm_up"));
   std::vector<double> tempos;
   for (const Song& song : AllSongs()) {
-    EXPECT_THAT(BuiltinSongNames(), testing::Contains(song.name));
+    EXPECT_THAT(BuiltinSongNames(), ::testing::Contains(song.name));
     tempos.push_back(song.tempo_bpm);
     std::set<std::string> different;
     for (const SongPart& part : song.parts) {
@@ -69,7 +70,7 @@ TEST(BuiltinSongs, AreASlowAMediumAndAFastOneOfEightToTwelveMovesEachTwiceInARow
     EXPECT_GE(different.size(), 8u) << song.name;
     EXPECT_LE(different.size(), 12u) << song.name;
   }
-  EXPECT_THAT(tempos, testing::ElementsAre(112, 140, 96));
+  EXPECT_THAT(tempos, ::testing::ElementsAre(112, 140, 96));
 }
 
 TEST(BuiltinSongs, TagEveryRepetitionWithItsMomentOfTheMusic) {
@@ -116,8 +117,7 @@ TEST(BuiltinSongs, DanceTheirMovesAsTheyAreBetweenTheJoins) {
   for (const Song& song : AllSongs()) {
     for (const SongPart& part : song.parts) {
       const double pace = part.half_time ? 0.5 : 1;
-      const auto move = AtTempo(*LoadBuiltinMove(part.move), pace * song.tempo_bpm, {});
-      ASSERT_TRUE(move);
+      ASSERT_OK(move, AtTempo(*LoadBuiltinMove(part.move), pace * song.tempo_bpm, {}));
       const auto frame =
           static_cast<std::size_t>(std::lround(Seconds(song, part.start_beat + 0.5 * part.beats) * kJudgedRateHz));
       const double beat = static_cast<double>(frame) / kJudgedRateHz * song.tempo_bpm / 60;
@@ -227,8 +227,7 @@ std::string ComplaintOfSong(const std::string& from, const std::string& to) {
 }
 
 TEST(ParseSong, LaysThePartsOutBeatByBeat) {
-  const auto song = ParseSong(kSmallSong, "small.yaml");
-  ASSERT_TRUE(song) << ToString(song.error());
+  ASSERT_OK(song, ParseSong(kSmallSong, "small.yaml"));
   ASSERT_EQ(song->parts.size(), 8u);
   EXPECT_EQ(song->parts[0].start_beat, 4) << "a bar to count in";
   EXPECT_EQ(song->parts[0].beats, 16);
@@ -246,8 +245,7 @@ TEST(ParseSong, DancesInHalfTimeWithTwoBeatsForEveryOne) {
   for (std::size_t at = 0; (at = yaml.find('}', at)) != std::string::npos; at += 20) {
     yaml.insert(at, ", half_time: true");
   }
-  const auto halved = ParseSong(yaml, "small.yaml");
-  ASSERT_TRUE(halved) << ToString(halved.error());
+  ASSERT_OK(halved, ParseSong(yaml, "small.yaml"));
   EXPECT_EQ(halved->parts[0].beats, 32);
   EXPECT_NEAR(halved->tags[1].music_s, (4 + 16) * 60.0 / 180, 1e-12);
 }
@@ -271,15 +269,12 @@ TEST(ParseSong, TellsWhereAndWhatIsWrong) {
 TEST(ParseSong, RefusesWhatWouldGoOnForEver) {
   std::string yaml(kSmallSong);
   for (int i = 0; i < 20; ++i) yaml += "  - {move: robot, times: 32}\n";
-  const auto song = ParseSong(yaml, "long.yaml");
-  ASSERT_FALSE(song);
-  EXPECT_THAT(ToString(song.error()), AllOf(HasSubstr("long.yaml:15:"), HasSubstr("at most 600")));
+  EXPECT_THAT(testing::Refusal(ParseSong(yaml, "long.yaml")),
+              AllOf(HasSubstr("long.yaml:15:"), HasSubstr("at most 600")));
 }
 
 TEST(LoadBuiltinSong, NamesTheNearestKnownSong) {
-  const auto song = LoadBuiltinSong("grove");
-  ASSERT_FALSE(song);
-  EXPECT_THAT(song.error().message, HasSubstr("'groove'"));
+  EXPECT_THAT(testing::Message(LoadBuiltinSong("grove")), HasSubstr("'groove'"));
 }
 
 const Move& Boxing() {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/support/results.h"
+
 namespace etude {
 namespace {
 
@@ -52,8 +54,7 @@ TEST(Seed, IsANumberOrASecretThatTellsItsDigestAlone) {
   EXPECT_EQ(ToString(secret), "secret " + secret.Digest());
   EXPECT_EQ(secret.Digest().size(), 64u);
   EXPECT_NE(secret.Digest(), Hex(kKey));
-  const auto read = ParseSeed(ToString(secret));
-  ASSERT_TRUE(read);
+  ASSERT_OK(read, ParseSeed(ToString(secret)));
   EXPECT_FALSE(read->IsOpen());
   EXPECT_EQ(*read, secret.WithoutKey());
   EXPECT_EQ(read->Public(), secret.Public());

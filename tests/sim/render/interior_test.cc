@@ -10,6 +10,7 @@
 #include "tests/sim/render/dancer.h"
 #include "tests/sim/render/ray_caster.h"
 #include "tests/support/gtest_printers.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -32,11 +33,10 @@ Interior Furnished() {
   return room;
 }
 
-class RenderedInterior : public testing::Test {
+class RenderedInterior : public ::testing::Test {
  protected:
   void SetUp() override {
-    const auto made = SharedRenderer();
-    ASSERT_TRUE(made) << ToString(made.error());
+    ASSERT_OK(made, SharedRenderer());
     renderer_ = *made;
   }
   View Draw(const Interior& interior, const std::vector<Figure>& figures, const Camera& camera) {

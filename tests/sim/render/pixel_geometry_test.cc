@@ -4,13 +4,13 @@
 #include "tests/sim/render/dancer.h"
 #include "tests/sim/render/ray_caster.h"
 #include "tests/support/gtest_printers.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
 
 TEST(Renderer, AgreesWithARayCasterOnEveryLabelAndDepth) {
-  const auto renderer = SharedRenderer();
-  ASSERT_TRUE(renderer) << ToString(renderer.error());
+  ASSERT_OK(renderer, SharedRenderer());
   for (const Camera& camera : TestCameras()) {
     const View view = (*renderer)->Render({}, {{Dancer(), PerformerColours()}}, camera, Targets::kAll);
     const Comparison result = Compare(view, {camera, Dancer()});
@@ -22,8 +22,7 @@ TEST(Renderer, AgreesWithARayCasterOnEveryLabelAndDepth) {
 }
 
 TEST(Renderer, WouldBeCaughtBeingHalfAPixelOff) {
-  const auto renderer = SharedRenderer();
-  ASSERT_TRUE(renderer) << ToString(renderer.error());
+  ASSERT_OK(renderer, SharedRenderer());
   Camera camera = TestCameras().front();
   const View view = (*renderer)->Render({}, {{Dancer(), PerformerColours()}}, camera, Targets::kAll);
   camera.intrinsics.cx += 0.5;
@@ -31,14 +30,12 @@ TEST(Renderer, WouldBeCaughtBeingHalfAPixelOff) {
 }
 
 TEST(Renderer, ShowsTheEndsOfEveryCapsuleWhereProjectPutsThem) {
-  const auto renderer = SharedRenderer();
-  ASSERT_TRUE(renderer) << ToString(renderer.error());
+  ASSERT_OK(renderer, SharedRenderer());
   const Camera camera = LookAt({}, {0.9, 1.3, 4.0}, {0, 0.95, 0});
   for (const Capsule& capsule : Dancer()) {
     const View view = (*renderer)->Render({}, {{{capsule}, PerformerColours()}}, camera, Targets::kAll);
     for (const glm::dvec3& end : {capsule.a, capsule.b}) {
-      const auto pixel = Project(MatrixOf(camera), end);
-      ASSERT_TRUE(pixel);
+      ASSERT_OK(pixel, Project(MatrixOf(camera), end));
       EXPECT_EQ(view.labels.At(static_cast<int>(pixel->x), static_cast<int>(pixel->y)),
                 static_cast<std::uint32_t>(capsule.part));
     }
@@ -46,8 +43,7 @@ TEST(Renderer, ShowsTheEndsOfEveryCapsuleWhereProjectPutsThem) {
 }
 
 TEST(Renderer, ShowsTheNearerOfTwoBodiesWhicheverIsGivenFirst) {
-  const auto renderer = SharedRenderer();
-  ASSERT_TRUE(renderer) << ToString(renderer.error());
+  ASSERT_OK(renderer, SharedRenderer());
   const Camera camera = LookAt({}, {0, 1, 4}, {0, 1, 0});
   const Figure near_ball{{{Part::kHead, {0, 1, 1}, {0, 1, 1}, 0.2}}, PerformerColours()};
   const Figure far_ball{{{Part::kTrunk, {0, 1, 0}, {0, 1, 0}, 0.3}}, PerformerColours()};

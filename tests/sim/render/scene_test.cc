@@ -11,17 +11,17 @@
 #include "tests/sim/render/dancer.h"
 #include "tests/sim/render/smooth_picture.h"
 #include "tests/support/gtest_printers.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
 
 constexpr auto kShadowLabel = static_cast<std::uint32_t>(Part::kShadow);
 
-class RendererScene : public testing::Test {
+class RendererScene : public ::testing::Test {
  protected:
   void SetUp() override {
-    const auto made = SharedRenderer();
-    ASSERT_TRUE(made) << ToString(made.error());
+    ASSERT_OK(made, SharedRenderer());
     renderer_ = *made;
   }
   View Draw(const Room& room, bool with_dancer = true, Targets targets = Targets::kAll) {
@@ -52,8 +52,7 @@ TEST_F(RendererScene, GivesTheSameBytesAgainWhateverWasDrawnBetween) {
   EXPECT_EQ(first.labels.pixels, again.labels.pixels);
   EXPECT_EQ(first.depth.pixels, again.depth.pixels);
 
-  const auto fresh = Renderer::Create();
-  ASSERT_TRUE(fresh) << ToString(fresh.error());
+  ASSERT_OK(fresh, Renderer::Create());
   renderer_ = fresh->get();
   EXPECT_EQ(first.colour.pixels, Draw({}).colour.pixels);
 }

@@ -13,6 +13,7 @@
 #include "tests/sim/render/ray_caster.h"
 #include "tests/sim/render/tessellation.h"
 #include "tests/support/gtest_printers.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -75,8 +76,7 @@ TEST(StudioGolden, PicturesAreThoseThatWereRecorded) {
   if (const char* choice = std::getenv("ETUDE_GL")) {
     EXPECT_TRUE(version.ends_with(std::string(choice) == "egl" ? "by EGL" : "by OSMesa")) << version;
   }
-  const auto renderer = SharedRenderer();
-  ASSERT_TRUE(renderer) << ToString(renderer.error());
+  ASSERT_OK(renderer, SharedRenderer());
   std::size_t compared = 0;
   for (const Camera& camera : TestCameras()) {
     EXPECT_EQ(DigestBy(**renderer, camera), golden->digests[compared]);

@@ -9,17 +9,17 @@
 #include "tests/sim/render/ray_caster.h"
 #include "tests/sim/render/tessellation.h"
 #include "tests/support/gtest_printers.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
 
 constexpr auto kShadow = static_cast<std::uint32_t>(Part::kShadow);
 
-class RenderedSurfaces : public testing::Test {
+class RenderedSurfaces : public ::testing::Test {
  protected:
   void SetUp() override {
-    const auto made = SharedRenderer();
-    ASSERT_TRUE(made) << ToString(made.error());
+    ASSERT_OK(made, SharedRenderer());
     renderer_ = *made;
   }
   View Draw(const std::vector<Figure>& figures, const Room& room = {}) {
@@ -45,7 +45,9 @@ Surface Sheet(const std::array<glm::dvec3, 4>& corners, Part part, Rgb8 colour =
 // One metre a side, facing +Z.
 Surface FacingSheet(Part part) { return Sheet({{{-0.5, 0.5, 0}, {0.5, 0.5, 0}, {0.5, 1.5, 0}, {-0.5, 1.5, 0}}}, part); }
 
-int LargestGap(Rgb8 a, Rgb8 b) { return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)}); }
+int WorstJointDistance(Rgb8 a, Rgb8 b) {
+  return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+}
 
 bool SameView(const View& a, const View& b) {
   return a.colour.pixels == b.colour.pixels && a.labels.pixels == b.labels.pixels && a.depth.pixels == b.depth.pixels;
@@ -101,10 +103,10 @@ TEST_F(RenderedSurfaces, OfFineTrianglesLookLikeTheCapsuleTheyFollow) {
       other_depth += std::abs(exact.depth.pixels[i] - fine.depth.pixels[i]) > 1e-3;
       const Rgb8 a = exact.colour.pixels[i], b = fine.colour.pixels[i];
       if (label == kShadow) {
-        full_shadow += LargestGap(a, b) <= 2;
+        full_shadow += WorstJointDistance(a, b) <= 2;
         lighter += b.r > a.r + 2 || b.g > a.g + 2 || b.b > a.b + 2;
       } else {
-        worst_body = std::max(worst_body, LargestGap(a, b));
+        worst_body = std::max(worst_body, WorstJointDistance(a, b));
       }
     }
     EXPECT_GT(body, 4000);
@@ -234,8 +236,7 @@ TEST_F(RenderedSurfaces, GiveTheSameBytesAgainWithoutLabelsAndDepthToo) {
   Draw({{Dancer(), PerformerColours()}});
   EXPECT_TRUE(SameView(first, Draw(figures)));
   EXPECT_EQ(first.colour.pixels, renderer_->Render({}, figures, camera_, Targets::kColour).colour.pixels);
-  const auto fresh = Renderer::Create();
-  ASSERT_TRUE(fresh) << ToString(fresh.error());
+  ASSERT_OK(fresh, Renderer::Create());
   renderer_ = fresh->get();
   EXPECT_TRUE(SameView(first, Draw(figures)));
 }
@@ -285,13 +286,13 @@ TEST_F(RenderedSurfaces, ShowEachPartOfATextureAtItsPlace) {
   EXPECT_GT(red.r, 4 * (red.g + red.b) + 40);
   EXPECT_GT(green.g, 4 * (green.r + green.b) + 40);
   EXPECT_GT(blue.b, 4 * (blue.r + blue.g) + 40);
-  EXPECT_LT(LargestGap(white, {white.g, white.g, white.g}), 3);
+  EXPECT_LT(WorstJointDistance(white, {white.g, white.g, white.g}), 3);
   EXPECT_GT(white.g, 80);
   // In the same light as a plain sheet.
   const Rgb8 plain = ColourAt(Draw({OfSurfaces({Sheet({{{-0.5, 0.5, 0}, {0.5, 0.5, 0}, {0.5, 1.5, 0}, {-0.5, 1.5, 0}}},
                                                       Part::kTrunk, {240, 240, 240})})}),
                               camera_, {0.25, 0.75, 0});
-  EXPECT_LE(LargestGap(white, plain), 1);
+  EXPECT_LE(WorstJointDistance(white, plain), 1);
 }
 
 TEST_F(RenderedSurfaces, HaveAsManyCopiesOfATextureAsTheyAskFor) {

@@ -15,8 +15,7 @@ inline Surface Tessellate(const Capsule& capsule, Rgb8 colour, int around) {
   const glm::dvec3 along = glm::length(line) > 0 ? glm::normalize(line) : glm::dvec3(0, 1, 0);
   const glm::dvec3 hint = std::abs(along.y) < 0.7 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
   const glm::dvec3 across = glm::normalize(glm::cross(along, hint)), third = glm::cross(along, across);
-  Surface surface;
-  surface.colour = colour;
+  Surface surface{.colour = colour};
   const int quarter = around / 4;
   for (const int end : {0, 1}) {
     for (int ring = 0; ring <= quarter; ++ring) {

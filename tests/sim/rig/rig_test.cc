@@ -14,7 +14,7 @@
 namespace etude {
 namespace {
 
-using testing::Each;
+using ::testing::Each;
 
 WorldKey Trial(int trial) { return {.suite_seed = 5, .scenario = "rig-test", .trial = trial}; }
 

@@ -11,6 +11,7 @@
 #include "sim/render/renderer.h"
 #include "sim/skeleton_sensor/skeleton_sensor.h"
 #include "tests/sim/skeleton_sensor/whole_motion.h"
+#include "tests/support/results.h"
 
 // What rays say is hidden against what the renderer draws: two pictures of a few pixels around each joint, one of all
 // there is, one of the joint's own limbs alone. Hidden is what the first shows clearly nearer.
@@ -125,8 +126,7 @@ Cuboid Table(RandomStream& dice) {
 }
 
 TEST(Visibility, IsWhatTheRendererDrawsForAllButOneJointInAThousand) {
-  const auto renderer = SharedRenderer();
-  ASSERT_TRUE(renderer) << ToString(renderer.error());
+  ASSERT_OK(renderer, SharedRenderer());
   RandomStream dice({.suite_seed = 1, .scenario = "visibility", .trial = 0}, "poses");
   Agreement agreement, blind;
   for (int i = 0; i < 120; ++i) {

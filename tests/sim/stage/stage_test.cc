@@ -12,6 +12,7 @@
 #include "sim/render/renderer.h"
 #include "sim/stage/palette.h"
 #include "tests/support/gtest_printers.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -183,11 +184,10 @@ TEST(CodedSuit, DoesNotGiveWayAsTheRoomIsFurnished) {
   }
 }
 
-class RenderedStage : public testing::Test {
+class RenderedStage : public ::testing::Test {
  protected:
   void SetUp() override {
-    const auto shared = SharedRenderer();
-    ASSERT_TRUE(shared) << ToString(shared.error());
+    ASSERT_OK(shared, SharedRenderer());
     renderer_ = *shared;
   }
   Renderer* renderer_ = nullptr;
@@ -269,14 +269,12 @@ TEST_F(RenderedStage, JointsLieInTheDressedBody) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const DressedPerson person(MakeOutfit(seed, "performer", Wardrobe::kStudio, 1));
     for (const char* name : {"boxing", "stretch", "jump", "side_kick"}) {
-      const auto move = LoadBuiltinMove(name);
-      ASSERT_TRUE(move);
+      ASSERT_OK(move, LoadBuiltinMove(name));
       const BodyPose pose = move->motion.poses[(seed * 7) % move->motion.poses.size()];
       const Figure figure = person.At(ToOrigin(pose).Apply(pose));
       const View view = renderer_->Render({}, {figure}, camera, Targets::kAll);
       for (const glm::dvec3& joint : ToOrigin(pose).Apply(pose).joints) {
-        const auto pixel = Project(MatrixOf(camera), joint);
-        ASSERT_TRUE(pixel);
+        ASSERT_OK(pixel, Project(MatrixOf(camera), joint));
         ++joints;
         inside += IsPerformer(view.labels.At(static_cast<int>(pixel->x), static_cast<int>(pixel->y)));
       }

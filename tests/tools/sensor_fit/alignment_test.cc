@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/results.h"
 #include "tests/tools/sensor_fit/small_recording.h"
 
 namespace etude {
@@ -10,8 +11,7 @@ namespace {
 TEST(AlignTwin, FindsShiftRotationAndOffsetsOfAPerfectRecording) {
   const TwinMotion twin = DancingTwin(9);
   const MadeUp made;
-  const auto match = AlignTwin(PerfectRecording(twin, 7, made), twin);
-  ASSERT_TRUE(match);
+  ASSERT_OK(match, AlignTwin(PerfectRecording(twin, 7, made), twin));
   EXPECT_NEAR(match->alignment.shift_s, made.shift_s, 1e-6);
   EXPECT_LT(match->alignment.rms_m, 1e-4);
   const glm::dmat3 expected = glm::mat3_cast(made.rotation);
@@ -40,8 +40,7 @@ TEST(AlignTwin, LeavesWhatTheSensorErrs) {
       ++count;
     }
   }
-  const auto match = AlignTwin(recording, twin);
-  ASSERT_TRUE(match);
+  ASSERT_OK(match, AlignTwin(recording, twin));
   EXPECT_NEAR(match->alignment.rms_m, std::sqrt(squares / count), 0.0005);
 }
 
@@ -53,8 +52,7 @@ TEST(AlignTwin, TakesJointsThatAreMissingNowAndThenOrAlways) {
     if (t % 3 == 0) recording.frames[t][Index(Role::kLeftHand)].reset();
     if (t > 50 && t < 70) recording.frames[t] = {};
   }
-  const auto match = AlignTwin(recording, twin);
-  ASSERT_TRUE(match);
+  ASSERT_OK(match, AlignTwin(recording, twin));
   EXPECT_LT(match->alignment.rms_m, 1e-4);
   EXPECT_FALSE(match->alignment.offsets[Index(Role::kHead)]);
   EXPECT_FALSE(match->truth[10][Index(Role::kHead)]);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/skeleton_sensor/options.h"
+#include "tests/support/results.h"
 #include "tests/tools/sensor_fit/small_recording.h"
 #include "tools/sensor_fit/statistics.h"
 
@@ -36,8 +37,7 @@ std::optional<RealRecording> RecordedBySensor(const SkeletonSensorOptions& senso
 constexpr WorldKey kOtherDice{.suite_seed = 9, .scenario = "held-out", .trial = 0};
 
 TEST(FitSensor, GivesASensorWhoseRecordingsHaveTheRealOnesStatistics) {
-  const auto real = RecordedBySensor(Unknown(), DancingTwin(9));
-  ASSERT_TRUE(real);
+  ASSERT_OK(real, RecordedBySensor(Unknown(), DancingTwin(9)));
   const SensorFitOptions options{.start = SensorV2(), .worlds = 10, .steps = 6, .progress = {}};
   const SkeletonSensorOptions fitted = FitSensor(*real, options);
   const SensorStatistics measured = StatisticsOf(*real);
@@ -51,8 +51,7 @@ TEST(FitSensor, GivesASensorWhoseRecordingsHaveTheRealOnesStatistics) {
 }
 
 TEST(FitSensor, IsTheSameEveryTime) {
-  const auto real = RecordedBySensor(Unknown(), DancingTwin(9));
-  ASSERT_TRUE(real);
+  ASSERT_OK(real, RecordedBySensor(Unknown(), DancingTwin(9)));
   const SensorFitOptions options{.start = SensorV2(), .worlds = 3, .steps = 2, .progress = {}};
   EXPECT_EQ(WriteSensorFile(FitSensor(*real, options), "v2"), WriteSensorFile(FitSensor(*real, options), "v2"));
 }
@@ -74,8 +73,7 @@ TEST(FitSensor, KeepsWhatTheRecordingDoesNotShow) {
 }
 
 TEST(Simulate, AtStrengthZeroSaysTheTwinItself) {
-  const auto real = RecordedBySensor(Unknown(), DancingTwin(9, 0.2, {"clap"}));
-  ASSERT_TRUE(real);
+  ASSERT_OK(real, RecordedBySensor(Unknown(), DancingTwin(9, 0.2, {"clap"})));
   SkeletonSensorOptions perfect = SensorV2();
   perfect.strength = 0;
   const SensorStatistics statistics = SimulatedStatistics(*real, perfect, 1, kOtherDice).mean;

@@ -151,8 +151,8 @@ constexpr Wait kNever = {std::numeric_limits<double>::infinity(), false};
 
 TEST(SurvivalCurve, FallsAtEachTimeAndKeepsWhatNeverIs) {
   EXPECT_THAT(SurvivalCurve(std::vector<Wait>{{3, true}, {1, true}, kNever, {3, true}}),
-              ElementsAre(testing::Pair(1, 1), testing::Pair(1, 0.75), testing::Pair(3, DoubleEq(0.25))));
-  EXPECT_THAT(SurvivalCurve(std::vector<Wait>{kNever, kNever}), ElementsAre(testing::Pair(kNever.seconds, 1)));
+              ElementsAre(::testing::Pair(1, 1), ::testing::Pair(1, 0.75), ::testing::Pair(3, DoubleEq(0.25))));
+  EXPECT_THAT(SurvivalCurve(std::vector<Wait>{kNever, kNever}), ElementsAre(::testing::Pair(kNever.seconds, 1)));
 }
 
 // The product over distinct times, and with a common limit the plain share of what is left: two more ways to the curve.

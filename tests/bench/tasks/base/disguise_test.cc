@@ -6,6 +6,7 @@
 
 #include "engine/base/angles.h"
 #include "io/clips/clip_library.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -33,8 +34,7 @@ TEST(WanderingDice, HaveMeanZeroAndDeviationOneAndNoJumps) {
 }
 
 TEST(Disguise, KeepsLimbsAndTheFloorAndOverstretchesNothing) {
-  const auto clips = LoadClips({"builtin:boxing", "builtin:stretch"}, {});
-  ASSERT_TRUE(clips);
+  ASSERT_OK(clips, LoadClips({"builtin:boxing", "builtin:stretch"}, {}));
   double most_turned_deg = 0;
   for (const LibraryClip& clip : clips->clips) {
     const std::vector<BodyPose>& old = clip.motion.poses;

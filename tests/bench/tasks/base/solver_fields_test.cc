@@ -8,9 +8,9 @@
 namespace etude {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 struct Method {
   const IkSolver* solver = DefaultIkSolver();

@@ -9,12 +9,13 @@
 #include "engine/formats/bvh.h"
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/support/gtest_printers.h"
+#include "tests/support/results.h"
 #include "tests/support/run_world.h"
 
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const WorldKey kKey{.suite_seed = 3, .scenario = "capture-test", .trial = 0};
 
@@ -37,10 +38,10 @@ std::string DigestOf(const CellResult& cell, std::string_view stage) {
 }
 
 TEST(CaptureTask, ShowsEveryMethodTheSameMarksAndRepeatsItself) {
-  const auto task = Make(
-      "duration_s: 0.1\nmethods:\n- {name: fixed, solver: ccd, weights: fixed}\n- {name: adaptive, solver: ccd, "
-      "weights: adaptive}\n");
-  ASSERT_TRUE(task) << ToString(task.error());
+  ASSERT_OK(
+      task,
+      Make("duration_s: 0.1\nmethods:\n- {name: fixed, solver: ccd, weights: fixed}\n- {name: adaptive, solver: ccd, "
+           "weights: adaptive}\n"));
   EXPECT_EQ((*task)->ClipsOf(kKey).front(), "builtin:boxing");
   const auto cells = RunWorld(**task, kKey, 2), again = RunWorld(**task, kKey, 2);
   ASSERT_EQ(cells.size(), 2u);
@@ -58,10 +59,8 @@ TEST(CaptureTask, ShowsEveryMethodTheSameMarksAndRepeatsItself) {
 }
 
 TEST(CaptureTask, ComesCloseToTheTruthWhenEveryStageIsOne) {
-  const auto task = Make(
-      "duration_s: 0.1\nmethods:\n- {name: seen}\n"
-      "- {name: true, oracle: [calibration, segmentation, directions, points]}\n");
-  ASSERT_TRUE(task) << ToString(task.error());
+  ASSERT_OK(task, Make("duration_s: 0.1\nmethods:\n- {name: seen}\n"
+                       "- {name: true, oracle: [calibration, segmentation, directions, points]}\n"));
   const auto cells = RunWorld(**task, kKey, 2);
   EXPECT_NEAR(*ValueOf(cells[1], "limb_direction_error_deg"), 0, 1e-6);
   EXPECT_NEAR(*ValueOf(cells[1], "triangulation_error_mm"), 0, 1e-9);
@@ -72,13 +71,13 @@ TEST(CaptureTask, ComesCloseToTheTruthWhenEveryStageIsOne) {
 }
 
 TEST(CaptureTask, GivesThePerformerBackWhenItStartsThereAndPaperBsBodyDoesNot) {
-  const auto task = Make(
-      "duration_s: 0.1\nlimb_measure_mm: 15\nmethods:\n"
-      "- {name: true, oracle: [calibration, segmentation, directions, points, lengths, start]}\n"
-      "- {name: ccd, solver: ccd, oracle: [calibration, segmentation, directions, points, lengths, start]}\n"
-      "- {name: measured, oracle: [calibration, segmentation, directions, points, start]}\n"
-      "- {name: paper, body: paper, oracle: [calibration, segmentation, directions, points, lengths, start, ik]}\n");
-  ASSERT_TRUE(task) << ToString(task.error());
+  ASSERT_OK(task,
+            Make("duration_s: 0.1\nlimb_measure_mm: 15\nmethods:\n"
+                 "- {name: true, oracle: [calibration, segmentation, directions, points, lengths, start]}\n"
+                 "- {name: ccd, solver: ccd, oracle: [calibration, segmentation, directions, points, lengths, start]}\n"
+                 "- {name: measured, oracle: [calibration, segmentation, directions, points, start]}\n"
+                 "- {name: paper, body: paper, oracle: [calibration, segmentation, directions, points, lengths, start, "
+                 "ik]}\n"));
   const auto cells = RunWorld(**task, kKey, 4);
   EXPECT_LT(*ValueOf(cells[0], "mpjpe_mm"), 1e-6);
   EXPECT_LT(*ValueOf(cells[1], "mpjpe_mm"), 1e-6);
@@ -87,10 +86,8 @@ TEST(CaptureTask, GivesThePerformerBackWhenItStartsThereAndPaperBsBodyDoesNot) {
 }
 
 TEST(CaptureTask, MarksTrueJointsWhereItIsToldTo) {
-  const auto task = Make(
-      "duration_s: 0.1\nannotation_error_px: 4\nmethods:\n- {name: seen, oracle: [calibration]}\n"
-      "- {name: marks, oracle: [calibration, marks]}\n");
-  ASSERT_TRUE(task) << ToString(task.error());
+  ASSERT_OK(task, Make("duration_s: 0.1\nannotation_error_px: 4\nmethods:\n- {name: seen, oracle: [calibration]}\n"
+                       "- {name: marks, oracle: [calibration, marks]}\n"));
   const auto cells = RunWorld(**task, kKey, 2);
   EXPECT_LT(*ValueOf(cells[1], "triangulation_error_mm"), 1e-6);
   EXPECT_LT(*ValueOf(cells[1], "limb_direction_error_deg"), 1e-4);
@@ -100,22 +97,23 @@ TEST(CaptureTask, MarksTrueJointsWhereItIsToldTo) {
 }
 
 TEST(CaptureTask, SetsItsClocksByTheMarks) {
-  const auto task = Make(
-      "duration_s: 3\nsync_offset_ms: 100\nmethods:\n"
-      "- {name: assumed, oracle: [calibration, marks]}\n- {name: estimated, sync: estimated, oracle: [calibration, "
-      "marks]}\n");
-  ASSERT_TRUE(task) << ToString(task.error());
+  ASSERT_OK(
+      task,
+      Make(
+          "duration_s: 3\nsync_offset_ms: 100\nmethods:\n"
+          "- {name: assumed, oracle: [calibration, marks]}\n- {name: estimated, sync: estimated, oracle: [calibration, "
+          "marks]}\n"));
   const auto cells = RunWorld(**task, kKey, 2);
   EXPECT_LT(*ValueOf(cells[1], "triangulation_error_mm"), 0.3 * *ValueOf(cells[0], "triangulation_error_mm"));
   EXPECT_GT(*ValueOf(cells[0], "triangulation_error_mm"), 10) << "three frames apart";
 }
 
 TEST(CaptureTask, RecoversTheSameMarksInOtherWaysToo) {
-  const auto task = Make(
-      "duration_s: 0.3\nmethods:\n- {name: ik, body: paper}\n- {name: ends, recovery: ends}\n"
-      "- {name: smooth, recovery: ends, smoothing: rts}\n- {name: bundle, recovery: bundle}\n"
-      "- {name: measured, recovery: bundle, lengths: measured}\n- {name: keypoints, recovery: keypoints}\n");
-  ASSERT_TRUE(task) << ToString(task.error());
+  ASSERT_OK(
+      task,
+      Make("duration_s: 0.3\nmethods:\n- {name: ik, body: paper}\n- {name: ends, recovery: ends}\n"
+           "- {name: smooth, recovery: ends, smoothing: rts}\n- {name: bundle, recovery: bundle}\n"
+           "- {name: measured, recovery: bundle, lengths: measured}\n- {name: keypoints, recovery: keypoints}\n"));
   const auto cells = RunWorld(**task, kKey, 6);
   for (const CellResult& cell : cells) {
     ASSERT_EQ(cell.status, Status::kOk) << cell.reason;
@@ -134,19 +132,16 @@ TEST(CaptureTask, RecoversTheSameMarksInOtherWaysToo) {
 }
 
 TEST(CaptureTask, EveryRivalSeesMarksInTimeAndWithoutOutliers) {
-  const auto task = Make(
-      "duration_s: 1\nsync_offset_ms: 100\nmethods:\n"
-      "- {name: assumed, recovery: bundle, oracle: [calibration, marks]}\n"
-      "- {name: estimated, recovery: bundle, sync: estimated, oracle: [calibration, marks]}\n");
-  ASSERT_TRUE(task) << ToString(task.error());
+  ASSERT_OK(task, Make("duration_s: 1\nsync_offset_ms: 100\nmethods:\n"
+                       "- {name: assumed, recovery: bundle, oracle: [calibration, marks]}\n"
+                       "- {name: estimated, recovery: bundle, sync: estimated, oracle: [calibration, marks]}\n"));
   const auto cells = RunWorld(**task, kKey, 2);
   EXPECT_LT(*ValueOf(cells[1], "mpjpe_mm"), 0.7 * *ValueOf(cells[0], "mpjpe_mm"));
 }
 
 TEST(CaptureTask, RefusesTheTruthOfStagesThatAMethodHasNot) {
-  const auto task = Make("methods:\n- {name: ends, recovery: ends, oracle: [directions]}\n");
-  ASSERT_FALSE(task);
-  EXPECT_THAT(ToString(task.error()), HasSubstr("recovery: ik"));
+  EXPECT_THAT(testing::Refusal(Make("methods:\n- {name: ends, recovery: ends, oracle: [directions]}\n")),
+              HasSubstr("recovery: ik"));
 }
 
 TEST(CaptureTask, IsCalibratedWithPointsOrWithBoardsFoundInThePictures) {
@@ -171,10 +166,10 @@ TEST(CaptureTask, IsCalibratedWithPointsOrWithBoardsFoundInThePictures) {
 
 // In everyday clothes hues lose the trunk: what is left are pieces. More of them are more of the person.
 TEST(CaptureTask, FindsMoreOfThePersonInSeveralPieces) {
-  const auto task = Make(
-      "duration_s: 0.1\nclothes: everyday\nmethods:\n- {name: largest, segmenter: hue}\n"
-      "- {name: large, segmenter: hue, pieces: large}\n- {name: true, pieces: large, oracle: [segmentation]}\n");
-  ASSERT_TRUE(task) << ToString(task.error());
+  ASSERT_OK(
+      task,
+      Make("duration_s: 0.1\nclothes: everyday\nmethods:\n- {name: largest, segmenter: hue}\n"
+           "- {name: large, segmenter: hue, pieces: large}\n- {name: true, pieces: large, oracle: [segmentation]}\n"));
   const auto cells = RunWorld(**task, kKey, 3);
   EXPECT_GT(*ValueOf(cells[1], "mask_recall"), *ValueOf(cells[0], "mask_recall") + 0.01);
   EXPECT_EQ(*ValueOf(cells[2], "mask_recall"), 1) << "the truth has no pieces";
@@ -183,8 +178,7 @@ TEST(CaptureTask, FindsMoreOfThePersonInSeveralPieces) {
 
 TEST(CaptureTask, MakesASkeletonOfWhatIsMarkedAndSaysHowLittleThatWas) {
   // Hue alone does not see dark blue trousers on a bluish floor: the feet are never marked.
-  const auto task = Make("duration_s: 0.1\nclothes: everyday\nmethods:\n- {name: hue, segmenter: hue}\n");
-  ASSERT_TRUE(task) << ToString(task.error());
+  ASSERT_OK(task, Make("duration_s: 0.1\nclothes: everyday\nmethods:\n- {name: hue, segmenter: hue}\n"));
   const auto cells = RunWorld(**task, kKey, 1);
   EXPECT_EQ(cells[0].status, Status::kOk) << cells[0].reason;
   EXPECT_LT(*ValueOf(cells[0], "triangulation_coverage"), 0.9);
@@ -194,10 +188,8 @@ TEST(CaptureTask, MakesASkeletonOfWhatIsMarkedAndSaysHowLittleThatWas) {
 }
 
 TEST(CaptureTask, FollowsSilhouettesWithoutAMark) {
-  const auto task = Make(
-      "duration_s: 0.2\nmethods:\n- {name: near, recovery: silhouettes, start: near}\n"
-      "- {name: cold, recovery: silhouettes}\n- {name: strokes}\n");
-  ASSERT_TRUE(task) << ToString(task.error());
+  ASSERT_OK(task, Make("duration_s: 0.2\nmethods:\n- {name: near, recovery: silhouettes, start: near}\n"
+                       "- {name: cold, recovery: silhouettes}\n- {name: strokes}\n"));
   const auto cells = RunWorld(**task, kKey, 3, true), again = RunWorld(**task, kKey, 2);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(cells[i].status, Status::kOk) << cells[i].reason;
@@ -242,22 +234,19 @@ TEST(CaptureTask, FailsWithAReasonWhenNothingIsMarked) {
 }
 
 TEST(CaptureTask, RecordsWhatAVideoAndABvhFileNeed) {
-  const auto task = Make("duration_s: 0.1\nmark_every: 2\nmethods:\n- {name: a}\n");
-  ASSERT_TRUE(task) << ToString(task.error());
+  ASSERT_OK(task, Make("duration_s: 0.1\nmark_every: 2\nmethods:\n- {name: a}\n"));
   const auto cells = RunWorld(**task, kKey, 1, true);
   ASSERT_TRUE(cells[0].recording) << cells[0].reason;
   ASSERT_EQ(cells[0].recording->tracks.size(), 2u);
   EXPECT_EQ(cells[0].recording->tracks[0].name, "truth");
   EXPECT_EQ(cells[0].recording->tracks[1].name, "recovered");
   EXPECT_EQ(cells[0].recording->tracks[1].motion.poses.size(), 3u);
-  const auto extras = ReadCaptureExtras(cells[0].recording->extras_json);
-  ASSERT_TRUE(extras) << ToString(extras.error());
+  ASSERT_OK(extras, ReadCaptureExtras(cells[0].recording->extras_json));
   ASSERT_EQ(extras->views.size(), 2u);
   EXPECT_EQ(extras->views[0].masks.size(), 3u);
-  EXPECT_THAT(extras->views[0].still_jpeg_base64, testing::StartsWith("/9j/")) << "a JPEG begins with FF D8 FF";
+  EXPECT_THAT(extras->views[0].still_jpeg_base64, ::testing::StartsWith("/9j/")) << "a JPEG begins with FF D8 FF";
   EXPECT_NE(extras->views[0].still_jpeg_base64, extras->views[1].still_jpeg_base64);
-  const auto clip = ReadBvh(extras->bvh, "a.bvh");
-  ASSERT_TRUE(clip) << ToString(clip.error());
+  ASSERT_OK(clip, ReadBvh(extras->bvh, "a.bvh"));
   EXPECT_EQ(clip->frames.size(), 3u);
 }
 
@@ -268,12 +257,10 @@ TEST(CaptureTask, FilmsWithOnesOwnCameras) {
   std::vector<NamedCamera> mine;
   for (const double x : {-2.0, 2.0, 3.0})
     mine.push_back({fmt::format("c{}", mine.size()), LookAt(in, {x, 1 + 0.3 * x, 3}, {0, 1, 0})});
-  const auto task = Make(yaml, {{"rig_file", WritePose2SimCalibration(mine)}});
-  ASSERT_TRUE(task) << ToString(task.error());
+  ASSERT_OK(task, Make(yaml, {{"rig_file", WritePose2SimCalibration(mine)}}));
   const auto cells = RunWorld(**task, kKey, 1, true);
   ASSERT_EQ(cells[0].status, Status::kOk) << cells[0].reason;
-  const auto extras = ReadCaptureExtras(cells[0].recording->extras_json);
-  ASSERT_TRUE(extras);
+  ASSERT_OK(extras, ReadCaptureExtras(cells[0].recording->extras_json));
   ASSERT_EQ(extras->views.size(), 3u);
   EXPECT_EQ(extras->views[1].truth.intrinsics.width, 400);
   EXPECT_NEAR(extras->views[2].truth.p_WC.y, 1.9, 1e-9);
@@ -291,9 +278,7 @@ TEST(CaptureTask, FilmsWithOnesOwnCameras) {
   EXPECT_THAT(refusal(rational), HasSubstr("camera 'c1' of 'mine.toml' has a lens of another model"));
   in_millimetres[2].camera.p_WC *= 1000;
   EXPECT_THAT(refusal(in_millimetres), HasSubstr("Is the file in metres?"));
-  const auto nameless = Make("rig: file\nmethods:\n- {name: a}\n");
-  ASSERT_FALSE(nameless);
-  EXPECT_THAT(ToString(nameless.error()), HasSubstr("needs 'rig_file'"));
+  EXPECT_THAT(testing::Refusal(Make("rig: file\nmethods:\n- {name: a}\n")), HasSubstr("needs 'rig_file'"));
 }
 
 // Nobody marks: dice of a hand have no part in it, and what the picture shows is all that counts.
@@ -305,7 +290,7 @@ TEST(CaptureTask, ReadsTheColoursOfASuitWhateverAnAnnotatorWouldErr) {
   for (const char* scene : {"0", "0.5"}) {
     const std::string studio = fmt::format("duration_s: 0.1\nclothes: coded\nscene: {}\n", scene);
     const auto steady = Make(studio + methods), shaky = Make(studio + "annotation_error_px: 8\n" + methods);
-    ASSERT_TRUE(steady) << ToString(steady.error());
+    ASSERT_TRUE(steady);
     ASSERT_TRUE(shaky) << ToString(shaky.error());
     const auto cells = RunWorld(**steady, kKey, 3), others = RunWorld(**shaky, kKey, 3);
     for (const std::size_t coloured : {0u, 2u}) {

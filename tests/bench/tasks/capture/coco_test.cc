@@ -8,6 +8,7 @@
 #include "io/files/files.h"
 #include "io/files/temporary_folder.h"
 #include "io/keypoints/read_people.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -60,8 +61,7 @@ TEST(Coco, IsReadBackAsThePersonThatTheMarksTell) {
   const std::vector<std::string> pictures{"camera-1-0000.png"};
   const std::vector<Marks> marks{SomeMarks()};
   ASSERT_TRUE(WriteFileAtomically(file, *WriteCocoKeypoints({}, pictures, marks)));
-  const auto film = ReadKeypoints(file, "");
-  ASSERT_TRUE(film) << ToString(film.error());
+  ASSERT_OK(film, ReadKeypoints(file, ""));
   const SeenPerson told = PersonOf(marks[0]), &read = film->frames[0][0];
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     EXPECT_EQ(read.keypoints[i].pixel, told.keypoints[i].pixel) << i;

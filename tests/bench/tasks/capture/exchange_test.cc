@@ -16,11 +16,12 @@
 #include "engine/formats/bvh.h"
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/io/images/exr_files.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const WorldKey kExchangeKey{.suite_seed = 3, .scenario = "capture-exchange", .trial = 0};
 
@@ -59,8 +60,7 @@ TEST(CaptureExchange, TellsTheMarksPicturesAndCalibrationPointsThatBuiltInMethod
   const auto task = MakeTask("{duration_s: 0.1, mark_every: 2}", method.items);
   const auto world = task->MakeWorld(kExchangeKey, false);
   const CellResult built_in = world->Run(0);
-  const auto problem = world->MakeProblem();
-  ASSERT_TRUE(problem) << ToString(problem.error());
+  ASSERT_OK(problem, world->MakeProblem());
   const Json& json = *problem->json;
   ASSERT_EQ(json["frames"], 3);
   ASSERT_EQ(json["cameras"].size(), 2u);
@@ -111,8 +111,7 @@ TEST(CaptureExchange, TheTruthIsAPerfectAnswerAndItsFilesTellTheSame) {
   ASSERT_TRUE(cell->recording);
   EXPECT_TRUE(ReadCaptureExtras(cell->recording->extras_json));
 
-  const auto clip = ReadBvh(Find(*truth, "truth.bvh")->bytes, "truth.bvh");
-  ASSERT_TRUE(clip) << ToString(clip.error());
+  ASSERT_OK(clip, ReadBvh(Find(*truth, "truth.bvh")->bytes, "truth.bvh"));
   EXPECT_EQ(clip->frames.size(), 3u);
   EXPECT_THAT(Find(*truth, "truth.trc")->bytes, HasSubstr("hip_centre\t\t\tspine"));
   EXPECT_THAT(Find(*truth, "camera-2.yaml")->bytes, HasSubstr("!!opencv-matrix"));
@@ -169,8 +168,7 @@ TEST(CaptureExchange, AFrameWithoutAPoseShowsTheLastOneAndCountsAsNotRecovered) 
   for (std::size_t k = 0; k < truth.truth.size(); ++k) {
     answer["poses"].push_back(k == 2 ? Json(nullptr) : EncodePose(truth.truth[k]));
   }
-  const auto cell = world->Judge(answer);
-  ASSERT_TRUE(cell) << ToString(cell.error());
+  ASSERT_OK(cell, world->Judge(answer));
   EXPECT_NEAR(*ValueOf(*cell, "frames_recovered"), 5.0 / 6, 1e-12);
   for (std::size_t k = 0; k < 6; ++k) {
     if (k == 2) {
@@ -180,8 +178,7 @@ TEST(CaptureExchange, AFrameWithoutAPoseShowsTheLastOneAndCountsAsNotRecovered) 
     }
   }
   answer["poses"] = std::vector<Json>(6, nullptr);
-  const auto nothing = world->Judge(answer);
-  ASSERT_TRUE(nothing) << ToString(nothing.error());
+  ASSERT_OK(nothing, world->Judge(answer));
   EXPECT_EQ(nothing->status, Status::kFailed);
   EXPECT_EQ(ValueOf(*nothing, "frames_recovered"), 0);
   EXPECT_EQ(ValueOf(*nothing, "mpjpe_mm"), std::nullopt);
@@ -190,7 +187,7 @@ TEST(CaptureExchange, AFrameWithoutAPoseShowsTheLastOneAndCountsAsNotRecovered) 
 TEST(CaptureExchange, ReportsEveryMetricThatItsKindNames) {
   std::vector<std::string> reported;
   for (const MetricValue& metric : TakeThatIsTold().cell->metrics) reported.push_back(metric.id);
-  EXPECT_THAT(reported, testing::UnorderedElementsAreArray(MakeCaptureTaskKind().metrics));
+  EXPECT_THAT(reported, ::testing::UnorderedElementsAreArray(MakeCaptureTaskKind().metrics));
 }
 
 TEST(CaptureExchange, RefusesWhatIsNoAnswerNamingThePlaceInIt) {
@@ -219,9 +216,7 @@ TEST(CaptureExchange, SettingAndFailureAreTold) {
 
 TEST(CaptureExchange, RefusesTakesOfMorePicturesThanItHolds) {
   const auto task = MakeTask("{duration_s: 21}");
-  const auto problem = task->MakeWorld(kExchangeKey, false)->MakeProblem();
-  ASSERT_FALSE(problem);
-  EXPECT_THAT(ToString(problem.error()), HasSubstr("a duration_s of 20"));
+  EXPECT_THAT(testing::Refusal(task->MakeWorld(kExchangeKey, false)->MakeProblem()), HasSubstr("a duration_s of 20"));
 }
 
 }  // namespace

@@ -62,9 +62,7 @@ std::size_t CountEqual(const Told& a, const Told& b) {
 }
 
 CaptureMethod Causal(Recovery recovery) {
-  CaptureMethod method;
-  method.recovery = recovery;
-  method.causal = true;
+  CaptureMethod method{.recovery = recovery, .causal = true};
   method.start = SilhouetteStart::kNear;
   return method;
 }

@@ -16,18 +16,15 @@ using enum Role;
 
 // A world of one standing frame, seen by one camera.
 CaptureWorld StandingWorld() {
-  CaptureWorld world;
-  world.truth = {StandingBody()};
-  world.cameras = {FrontCamera()};
+  CaptureWorld world{.truth = {StandingBody()}, .cameras = {FrontCamera()}};
   return world;
 }
 
-class MarkingTest : public testing::Test {
+class MarkingTest : public ::testing::Test {
  protected:
   AnnotatedPicture picture() const { return shown_.picture(); }
   Marking MarkingBy(int annotators, double error_px, int trial = 0) const {
-    StudioOptions options;
-    options.annotators = annotators;
+    StudioOptions options{.annotators = annotators};
     options.annotation_error_px = error_px;
     return Marking(options, world_, {.suite_seed = 3, .scenario = "marking", .trial = trial});
   }
@@ -109,8 +106,7 @@ TEST_F(MarkingTest, TrueJointsAreMarkedExactlyWhereThePictureShowsThem) {
 }
 
 TEST_F(MarkingTest, FramesThatNobodyIsAskedToMarkStayEmpty) {
-  StudioOptions options;
-  options.mark_every = 3;
+  StudioOptions options{.mark_every = 3};
   Marking marking(options, world_, {.suite_seed = 3, .scenario = "marking", .trial = 0});
   for (std::size_t frame = 0; frame < 7; ++frame) {
     const Marks marks = marking.Mark(0, frame, picture());

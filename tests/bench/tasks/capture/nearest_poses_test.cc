@@ -8,6 +8,7 @@
 #include "engine/base/directions.h"
 #include "io/clips/clip_library.h"
 #include "tests/support/gtest_printers.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -45,12 +46,11 @@ LibraryClip ClipNamed(const std::string& reference) {
   return clip;
 }
 
-class NearestPoses : public testing::TestWithParam<std::string> {};
+class NearestPoses : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(NearestPoses, OfTheFittedBodyAreTheTruthAndOfPaperBsAreNot) {
   const LibraryClip clip = ClipNamed(GetParam());
-  const auto fitted = FittedBody(clip.body);
-  ASSERT_TRUE(fitted) << ToString(fitted.error());
+  ASSERT_OK(fitted, FittedBody(clip.body));
   const Distance left = DistanceOf(*fitted, clip.motion.poses);
   EXPECT_LT(left.joint_mm, 0.1);
   EXPECT_LT(left.limb_deg, 0.05);
@@ -59,10 +59,10 @@ TEST_P(NearestPoses, OfTheFittedBodyAreTheTruthAndOfPaperBsAreNot) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Clips, NearestPoses,
-                         testing::Values("builtin:boxing", "builtin:stretch", "builtin:jump",
-                                         "/usr/share/assimp/models/BVH/01_01.bvh",
-                                         "/usr/share/assimp/models/BVH/01_03.bvh",
-                                         "/usr/share/assimp/models/BVH/Boxing_Toes.bvh"));
+                         ::testing::Values("builtin:boxing", "builtin:stretch", "builtin:jump",
+                                           "/usr/share/assimp/models/BVH/01_01.bvh",
+                                           "/usr/share/assimp/models/BVH/01_03.bvh",
+                                           "/usr/share/assimp/models/BVH/Boxing_Toes.bvh"));
 
 }  // namespace
 }  // namespace etude

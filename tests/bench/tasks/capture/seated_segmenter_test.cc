@@ -14,6 +14,7 @@
 #include "engine/vision/change_detection.h"
 #include "io/clips/clip_library.h"
 #include "tests/bench/tasks/base/cell_values.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -106,8 +107,7 @@ TEST(SeatedSegmenter, WithABuiltInSegmentersAnswersTheCellIsThatSegmentersToTheL
     ImaginedSegmenter program([](const ColourImage& background, const ColourImage& picture) {
       return Json{{"mask", RunLengths(DetectChange(background, picture, Segmenter::kRatio))}};
     });
-    const auto seated = world->RunWith(program, 2 * i + 1);
-    ASSERT_TRUE(seated) << ToString(seated.error());
+    ASSERT_OK(seated, world->RunWith(program, 2 * i + 1));
     const CellResult built_in = world->Run(2 * i);
     EXPECT_EQ(built_in.status, Status::kOk);
     EXPECT_EQ(seated->status, built_in.status);
@@ -122,8 +122,7 @@ TEST(SeatedSegmenter, IsShownEveryPictureOfEveryCameraInOrder) {
   ImaginedSegmenter program([](const ColourImage&, const ColourImage& picture) {
     return Json{{"mask", RunLengths(Mask(picture.width, picture.height))}};
   });
-  const auto blind = task->MakeWorld(kSeatWorld, false)->RunWith(program, 0);
-  ASSERT_TRUE(blind) << ToString(blind.error());
+  ASSERT_OK(blind, task->MakeWorld(kSeatWorld, false)->RunWith(program, 0));
   EXPECT_EQ(ValueOf(*blind, "iou"), 0);
   ASSERT_EQ(program.sessions.size(), 2u);
   EXPECT_EQ(program.sessions[1],

@@ -41,8 +41,7 @@ TEST(PoseAt, FollowsParabolasExactly) {
 }
 
 CaptureWorld WorldOf(std::vector<BodyPose> poses) {
-  CaptureWorld world;
-  world.truth = std::move(poses);
+  CaptureWorld world{.truth = std::move(poses)};
   world.brightness.assign(world.truth.size(), 1);
   world.colours = PerformerColours();
   world.cameras = {LookAt({}, {-2.4, 1.2, 3}, {0, 0.95, 0}), LookAt({}, {2.4, 2.2, 3}, {0, 0.95, 0})};
@@ -74,8 +73,7 @@ TEST(Shooting, ShowsAClipsOwnFigureWhereItsBodyIs) {
   const auto renderer = SharedRenderer();
   ASSERT_TRUE(renderer) << renderer.error().message;
   const auto mannequin = std::make_shared<const Character>(MannequinCharacter());
-  BodyConversion body;
-  body.metres_per_unit = 1;
+  BodyConversion body{.metres_per_unit = 1};
   body.motion = {.rate_hz = 30, .poses = Poses(12, [](double k) { return 0.5 * k; })};
   Clip clip = RigClip(body.motion, StandingPose(), "walk");
   clip.skeleton = mannequin->skeleton;

@@ -25,9 +25,7 @@ inline const CoachStage& StageOf(std::string_view song) {
 }
 
 inline CoachCondition ConditionOf(const std::string& song, double seconds, double noise) {
-  CoachCondition condition;
-  condition.song = song;
-  condition.session_s = seconds;
+  CoachCondition condition{.song = song, .session_s = seconds};
   condition.sight.noise = noise;
   return condition;
 }
@@ -41,8 +39,7 @@ inline std::vector<ReadyCoach> CoachesOf(const CoachStage& stage, std::vector<Co
 }
 
 inline CoachMethod MethodOf(const std::string& policy, const std::string& recogniser = "key-pose") {
-  CoachMethod method;
-  method.name = policy;
+  CoachMethod method{.name = policy};
   method.policy.policy = FindPolicy(policy);
   method.sight.recogniser.kind = FindRecogniser(recogniser);
   method.transition.way = DefaultWay();

@@ -10,6 +10,7 @@
 #include "engine/recognition/sight.h"
 #include "engine/recognition/skeleton_stream.h"
 #include "tests/bench/tasks/coach/coach_fixture.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -56,8 +57,7 @@ TEST(Seats, AreToldWhichTheyAreAndAskedOnceAFrame) {
   ASSERT_TRUE(RunSeated(Seat::kRecogniser, recogniser));
   EXPECT_EQ(recogniser.seat, "recogniser");
   Imagined policy([](const Json&) { return Json{{"correct", false}}; });
-  const auto log = RunSeated(Seat::kPolicy, policy);
-  ASSERT_TRUE(log);
+  ASSERT_OK(log, RunSeated(Seat::kPolicy, policy));
   EXPECT_EQ(policy.seat, "policy");
   EXPECT_EQ(policy.steps, log->Frames());
   EXPECT_TRUE(log->corrections.empty());
@@ -65,8 +65,7 @@ TEST(Seats, AreToldWhichTheyAreAndAskedOnceAFrame) {
 
 TEST(Seats, APolicyThatAlwaysCorrectsIsObeyed) {
   Imagined policy([](const Json&) { return Json{{"correct", true}}; });
-  const auto log = RunSeated(Seat::kPolicy, policy);
-  ASSERT_TRUE(log);
+  ASSERT_OK(log, RunSeated(Seat::kPolicy, policy));
   EXPECT_FALSE(log->corrections.empty());
 }
 
@@ -77,8 +76,7 @@ TEST(Seats, ALearnerIsSeenWhereItSaysItIs) {
     if (step.contains("test")) return Json{{"right", step["test"]["move"] == "clap"}};
     return Json{{"pose", EncodePose(standing)}, {"right", false}};
   });
-  const auto log = RunSeated(Seat::kLearner, learner);
-  ASSERT_TRUE(log);
+  ASSERT_OK(log, RunSeated(Seat::kLearner, learner));
   EXPECT_EQ(log->learner.poses[100].joints, standing.joints);
   EXPECT_EQ(log->test.size(), stage.moves.size());
   EXPECT_EQ(std::count(log->test.begin(), log->test.end(), 1.0), 1);
@@ -101,9 +99,7 @@ class WrongAnswers : public ::testing::TestWithParam<WrongAnswer> {};
 TEST_P(WrongAnswers, AreRefusedWithTheirPlace) {
   const WrongAnswer& wrong = GetParam();
   Imagined program([&](const Json&) { return Json::parse(wrong.answer); });
-  const auto log = RunSeated(wrong.seat, program);
-  ASSERT_FALSE(log);
-  EXPECT_THAT(log.error().message, HasSubstr(wrong.complaint));
+  EXPECT_THAT(testing::Message(RunSeated(wrong.seat, program)), HasSubstr(wrong.complaint));
   EXPECT_EQ(program.steps, 1);
 }
 

@@ -4,12 +4,13 @@
 
 #include "tests/bench/tasks/detection/detection_fixture.h"
 #include "tests/support/gtest_printers.h"
+#include "tests/support/results.h"
 #include "tests/support/run_world.h"
 
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 class DetectionCameras : public DetectionFixture {
  protected:
@@ -71,8 +72,7 @@ TEST_F(DetectionCameras, HaveKeysThatNoOtherSensorHasAndTheOtherWayRound) {
 }
 
 TEST_F(DetectionCameras, TellNoStreamToMethodsOutside) {
-  const auto task = MakeTask(std::string("sensor: cameras\nevents: 1\n") + kTruth, FourMoves());
-  ASSERT_TRUE(task) << ToString(task.error());
+  ASSERT_OK(task, MakeTask(std::string("sensor: cameras\nevents: 1\n") + kTruth, FourMoves()));
   EXPECT_FALSE((*task)->MakeWorld(World(0), false)->MakeProblem());
 }
 

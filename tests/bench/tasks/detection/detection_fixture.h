@@ -38,9 +38,7 @@ methods:
 
   /// A clip as a user's file gives it: no move is known.
   static LibraryClip Unlabelled() {
-    LibraryClip clip;
-    clip.name = "walk";
-    clip.motion = FourMoves().clips.front().motion;
+    LibraryClip clip{.name = "walk", .motion = FourMoves().clips.front().motion};
     return clip;
   }
 

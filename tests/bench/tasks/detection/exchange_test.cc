@@ -53,9 +53,7 @@ SkeletonStream StreamOf(const Json& problem) {
 TEST_F(DetectionExchange, TellsEveryDigitOfWhatTheSensorSawAndNothingOfTheTruth) {
   const auto world = task_->MakeWorld(World(0), false);
   const Json problem = *ReadJson(*WriteJson(*world->MakeProblem()->json), "problem");
-  DetectionWorld read;
-  read.stream = StreamOf(problem);
-  EXPECT_EQ(WorldDigests(read)[1].second, DigestOf(world->Run(0), "stream"));
+  EXPECT_EQ(WorldDigests({.stream = StreamOf(problem)})[1].second, DigestOf(world->Run(0), "stream"));
   ASSERT_EQ(problem["events"].size(), 6u);
   for (const Json& event : problem["events"]) {
     EXPECT_EQ(event.size(), 3u) << "move, begin_frame, end_frame: " << event;
@@ -90,7 +88,7 @@ TEST_F(DetectionExchange, JudgesABuiltInMethodsVerdictAsTheMethodItself) {
   for (int trial = 0; trial < 16; ++trial) {
     const auto world = task_->MakeWorld(World(trial), true);
     for (std::size_t m = 0; m < 4; ++m) {
-      SCOPED_TRACE(testing::Message() << "trial " << trial << ", method " << m);
+      SCOPED_TRACE(::testing::Message() << "trial " << trial << ", method " << m);
       const CellResult own = world->Run(m);
       const Json answer = AnswerOf(own);
       const auto judged = world->Judge(*ReadJson(*WriteJson(answer), "answer"));

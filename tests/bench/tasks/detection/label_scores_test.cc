@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/io/streams/record_people.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -18,15 +19,13 @@ WatchOptions ByDtw() { return By("dtw"); }
 
 TEST(LeaveOnePersonOut, RecognisesPeopleByWhatOthersTaught) {
   const Recorded recorded = Record(5, kMoves, 10);
-  const auto out = LeaveOnePersonOut(recorded.streams, recorded.parts, "l.csv", ByDtw());
-  ASSERT_TRUE(out) << ToString(out.error());
+  ASSERT_OK(out, LeaveOnePersonOut(recorded.streams, recorded.parts, "l.csv", ByDtw()));
   EXPECT_EQ(out->people.size(), 5u);
   EXPECT_EQ(out->verdicts.size() + static_cast<std::size_t>(out->points.size()), recorded.parts.size());
   EXPECT_GT(*Accuracy(out->nearest), 0.8);
   EXPECT_GT(*Accuracy(out->verdicts), 0.7);
   // It is told where performances begin and end, as the yardstick is.
-  const auto whole = LeaveOnePersonOut(recorded.streams, recorded.parts, "l.csv", By("whole-body"));
-  ASSERT_TRUE(whole) << ToString(whole.error());
+  ASSERT_OK(whole, LeaveOnePersonOut(recorded.streams, recorded.parts, "l.csv", By("whole-body")));
   EXPECT_GT(*Accuracy(whole->verdicts), 0.9);
 }
 
@@ -37,17 +36,15 @@ TEST(LeaveOnePersonOut, LabelsThatMeanNothingAreGuessed) {
     const auto at = static_cast<std::size_t>(std::ranges::find(kMoves, part.move) - kMoves.begin());
     part.move = kMoves[(at + part.stream) % kMoves.size()];
   }
-  const auto out = LeaveOnePersonOut(recorded.streams, recorded.parts, "l.csv", ByDtw());
-  ASSERT_TRUE(out) << ToString(out.error());
+  ASSERT_OK(out, LeaveOnePersonOut(recorded.streams, recorded.parts, "l.csv", ByDtw()));
   EXPECT_LT(*Accuracy(out->nearest), 0.3);
   EXPECT_LT(*Accuracy(out->verdicts), 0.4);
 }
 
 TEST(LeaveOnePersonOut, RefusesOnePersonAndNobody) {
   Recorded recorded = Record(1, kMoves, 5);
-  const auto alone = LeaveOnePersonOut(recorded.streams, recorded.parts, "l.csv", {});
-  ASSERT_FALSE(alone);
-  EXPECT_EQ(ToString(alone.error()), "l.csv: 1 person; leaving one out needs two");
+  EXPECT_EQ(testing::Refusal(LeaveOnePersonOut(recorded.streams, recorded.parts, "l.csv", {})),
+            "l.csv: 1 person; leaving one out needs two");
   recorded.parts[2].person.clear();
   recorded.parts[2].line = 7;
   EXPECT_EQ(ToString(LeaveOnePersonOut(recorded.streams, recorded.parts, "l.csv", {}).error()).find("l.csv:7: the person of"),

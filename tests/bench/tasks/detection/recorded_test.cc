@@ -130,11 +130,7 @@ TEST_F(RecordedPeopleTest, AWindowLastsHalfASecondMoreButNotIntoTheNextNorTheNex
     stream.stream.frames.resize(100);
   }
   const auto part = [](std::size_t stream, const char* fault, int begin, int end) {
-    LabelledPart made;
-    made.stream = stream;
-    made.move = "clap";
-    made.fault = fault;
-    made.begin = begin;
+    LabelledPart made{.stream = stream, .move = "clap", .fault = fault, .begin = begin};
     made.end = end;
     return made;
   };
@@ -214,8 +210,7 @@ LabelledStreams Alone(const std::string& name) {
   NamedStream& recording = set.streams.emplace_back();
   recording.name = name;
   recording.stream = StreamOf(LoadBuiltinMove(name)->motion);
-  LabelledPart part;
-  part.move = name;
+  LabelledPart part{.move = name};
   part.end = static_cast<int>(recording.stream.frames.size());
   set.parts = {part};
   set.moves = {name};

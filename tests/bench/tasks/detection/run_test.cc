@@ -7,10 +7,7 @@ namespace {
 
 /// Asked for from 0.5 s to 2.5 s, the last half second to spare.
 DetectionEvent AskedFor(const char* move, const char* danced) {
-  DetectionEvent event;
-  event.move = move;
-  event.danced = danced;
-  event.start_s = 0.5;
+  DetectionEvent event{.move = move, .danced = danced, .start_s = 0.5};
   event.end_s = 2;
   event.performed = {15, 60};
   event.window = {15, 75};

@@ -8,10 +8,7 @@ namespace etude {
 namespace {
 
 DetectionEvent Event(Truth truth, double start_s, std::optional<double> first_right_s) {
-  DetectionEvent event;
-  event.move = "clap";
-  event.danced = "clap";
-  event.truth = truth;
+  DetectionEvent event{.move = "clap", .danced = "clap", .truth = truth};
   event.start_s = start_s;
   event.end_s = start_s + 1.5;
   const auto begin = static_cast<int>(30 * start_s);
@@ -76,10 +73,8 @@ TEST(ScoreSession, SaysWhyAValueIsMissing) {
   world.motion.poses.resize(300);
   world.stream.frames.resize(300);
   world.events = {Event(Truth::kRight, 1, 2.0)};
-  SessionVerdict verdict;
-  verdict.events = {Called(std::nullopt, 0.2)};
   CellResult cell;
-  ScoreSession(world, verdict, kMoves, cell);
+  ScoreSession(world, {.events = {Called(std::nullopt, 0.2)}}, kMoves, cell);
   int missing = 0;
   for (const MetricValue& metric : cell.metrics) {
     if (metric.value) continue;
@@ -107,9 +102,7 @@ TEST(PerformanceSeries, TellsWhatWasDoneAndSaid) {
   DetectionEvent late = Event(Truth::kWrong, 1, std::nullopt);
   late.faults = {{Fault::kAmplitude, 0.2}, {Fault::kLate, 0.7}};
   world.events = {late, Event(Truth::kGrey, 5, std::nullopt)};
-  SessionVerdict verdict;
-  verdict.events = {Called(9, 0.6), Called(std::nullopt, 0.1)};
-  verdict.named = {2, std::nullopt};
+  SessionVerdict verdict{.events = {Called(9, 0.6), Called(std::nullopt, 0.1)}, .named = {2, std::nullopt}};
   std::map<std::string, std::vector<double>> told;
   for (const Series& series : PerformanceSeries(world, verdict, kMoves)) told[series.name] = series.values;
   using Values = std::vector<double>;

@@ -15,9 +15,7 @@ using ::testing::HasSubstr;
 class DetectionWorldTest : public DetectionFixture {
  protected:
   static DetectionWorld Make(const SessionOptions& session, int trial) {
-    DetectionOptions options;
-    options.session = session;
-    return MakeDetectionWorld(RepertoireOf(FourMoves()), options, World(trial));
+    return MakeDetectionWorld(RepertoireOf(FourMoves()), {.session = session}, World(trial));
   }
   static double HeadHeight(const DetectionWorld& world) {
     return world.motion.poses.front().joints[Index(Role::kHead)].y;

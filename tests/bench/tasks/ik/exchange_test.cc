@@ -13,11 +13,12 @@
 #include "io/clips/clip_library.h"
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/bench/tasks/base/exchange_checks.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const WorldKey kExchangeWorld{.suite_seed = 1, .scenario = "exchange", .trial = 0};
 constexpr int kMaxSteps = 200;
@@ -133,8 +134,7 @@ TEST(IkExchange, TheTruthIsAPerfectAnswer) {
   const auto world = task->MakeWorld(kExchangeWorld, true);
   Json answer = *world->MakeTruth()->json;
   answer["iterations"] = 7;
-  const auto cell = world->Judge(answer);
-  ASSERT_TRUE(cell) << ToString(cell.error());
+  ASSERT_OK(cell, world->Judge(answer));
   EXPECT_EQ(cell->status, Status::kOk) << cell->reason;
   EXPECT_LT(*ValueOf(*cell, "position_error_max_cm"), 1e-9);
   EXPECT_LT(*ValueOf(*cell, "orientation_error_max_deg"), 1e-5);  // acos near 1
@@ -151,9 +151,7 @@ TEST(IkExchange, TheTruthIsAPerfectAnswer) {
 TEST(IkExchange, ScoresAnAnswerLikeABuiltInMethodThatFoundTheSame) {
   const KinematicTree tree = MakeBodyTree({});
   const IkWorld world = MakeIkWorld(tree, {}, kExchangeWorld);
-  IkMethod method;
-  method.name = "today";
-  method.solver = FindIkSolver("damped-least-squares");
+  IkMethod method{.name = "today", .solver = FindIkSolver("damped-least-squares")};
   const IkSolution solution = method.solver->solve(tree, world.problem, method.options);
   const CellResult built_in = RunIkCell(tree, world, method, {});
   const CellResult judged =
@@ -174,10 +172,7 @@ TEST(IkExchange, AnAnswerThatBreaksALimitIsMeasuredAndUnsolved) {
   world.truth.angles[elbow] = Radians(-5);
   world.problem.targets.clear();
   for (const LimbFrame& effector : ComputeFrames(tree, world.truth).effectors) {
-    EffectorTarget target;
-    target.position = effector.position;
-    target.axes = effector.axes;
-    world.problem.targets.push_back(target);
+    world.problem.targets.push_back({.position = effector.position, .axes = effector.axes});
   }
   const CellResult cell = ScoreIkAnswer(tree, world, {world.truth.angles, 3, 4}, kMaxSteps, {});
   EXPECT_EQ(cell.status, Status::kUnsolved);

@@ -4,12 +4,13 @@
 #include "bench/metrics/catalogue.h"
 #include "bench/tasks/base/task_kinds.h"
 #include "io/clips/clip_library.h"
+#include "tests/support/results.h"
 #include "tests/support/run_world.h"
 
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr char kMethods[] = R"(
 - {name: fixed, solver: ccd, weights: fixed}
@@ -45,8 +46,7 @@ const WorldKey kWorld{.suite_seed = 1, .scenario = "test", .trial = 0};
 std::vector<CellResult> CellsOf(const Task& task) { return RunWorld(task, kWorld, 3); }
 
 TEST(IkTask, GivesEveryMethodACellWithAllMetrics) {
-  const auto task = Make("{joint_noise_deg: 15, max_sweeps: 300}");
-  ASSERT_TRUE(task) << ToString(task.error());
+  ASSERT_OK(task, Make("{joint_noise_deg: 15, max_sweeps: 300}"));
   const std::vector<CellResult> cells = CellsOf(**task);
   ASSERT_EQ(cells.size(), 3u);
   for (const CellResult& cell : cells) {
@@ -140,9 +140,9 @@ TEST(IkTask, KeepsTheSeriesThatAScenarioAsksFor) {
     for (const Series& series : cell.series) all.push_back(series.name);
     return all;
   };
-  EXPECT_THAT(names("{}"), testing::ElementsAre("position_error_max_cm", "orientation_error_max_deg"));
+  EXPECT_THAT(names("{}"), ::testing::ElementsAre("position_error_max_cm", "orientation_error_max_deg"));
   EXPECT_EQ(names("{record: [effector_errors, angle_changes, effector_curves]}").size(), 2u + 12 + 2 + 16);
-  EXPECT_THAT(names("{record: [angle_changes]}"), testing::Contains("angle_error_deg"));
+  EXPECT_THAT(names("{record: [angle_changes]}"), ::testing::Contains("angle_error_deg"));
 }
 
 TEST(IkTask, RefusesWhatItDoesNotKnowAndSaysWhereItStands) {

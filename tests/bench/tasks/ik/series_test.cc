@@ -12,11 +12,10 @@
 namespace etude {
 namespace {
 
-const WorldKey kSeriesWorld{.suite_seed = 1, .scenario = "series", .trial = 0};
 
 struct FixedRun {
   KinematicTree tree = MakeBodyTree({});
-  IkWorld world = MakeIkWorld(tree, {}, kSeriesWorld);
+  IkWorld world = MakeIkWorld(tree, {}, {.suite_seed = 1, .scenario = "series", .trial = 0});
   IkSolution solution;
 
   explicit FixedRun(int iterations) {
@@ -105,8 +104,8 @@ TEST(IkSeries, CurvesOfEveryEffectorGoFromTheStartToTheEndAndTheirWorstIsTheWors
 }
 
 TEST(IkRecording, ShowsEveryIterationUpToSixtyThenGrowingStepsAndTheLast) {
-  EXPECT_THAT(RecordedIterations(0), testing::ElementsAre(0));
-  EXPECT_THAT(RecordedIterations(2), testing::ElementsAre(0, 1, 2));
+  EXPECT_THAT(RecordedIterations(0), ::testing::ElementsAre(0));
+  EXPECT_THAT(RecordedIterations(2), ::testing::ElementsAre(0, 1, 2));
   for (const int last : {59, 60, 61, 149, 150, 151, 200, 1000, 3000, 100'000, 100'000'000}) {
     const std::vector<int> shown = RecordedIterations(last);
     EXPECT_LE(shown.size(), 150u) << last;

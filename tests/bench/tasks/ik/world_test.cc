@@ -31,10 +31,7 @@ double LongestError(const KinematicTree& tree, const TreeState& state, const IkP
 TEST(IkWorld, ASweepChangesStrengthsAndNotTheDice) {
   const KinematicTree tree = MakeBodyTree({});
   const auto world = [&](double noise_deg, double range) {
-    IkTrialOptions options;
-    options.pose_range = range;
-    options.joint_noise_deg = noise_deg;
-    return MakeIkWorld(tree, options, Trial(0));
+    return MakeIkWorld(tree, {.pose_range = range, .joint_noise_deg = noise_deg}, Trial(0));
   };
   const IkWorld weak = world(1, 0.5), strong = world(4, 0.5), wide = world(1, 1.0);
   EXPECT_EQ(weak.truth.angles, strong.truth.angles);
@@ -60,8 +57,7 @@ TEST(IkWorld, TargetsAreWhatTheTrueAnglesGive) {
 // Table 5.1(a): uniform noise of ±25° puts the ends 29–67 cm off and their axes 10–55°.
 TEST(IkWorld, UniformNoiseOf25DegreesDisturbsAsMuchAsPaperBsTable) {
   const KinematicTree tree = MakeBodyTree({});
-  IkTrialOptions options;
-  options.noise = NoiseKind::kUniform;
+  IkTrialOptions options{.noise = NoiseKind::kUniform};
   options.joint_noise_deg = 25;
   double position = 0, axis = 0;
   constexpr int kTrials = 200;
@@ -83,10 +79,7 @@ TEST(IkWorld, UniformNoiseOf25DegreesDisturbsAsMuchAsPaperBsTable) {
 TEST(IkWorld, KeepsTruthAndStartWithinEverySetOfLimits) {
   for (const std::string& name : LimitSetNames()) {
     const KinematicTree tree = TreeWith(*FindLimitSet(name));
-    IkTrialOptions options;
-    options.pose_range = 1;
-    options.joint_noise_deg = 40;
-    const IkWorld world = MakeIkWorld(tree, options, Trial(3));
+    const IkWorld world = MakeIkWorld(tree, {.pose_range = 1, .joint_noise_deg = 40}, Trial(3));
     for (std::size_t i = 0; i < tree.limits.size(); ++i) {
       EXPECT_EQ(world.problem.limits[i].lower, tree.limits[i].lower) << name;
       for (const double angle : {world.truth.angles[i], world.problem.start.angles[i]}) {
@@ -112,12 +105,10 @@ TEST(IkWorld, AColdStartIsTheMiddleOfEveryRange) {
 
 TEST(IkWorld, NoisyTargetsHaveTheStatedSpread) {
   const KinematicTree tree = MakeBodyTree({});
-  IkTrialOptions options;
-  options.target_noise = {.position_cm = 1, .orientation_deg = 3};
   double shift_squares = 0, axis_squares = 0;
   constexpr int kTrials = 400, kTargets = 4 * kTrials;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const IkWorld world = MakeIkWorld(tree, options, Trial(trial));
+    const IkWorld world = MakeIkWorld(tree, {.target_noise = {.position_cm = 1, .orientation_deg = 3}}, Trial(trial));
     const TreeFrames truth = ComputeFrames(tree, world.truth);
     for (std::size_t e = 0; e < 4; ++e) {
       const EffectorError error = ErrorOf(truth.effectors[e], world.problem.targets[e]);
@@ -181,10 +172,8 @@ double LargestGradient(const KinematicTree& tree, const IkProblem& problem) {
 TEST(IkWorld, AStretchedStartHasNoGradientThoughItsTargetsAreElsewhereAndWithinReach) {
   for (const std::string& name : LimitSetNames()) {
     const KinematicTree tree = TreeWith(*FindLimitSet(name));
-    IkTrialOptions options;
-    options.start = IkStart::kStretched;
     for (int trial = 0; trial < 20; ++trial) {
-      const IkWorld world = MakeIkWorld(tree, options, Trial(trial));
+      const IkWorld world = MakeIkWorld(tree, {.start = IkStart::kStretched}, Trial(trial));
       EXPECT_LT(LargestGradient(tree, world.problem), 1e-12) << name;
       EXPECT_GT(LongestError(tree, world.problem.start, world.problem), 0.008);
       EXPECT_LT(LongestError(tree, world.truth, world.problem), 1e-7);
@@ -207,8 +196,7 @@ TEST(IkWorld, AStretchedStartHasNoGradientThoughItsTargetsAreElsewhereAndWithinR
 
 TEST(IkWorld, AsksForPositionsOrAxesAlone) {
   const KinematicTree tree = MakeBodyTree({});
-  IkTrialOptions options;
-  options.asks_axes = false;
+  IkTrialOptions options{.asks_axes = false};
   for (const EffectorTarget& target : MakeIkWorld(tree, options, Trial(0)).problem.targets) {
     EXPECT_EQ(target.position_weight, 1);
     EXPECT_EQ(target.axis_weights, glm::dvec3(0));

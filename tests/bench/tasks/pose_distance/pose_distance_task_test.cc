@@ -9,6 +9,7 @@
 #include "bench/tasks/pose_distance/run.h"
 #include "engine/document/node.h"
 #include "sim/choreography/move.h"
+#include "tests/support/results.h"
 #include "tests/support/run_world.h"
 
 namespace etude {
@@ -52,8 +53,7 @@ class PoseDistanceTask : public ::testing::Test {
 // The list that the distance was first measured by (pose gap, cm) had a body whose arms ended 0.48 m from the shoulder;
 // the canonical body's end 0.73 m from it, and its feet reach past the ankles. Those of legs agree.
 TEST_F(PoseDistanceTask, EveryBlindSpotIsCalledAlikeByPaperAsDistance) {
-  const auto task = Make("{pairs: blindspots}", "{name: fuzzy}", {});
-  ASSERT_TRUE(task);
+  ASSERT_OK(task, Make("{pairs: blindspots}", "{name: fuzzy}", {}));
   const double gaps[] = {103, 103, 86, 77, 75, 25, 25, 16};
   for (int trial = 0; trial < 16; ++trial) {
     const CellResult cell = RunWorld(**task, {.scenario = "s", .trial = trial}, 1).front();
@@ -65,8 +65,7 @@ TEST_F(PoseDistanceTask, EveryBlindSpotIsCalledAlikeByPaperAsDistance) {
 }
 
 TEST_F(PoseDistanceTask, PointCloudsAreNotFooled) {
-  const auto task = Make("{pairs: blindspots}", "{name: cloud, distance: point-cloud}", {});
-  ASSERT_TRUE(task);
+  ASSERT_OK(task, Make("{pairs: blindspots}", "{name: cloud, distance: point-cloud}", {}));
   for (int trial = 0; trial < 8; ++trial) {
     const CellResult cell = RunWorld(**task, {.scenario = "s", .trial = trial}, 1).front();
     EXPECT_EQ(ValueOf(cell, "called_alike"), 0) << trial;
@@ -112,8 +111,7 @@ TEST_F(PoseDistanceTask, ABuiltInVerdictGivenFromOutsideScoresTheSame) {
   const PairWorld world = DrawFramePairs(DanceClips(Clips({"clap", "sway"})), 400, {.scenario = "s"});
   const PairVerdict own = ComputePairVerdict(world, {.name = "fuzzy"}, PaperMemberships(), PaperWeights());
   const Json answer = {{"distances", own.distances}, {"alike", own.alike}};
-  const auto read = ReadPairAnswer(answer, world);
-  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_OK(read, ReadPairAnswer(answer, world));
   const CellResult inside = ScorePairs(world, own, nullptr), outside = ScorePairs(world, *read, nullptr);
   for (const char* id : {"close_auc", "close_f1", "matching_share"})
     EXPECT_EQ(ValueOf(inside, id), ValueOf(outside, id));
@@ -135,12 +133,10 @@ TEST_F(PoseDistanceTask, AnswersThatDoNotFitAreRefusedByName) {
 }
 
 TEST_F(PoseDistanceTask, RefusesWhatCannotBeAsked) {
-  const auto one = Make("{pairs: frames}", "{name: fuzzy}", Clips({"clap", "clap"}));
-  ASSERT_FALSE(one);
-  EXPECT_THAT(ToString(one.error()), HasSubstr("two different ones at least"));
-  const auto misplaced = Make("{pairs: blindspots, pairs_per_world: 5}", "{name: fuzzy}", {});
-  ASSERT_FALSE(misplaced);
-  EXPECT_THAT(ToString(misplaced.error()), HasSubstr("has no 'pairs_per_world'"));
+  EXPECT_THAT(testing::Refusal(Make("{pairs: frames}", "{name: fuzzy}", Clips({"clap", "clap"}))),
+              HasSubstr("two different ones at least"));
+  EXPECT_THAT(testing::Refusal(Make("{pairs: blindspots, pairs_per_world: 5}", "{name: fuzzy}", {})),
+              HasSubstr("has no 'pairs_per_world'"));
   const auto weighted = Make("{}", "{name: cloud, distance: point-cloud, weights: adaptive}", {});
   EXPECT_FALSE(weighted) << "joints have no weights";
 }

@@ -18,9 +18,7 @@ BodyMotion Clap(std::size_t frames) {
 
 /// Every stage of paper B replaced by the truth.
 CaptureMethod Perfect() {
-  CaptureMethod method;
-  method.causal = true;
-  method.oracle = {true, true, true, true, true, true, true, true};
+  CaptureMethod method{.causal = true, .oracle = {true, true, true, true, true, true, true, true}};
   return method;
 }
 
@@ -44,9 +42,7 @@ TEST(CameraSensor, TellsTheTruthWhenEveryStageIsOneAndNotWhenMarksAreDrawn) {
   const BodyMotion motion = Clap(12);
   const SkeletonStream perfect = Live({}, Perfect(), motion);
   ASSERT_EQ(perfect.frames.size(), motion.poses.size() - LiveSensor::kAhead);
-  CaptureMethod drawn;
-  drawn.causal = true;
-  const SkeletonStream seen = Live({}, drawn, motion);
+  const SkeletonStream seen = Live({}, {.causal = true}, motion);
   for (std::size_t k = 0; k < perfect.frames.size(); ++k) {
     EXPECT_TRUE(perfect.frames[k].body_seen);
     EXPECT_LT(FarthestFrom(motion.poses[k], perfect.frames[k]), 1e-3) << k;
@@ -56,8 +52,7 @@ TEST(CameraSensor, TellsTheTruthWhenEveryStageIsOneAndNotWhenMarksAreDrawn) {
 
 TEST(CameraSensor, SeesWhatTheTakeOfTheSameMotionShows) {
   const BodyMotion motion = Clap(11);
-  CaptureMethod method;
-  method.causal = true;
+  CaptureMethod method{.causal = true};
   CameraSensing sensing{.studio = {.picture_every = 2}, .sources = {PersonSourceOf(method)}};
   CameraTake take(sensing, motion, kKey);
   const auto& whole = take.See(method);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/tasks/tracking/run.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -10,8 +11,7 @@ namespace {
 constexpr CrowdOptions kFew{.characters = 23, .frames = 12};
 
 TEST(Crowd, FollowsEverybodyToTheLastBitAsTaskTrackingFollowsEachAlone) {
-  const auto worlds = MakeCrowd(kFew);
-  ASSERT_TRUE(worlds) << ToString(worlds.error());
+  ASSERT_OK(worlds, MakeCrowd(kFew));
   std::vector<TrackingAnswer> alone;
   TrackingMethod method{.name = "default", .options = {}};
   method.options.max_iterations = 20;
@@ -33,8 +33,7 @@ TEST(Crowd, FollowsEverybodyToTheLastBitAsTaskTrackingFollowsEachAlone) {
 }
 
 TEST(Crowd, GoesWhereItsWorldsGoWithinTheLimits) {
-  const auto worlds = MakeCrowd(kFew);
-  ASSERT_TRUE(worlds) << ToString(worlds.error());
+  ASSERT_OK(worlds, MakeCrowd(kFew));
   for (const Precision precision : {Precision::kDouble, Precision::kFloat}) {
     Crowd crowd(*worlds);
     for (int frame = 0; frame < kFew.frames; ++frame) {

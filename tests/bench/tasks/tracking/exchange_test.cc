@@ -12,11 +12,12 @@
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/bench/tasks/base/exchange_checks.h"
 #include "tests/bench/tasks/tracking/some_clips.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const WorldKey kTrackedWorld{.suite_seed = 1, .scenario = "exchange", .trial = 0};
 constexpr double kRate = 30;
@@ -48,8 +49,7 @@ TEST(TrackingExchange, TellsTheBodyOnceAndEveryFramesRootAndTargets) {
 TEST(TrackingExchange, TheTruthIsAPerfectAnswer) {
   const auto task = MakeTrackingTask();
   const auto world = task->MakeWorld(kTrackedWorld, true);
-  const auto cell = world->Judge(*world->MakeTruth()->json);
-  ASSERT_TRUE(cell) << ToString(cell.error());
+  ASSERT_OK(cell, world->Judge(*world->MakeTruth()->json));
   EXPECT_EQ(cell->status, Status::kOk) << cell->reason;
   EXPECT_EQ(ValueOf(*cell, "frames_solved"), 1);
   EXPECT_EQ(ValueOf(*cell, "frames_solved_tight"), 1);
@@ -79,8 +79,7 @@ TEST(TrackingExchange, ScoresAnAnswerLikeABuiltInMethodThatFoundTheSame) {
     Json& frame = told["angles_deg"].emplace_back(Json::array());
     for (const double angle : angles) frame.push_back(Degrees(angle));
   }
-  const auto read = ReadTrackingAnswer(told, *world);
-  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_OK(read, ReadTrackingAnswer(told, *world));
   const CellResult built_in = ScoreTracking(*world, kRate, *answer, false);
   const CellResult judged = ScoreTracking(*world, kRate, *read, false);
   EXPECT_EQ(judged.status, built_in.status);

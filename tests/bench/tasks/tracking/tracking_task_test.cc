@@ -8,12 +8,13 @@
 #include "engine/kinematics/body_tree.h"
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/bench/tasks/tracking/some_clips.h"
+#include "tests/support/results.h"
 #include "tests/support/run_world.h"
 
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const WorldKey kWorld{.suite_seed = 1, .scenario = "test", .trial = 0};
 
@@ -47,8 +48,7 @@ const std::vector<double>& SeriesOf(const CellResult& cell, std::string_view nam
 }
 
 TEST(TrackingTask, GivesEveryMethodACellWithAllMetricsAndSeriesAlongTheFrames) {
-  const auto task = Make("{duration_s: 1}");
-  ASSERT_TRUE(task) << ToString(task.error());
+  ASSERT_OK(task, Make("{duration_s: 1}"));
   EXPECT_EQ((*task)->ClipsOf(kWorld).front(), "builtin:clap");
   const auto cells = RunWorld(**task, kWorld, 3);
   const TaskKind kind = MakeTrackingTaskKind();
@@ -135,8 +135,7 @@ TEST(TrackingTask, RecordsTruthAndSolutionAtTheRateOfItsFrames) {
 }
 
 TEST(Follow, KeepsEveryFrameWithinTheToleranceOfTheOneBefore) {
-  const auto world = MakeTrackingWorld({.duration_s = 1, .joint_noise_deg = 0}, BuiltinClipOf("builtin:clap"), kWorld);
-  ASSERT_TRUE(world);
+  ASSERT_OK(world, MakeTrackingWorld({.duration_s = 1, .joint_noise_deg = 0}, BuiltinClipOf("builtin:clap"), kWorld));
   TrackingMethod method{.name = "bound", .solver = FindIkSolver("ccd-hinges"), .options = {}};
   const auto largest_step_deg = [&] {
     const auto answer = Follow(*world, method);
@@ -156,8 +155,7 @@ TEST(Follow, KeepsEveryFrameWithinTheToleranceOfTheOneBefore) {
 // Standing is far from how these clips begin, and few steps lead into a corner of the limits.
 TEST(Follow, AMotionIsNotLostForGoodWhereStepsAreFew) {
   for (const char* clip : {"builtin:fast_sway", "builtin:side_stretch", "builtin:jump"}) {
-    const auto world = MakeTrackingWorld({}, BuiltinClipOf(clip), kWorld);
-    ASSERT_TRUE(world);
+    ASSERT_OK(world, MakeTrackingWorld({}, BuiltinClipOf(clip), kWorld));
     TrackingMethod method{.name = "few", .solver = FindIkSolver("gauss-newton"), .options = {}};
     for (const auto& [steps, at_least] : {std::pair(5, 0.8), {10, 0.9}, {20, 0.95}}) {
       method.options.max_iterations = steps;
@@ -168,8 +166,7 @@ TEST(Follow, AMotionIsNotLostForGoodWhereStepsAreFew) {
 }
 
 TEST(Follow, EveryColdFrameIsSolvedAsIfItWereTheFirst) {
-  const auto whole = MakeTrackingWorld({.duration_s = 1}, BuiltinClipOf("builtin:clap"), kWorld);
-  ASSERT_TRUE(whole);
+  ASSERT_OK(whole, MakeTrackingWorld({.duration_s = 1}, BuiltinClipOf("builtin:clap"), kWorld));
   TrackingMethod method{
       .name = "cold", .solver = FindIkSolver("ccd-hinges"), .options = {}, .start = FrameStart::kCold};
   const auto all = Follow(*whole, method);
@@ -183,8 +180,7 @@ TEST(Follow, EveryColdFrameIsSolvedAsIfItWereTheFirst) {
 
 TEST(TrackingTask, SkipsAClipThatIsTooShort) {
   const KinematicTree tree = MakeBodyTree({});
-  const auto task = Make("{}", kMethods, {{ClipOf(tree, SwingingStates(tree, 2))}});
-  ASSERT_TRUE(task);
+  ASSERT_OK(task, Make("{}", kMethods, {{ClipOf(tree, SwingingStates(tree, 2))}}));
   const CellResult cell = RunWorld(**task, kWorld, 3)[1];
   EXPECT_EQ(cell.status, Status::kSkipped);
   EXPECT_THAT(cell.reason, HasSubstr("tracking needs 4"));
@@ -197,9 +193,7 @@ TEST(TrackingTask, RefusesWhatItDoesNotKnowAndSaysWhereItStands) {
   EXPECT_THAT(ComplaintOf("{}", "[{name: a, start: hot}]"), HasSubstr("warm, cold"));
   EXPECT_THAT(ComplaintOf("{}", "[{name: a, solver: cdc}]"), HasSubstr("did you mean 'ccd'"));
   EXPECT_THAT(ComplaintOf("{}", "[{name: a, strat: warm}]"), HasSubstr("start"));
-  const auto no_clips = Make("{}", kMethods, {});
-  ASSERT_FALSE(no_clips);
-  EXPECT_THAT(ToString(no_clips.error()), HasSubstr("needs clips"));
+  EXPECT_THAT(testing::Refusal(Make("{}", kMethods, {})), HasSubstr("needs clips"));
   EXPECT_EQ(ComplaintOf("{rate_hz: 10, target_noise_deg: 3, stop_at: tight}", "[{name: a, tolerance_deg: 3}]"), "");
 }
 

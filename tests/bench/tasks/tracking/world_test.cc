@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const WorldKey kTrackingKey{.suite_seed = 1, .scenario = "tracking-world", .trial = 0};
 

@@ -110,7 +110,7 @@ TEST_F(TransitionExchange, JudgesABuiltInMethodsPlanAsTheMethodItself) {
       record.segments.empty() ? ++unsolved : record.segments.size() > 2 ? ++between : ++direct;
       const bool answers = choice.name != "unbroken";  // a yardstick: it stays in the clip
       for (const auto& join : AllJoins()) {
-        SCOPED_TRACE(testing::Message() << "trial " << trial << ", " << choice.name << ", " << join.name);
+        SCOPED_TRACE(::testing::Message() << "trial " << trial << ", " << choice.name << ", " << join.name);
         const CellResult own = world->Run(method++);
         if (!answers) continue;
         const auto judged = JudgeText(*world, AnswerOf(record, choice, join.name));

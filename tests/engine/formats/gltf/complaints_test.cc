@@ -7,6 +7,7 @@
 #include "tests/engine/formats/gltf/small_glb.h"
 #include "tests/engine/formats/spoilt.h"
 #include "tests/support/kept_lines.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -25,7 +26,9 @@ Result<GltfContent> ReadGlb(const std::string& bytes) {
     if (uri == "beside.png") return std::string("a picture");
     return Fail({}, "no file {}", uri);
   };
-  return ReadGltf(bytes, "a.glb", fetch, FirstBytes);
+  auto read = ReadGltf(bytes, "a.glb", fetch, FirstBytes);
+  if (read) testing::ExpectSane(*read);
+  return read;
 }
 
 /// Puts numbers into a buffer, and tells JSON of them.
@@ -160,8 +163,7 @@ std::vector<std::string> SpoiltJson(const std::string& json, std::uint64_t seed,
 TEST(Gltf, ComplaintsAboutOneThingSpoiltAreAsTheyWere) {
   const PackedNumbers rich = RichNumbers();
   const std::string small(testing::kSmallGltf), json = RichJson(rich);
-  const auto whole = ReadGltf(testing::Glb(json, rich.binary()), "a.glb", {}, FirstBytes);
-  ASSERT_TRUE(whole) << ToString(whole.error());
+  ASSERT_OK(whole, ReadGltf(testing::Glb(json, rich.binary()), "a.glb", {}, FirstBytes));
   EXPECT_EQ(whole->character.meshes.size(), 3u);
   EXPECT_EQ(whole->clips.size(), 2u);
   std::vector<std::string> numbers;

@@ -200,8 +200,7 @@ TEST(GltfRoundTrip, KeepsWhichSideOfAMirroredSurfaceIsTheOutside) {
 
 TEST(GltfRoundTrip, KeepsMeshesOfManyVerticesAndBones) {
   Character chain{.name = "chain", .skeleton = {}, .materials = {{"red", {1, 0, 0}}}, .meshes = {}};
-  SkinnedMesh mesh;
-  mesh.name = "scales";
+  SkinnedMesh mesh{.name = "scales"};
   constexpr int kBones = 300;  // more than a byte counts
   for (int i = 0; i < kBones; ++i) {
     chain.skeleton.joints.push_back({.name = "bone " + std::to_string(i), .parent = i == 0 ? -1 : 0, .rest = {}});

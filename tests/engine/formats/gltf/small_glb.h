@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <initializer_list>
@@ -9,6 +10,7 @@
 #include <string_view>
 
 #include "engine/formats/gltf/gltf.h"
+#include "tests/support/random_clip.h"
 
 namespace etude::testing {
 
@@ -90,6 +92,41 @@ inline GltfContent Read(const std::string& bytes, const FetchFile& fetch = {}) {
 inline std::string GlbComplaint(const std::string& bytes, const FetchFile& fetch = {}) {
   const auto content = ReadGltf(bytes, "test.glb", fetch);
   return content ? "read without complaint" : ToString(content.error());
+}
+
+/// What every file that was not refused must hold.
+inline void ExpectSane(const GltfContent& content) {
+  const Character& character = content.character;
+  const int joints = static_cast<int>(character.skeleton.joints.size());
+  ASSERT_GT(joints, 0);
+  for (int i = 0; i < joints; ++i) ASSERT_LT(character.skeleton.joints[i].parent, i);
+  std::vector<GlobalTransform> globals;
+  ComputeGlobals(character.skeleton, RestPose(character.skeleton), globals);
+  for (const SkinnedMesh& mesh : character.meshes) {
+    ASSERT_GE(mesh.material, 0);
+    ASSERT_LT(mesh.material, static_cast<int>(character.materials.size()));
+    for (const SkinnedMesh::Binding& binding : mesh.bindings) ASSERT_TRUE(binding.joint >= 0 && binding.joint < joints);
+    for (const SkinnedMesh::Vertex& vertex : mesh.vertices) {
+      ASSERT_NEAR(glm::length(vertex.normal), 1, 1e-6);
+      ASSERT_NEAR(vertex.weights[0] + vertex.weights[1] + vertex.weights[2] + vertex.weights[3], 1, 1e-6);
+      for (const int binding : vertex.bindings) ASSERT_LT(binding, static_cast<int>(mesh.bindings.size()));
+    }
+    for (const auto& triangle : mesh.triangles) {
+      for (const std::uint32_t corner : triangle) ASSERT_LT(corner, mesh.vertices.size());
+    }
+    const DeformedMesh deformed = Deform(mesh, globals);
+    for (const glm::dvec3& position : deformed.positions) ASSERT_TRUE(IsFinite(position));
+    for (const glm::dvec3& normal : deformed.normals) ASSERT_NEAR(glm::length(normal), 1, 1e-6);
+  }
+  for (const Clip& clip : content.clips) {
+    ASSERT_TRUE(std::isfinite(clip.rate_hz) && clip.rate_hz > 0);
+    ASSERT_FALSE(clip.frames.empty());
+    for (const LocalPose& pose : clip.frames) {
+      for (const LocalTransform& local : pose) ASSERT_NEAR(glm::length(local.rotation), 1, 1e-6);
+      ComputeGlobals(clip.skeleton, pose, globals);
+      for (const GlobalTransform& global : globals) ASSERT_TRUE(IsFinite(global.position));
+    }
+  }
 }
 
 }  // namespace etude::testing

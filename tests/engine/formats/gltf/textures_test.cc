@@ -4,6 +4,7 @@
 #include "engine/base/image.h"
 #include "tests/engine/formats/gltf/small_glb.h"
 #include "tests/engine/formats/small_bvh.h"
+#include "tests/support/results.h"
 
 namespace etude {
 namespace {
@@ -65,8 +66,7 @@ std::string ComplaintOf(const std::string& bytes) {
 }
 
 TEST(GltfTextures, AreReadFromWithinTheFileWithTheirPlaces) {
-  const auto content = ReadGltf(Textured(kWithin, kPng), "test.glb", {}, TwoPixels);
-  ASSERT_TRUE(content) << ToString(content.error());
+  ASSERT_OK(content, ReadGltf(Textured(kWithin, kPng), "test.glb", {}, TwoPixels));
   const SharedTexture texture = content->character.materials[0].texture;
   ASSERT_TRUE(texture);
   EXPECT_EQ(texture->picture.width, 2);
@@ -102,8 +102,7 @@ TEST(GltfTextures, AreReadFromFilesBesideAndFromUris) {
 
 TEST(GltfTextures, OfOtherFormatsAndUnwantedOnesLeaveThePlainColour) {
   EXPECT_FALSE(OnlyMaterial(Textured(kWithin, kOther)).texture);
-  const auto unwanted = ReadGltf(Textured(kWithin, kPng), "test.glb", {});
-  ASSERT_TRUE(unwanted);
+  ASSERT_OK(unwanted, ReadGltf(Textured(kWithin, kPng), "test.glb", {}));
   EXPECT_FALSE(unwanted->character.materials[0].texture);
 }
 
@@ -128,8 +127,7 @@ TEST(GltfTextures, ACapOnAllPixelsIsHandedToWhoDecodes) {
   };
   const auto content = ReadGltf(Textured(kWithin, kPng), "test.glb", {}, decode);
   EXPECT_EQ(told, 64'000'000u);
-  ASSERT_FALSE(content);
-  EXPECT_THAT(ToString(content.error()), HasSubstr("found 72000000 pixels; allowed in all textures: 64 million"));
+  EXPECT_THAT(testing::Refusal(content), HasSubstr("found 72000000 pixels; allowed in all textures: 64 million"));
 }
 
 }  // namespace

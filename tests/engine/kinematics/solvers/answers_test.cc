@@ -58,11 +58,7 @@ Runs FirstSteps(const IkSolver& solver) {
       const bool by_default = rule == WeightRule::kAdaptive && refresh == WeightRefresh::kSweep;
       if (!by_default && !solver.uses_weights) continue;
       for (int trial = 0; trial < (solver.uses_weights ? 1 : 4); ++trial) {
-        IkOptions options;
-        options.weights = rule;
-        options.refresh = refresh;
-        options.max_iterations = 3;
-        options.trace = true;
+        IkOptions options{.weights = rule, .refresh = refresh, .max_iterations = 3, .trace = true};
         runs.Add(solver.solve(Body(), UnevenBodyProblem(trial), options));
       }
     }
@@ -114,9 +110,7 @@ TEST(GaussNewtonBatch, ComesToWhatItCameTo) {
     for (const GaussNewtonOptions& own :
          {GaussNewtonOptions{}, {.first_sweeps = 2, .extra_passes = 1, .restarts = 2}}) {
       for (const int iterations : {3, 12}) {
-        IkOptions options;
-        options.max_iterations = iterations;
-        options.position_goal = 5e-4;
+        IkOptions options{.max_iterations = iterations, .position_goal = 5e-4};
         if (own.restarts == 2) options.angle_change_tolerance = 0.4;
         Runs runs;
         for (const IkSolution& solution : SolveGaussNewtonBatch(Body(), problems, options, precision, own)) {

@@ -9,6 +9,40 @@
 
 namespace etude {
 
+/// Goals of 10⁻³ cm and 10⁻³°.
+inline IkOptions Tightly(int max_iterations = 1000) {
+  IkOptions options{.position_goal = 1e-5, .axis_goal = Radians(1e-3)};
+  options.max_iterations = max_iterations;
+  return options;
+}
+
+/// What became of many trials.
+struct SolvedMany {
+  int solved = 0, outside = 0;
+  double hidden = 0;  ///< root of the mean squared angle to the truth, in units of the noise
+  double iterations = 0;
+};
+
+template <typename Solve>
+SolvedMany SolveMany(int trials, double pose_range, double noise_deg, const Solve& solve) {
+  SolvedMany tally;
+  double squares = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    const TreeState truth = RandomPose(Body(), trial, pose_range);
+    const IkSolution solution = solve(DisturbedProblem(Body(), truth, trial, noise_deg));
+    tally.solved += solution.status == IkStatus::kConverged;
+    tally.iterations += solution.iterations;
+    for (std::size_t d = 0; d < truth.angles.size(); ++d) {
+      const double angle = solution.angles[d], off = angle - truth.angles[d];
+      squares += off * off;
+      tally.outside += !(angle >= Body().limits[d].lower && angle <= Body().limits[d].upper);
+    }
+  }
+  tally.hidden = std::sqrt(squares / (trials * Body().dof_count())) / Radians(noise_deg);
+  tally.iterations /= trials;
+  return tally;
+}
+
 /// A solver under test; the last argument is the number of the trial.
 using SolverOnTrial =
     std::function<IkSolution(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options, int trial)>;

@@ -12,8 +12,7 @@ namespace etude {
 /// A chain of limbs along Z, its first joint 1 m from the root. With one degree of freedom a joint it lies in the plane
 /// of Y and Z, where positive angles turn Z towards −Y.
 inline KinematicTree Arm(const std::vector<double>& lengths, int dofs) {
-  KinematicTree arm;
-  arm.joints = {{.name = "root"}};
+  KinematicTree arm{.joints = {{.name = "root"}}};
   double above = 1;
   for (const double length : lengths) {
     arm.joints.push_back({.name = "joint",
@@ -48,8 +47,7 @@ inline double ElbowAngle(double upper, double lower, double distance) {
 
 /// Goals far below what any solver needs, so that angles can be compared.
 inline IkOptions Exactly() {
-  IkOptions options;
-  options.position_goal = 1e-10;
+  IkOptions options{.position_goal = 1e-10};
   options.max_iterations = 5000;
   return options;
 }

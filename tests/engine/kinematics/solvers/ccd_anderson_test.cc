@@ -19,9 +19,7 @@ IkProblem Problem(int trial, double noise_deg = 15) {
 }
 
 IkOptions Options(WeightRule rule) {
-  IkOptions options;
-  options.weights = rule;
-  options.max_iterations = 3000;
+  IkOptions options{.weights = rule, .max_iterations = 3000};
   return options;
 }
 

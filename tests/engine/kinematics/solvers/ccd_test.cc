@@ -34,19 +34,16 @@ double Penalty(const KinematicTree& tree, const IkProblem& problem, std::span<co
 
 // The largest rise of the penalty from one sweep to the next, relative to where it stood.
 double LargestRise(CcdJoint joint_kind, bool limits) {
-  const KinematicTree tree = MakeBodyTree({});
   double largest = -1;
   for (int trial = 0; trial < 10; ++trial) {
-    const IkProblem problem = DisturbedProblem(tree, RandomPose(tree, trial, 1.0), trial, 30);
+    const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 1.0), trial, 30);
     for (WeightRule rule : {WeightRule::kFixed, WeightRule::kFixedTuned}) {
-      IkOptions options;
-      options.weights = rule;
-      options.limits = limits;
-      CcdSweep ccd(tree, problem, options, joint_kind);
-      double before = Penalty(tree, problem, ccd.angles(), rule);
+      IkOptions options{.weights = rule, .limits = limits};
+      CcdSweep ccd(Body(), problem, options, joint_kind);
+      double before = Penalty(Body(), problem, ccd.angles(), rule);
       for (int sweep = 0; sweep < 40; ++sweep) {
         ccd.Sweep();
-        const double after = Penalty(tree, problem, ccd.angles(), rule);
+        const double after = Penalty(Body(), problem, ccd.angles(), rule);
         largest = std::max(largest, (after - before) / before);
         before = after;
       }
@@ -100,9 +97,7 @@ TEST(Ccd, EveryWeightPullsAHingeAsItsFormulaSays) {
       const double pull = share * row.position * (100 * kLever) * (100 * kDistance), turn = 2 * (2 - share) * row.axis;
       const double expected = std::atan2(pull * std::sin(kAlpha) + turn * std::sin(kBeta),
                                          pull * std::cos(kAlpha) + turn * std::cos(kBeta));
-      IkOptions options;
-      options.weights = row.rule;
-      options.max_iterations = 1;
+      IkOptions options{.weights = row.rule, .max_iterations = 1};
       for (const auto& solve : {SolveCcd, SolveCcdHinges}) {
         EXPECT_NEAR(solve(arm, problem, options).angles[0], expected, 1e-9)
             << WeightRuleNames()[static_cast<int>(row.rule)] << " " << share;
@@ -112,16 +107,14 @@ TEST(Ccd, EveryWeightPullsAHingeAsItsFormulaSays) {
 }
 
 TEST(Ccd, TheMeritOfASweepIsThePenaltyByItsWeights) {
-  const KinematicTree tree = MakeBodyTree({});
-  const IkProblem problem = DisturbedProblem(tree, RandomPose(tree, 2, 0.8), 2, 30);
-  IkOptions options;
-  options.weights = WeightRule::kFixedTuned;
-  CcdSweep ccd(tree, problem, options, CcdJoint::kHinges);
-  MomentSweep moments(tree, problem, options);
+  const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), 2, 0.8), 2, 30);
+  IkOptions options{.weights = WeightRule::kFixedTuned};
+  CcdSweep ccd(Body(), problem, options, CcdJoint::kHinges);
+  MomentSweep moments(Body(), problem, options);
   for (int sweep = 0; sweep < 3; ++sweep) {
     ccd.Sweep();
     moments.Sweep();
-    const double penalty = Penalty(tree, problem, ccd.angles(), options.weights);
+    const double penalty = Penalty(Body(), problem, ccd.angles(), options.weights);
     EXPECT_NEAR(ccd.Merit(), penalty, 1e-9 * penalty);
     EXPECT_NEAR(moments.Merit(), penalty, 1e-9 * penalty);
   }
@@ -141,22 +134,20 @@ TEST(Ccd, AWholeJointPushedBeyondHalfATurnStaysAtItsNearerLimit) {
 }
 
 TEST(Ccd, RefreshingFixedWeightsChangesNoBit) {
-  const KinematicTree tree = MakeBodyTree({});
-  const IkProblem problem = DisturbedProblem(tree, RandomPose(tree, 4, 0.5), 4, 15);
+  const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), 4, 0.5), 4, 15);
   for (const auto& solve : {SolveCcd, SolveCcdHinges}) {
-    IkOptions options;
-    options.max_iterations = 20;
+    IkOptions options{.max_iterations = 20};
     options.weights = WeightRule::kFixedTuned;
-    const IkSolution per_sweep = solve(tree, problem, options);
+    const IkSolution per_sweep = solve(Body(), problem, options);
     options.refresh = WeightRefresh::kDof;
-    EXPECT_EQ(solve(tree, problem, options).angles, per_sweep.angles);
+    EXPECT_EQ(solve(Body(), problem, options).angles, per_sweep.angles);
 
     options.weights = WeightRule::kAdaptive;
-    const IkSolution adaptive_per_dof = solve(tree, problem, options);
+    const IkSolution adaptive_per_dof = solve(Body(), problem, options);
     options.refresh = WeightRefresh::kJoint;
-    const IkSolution adaptive_per_joint = solve(tree, problem, options);
+    const IkSolution adaptive_per_joint = solve(Body(), problem, options);
     options.refresh = WeightRefresh::kSweep;
-    const IkSolution adaptive_per_sweep = solve(tree, problem, options);
+    const IkSolution adaptive_per_sweep = solve(Body(), problem, options);
     EXPECT_NE(adaptive_per_dof.angles, adaptive_per_joint.angles) << "adaptive weights must feel the difference";
     EXPECT_NE(adaptive_per_joint.angles, adaptive_per_sweep.angles);
   }
@@ -171,9 +162,7 @@ TEST(Ccd, RefreshingPerHingeIsRefreshingPerJointOnAChainOfHinges) {
       IkProblem turned = problem;  // with axes, or weights would scale the gain and move no optimum
       turned.targets[0].axis_weights = glm::dvec3(1);
       turned.targets[0].axes = RotationXyz({0.8, 0, 0}) * arm.standing_root;
-      IkOptions options;
-      options.weights = WeightRule::kAdaptive;
-      options.max_iterations = 4;
+      IkOptions options{.weights = WeightRule::kAdaptive, .max_iterations = 4};
       options.refresh = refresh;
       return solve(arm, turned, options).angles;
     };
@@ -185,8 +174,7 @@ TEST(Ccd, RefreshingPerHingeIsRefreshingPerJointOnAChainOfHinges) {
 TEST(Ccd, TheOrderInWhichEffectorsAreListedDoesNotMatter) {
   KinematicTree tree = MakeBodyTree({});
   IkProblem problem = DisturbedProblem(tree, RandomPose(tree, 5, 0.5), 5, 15);
-  IkOptions options;
-  options.max_iterations = 5;
+  IkOptions options{.max_iterations = 5};
   const IkSolution listed = SolveCcd(tree, problem, options);
   std::swap(tree.effectors[0], tree.effectors[3]);
   std::swap(problem.targets[0], problem.targets[3]);
@@ -196,14 +184,10 @@ TEST(Ccd, TheOrderInWhichEffectorsAreListedDoesNotMatter) {
 
 // Tables 3.3 and 5.1: with untuned fixed weights positions come right and axes stay off; updated weights bring both.
 TEST(Ccd, UpdatedWeightsBringTheAxesHomeThatFixedOnesLeaveOff) {
-  const KinematicTree tree = MakeBodyTree({});
   for (int trial = 0; trial < 4; ++trial) {
-    const IkProblem problem = DisturbedProblem(tree, RandomPose(tree, trial, 0.5), trial, 15);
+    const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 0.5), trial, 15);
     const auto worst = [&](WeightRule rule) {
-      IkOptions options;
-      options.weights = rule;
-      options.max_iterations = 300;
-      return FindWorst(SolveCcd(tree, problem, options).errors, problem.targets);
+      return FindWorst(SolveCcd(Body(), problem, {.weights = rule, .max_iterations = 300}).errors, problem.targets);
     };
     const WorstError fixed = worst(WeightRule::kFixed), adaptive = worst(WeightRule::kAdaptive);
     EXPECT_LT(fixed.position, 0.01) << trial;

@@ -20,10 +20,9 @@ struct Linearised {
 
 // The step and what it is made of, at a random pose of the body.
 Linearised StepAt(int trial, double noise_deg, double damping) {
-  const KinematicTree tree = MakeBodyTree({});
-  const IkProblem problem = DisturbedProblem(tree, RandomPose(tree, trial, 0.8), trial, noise_deg);
-  LinearTargets linear(tree, problem.targets);
-  linear.Build(ComputeFrames(tree, problem.start));
+  const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 0.8), trial, noise_deg);
+  LinearTargets linear(Body(), problem.targets);
+  linear.Build(ComputeFrames(Body(), problem.start));
   Linearised made{Eigen::Map<const Eigen::MatrixXd>(linear.jacobian().data(), linear.rows(), linear.columns()),
                   Eigen::Map<const Eigen::VectorXd>(linear.residuals().data(), linear.rows()),
                   Eigen::VectorXd(linear.columns()),
@@ -97,8 +96,7 @@ struct StepWithinLimits {
 };
 
 StepWithinLimits StepWithinAt(int trial, double damping) {
-  StepWithinLimits made;
-  made.problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 1.0), trial, 15);
+  StepWithinLimits made{.problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 1.0), trial, 15)};
   const std::vector<double>& angles = made.problem.start.angles;
   const std::vector<double> wanted = RandomPose(Body(), trial + 1000, 0.5).angles;
   for (std::size_t i = 0; i < angles.size(); ++i) made.preferred.push_back(0.2 * (wanted[i] - angles[i]));
@@ -189,12 +187,11 @@ TEST(DampedInverse, StepsWithinLimitsAsGaussNewtonStepDoes) {
 }
 
 TEST(DampedInverse, StepsWithinWideLimitsAsWithoutAny) {
-  const KinematicTree tree = MakeBodyTree({});
   const std::vector<AngleRange> wide(29, {-1e6, 1e6});
   for (int trial = 0; trial < 10; ++trial) {
-    const IkProblem problem = DisturbedProblem(tree, RandomPose(tree, trial, 0.8), trial, 15);
-    LinearTargets linear(tree, problem.targets);
-    linear.Build(ComputeFrames(tree, problem.start));
+    const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 0.8), trial, 15);
+    LinearTargets linear(Body(), problem.targets);
+    linear.Build(ComputeFrames(Body(), problem.start));
     DampedInverse inverse;
     inverse.Build(linear);
     const std::vector<double> preferred(29, 0.1);

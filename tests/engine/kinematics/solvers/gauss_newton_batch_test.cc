@@ -11,14 +11,6 @@
 namespace etude {
 namespace {
 
-IkOptions Tightly(int max_iterations = 200) {
-  IkOptions options;
-  options.position_goal = 1e-5;
-  options.axis_goal = Radians(1e-3);
-  options.max_iterations = max_iterations;
-  return options;
-}
-
 // Poses near the limits, whose starts are far off or whose targets cannot be met: some need extra passes, restarts and
 // all that comes after these.
 std::vector<IkProblem> HardProblems(int count) {
@@ -56,12 +48,12 @@ void ExpectAllSameBits(const std::vector<IkSolution>& a, const std::vector<IkSol
 
 TEST(GaussNewtonBatch, InDoubleIsTheSolverOfOneProblemToTheLastBit) {
   const std::vector<IkProblem> problems = HardProblems(61);
-  IkOptions bound = Tightly();
+  IkOptions bound = Tightly(200);
   bound.angle_change_tolerance = 0.5;
-  IkOptions free = Tightly();
+  IkOptions free = Tightly(200);
   free.limits = false;
   int with_restarts = 0, out_of_reach = 0;
-  for (const IkOptions& options : {Tightly(), Tightly(7), bound, free, IkOptions{}}) {
+  for (const IkOptions& options : {Tightly(200), Tightly(7), bound, free, IkOptions{}}) {
     for (const GaussNewtonOptions& own :
          {GaussNewtonOptions{}, GaussNewtonOptions{.first_sweeps = 2}, GaussNewtonOptions{.extra_passes = 0}}) {
       std::vector<IkSolution> expected;
@@ -80,9 +72,9 @@ TEST(GaussNewtonBatch, InDoubleIsTheSolverOfOneProblemToTheLastBit) {
 // Limbs in lanes, the trunk by rows, and one number after the other, by every kind of vectors.
 TEST(GaussNewton, IsTheSolverOneWouldWriteDownToTheLastBit) {
   const std::vector<IkProblem> problems = HardProblems(61);
-  IkOptions bound = Tightly();
+  IkOptions bound = Tightly(200);
   bound.angle_change_tolerance = 0.5;
-  IkOptions free = Tightly();
+  IkOptions free = Tightly(200);
   free.limits = false;
   std::vector<std::string> targets = BatchTargets();
   targets.push_back("");
@@ -91,7 +83,7 @@ TEST(GaussNewton, IsTheSolverOneWouldWriteDownToTheLastBit) {
     SetBatchTarget(target);
     GaussNewtonSolver solver(Body());
     SetBatchTarget("");
-    for (const IkOptions& options : {Tightly(), Tightly(7), bound, free}) {
+    for (const IkOptions& options : {Tightly(200), Tightly(7), bound, free}) {
       for (const GaussNewtonOptions& own :
            {GaussNewtonOptions{}, GaussNewtonOptions{.first_sweeps = 2}, GaussNewtonOptions{.extra_passes = 0}}) {
         for (const IkProblem& problem : problems) {
@@ -142,11 +134,11 @@ TEST(GaussNewtonBatch, GivesTheSameBitsWithEveryKindOfVectors) {
   std::vector<std::vector<double>> seen;
   for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
     SetBatchTarget(targets[0]);
-    const std::vector<IkSolution> widest = SolveGaussNewtonBatch(Body(), problems, Tightly(), precision);
+    const std::vector<IkSolution> widest = SolveGaussNewtonBatch(Body(), problems, Tightly(200), precision);
     for (std::size_t t = 1; t < targets.size(); ++t) {
       SCOPED_TRACE(targets[t]);
       SetBatchTarget(targets[t]);
-      ExpectAllSameBits(SolveGaussNewtonBatch(Body(), problems, Tightly(), precision), widest);
+      ExpectAllSameBits(SolveGaussNewtonBatch(Body(), problems, Tightly(200), precision), widest);
     }
     seen.push_back(widest[1].angles);
   }
@@ -157,29 +149,29 @@ TEST(GaussNewtonBatch, GivesTheSameBitsWithEveryKindOfVectors) {
 TEST(GaussNewtonBatch, NoProblemFeelsItsNeighbours) {
   std::vector<IkProblem> problems = HardProblems(50);
   for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
-    const std::vector<IkSolution> together = SolveGaussNewtonBatch(Body(), problems, Tightly(), precision);
+    const std::vector<IkSolution> together = SolveGaussNewtonBatch(Body(), problems, Tightly(200), precision);
     std::vector<IkProblem> backwards(problems.rbegin(), problems.rend());
-    std::vector<IkSolution> reversed = SolveGaussNewtonBatch(Body(), backwards, Tightly(), precision);
+    std::vector<IkSolution> reversed = SolveGaussNewtonBatch(Body(), backwards, Tightly(200), precision);
     std::ranges::reverse(reversed);
     ExpectAllSameBits(reversed, together);
     for (const int i : {0, 7, 49}) {
-      ExpectSameBits(SolveGaussNewtonBatch(Body(), {&problems[i], 1}, Tightly(), precision)[0], together[i]);
+      ExpectSameBits(SolveGaussNewtonBatch(Body(), {&problems[i], 1}, Tightly(200), precision)[0], together[i]);
     }
   }
-  EXPECT_TRUE(SolveGaussNewtonBatch(Body(), std::span<const IkProblem>(), Tightly(), Precision::kFloat).empty());
+  EXPECT_TRUE(SolveGaussNewtonBatch(Body(), std::span<const IkProblem>(), Tightly(200), Precision::kFloat).empty());
 }
 
 TEST(GaussNewtonBatch, InFloatSolvesWhatDoublesSolve) {
   const std::vector<IkProblem> problems = HardProblems(200);
-  const std::vector<IkSolution> in_double = SolveGaussNewtonBatch(Body(), problems, Tightly(), Precision::kDouble);
-  const std::vector<IkSolution> in_float = SolveGaussNewtonBatch(Body(), problems, Tightly(), Precision::kFloat);
+  const std::vector<IkSolution> in_double = SolveGaussNewtonBatch(Body(), problems, Tightly(200), Precision::kDouble);
+  const std::vector<IkSolution> in_float = SolveGaussNewtonBatch(Body(), problems, Tightly(200), Precision::kFloat);
   int solved = 0;
   for (std::size_t i = 0; i < problems.size(); ++i) {
     SCOPED_TRACE(i);
     if (in_double[i].status == IkStatus::kConverged) {
       EXPECT_EQ(in_float[i].status, IkStatus::kConverged);
     }
-    const bool is_met = FindWorst(in_float[i].errors, problems[i].targets).Within(Tightly());
+    const bool is_met = FindWorst(in_float[i].errors, problems[i].targets).Within(Tightly(200));
     EXPECT_EQ(in_float[i].status == IkStatus::kConverged, is_met);
     for (std::size_t d = 0; d < in_float[i].angles.size(); ++d) {
       EXPECT_GE(in_float[i].angles[d], Body().limits[d].lower);
@@ -197,13 +189,13 @@ TEST(GaussNewtonBatch, GivesAnHonestAnswerToAnyProblem) {
       return SolveGaussNewtonBatch(tree, {&problem, 1}, options, precision)[0];
     };
     ExpectHonestAnswersToAnyProblem(solve);
-    ExpectFiniteAnswersAtAbsurdSizes(solve, Tightly());
+    ExpectFiniteAnswersAtAbsurdSizes(solve, Tightly(200));
   }
 }
 
 TEST(GaussNewtonBatch, ABadProblemIsBadForItselfOnly) {
   std::vector<IkProblem> problems = HardProblems(9);
-  const std::vector<IkSolution> sound = SolveGaussNewtonBatch(Body(), problems, Tightly(), Precision::kDouble);
+  const std::vector<IkSolution> sound = SolveGaussNewtonBatch(Body(), problems, Tightly(200), Precision::kDouble);
   const auto spoil = [&](int kind, IkProblem& problem) {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     if (kind == 0) problem.targets[1].position.x = kNone;
@@ -219,8 +211,8 @@ TEST(GaussNewtonBatch, ABadProblemIsBadForItselfOnly) {
     SCOPED_TRACE(kind);
     std::vector<IkProblem> spoilt = problems;
     spoil(kind, spoilt[4]);
-    EXPECT_FALSE(FindFault(Body(), spoilt[4], Tightly()).empty());
-    const std::vector<IkSolution> batch = SolveGaussNewtonBatch(Body(), spoilt, Tightly(), Precision::kDouble);
+    EXPECT_FALSE(FindFault(Body(), spoilt[4], Tightly(200)).empty());
+    const std::vector<IkSolution> batch = SolveGaussNewtonBatch(Body(), spoilt, Tightly(200), Precision::kDouble);
     for (std::size_t i = 0; i < problems.size(); ++i) {
       if (i != 4) ExpectSameBits(batch[i], sound[i]);
     }

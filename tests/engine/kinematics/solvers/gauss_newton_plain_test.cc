@@ -110,16 +110,15 @@ Step TakeStep(const KinematicTree& tree, const IkProblem& problem, std::span<con
 }
 
 TEST(GaussNewtonStep, MeetsTheConditionsOfAnOptimumOnTheBody) {
-  const KinematicTree tree = MakeBodyTree({});
   constexpr int kTrials = 200;
   // Of these, shares of 0.635, 0.825 and 1 end exactly; of 800 trials 0.61, 0.80 and 1.
   for (const auto& [damping, at_least] : {std::pair(1e-6, 0.61), {1e-3, 0.8}, {0.1, 0.99}}) {
     int exact = 0, held = 0;
     double slope_clipped = 0;
     for (int trial = 0; trial < kTrials; ++trial) {
-      const IkProblem problem = DisturbedProblem(tree, RandomPose(tree, trial, 1.0), trial, 15);
-      const std::vector<double> wanted = RandomPose(tree, trial + 1000, 0.5).angles;
-      const Step step = TakeStep(tree, problem, wanted, damping);
+      const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 1.0), trial, 15);
+      const std::vector<double> wanted = RandomPose(Body(), trial + 1000, 0.5).angles;
+      const Step step = TakeStep(Body(), problem, wanted, damping);
       if (!step.is_exact) continue;
       EXPECT_LT(step.slope, 1e-4 * damping) << "trial " << trial << ", damping " << damping;
       ++exact;
@@ -155,16 +154,15 @@ TEST(GaussNewtonStep, MeetsTheConditionsOfAnOptimumOnAnyTree) {
 }
 
 TEST(GaussNewtonStep, MovesToTheWantedPoseWhereNoTargetHasAnyWeight) {
-  const KinematicTree tree = MakeBodyTree({});
-  IkProblem problem = DisturbedProblem(tree, RandomPose(tree, 1, 1.0), 1, 15);
+  IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), 1, 1.0), 1, 15);
   for (EffectorTarget& target : problem.targets) {
     target.position_weight = 0;
     target.axis_weights = glm::dvec3(0);
   }
-  const std::vector<double> wanted = RandomPose(tree, 2, 1.0).angles;
-  GaussNewtonStep step(tree, problem.targets);
-  EXPECT_EQ(step.Build(ComputeFrames(tree, problem.start)), 0);
-  const std::span<const double> change = step.Solve(problem.start.angles, wanted, tree.limits, 1e-7);
+  const std::vector<double> wanted = RandomPose(Body(), 2, 1.0).angles;
+  GaussNewtonStep step(Body(), problem.targets);
+  EXPECT_EQ(step.Build(ComputeFrames(Body(), problem.start)), 0);
+  const std::span<const double> change = step.Solve(problem.start.angles, wanted, Body().limits, 1e-7);
   for (std::size_t d = 0; d < wanted.size(); ++d) EXPECT_NEAR(problem.start.angles[d] + change[d], wanted[d], 1e-12);
 }
 

@@ -12,48 +12,18 @@
 namespace etude {
 namespace {
 
-// 10⁻³ cm and 10⁻³°.
-IkOptions Tight() {
-  IkOptions options;
-  options.position_goal = 1e-5;
-  options.axis_goal = Radians(1e-3);
-  options.max_iterations = 1000;
-  return options;
-}
-
-// What became of many trials.
-struct Tally {
-  int solved = 0, outside = 0;
-  double hidden = 0;  // root of the mean squared angle to the truth, in units of the noise
-  double iterations = 0;
-};
-
-Tally Solve(int trials, double pose_range, double noise_deg, bool is_cold = false) {
-  Tally tally;
-  double squares = 0;
-  for (int trial = 0; trial < trials; ++trial) {
-    const TreeState truth = RandomPose(Body(), trial, pose_range);
-    IkProblem problem = DisturbedProblem(Body(), truth, trial, noise_deg);
-    for (std::size_t d = 0; is_cold && d < truth.angles.size(); ++d) {
+SolvedMany Solve(int trials, double pose_range, double noise_deg, bool is_cold = false) {
+  return SolveMany(trials, pose_range, noise_deg, [&](IkProblem problem) {
+    for (std::size_t d = 0; is_cold && d < problem.start.angles.size(); ++d) {
       problem.start.angles[d] = 0.5 * (Body().limits[d].lower + Body().limits[d].upper);
     }
-    const IkSolution solution = SolveGaussNewton(Body(), problem, Tight());
-    tally.solved += solution.status == IkStatus::kConverged;
-    tally.iterations += solution.iterations;
-    for (std::size_t d = 0; d < truth.angles.size(); ++d) {
-      const double angle = solution.angles[d], off = angle - truth.angles[d];
-      squares += off * off;
-      tally.outside += !(angle >= Body().limits[d].lower && angle <= Body().limits[d].upper);
-    }
-  }
-  tally.hidden = std::sqrt(squares / (trials * Body().dof_count())) / Radians(noise_deg);
-  tally.iterations /= trials;
-  return tally;
+    return SolveGaussNewton(Body(), problem, Tightly());
+  });
 }
 
 TEST(GaussNewton, SolvesFindsHiddenAnglesAndKeepsLimits) {
   for (const double pose_range : {0.5, 1.0}) {
-    const Tally tally = Solve(400, pose_range, 15);
+    const SolvedMany tally = Solve(400, pose_range, 15);
     EXPECT_GE(tally.solved, 399) << pose_range;
     EXPECT_EQ(tally.outside, 0) << pose_range;
     EXPECT_LE(tally.hidden, 0.45) << pose_range;
@@ -62,16 +32,16 @@ TEST(GaussNewton, SolvesFindsHiddenAnglesAndKeepsLimits) {
 }
 
 TEST(GaussNewton, NeedsFewStepsFromAWarmStart) {
-  const Tally tally = Solve(100, 1.0, 2);
+  const SolvedMany tally = Solve(100, 1.0, 2);
   EXPECT_EQ(tally.solved, 100);
   EXPECT_LE(tally.iterations, 3.5);
 }
 
 TEST(GaussNewton, SolvesHardProblems) {
-  const Tally noisy = Solve(200, 1.0, 30);
+  const SolvedMany noisy = Solve(200, 1.0, 30);
   EXPECT_GE(noisy.solved, 198);
   EXPECT_EQ(noisy.outside, 0);
-  const Tally cold = Solve(200, 1.0, 30, true);
+  const SolvedMany cold = Solve(200, 1.0, 30, true);
   EXPECT_GE(cold.solved, 194);
   EXPECT_EQ(cold.outside, 0);
 }
@@ -97,8 +67,8 @@ TEST(GaussNewton, FindsTheNearestSolutionToTheStart) {
   int nearest = 0, nearest_of_other = 0;
   for (int trial = 0; trial < 50; ++trial) {
     const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 0.5), trial, 15);
-    nearest += LeftToGain(problem, SolveGaussNewton(Body(), problem, Tight())) < Radians(1);
-    nearest_of_other += LeftToGain(problem, SolveDampedLeastSquares(Body(), problem, Tight())) < Radians(1);
+    nearest += LeftToGain(problem, SolveGaussNewton(Body(), problem, Tightly())) < Radians(1);
+    nearest_of_other += LeftToGain(problem, SolveDampedLeastSquares(Body(), problem, Tightly())) < Radians(1);
   }
   EXPECT_GE(nearest, 48);
   EXPECT_LE(nearest_of_other, 25) << "a solver that does not look for it must show";
@@ -121,7 +91,7 @@ TEST(GaussNewton, ExtraPassesOfItsActiveSetBringItNearerToTheStartInFewerSteps) 
     int iterations = 0;
     for (int trial = 0; trial < 200; ++trial) {
       const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 1.0), trial, 15);
-      iterations += SolveGaussNewton(Body(), problem, Tight(), own).iterations;
+      iterations += SolveGaussNewton(Body(), problem, Tightly(), own).iterations;
     }
     return iterations;
   };
@@ -137,7 +107,8 @@ TEST(GaussNewton, DoesNotCareForTheOrderOfEffectors) {
     IkProblem other = problem;
     std::rotate(other.targets.begin(), other.targets.begin() + 1, other.targets.end());
     std::swap(other.targets[0], other.targets[1]);
-    const IkSolution a = SolveGaussNewton(Body(), problem, Tight()), b = SolveGaussNewton(reordered, other, Tight());
+    const IkSolution a = SolveGaussNewton(Body(), problem, Tightly()),
+                     b = SolveGaussNewton(reordered, other, Tightly());
     EXPECT_EQ(a.iterations, b.iterations);
     for (std::size_t d = 0; d < a.angles.size(); ++d) EXPECT_NEAR(a.angles[d], b.angles[d], 1e-7) << trial;
   }
@@ -154,7 +125,7 @@ TEST(GaussNewton, StretchesALimbTowardsATargetOutOfReach) {
   }
   arm.effectors.push_back({"tip", 3, {0, 0, 0.5}});
   IkProblem problem{StandingState(arm), {{.position = {2, 1, 3}, .axis_weights = glm::dvec3(0)}}, arm.limits};
-  const IkSolution solution = SolveGaussNewton(arm, problem, Tight());
+  const IkSolution solution = SolveGaussNewton(arm, problem, Tightly());
   EXPECT_EQ(solution.status, IkStatus::kUnreachable);
   // The first limb has no joint below it and stands; the others are three, half a metre each.
   const double nearest = glm::length(glm::dvec3(2, 1, 3) - glm::dvec3(0, 0, 0.5)) - 1.5;
@@ -173,7 +144,7 @@ TEST(GaussNewton, GoesAsNearAsItCanToTargetsThatContradictEachOther) {
   for (int trial = 0; trial < 100; ++trial) {
     IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 1.0), trial, 15);
     for (EffectorTarget& target : problem.targets) target.position *= 1.05;
-    const IkSolution solution = SolveGaussNewton(Body(), problem, Tight());
+    const IkSolution solution = SolveGaussNewton(Body(), problem, Tightly());
     if (solution.status == IkStatus::kConverged) continue;
     ++unsolved;
     EXPECT_NE(solution.status, IkStatus::kIterationLimit) << trial;
@@ -185,7 +156,7 @@ TEST(GaussNewton, GoesAsNearAsItCanToTargetsThatContradictEachOther) {
     from_there.start.angles = solution.angles;
     const double found = SquaresAt(problem, solution.angles);
     EXPECT_LT(found, SquaresAt(problem, problem.start.angles));
-    EXPECT_GT(SquaresAt(problem, SolveDampedLeastSquares(Body(), from_there, Tight()).angles), 0.95 * found) << trial;
+    EXPECT_GT(SquaresAt(problem, SolveDampedLeastSquares(Body(), from_there, Tightly()).angles), 0.95 * found) << trial;
   }
   EXPECT_GE(unsolved, 10) << "else nothing was checked";
 }
@@ -194,8 +165,6 @@ TEST(GaussNewton, GoesAsNearAsItCanToTargetsThatContradictEachOther) {
 // answer to the one before.
 double ShareFollowed(int max_iterations) {
   constexpr int kMotions = 120, kFrames = 60;
-  IkOptions options;
-  options.max_iterations = max_iterations;
   int solved = 0;
   for (int motion = 0; motion < kMotions; ++motion) {
     const TreeState middle = RandomPose(Body(), motion, 0.7);
@@ -208,7 +177,7 @@ double ShareFollowed(int max_iterations) {
       }
       problem.targets = DisturbedProblem(Body(), truth, 0, 0).targets;
       const double before = SquaresAt(problem, problem.start.angles);
-      const IkSolution solution = SolveGaussNewton(Body(), problem, options);
+      const IkSolution solution = SolveGaussNewton(Body(), problem, {.max_iterations = max_iterations});
       EXPECT_LE(solution.iterations, max_iterations);
       if (solution.status == IkStatus::kConverged) {
         ++solved;
@@ -259,7 +228,7 @@ TEST(GaussNewton, StaysFiniteWithWeightsAndLimbsOfAbsurdSizes) {
   const auto solve = [](const auto& tree, const auto& problem, const auto& options, int) {
     return SolveGaussNewton(tree, problem, options);
   };
-  ExpectFiniteAnswersAtAbsurdSizes(solve, Tight());
+  ExpectFiniteAnswersAtAbsurdSizes(solve, Tightly());
 }
 
 }  // namespace

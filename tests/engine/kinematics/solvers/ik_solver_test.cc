@@ -9,6 +9,7 @@
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/ccd.h"
 #include "tests/engine/kinematics/posed_tree.h"
+#include "tests/engine/kinematics/solvers/arms.h"
 
 namespace etude {
 namespace {
@@ -19,9 +20,7 @@ IkProblem NearProblem(int trial) { return DisturbedProblem(Body(), RandomPose(Bo
 IkProblem FarProblem(int trial) { return DisturbedProblem(Body(), RandomPose(Body(), trial, 1.0), trial, 30); }
 
 IkOptions PatientOptions() {
-  IkOptions options;
-  options.weights = WeightRule::kAdaptivePower;
-  options.max_iterations = 2000;
+  IkOptions options{.weights = WeightRule::kAdaptivePower, .max_iterations = 2000};
   return options;
 }
 
@@ -70,9 +69,7 @@ TEST_P(EverySolver, HasNothingToDoAtTheTarget) {
 
 TEST_P(EverySolver, AnswersManyAsItAnswersEach) {
   for (const bool traces : {false, true}) {
-    IkOptions options;
-    options.max_iterations = 30;
-    options.trace = traces;
+    IkOptions options{.max_iterations = 30, .trace = traces};
     std::vector<IkProblem> problems;
     for (int trial = 0; trial < 5; ++trial) problems.push_back(FarProblem(trial));
     const std::vector<IkSolution> all = SolveAll(*FindIkSolver(GetParam()), Body(), problems, options);
@@ -94,9 +91,7 @@ TEST_P(EverySolver, AnswersPreparedAsItAnswersEach) {
   bad.start.angles[0] = std::numeric_limits<double>::quiet_NaN();
   for (int round = 0; round < 2; ++round) {
     for (int trial = 0; trial < 6; ++trial) {
-      IkOptions options;
-      options.max_iterations = 30;
-      options.trace = trial == 2;
+      IkOptions options{.max_iterations = 30, .trace = trial == 2};
       options.limits = trial != 3;
       if (trial == 4) options.angle_change_tolerance = 0.1;
       const IkProblem problem = trial == 1 ? bad : FarProblem(trial);
@@ -114,9 +109,7 @@ TEST_P(EverySolver, AnswersPreparedAsItAnswersEach) {
 }
 
 TEST_P(EverySolver, NeverLeavesTheLimits) {
-  IkOptions options;
-  options.max_iterations = 60;
-  options.trace = true;
+  IkOptions options{.max_iterations = 60, .trace = true};
   int checked = 0;
   for (int trial = 0; trial < 8; ++trial) {
     for (const IkTraceEntry& entry : Solve(FarProblem(trial), options).trace) {
@@ -130,12 +123,9 @@ TEST_P(EverySolver, NeverLeavesTheLimits) {
 }
 
 TEST_P(EverySolver, CrossesTheLimitsWhenTheyAreOff) {
-  IkOptions options;
-  options.limits = false;
-  options.max_iterations = 60;
   int outside = 0;
   for (int trial = 0; trial < 8; ++trial) {
-    const IkSolution solution = Solve(FarProblem(trial), options);
+    const IkSolution solution = Solve(FarProblem(trial), {.limits = false, .max_iterations = 60});
     for (std::size_t i = 0; i < solution.angles.size(); ++i) {
       outside += solution.angles[i] < Body().limits[i].lower || solution.angles[i] > Body().limits[i].upper;
     }
@@ -144,9 +134,7 @@ TEST_P(EverySolver, CrossesTheLimitsWhenTheyAreOff) {
 }
 
 TEST_P(EverySolver, KeepsEveryAngleInTheToleranceAroundItsStart) {
-  IkOptions options;
-  options.angle_change_tolerance = Radians(4);
-  options.max_iterations = 60;
+  IkOptions options{.angle_change_tolerance = Radians(4), .max_iterations = 60};
   for (int trial = 0; trial < 8; ++trial) {
     const IkProblem problem = FarProblem(trial);
     const IkSolution solution = Solve(problem, options);
@@ -211,9 +199,7 @@ TEST_P(EverySolver, StallsAtATargetOutOfReach) {
   IkProblem problem = NearProblem(0);
   for (EffectorTarget& target : problem.targets) target.axis_weights = glm::dvec3(0);
   problem.targets[3].position += glm::dvec3(0, 5, 0);
-  IkOptions options;
-  options.weights = WeightRule::kFixed;
-  options.max_iterations = 20000;
+  IkOptions options{.weights = WeightRule::kFixed, .max_iterations = 20000};
   const IkSolution solution = Solve(problem, options);
   EXPECT_EQ(solution.status, IkStatus::kUnreachable);
   for (double angle : solution.angles) EXPECT_TRUE(std::isfinite(angle));
@@ -261,8 +247,7 @@ TEST_P(EverySolver, AnswersBadInputWithAStatusAndFiniteAngles) {
 }
 
 TEST_P(EverySolver, EndsOnATreeThatCannotMove) {
-  KinematicTree rod;
-  rod.joints = {{.name = "root"}, {.name = "fixed", .parent = 0, .p_PJ = {0, 0, 1}}};
+  KinematicTree rod{.joints = {{.name = "root"}, {.name = "fixed", .parent = 0, .p_PJ = {0, 0, 1}}}};
   rod.effectors = {{"tip", 1, {0, 0, 0.5}}};
   IkProblem problem = DisturbedProblem(rod, StandingState(rod), 0, 0);
   if (!FindIkSolver(GetParam())->uses_axes) problem.targets[0].axis_weights = glm::dvec3(0);
@@ -279,6 +264,17 @@ INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver, ::testing::ValuesIn(IkSolverNames
   std::erase(name, '-');
   return name;
 });
+
+TEST(Solvers, FindTheAnglesOfTwoHingesByTheLawOfCosines) {
+  const KinematicTree arm = Arm({0.5, 0.4}, 1);
+  const glm::dvec3 place = TwoHingeTip(0.5, 0.4, 0.7, 1.2);
+  for (const char* name : {"damped-least-squares", "fabrik", "jacobian-transpose", "levenberg-marquardt"}) {
+    const IkSolution solution = FindIkSolver(name)->solve(arm, Reach(arm, {0.4, 1.5}, place), Exactly());
+    EXPECT_EQ(solution.status, IkStatus::kConverged) << name;
+    EXPECT_NEAR(solution.angles[0], 0.7, 1e-8) << name;
+    EXPECT_NEAR(solution.angles[1], ElbowAngle(0.5, 0.4, glm::distance(place, {0, 0, 1})), 1e-8) << name;
+  }
+}
 
 TEST(Solvers, AreFoundByName) {
   EXPECT_THAT(IkSolverNames(), ::testing::IsSupersetOf({"ccd", "ccd-hinges", "gauss-newton", "levenberg-marquardt",

@@ -13,28 +13,10 @@
 namespace etude {
 namespace {
 
-// 10⁻³ cm and 10⁻³°.
-IkOptions TightGoals() {
-  IkOptions options;
-  options.position_goal = 1e-5;
-  options.axis_goal = Radians(1e-3);
-  options.max_iterations = 1000;
-  return options;
-}
-
 double CostAt(const IkProblem& problem, const std::vector<double>& angles) {
   TreeState state = problem.start;
   state.angles = angles;
   return LinearTargets(Body(), problem.targets).Cost(ComputeFrames(Body(), state));
-}
-
-TEST(LevenbergMarquardt, FindsTheAnglesOfTwoHingesByTheLawOfCosines) {
-  const KinematicTree arm = Arm({0.5, 0.4}, 1);
-  const glm::dvec3 place = TwoHingeTip(0.5, 0.4, 0.7, 1.2);
-  const IkSolution solution = SolveLevenbergMarquardt(arm, Reach(arm, {0.4, 1.5}, place), Exactly());
-  EXPECT_EQ(solution.status, IkStatus::kConverged);
-  EXPECT_NEAR(solution.angles[0], 0.7, 1e-8);
-  EXPECT_NEAR(solution.angles[1], ElbowAngle(0.5, 0.4, glm::distance(place, {0, 0, 1})), 1e-8);
 }
 
 // An elbow that may bend by 0.9 rad at most: the nearest the tip comes to its target is found by one angle alone.
@@ -56,10 +38,8 @@ TEST(LevenbergMarquardt, FollowsTheRatioOfGainToPromise) {
   const KinematicTree arm = Arm({0.5}, 1);
   const double a = (0.5 / kPositionScale) * (0.5 / kPositionScale), target = 0.9;
   const auto angle_after = [&](int steps, double share) {
-    IkOptions options;
-    options.max_iterations = steps;
     const IkProblem problem = Reach(arm, {0}, {0, -0.5 * std::sin(target), 1 + 0.5 * std::cos(target)});
-    return SolveLevenbergMarquardt(arm, problem, options, {.damping_share = share}).angles[0];
+    return SolveLevenbergMarquardt(arm, problem, {.max_iterations = steps}, {.damping_share = share}).angles[0];
   };
   const auto cost = [&](double off) { return a * std::pow(2 * std::sin(off / 2), 2); };
   for (const double share : {0.5, 2.0}) {
@@ -82,7 +62,7 @@ std::pair<int, int> CountRises(const Solve& solve) {
   int steps = 0, rises = 0;
   for (int trial = 0; trial < 100; ++trial) {
     const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 1.0), trial, 30);
-    IkOptions options = TightGoals();
+    IkOptions options = Tightly();
     options.max_iterations = 40;
     options.trace = true;
     const IkSolution solution = solve(problem, options);
@@ -105,40 +85,14 @@ TEST(LevenbergMarquardt, NeverRaisesTheSumOfSquares) {
   EXPECT_GT(other_rises, others / 20) << "a method that does raise it must show";
 }
 
-struct SolvedMany {
-  int solved = 0, outside = 0;
-  double hidden = 0;  // root of the mean squared angle to the truth, in units of the noise
-  double iterations = 0;
-};
-
-template <typename Solve>
-SolvedMany SolveMany(int trials, double pose_range, double noise_deg, const Solve& solve) {
-  SolvedMany tally;
-  double squares = 0;
-  for (int trial = 0; trial < trials; ++trial) {
-    const TreeState truth = RandomPose(Body(), trial, pose_range);
-    const IkSolution solution = solve(DisturbedProblem(Body(), truth, trial, noise_deg));
-    tally.solved += solution.status == IkStatus::kConverged;
-    tally.iterations += solution.iterations;
-    for (std::size_t d = 0; d < truth.angles.size(); ++d) {
-      const double angle = solution.angles[d], off = angle - truth.angles[d];
-      squares += off * off;
-      tally.outside += !(angle >= Body().limits[d].lower && angle <= Body().limits[d].upper);
-    }
-  }
-  tally.hidden = std::sqrt(squares / (trials * Body().dof_count())) / Radians(noise_deg);
-  tally.iterations /= trials;
-  return tally;
-}
-
-SolvedMany SolveMany(int trials, double pose_range, double noise_deg) {
+SolvedMany SolveByMarquardt(int trials, double pose_range, double noise_deg) {
   return SolveMany(trials, pose_range, noise_deg,
-                   [](const IkProblem& problem) { return SolveLevenbergMarquardt(Body(), problem, TightGoals()); });
+                   [](const IkProblem& problem) { return SolveLevenbergMarquardt(Body(), problem, Tightly()); });
 }
 
 TEST(LevenbergMarquardt, SolvesKeepsLimitsAndStaysNearTheStart) {
   for (const double pose_range : {0.5, 1.0}) {
-    const SolvedMany tally = SolveMany(400, pose_range, 15);
+    const SolvedMany tally = SolveByMarquardt(400, pose_range, 15);
     EXPECT_EQ(tally.solved, 400) << pose_range;
     EXPECT_EQ(tally.outside, 0) << pose_range;
     EXPECT_LE(tally.hidden, 0.45) << pose_range;
@@ -148,7 +102,7 @@ TEST(LevenbergMarquardt, SolvesKeepsLimitsAndStaysNearTheStart) {
 
 TEST(LevenbergMarquardt, SolvesFromFarAway) {
   for (const double pose_range : {0.5, 1.0}) {
-    const SolvedMany tally = SolveMany(200, pose_range, 45);
+    const SolvedMany tally = SolveByMarquardt(200, pose_range, 45);
     EXPECT_GE(tally.solved, 199) << pose_range;
     EXPECT_EQ(tally.outside, 0) << pose_range;
     EXPECT_LE(tally.iterations, 16) << pose_range;
@@ -157,7 +111,7 @@ TEST(LevenbergMarquardt, SolvesFromFarAway) {
 
 // Without the active set, and all else of damped least squares the same, limits bring steps to a crawl.
 TEST(LevenbergMarquardt, SolvesWhereClampingCrawlsAlongTheLimits) {
-  IkOptions options = TightGoals();
+  IkOptions options = Tightly();
   options.max_iterations = 25;
   const auto solved_by = [&](Bounds bounds) {
     return SolveMany(200, 1.0, 15,
@@ -183,8 +137,7 @@ TEST(LevenbergMarquardt, FindsTheMinimumThatOthersFindWhereTargetsContradictEach
     for (EffectorTarget& target : problem.targets) target.axis_weights = {1, 2, 3};
     problem.targets[0].position.y -= 0.10;
     problem.targets[3].position.y += 0.30;
-    IkOptions options;
-    options.max_iterations = 3000;
+    IkOptions options{.max_iterations = 3000};
     const IkSolution solution = SolveLevenbergMarquardt(Body(), problem, options);
     const double found = CostAt(problem, solution.angles);
     const double by_gauss_newton = CostAt(problem, SolveGaussNewton(Body(), problem, options).angles);
@@ -212,7 +165,7 @@ TEST(LevenbergMarquardt, StaysFiniteWithWeightsAndLimbsOfAbsurdSizes) {
   const auto solve = [](const auto& tree, const auto& problem, const auto& options, int) {
     return SolveLevenbergMarquardt(tree, problem, options);
   };
-  ExpectFiniteAnswersAtAbsurdSizes(solve, TightGoals());
+  ExpectFiniteAnswersAtAbsurdSizes(solve, Tightly());
 }
 
 // A hinge a little off the direction of a target far beyond its reach: undamped steps overshoot. In closed form, with

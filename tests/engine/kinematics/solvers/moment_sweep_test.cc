@@ -17,9 +17,7 @@ double LargestDifference(const KinematicTree& tree, WeightRule rule, bool limits
   double largest = 0;
   for (int trial = 0; trial < 20; ++trial) {
     const IkProblem problem = DisturbedProblem(tree, RandomPose(tree, trial, 1.0), trial, 30);
-    IkOptions options;
-    options.weights = rule;
-    options.limits = limits;
+    IkOptions options{.weights = rule, .limits = limits};
     CcdSweep reference(tree, problem, options, CcdJoint::kHinges);
     MomentSweep moments(tree, problem, options);
     for (int sweep = 0; sweep < sweeps; ++sweep) {
@@ -54,14 +52,13 @@ TEST(MomentSweep, KnowsTreesWhoseLimbsRestAskewAndCarryEffectorsAnywhere) {
 }
 
 TEST(MomentSweep, TellsErrorsLikeForwardKinematics) {
-  const KinematicTree tree = MakeBodyTree({});
-  IkProblem problem = DisturbedProblem(tree, RandomPose(tree, 5, 0.7), 5, 60);
+  IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), 5, 0.7), 5, 60);
   problem.targets[1].axis_weights = {1, 0, 0.5};
   const IkOptions options;
-  const MomentSweep moments(tree, problem, options);
-  const TreeFrames frames = ComputeFrames(tree, problem.start);
+  const MomentSweep moments(Body(), problem, options);
+  const TreeFrames frames = ComputeFrames(Body(), problem.start);
   double largest_angle = 0;
-  for (std::size_t e = 0; e < tree.effectors.size(); ++e) {
+  for (std::size_t e = 0; e < Body().effectors.size(); ++e) {
     const EffectorError exact = ErrorOf(frames.effectors[e], problem.targets[e]);
     EXPECT_NEAR(moments.errors()[e].position, exact.position, 1e-12);
     for (int k = 0; k < 3; ++k) {
@@ -73,28 +70,25 @@ TEST(MomentSweep, TellsErrorsLikeForwardKinematics) {
 }
 
 TEST(MomentSweep, DoesNotMissGoalsThatItHasMet) {
-  const KinematicTree tree = MakeBodyTree({});
-  IkProblem problem = DisturbedProblem(tree, RandomPose(tree, 6, 0.7), 6, 0);
+  IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), 6, 0.7), 6, 0);
   const IkOptions options;
-  EXPECT_FALSE(MomentSweep(tree, problem, options).MissesGoals());
+  EXPECT_FALSE(MomentSweep(Body(), problem, options).MissesGoals());
   problem.targets[2].position.y += 0.0011;
-  EXPECT_TRUE(MomentSweep(tree, problem, options).MissesGoals()) << "0.11 cm";
+  EXPECT_TRUE(MomentSweep(Body(), problem, options).MissesGoals()) << "0.11 cm";
   problem.targets[2].position_weight = 0;
-  EXPECT_FALSE(MomentSweep(tree, problem, options).MissesGoals()) << "a position of no weight";
+  EXPECT_FALSE(MomentSweep(Body(), problem, options).MissesGoals()) << "a position of no weight";
   problem.targets[0].axes = AxisRotation({1, 0, 0}, Radians(0.2)) * problem.targets[0].axes;
-  EXPECT_TRUE(MomentSweep(tree, problem, options).MissesGoals());
+  EXPECT_TRUE(MomentSweep(Body(), problem, options).MissesGoals());
 }
 
 TEST(MomentSweep, KeepsItsFramesOrthonormalOverThousandsOfSweeps) {
-  const KinematicTree tree = MakeBodyTree({});
-  const IkProblem problem = DisturbedProblem(tree, RandomPose(tree, 3, 1.0), 3, 30);
-  IkOptions options;
-  options.weights = WeightRule::kFixedTuned;
-  MomentSweep moments(tree, problem, options);
+  const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), 3, 1.0), 3, 30);
+  IkOptions options{.weights = WeightRule::kFixedTuned};
+  MomentSweep moments(Body(), problem, options);
   for (int sweep = 0; sweep < 5000; ++sweep) moments.Sweep();
   const TreeFrames frames =
-      ComputeFrames(tree, {problem.start.root_position, problem.start.root_frame, moments.Angles()});
-  for (std::size_t e = 0; e < tree.effectors.size(); ++e) {
+      ComputeFrames(Body(), {problem.start.root_position, problem.start.root_frame, moments.Angles()});
+  for (std::size_t e = 0; e < Body().effectors.size(); ++e) {
     const EffectorError exact = ErrorOf(frames.effectors[e], problem.targets[e]);
     EXPECT_NEAR(moments.errors()[e].position, exact.position, 1e-12);
   }

@@ -41,8 +41,7 @@ TEST_P(EveryStarter, ReturnsAStartThatHasNoError) {
     for (const std::string& weights : WeightRuleNames()) {
       for (int trial = 0; trial < 3; ++trial) {
         const TreeState truth = RandomPose(some.body.tree, trial, some.share);
-        IkOptions options;
-        options.weights = *FindWeightRule(weights);
+        IkOptions options{.weights = *FindWeightRule(weights)};
         const IkSolution solution =
             FindIkSolver(GetParam())->solve(some.body.tree, ProblemOf(some.body, truth), options);
         EXPECT_EQ(solution.status, IkStatus::kConverged);
@@ -66,8 +65,7 @@ TEST_P(EveryStarter, MovesOneThatIsOff) {
     if (!FindIkSolver(GetParam())->uses_axes) {
       for (EffectorTarget& target : problem.targets) target.axis_weights = glm::dvec3(0);
     }
-    IkOptions options;
-    options.weights = WeightRule::kAdaptivePower;
+    IkOptions options{.weights = WeightRule::kAdaptivePower};
     const IkSolution solution = FindIkSolver(GetParam())->solve(some.body.tree, problem, options);
     std::vector<EffectorError> before;
     const TreeFrames frames = ComputeFrames(some.body.tree, problem.start);

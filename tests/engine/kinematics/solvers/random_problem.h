@@ -30,8 +30,7 @@ inline std::optional<RandomProblem> MakeRandomProblem(int trial) {
     if (random.Chance(0.1)) target.position += random.Normal3();
   }
   for (double& angle : problem.start.angles) angle += random.Chance(0.1) ? 5 : 0;
-  IkOptions options;
-  options.max_iterations = trial % 3 == 0 ? 1 : 150;
+  IkOptions options{.max_iterations = trial % 3 == 0 ? 1 : 150};
   if (random.Chance(0.2)) options.angle_change_tolerance = random.Uniform(0, 0.3);
   return RandomProblem{std::move(tree), std::move(problem), options};
 }

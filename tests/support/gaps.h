@@ -1,0 +1,25 @@
+#pragma once
+
+#include <algorithm>
+
+#include "engine/motion/body.h"
+
+namespace etude {
+
+/// How far apart two poses are, metres: the distance of the joint that differs most.
+inline double WorstJointDistance(const BodyPose& a, const BodyPose& b) {
+  double worst = 0;
+  for (const Role role : AllRoles()) worst = std::max(worst, glm::distance(a[role], b[role]));
+  return worst;
+}
+
+/// The same over all frames; a kilometre for motions of different lengths.
+inline double WorstJointDistance(const BodyMotion& a, const BodyMotion& b) {
+  double worst = a.poses.size() == b.poses.size() ? 0 : 1000;
+  for (std::size_t f = 0; f < std::min(a.poses.size(), b.poses.size()); ++f) {
+    worst = std::max(worst, WorstJointDistance(a.poses[f], b.poses[f]));
+  }
+  return worst;
+}
+
+}  // namespace etude
