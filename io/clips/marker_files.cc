@@ -47,10 +47,12 @@ Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const st
 
 Result<ClipFile> FileOfJoints(ClipFormat format, const RawMotion& motion, const std::string& path,
                               OpenOptions options) {
-  options.body.up = UpAxis::kY;
+  options.body.up.reset();
+  if (options.roles) options.roles->up.reset();
   options.body.metres_per_unit = 1;
   options.body.keep_floor = true;
-  return FileOfMarkers(format, MarkersOf(motion), path, options, {});
+  return FileOfMarkers(format, MarkersOf(motion), path, options,
+                       {.evidence = UpEvidence::kFormat, .source = "the rule of Etude's arrays"});
 }
 
 namespace {
