@@ -13,6 +13,7 @@
 #include "bench/run/run.h"
 #include "bench/scenario/methods.h"
 #include "bench/statistics/agreement.h"
+#include "bench/tasks/evaluation/find_files.h"
 #include "bench/tasks/registry.h"
 #include "cli/commands.h"
 #include "cli/evaluate_alone.h"
@@ -44,9 +45,7 @@ struct EvaluateOptions {
 Result<std::vector<NamedResult>> ReadColumns(const std::string& file) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
   std::vector<NamedResult> results;
-  std::string heading = text.substr(0, text.find_first_of("\r\n")) + ",";
-  for (std::size_t at = 0, comma; (comma = heading.find(',', at)) != std::string::npos; at = comma + 1) {
-    const std::string column = heading.substr(at, comma - at);
+  for (const std::string& column : SplitAtCommas(text.substr(0, text.find('\n')))) {
     if (column == "truth" || column == "name") continue;
     if (!IsPlainName(column)) return Fail({file, 1, 0}, "{} is not a valid method name", Quote(column));
     results.push_back({column, {}});

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace etude {
 namespace {
@@ -90,91 +91,103 @@ PairFits::PairFits(const EvaluatedPair& pair) : pair_(pair) {
 FrameFits PairFits::Of(Alignment alignment) const {
   using enum Alignment;
   const std::size_t frames = moments_.size();
+  const auto for_all = [&](std::optional<Similarity> fit) { return FrameFits{{std::move(fit)}, std::max<std::size_t>(frames, 1)}; };
   switch (alignment) {
     case kNone:
-      return FrameFits(frames, Similarity{});
+      return for_all(Similarity{});
     case kRoot:
     case kRootScaled:
       return ByRoot(alignment == kRootScaled);
     case kFirst:
     case kFirstScaled: {
       const auto first = std::ranges::find_if(moments_, [](const auto& of) { return of.count >= kMinFitted; });
-      if (first == moments_.end()) return FrameFits(frames);
-      return FrameFits(frames, WithScale(each_frame_[first - moments_.begin()], *first, alignment == kFirstScaled));
+      if (first == moments_.end()) return for_all(std::nullopt);
+      return for_all(WithScale(each_frame_[first - moments_.begin()], *first, alignment == kFirstScaled));
     }
     case kTake:
     case kTakeScaled: {
       PointMoments all;
       for (const PointMoments& of_frame : moments_) all.Add(of_frame);
-      return FrameFits(frames, Fit(all, alignment == kTakeScaled));
+      return for_all(Fit(all, alignment == kTakeScaled));
     }
     case kFrame:
     case kFrameScaled:
       break;
   }
-  FrameFits fits = each_frame_;
-  for (std::size_t f = 0; f < frames; ++f) fits[f] = WithScale(fits[f], moments_[f], alignment == kFrameScaled);
-  return fits;
+  FrameFits found{each_frame_};
+  if (alignment == kFrameScaled) return found;
+  for (std::size_t f = 0; f < frames; ++f) found.fits[f] = WithScale(found.fits[f], moments_[f], false);
+  return found;
 }
 
 FrameFits PairFits::ByRoot(bool with_scale) const {
-  FrameFits fits(moments_.size());
-  if (pair_.found_root.empty()) return fits;
-  for (std::size_t f = 0; f < fits.size(); ++f) {
+  FrameFits found{std::vector<std::optional<Similarity>>(moments_.size())};
+  if (pair_.found_root.empty()) return found;
+  for (std::size_t f = 0; f < moments_.size(); ++f) {
     const glm::dvec3 &root = pair_.found_root[f], &onto = pair_.true_root[f];
     if (!BothSeen(root, onto)) continue;
     // The scale with the least squared error about the roots.
     double product = 0, square = 0;
-    const auto found = pair_.found.Frame(f), truth = pair_.truth.Frame(f);
-    for (std::size_t j = 0; with_scale && j < found.size(); ++j) {
-      if (!BothSeen(found[j], truth[j])) continue;
-      product += glm::dot(found[j] - root, truth[j] - onto);
-      square += glm::dot(found[j] - root, found[j] - root);
+    const auto answer = pair_.found.Frame(f), truth = pair_.truth.Frame(f);
+    for (std::size_t j = 0; with_scale && j < answer.size(); ++j) {
+      if (!BothSeen(answer[j], truth[j])) continue;
+      product += glm::dot(answer[j] - root, truth[j] - onto);
+      square += glm::dot(answer[j] - root, answer[j] - root);
     }
     const double scale = square > 0 ? product / square : 1;
-    fits[f] = Similarity{.scale = scale, .rotation = glm::dmat3(1), .translation = onto - scale * root};
+    found.fits[f] = Similarity{.scale = scale, .rotation = glm::dmat3(1), .translation = onto - scale * root};
   }
-  return fits;
+  return found;
 }
 
 FrameFits PairFits::OfSegments(std::size_t length, std::size_t fitted) const {
-  FrameFits fits;
-  fits.reserve(moments_.size());
-  while (fits.size() < moments_.size()) {
-    const std::size_t begin = fits.size(), end = std::min(begin + length, moments_.size());
+  FrameFits found{{}, length};
+  for (std::size_t begin = 0; begin < moments_.size(); begin += length) {
     PointMoments sums;
-    for (std::size_t f = begin; f < std::min(begin + fitted, end); ++f) sums.Add(moments_[f]);
-    fits.insert(fits.end(), end - begin, Fit(sums, true));
+    for (std::size_t f = begin; f < std::min({begin + fitted, begin + length, moments_.size()}); ++f) {
+      sums.Add(moments_[f]);
+    }
+    found.fits.push_back(Fit(sums, true));
   }
-  return fits;
+  return found;
 }
 
-PointTracks Aligned(const EvaluatedPair& pair, const FrameFits& fits) {
-  PointTracks out{pair.found.points, {}};
-  out.positions.reserve(pair.found.positions.size());
-  for (std::size_t f = 0; f < fits.size(); ++f) {
-    for (const glm::dvec3& p : pair.found.Frame(f)) {
-      out.positions.push_back(fits[f] ? fits[f]->Apply(p) : glm::dvec3(kUnseen));
-    }
+namespace {
+
+/// Writes the errors of one frame.
+void WriteErrorsMm(const EvaluatedPair& pair, std::size_t frame, const std::optional<Similarity>& fit, double* errors) {
+  constexpr double kToMillimetres = 1000;
+  const auto found = pair.found.Frame(frame), truth = pair.truth.Frame(frame);
+  if (!fit) {
+    std::fill_n(errors, found.size(), kUnseen);
+    return;
   }
-  return out;
+  const glm::dmat3 turn = fit->scale * fit->rotation;
+  const glm::dvec3 move = fit->translation;
+  // NaN spreads: a joint that either does not show has the error NaN.
+  for (std::size_t j = 0; j < found.size(); ++j) {
+    errors[j] = kToMillimetres * glm::length(turn * found[j] + move - truth[j]);
+  }
 }
+
+}  // namespace
 
 std::vector<double> JointErrorsMm(const EvaluatedPair& pair, const FrameFits& fits) {
-  constexpr double kToMillimetres = 1000;
-  std::vector<double> errors(pair.found.positions.size(), kUnseen);
-  double* error = errors.data();
-  for (std::size_t f = 0; f < fits.size(); ++f, error += pair.found.points) {
-    if (!fits[f]) continue;
-    const auto found = pair.found.Frame(f), truth = pair.truth.Frame(f);
-    const glm::dmat3 turn = fits[f]->scale * fits[f]->rotation;
-    const glm::dvec3 move = fits[f]->translation;
-    // NaN spreads: a joint that either does not show has the error NaN.
-    for (std::size_t j = 0; j < found.size(); ++j) {
-      error[j] = kToMillimetres * glm::length(turn * found[j] + move - truth[j]);
-    }
+  std::vector<double> errors(pair.found.positions.size());
+  for (std::size_t f = 0; f < pair.found.FrameCount(); ++f) {
+    WriteErrorsMm(pair, f, fits.At(f), &errors[f * pair.found.points]);
   }
   return errors;
+}
+
+std::optional<double> MeanJointErrorMm(const EvaluatedPair& pair, const FrameFits& fits) {
+  SeenMean mean;
+  std::vector<double> errors(pair.found.points);
+  for (std::size_t f = 0; f < pair.found.FrameCount(); ++f) {
+    WriteErrorsMm(pair, f, fits.At(f), errors.data());
+    mean.Add(errors);
+  }
+  return mean.Value();
 }
 
 }  // namespace etude

@@ -25,7 +25,12 @@ enum class Alignment {
 
 /// What aligns each frame of an answer; nothing in frames in which the alignment is not determined: without root, or
 /// with fewer than three joints seen by both.
-using FrameFits = std::vector<std::optional<Similarity>>;
+struct FrameFits {
+  std::vector<std::optional<Similarity>> fits;
+  std::size_t length = 1;  ///< frames in a row that share one of them
+
+  const std::optional<Similarity>& At(std::size_t frame) const { return fits[frame / length]; }
+};
 
 /// Finds the alignments of an answer. What they share is computed once.
 class PairFits {
@@ -42,17 +47,17 @@ class PairFits {
   FrameFits ByRoot(bool with_scale) const;
 
   const EvaluatedPair& pair_;
-  std::vector<PointMoments> moments_;  // by frame
-  FrameFits each_frame_;               // similarities
+  std::vector<PointMoments> moments_;                 // by frame
+  std::vector<std::optional<Similarity>> each_frame_;
 };
 
 /// Returns the best similarity, or the best movement; nothing for fewer than three points.
 std::optional<Similarity> Fit(const PointMoments& moments, bool with_scale);
 
-/// Returns the answer's positions after the alignment; NaN where the answer is not seen or not aligned.
-PointTracks Aligned(const EvaluatedPair& pair, const FrameFits& fits);
 /// Returns the distance of each joint, after the alignment, from its truth, frames × joints, millimetres; NaN where
 /// either is not seen or not aligned.
 std::vector<double> JointErrorsMm(const EvaluatedPair& pair, const FrameFits& fits);
+/// Returns the mean of these distances; nothing if all are NaN.
+std::optional<double> MeanJointErrorMm(const EvaluatedPair& pair, const FrameFits& fits);
 
 }  // namespace etude

@@ -18,18 +18,41 @@ bool BothSeen(const glm::dvec3& a, const glm::dvec3& b) { return !std::isnan(a.x
 
 }  // namespace
 
-std::optional<double> MeanOfSeen(std::span<const double> values) {
-  // Four sums at once: one alone would wait for each addition.
-  constexpr std::size_t kSums = 4;
-  double sums[kSums] = {}, counts[kSums] = {};
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const bool is_seen = !std::isnan(values[i]);
-    sums[i % kSums] += is_seen ? values[i] : 0;
-    counts[i % kSums] += is_seen ? 1 : 0;
+void SeenMean::Add(std::span<const double> values) {
+  std::size_t i = 0;
+  const auto add_seen = [&](std::size_t end) {
+    for (; i < end; ++i, next_ = (next_ + 1) % kSums) {
+      const bool is_seen = !std::isnan(values[i]);
+      sums_[next_] += is_seen ? values[i] : 0;
+      counts_[next_] += is_seen ? 1 : 0;
+    }
+  };
+  add_seen(std::min((kSums - next_) % kSums, values.size()));
+  // Whole rounds, as if all were seen; a NaN shows in a sum.
+  const std::size_t rounds = (values.size() - i) / kSums;
+  double sums[kSums];
+  std::copy_n(sums_, kSums, sums);
+  for (std::size_t at = i; at < i + rounds * kSums; at += kSums) {
+    for (std::size_t k = 0; k < kSums; ++k) sums[k] += values[at + k];
   }
-  const double count = counts[0] + counts[1] + counts[2] + counts[3];
+  if (!std::isnan(sums[0] + sums[1] + sums[2] + sums[3])) {
+    std::copy_n(sums, kSums, sums_);
+    for (double& count : counts_) count += static_cast<double>(rounds);
+    i += rounds * kSums;
+  }
+  add_seen(values.size());
+}
+
+std::optional<double> SeenMean::Value() const {
+  const double count = counts_[0] + counts_[1] + counts_[2] + counts_[3];
   if (count == 0) return std::nullopt;
-  return (sums[0] + sums[1] + sums[2] + sums[3]) / count;
+  return (sums_[0] + sums_[1] + sums_[2] + sums_[3]) / count;
+}
+
+std::optional<double> MeanOfSeen(std::span<const double> values) {
+  SeenMean mean;
+  mean.Add(values);
+  return mean.Value();
 }
 
 std::optional<double> ShareBelow(std::span<const double> values, double limit_mm) {
@@ -70,32 +93,51 @@ std::optional<double> SeenShare(const EvaluatedPair& pair) {
   return static_cast<double>(both) / static_cast<double>(shown);
 }
 
-std::optional<double> AccelerationError(const PointTracks& found, const PointTracks& truth, std::size_t left_out) {
-  assert(found.positions.size() == truth.positions.size());
-  std::vector<double> errors;
-  errors.reserve(found.positions.size());
-  const std::size_t n = found.points;
-  const std::size_t end = found.positions.size() - std::min(left_out * n, found.positions.size());
-  for (std::size_t i = (2 + left_out) * n; i < end; ++i) {
-    const auto second = [&](const PointTracks& tracks) {
-      const auto& p = tracks.positions;
-      return p[i - 2 * n] - 2.0 * p[i - n] + p[i];
-    };
-    errors.push_back(glm::length(second(found) - second(truth)));
+namespace {
+
+/// Returns the mean of the lengths of `vector_at(frame, joint)` over frames from `begin` to before `end`.
+template <typename VectorAt>
+std::optional<double> MeanLength(std::size_t begin, std::size_t end, std::size_t joints, const VectorAt& vector_at) {
+  SeenMean mean;
+  std::vector<double> lengths(joints);
+  for (std::size_t f = begin; f < end; ++f) {
+    for (std::size_t j = 0; j < joints; ++j) lengths[j] = glm::length(vector_at(f, j));
+    mean.Add(lengths);
   }
-  return MeanOfSeen(errors);
+  return mean.Value();
+}
+
+}  // namespace
+
+std::optional<double> AccelerationError(const PointTracks& found, const PointTracks& truth) {
+  assert(found.positions.size() == truth.positions.size());
+  const std::size_t n = found.points;
+  return MeanLength(2, found.FrameCount(), n, [&, a = found.positions.data(), t = truth.positions.data()](auto f, auto j) {
+    const std::size_t i = f * n + j;
+    return (a[i - 2 * n] - 2.0 * a[i - n] + a[i]) - (t[i - 2 * n] - 2.0 * t[i - n] + t[i]);
+  });
+}
+
+std::optional<double> RootAccelerationError(const EvaluatedPair& pair) {
+  const std::size_t n = pair.found.points, frames = pair.found.FrameCount();
+  if (pair.found_root.empty() || frames == 0) return std::nullopt;
+  std::vector<glm::dvec3> moves;
+  for (std::size_t f = 0; f < frames; ++f) moves.push_back(pair.true_root[f] - pair.found_root[f]);
+  return MeanLength(3, frames - 1, n,
+                    [&, a = pair.found.positions.data(), t = pair.truth.positions.data()](auto f, auto j) {
+                      const std::size_t i = f * n + j;
+                      const glm::dvec3 before = a[i - 2 * n] + moves[f - 2], middle = a[i - n] + moves[f - 1];
+                      return (before - 2.0 * middle + (a[i] + moves[f])) - (t[i - 2 * n] - 2.0 * t[i - n] + t[i]);
+                    });
 }
 
 std::optional<double> Jitter(const PointTracks& found, double rate_hz) {
   constexpr double kPrinted = 10;
-  std::vector<double> lengths;
-  lengths.reserve(found.positions.size());
   const std::size_t n = found.points;
-  const auto& p = found.positions;
-  for (std::size_t i = 3 * n; i < p.size(); ++i) {
-    lengths.push_back(glm::length(p[i] - 3.0 * p[i - n] + 3.0 * p[i - 2 * n] - p[i - 3 * n]));
-  }
-  const auto mean = MeanOfSeen(lengths);
+  const auto mean = MeanLength(3, found.FrameCount(), n, [n, p = found.positions.data()](auto f, auto j) {
+    const std::size_t i = f * n + j;
+    return p[i] - 3.0 * p[i - n] + 3.0 * p[i - 2 * n] - p[i - 3 * n];
+  });
   if (!mean) return std::nullopt;
   return *mean * rate_hz * rate_hz * rate_hz / kPrinted;
 }

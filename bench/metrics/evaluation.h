@@ -36,6 +36,19 @@ struct EvaluatedPair {
   std::vector<bool> found_contacts, true_contacts;
 };
 
+/// The mean of values that are not NaN, which may be added in parts.
+class SeenMean {
+ public:
+  void Add(std::span<const double> values);
+  /// Returns nothing if all values are NaN.
+  std::optional<double> Value() const;
+
+ private:
+  // Every fourth value joins the same sum: one sum alone would wait for each addition.
+  static constexpr std::size_t kSums = 4;
+  double sums_[kSums] = {}, counts_[kSums] = {};
+  std::size_t next_ = 0;  // the sum of the next value
+};
 /// Returns the mean of the values that are not NaN; nothing if there are none.
 std::optional<double> MeanOfSeen(std::span<const double> values);
 /// Returns the share of values below `limit_mm`, among those that are not NaN.
@@ -46,8 +59,10 @@ std::optional<double> AucTo150(std::span<const double> values);
 std::optional<double> SeenShare(const EvaluatedPair& pair);
 
 /// Returns the mean length of the difference between the second differences of answer and truth, over all joints and
-/// frames whose three frames both show; metres per frame². `left_out` of them are dropped at either end.
-std::optional<double> AccelerationError(const PointTracks& found, const PointTracks& truth, std::size_t left_out = 0);
+/// frames whose three frames both show; metres per frame².
+std::optional<double> AccelerationError(const PointTracks& found, const PointTracks& truth);
+/// Returns the same with the answer moved, in each frame, root onto root, and without the first frame and the last (WHAM).
+std::optional<double> RootAccelerationError(const EvaluatedPair& pair);
 /// Returns the answer's third differences' mean length × rate³ ÷ 10 (WHAM).
 std::optional<double> Jitter(const PointTracks& found, double rate_hz);
 /// Returns the root's mean error after the best movement of its whole path, per cent of the true path's length (WHAM).

@@ -137,6 +137,18 @@ static void Describe(RecordFields& fields, CoachExtras& extras) {
   fields.List("joint_states", extras.joint_states, "like those of `detection`");
 }
 
+static void Describe(RecordFields& fields, PlausibilityExtras::Fault& fault) {
+  fields.Required("kind", fault.kind, "`floats`, `sinks`, …");
+  fields.Required("begin_frame", fault.begin_frame, "its first frame");
+  fields.Required("end_frame", fault.end_frame, "its last frame");
+  fields.Required("text", fault.text, "a sentence");
+}
+
+static void Describe(RecordFields& fields, PlausibilityExtras& extras) {
+  fields.Required("floor_m", extras.floor_m, "height of the floor that the motion was judged by");
+  fields.List("faults", extras.faults, "by kind, then by time");
+}
+
 std::string RecordingsAsMarkdown() {
   return "# What recordings hold beside their motions\n\n"
          "Written by `etude list recordings`; a test compares the two. A file of `recordings/` names its version\n"
@@ -157,7 +169,9 @@ std::string RecordingsAsMarkdown() {
          "\n## detection\n\nTracks `truth` and `sensed`, as the recogniser saw it.\n\n" +
          RecordFields::Page<DetectionExtras>() +
          "\n## coach\n\nTracks `coach`, `truth` (the learner as danced) and `sensed`.\n\n" +
-         RecordFields::Page<CoachExtras>();
+         RecordFields::Page<CoachExtras>() +
+         "\n## plausibility\n\nTrack `answer`, at its file's rate and heights.\n\n" +
+         RecordFields::Page<PlausibilityExtras>();
 }
 
 std::string WriteIkExtras(const IkExtras& extras) { return RecordFields::Write(extras); }
@@ -175,5 +189,10 @@ Result<DetectionExtras> ReadDetectionExtras(const std::string& json) {
 
 std::string WriteCoachExtras(const CoachExtras& extras) { return RecordFields::Write(extras); }
 Result<CoachExtras> ReadCoachExtras(const std::string& json) { return RecordFields::Read<CoachExtras>(json); }
+
+std::string WritePlausibilityExtras(const PlausibilityExtras& extras) { return RecordFields::Write(extras); }
+Result<PlausibilityExtras> ReadPlausibilityExtras(const std::string& json) {
+  return RecordFields::Read<PlausibilityExtras>(json);
+}
 
 }  // namespace etude

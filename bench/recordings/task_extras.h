@@ -143,6 +143,19 @@ std::string WriteCoachExtras(const CoachExtras& extras);
 /// Fails, naming the key, when a key is missing or of another kind.
 Result<CoachExtras> ReadCoachExtras(const std::string& json);
 
+/// The extras of task `plausibility`: the faults found in the track "answer", which has its file's rate and heights.
+struct PlausibilityExtras {
+  struct Fault {
+    std::string kind, text;  ///< FaultName, MotionFault::text
+    int begin_frame = 0, end_frame = 0;  ///< its first and its last
+  };
+  double floor_m = 0;
+  std::vector<Fault> faults;
+};
+std::string WritePlausibilityExtras(const PlausibilityExtras& extras);
+/// Fails, naming the key, when a key is missing or of another kind.
+Result<PlausibilityExtras> ReadPlausibilityExtras(const std::string& json);
+
 /// Returns the page docs/reference/recordings.md: the keys of all formats, in Markdown.
 std::string RecordingsAsMarkdown();
 

@@ -6,10 +6,12 @@
 #include <filesystem>
 
 #include "bench/model/recording.h"
+#include "bench/recordings/evaluation_extras.h"
 #include "bench/results/folder.h"
 #include "bench/results/row_json.h"
 #include "engine/base/names.h"
 #include "engine/retargeting/rig.h"
+#include "io/clips/marker_files.h"
 #include "io/clips/open_clip.h"
 #include "sim/choreography/canonical_body.h"
 
@@ -39,6 +41,20 @@ Result<SplitReference> ReferTo(const FilePath& file, const std::optional<std::st
   return SplitReference{file.string(), animation};
 }
 
+/// Reads both motions of a pair of files, which have the joints that were judged.
+Result<ClipFile> ReadPair(const std::string& extras_json, const std::string& path, const OpenOptions& options) {
+  const auto pair = ReadEvaluationExtras(extras_json);
+  if (!pair) return Fail({path}, "a recording without a motion");
+  ASSIGN_OR_RETURN(auto file, FileOfJoints(ClipFormat::kRecording, pair->truth, path, options));
+  ASSIGN_OR_RETURN(auto answer, FileOfJoints(ClipFormat::kRecording, pair->answer, path, options));
+  file.clips.front().name = "truth";
+  answer.clips.front().name = "answer";
+  file.clips.push_back(std::move(answer.clips.front()));
+  file.bodies.push_back(std::move(answer.bodies.front()));
+  if (options.keeps_shown) file.shown.push_back(std::move(answer.shown.front()));
+  return file;
+}
+
 class ResultFolders : public RecordedMotions {
  public:
   bool IsRecording(std::string_view text) const override {
@@ -46,8 +62,9 @@ class ResultFolders : public RecordedMotions {
     return text.starts_with(R"({"recording":)") || text.starts_with(R"({"tracks":)");
   }
 
-  Result<ClipFile> Read(const std::string& text, const std::string& path) const override {
+  Result<ClipFile> Read(const std::string& text, const std::string& path, const OpenOptions& options) const override {
     ASSIGN_OR_RETURN(const auto recording, ReadRecording(text, path));
+    if (recording.tracks.empty()) return ReadPair(recording.extras_json, path, options);
     ClipFile file{.format = ClipFormat::kRecording,
                   .figure = {.name = "", .skeleton = {}, .materials = {}, .meshes = {}},
                   .clips = {}};
@@ -83,7 +100,7 @@ class ResultFolders : public RecordedMotions {
   }
 
   std::string OwnTrack(const std::vector<Clip>& clips) const override {
-    for (const char* name : {"recovered", "solution", "coach", "sensed"}) {
+    for (const char* name : {"recovered", "solution", "coach", "sensed", "answer"}) {
       if (std::ranges::find(clips, name, &Clip::name) != clips.end()) return name;
     }
     return clips.back().name;

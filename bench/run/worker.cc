@@ -1,5 +1,7 @@
 #include "bench/run/worker.h"
 
+#include <malloc.h>
+
 #include <Eigen/Core>
 #include <cerrno>
 #include <csignal>
@@ -27,6 +29,12 @@ namespace {
 /// Fixes the cache sizes that Eigen chooses its block sizes by. The order of its sums depends on these, so fixed sizes
 /// give the same bytes on every machine.
 void FixEigenBlocking() { Eigen::setCpuCacheSizes(32 * 1024, 256 * 1024, 2 * 1024 * 1024); }
+
+/// Keeps up to 64 MiB of freed memory for the next cell: zeroed pages would be a quarter of the time of reading files.
+void KeepFreedMemory() {
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 64 << 20);
+}
 
 int GiveUp(const Error& error) {
   std::cerr << ToString(error) << '\n';
@@ -107,6 +115,7 @@ Result<void> Work(std::istream& in, std::ostream& out) {
 
 int RunWorker(std::istream& in, std::ostream& out) {
   FixEigenBlocking();
+  KeepFreedMemory();
   AdoptOrphans();
   // A job scheduler signals every process of a job, but only the parent decides when workers stop.
   std::signal(SIGINT, SIG_IGN);

@@ -105,7 +105,10 @@ Motion MotionOfClip(const Clip& clip, const std::string& file, double rate_hz, s
 /// Reads Etude's own arrays, which are used as they are.
 Motion MotionOfArrays(const Npz& arrays, const std::string& file, double rate_hz, const ReadingOptions& options) {
   if (!IsBodyNpz(arrays)) return MotionOfClip(OrThrow(ReadAmass(arrays, file)), file, rate_hz, AmassUp(), options);
-  BodyMotion body = OrThrow(ReadBodyNpz(arrays, file));
+  const RawMotion raw = OrThrow(ReadRawNpz(arrays, file));
+  std::optional<BodyMotion> read = BodyOf(raw);
+  if (!read) return MotionOfMarkers(etude::MarkersOf(raw), file, rate_hz, {.evidence = UpEvidence::kFormat}, options);
+  BodyMotion& body = *read;
   const UpFinding up{.axis = AxisOf(UpOf(options).value_or(UpAxis::kY)), .evidence = UpEvidence::kTold};
   for (BodyPose& pose : body.poses) {
     for (glm::dvec3& joint : pose.joints) joint = TurnedUp(joint, up.axis);

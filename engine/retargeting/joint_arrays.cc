@@ -216,24 +216,27 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file) {
   return motion;
 }
 
-Result<BodyMotion> ReadBodyNpz(const Npz& arrays, const std::string& file) {
-  ASSIGN_OR_RETURN(const auto raw, ReadRawNpz(arrays, file));
-  if (raw.joints.size() != kRoleCount) {
-    return Fail({file}, "positions of {}; allowed: frames × 20 × 3", ShapeText(arrays.arrays.at("positions")));
-  }
-  for (const Role role : AllRoles()) {
-    if (raw.roles[Index(role)] < 0) return Fail({file}, "names: none is '{}'; allowed: the twenty roles", RoleName(role));
-  }
-  // Joints may stand in any order.
+std::optional<BodyMotion> BodyOf(const RawMotion& raw) {
+  const bool has_roles = std::ranges::none_of(raw.roles, [](int joint) { return joint < 0; });
+  if (raw.joints.size() != kRoleCount || !has_roles || !std::ranges::all_of(raw.positions, IsSeen)) return std::nullopt;
   BodyMotion motion{.rate_hz = raw.rate_hz, .poses = std::vector<BodyPose>(raw.FrameCount())};
   for (std::size_t f = 0; f < motion.poses.size(); ++f) {
     for (const Role role : AllRoles()) {
-      const glm::dvec3& at = raw.At(f, static_cast<std::size_t>(raw.roles[Index(role)]));
-      if (!IsSeen(at)) return Fail({file}, "positions of frame {}: nan; only etude evaluate reads gaps", f);
-      motion.poses[f][role] = at;
+      motion.poses[f][role] = raw.At(f, static_cast<std::size_t>(raw.roles[Index(role)]));
     }
   }
   return motion;
+}
+
+MarkerMotion MarkersOf(const RawMotion& motion) {
+  MarkerMotion markers{.rate_hz = motion.rate_hz, .names = motion.joints, .frames = {}};
+  for (std::size_t f = 0; f < motion.FrameCount(); ++f) {
+    auto& frame = markers.frames.emplace_back(motion.joints.size());
+    for (std::size_t j = 0; j < frame.size(); ++j) {
+      if (IsSeen(motion.At(f, j))) frame[j] = motion.At(f, j);
+    }
+  }
+  return markers;
 }
 
 }  // namespace etude

@@ -40,8 +40,9 @@ bool IsBodyNpz(const Npz& arrays);
 /// joint NaN where it was not seen. A joint named like a role plays it. Fails for a missing rate, another number of
 /// names, and values beyond ±10⁹.
 Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file);
-/// Reads the positions from arrays that WriteBodyNpz wrote. Fails if there are not twenty joints, if the rate is
-/// missing, or if a value is not finite.
-Result<BodyMotion> ReadBodyNpz(const Npz& arrays, const std::string& file);
+/// Returns the twenty joints of a motion, which may stand in any order; nothing if it has others, or a gap.
+std::optional<BodyMotion> BodyOf(const RawMotion& motion);
+/// Returns the joints of a motion as markers of their names, with their gaps.
+MarkerMotion MarkersOf(const RawMotion& motion);
 
 }  // namespace etude

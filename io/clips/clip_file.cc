@@ -152,8 +152,10 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   if (IsZip(bytes)) {
     ASSIGN_OR_RETURN(const auto arrays, ReadNpz(bytes, path));
     if (IsBodyNpz(arrays)) {
-      ASSIGN_OR_RETURN(const auto motion, ReadBodyNpz(arrays, path));
-      return FileOfBody(ClipFormat::kNpz, motion, path, "Etude's own arrays");
+      ASSIGN_OR_RETURN(const auto raw, ReadRawNpz(arrays, path));
+      if (const auto motion = BodyOf(raw)) return FileOfBody(ClipFormat::kNpz, *motion, path, "Etude's own arrays");
+      // Other joints, or gaps: the body is found by the joints' names.
+      return FileOfJoints(ClipFormat::kNpz, raw, path, options);
     }
     if (IsKimodoNpz(arrays)) {
       ASSIGN_OR_RETURN(auto clip, ReadKimodo(arrays, path));
@@ -176,7 +178,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   }
   // Markers, and recordings of runs.
   if (auto markers = ReadMarkers(bytes, path, options)) return *std::move(markers);
-  if (options.recorded != nullptr && options.recorded->IsRecording(bytes)) return options.recorded->Read(bytes, path);
+  if (options.recorded != nullptr && options.recorded->IsRecording(bytes)) return options.recorded->Read(bytes, path, options);
   // Text formats of bodies: OpenSim's angles and DeepMimic's motions.
   if (first.text == "Coordinates" && HasModelOfAngles(bytes)) {
     std::string note = "angles of the model in the file's header";

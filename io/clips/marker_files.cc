@@ -8,6 +8,7 @@
 #include "engine/formats/joint_csv.h"
 #include "engine/formats/motive_csv.h"
 #include "engine/formats/row_clock.h"
+#include "engine/retargeting/joint_arrays.h"
 #include "engine/retargeting/markers.h"
 #include "engine/retargeting/rig.h"
 #include "sim/choreography/canonical_body.h"
@@ -42,6 +43,16 @@ Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const st
   }
   file.figure.skeleton = file.clips.front().skeleton;
   return file;
+}
+
+Result<ClipFile> FileOfJoints(ClipFormat format, const RawMotion& motion, const std::string& path,
+                              OpenOptions options) {
+  options.body.up.reset();
+  if (options.roles) options.roles->up.reset();
+  options.body.metres_per_unit = 1;
+  options.body.keep_floor = true;
+  return FileOfMarkers(format, MarkersOf(motion), path, options,
+                       {.evidence = UpEvidence::kFormat, .source = "the rule of Etude's arrays"});
 }
 
 namespace {

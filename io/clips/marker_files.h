@@ -6,6 +6,7 @@
 
 #include "engine/base/result.h"
 #include "engine/formats/trc.h"
+#include "engine/motion/raw_motion.h"
 #include "io/clips/clip_file.h"
 
 namespace etude {
@@ -25,6 +26,10 @@ bool IsOfMarkers(ClipFormat format);
 /// Makes a clip of every body that the markers show. `rule` says how the up axis is found if the user gives none.
 Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const std::string& path,
                                const OpenOptions& options, UpRule rule);
+
+/// Makes a clip of the body that joints of any names show. They are in metres on their own floor, with Y up, whatever the
+/// options say of these.
+Result<ClipFile> FileOfJoints(ClipFormat format, const RawMotion& motion, const std::string& path, OpenOptions options);
 
 /// Reads a file of markers (C3D, TRC, Motive's CSV, joint CSV); returns nullopt if the file is of another kind.
 std::optional<Result<ClipFile>> ReadMarkers(std::string_view bytes, const std::string& path,

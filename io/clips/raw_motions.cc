@@ -37,6 +37,7 @@ void AddHipCentre(RawMotion& raw) {
   raw.positions = std::move(positions);
   raw.rotations = std::move(rotations);
   raw.roles[Index(Role::kHipCentre)] = static_cast<int>(joints);
+  raw.added.push_back(static_cast<int>(joints));
   raw.joints.emplace_back("(midway between the hips)");
   if (raw.parents.empty()) return;
   const int carrier = raw.parents[left];
@@ -76,6 +77,7 @@ RawMotion OfSkeleton(const Clip& clip, double unit, UpAxis up) {
   RawMotion raw;
   raw.rate_hz = clip.rate_hz;
   for (const Joint& joint : clip.skeleton.joints) {
+    if (joint.is_end_site) raw.added.push_back(static_cast<int>(raw.joints.size()));
     raw.joints.push_back(joint.name);
     raw.parents.push_back(joint.parent);
   }

@@ -11,6 +11,7 @@
 namespace etude {
 
 struct ClipFile;
+struct OpenOptions;
 
 /// Reads motions that runs recorded. Runs belong to layers above this folder, so the caller that opens clips passes an
 /// implementation (`OpenOptions::recorded`); `bench/run/recorded_motions.h` provides it.
@@ -26,8 +27,9 @@ class RecordedMotions {
   /// Returns true if a file's text begins as a recording does.
   virtual bool IsRecording(std::string_view text) const = 0;
 
-  /// Reads the motions of a recording; each clip has its track's name. `path` is for complaints.
-  virtual Result<ClipFile> Read(const std::string& text, const std::string& path) const = 0;
+  /// Reads the motions of a recording; each clip has its track's name. `path` is for complaints. Motions of joints that
+  /// are not the twenty are read as markers, by `options`.
+  virtual Result<ClipFile> Read(const std::string& text, const std::string& path, const OpenOptions& options) const = 0;
 
   /// Returns the name of the track that the recorded method made.
   virtual std::string OwnTrack(const std::vector<Clip>& clips) const = 0;

@@ -18,7 +18,7 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
 
     truth, and each answer by its method's name: a motion file, a folder or a pattern; or an array of positions, frames
     × joints × 3 in metres with Y up, NaN where a joint was not seen. Arrays need `names` of their joints and `rate_hz`;
-    a joint named like a role plays it. They are kept as .npz files, or TRC files if alone, in the folder `output` +
+    a joint named like a role plays it. They are kept as .npz files in the folder `output` +
     ".motions". pairs: a CSV of pairs instead. joints, people, lag, statistics, music_beats, metrics: as the options of
     `etude evaluate`. alone: there is no truth; floor and limits are then those of `etude evaluate --alone`, and the
     metric within_limits says which clips keep them.
@@ -38,9 +38,8 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
             raise TypeError(f"the array of {name} needs names and rate_hz")
         if not re.fullmatch(r"[A-Za-z0-9_][A-Za-z0-9_.-]*", name):
             raise ValueError(f"{name!r} is no name of a method")  # it names a file
-        # Bodies are found in the markers of TRC files; of .npz files only Etude's own twenty joints are read as a body.
-        content = (_trc if alone else _npz)(motion, list(names), rate_hz, name)
-        path = pathlib.Path(f"{output}.motions") / f"{name}.{'trc' if alone else 'npz'}"
+        content = _npz(motion, list(names), rate_hz, name)
+        path = pathlib.Path(f"{output}.motions") / f"{name}.npz"
         path.parent.mkdir(parents=True, exist_ok=True)
         with path.open("wb" if overwrite else "xb") as file:  # an earlier run needs its arrays
             file.write(content)
@@ -69,34 +68,10 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
     return found
 
 
-def _check(positions, names, title):
-    """Raises ValueError unless there are frames of three numbers for each name."""
-    if not len(positions) or any(len(frame) != len(names) or any(len(point) != 3 for point in frame) for frame in positions):
-        raise ValueError(f"the array of {title} must be frames × {len(names)} joints × 3")
-
-
-def _trc(positions, names, rate_hz, title):
-    """Returns positions, names and rate as the bytes of a TRC file in metres, with every digit."""
-    _check(positions, names, title)
-    for name in names:
-        if not re.fullmatch(r"[^\t\r\n]+", name):
-            raise ValueError(f"{name!r} is no name of a joint")
-    frames, rate = len(positions), repr(float(rate_hz))
-    lines = [f"PathFileType\t4\t(X/Y/Z)\t{title}.trc",
-             "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames",
-             f"{rate}\t{rate}\t{frames}\t{len(names)}\tm\t{rate}\t1\t{frames}",
-             "Frame#\tTime\t" + "\t\t\t".join(names) + "\t\t",
-             "\t\t" + "\t".join(f"{axis}{i + 1}" for i in range(len(names)) for axis in "XYZ"), ""]
-    for f, frame in enumerate(positions):
-        points = [[float(x) for x in point] for point in frame]
-        cells = ["" if any(x != x for x in point) else repr(x) for point in points for x in point]
-        lines.append(f"{f + 1}\t{f / float(rate_hz)!r}\t" + "\t".join(cells))
-    return ("\n".join(lines) + "\n").encode()
-
-
 def _npz(positions, names, rate_hz, title):
     """Returns positions, names and rate as the bytes of an .npz file, with every digit."""
-    _check(positions, names, title)
+    if not len(positions) or any(len(frame) != len(names) or any(len(point) != 3 for point in frame) for frame in positions):
+        raise ValueError(f"the array of {title} must be frames × {len(names)} joints × 3")
     frames = len(positions)
     numbers = array.array("d", (x for frame in positions for point in frame for x in point))
     width = max(map(len, names))

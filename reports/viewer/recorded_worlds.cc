@@ -18,7 +18,7 @@ namespace etude {
 std::string RecordedWorld::Name() const {
   const Row& row = *cells.front().row;
   const std::string condition = ConditionLabel(row.condition);
-  const std::string world = row.task == "evaluation" ? row.clip : fmt::format("trial {}", row.trial);
+  const std::string world = JudgesFiles(row.task) ? row.clip : fmt::format("trial {}", row.trial);
   return condition.empty() ? world : condition + ", " + world;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/model/recording.h"
@@ -23,6 +24,9 @@ struct RecordedWorld {
   /// Returns the name of the world: "joint_noise_deg=5, trial 3"; of a pair of files, the pair's.
   std::string Name() const;
 };
+
+/// Returns true for tasks whose worlds are files, which name them.
+inline bool JudgesFiles(std::string_view task) { return task == "evaluation" || task == "plausibility"; }
 
 /// Lists the worlds of which a run recorded motions, in the order of its rows. The run must outlive the result.
 std::vector<RecordedWorld> RecordedWorlds(const RunData& run);

@@ -48,6 +48,7 @@ const std::vector<TrackLook>& Looks() {
       {"coach", "sensed", "learner as sensed", "shown", {"truth"}},
       {"evaluation", "truth", "truth", "ghost"},
       {"evaluation", "answer", "", "shown", {"truth"}},
+      {"plausibility", "answer", "", "shown", {}, true},
   };
   return looks;
 }
@@ -235,6 +236,7 @@ class Writer {
     if (task_ == "transition") return add(ReadTransitionFacts(recording, method));
     if (task_ == "detection") return add(ReadDetectionExtras(recording.extras_json));
     if (task_ == "coach") return add(ReadCoachExtras(recording.extras_json));
+    if (task_ == "plausibility") return add(ReadPlausibilityExtras(recording.extras_json));
     return 0;
   }
 
@@ -330,6 +332,12 @@ class Writer {
     return 0;
   }
 
+  int Add(const std::string& method, const PlausibilityExtras& extras) {
+    json_["floor_m"] = extras.floor_m;
+    for (const auto& fault : extras.faults) Mark(method, fault.begin_frame, fault.end_frame, "miss", fault.text);
+    return 0;
+  }
+
   const RecordedWorld& world_;
   const std::string& task_;
   std::size_t cell_ = 0;
@@ -373,7 +381,7 @@ QuantisedMotion Quantise(std::span<const glm::dvec3> points) {
 std::string WorldScript(const RunData& run, const RecordedWorld& world) {
   const Row& row = *world.cells.front().row;
   std::string title = fmt::format("{}, {}", run.scenarios[world.scenario].name, world.Name());
-  if (!row.clip.empty() && row.task != "evaluation") title += fmt::format(", {}", row.clip);
+  if (!row.clip.empty() && !JudgesFiles(row.task)) title += fmt::format(", {}", row.clip);
   const Json json = Writer(world, row.task).Write(run.scenarios[world.scenario], title);
   return fmt::format("etudeMotion({});\n", EscapeScriptJson(json.dump(-1, ' ', true, Json::error_handler_t::replace)));
 }

@@ -226,6 +226,21 @@ class Evaluate(EtudeCase):
         row, = self.rows()
         self.assertEqual(row["mpjpe_unaligned_mm"], 0, said.stdout)
 
+    def test_motions_of_an_evaluation_are_motions(self):
+        noisy = [[[x + 0.01, y, z] for x, y, z in frame] for frame in self.frames]
+        noisy[7][3] = None
+        kept = self.folder / "kept"
+        self.evaluate(self.shared / "clap.csv", self.trc_file("a.trc", noisy), "--keep", "motions", out=kept)
+        first, = self.rows(kept)
+        cell = f"{kept}#{first['scenario']}/-/000"
+        self.evaluate(f"{cell}@truth", f"{cell}@answer")
+        again, = self.rows()
+        for metric in "mpjpe_unaligned_mm", "accel_error_mps2", "seen_share", "floating_mm":
+            self.assertAlmostEqual(again[metric], first[metric], 9, metric)
+        self.assertLess(first["seen_share"], 1)
+        told = self.etude("clip", "info", f"{cell}/{first['method']}@answer", "--json")
+        self.assertEqual([clip["frames"] for clip in json.loads(told.stdout)["clips"]], [len(noisy)], told.stderr)
+
     def test_the_page_shows_it(self):
         self.evaluate(self.shared / "clap.csv", self.shared / "clap.npz")
         self.assertEqual(self.etude("report", self.out).returncode, 0)

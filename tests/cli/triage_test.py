@@ -81,6 +81,22 @@ class Triage(EtudeCase):
         facts = self.facts("evaluate", "--alone", self.folder / "m", "--limits", limits, "-o", self.folder / "facts")
         self.assertEqual(facts["beyond_limits"], [])
 
+    def test_motions_that_are_kept_are_shown_with_the_time_of_each_fault(self):
+        self.triage(self.popping("m/popping.csv"), "--keep", "motions")
+        cell = json.loads((self.out / "cells.jsonl").read_text())
+        kept, = (self.out / "recordings").iterdir()
+        extras = json.loads(kept.read_text())["extras"]
+        fault, = extras["faults"]
+        self.assertEqual((fault["kind"], fault["begin_frame"] <= 30 <= fault["end_frame"] <= 32), ("pops", True), fault)
+        self.assertEqual(self.etude("report", self.out, "--no-video").returncode, 0)
+        self.assertIn(f'data-cell="{cell["scenario"]}/-/000/', (self.out / "report" / "index.html").read_text())
+        motion, = (self.out / "report" / "motions").iterdir()
+        self.assertIn("left_hand pops by 50 cm at 0.9", motion.read_text())
+        # They are motions wherever a clip may stand.
+        again = self.folder / "again"
+        self.triage(f"{self.out}#{cell['scenario']}/-/000@answer", out=again)
+        self.assertEqual(next(iter(self.rows(again).values()))["pops"], 1)
+
     def test_methods_are_compared_and_gated_by_the_names_of_their_clips(self):
         for folder in "a", "b":
             self.popping(f"{folder}/one.csv")

@@ -49,11 +49,13 @@ class Evaluate(PythonCase):
 
     def test_arrays_are_judged_alone(self):
         high = [[[x, y + 0.3, z] for x, y, z in frame] for frame in standing(20)]
+        high[7][2] = [math.nan] * 3
         run = etude.evaluate(alone=True, low=standing(20), high=high, names=NAMES, rate_hz=30, limits="recorded",
                              output=self.folder / "run", progress=False)
         rows = {row["method"]: row for row in run["evaluate"].rows() if row["status"] == "ok"}
         self.assertEqual([rows[name]["floats_share"] for name in ("low", "high")], [0, 1])
         self.assertEqual([rows[name]["within_limits"] for name in ("low", "high")], [1, 0])
+        self.assertEqual({file.suffix for file in (self.folder / "run.motions").iterdir()}, {".npz"})
 
     def test_what_is_missing_is_told(self):
         for wrong, arguments in [(TypeError, {"truth": standing(3), "mine": standing(3)}),

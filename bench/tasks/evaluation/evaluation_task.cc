@@ -1,23 +1,18 @@
 #include "bench/model/recording.h"
 #include "bench/recordings/evaluation_extras.h"
+#include "bench/tasks/base/file_task.h"
 #include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/evaluation/find_files.h"
 #include "bench/tasks/evaluation/match.h"
 #include "bench/tasks/evaluation/options.h"
 #include "bench/tasks/evaluation/run.h"
-#include "engine/base/names.h"
 #include "io/clips/raw_motions.h"
 
 namespace etude {
 namespace {
 
-/// The data that all worlds of one condition share.
-struct EvaluationStudy {
-  EvaluationOptions options;
-  std::vector<EvaluationMethod> methods;
-  std::vector<JudgedFiles> files;
-  OpenOptions opening;
+struct EvaluationStudy : FileStudy<EvaluationOptions, EvaluationMethod> {
   EvaluationSideData side;
 };
 
@@ -34,7 +29,7 @@ Recording RecordingOf(const MatchedMotions& matched) {
 }
 
 /// One pair of files. The truth is read when the world is made, each answer when it is judged.
-class EvaluationWorld final : public TaskWorld {
+class EvaluationWorld final : public FileWorld {
  public:
   EvaluationWorld(const EvaluationStudy& study, const JudgedFiles& files, bool keeps_motion)
       : study_(study), files_(files), keeps_motion_(keeps_motion), truth_(OpenRawMotion(files.truth, study.opening)) {}
@@ -56,10 +51,6 @@ class EvaluationWorld final : public TaskWorld {
     return Judged(*answer);
   }
 
-  Result<Payload> MakeProblem() override { return Refused(); }
-  Result<Payload> MakeTruth() override { return Refused(); }
-  Result<CellResult> Judge(const Json&) override { return Refused(); }
-
  private:
   CellResult Judged(const RawMotion& answer) const {
     const auto matched = Match(*truth_, answer, study_.options.joints, study_.options.lag);
@@ -69,30 +60,10 @@ class EvaluationWorld final : public TaskWorld {
     return result;
   }
 
-  static tl::unexpected<Error> Refused() { return Fail({}, "task evaluation judges files and asks no program"); }
-
   const EvaluationStudy& study_;
   const JudgedFiles& files_;
   const bool keeps_motion_;
   const Result<RawMotion> truth_;
-};
-
-class EvaluationTask final : public Task {
- public:
-  explicit EvaluationTask(EvaluationStudy study) : study_(std::move(study)) {}
-
-  std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool keeps_motion) const override {
-    return std::make_unique<EvaluationWorld>(study_, study_.files[static_cast<std::size_t>(key.trial)], keeps_motion);
-  }
-
-  std::vector<std::string> ClipsOf(const WorldKey& key) const override {
-    return {study_.files[static_cast<std::size_t>(key.trial)].name};
-  }
-
-  Result<Payload> Setting() const override { return Fail({}, "task evaluation judges files and asks no program"); }
-
- private:
-  const EvaluationStudy study_;
 };
 
 Result<std::unique_ptr<Task>> MakeEvaluationTask(TaskInput& input) {
@@ -100,7 +71,7 @@ Result<std::unique_ptr<Task>> MakeEvaluationTask(TaskInput& input) {
   EvaluationConditionFields().Read(input.condition, study.options);
   ASSIGN_OR_RETURN(study.methods, ReadMethods(input, "evaluation", EvaluationMethodFields()));
   RETURN_IF_ERROR(CheckFiles(input.condition.node(), study.options));
-  study.files.assign(input.files.begin(), input.files.end());
+  RETURN_IF_ERROR(study.TakeFiles(input));
   if (!study.options.statistics.empty()) {
     ASSIGN_OR_RETURN(study.side.statistics,
                      ReadJointStatistics(input.texts.at("statistics"), study.options.statistics));
@@ -109,14 +80,7 @@ Result<std::unique_ptr<Task>> MakeEvaluationTask(TaskInput& input) {
     ASSIGN_OR_RETURN(study.side.music_beats_s,
                      ReadMusicBeats(input.texts.at("music_beats"), study.options.music_beats));
   }
-  if (input.opening != nullptr) study.opening = *input.opening;
-  for (const JudgedFiles& files : study.files) {
-    if (files.answers.size() != study.methods.size()) {
-      return Fail(input.condition.node().place, "{} has {} answers; the scenario has {} methods", Quote(files.name),
-                  files.answers.size(), study.methods.size());
-    }
-  }
-  return std::make_unique<EvaluationTask>(std::move(study));
+  return std::make_unique<FileTask<EvaluationStudy, EvaluationWorld>>(std::move(study));
 }
 
 }  // namespace

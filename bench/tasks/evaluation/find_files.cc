@@ -54,6 +54,17 @@ Result<void> RefuseLinks(const std::string& reference, std::span<const std::stri
 
 }  // namespace
 
+std::vector<std::string> SplitAtCommas(std::string_view line) {
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  std::vector<std::string> cells;
+  while (true) {
+    const std::size_t comma = line.find(',');
+    cells.emplace_back(line.substr(0, comma));
+    if (comma == std::string_view::npos) return cells;
+    line.remove_prefix(comma + 1);
+  }
+}
+
 std::string NameOfReference(const std::string& reference) {
   if (reference.starts_with(kBuiltinPrefix)) return reference.substr(kBuiltinPrefix.size());
   const SplitReference split = Split(reference);
@@ -95,17 +106,6 @@ Result<std::map<std::string, std::string>> ByName(const std::vector<std::string>
     return Fail(place, "'{}' and '{}' have one name; 'pairs' tells which belong together", known->second, reference);
   }
   return named;
-}
-
-std::vector<std::string> SplitCells(std::string_view line) {
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  std::vector<std::string> cells;
-  while (true) {
-    const std::size_t comma = line.find(',');
-    cells.emplace_back(line.substr(0, comma));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
 }
 
 /// The columns of a CSV of pairs.
@@ -150,7 +150,7 @@ Result<std::vector<JudgedFiles>> ReadPairs(const std::string& text, const std::s
   int line_number = 0;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
-    const std::vector<std::string> cells = SplitCells(std::string_view(text).substr(at, end - at));
+    const std::vector<std::string> cells = SplitAtCommas(std::string_view(text).substr(at, end - at));
     const Place place{file, ++line_number, 0};
     at = end + 1;
     if (cells.size() == 1 && cells.front().empty()) continue;

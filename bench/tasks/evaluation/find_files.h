@@ -31,6 +31,9 @@ enum class Links { kAllowed, kRefused };
 Result<std::vector<std::string>> ExpandFiles(const std::vector<std::string>& references, Links links,
                                              const Place& place);
 
+/// Splits a line at its commas. A carriage return at its end is dropped.
+std::vector<std::string> SplitAtCommas(std::string_view line);
+
 /// Returns the name of a reference: its file's without folder and extension, and the clip behind '#'.
 std::string NameOfReference(const std::string& reference);
 

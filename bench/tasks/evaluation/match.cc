@@ -22,7 +22,9 @@ std::vector<CommonJoint> FindCommon(const RawMotion& truth, const RawMotion& ans
                                     std::vector<std::string>& lacking) {
   std::vector<std::string> names;
   if (set == "same") {
-    names = truth.joints;
+    for (std::size_t j = 0; j < truth.joints.size(); ++j) {
+      if (std::ranges::find(truth.added, static_cast<int>(j)) == truth.added.end()) names.push_back(truth.joints[j]);
+    }
   } else if (set == "roles") {
     for (const Role role : AllRoles()) names.emplace_back(RoleName(role));
   } else {
@@ -43,6 +45,14 @@ std::vector<CommonJoint> FindCommon(const RawMotion& truth, const RawMotion& ans
 
 /// Returns the positions of some joints in the first frames.
 PointTracks Columns(const RawMotion& motion, const std::vector<int>& joints, std::size_t frames) {
+  const auto is_whole = [&] {
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (joints[j] != static_cast<int>(j)) return false;
+    }
+    return joints.size() == motion.joints.size();
+  };
+  const auto begin = motion.positions.begin();
+  if (is_whole()) return {joints.size(), {begin, begin + static_cast<std::ptrdiff_t>(joints.size() * frames)}};
   PointTracks tracks{joints.size(), std::vector<glm::dvec3>(joints.size() * frames)};
   glm::dvec3* out = tracks.positions.data();
   for (std::size_t f = 0; f < frames; ++f) {

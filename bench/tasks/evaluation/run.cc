@@ -49,30 +49,35 @@ std::string DigestOf(const PointTracks& tracks) {
   return digest.Hex();
 }
 
-/// Returns each frame's mean error for a curve: a frame without one repeats the one before.
+/// Returns each frame's mean error for a curve, to a nanometre: a frame without one repeats the one before.
 std::vector<double> CurveOf(const std::vector<double>& errors, std::size_t joints) {
   std::vector<double> curve;
   for (std::size_t at = 0; at < errors.size(); at += joints) {
     const auto mean = MeanOfSeen({&errors[at], joints});
-    curve.push_back(mean.value_or(curve.empty() ? 0 : curve.back()));
+    constexpr double kPerMm = 1e6;
+    curve.push_back(mean ? std::round(kPerMm * *mean) / kPerMm : curve.empty() ? 0 : curve.back());
   }
   return curve;
 }
 
 void MeasureErrors(const EvaluatedPair& pair, const PairFits& fits, CellResult& result) {
   for (const AlignedError& error : kErrors) {
-    const std::vector<double> errors = JointErrorsMm(pair, fits.Of(error.alignment));
-    result.MeasureOr(error.id, MeanOfSeen(errors), error.why_missing);
-    const bool is_drawn = error.alignment == Alignment::kNone || error.alignment == Alignment::kRoot;
-    if (is_drawn && MeanOfSeen(errors))
-      result.series.push_back({error.id, "frame", CurveOf(errors, pair.found.points)});
+    const FrameFits aligned = fits.Of(error.alignment);
+    if (error.alignment != Alignment::kNone && error.alignment != Alignment::kRoot) {
+      result.MeasureOr(error.id, MeanJointErrorMm(pair, aligned), error.why_missing);
+      continue;
+    }
+    const std::vector<double> errors = JointErrorsMm(pair, aligned);
+    const auto mean = MeanOfSeen(errors);
+    result.MeasureOr(error.id, mean, error.why_missing);
+    if (mean) result.series.push_back({error.id, "frame", CurveOf(errors, pair.found.points)});
     if (error.alignment != Alignment::kRoot) continue;
     constexpr double kPck_mm = 150;
     result.MeasureOr("pck_150mm@mpi_inf_3dhp", ShareBelow(errors, kPck_mm), kNoRoot);
     result.MeasureOr("auc_150mm@mpi_inf_3dhp", AucTo150(errors), kNoRoot);
   }
   const auto by_segments = [&](std::size_t fitted) {
-    return MeanOfSeen(JointErrorsMm(pair, fits.OfSegments(kSegmentFrames, fitted)));
+    return MeanJointErrorMm(pair, fits.OfSegments(kSegmentFrames, fitted));
   };
   result.MeasureOr("w_mpjpe_mm@wham", by_segments(2), kNoFit);
   result.MeasureOr("wa_mpjpe_mm@wham", by_segments(kSegmentFrames), kNoFit);
@@ -80,15 +85,14 @@ void MeasureErrors(const EvaluatedPair& pair, const PairFits& fits, CellResult& 
                    "fewer than three roots are seen by both, or the true root stands");
 }
 
-void MeasureMovement(const EvaluatedPair& pair, const PairFits& fits, CellResult& result) {
+void MeasureMovement(const EvaluatedPair& pair, CellResult& result) {
   const double rate = pair.rate_hz;
   constexpr const char* kTooShort = "no joint is seen by both in three frames in a row";
   constexpr double kToMm = 1000;
   const auto acceleration = AccelerationError(pair.found, pair.truth);
   result.MeasureOr("accel_error_mm@human_dynamics", Times(kToMm, acceleration), kTooShort);
   result.MeasureOr("accel_error_mps2", Times(rate * rate, acceleration), kTooShort);
-  const auto of_root = AccelerationError(Aligned(pair, fits.Of(Alignment::kRoot)), pair.truth, 1);
-  result.MeasureOr("accel_error_mps2@wham", Times(rate * rate, of_root),
+  result.MeasureOr("accel_error_mps2@wham", Times(rate * rate, RootAccelerationError(pair)),
                    "no joint and root are seen by both in five frames");
   result.MeasureOr("jitter@wham", Jitter(pair.found, rate), "no joint is seen in four frames in a row");
 }
@@ -174,9 +178,11 @@ void MeasureInbetweening(const MatchedMotions& matched, const EvaluationSideData
 void MeasureBeats(const EvaluatedPair& pair, const EvaluationSideData& side, CellResult& result) {
   const char* why = side.music_beats_s ? "no beat of music or motion lies within it, or a joint is not seen throughout"
                                        : "needs `music_beats`";
-  const std::vector<double> beats_s = side.music_beats_s.value_or(std::vector<double>{});
-  result.MeasureOr("beat_alignment@bailando", BeatAlignmentOfMusic(pair.found, pair.rate_hz, beats_s), why);
-  result.MeasureOr("beat_alignment@mint", BeatAlignmentOfMotion(pair.found, pair.rate_hz, beats_s), why);
+  for (const auto& [id, measure] : {std::pair("beat_alignment@bailando", &BeatAlignmentOfMusic),
+                                    {"beat_alignment@mint", &BeatAlignmentOfMotion}}) {
+    const auto value = side.music_beats_s ? measure(pair.found, pair.rate_hz, *side.music_beats_s) : std::nullopt;
+    result.MeasureOr(id, value, why);
+  }
 }
 
 }  // namespace
@@ -224,7 +230,7 @@ CellResult JudgeMotion(const MatchedMotions& matched, const EvaluationSideData& 
   result.digests = {{"truth", DigestOf(matched.pair.truth)}, {"answer", DigestOf(matched.pair.found)}};
   const PairFits fits(matched.pair);
   MeasureErrors(matched.pair, fits, result);
-  MeasureMovement(matched.pair, fits, result);
+  MeasureMovement(matched.pair, result);
   MeasureFeet(matched.pair, result);
   result.MeasureOr("bend_error_deg", BendErrorDeg(matched.pair.found, matched.pair.truth, matched.bends),
                    "no knee or elbow with its neighbours is seen by both");

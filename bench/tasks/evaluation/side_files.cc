@@ -2,28 +2,14 @@
 
 #include <algorithm>
 
+#include "bench/tasks/evaluation/find_files.h"
 #include "engine/base/names.h"
 #include "engine/formats/number_rows.h"
 
 namespace etude {
-namespace {
-
-/// Splits a heading at its commas.
-std::vector<std::string> NamesIn(std::string_view heading) {
-  std::vector<std::string> names;
-  for (std::size_t at = 0; at <= heading.size();) {
-    const std::size_t comma = std::min(heading.find(',', at), heading.size());
-    names.emplace_back(heading.substr(at, comma - at));
-    at = comma + 1;
-  }
-  return names;
-}
-
-}  // namespace
-
 Result<StatisticsByJoint> ReadJointStatistics(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(const NumberRows rows, ReadNumberRows(text, file));
-  const std::vector<std::string> names = NamesIn(rows.heading);
+  const std::vector<std::string> names = SplitAtCommas(rows.heading);
   if (rows.heading.empty() || names.size() != rows.columns || rows.RowCount() != 2) {
     return Fail({file},
                 "{} names in the heading, {} rows of {} numbers; allowed: a heading JOINT_x_m,JOINT_y_m,…, a "

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "bench/metrics/plausibility.h"
+#include "bench/model/recording.h"
+#include "bench/recordings/task_extras.h"
 #include "engine/base/digest.h"
 #include "engine/base/names.h"
 #include "engine/motion/motion_faults.h"
@@ -67,6 +71,18 @@ std::string DigestOf(const BodyMotion& motion) {
   return digest.Hex();
 }
 
+Recording RecordingOf(BodyInPlace body, const MotionFaults& found) {
+  PlausibilityExtras extras{.floor_m = found.floor_m, .faults = {}};
+  const auto frame_at = [&](double time_s) {
+    return static_cast<int>(std::lround((time_s - body.begin_s) * body.motion.rate_hz));
+  };
+  for (const MotionFault& fault : found.faults) {
+    extras.faults.push_back(
+        {std::string(FaultName(fault.kind)), fault.text, frame_at(fault.from_s), frame_at(fault.to_s)});
+  }
+  return {{{"answer", std::move(body.motion)}}, WritePlausibilityExtras(extras)};
+}
+
 }  // namespace
 
 std::vector<std::string> LimitedMetrics() {
@@ -82,7 +98,7 @@ std::vector<std::string> PlausibilityMetrics() {
   return ids;
 }
 
-CellResult JudgeAlone(const BodyInPlace& body, const PlausibilityOptions& options) {
+CellResult JudgeAlone(BodyInPlace body, const PlausibilityOptions& options, bool keeps_motion) {
   const std::size_t frames = body.motion.poses.size();
   if (frames < kMinFramesForFaults) {
     return CellResult::Ended(Status::kFailed,
@@ -120,6 +136,7 @@ CellResult JudgeAlone(const BodyInPlace& body, const PlausibilityOptions& option
   result.reason = fmt::format("{}{}{}", Join(words, "; "), kAboutFile, file);
   if (!body.notes.empty()) result.reason += ", " + Join(body.notes);
   result.digests = {{"motion", DigestOf(body.motion)}};
+  if (keeps_motion) result.recording = RecordingOf(std::move(body), found);
   return result;
 }
 

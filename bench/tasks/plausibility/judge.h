@@ -17,7 +17,8 @@ std::vector<std::string> LimitedMetrics();
 
 /// Measures the faults of a body. The reason of the result holds, in words, the limits that are exceeded, the faults
 /// (FaultSentences), the floor, and what the reader did. Fails with fewer frames than faults are sought in.
-CellResult JudgeAlone(const BodyInPlace& body, const PlausibilityOptions& options);
+/// If `keeps_motion`, the body is recorded with its faults.
+CellResult JudgeAlone(BodyInPlace body, const PlausibilityOptions& options, bool keeps_motion = false);
 
 /// Returns the part of that reason about limits and faults.
 std::string_view FaultWords(std::string_view reason);

@@ -1,77 +1,42 @@
+#include "bench/tasks/base/file_task.h"
 #include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/plausibility/find_clips.h"
 #include "bench/tasks/plausibility/judge.h"
 #include "bench/tasks/plausibility/options.h"
-#include "engine/base/names.h"
 #include "io/clips/body_in_place.h"
 
 namespace etude {
 namespace {
 
-/// The data that all worlds of one condition share.
-struct PlausibilityStudy {
-  PlausibilityOptions options;
-  std::vector<PlausibilityMethod> methods;
-  std::vector<JudgedFiles> files;
-  OpenOptions opening;
-};
+using PlausibilityStudy = FileStudy<PlausibilityOptions, PlausibilityMethod>;
 
 /// The clips of one name.
-class PlausibilityWorld final : public TaskWorld {
+class PlausibilityWorld final : public FileWorld {
  public:
-  PlausibilityWorld(const PlausibilityStudy& study, const JudgedFiles& files) : study_(study), files_(files) {}
+  PlausibilityWorld(const PlausibilityStudy& study, const JudgedFiles& files, bool keeps_motion)
+      : study_(study), files_(files), keeps_motion_(keeps_motion) {}
 
   CellResult Run(std::size_t method) override {
     const std::string& reference = files_.answers[method];
     if (reference.empty()) return CellResult::Ended(Status::kSkipped, "the method has no clip of this name");
-    const auto body = OpenBodyInPlace(reference, study_.opening);
+    auto body = OpenBodyInPlace(reference, study_.opening);
     if (!body) return CellResult::Ended(Status::kFailed, ToString(body.error()));
-    return JudgeAlone(*body, study_.options);
+    return JudgeAlone(*std::move(body), study_.options, keeps_motion_);
   }
 
-  Result<Payload> MakeProblem() override { return Refused(); }
-  Result<Payload> MakeTruth() override { return Refused(); }
-  Result<CellResult> Judge(const Json&) override { return Refused(); }
-
  private:
-  static tl::unexpected<Error> Refused() { return Fail({}, "task plausibility judges files and asks no program"); }
-
   const PlausibilityStudy& study_;
   const JudgedFiles& files_;
-};
-
-class PlausibilityTask final : public Task {
- public:
-  explicit PlausibilityTask(PlausibilityStudy study) : study_(std::move(study)) {}
-
-  std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool /*keeps_motion*/) const override {
-    return std::make_unique<PlausibilityWorld>(study_, study_.files[static_cast<std::size_t>(key.trial)]);
-  }
-
-  std::vector<std::string> ClipsOf(const WorldKey& key) const override {
-    return {study_.files[static_cast<std::size_t>(key.trial)].name};
-  }
-
-  Result<Payload> Setting() const override { return Fail({}, "task plausibility judges files and asks no program"); }
-
- private:
-  const PlausibilityStudy study_;
+  const bool keeps_motion_;
 };
 
 Result<std::unique_ptr<Task>> MakePlausibilityTask(TaskInput& input) {
   PlausibilityStudy study;
   PlausibilityConditionFields().Read(input.condition, study.options);
   ASSIGN_OR_RETURN(study.methods, ReadMethods(input, "plausibility", PlausibilityMethodFields()));
-  study.files.assign(input.files.begin(), input.files.end());
-  if (input.opening != nullptr) study.opening = *input.opening;
-  for (const JudgedFiles& files : study.files) {
-    if (files.answers.size() != study.methods.size()) {
-      return Fail(input.condition.node().place, "{} has {} answers; the scenario has {} methods", Quote(files.name),
-                  files.answers.size(), study.methods.size());
-    }
-  }
-  return std::make_unique<PlausibilityTask>(std::move(study));
+  RETURN_IF_ERROR(study.TakeFiles(input));
+  return std::make_unique<FileTask<PlausibilityStudy, PlausibilityWorld>>(std::move(study));
 }
 
 }  // namespace

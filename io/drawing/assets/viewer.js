@@ -462,6 +462,7 @@ const show = (world, cells) => {
       ...[.1, .25, .5, 1, 2].map((s) => make('option', {value: s, selected: s === 1}, `speed × ${s}`)));
   const apart = button('Side by side', () => { state.apart = !state.apart; layOut(); home(); refresh(); });
   const byError = button('Colour by error', () => { state.byError = !state.byError; refresh(); });
+  byError.hidden = !state.byError;  // without errors there is nothing to colour by
   const scale = make('div', {class: 'scale'}, `${world.error}, ${world.unit}`, make('i'),
       make('span', {}, make('span', {}, '0'), make('span', {}, short(world.most / 2)), make('span', {}, '≥ ' + short(world.most))));
   const seek = (t) => { state.t = Math.min(Math.max(t, 0), last); refresh(); };

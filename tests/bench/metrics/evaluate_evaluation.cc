@@ -49,14 +49,14 @@ template <Alignment alignment>
 Value Mpjpe(const Json& in) {
   const bool by_root = alignment == Alignment::kRoot || alignment == Alignment::kRootScaled;
   const EvaluatedPair pair = PairOf(in, by_root);
-  return MeanOfSeen(JointErrorsMm(pair, PairFits(pair).Of(alignment)));
+  return MeanJointErrorMm(pair, PairFits(pair).Of(alignment));
 }
 
 template <bool by_first_two>
 Value SegmentMpjpe(const Json& in) {
   const EvaluatedPair pair = PairOf(in);
   const auto length = in.at("segment").get<std::size_t>();
-  return MeanOfSeen(JointErrorsMm(pair, PairFits(pair).OfSegments(length, by_first_two ? 2 : length)));
+  return MeanJointErrorMm(pair, PairFits(pair).OfSegments(length, by_first_two ? 2 : length));
 }
 
 Value Times(double factor, Value value) { return value ? Value(factor * *value) : std::nullopt; }
@@ -70,8 +70,7 @@ Value AccelerationMps2(const Json& in) {
 
 Value RootAccelerationMps2(const Json& in) {
   const EvaluatedPair pair = PairOf(in, true);
-  return Times(RateOf(in) * RateOf(in),
-               AccelerationError(Aligned(pair, PairFits(pair).Of(Alignment::kRoot)), pair.truth, 1));
+  return Times(RateOf(in) * RateOf(in), RootAccelerationError(pair));
 }
 
 Value Rte(const Json& in) {

@@ -2,9 +2,14 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "engine/formats/npz.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/clip.h"
+#include "io/clips/body_in_place.h"
+#include "io/clips/references.h"
 #include "sim/choreography/canonical_body.h"
 #include "tests/io/clips/clip_folder.h"
 #include "tests/support/results.h"
@@ -43,6 +48,54 @@ TEST_F(RawMotionsTest, MarkersKeepTheirRateTheirFloorAndTheirGaps) {
   const auto at = [&](std::size_t frame, Role role) { return raw.At(frame, raw.roles[Index(role)]); };
   EXPECT_FALSE(IsSeen(at(2, Role::kLeftHand)));
   EXPECT_NEAR(glm::distance(at(2, Role::kLeftFoot), Lifted(50, 1).poses[0][Role::kLeftFoot]), 0, 1e-5);
+}
+
+TEST_F(RawMotionsTest, EndSitesAreNoneOfTheFilesOwnJoints) {
+  const auto file = ExpandReference("assimp:01_01", {}, 1);
+  ASSERT_TRUE(file) << ToString(file.error());
+  const RawMotion raw = Opened(file->front());
+  std::size_t ends = 0;
+  for (std::size_t j = 0; j < raw.joints.size(); ++j) {
+    const bool is_end = raw.joints[j].ends_with("_End") || raw.joints[j].starts_with("(midway");
+    const bool is_added = std::ranges::count(raw.added, static_cast<int>(j)) == 1;
+    EXPECT_EQ(is_added, is_end) << raw.joints[j];
+    ends += is_end;
+  }
+  EXPECT_GE(ends, 5u);
+}
+
+TEST_F(RawMotionsTest, ArraysOfAnyJointsAreABodyByTheirNames) {
+  // The joints of SMPL that have roles, with a gap; without feet, hands and spine.
+  BodyMotion motion = Lifted(50, 30);
+  NumberArray positions{.shape = {30, 14, 3}, .values = {}};
+  std::vector<std::string> names;
+  for (const Role role : AllRoles()) {
+    using enum Role;
+    if (role == kHipCentre || role == kSpine || role == kLeftHand || role == kRightHand || role == kLeftFoot || role == kRightFoot)
+      continue;
+    names.emplace_back(RoleName(role));
+  }
+  ASSERT_EQ(names.size(), 14u);
+  for (const BodyPose& pose : motion.poses) {
+    for (const std::string& name : names) {
+      const glm::dvec3& p = pose[*FindRole(name)];
+      positions.values.insert(positions.values.end(), {p.x, p.y, p.z});
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis) positions.values[7 * 14 * 3 + axis] = std::nan("");
+  const std::string file =
+      Write("a.npz", WriteNpz({{"positions", positions}, {"rate_hz", {.shape = {}, .values = {50}}}}, {{"names", names}}));
+  const auto body = OpenBodyInPlace(file, {});
+  ASSERT_TRUE(body) << ToString(body.error());
+  EXPECT_EQ(body->motion.rate_hz, 50);
+  ASSERT_EQ(body->motion.poses.size(), 30u);
+  EXPECT_NEAR(glm::distance(body->motion.poses[7][Role::kLeftKnee], motion.poses[7][Role::kLeftKnee]), 0, 1e-9);
+  // They are metres with Y up, whatever is told.
+  OpenOptions told;
+  told.body.metres_per_unit = 0.01;
+  const auto same = OpenBodyInPlace(file, told);
+  ASSERT_TRUE(same) << ToString(same.error());
+  EXPECT_EQ(same->motion.poses[7][Role::kHead], body->motion.poses[7][Role::kHead]);
 }
 
 TEST_F(RawMotionsTest, JointsPlacedByRulePlayNoRole) {

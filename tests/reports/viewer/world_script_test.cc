@@ -201,6 +201,23 @@ TEST(WorldScript, MotionsOfAnyJointsBringTheirTree) {
   EXPECT_EQ(body.at("against"), nlohmann::json({0}));
 }
 
+TEST(WorldScript, FaultsOfAMotionAloneAreMarksOnItsFloor) {
+  RunData run = ExampleRun();
+  Row& row = run.rows.front();
+  row.task = "plausibility";
+  row.clip = "walk 7";
+  const PlausibilityExtras extras{.floor_m = 0.3, .faults = {{"floats", "floats 6 cm from 0.10 to 0.20 s", 3, 6}}};
+  run.recordings = {{row.Id(), Recording({{"answer", Walk(10)}}, WritePlausibilityExtras(extras))}};
+  const auto worlds = RecordedWorlds(run);
+  const nlohmann::json json = JsonOf(WorldScript(run, worlds.front()));
+  EXPECT_THAT(worlds.front().Name(), testing::HasSubstr("walk 7"));
+  EXPECT_EQ(json.at("floor_m"), 0.3);
+  EXPECT_EQ(json.at("bodies").size(), 1u);
+  const nlohmann::json mark = {{"lane", row.method}, {"frame", 3}, {"end", 6}, {"kind", "miss"},
+                               {"text", "floats 6 cm from 0.10 to 0.20 s"}};
+  EXPECT_EQ(json.at("marks"), nlohmann::json::array({mark}));
+}
+
 TEST(WorldScript, ExtrasThatCannotBeReadLeaveTheMotionAndAreTold) {
   RunData run = ExampleRun();
   for (const Row& row : run.rows) {

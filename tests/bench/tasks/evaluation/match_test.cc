@@ -106,6 +106,10 @@ TEST(Match, EqualNamesArePairedWhateverTheirRoles) {
   EXPECT_EQ(matched->joints.front(), "mine");
   EXPECT_EQ(matched->joints.size(), 19u);
   EXPECT_GT(ValueIn(JudgeMotion(*matched), "mpjpe_unaligned_mm"), 0);
+  // What the file does not name is judged by its role alone: an End Site, the middle of the hips.
+  truth.added = {1, static_cast<int>(Index(Role::kHead))};
+  EXPECT_EQ(Match(truth, answer, "same", Lag::kNone)->joints.size(), 17u);
+  EXPECT_EQ(Match(truth, answer, "roles", Lag::kNone)->joints.size(), 20u);
 }
 
 TEST(Match, FailsWithoutACommonJointOrAnySeen) {

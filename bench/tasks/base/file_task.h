@@ -1,0 +1,64 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/tasks/base/task.h"
+#include "engine/base/names.h"
+#include "io/clips/clip_file.h"
+
+namespace etude {
+
+/// The data that all worlds of one condition of a task that judges files share.
+template <typename Options, typename Method>
+struct FileStudy {
+  Options options;
+  std::vector<Method> methods;
+  std::vector<JudgedFiles> files;  ///< one a trial
+  OpenOptions opening;
+
+  /// Takes the files from the input. Fails if one of them has not an answer of each method.
+  Result<void> TakeFiles(const TaskInput& input) {
+    files.assign(input.files.begin(), input.files.end());
+    if (input.opening != nullptr) opening = *input.opening;
+    for (const JudgedFiles& world : files) {
+      if (world.answers.size() == methods.size()) continue;
+      return Fail(input.condition.node().place, "{} has {} answers; the scenario has {} methods", Quote(world.name),
+                  world.answers.size(), methods.size());
+    }
+    return {};
+  }
+};
+
+/// Refuses what only tasks that ask programs do.
+inline tl::unexpected<Error> FailOfFileTask() { return Fail({}, "a task that judges files asks no program"); }
+
+/// A world of a task that judges files: it has no problem.
+class FileWorld : public TaskWorld {
+ public:
+  Result<Payload> MakeProblem() final { return FailOfFileTask(); }
+  Result<Payload> MakeTruth() final { return FailOfFileTask(); }
+  Result<CellResult> Judge(const Json& /*answer*/) final { return FailOfFileTask(); }
+};
+
+/// A task that judges files. A World is made of the study, its files, and whether its cells keep their motion.
+template <typename Study, typename World>
+class FileTask final : public Task {
+ public:
+  explicit FileTask(Study study) : study_(std::move(study)) {}
+
+  std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool keeps_motion) const override {
+    return std::make_unique<World>(study_, FilesOf(key), keeps_motion);
+  }
+  std::vector<std::string> ClipsOf(const WorldKey& key) const override { return {FilesOf(key).name}; }
+  Result<Payload> Setting() const override { return FailOfFileTask(); }
+
+ private:
+  const JudgedFiles& FilesOf(const WorldKey& key) const { return study_.files[static_cast<std::size_t>(key.trial)]; }
+
+  const Study study_;
+};
+
+}  // namespace etude
