@@ -75,6 +75,7 @@ void PrintReport(const GateReport& report) {
     fmt::print("{}: {}: {} [{}]\n", ClaimOutcomeName(ratio.outcome), ratio.scenario, RatioClaim(ratio),
                RatioDetail(ratio));
   }
+  PrintList("Answers that fell:", FallenLines(report));
   PrintList("New, not in the baseline:", report.comparison.only_after);
   PrintList("Settings of the method changed in the scenario:", report.comparison.settings_changed);
   PrintList("Methods without an answer:", report.silent);
@@ -100,6 +101,7 @@ Json FactsOf(const GateReport& report) {
                        {"verdict", VerdictName(answer.verdict)},
                        {"decided_by", NameOfValue(kAnswerSteps, answer.decided_by)}});
   }
+  facts["fallen"] = FallenLines(report);
   facts["silent"] = report.silent;
   facts["incomplete"] = report.incomplete;
   return facts;

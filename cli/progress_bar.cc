@@ -26,11 +26,17 @@ ProgressBar::ProgressBar(Begins begins) : is_terminal_(::isatty(STDERR_FILENO) =
 
 bool ProgressBar::IsTooSoon(double share) const {
   if (begins_ == Begins::kAtOnce || is_shown_) return false;
-  constexpr double kSoonS = 0.3, kLongS = 5;
+  constexpr double kSoonS = 0.3, kLongS = 1.5;
   return share >= 1 || SecondsSince(began_) < (is_terminal_ ? kSoonS : kLongS);
 }
 
 void ProgressBar::Show(const Progress& progress) {
+  if (progress.written) {
+    if (!is_writing_) *this = ProgressBar(Begins::kWhenItTakesLong);  // a bar of its own
+    is_writing_ = true;
+    const double share = *progress.written;
+    return Show(share, "results summarised", Remaining(share, 1 - share, SecondsSince(began_)));
+  }
   const auto cells = static_cast<double>(progress.cells);
   const double done = progress.Work();
   const std::string answered =

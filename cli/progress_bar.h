@@ -19,6 +19,7 @@ class ProgressBar {
     kWhenItTakesLong,  ///< soon on a terminal; in a log only if the work takes so long that somebody may read the log
   };
   explicit ProgressBar(Begins begins = Begins::kAtOnce);
+  /// Shows the progress of a run: of its cells, then, if it takes long, of writing its results.
   void Show(const Progress& progress);
   /// Shows the progress; `share` is 0…1.
   void Show(double share, const std::string& what, const std::string& remaining = "");
@@ -33,6 +34,7 @@ class ProgressBar {
   int tenths_shown_ = -1;
   /// For logs: the time of the next line, unless a tenth is reached before; the pause after it.
   double next_s_ = 2, pause_s_ = 2;
+  bool is_writing_ = false;  ///< shows the writing of a run's results
 };
 
 /// Returns a callback that shows the progress of some work and the estimated remaining time ("12/300 clips, about 40 s

@@ -158,6 +158,14 @@ std::vector<std::string> GateSentences(const GateReport& report) {
   return sentences;
 }
 
+std::vector<std::string> FallenLines(const GateReport& report, bool only_flipped) {
+  std::vector<std::string> lines;
+  for (const FallenAnswer& one : report.fallen) {
+    if (one.Flips() || !only_flipped) lines.push_back(DescribeFallen(one));
+  }
+  return lines;
+}
+
 std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, const GateReport& report,
                                 std::size_t most) {
   if (moves.empty()) return {};
@@ -319,6 +327,7 @@ std::string WriteGateMarkdown(const GateReport& report) {
   text += List("**Incomplete**, so there is no overall verdict:", report.incomplete);
   text += List("**Methods without an answer:**", report.silent);
   text += List("**Not met:**", ClaimsThatAre(report, ClaimOutcome::kUnmet));
+  text += List("**Answers that fell** (one from better to worse is a regression):", FallenLines(report));
   // Changes: those that fail stay open, all others are folded away.
   std::vector<GateTableRow> failing, others;
   for (GateTableRow& row : MovedRows(report.comparison)) (row.fails ? failing : others).push_back(std::move(row));
@@ -352,7 +361,8 @@ std::string WriteGateJunit(const GateReport& report) {
   };
   std::vector<JunitSuite> suites = {
       {"gate",
-       {empty("every cell can be judged", report.incomplete), empty("every method has an answer", report.silent)}}};
+       {empty("every cell can be judged", report.incomplete), empty("every method has an answer", report.silent),
+        empty("no answer flips", FallenLines(report, true))}}};
   std::map<std::string, std::size_t> places;
   const auto suite_of = [&](const std::string& scenario) -> JunitSuite& {
     const auto [place, is_new] = places.emplace(scenario, suites.size());

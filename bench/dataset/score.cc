@@ -122,6 +122,10 @@ class Meter {
     progress_.seconds = SecondsSince(start_);
     on_progress_(progress_);
   }
+  void TellWritten(double share) {
+    progress_.written = share;
+    on_progress_(progress_);
+  }
   const Progress& progress() const { return progress_; }
 
  private:
@@ -231,7 +235,10 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
     host["fence"] = fence.description();
     host["memory"] = fence.MemoryDescription();
   }
-  RETURN_IF_ERROR(FinishRun(folder, plan, cells, host, WorkerCount(options.jobs), [](std::size_t) { return true; }));
+  RETURN_IF_ERROR(FinishRun(folder, plan, cells, host, WorkerCount(options.jobs), [&](double share) {
+    meter.TellWritten(share);
+    return true;
+  }));
   claimed.Keep();
   return outcome;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/gate/comparison.h"
+#include "bench/gate/fallen_answers.h"
 #include "bench/gate/finished_run.h"
 
 namespace etude {
@@ -42,9 +43,10 @@ struct GateReport {
   std::string baseline_version;  ///< of the program that made the baseline
   std::string program_version;   ///< of the program that made the run
   std::vector<GateExpectation> expectations;
-  std::vector<GateAnswer> answers;  ///< against baselines; they decide nothing here
+  std::vector<GateAnswer> answers;  ///< against baselines; only those that fell decide anything (`fallen`)
   std::vector<RatioResult> ratios;
   SnapshotComparison comparison;
+  std::vector<FallenAnswer> fallen;     ///< answers that the baseline decided for more; one that flips fails the gate
   std::vector<std::string> silent;      ///< a sentence per method without any answer: each fails the gate
   std::vector<std::string> incomplete;  ///< why there is no verdict
   bool runs_programs = false;           ///< some methods are programs, so `etude replay` needs permission

@@ -84,7 +84,8 @@ Result<std::map<std::string, KeptCost>> ReadKeptCosts() {
     }
     for (const Json& one : json.at("scenarios")) {
       costs[one.at("work").get<std::string>()] = {one.at("once").get<double>(), one.at("trial").get<double>(),
-                                                  one.value("spread", 0.0)};
+                                                  one.value("spread", 0.0),     one.value("units", 0),
+                                                  one.value("trials", 0),       one.value("seed", std::uint64_t{0})};
     }
   } catch (const Json::exception& error) {
     return Fail({file.string()}, "not a table of costs: {}", error.what());

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "bench/scenario/scenario.h"
 #include "engine/base/result.h"
+#include "sim/random/stream.h"
 
 namespace etude {
 
@@ -17,6 +20,15 @@ struct KeptCost {
   double once = 0;    ///< for start-up, preparation of conditions, and statistics
   double trial = 0;   ///< for one world of every condition, with all methods
   double spread = 0;  ///< ScenarioForecast::spread; 0 = not measured
+  /// ScenarioForecast::units of that many trials with that seed; 0 = not kept, because worlds are the units.
+  int units = 0;
+  int trials = 0;
+  std::uint64_t seed = 0;
+
+  std::optional<int> UnitsOf(int of_trials, const Seed& of_seed) const {
+    const bool is_same = units > 0 && of_trials == trials && of_seed == Seed(seed);
+    return is_same ? std::optional(units) : std::nullopt;
+  }
 };
 
 /// Reads the kept costs of shipped scenarios, by WorkOf; empty if nothing is shipped. Fails if the table is invalid.

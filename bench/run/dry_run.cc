@@ -15,7 +15,9 @@
 #include "bench/statistics/compare.h"
 #include "bench/statistics/scenario_table.h"
 #include "bench/statistics/summary.h"
+#include "bench/tasks/registry.h"
 #include "engine/base/order_statistics.h"
+#include "io/clips/references.h"
 #include "io/process/clock.h"
 
 namespace etude {
@@ -40,9 +42,32 @@ int StepOver(int conditions) {
   return step;
 }
 
-/// Returns true if no option of the command line replaces the clips or recordings that the file names.
+/// Returns true if no option of the command line replaces the clips or recordings that the file names, or how they are
+/// read.
 bool IsAsShipped(const RunOptions& options) {
-  return options.clips.empty() && options.libraries.empty() && options.streams.empty() && options.from.empty();
+  return options.clips.empty() && options.libraries.empty() && options.streams.empty() && options.labels.empty() &&
+         options.joint_map.empty() && options.clip_facts.empty() && options.from.empty();
+}
+
+/// Returns true if every reference stands for clips that come with the program or a package, and they exist.
+bool AreInstalled(const std::vector<std::string>& references, const Place& place) {
+  return std::ranges::all_of(references, [&](const std::string& one) {
+    return (one.starts_with("builtin:") || one.starts_with("assimp:")) && ExpandReference(one, place);
+  });
+}
+
+/// Returns true if a kept scenario needs no preparation: everything that it names comes with the program, as when its
+/// cost was measured, so its input is valid; and its number of units is known.
+bool IsKnown(const Scenario& scenario, const ScenarioSetup& setup, const KeptCost& cost) {
+  const bool names_no_file = setup.streams.empty() && setup.labels.empty() && setup.files.empty() &&
+                             ProgramsIn(scenario).empty() &&
+                             std::ranges::all_of(scenario.conditions, [&](const Condition& condition) {
+                               return FilesNamedBy(condition, *FindTaskKind(scenario.task)).empty();
+                             });
+  const bool has_clips = std::ranges::all_of(
+      setup.libraries, [&](const NamedClips& library) { return AreInstalled(library.clips, {setup.file}); });
+  return names_no_file && has_clips && AreInstalled(setup.clips, {setup.file}) &&
+         (WorldsAreUnits(scenario.unit) || cost.UnitsOf(setup.trials, setup.seed));
 }
 
 /// Returns ScenarioForecast::spread of the cells in a table.
@@ -61,8 +86,8 @@ double SpreadOf(const Study& study, const ScenarioTable& table, const std::strin
   return deviations.empty() ? 0 : Quantile(deviations, 0.5);
 }
 
-/// Returns the mean time of the first worlds, measured until the time is up; their cells go into `table`. The very first
-/// world includes one-time costs, so it counts only if there is no other.
+/// Returns the mean time of the first worlds, measured until the time is up; their cells go into `table`. The very
+/// first world includes one-time costs, so it counts only if there is no other.
 double MeasureSecondsPerWorld(const PreparedScenario& prepared, const Fence& fence, double until,
                               Clock::time_point start, ScenarioTable& table) {
   const Scenario& scenario = prepared.scenario();
@@ -93,53 +118,80 @@ void ThrowOtherDice(SuiteSetup& suite) {
   for (ScenarioSetup& scenario : suite.scenarios) scenario.seed = suite.seed;
 }
 
+/// Returns how many of the `count` worlds from number `first` of the plan on are in the shard.
+std::size_t CountIn(const Shard& shard, std::size_t first, std::size_t count) {
+  const auto before = [&](std::size_t end) {  // of all worlds before `end`
+    const auto step = static_cast<std::size_t>(shard.count), offset = static_cast<std::size_t>(shard.index - 1);
+    return end <= offset ? 0 : (end - offset - 1) / step + 1;
+  };
+  return before(first + count) - before(first);
+}
+
 }  // namespace
 
 Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
-  // Check all input as a run does.
+  // Check all input as a run does. Scenarios whose cost is kept were valid when it was measured.
   ASSIGN_OR_RETURN(auto suite, ReadSuiteToRun(options));
   if (!suite.seed.IsPlain()) ThrowOtherDice(suite);
-  ASSIGN_OR_RETURN(const auto scenarios, PrepareToRun(suite, options));
-  Forecast forecast{.scenarios = {}, .workers = WorkerCount(options.jobs), .pace = {}};
-  ASSIGN_OR_RETURN(const Fence fence, FenceFor(scenarios, options.outside, "", options.key));
-  // The kept costs, and the speed of this machine to scale them by.
   ASSIGN_OR_RETURN(const auto kept, ReadKeptCosts());
+  std::vector<ScenarioForecast> told;
+  std::vector<Study> studies;
+  std::vector<const KeptCost*> costs;
+  std::vector<std::optional<std::size_t>> prepared_at;  // of each scenario that is prepared
+  std::vector<ScenarioSetup> unknown;
+  for (ParsedSuite parsed(suite); const ScenarioSetup& setup : suite.scenarios) {
+    ASSIGN_OR_RETURN(const Scenario scenario, parsed.Find(setup));
+    told.push_back({.name = scenario.name,
+                    .task = scenario.task,
+                    .worlds = static_cast<std::size_t>(scenario.trials),
+                    .conditions = scenario.conditions.size(),
+                    .methods = scenario.methods.size(),
+                    .work = WorkOf(scenario),
+                    .unit = scenario.unit,
+                    .units = scenario.trials});
+    studies.push_back(StudyOf(scenario));
+    const auto cost = kept.find(told.back().work);
+    costs.push_back(cost != kept.end() && IsAsShipped(options) ? &cost->second : nullptr);
+    const bool is_known = costs.back() != nullptr && IsKnown(scenario, setup, *costs.back());
+    prepared_at.push_back(is_known ? std::nullopt : std::optional(unknown.size()));
+    if (!is_known) unknown.push_back(setup);
+    if (is_known && !WorldsAreUnits(scenario.unit)) {
+      told.back().units = *costs.back()->UnitsOf(scenario.trials, setup.seed);
+    }
+  }
+  suite.scenarios = std::move(unknown);
+  suite.parsed.clear();
+  ASSIGN_OR_RETURN(const auto prepared, PrepareToRun(suite, options));
+  Forecast forecast{.scenarios = {}, .workers = WorkerCount(options.jobs), .pace = {}};
+  ASSIGN_OR_RETURN(const Fence fence, FenceFor(prepared, options.outside, "", options.key));
+  // The speed of this machine, by which kept costs are scaled.
   ASSIGN_OR_RETURN(forecast.pace, MeasurePace(forecast.workers));
   const double seconds_per_yardstick = forecast.workers / forecast.pace.yardsticks_per_s;  // for one worker
   const auto start = Clock::now();
-  // The worlds of the shard, by scenario.
-  const Plan plan(scenarios);
-  std::vector<std::size_t> worlds_of(scenarios.size());
-  for (std::size_t world = 0; world < plan.world_count(); ++world) {
-    if (!plan.IsIn(options.shard, world)) continue;
-    ++worlds_of[static_cast<std::size_t>(plan.world(world).scenario)];
-    forecast.cells += plan.MethodCount(world);
-  }
   double total = 0;
-  for (std::size_t i = 0; i < scenarios.size(); ++i) {
-    const Scenario& scenario = scenarios[i].scenario();
-    ScenarioForecast one{.name = scenario.name,
-                         .task = scenario.task,
-                         .worlds = static_cast<std::size_t>(scenario.trials),
-                         .conditions = scenario.conditions.size(),
-                         .methods = scenario.methods.size(),
-                         .work = WorkOf(scenario),
-                         .unit = scenario.unit,
-                         .units = CountUnitsOf(scenarios[i])};
-    const Study study = StudyOf(scenario);
+  std::size_t first_world = 0, measured = 0;
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    ScenarioForecast& one = told[i];
+    const PreparedScenario* const own = prepared_at[i] ? &prepared[*prepared_at[i]] : nullptr;
+    if (own != nullptr) one.units = CountUnitsOf(*own);
+    const Study& study = studies[i];
+    one.is_kept = costs[i] != nullptr;
     one.metric = ValueMetricOf(study).empty() ? study.success : ValueMetricOf(study);
+    // The scenario's worlds in the shard.
+    const std::size_t all = one.conditions * one.worlds, in_shard = CountIn(options.shard, first_world, all);
+    first_world += all;
+    forecast.cells += in_shard * one.methods;
     // The cost per world and the spread: kept, or measured.
-    const auto worlds = static_cast<double>(worlds_of[i]);
-    const auto cost = kept.find(one.work);
-    one.is_kept = cost != kept.end() && IsAsShipped(options);
+    const auto worlds = static_cast<double>(in_shard);
     if (one.is_kept) {
-      if (worlds > 0) total += seconds_per_yardstick * cost->second.once;
-      one.seconds_per_world = seconds_per_yardstick * cost->second.trial / static_cast<double>(one.conditions);
-      one.spread = cost->second.spread;
+      if (worlds > 0) total += seconds_per_yardstick * costs[i]->once;
+      one.seconds_per_world = seconds_per_yardstick * costs[i]->trial / static_cast<double>(one.conditions);
+      one.spread = costs[i]->spread;
     } else {
-      const double until = sample_seconds * static_cast<double>(i + 1) / static_cast<double>(scenarios.size());
+      const auto unmeasured = static_cast<double>(std::ranges::count(costs, nullptr));
+      const double until = sample_seconds * static_cast<double>(++measured) / unmeasured;
       ScenarioTable table(study);
-      one.seconds_per_world = MeasureSecondsPerWorld(scenarios[i], fence, until, start, table);
+      one.seconds_per_world = MeasureSecondsPerWorld(*own, fence, until, start, table);
       one.spread = SpreadOf(study, table, one.metric);
     }
     one.comparisons = CountComparisons(study);

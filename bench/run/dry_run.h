@@ -37,8 +37,8 @@ struct Forecast {
 };
 
 /// Checks all input as Run does, writes nothing, and estimates the time. For a shipped scenario with its own clips and
-/// recordings, the kept cost is scaled by this machine's speed. For any other, the first worlds are run until
-/// `sample_seconds` have passed, at least one per scenario.
+/// recordings, the kept cost is scaled by this machine's speed; its clips are not read and its recognisers not taught.
+/// For any other, the first worlds are run until `sample_seconds` have passed, at least one per scenario.
 Result<Forecast> DryRun(const RunOptions& options, double sample_seconds);
 
 }  // namespace etude

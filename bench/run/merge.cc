@@ -112,14 +112,14 @@ Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(d
   Json hosts = Json::array();
   RunOutcome outcome{.folder = options.output, .cells = cells.size()};
   // Reading the shards is the first half of the progress, writing the run the second.
-  const auto goes_on = [&](std::size_t rows) {
-    on_progress(static_cast<double>(rows) / static_cast<double>(2 * cells.size()));
+  const auto goes_on = [&](double share) {
+    on_progress(share);
     return options.stop == nullptr || !*options.stop;
   };
   // Read every journal, and list what is missing.
   std::size_t read = 0;
   for (const auto& [index, folder] : shards.folders) {
-    if (!goes_on(read)) {
+    if (!goes_on(0.5 * static_cast<double>(read) / static_cast<double>(cells.size()))) {
       outcome.stopped = true;
       return outcome;
     }
@@ -146,7 +146,7 @@ Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(d
   if (!shards.other_libraries.empty()) RETURN_IF_ERROR(RecordOtherLibraries(options.output, shards.other_libraries));
   Json host = DescribeHost(options.command_line, 0, 0);
   host["shards"] = std::move(hosts);
-  const auto has_written = [&](std::size_t rows) { return goes_on(read + rows); };
+  const auto has_written = [&](double share) { return goes_on(0.5 + 0.5 * share); };
   ASSIGN_OR_RETURN(const bool is_whole, FinishRun(options.output, plan, cells, host, WorkerCount(0), has_written));
   outcome.stopped = !is_whole;
   outcome.seconds = SecondsSince(start);

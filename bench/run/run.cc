@@ -1,8 +1,8 @@
 #include "bench/run/run.h"
 
 #include <algorithm>
-#include <set>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
 #include "bench/results/folder.h"
@@ -187,9 +187,14 @@ Result<OpenedJournal> OpenJournal(const fs::path& folder, const std::string& man
 /// Writes the results of a whole run, or only host.json for a shard, which keeps its journal. Returns false if it was
 /// stopped meanwhile. `was_done` means that nothing was left to run.
 Result<bool> FinishFolder(const fs::path& folder, const Plan& plan, CellTable& cells, const Json& host, bool was_done,
-                          const RunOptions& options) {
+                          const RunOptions& options, Progress progress,
+                          const std::function<void(const Progress&)>& on_progress) {
   if (options.shard.IsWhole()) {
-    const auto goes_on = [&](std::size_t) { return options.stop == nullptr || !*options.stop; };
+    const auto goes_on = [&](double share) {
+      progress.written = share;
+      on_progress(progress);
+      return options.stop == nullptr || !*options.stop;
+    };
     return FinishRun(folder, plan, cells, host, WorkerCount(options.jobs), goes_on);
   }
   if (!was_done || !Exists(Inside(folder) / "host.json")) {
@@ -297,7 +302,8 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
     host["fence"] = outcome.fence;
     host["memory"] = fence.MemoryDescription();
   }
-  ASSIGN_OR_RETURN(const bool is_whole, FinishFolder(folder, plan, cells, host, was_done, options));
+  ASSIGN_OR_RETURN(const bool is_whole,
+                   FinishFolder(folder, plan, cells, host, was_done, options, recorder.progress(), on_progress));
   outcome.stopped = !is_whole;
   outcome.seconds = SecondsSince(start);
   return outcome;

@@ -53,6 +53,8 @@ struct Progress {
   std::size_t cells_answered = 0;  ///< answered, but not yet measured by programs
   double work_before = 0;          ///< Work() of the interrupted run that this one resumes
   double seconds = 0;
+  /// When all cells have ended: the share of the results that is summarised and written.
+  std::optional<double> written = {};
 
   /// Counts the finished cells; an answered cell that is not yet measured counts half.
   double Work() const { return static_cast<double>(cells_done) + 0.5 * static_cast<double>(cells_answered); }

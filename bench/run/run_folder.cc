@@ -229,7 +229,7 @@ RunFolder::~RunFolder() {
 }
 
 Result<bool> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cells, const Json& host, int jobs,
-                       const std::function<bool(std::size_t rows)>& goes_on) {
+                       const std::function<bool(double share)>& goes_on) {
   constexpr std::size_t kRowsBetweenReports = 4096;
   // Write every row, and summarise each scenario.
   std::vector<Study> studies;
@@ -237,21 +237,31 @@ Result<bool> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cell
   ASSIGN_OR_RETURN(auto results, ResultWriter::Begin(folder, studies));
   std::vector<ScenarioSummary> summaries;
   std::size_t cell = 0;
+  bool is_stopped = false;
+  const auto told = [&](std::size_t read, std::size_t summarised) {  // both in rows
+    const double all = 2.0 * static_cast<double>(std::max<std::size_t>(1, plan.cell_count()));
+    is_stopped = is_stopped || !goes_on(static_cast<double>(read + summarised) / all);
+  };
   for (std::size_t s = 0; s < studies.size(); ++s) {
     const Study& study = studies[s];
     const std::size_t end =
         cell + study.conditions.size() * static_cast<std::size_t>(study.trials) * study.methods.size();
+    const std::size_t first = cell, rows = end - first;
     ScenarioTable table(study);
     for (; cell < end; ++cell) {
-      if (cell % kRowsBetweenReports == 0 && !goes_on(cell)) return false;
+      if (cell % kRowsBetweenReports == 0) told(cell, first);
+      if (is_stopped) return false;
       ASSIGN_OR_RETURN(const auto finished, cells.Read(cell, plan));
       table.Add(finished.row);
       RETURN_IF_ERROR(results.Add(finished.row, finished.usage));
     }
-    ASSIGN_OR_RETURN(auto summary, SumUp(study, table, plan.scenarios()[s].setup().seed.Public(), jobs));
+    ASSIGN_OR_RETURN(auto summary,
+                     SumUp(study, table, plan.scenarios()[s].setup().seed.Public(), jobs,
+                           [&](std::size_t done, std::size_t all) { told(cell, first + rows * done / all); }));
     summaries.push_back(std::move(summary));
   }
-  if (!goes_on(cell)) return false;
+  told(cell, cell);
+  if (is_stopped) return false;
   RETURN_IF_ERROR(results.Finish(summaries));
   RETURN_IF_ERROR(SaveJson(Inside(folder) / "host.json", host, OnDisk::kLater));
   // The journal is the only other copy of the results: remove it once all of them are on the disk.

@@ -63,9 +63,10 @@ class RunFolder {
 
 /// Writes the results of a whole run into its folder: cells, series, recordings, summary, timings, and last host.json.
 /// Then it removes the journal, after which the folder counts as finished. `cells` must be complete. `jobs` processes
-/// share the statistics of large runs. `goes_on` gets the number of rows read, every few thousand; if it returns false,
-/// the folder stays unfinished. Returns whether it is finished.
+/// share the statistics of large runs. `goes_on` gets the share of this work that is done, after every few thousand rows
+/// and after each part of the statistics; if it returns false, the folder stays unfinished. Returns whether it is
+/// finished.
 Result<bool> FinishRun(const std::filesystem::path& folder, const Plan& plan, CellTable& cells, const Json& host,
-                       int jobs, const std::function<bool(std::size_t rows)>& goes_on);
+                       int jobs, const std::function<bool(double share)>& goes_on);
 
 }  // namespace etude

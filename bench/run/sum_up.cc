@@ -69,7 +69,7 @@ class Copies {
     return {};
   }
 
-  Result<void> Listen(std::vector<std::string>& answers) {
+  Result<void> Listen(std::vector<std::string>& answers, const OnProgress& on_progress) {
     std::size_t taken = 0;
     while (!copies_.empty()) {
       std::vector<pollfd> watched;
@@ -83,6 +83,7 @@ class Copies {
         if (count > 0) {
           copies_[i].said.append(chunk.data(), static_cast<std::size_t>(count));
           RETURN_IF_ERROR(Take(copies_[i], answers, taken));
+          if (on_progress) on_progress(taken, answers.size());
           continue;
         }
         const int status = copies_[i].process.Wait();
@@ -99,7 +100,7 @@ class Copies {
   std::vector<Copy> copies_;
 };
 
-/// Encodes the findings of a condition as two summaries: comparisons without failures, and with failures counted. If a
+/// Encodes the findings of a method as two summaries: comparisons without failures, and with failures counted. If a
 /// question has none with failures, a comparison of zero pairs, which no real question has, stands for it.
 Result<std::string> EncodeFindings(const ConditionFindings& findings) {
   ScenarioSummary both;
@@ -142,26 +143,40 @@ Result<ConditionFindings> DecodeFindings(const std::string& text) {
 }  // namespace
 
 Result<std::vector<std::string>> RunForked(std::size_t count, int jobs,
-                                           const std::function<Result<std::string>(std::size_t)>& work) {
+                                           const std::function<Result<std::string>(std::size_t)>& work,
+                                           const OnProgress& on_progress) {
   std::vector<std::string> answers(count);
   Copies copies;
   RETURN_IF_ERROR(copies.Start(count, std::min<std::size_t>(static_cast<std::size_t>(jobs), count), work));
-  RETURN_IF_ERROR(copies.Listen(answers));
+  RETURN_IF_ERROR(copies.Listen(answers, on_progress));
   return answers;
 }
 
-Result<ScenarioSummary> SumUp(const Study& study, const ScenarioTable& table, std::uint64_t seed, int jobs) {
+Result<ScenarioSummary> SumUp(const Study& study, const ScenarioTable& table, std::uint64_t seed, int jobs,
+                              const OnProgress& on_progress) {
   constexpr std::size_t kMinRowsToShare = 20'000;  // with fewer rows, forking takes longer than summarising
   const auto conditions = table.conditions();
-  const std::size_t rows = conditions.size() * static_cast<std::size_t>(study.trials) * study.methods.size();
-  if (rows < kMinRowsToShare || conditions.size() == 1 || jobs == 1) return Summarise(study, table, seed);
-  ASSIGN_OR_RETURN(const auto texts, RunForked(conditions.size(), jobs, [&](std::size_t condition) {
-                     return EncodeFindings(MeasureCondition(study, conditions[condition], seed));
-                   }));
+  const std::size_t methods = study.methods.size(), parts = conditions.size() * methods;
+  const auto measure = [&](std::size_t part) {
+    return MeasureMethod(study, conditions[part / methods], part % methods, seed);
+  };
+  // Measure every method under every condition, here or in copies of this process.
+  std::vector<std::string> texts;
+  const bool is_shared = parts * static_cast<std::size_t>(study.trials) >= kMinRowsToShare && parts > 1 && jobs > 1;
+  if (is_shared) {
+    ASSIGN_OR_RETURN(texts,
+                     RunForked(
+                         parts, jobs, [&](std::size_t part) { return EncodeFindings(measure(part)); }, on_progress));
+  }
   std::vector<ConditionFindings> findings;
-  for (const std::string& text : texts) {
-    ASSIGN_OR_RETURN(auto of_condition, DecodeFindings(text));
-    findings.push_back(std::move(of_condition));
+  for (std::size_t part = 0; part < parts; ++part) {
+    ASSIGN_OR_RETURN(auto own, is_shared ? DecodeFindings(texts[part]) : Result<ConditionFindings>(measure(part)));
+    if (part % methods == 0) {
+      findings.push_back(std::move(own));
+    } else {
+      Append(std::move(own), findings.back());
+    }
+    if (!is_shared && on_progress) on_progress(part + 1, parts);
   }
   return JudgeFindings(study, table, std::move(findings), seed);
 }

@@ -6,16 +6,20 @@
 #include <vector>
 
 #include "bench/statistics/summary.h"
+#include "engine/base/progress.h"
 #include "engine/base/result.h"
 
 namespace etude {
 
 /// Returns the results of `work` for 0 … count − 1, in that order. `jobs` forked copies of this process compute them;
-/// they see its memory, but cannot change it. Fails with the first error, or if a copy dies.
+/// they see its memory, but cannot change it. Fails with the first error, or if a copy dies. `on_progress` counts results.
 Result<std::vector<std::string>> RunForked(std::size_t count, int jobs,
-                                           const std::function<Result<std::string>(std::size_t)>& work);
+                                           const std::function<Result<std::string>(std::size_t)>& work,
+                                           const OnProgress& on_progress = {});
 
-/// Calls Summarise. With many rows, `jobs` processes share the conditions; the summary does not depend on their number.
-Result<ScenarioSummary> SumUp(const Study& study, const ScenarioTable& table, std::uint64_t seed, int jobs);
+/// Does what Summarise does. With many rows, `jobs` processes share the conditions and methods, which `on_progress`
+/// counts; the summary does not depend on their number.
+Result<ScenarioSummary> SumUp(const Study& study, const ScenarioTable& table, std::uint64_t seed, int jobs,
+                              const OnProgress& on_progress = {});
 
 }  // namespace etude

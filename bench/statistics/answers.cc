@@ -256,35 +256,26 @@ double McNemarMidP(int gained, int lost) {
   return std::min(1.0, KeepThirtyBits(FairCoinUpperTail(more, all) + above));
 }
 
-std::vector<Answer> MeasureAnswersAgainstBaselines(const Study& study, const ConditionTable& table,
-                                                   std::uint64_t seed) {
-  const Measurer measurer(study, table, seed);
+std::optional<Answer> MeasureAnswerAgainstBaseline(const Study& study, const ConditionTable& table,
+                                                   const ComparedMethod& method, std::uint64_t seed) {
+  if (method.name == method.against) return std::nullopt;
   const std::string value = ValueMetricOf(study);
-  std::vector<Answer> answers;
-  for (const ComparedMethod& entry : study.methods) {
-    if (entry.name == entry.against) continue;
-    const std::vector<const MethodColumns*> other(static_cast<std::size_t>(table.trials()), &table.Of(entry.against));
-    const PairedWorlds values = value.empty() ? PairedWorlds() : PairsOf(table, entry.against, entry.name, value);
-    answers.push_back(measurer.Measure({&table.Of(entry.name), other}, values, entry.against, entry.against));
-  }
-  return answers;
+  const std::vector<const MethodColumns*> other(static_cast<std::size_t>(table.trials()), &table.Of(method.against));
+  const PairedWorlds values = value.empty() ? PairedWorlds() : PairsOf(table, method.against, method.name, value);
+  return Measurer(study, table, seed).Measure({&table.Of(method.name), other}, values, method.against, method.against);
 }
 
-std::vector<Answer> MeasureAnswersAgainstRivals(const Study& study, const ConditionTable& table, std::uint64_t seed) {
-  const Measurer measurer(study, table, seed);
+std::optional<Answer> MeasureAnswerAgainstRival(const Study& study, const ConditionTable& table,
+                                                const ComparedMethod& method, std::uint64_t seed) {
+  const auto rival = FindRival(study, table, method);
+  if (!rival) return std::nullopt;
   const std::string value = ValueMetricOf(study);
-  std::vector<Answer> answers;
-  for (const ComparedMethod& entry : study.methods) {
-    const auto rival = FindRival(study, table, entry);
-    if (!rival) continue;
-    std::vector<const MethodColumns*> other;
-    for (int trial = 0; trial < table.trials(); ++trial) {
-      other.push_back(&table.Of(rival->of_half[static_cast<std::size_t>(HalfOf(table, trial))]));
-    }
-    const PairedWorlds values = value.empty() ? PairedWorlds() : WorldsAgainst(*rival, table, entry.name, value);
-    answers.push_back(measurer.Measure({&table.Of(entry.name), other}, values, rival->Name(), "rival"));
+  std::vector<const MethodColumns*> other;
+  for (int trial = 0; trial < table.trials(); ++trial) {
+    other.push_back(&table.Of(rival->of_half[static_cast<std::size_t>(HalfOf(table, trial))]));
   }
-  return answers;
+  const PairedWorlds values = value.empty() ? PairedWorlds() : WorldsAgainst(*rival, table, method.name, value);
+  return Measurer(study, table, seed).Measure({&table.Of(method.name), other}, values, rival->Name(), "rival");
 }
 
 void JudgeAnswers(const Study& study, std::vector<ConditionSummary>& conditions) {

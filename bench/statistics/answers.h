@@ -14,8 +14,8 @@ namespace etude {
 /// are 0.
 double McNemarMidP(int gained, int lost);
 
-/// Measure the answers of one condition: every method against its baseline, and against its strongest rival. Their
-/// verdicts are left open, because they depend on the other conditions.
+/// Measure the answers of one method under one condition: against its baseline, and against its strongest rival; nothing
+/// if it has none. Their verdicts are left open, because they depend on the other conditions.
 ///
 /// *Success*: the difference of Study::success in the worlds that neither skipped; a cell that failed counts 0, and a
 /// world in which an answered cell has no value is left out. Where all values are 0 or 1 the test is McNemar's.
@@ -24,8 +24,10 @@ double McNemarMidP(int gained, int lost);
 /// counted, is in ConditionSummary::comparisons or ::rivals. *Tail*: the share of worlds in which the method is far
 /// better minus that in which it is far worse, by more than TailRule::times practical thresholds of the value's metric;
 /// shares have no tail.
-std::vector<Answer> MeasureAnswersAgainstBaselines(const Study& study, const ConditionTable& table, std::uint64_t seed);
-std::vector<Answer> MeasureAnswersAgainstRivals(const Study& study, const ConditionTable& table, std::uint64_t seed);
+std::optional<Answer> MeasureAnswerAgainstBaseline(const Study& study, const ConditionTable& table,
+                                                   const ComparedMethod& method, std::uint64_t seed);
+std::optional<Answer> MeasureAnswerAgainstRival(const Study& study, const ConditionTable& table,
+                                                const ComparedMethod& method, std::uint64_t seed);
 
 /// Returns the metric that an answer compares besides success: the first headline metric that is not success. "" if
 /// there is none, or if success is the first headline metric and more than yes or no: then it is all that the answer is

@@ -120,43 +120,37 @@ int SizeOf(const Study& study, int methods) {
   return methods * static_cast<int>(study.metrics.size() * study.conditions.size());
 }
 
-/// Compares every method with its baseline.
-std::vector<Question> AskAgainstBaselines(const Study& study, const ConditionTable& condition, std::uint64_t seed) {
+/// Compares a method with its baseline.
+void AskAgainstBaseline(const Study& study, const ConditionTable& condition, const ComparedMethod& entry,
+                        std::uint64_t seed, std::vector<Question>& questions) {
+  if (entry.name == entry.against) return;
   const Family family{study, seed, CountComparisons(study)};
-  std::vector<Question> questions;
-  for (const ComparedMethod& entry : study.methods) {
-    if (entry.name == entry.against) continue;
-    for (const std::string& id : study.metrics) {
-      const std::string purpose = PurposeOf(study.scenario, condition.condition, id, entry.against, entry.name);
-      const PairedWorlds worlds = PairsOf(condition, entry.against, entry.name, id);
-      questions.push_back(family.Ask(worlds, condition, *FindMetric(id), purpose));
-      questions.back().comparison.baseline = entry.against;
-      questions.back().comparison.method = entry.name;
-    }
+  for (const std::string& id : study.metrics) {
+    const std::string purpose = PurposeOf(study.scenario, condition.condition, id, entry.against, entry.name);
+    const PairedWorlds worlds = PairsOf(condition, entry.against, entry.name, id);
+    questions.push_back(family.Ask(worlds, condition, *FindMetric(id), purpose));
+    questions.back().comparison.baseline = entry.against;
+    questions.back().comparison.method = entry.name;
   }
-  return questions;
 }
 
-/// Compares every competing method with its strongest rival.
-std::vector<Question> AskAgainstRivals(const Study& study, const ConditionTable& condition, std::uint64_t seed) {
+/// Compares a competing method with its strongest rival.
+void AskAgainstRival(const Study& study, const ConditionTable& condition, const ComparedMethod& entry,
+                     std::uint64_t seed, std::vector<Question>& questions) {
+  const auto rival = FindRival(study, condition, entry);
+  if (!rival) return;
   const auto asking =
       std::ranges::count_if(study.methods, [&](const ComparedMethod& method) { return HasRival(study, method); });
   const Family family{study, seed, SizeOf(study, static_cast<int>(asking))};
-  std::vector<Question> questions;
-  for (const ComparedMethod& entry : study.methods) {
-    const auto rival = FindRival(study, condition, entry);
-    if (!rival) continue;
-    for (const std::string& id : study.metrics) {
-      const std::string purpose = PurposeOf(study.scenario, condition.condition, id, "rival", entry.name);
-      const PairedWorlds worlds = WorldsAgainst(*rival, condition, entry.name, id);
-      questions.push_back(family.Ask(worlds, condition, *FindMetric(id), purpose));
-      Comparison& comparison = questions.back().comparison;
-      comparison.baseline = rival->Name();
-      comparison.method = entry.name;
-      if (const std::string note = rival->Note(); !note.empty()) comparison.notes.push_back(note);
-    }
+  for (const std::string& id : study.metrics) {
+    const std::string purpose = PurposeOf(study.scenario, condition.condition, id, "rival", entry.name);
+    const PairedWorlds worlds = WorldsAgainst(*rival, condition, entry.name, id);
+    questions.push_back(family.Ask(worlds, condition, *FindMetric(id), purpose));
+    Comparison& comparison = questions.back().comparison;
+    comparison.baseline = rival->Name();
+    comparison.method = entry.name;
+    if (const std::string note = rival->Note(); !note.empty()) comparison.notes.push_back(note);
   }
-  return questions;
 }
 
 /// Judges the comparisons of all conditions as one family, and moves each to its condition's summary. Returns their
@@ -184,21 +178,35 @@ int CountComparisons(const Study& study) {
   return SizeOf(study, static_cast<int>(compared));
 }
 
-ConditionFindings MeasureCondition(const Study& study, const ConditionTable& table, std::uint64_t seed) {
+ConditionFindings MeasureMethod(const Study& study, const ConditionTable& table, std::size_t method,
+                                std::uint64_t seed) {
+  const ComparedMethod& entry = study.methods[method];
   ConditionFindings findings;
   findings.summary.condition = table.condition;
-  const std::vector<const MetricInfo*> metrics = MetricsIn(table);
-  for (const MethodColumns& method : table.methods) {
-    findings.summary.methods.push_back(SummariseMethod(method, table, metrics, study, seed));
-  }
-  if (!study.metrics.empty()) {
+  findings.summary.methods.push_back(SummariseMethod(table.methods[method], table, MetricsIn(table), study, seed));
+  if (method == 0 && !study.metrics.empty()) {
     findings.summary.budgets = ComputeErrorBudgets(study, table, study.metrics.front(), seed);
   }
-  findings.summary.answers = MeasureAnswersAgainstBaselines(study, table, seed);
-  findings.summary.rival_answers = MeasureAnswersAgainstRivals(study, table, seed);
-  findings.against_baselines = AskAgainstBaselines(study, table, seed);
-  findings.against_rivals = AskAgainstRivals(study, table, seed);
+  if (auto answer = MeasureAnswerAgainstBaseline(study, table, entry, seed)) {
+    findings.summary.answers.push_back(*std::move(answer));
+  }
+  if (auto answer = MeasureAnswerAgainstRival(study, table, entry, seed)) {
+    findings.summary.rival_answers.push_back(*std::move(answer));
+  }
+  AskAgainstBaseline(study, table, entry, seed, findings.against_baselines);
+  AskAgainstRival(study, table, entry, seed, findings.against_rivals);
   return findings;
+}
+
+void Append(ConditionFindings more, ConditionFindings& findings) {
+  const auto move = [](auto& from, auto& to) {
+    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+  };
+  move(more.summary.methods, findings.summary.methods);
+  move(more.summary.answers, findings.summary.answers);
+  move(more.summary.rival_answers, findings.summary.rival_answers);
+  move(more.against_baselines, findings.against_baselines);
+  move(more.against_rivals, findings.against_rivals);
 }
 
 ScenarioSummary JudgeFindings(const Study& study, const ScenarioTable& table, std::vector<ConditionFindings> findings,
@@ -225,7 +233,10 @@ ScenarioSummary JudgeFindings(const Study& study, const ScenarioTable& table, st
 ScenarioSummary Summarise(const Study& study, const ScenarioTable& table, std::uint64_t seed) {
   std::vector<ConditionFindings> findings;
   for (const ConditionTable& condition : table.conditions()) {
-    findings.push_back(MeasureCondition(study, condition, seed));
+    findings.push_back(MeasureMethod(study, condition, 0, seed));
+    for (std::size_t method = 1; method < study.methods.size(); ++method) {
+      Append(MeasureMethod(study, condition, method, seed), findings.back());
+    }
   }
   return JudgeFindings(study, table, std::move(findings), seed);
 }

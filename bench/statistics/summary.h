@@ -18,9 +18,12 @@ struct ConditionFindings {
   ConditionSummary summary;  ///< without comparisons; its answers are not judged yet
   std::vector<Question> against_baselines, against_rivals;
 };
-/// Measures one condition. Random streams depend only on what is compared, so conditions may be measured in any order
-/// and by any process.
-ConditionFindings MeasureCondition(const Study& study, const ConditionTable& table, std::uint64_t seed);
+/// Measures one method under one condition; what belongs to no method is found with the first. Random streams depend
+/// only on what is compared, so this may be done in any order and by any process. Append joins the findings of a
+/// condition's next method.
+ConditionFindings MeasureMethod(const Study& study, const ConditionTable& table, std::size_t method,
+                                std::uint64_t seed);
+void Append(ConditionFindings more, ConditionFindings& findings);
 
 /// Returns the summary of a study from the findings of all its conditions, in their order.
 ScenarioSummary JudgeFindings(const Study& study, const ScenarioTable& table, std::vector<ConditionFindings> findings,

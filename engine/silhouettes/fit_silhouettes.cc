@@ -227,9 +227,7 @@ SilhouetteFit CostOf(const SilhouetteBody& body, std::span<const SilhouetteView>
   ComputeFrames(body.tree, state, workspace.frames);
   for (const SilhouetteView& view : views) {
     ProjectFlesh(body, workspace.frames, view.matrix, workspace.flesh);
-    workspace.residuals.clear();
-    AppendResiduals(workspace.flesh, *view.silhouette, options, workspace.residuals);
-    for (const SilhouetteResidual& residual : workspace.residuals) fit.picture_cost += LossOf(residual, options).loss;
+    AddLosses(workspace.flesh, *view.silhouette, options, fit.picture_cost);
     const PixelScale camera(view.matrix);
     for (const SeenJoint& seen : view.joints) {
       fit.picture_cost += JointErrorOf(seen, body, workspace.frames, camera, options).loss;

@@ -42,7 +42,7 @@ class LimbCost {
     ComputeFrames(body.tree, state, frames_);
     for (const SilhouetteView& view : views) {
       ProjectFlesh(rest, frames_, view.matrix, flesh_);
-      std::vector<double>& distances = to_rest_.emplace_back(view.silhouette->outline.size(), kFar);
+      std::vector<double>& distances = to_rest_.emplace_back(view.silhouette->columns.u.size(), kFar);
       OutlineDistances(flesh_, *view.silhouette, distances);
     }
   }
@@ -54,10 +54,10 @@ class LimbCost {
       ProjectFlesh(limb_, frames_, views_[i].matrix, flesh_);
       distances_ = to_rest_[i];
       OutlineDistances(flesh_, *views_[i].silhouette, distances_);
-      for (const double distance : distances_) cost += LossOf({.value = distance}, options_).loss;
-      residuals_.clear();
-      AppendContainment(flesh_, *views_[i].silhouette, options_, residuals_);
-      for (const SilhouetteResidual& residual : residuals_) cost += LossOf(residual, options_).loss;
+      for (const int place : views_[i].silhouette->columns.places) {
+        cost += LossOf({.value = distances_[static_cast<std::size_t>(place)]}, options_).loss;
+      }
+      AddContainmentLosses(flesh_, *views_[i].silhouette, options_, cost);
     }
     return cost;
   }
@@ -68,10 +68,9 @@ class LimbCost {
   const std::span<const SilhouetteView> views_;
   const SilhouetteCostOptions& options_;
   SilhouetteBody limb_;                       // its flesh is only the limb's
-  std::vector<std::vector<double>> to_rest_;  // [view][outline point]: distance to the nearest flesh of the rest
+  std::vector<std::vector<double>> to_rest_;  // [view][outline column]: distance to the nearest flesh of the rest
   TreeFrames frames_;
   std::vector<ProjectedCapsule> flesh_;
-  std::vector<SilhouetteResidual> residuals_;
   std::vector<double> distances_;
 };
 
@@ -92,8 +91,8 @@ std::vector<TreeState> Postures(const SilhouetteBody& body) {
 }
 
 std::vector<TreeState> LimbCandidates(const SilhouetteBody& body, std::span<const SilhouetteView> views,
-                                  const TreeState& state, const SilhouetteBody::Limb& limb,
-                                  const SilhouetteCostOptions& options) {
+                                      const TreeState& state, const SilhouetteBody::Limb& limb,
+                                      const SilhouetteCostOptions& options) {
   constexpr std::size_t kKept = 2;
   constexpr int kForward = 6, kSideways = 4, kTwist = 3, kBend = 3;
   const int upper = body.tree.joints[limb.upper].first_dof, lower = body.tree.joints[limb.lower].first_dof;

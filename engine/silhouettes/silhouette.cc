@@ -4,7 +4,10 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
+
+#include "engine/silhouettes/nearest_cones.h"
 
 namespace etude {
 namespace {
@@ -151,11 +154,17 @@ Mask CutOut(const Mask& mask, const Box& box) {
   return part;
 }
 
-// Returns the pixels whose signed distance is at most `distance`: a dilation, or an erosion if it is negative.
+// Returns the pixels whose signed distance is at most `distance`: a dilation, or an erosion if it is negative. A
+// dilation leaves set pixels set, an erosion unset ones unset, so each needs only one kind of distances.
 Mask Grown(const Mask& mask, double distance) {
-  const Image<float> distances = SignedDistances(mask);
-  Mask grown(mask.width, mask.height);
-  for (std::size_t i = 0; i < grown.pixels.size(); ++i) grown.pixels[i] = distances.pixels[i] <= distance;
+  const bool erodes = distance < 0;
+  const std::vector<double> squared = SquaredDistancesTo(mask, erodes ? 0 : 1);
+  Mask grown = mask;
+  for (std::size_t i = 0; i < grown.pixels.size(); ++i) {
+    if ((mask.pixels[i] != 0) != erodes) continue;
+    const auto away = static_cast<float>(std::sqrt(squared[i]) - 0.5);
+    grown.pixels[i] = (erodes ? -away : away) <= distance;
+  }
   return grown;
 }
 
@@ -189,6 +198,49 @@ void SampleOutline(const Mask& mask, const SilhouetteOptions& options, Silhouett
 
 }  // namespace
 
+OutlineColumns MakeColumns(const std::vector<OutlinePoint>& outline) {
+  OutlineColumns columns;
+  if (outline.empty()) return columns;
+  // Sort by squares of the picture, in the order of a curve that keeps neighbours together (Morton).
+  constexpr double kSquare = 8;  // pixels
+  const auto key = [&](int point) {
+    const glm::dvec2 square = glm::max(outline[static_cast<std::size_t>(point)].pixel / kSquare, glm::dvec2(0));
+    const auto x = static_cast<std::uint32_t>(square.x), y = static_cast<std::uint32_t>(square.y);
+    std::uint64_t code = 0;
+    for (int bit = 0; bit < 16; ++bit) {
+      code |= std::uint64_t{x >> bit & 1} << (2 * bit) | std::uint64_t{y >> bit & 1} << (2 * bit + 1);
+    }
+    return code;
+  };
+  std::vector<std::pair<std::uint64_t, int>> order;
+  for (int i = 0; i < std::ssize(outline); ++i) order.emplace_back(key(i), i);
+  std::ranges::sort(order);
+  columns.places.resize(outline.size());
+  for (const auto& [code, point] : order) {
+    columns.places[static_cast<std::size_t>(point)] = static_cast<int>(columns.u.size());
+    columns.u.push_back(outline[static_cast<std::size_t>(point)].pixel.x);
+    columns.v.push_back(outline[static_cast<std::size_t>(point)].pixel.y);
+  }
+  while (columns.u.size() % kBlockPoints != 0) {
+    columns.u.push_back(columns.u.back());
+    columns.v.push_back(columns.v.back());
+  }
+  // A circle around each block.
+  for (std::size_t first = 0; first < columns.u.size(); first += kBlockPoints) {
+    glm::dvec2 centre(0);
+    for (std::size_t i = first; i < first + kBlockPoints; ++i) centre += glm::dvec2(columns.u[i], columns.v[i]);
+    centre /= static_cast<double>(kBlockPoints);
+    double radius = 0;
+    for (std::size_t i = first; i < first + kBlockPoints; ++i) {
+      radius = std::max(radius, glm::distance(centre, glm::dvec2(columns.u[i], columns.v[i])));
+    }
+    columns.centre_u.push_back(centre.x);
+    columns.centre_v.push_back(centre.y);
+    columns.radius.push_back(radius);
+  }
+  return columns;
+}
+
 Silhouette MakeSilhouette(const Mask& mask, const SilhouetteOptions& options) {
   Silhouette made;
   made.width = mask.width;
@@ -201,6 +253,7 @@ Silhouette MakeSilhouette(const Mask& mask, const SilhouetteOptions& options) {
   const Mask person = Opened(CutOut(mask, box), options.thinnest);
   made.distances = SignedDistances(person);
   SampleOutline(person, options, made);
+  made.columns = MakeColumns(made.outline);
   return made;
 }
 

@@ -32,6 +32,14 @@ struct OutlinePoint {
   glm::dvec2 normal{0};  ///< unit vector, points out of the silhouette
 };
 
+/// The pixels of an outline as columns, neighbours together, for a search of many points at once (nearest_cones.h).
+struct OutlineColumns {
+  std::vector<int> places;  ///< the column of each outline point
+  std::vector<double> u, v;
+  std::vector<double> centre_u, centre_v, radius;  ///< circles around blocks of columns
+};
+OutlineColumns MakeColumns(const std::vector<OutlinePoint>& outline);
+
 /// One camera's picture of a person, prepared for the fit. The distances cover only the box around the person.
 struct Silhouette {
   Image<float> distances;  ///< `SignedDistances` of the mask, in mask pixels, from (left, top) on
@@ -39,8 +47,9 @@ struct Silhouette {
   int width = 0, height = 0;  ///< of the whole mask
   double mask_pixel = 1;
   std::vector<OutlinePoint> outline;
-  glm::dvec2 centre{0};  ///< mean of the set pixels, in the camera's pixels
-  int area = 0;          ///< number of set pixels of the mask; 0 if the picture shows nobody and is not used
+  OutlineColumns columns;  ///< of `outline`
+  glm::dvec2 centre{0};    ///< mean of the set pixels, in the camera's pixels
+  int area = 0;            ///< number of set pixels of the mask; 0 if the picture shows nobody and is not used
 };
 
 Silhouette MakeSilhouette(const Mask& mask, const SilhouetteOptions& options = {});

@@ -1,8 +1,12 @@
 #include "engine/silhouettes/silhouette_cost.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
+
+#include "engine/silhouettes/nearest_cones.h"
 
 namespace etude {
 namespace {
@@ -32,48 +36,79 @@ ConePoint NearestOnCone(const ProjectedCapsule& capsule, const glm::dvec2& pixel
   return found;
 }
 
-// A circle around a projected capsule. No point of the capsule's outline is nearer to a pixel than the circle.
-struct Bound {
-  glm::dvec2 centre{0};
-  double radius = 0;
+ConeColumns ConesOf(const std::vector<ProjectedCapsule>& flesh) {
+  ConeColumns cones;
+  cones.count = (flesh.size() + kConeLanes - 1) / kConeLanes * kConeLanes;
+  assert(cones.count <= kMaxCones);
+  for (std::size_t i = 0; i < cones.count; ++i) {
+    std::array<double, kConeRows> cone = {0, 0, 0, 0, 1, 0, 1, -std::numeric_limits<double>::infinity(), 0};
+    if (i < flesh.size() && flesh[i].is_valid) {
+      const ProjectedCapsule& capsule = flesh[i];
+      const glm::dvec2 axis = capsule.b - capsule.a;
+      const double length2 = glm::dot(axis, axis), widens = capsule.radius_b - capsule.radius_a;
+      const bool is_ball = length2 <= widens * widens;  // one end's circle contains the other's
+      cone = {capsule.a.x,
+              capsule.a.y,
+              axis.x,
+              axis.y,
+              length2,
+              widens,
+              is_ball ? 1 : std::sqrt(length2 - widens * widens),
+              capsule.radius_a,
+              is_ball ? (widens > 0 ? 1.0 : 0.0) : -1.0};
+    }
+    for (std::size_t row = 0; row < kConeRows; ++row) cones.rows[row][i] = cone[row];
+  }
+  return cones;
+}
+
+PointColumns PointsOf(const OutlineColumns& columns) {
+  return {columns.radius.size(),   columns.u.data(),        columns.v.data(),
+          columns.centre_u.data(), columns.centre_v.data(), columns.radius.data()};
+}
+
+// The nearest capsule of every outline point, by column.
+struct Owners {
+  std::vector<double> distances, capsules;
+
+  Owners(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette)
+      : distances(silhouette.columns.u.size(), std::numeric_limits<double>::infinity()),
+        capsules(distances.size(), -1) {
+    FindNearestCones(ConesOf(flesh), PointsOf(silhouette.columns), distances.data(), capsules.data());
+  }
 };
-
-std::vector<Bound> BoundsOf(const std::vector<ProjectedCapsule>& flesh) {
-  std::vector<Bound> bounds;
-  for (const ProjectedCapsule& capsule : flesh) {
-    bounds.push_back({0.5 * (capsule.a + capsule.b),
-                      0.5 * glm::distance(capsule.a, capsule.b) + std::max(capsule.radius_a, capsule.radius_b)});
-  }
-  return bounds;
-}
-
-// Returns the capsule whose outline is nearest to the pixel and lowers `distance` to its signed distance; returns −1 if
-// no capsule is nearer than `distance`.
-int NearestCapsule(const std::vector<ProjectedCapsule>& flesh, const std::vector<Bound>& bounds,
-                   const glm::dvec2& pixel, double& distance) {
-  int nearest = -1;
-  for (std::size_t i = 0; i < flesh.size(); ++i) {
-    if (!flesh[i].is_valid) continue;
-    const glm::dvec2 away = pixel - bounds[i].centre;
-    const double reach = distance + bounds[i].radius;
-    if (reach <= 0 || glm::dot(away, away) >= reach * reach) continue;
-    const double found = NearestOnCone(flesh[i], pixel).signed_distance;
-    if (found >= distance) continue;
-    distance = found;
-    nearest = static_cast<int>(i);
-  }
-  return nearest;
-}
 
 void AppendOutline(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
                    std::vector<SilhouetteResidual>& out) {
-  const std::vector<Bound> bounds = BoundsOf(flesh);
-  for (const OutlinePoint& point : silhouette.outline) {
-    double distance = std::numeric_limits<double>::infinity();
-    const int owner = NearestCapsule(flesh, bounds, point.pixel, distance);
+  const Owners owners(flesh, silhouette);
+  for (std::size_t i = 0; i < silhouette.outline.size(); ++i) {
+    const int owner = static_cast<int>(owners.capsules[static_cast<std::size_t>(silhouette.columns.places[i])]);
     if (owner < 0) continue;
-    SilhouetteResidual& residual = out.emplace_back(DistanceTo(flesh[owner], point.pixel));
+    SilhouetteResidual& residual =
+        out.emplace_back(DistanceTo(flesh[static_cast<std::size_t>(owner)], silhouette.outline[i].pixel));
     residual.capsule = owner;
+  }
+}
+
+// Calls take(residual) for every residual of AppendContainment.
+template <typename Take>
+void ForEachContainment(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
+                        const SilhouetteCostOptions& options, const Take& take) {
+  constexpr std::array<double, 4> kSamples = {0, 1.0 / 3, 2.0 / 3, 1};
+  for (std::size_t i = 0; i < flesh.size(); ++i) {
+    if (!flesh[i].is_valid) continue;
+    for (const double t : kSamples) {
+      const double radius = std::lerp(flesh[i].radius_a, flesh[i].radius_b, t);
+      const DistanceAt at = DistanceAtPixel(silhouette, glm::mix(flesh[i].a, flesh[i].b, t));
+      const double outside = at.distance + options.inside_share * radius;
+      if (outside <= 0) continue;
+      const double s = 1 - t, share = options.inside_share;
+      take(SilhouetteResidual{
+          outside,
+          static_cast<int>(i),
+          {s * at.gradient.x, s * at.gradient.y, s * share, t * at.gradient.x, t * at.gradient.y, t * share},
+          true});
+    }
   }
 }
 
@@ -96,6 +131,10 @@ void ProjectFlesh(const SilhouetteBody& body, const TreeFrames& frames, const Pr
   }
 }
 
+double SignedDistanceTo(const ProjectedCapsule& capsule, const glm::dvec2& pixel) {
+  return NearestOnCone(capsule, pixel).signed_distance;
+}
+
 SilhouetteResidual DistanceTo(const ProjectedCapsule& capsule, const glm::dvec2& pixel) {
   const ConePoint nearest = NearestOnCone(capsule, pixel);
   const glm::dvec2 away = pixel - glm::mix(capsule.a, capsule.b, nearest.along);
@@ -108,34 +147,30 @@ void AppendResiduals(const std::vector<ProjectedCapsule>& flesh, const Silhouett
                      const SilhouetteCostOptions& options, std::vector<SilhouetteResidual>& out) {
   if (silhouette.area == 0) return;
   AppendOutline(flesh, silhouette, out);
-  AppendContainment(flesh, silhouette, options, out);
+  ForEachContainment(flesh, silhouette, options, [&](const SilhouetteResidual& residual) { out.push_back(residual); });
+}
+
+void AddLosses(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
+               const SilhouetteCostOptions& options, double& sum) {
+  if (silhouette.area == 0) return;
+  const Owners owners(flesh, silhouette);
+  for (const int place : silhouette.columns.places) {
+    const auto at = static_cast<std::size_t>(place);
+    if (owners.capsules[at] >= 0) sum += LossOf({.value = owners.distances[at]}, options).loss;
+  }
+  AddContainmentLosses(flesh, silhouette, options, sum);
+}
+
+void AddContainmentLosses(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
+                          const SilhouetteCostOptions& options, double& sum) {
+  ForEachContainment(flesh, silhouette, options,
+                     [&](const SilhouetteResidual& residual) { sum += LossOf(residual, options).loss; });
 }
 
 void OutlineDistances(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
                       std::span<double> distances) {
-  const std::vector<Bound> bounds = BoundsOf(flesh);
-  for (std::size_t i = 0; i < silhouette.outline.size(); ++i) {
-    NearestCapsule(flesh, bounds, silhouette.outline[i].pixel, distances[i]);
-  }
-}
-
-void AppendContainment(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
-                       const SilhouetteCostOptions& options, std::vector<SilhouetteResidual>& out) {
-  constexpr std::array<double, 4> kSamples = {0, 1.0 / 3, 2.0 / 3, 1};
-  for (std::size_t i = 0; i < flesh.size(); ++i) {
-    if (!flesh[i].is_valid) continue;
-    for (const double t : kSamples) {
-      const double radius = std::lerp(flesh[i].radius_a, flesh[i].radius_b, t);
-      const DistanceAt at = DistanceAtPixel(silhouette, glm::mix(flesh[i].a, flesh[i].b, t));
-      const double outside = at.distance + options.inside_share * radius;
-      if (outside <= 0) continue;
-      const double s = 1 - t, share = options.inside_share;
-      out.push_back({outside,
-                     static_cast<int>(i),
-                     {s * at.gradient.x, s * at.gradient.y, s * share, t * at.gradient.x, t * at.gradient.y, t * share},
-                     true});
-    }
-  }
+  std::vector<double> owners(distances.size());
+  FindNearestCones(ConesOf(flesh), PointsOf(silhouette.columns), distances.data(), owners.data());
 }
 
 Loss LossOf(const SilhouetteResidual& residual, const SilhouetteCostOptions& options) {

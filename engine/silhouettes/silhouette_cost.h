@@ -112,6 +112,9 @@ void ProjectFlesh(const SilhouetteBody& body, const TreeFrames& frames, const Pr
 /// derivatives.
 SilhouetteResidual DistanceTo(const ProjectedCapsule& capsule, const glm::dvec2& pixel);
 
+/// Returns that distance alone.
+double SignedDistanceTo(const ProjectedCapsule& capsule, const glm::dvec2& pixel);
+
 /// Appends the residuals of the flesh in one picture to `out`:
 /// - coverage: every point of the silhouette's outline lies on the outline of the flesh, so its signed distance to the
 ///   nearest capsule is 0;
@@ -120,11 +123,15 @@ SilhouetteResidual DistanceTo(const ProjectedCapsule& capsule, const glm::dvec2&
 void AppendResiduals(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
                      const SilhouetteCostOptions& options, std::vector<SilhouetteResidual>& out);
 
-/// The two halves of AppendResiduals, for a search that tries many positions of a few capsules. AppendContainment
-/// appends the containment residuals of `flesh`. OutlineDistances lowers each of `distances`, one for each outline
-/// point, to the point's smallest signed distance to `flesh` if that is less.
-void AppendContainment(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
-                       const SilhouetteCostOptions& options, std::vector<SilhouetteResidual>& out);
+/// Adds the losses (LossOf) of the same residuals to `sum`, one after the other.
+void AddLosses(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
+               const SilhouetteCostOptions& options, double& sum);
+
+/// The two halves of AddLosses, for a search that tries many positions of a few capsules. OutlineDistances lowers each
+/// of `distances`, one for each of the silhouette's columns, to the point's smallest signed distance to `flesh` if that
+/// is less.
+void AddContainmentLosses(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
+                          const SilhouetteCostOptions& options, double& sum);
 void OutlineDistances(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
                       std::span<double> distances);
 

@@ -180,7 +180,7 @@ class Recovery {
       const auto high = glm::clamp((glm::max(capsule.a, capsule.b) + margin) / kMaskPixel, glm::dvec2(0), size);
       for (int y = static_cast<int>(low.y); y < static_cast<int>(high.y); ++y) {
         for (int x = static_cast<int>(low.x); x < static_cast<int>(high.x); ++x) {
-          visit(x, y, DistanceTo(capsule, kMaskPixel * glm::dvec2(x + 0.5, y + 0.5)).value);
+          visit(x, y, SignedDistanceTo(capsule, kMaskPixel * glm::dvec2(x + 0.5, y + 0.5)));
         }
       }
     }

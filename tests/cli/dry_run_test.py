@@ -62,6 +62,29 @@ class DryRun(EtudeCase):
         pace = one["world_s"] * one["conditions"] / cost["trial"]
         self.assertAlmostEqual(told["run_s"] * told["workers"], pace * (cost["once"] + 5 * cost["trial"]), 9)
 
+    def test_every_shipped_scenario_has_its_cost(self):
+        told = self.etude("list", "scenarios", "--json")
+        works = {f"{one['name']}: {one['scenario']}": one["work"] for one in json.loads(told.stdout)["scenarios"]}
+        kept = {one["work"] for one in json.loads((SCENARIOS / "costs.json").read_text())["scenarios"]}
+        self.assertGreater(len(works), 60)
+        self.assertEqual([name for name, work in works.items() if work not in kept], [], "scripts/costs measures them")
+        # The control: another number of sweeps is other work.
+        text = (SCENARIOS / "quick" / "ik.yaml").read_text()
+        (self.folder / "other.yaml").write_text(text.replace("max_sweeps: 1000", "max_sweeps: 900"))
+        other = json.loads(self.etude("list", "scenarios", self.folder, "--json").stdout)["scenarios"][0]
+        self.assertNotIn(other["work"], kept)
+
+    def test_units_that_are_kept_are_those_that_are_drawn(self):
+        text = (SCENARIOS / "quick" / "transition.yaml").read_text().split("clips:")[1].split("trials:")[0]
+        clips = [line.split("#")[0].strip(" -'\n") for line in text.splitlines() if line.strip()]
+        kept = self.facts("quick/transition")["scenarios"][0]
+        drawn = self.facts("quick/transition", *(word for clip in clips for word in ("--clips", clip)))["scenarios"][0]
+        self.assertEqual((kept["kept"], drawn["kept"]), (True, False))
+        self.assertEqual(kept["units"], drawn["units"])
+        # Of fewer trials and another seed, units are counted.
+        self.assertLessEqual(self.facts("quick/transition", "--trials", 3)["scenarios"][0]["units"], 6)
+        self.assertGreater(self.facts("quick/transition", "--seed", 2)["scenarios"][0]["units"], 6)
+
     def test_what_is_changed_is_measured(self):
         (self.folder / "ik.yaml").write_text((SCENARIOS / "quick" / "ik.yaml").read_text().replace("trials: 60", "trials: 2"))
         self.assertTrue(self.facts(self.folder / "ik.yaml")["scenarios"][0]["kept"])

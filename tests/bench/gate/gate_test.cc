@@ -128,6 +128,43 @@ TEST(Gate, IsIncompleteWhenTheBaselineHoldsMoreThanTheRun) {
   EXPECT_EQ(VerdictOn(Steady(), less), GateVerdict::kPassed);
 }
 
+TEST(Gate, FailsIfAnAnswerFlipsAlthoughNoMethodGotWorse) {
+  // b is a centimetre better than a; then a gains, and b stays as it is.
+  const auto run = [](double gain) {
+    return ExampleRun([gain](int trial, const std::string& method) {
+      return ExampleResult(trial, method == "b" ? -1 + 0.01 * (trial % 3) : -gain);
+    });
+  };
+  const Snapshot baseline = TakeSnapshot(run(0));
+  const auto fallen_of = [&](double gain) {
+    const auto report = JudgeRun(run(gain), &baseline, "b.json");
+    EXPECT_TRUE(std::ranges::none_of(report->comparison.moves, IsRegression));
+    std::vector<std::string> told;
+    for (const FallenAnswer& one : report->fallen) told.push_back(DescribeFallen(one));
+    return std::pair(told, GateVerdictOf(*report));
+  };
+  EXPECT_THAT(fallen_of(2), testing::Pair(ElementsAre("s, joint_noise_deg=1: b against a: better before, now worse",
+                                                      "s, joint_noise_deg=2: b against a: better before, now worse"),
+                                          GateVerdict::kRegressed));
+  // No difference is told, and passes. A smaller gain, or none, leaves the answer as it was.
+  EXPECT_THAT(fallen_of(0.99), testing::Pair(ElementsAre(HasSubstr("b against a: better before, now no difference"),
+                                                         HasSubstr("b against a: better before, now no difference")),
+                                             GateVerdict::kPassed));
+  EXPECT_THAT(fallen_of(0.5), testing::Pair(IsEmpty(), GateVerdict::kPassed));
+  EXPECT_THAT(fallen_of(0), testing::Pair(IsEmpty(), GateVerdict::kPassed));
+}
+
+TEST(Gate, ReadsNoAnswersFromABaselineThatLacksWhatTheyAreMadeOf) {
+  const std::string shares = "gate: {metrics: [solved_practical]}\n";
+  const auto run = [&](double gain) {
+    return ExampleRun(
+        [gain](int trial, const std::string& method) { return ExampleResult(trial, method == "b" ? -1 : -gain); },
+        shares);
+  };
+  const Snapshot baseline = TakeSnapshot(run(0));
+  EXPECT_EQ(VerdictOn(run(2), baseline), GateVerdict::kPassed);
+}
+
 FinishedRun Timed(double ratio, int worlds) {
   FinishedRun run = Steady("gate: {time_ratios: [{of: b, over: a, at_most: 2}]}\n");
   for (const Row& row : run.data.rows) {

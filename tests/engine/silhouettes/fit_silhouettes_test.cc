@@ -124,6 +124,51 @@ TEST(FitSilhouettes, DistanceToAConeIsTheLeastToTheCirclesAlongIt) {
   }
 }
 
+TEST(FitSilhouettes, NearestCapsulesAreThoseThatAComparisonOfAllFinds) {
+  const SilhouetteBody body = MakeSilhouetteBody({});
+  const Shown shown(body, Posed(body), {-40, 40, 160});
+  const SilhouetteCostOptions options = SmallPictures();
+  std::size_t compared = 0;
+  for (std::size_t camera = 0; camera < shown.cameras.size(); ++camera) {
+    for (const double scatter : {0.0, 0.1, 0.4}) {
+      const int size = kRootDofs + body.tree.dof_count();
+      const TreeState state = Moved(body.tree, Posed(body), Scatter(size, scatter));
+      std::vector<ProjectedCapsule> flesh;
+      ProjectFlesh(body, ComputeFrames(body.tree, state), MatrixOf(shown.cameras[camera]), flesh);
+      flesh[3].is_valid = false;
+      flesh[5].radius_a = glm::distance(flesh[5].a, flesh[5].b) + 2 * flesh[5].radius_b;  // one end holds the other
+      const Silhouette& silhouette = shown.silhouettes[camera];
+      std::vector<SilhouetteResidual> found;
+      AppendResiduals(flesh, silhouette, options, found);
+      // Every outline point, in order: the first of the nearest capsules, with the same bits.
+      ASSERT_GE(found.size(), silhouette.outline.size());
+      for (std::size_t i = 0; i < silhouette.outline.size(); ++i, ++compared) {
+        SilhouetteResidual least{.value = 1e9};
+        for (std::size_t j = 0; j < flesh.size(); ++j) {
+          if (!flesh[j].is_valid) continue;
+          SilhouetteResidual one = DistanceTo(flesh[j], silhouette.outline[i].pixel);
+          one.capsule = static_cast<int>(j);
+          if (one.value < least.value) least = one;
+        }
+        EXPECT_EQ(found[i].value, least.value);
+        EXPECT_EQ(found[i].capsule, least.capsule);
+      }
+      // The sum of their losses.
+      double sum = 0, told = 0;
+      for (const SilhouetteResidual& residual : found) sum += LossOf(residual, options).loss;
+      AddLosses(flesh, silhouette, options, told);
+      EXPECT_EQ(told, sum);
+      // Some capsules lower given distances, by column.
+      std::vector<double> distances(silhouette.columns.u.size(), 1.5);
+      OutlineDistances(flesh, silhouette, distances);
+      for (std::size_t i = 0; i < silhouette.outline.size(); ++i) {
+        EXPECT_EQ(distances[static_cast<std::size_t>(silhouette.columns.places[i])], std::min(1.5, found[i].value));
+      }
+    }
+  }
+  EXPECT_GT(compared, 500u);
+}
+
 TEST(FitSilhouettes, FindsABodyThatAnotherRasteriserDrew) {
   const SilhouetteBody body = MakeSilhouetteBody({});
   const TreeState truth = Posed(body);
