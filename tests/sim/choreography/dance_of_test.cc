@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/coaching/dance_library.h"
+
 namespace etude {
 namespace {
 
