@@ -13,6 +13,8 @@ set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -g1")  # the sanitizers' builds: asserti
 # x86-64-v2 is the oldest machine Etude promises identical bytes on. Contracting a*b+c into a
 # fused multiply-add would change the last bit from one CPU to the next.
 add_compile_options(-march=x86-64-v2 -ffp-contract=off)
+# Nobody puts another function in the place of one of the library: its own calls may be inlined.
+add_compile_options(-fno-semantic-interposition)
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # GCC 12 sees overlapping and endless copies in std::string that are none (GCC bugs 105651, 105329).

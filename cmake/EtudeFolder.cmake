@@ -75,7 +75,7 @@ function(etude_shared_library TARGET)
     VERSION "${PROJECT_VERSION}" SOVERSION "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}"
     LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}")
   target_compile_features(${TARGET} INTERFACE cxx_std_20)
-  target_include_directories(${TARGET} INTERFACE "$<INSTALL_INTERFACE:include>")
+  target_include_directories(${TARGET} INTERFACE "$<INSTALL_INTERFACE:include/etude>")
 endfunction()
 
 # etude_unity(<target>): with ETUDE_UNITY, compiles the files of a folder a dozen at a time, and after the headers that

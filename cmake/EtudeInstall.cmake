@@ -67,7 +67,16 @@ install(FILES "${made}/etude.fish" DESTINATION share/fish/vendor_completions.d)
 set(config "${CMAKE_INSTALL_LIBDIR}/cmake/Etude")
 install(TARGETS etude_shared etude_sim_shared EXPORT EtudeTargets
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library NAMELINK_COMPONENT development)
-install(DIRECTORY engine/api/etude sim/api/etude DESTINATION include COMPONENT development FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY engine/api/etude sim/api/etude DESTINATION include/etude COMPONENT development FILES_MATCHING PATTERN "*.h")
+# And the headers of engine and sim whose namespace is public; what they include is installed, too (tests/guards).
+file(GLOB_RECURSE headers RELATIVE "${CMAKE_SOURCE_DIR}" CONFIGURE_DEPENDS engine/*.h sim/*.h)
+foreach(header IN LISTS headers)
+  file(STRINGS "${header}" public REGEX "^namespace \\[\\[gnu::visibility" LIMIT_COUNT 1)
+  if(public)
+    cmake_path(GET header PARENT_PATH folder)
+    install(FILES "${header}" DESTINATION "include/etude/${folder}" COMPONENT development)
+  endif()
+endforeach()
 install(EXPORT EtudeTargets NAMESPACE etude:: DESTINATION "${config}" COMPONENT development)
 file(WRITE "${CMAKE_BINARY_DIR}/EtudeConfig.cmake"
   "include(CMakeFindDependencyMacro)\nfind_dependency(glm)\ninclude(\"\${CMAKE_CURRENT_LIST_DIR}/EtudeTargets.cmake\")\n")

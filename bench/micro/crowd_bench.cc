@@ -11,6 +11,7 @@
 
 #include "bench/tasks/tracking/crowd.h"
 #include "engine/kinematics/solvers/gauss_newton.h"
+#include "engine/kinematics/solvers/gauss_newton_plain.h"
 
 namespace etude {
 namespace {

@@ -1,11 +1,9 @@
 #include <etude/fuzzy.h>
 
-#include <algorithm>
 #include <cmath>
 
-#include "engine/api/convert.h"
+#include "engine/api/checks.h"
 #include "engine/fuzzy/distance.h"
-#include "engine/fuzzy/features.h"
 #include "engine/fuzzy/membership.h"
 #include "engine/transitions/library/body_proportions.h"
 #include "engine/transitions/library/bridge_frames.h"
@@ -14,33 +12,24 @@
 namespace etude::engine {
 namespace {
 
-Grades GradesOf(const Features& features) {
-  PoseFeatures told;
-  std::ranges::copy(features, told.values.begin());
-  for (const double value : features) {
+Grades GradesOf(const PoseFeatures& features) {
+  for (const double value : features.values) {
     if (!std::isfinite(value)) throw BadInput("a feature that is not finite");
   }
-  return Fuzzify(told);
+  return Fuzzify(features);
 }
 
 }  // namespace
 
-std::array<std::string_view, kFeatureCount> FeatureNames() {
-  std::array<std::string_view, kFeatureCount> names;
-  std::ranges::transform(AllFeatures(), names.begin(), FeatureName);
-  return names;
-}
-
-std::vector<Features> ComputeFeatures(const Motion& motion) {
-  const BodyMotion body = ToBodyMotion(motion);
-  std::vector<Features> features;
-  if (body.poses.empty()) return features;
-  const double hips = StandingHipsOf(body.poses.front());
-  for (const BodyPose& pose : body.poses) features.push_back(etude::ComputeFeatures(pose, hips).values);
+std::vector<PoseFeatures> ComputeFeatures(const BodyMotion& motion) {
+  std::vector<PoseFeatures> features;
+  if (Checked(motion).poses.empty()) return features;
+  const double hips = StandingHipsOf(motion.poses.front());
+  for (const BodyPose& pose : motion.poses) features.push_back(etude::ComputeFeatures(pose, hips));
   return features;
 }
 
-double FuzzyDistance(const Features& a, const Features& b) {
+double FuzzyDistance(const PoseFeatures& a, const PoseFeatures& b) {
   return ComputeDistance(GradesOf(a), GradesOf(b), PaperWeights()).value;
 }
 
@@ -54,17 +43,18 @@ struct Bridges::Library {
   }
 };
 
-Bridges::Bridges(std::span<const Motion> clips, const BridgeOptions& options) : library_(std::make_unique<Library>()) {
+Bridges::Bridges(std::span<const BodyMotion> clips, const BridgeOptions& options)
+    : library_(std::make_unique<Library>()) {
   if (options.min_clips < 1) throw BadInput(fmt::format("min_clips {}; allowed: 1 or more", options.min_clips));
   if (!(options.threshold > 0 && options.threshold <= kFarthestFuzzy)) {
     throw BadInput(fmt::format("threshold {}; allowed: above 0, up to {}", options.threshold, kFarthestFuzzy));
   }
-  const std::vector<BodyMotion> motions = ToBodyMotions(clips);
-  const BodyPose& first = motions.front().poses.front();
+  CheckClips(clips);
+  const BodyPose& first = clips.front().poses.front();
   const double hips = StandingHipsOf(first);
   TagRules rules;
   rules.min_clips = options.min_clips;
-  library_->tagged = TagClips(PerformedBy(MakeBodyProportions(first, hips), motions), hips, rules);
+  library_->tagged = TagClips(PerformedBy(MakeBodyProportions(first, hips), clips), hips, rules);
   library_->rules.threshold = options.threshold;
 }
 

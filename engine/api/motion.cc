@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "engine/api/convert.h"
+#include "engine/api/checks.h"
 #include "engine/base/names.h"
 #include "engine/formats/amass.h"
 #include "engine/formats/bvh.h"
@@ -42,8 +42,7 @@ BodyMotion Resampled(const BodyMotion& motion, double rate_hz) {
   if (KeepsRate(motion.rate_hz, rate_hz)) return {.rate_hz = rate_hz, .poses = motion.poses};
   const Clip clip = Resample(RigClip(motion, motion.poses.front(), ""), rate_hz);
   std::array<int, kRoleCount> joints;
-  for (const etude::Role role : AllRoles())
-    joints[Index(role)] = clip.skeleton.Find(std::string(etude::RoleName(role)));
+  for (const Role role : AllRoles()) joints[Index(role)] = clip.skeleton.Find(std::string(RoleName(role)));
   BodyMotion resampled{.rate_hz = rate_hz, .poses = {}};
   std::vector<GlobalTransform> globals;
   for (const LocalPose& frame : clip.frames) {
@@ -67,7 +66,20 @@ std::optional<double> UnitOf(const ReadingOptions& options) {
   throw BadInput(fmt::format("metres_per_unit: {}; allowed: {:g} to {:g}", options.metres_per_unit, kMin_m, kMax_m));
 }
 
-Motion MotionOfMarkers(const MarkerMotion& markers, const std::string& file, double rate_hz, UpRule rule,
+/// A motion, and what was found and changed, as sentences for users.
+struct ReadBody {
+  BodyMotion motion;
+  std::vector<std::string> changes;
+};
+
+ReadBody ResampledBody(const BodyMotion& motion, std::vector<std::string> changes, double rate_hz) {
+  if (!KeepsRate(motion.rate_hz, rate_hz)) {
+    changes.push_back(fmt::format("resampled from {:.6g} to {:.6g} Hz", motion.rate_hz, rate_hz));
+  }
+  return {Resampled(motion, rate_hz), std::move(changes)};
+}
+
+ReadBody BodyOfMarkers(const MarkerMotion& markers, const std::string& file, double rate_hz, UpRule rule,
                        const ReadingOptions& options) {
   if (const auto up = UpOf(options)) rule = {.axis = AxisOf(*up), .evidence = UpEvidence::kTold, .source = "told"};
   if (!options.marker_set.empty() && std::ranges::count(MarkerSetKeys(), options.marker_set) == 0) {
@@ -78,101 +90,90 @@ Motion MotionOfMarkers(const MarkerMotion& markers, const std::string& file, dou
       {.up = rule, .keep_floor = options.keep_floor, .metres_per_unit = UnitOf(options), .set = options.marker_set}));
   if (bodies.size() != 1)
     throw BadInput(fmt::format("{}: markers of {} people; allowed: markers of one person", file, bodies.size()));
-  const MarkerBody& body = bodies.front();
-  Motion motion = FromBodyMotion(Resampled(body.motion, rate_hz));
-  motion.changes = body.changes;
-  if (!KeepsRate(body.motion.rate_hz, rate_hz)) {
-    motion.changes.push_back(fmt::format("resampled from {:.6g} to {:.6g} Hz", body.motion.rate_hz, rate_hz));
-  }
-  return motion;
+  return ResampledBody(bodies.front().motion, bodies.front().changes, rate_hz);
 }
 
-Motion MotionOfClip(const Clip& clip, const std::string& file, double rate_hz, std::optional<UpRule> rule,
+ReadBody BodyOfClip(const Clip& clip, const std::string& file, double rate_hz, std::optional<UpRule> rule,
                     const ReadingOptions& options, const std::vector<std::string>& remarks = {}) {
   const JointMap map = OrThrow(FindJointMap(clip.skeleton, file, nullptr, clip.frames));
-  const BodyConversion body = OrThrow(etude::ToBodyMotion(clip, map, file,
-                                                          {.rate_hz = rate_hz,
-                                                           .metres_per_unit = UnitOf(options),
-                                                           .up = UpOf(options),
-                                                           .up_rule = std::move(rule),
-                                                           .keep_floor = options.keep_floor}));
-  Motion motion = FromBodyMotion(body.motion);
-  motion.changes = body.changes;
-  motion.changes.insert(motion.changes.end(), remarks.begin(), remarks.end());
-  return motion;
+  BodyConversion body = OrThrow(ToBodyMotion(clip, map, file,
+                                             {.rate_hz = rate_hz,
+                                              .metres_per_unit = UnitOf(options),
+                                              .up = UpOf(options),
+                                              .up_rule = std::move(rule),
+                                              .keep_floor = options.keep_floor}));
+  body.changes.insert(body.changes.end(), remarks.begin(), remarks.end());
+  return {std::move(body.motion), std::move(body.changes)};
 }
 
 /// Reads Etude's own arrays, which are used as they are.
-Motion MotionOfArrays(const Npz& arrays, const std::string& file, double rate_hz, const ReadingOptions& options) {
-  if (!IsBodyNpz(arrays)) return MotionOfClip(OrThrow(ReadAmass(arrays, file)), file, rate_hz, AmassUp(), options);
+ReadBody BodyOfArrays(const Npz& arrays, const std::string& file, double rate_hz, const ReadingOptions& options) {
+  if (!IsBodyNpz(arrays)) return BodyOfClip(OrThrow(ReadAmass(arrays, file)), file, rate_hz, AmassUp(), options);
   const RawMotion raw = OrThrow(ReadRawNpz(arrays, file));
   std::optional<BodyMotion> read = BodyOf(raw);
-  if (!read) return MotionOfMarkers(etude::MarkersOf(raw), file, rate_hz, {.evidence = UpEvidence::kFormat}, options);
+  if (!read) return BodyOfMarkers(etude::MarkersOf(raw), file, rate_hz, {.evidence = UpEvidence::kFormat}, options);
   BodyMotion& body = *read;
   const UpFinding up{.axis = AxisOf(UpOf(options).value_or(UpAxis::kY)), .evidence = UpEvidence::kTold};
   for (BodyPose& pose : body.poses) {
     for (glm::dvec3& joint : pose.joints) joint = TurnedUp(joint, up.axis);
   }
-  Motion motion = FromBodyMotion(Resampled(body, rate_hz));
-  motion.changes = {"Etude's own arrays"};
-  if (const std::string turn = DescribeTurn(up); !turn.empty()) motion.changes.push_back(turn);
-  if (!KeepsRate(body.rate_hz, rate_hz)) {
-    motion.changes.push_back(fmt::format("resampled from {:.6g} to {:.6g} Hz", body.rate_hz, rate_hz));
-  }
-  return motion;
+  std::vector<std::string> changes = {"Etude's own arrays"};
+  if (std::string turn = DescribeTurn(up); !turn.empty()) changes.push_back(std::move(turn));
+  return ResampledBody(body, std::move(changes), rate_hz);
 }
 
 MarkerMotion MarkersOf(const JointCsv& csv) {
   MarkerMotion markers{.rate_hz = csv.rate_hz.value_or(kJudgedRateHz), .names = {}, .frames = {}};
-  for (const etude::Role role : AllRoles()) markers.names.emplace_back(etude::RoleName(role));
+  for (const Role role : AllRoles()) markers.names.emplace_back(RoleName(role));
   for (const auto& frame : csv.frames) markers.frames.emplace_back(frame.begin(), frame.end());
   return markers;
+}
+
+ReadBody BodyOfBytes(std::string_view bytes, const std::string& file, double rate_hz, const ReadingOptions& options) {
+  if (IsZip(bytes)) return BodyOfArrays(OrThrow(ReadNpz(bytes, file)), file, rate_hz, options);
+  if (IsC3d(bytes)) {
+    const C3d c3d = OrThrow(ReadC3d(bytes, file));
+    return BodyOfMarkers(c3d.markers, file, rate_hz, C3dUp(c3d.up, c3d.is_up_negative), options);
+  }
+  if (bytes.starts_with("PathFileType")) {
+    return BodyOfMarkers(OrThrow(ReadTrc(bytes, file)), file, rate_hz, TrcUp(), options);
+  }
+  if (IsMotiveCsv(bytes)) {
+    return BodyOfMarkers(OrThrow(ReadMotiveCsv(bytes, file)), file, rate_hz, MotiveUp(), options);
+  }
+  if (bytes.substr(0, bytes.find('\n')).find("_x_m") != std::string_view::npos) {
+    return BodyOfMarkers(MarkersOf(OrThrow(ReadJointCsv(bytes, file))), file, rate_hz, JointCsvUp(), options);
+  }
+  std::vector<std::string> remarks;
+  const Clip clip = OrThrow(ReadBvh(bytes, file, &remarks));
+  return BodyOfClip(clip, file, rate_hz, std::nullopt, options, remarks);
 }
 
 }  // namespace
 
 std::string_view Version() { return ETUDE_VERSION; }
 
-std::string_view RoleName(Role role) {
-  const auto place = static_cast<std::size_t>(role);
-  if (place >= kRoleCount) throw BadInput("no role");
-  return etude::RoleName(AllRoles()[place]);
-}
-
-Motion FromBodyMotion(const BodyMotion& motion) {
-  Motion made{.rate_hz = motion.rate_hz, .poses = {}};
-  made.poses.reserve(motion.poses.size());
-  for (const BodyPose& pose : motion.poses) made.poses.push_back({pose.joints});
-  return made;
-}
-
-BodyMotion ToBodyMotion(const Motion& motion) {
+const BodyMotion& Checked(const BodyMotion& motion) {
   CheckRate(motion.rate_hz);
-  BodyMotion made{.rate_hz = motion.rate_hz, .poses = {}};
-  made.poses.reserve(motion.poses.size());
-  for (const Pose& pose : motion.poses) {
-    for (const glm::dvec3& joint : pose.joints) {
+  for (std::size_t frame = 0; frame < motion.poses.size(); ++frame) {
+    for (const glm::dvec3& joint : motion.poses[frame].joints) {
       if (std::isfinite(joint.x + joint.y + joint.z)) continue;
-      throw BadInput(fmt::format("frame {}: a joint's position is not finite", made.poses.size()));
+      throw BadInput(fmt::format("frame {}: a joint's position is not finite", frame));
     }
-    made.poses.push_back({pose.joints});
   }
-  return made;
+  return motion;
 }
 
-std::vector<BodyMotion> ToBodyMotions(std::span<const Motion> clips) {
+void CheckClips(std::span<const BodyMotion> clips) {
   if (clips.empty()) throw BadInput("no clips");
-  std::vector<BodyMotion> motions;
-  for (const Motion& clip : clips) {
-    const auto number = motions.size();
-    if (clip.poses.empty()) throw BadInput(fmt::format("clip {}: no frames", number));
-    if (clip.rate_hz != clips.front().rate_hz) {
-      throw BadInput(fmt::format("clip {}: {} Hz; allowed: the rate of clip 0, {} Hz", number, clip.rate_hz,
+  for (std::size_t i = 0; i < clips.size(); ++i) {
+    if (clips[i].poses.empty()) throw BadInput(fmt::format("clip {}: no frames", i));
+    if (clips[i].rate_hz != clips.front().rate_hz) {
+      throw BadInput(fmt::format("clip {}: {} Hz; allowed: the rate of clip 0, {} Hz", i, clips[i].rate_hz,
                                  clips.front().rate_hz));
     }
-    motions.push_back(ToBodyMotion(clip));
+    Checked(clips[i]);
   }
-  return motions;
 }
 
 double StandingHipsOf(const BodyPose& first) {
@@ -187,25 +188,12 @@ void CheckBudget(double budget_s) {
   throw BadInput(fmt::format("a budget of {} s; allowed: 0 to {}", budget_s, kMaxWait_s));
 }
 
-Motion ReadMotion(std::string_view bytes, const std::string& file, double rate_hz, const ReadingOptions& options) {
+BodyMotion ReadMotion(std::string_view bytes, const std::string& file, double rate_hz, const ReadingOptions& options,
+                      std::vector<std::string>* changes) {
   CheckRate(rate_hz);
-  if (IsZip(bytes)) return MotionOfArrays(OrThrow(ReadNpz(bytes, file)), file, rate_hz, options);
-  if (IsC3d(bytes)) {
-    const C3d c3d = OrThrow(ReadC3d(bytes, file));
-    return MotionOfMarkers(c3d.markers, file, rate_hz, C3dUp(c3d.up, c3d.is_up_negative), options);
-  }
-  if (bytes.starts_with("PathFileType")) {
-    return MotionOfMarkers(OrThrow(ReadTrc(bytes, file)), file, rate_hz, TrcUp(), options);
-  }
-  if (IsMotiveCsv(bytes)) {
-    return MotionOfMarkers(OrThrow(ReadMotiveCsv(bytes, file)), file, rate_hz, MotiveUp(), options);
-  }
-  if (bytes.substr(0, bytes.find('\n')).find("_x_m") != std::string_view::npos) {
-    return MotionOfMarkers(MarkersOf(OrThrow(ReadJointCsv(bytes, file))), file, rate_hz, JointCsvUp(), options);
-  }
-  std::vector<std::string> remarks;
-  const Clip clip = OrThrow(ReadBvh(bytes, file, &remarks));
-  return MotionOfClip(clip, file, rate_hz, std::nullopt, options, remarks);
+  ReadBody body = BodyOfBytes(bytes, file, rate_hz, options);
+  if (changes != nullptr) *changes = std::move(body.changes);
+  return std::move(body.motion);
 }
 
 }  // namespace etude::engine

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/api/convert.h"
+#include "engine/api/checks.h"
 #include "engine/recognition/sight.h"
 
 namespace etude::engine {
@@ -13,25 +13,22 @@ const RecogniserKind& KindOfExamples(const std::string& name) {
   throw BadInput(fmt::format("no recogniser '{}' of examples; allowed: whole-body, dtw, nearest", name));
 }
 
-etude::TaughtMove ToEngineMove(const TaughtMove& move) {
-  etude::TaughtMove taught{.name = move.name};
-  for (const Motion& example : move.examples) {
-    if (example.poses.empty()) throw BadInput(fmt::format("move '{}': an example without frames", move.name));
-    taught.examples.push_back(StreamOf(ToBodyMotion(example)));
+void CheckMoves(std::span<const TaughtMove> moves) {
+  for (const TaughtMove& move : moves) {
+    for (const SkeletonStream& example : move.examples) {
+      if (example.frames.empty()) throw BadInput(fmt::format("move '{}': an example without frames", move.name));
+      Checked(MotionOf(example));
+    }
   }
-  return taught;
 }
 
-SensedFrame ToEngineFrame(const SensedPose& frame) {
-  SensedFrame sensed{.joints = {}, .body_seen = frame.body_seen};
+void CheckFrame(const SensedFrame& frame) {
   for (std::size_t i = 0; i < kRoleCount; ++i) {
-    const glm::dvec3& place = frame.pose.joints[i];
     for (int axis = 0; axis < 3; ++axis) {
-      if (!std::isfinite(place[axis])) throw BadInput(fmt::format("joint {}: a position that is not finite", i));
+      if (std::isfinite(frame.joints[i].position[axis])) continue;
+      throw BadInput(fmt::format("joint {}: a position that is not finite", i));
     }
-    sensed.joints[i] = {place, static_cast<TrackingState>(frame.seen[i])};
   }
-  return sensed;
 }
 
 struct Recogniser::Taught {
@@ -49,12 +46,11 @@ struct RecogniserStream::Following {
 Recogniser::Recogniser(std::span<const TaughtMove> moves, const RecogniserOptions& options) {
   const RecogniserKind& kind = KindOfExamples(options.kind);
   if (moves.empty()) throw BadInput("no moves");
-  std::vector<etude::TaughtMove> taught;
-  for (const TaughtMove& move : moves) taught.push_back(ToEngineMove(move));
+  CheckMoves(moves);
   auto made = std::make_shared<Taught>();
   made->moves = moves.size();
   made->filter.kind = options.smooths ? FilterKind::kHolt : FilterKind::kNone;
-  made->recogniser = OrThrow(MakeRecogniser({.kind = &kind}, taught));
+  made->recogniser = OrThrow(MakeRecogniser({.kind = &kind}, moves));
   taught_ = std::move(made);
 }
 
@@ -81,8 +77,9 @@ void RecogniserStream::Ask(std::optional<int> move) {
   following_->follower->Ask(move ? std::optional(static_cast<std::size_t>(*move)) : std::nullopt);
 }
 
-Evidence RecogniserStream::Update(const SensedPose& frame) {
-  const etude::Evidence found = following_->follower->Update(following_->sight.Update(ToEngineFrame(frame)));
+Evidence RecogniserStream::Update(const SensedFrame& frame) {
+  CheckFrame(frame);
+  const etude::Evidence found = following_->follower->Update(following_->sight.Update(frame));
   return {found.asked, {found.spotted.begin(), found.spotted.end()}};
 }
 

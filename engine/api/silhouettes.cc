@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/api/convert.h"
+#include "engine/api/checks.h"
 #include "engine/kinematics/limb_lengths.h"
 #include "engine/silhouettes/track_silhouettes.h"
 #include "engine/unmarked/recover_unmarked.h"
@@ -14,7 +14,8 @@ namespace {
 constexpr int kMaxMaskSide = 8192;
 constexpr double kFittedSide = 640;  ///< the longer side of the pictures for which the fit's options were chosen
 
-Mask ToMask(const PersonMask& mask) {
+/// Returns the mask of ones that the fit wants.
+Mask OnesOf(const Mask& mask) {
   if (std::min(mask.width, mask.height) < 1 || std::max(mask.width, mask.height) > kMaxMaskSide) {
     throw BadInput(
         fmt::format("a mask of {} x {} pixels; allowed: 1 to {} each", mask.width, mask.height, kMaxMaskSide));
@@ -28,22 +29,22 @@ Mask ToMask(const PersonMask& mask) {
 }
 
 /// Returns the width of a mask's pixel in pixels of the camera.
-int PixelOf(const Camera& camera, const PersonMask& mask) {
-  const int pixel = mask.width > 0 ? camera.width / mask.width : 0;
-  if (pixel >= 1 && camera.width == pixel * mask.width && camera.height == pixel * mask.height) return pixel;
+int PixelOf(const NamedCamera& camera, const Mask& mask) {
+  const Intrinsics& picture = camera.camera.intrinsics;
+  const int pixel = mask.width > 0 ? picture.width / mask.width : 0;
+  if (pixel >= 1 && picture.width == pixel * mask.width && picture.height == pixel * mask.height) return pixel;
   throw BadInput(fmt::format("a mask of {} x {} pixels of camera '{}'; allowed: its {} x {}, or smaller by a factor",
-                             mask.width, mask.height, camera.name, camera.width, camera.height));
+                             mask.width, mask.height, camera.name, picture.width, picture.height));
 }
 
-std::vector<ProjectionMatrix> PinholesOf(std::span<const Camera> cameras) {
+std::vector<ProjectionMatrix> PinholesOf(std::span<const NamedCamera> cameras) {
   std::vector<ProjectionMatrix> matrices;
-  for (const Camera& camera : cameras) {
-    const etude::Camera told = ToEngineCamera(camera);
-    if (!told.distortion.IsNone()) {
+  for (const NamedCamera& camera : cameras) {
+    if (!camera.camera.distortion.IsNone()) {
       throw BadInput(fmt::format(
           "camera '{}' has a lens with distortion; allowed: pinhole cameras, with undistorted pictures", camera.name));
     }
-    const ProjectionMatrix& matrix = matrices.emplace_back(MatrixOf(told));
+    const ProjectionMatrix& matrix = matrices.emplace_back(MatrixOf(camera.camera));
     for (const auto& row : matrix.h) {
       if (std::ranges::all_of(row, [](double number) { return std::isfinite(number); })) continue;
       throw BadInput(fmt::format("camera '{}': a number that is not finite", camera.name));
@@ -52,35 +53,22 @@ std::vector<ProjectionMatrix> PinholesOf(std::span<const Camera> cameras) {
   return matrices;
 }
 
-LimbLengths LengthsOf(const SilhouetteOptions& options) {
+LimbLengths LengthsOf(const FollowOptions& options) {
   if (options.measured.empty()) {
     if (options.stature_m >= 0.5 && options.stature_m <= 2.5) return AdultLengths(options.stature_m);
     throw BadInput(fmt::format("a stature of {} m; allowed: 0.5 to 2.5", options.stature_m));
   }
-  const BodyMotion measured = ToBodyMotion({.rate_hz = options.rate_hz, .poses = options.measured});
-  const LimbLengths lengths = MeasureLimbLengths(measured.poses);
+  Checked({.rate_hz = options.rate_hz, .poses = options.measured});
+  const LimbLengths lengths = MeasureLimbLengths(options.measured);
   if (!IsValid(lengths)) throw BadInput("measured: a limb has no length");
   return lengths;
 }
 
 }  // namespace
 
-std::vector<OutlinePoint> Outline(const PersonMask& mask, const OutlineOptions& options) {
-  if (options.spacing < 1 || options.spacing > 1000 || !(options.thinnest >= 0 && options.thinnest <= 100)) {
-    throw BadInput(
-        fmt::format("spacing {}, thinnest {}; allowed: 1 to 1000, 0 to 100", options.spacing, options.thinnest));
-  }
-  const Silhouette found = MakeSilhouette(ToMask(mask), {.spacing = options.spacing, .thinnest = options.thinnest});
-  std::vector<OutlinePoint> points;
-  for (const etude::OutlinePoint& point : found.outline) points.push_back({point.pixel, point.normal});
-  return points;
-}
-
-std::vector<float> SignedDistances(const PersonMask& mask) { return etude::SignedDistances(ToMask(mask)).pixels; }
-
-std::vector<std::optional<Pose>> TrackSilhouettes(std::span<const Camera> cameras,
-                                                  std::span<const std::vector<PersonMask>> masks,
-                                                  const SilhouetteOptions& options) {
+std::vector<std::optional<BodyPose>> TrackSilhouettes(std::span<const NamedCamera> cameras,
+                                                      std::span<const std::vector<Mask>> masks,
+                                                      const FollowOptions& options) {
   if (cameras.size() < 2 || masks.size() != cameras.size()) {
     throw BadInput(fmt::format("{} cameras, but masks of {}; allowed: at least two cameras, and masks of each",
                                cameras.size(), masks.size()));
@@ -97,13 +85,14 @@ std::vector<std::optional<Pose>> TrackSilhouettes(std::span<const Camera> camera
           fmt::format("{} masks of one camera, but {} of the first; allowed: the same number for all, at least one",
                       masks[i].size(), masks.front().size()));
     }
-    const double scale = kFittedSide / std::max({1, cameras[i].width, cameras[i].height});
+    const Intrinsics& picture = cameras[i].camera.intrinsics;
+    const double scale = kFittedSide / std::max({1, picture.width, picture.height});
     for (std::size_t row : {0, 1}) {
       for (double& number : matrices[i].h[row]) number *= scale;
     }
     std::vector<Silhouette>& of_camera = silhouettes.emplace_back();
-    for (const PersonMask& mask : masks[i]) {
-      of_camera.push_back(MakeSilhouette(ToMask(mask), {.mask_pixel = scale * PixelOf(cameras[i], mask)}));
+    for (const Mask& mask : masks[i]) {
+      of_camera.push_back(MakeSilhouette(OnesOf(mask), {.mask_pixel = scale * PixelOf(cameras[i], mask)}));
     }
   }
   TrackOptions track;
@@ -111,10 +100,10 @@ std::vector<std::optional<Pose>> TrackSilhouettes(std::span<const Camera> camera
   track.position_change_m *= kJudgedRateHz / options.rate_hz;
   const SilhouetteTrack found =
       etude::TrackSilhouettes(body, {.cameras = matrices, .silhouettes = silhouettes, .start = {}}, track);
-  std::vector<std::optional<Pose>> poses;
+  std::vector<std::optional<BodyPose>> poses;
   for (const std::optional<SilhouetteFit>& fit : found.frames) {
     poses.emplace_back();
-    if (fit) poses.back() = Pose{ToBodyPose(found.body, fit->state).joints};
+    if (fit) poses.back() = ToBodyPose(found.body, fit->state);
   }
   return poses;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/api/convert.h"
+#include "engine/api/checks.h"
 #include "engine/base/names.h"
 #include "engine/transitions/library/library.h"
 
@@ -20,14 +20,6 @@ const JoinKind& JoinNamed(const std::string& name) {
   const JoinKind* const join = FindJoin(name);
   if (join == nullptr) throw BadInput(fmt::format("join '{}'; allowed: {}", name, Join(JoinNames())));
   return *join;
-}
-
-std::vector<TransitionSetting> Described(const std::vector<NumberSetting>& settings) {
-  std::vector<TransitionSetting> told;
-  for (const NumberSetting& one : settings) {
-    told.push_back({one.key, one.fallback, one.lowest, one.largest, one.is_whole, one.meaning});
-  }
-  return told;
 }
 
 /// Puts settings that are given by key into the order of `known`. Throws BadInput, naming `of`, for unknown keys.
@@ -75,13 +67,8 @@ TransitionWay WayNamed(const std::string& choice, const std::string& join) {
 std::vector<std::string> TransitionChoices() { return ChoiceNames(); }
 std::vector<std::string> TransitionJoins() { return JoinNames(); }
 
-std::vector<TransitionSetting> TransitionChoiceSettings(const std::string& choice) {
-  return Described(ChoiceNamed(choice).settings);
-}
-
-std::vector<TransitionSetting> TransitionJoinSettings(const std::string& join) {
-  return Described(JoinNamed(join).settings);
-}
+std::vector<NumberSetting> TransitionChoiceSettings(const std::string& choice) { return ChoiceNamed(choice).settings; }
+std::vector<NumberSetting> TransitionJoinSettings(const std::string& join) { return JoinNamed(join).settings; }
 
 namespace {
 
@@ -90,9 +77,9 @@ etude::BodyProportions ToEngineProportions(const BodyProportions& told) {
   if (!(told.hip_height >= kLowest && told.hip_height <= kHighest)) {
     throw BadInput(fmt::format("hips {} m high; allowed: {} to {}", told.hip_height, kLowest, kHighest));
   }
-  const BodyPose pose = ToBodyMotion({.poses = {told.pose}}).poses.front();
-  StandingHipsOf(pose);
-  return MakeBodyProportions(pose, told.hip_height);
+  Checked({.poses = {told.pose}});
+  StandingHipsOf(told.pose);
+  return MakeBodyProportions(told.pose, told.hip_height);
 }
 
 }  // namespace
@@ -110,20 +97,21 @@ struct TransitionLibrary::Library {
   }
 };
 
-TransitionLibrary::TransitionLibrary(std::span<const Motion> clips, const std::optional<BodyProportions>& proportions)
+TransitionLibrary::TransitionLibrary(std::span<const BodyMotion> clips,
+                                     const std::optional<BodyProportions>& proportions)
     : library_(std::make_unique<Library>()) {
-  const std::vector<BodyMotion> motions = ToBodyMotions(clips);
+  CheckClips(clips);
   std::vector<std::string> names;
-  for (const BodyMotion& motion : motions) {
+  for (const BodyMotion& motion : clips) {
     if (motion.poses.size() < 2 || motion.rate_hz != kJudgedRateHz) {
       throw BadInput(fmt::format("clip {}: {} frames at {} Hz; allowed: two or more at {}", names.size(),
                                  motion.poses.size(), motion.rate_hz, kJudgedRateHz));
     }
     names.push_back(fmt::format("clip {}", names.size()));
   }
-  const BodyPose& first = motions.front().poses.front();
+  const BodyPose& first = clips.front().poses.front();
   library_->clips =
-      MakeLibrary(std::move(names), motions,
+      MakeLibrary(std::move(names), clips,
                   proportions ? ToEngineProportions(*proportions) : MakeBodyProportions(first, StandingHipsOf(first)));
 }
 
@@ -136,13 +124,13 @@ Transition TransitionLibrary::Make(int from, int frame, int to, double budget_s,
   library_->Check(from, frame);
   library_->Check(to, 0);
   CheckBudget(budget_s);
-  const etude::Transition made = MakeTransition(
+  etude::Transition made = MakeTransition(
       library_->clips, {.from = from, .request_frame = frame, .to = to, .budget_s = budget_s}, WayOf(options));
-  Transition shown{.motion = FromBodyMotion(made.splice.motion),
+  Transition shown{.motion = std::move(made.splice.motion),
                    .points = {},
                    .wait_s = made.record.wait_s,
                    .branch = std::string(BranchName(made.record.branch)),
-                   .why = made.record.why};
+                   .why = std::move(made.record.why)};
   for (const PlacedPoint& point : made.splice.points) shown.points.push_back(point.frame);
   return shown;
 }

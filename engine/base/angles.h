@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-namespace etude {
+namespace [[gnu::visibility("default")]] etude {
 
 constexpr double kPi = std::numbers::pi;
 

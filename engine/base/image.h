@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-namespace etude {
+namespace [[gnu::visibility("default")]] etude {
 
 /// A picture of `width` × `height` pixels, row by row from the top left. Pixel (x, y) covers the square [x, x+1) × [y,
 /// y+1); its centre is (x + 0.5, y + 0.5).

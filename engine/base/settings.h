@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace etude {
+namespace [[gnu::visibility("default")]] etude {
 
 /// A numeric setting of a method, as scenario files name it. Each method has its own settings, so two methods may have
 /// settings with the same name. Values are passed as numbers in the order of the method's settings.

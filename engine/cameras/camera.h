@@ -3,8 +3,9 @@
 #include <array>
 #include <glm/glm.hpp>
 #include <optional>
+#include <string>
 
-namespace etude {
+namespace [[gnu::visibility("default")]] etude {
 
 /// The distortion of a lens, in OpenCV's models with its coefficients and signs. With r² = x² + y², the model of Brown
 /// and Conrady maps the ray through (x, y, 1) in the camera's frame to the ray through (x', y', 1):
@@ -56,6 +57,17 @@ struct Camera {
   glm::dmat3 R_CW{1};  ///< rotates world directions into the camera's frame
   glm::dvec3 p_WC{0};  ///< the centre of projection in the world, metres
   Distortion distortion{};
+};
+
+struct NamedCamera {
+  std::string name;
+  Camera camera;
+};
+
+/// A point Q, measured in the world (metres), and the pixel that shows it.
+struct PointPair {
+  glm::dvec3 world{0};  ///< p_WQ
+  glm::dvec2 pixel{0};
 };
 
 /// Returns the camera at `p_WC` that looks at the point T at `p_WT`, with its v axis as close to downwards as possible.

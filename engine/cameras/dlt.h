@@ -11,12 +11,6 @@
 
 namespace etude {
 
-/// A point Q, measured in the world (metres), and the pixel that shows it.
-struct PointPair {
-  glm::dvec3 world{0};  ///< p_WQ
-  glm::dvec2 pixel{0};
-};
-
 enum class Calibration {
   kDlt,            ///< "dlt": least squares on H's entries, |H| = 1 (paper B, section 2.2)
   kDltNormalised,  ///< "dlt-normalised": the same after Hartley's shift and scale of both point sets

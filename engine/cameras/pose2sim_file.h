@@ -10,11 +10,6 @@
 
 namespace etude {
 
-struct NamedCamera {
-  std::string name;
-  Camera camera;
-};
-
 /// Writes the cameras of a rig as Pose2Sim's calibration file (TOML; Pagnon et al. 2021): one table for each camera
 /// with `name`, `size`, `matrix`, `distortions` (k1, k2, p1, p2; and k3 if there is one), `rotation` (Rodrigues'
 /// vector) and `translation` (metres) of the world in the camera's frame, and `fisheye`. Pixels are OpenCV's.

@@ -6,7 +6,7 @@
 
 #include "engine/cameras/camera.h"
 
-namespace etude {
+namespace [[gnu::visibility("default")]] etude {
 
 /// A camera and the pixel at which it shows a point.
 struct Sighting {

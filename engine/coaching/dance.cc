@@ -5,6 +5,7 @@
 #include <set>
 
 #include "engine/base/named.h"
+#include "engine/coaching/dance_library.h"
 
 namespace etude {
 namespace {

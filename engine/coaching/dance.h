@@ -6,10 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/result.h"
 #include "engine/motion/body.h"
 
-namespace etude {
+namespace [[gnu::visibility("default")]] etude {
 
 /// A frame with the time of the music at which it should be shown (paper A, 3.4: the next move is slowed down or sped
 /// up).
@@ -56,9 +55,6 @@ struct Dance {
 
 /// Returns "standby", "attract", "doze", "wake", "head_shake", "wave", "puzzled", "praise".
 std::vector<std::string> RequiredActs();
-
-/// Returns an error if the dance violates a rule that its fields state.
-Result<void> CheckDance(const Dance& dance);
 
 /// Returns the music time of a frame of the dance, in seconds: interpolated linearly between two tags, and at 30 Hz
 /// before the first and after the last tag.

@@ -10,6 +10,9 @@
 
 namespace etude {
 
+/// Returns an error if the dance violates a rule that its fields state.
+Result<void> CheckDance(const Dance& dance);
+
 /// A dance prepared for transitions, once for all sessions: a library of its acts, its slow demonstrations, and
 /// excerpts around each repetition.
 class DanceLibrary {

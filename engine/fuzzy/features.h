@@ -7,7 +7,7 @@
 
 #include "engine/motion/body.h"
 
-namespace etude {
+namespace [[gnu::visibility("default")]] etude {
 
 /// Paper A's ten pose features (table 1), in the paper's order.
 enum class Feature { kRH, kLH, kRHE, kLHE, kPosture, kTrunk, kRF, kLF, kRFK, kLFK };

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace etude {
+namespace [[gnu::visibility("default")]] etude {
 
 struct Marks;
 

@@ -7,7 +7,7 @@
 #include "engine/motion/body.h"
 #include "engine/motion/clip.h"
 
-namespace etude {
+namespace [[gnu::visibility("default")]] etude {
 
 /// Limb lengths of one person, metres, equal on both sides. The defaults describe an adult.
 struct LimbLengths {

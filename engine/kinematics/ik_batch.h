@@ -6,7 +6,7 @@
 #include "engine/kinematics/ik_problem.h"
 #include "engine/kinematics/tree.h"
 
-namespace etude {
+namespace [[gnu::visibility("default")]] etude {
 
 /// Many problems of one tree as a structure of arrays: one row per number of an `IkProblem`, one column per problem.
 class IkBatch {

@@ -12,7 +12,7 @@
 #include "engine/base/angles.h"
 #include "engine/kinematics/tree.h"
 
-namespace etude {
+namespace [[gnu::visibility("default")]] etude {
 
 /// How an end effector's position error is weighted relative to the errors of its three axes. Paper B, section 3.7.3,
 /// proposes weights that depend on the errors but gives no formula; the formulas are ours. e = distance to the target

@@ -8,7 +8,7 @@
 #include "engine/kinematics/body_tree.h"
 #include "engine/motion/body.h"
 
-namespace etude {
+namespace [[gnu::visibility("default")]] etude {
 
 /// Positions of the five ends and directions of the limbs, as two images of a person show them (paper B, sections 3.2
 /// and 4.2).

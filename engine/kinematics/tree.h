@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace etude {
+namespace [[gnu::visibility("default")]] etude {
 
 /// The range of one joint angle, radians.
 struct AngleRange {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace etude {
+namespace [[gnu::visibility("default")]] etude {
 
 /// The twenty joints of the canonical body, which are those of Kinect v1; the data of both papers and of all file
 /// formats are mapped to them. Parents come before children. "Left" is the person's own left: if the person faces +Z

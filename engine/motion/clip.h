@@ -7,7 +7,7 @@
 
 #include "engine/motion/body.h"
 
-namespace etude {
+namespace [[gnu::visibility("default")]] etude {
 
 /// A joint's pose in its parent's frame: p ↦ translation + rotation · (scale ⊙ p), glTF's TRS. Motion capture has unit
 /// scales.

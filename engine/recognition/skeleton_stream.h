@@ -7,7 +7,7 @@
 #include "engine/fuzzy/features.h"
 #include "engine/motion/body.h"
 
-namespace etude {
+namespace [[gnu::visibility("default")]] etude {
 
 /// The sensor's confidence in a joint, as Kinect defines it (SDK 1.x, NUI_SKELETON_POSITION_TRACKING_STATE).
 enum class TrackingState {

@@ -6,7 +6,7 @@
 #include "engine/fuzzy/features.h"
 #include "engine/recognition/skeleton_stream.h"
 
-namespace etude {
+namespace [[gnu::visibility("default")]] etude {
 
 /// One angle of a key pose (paper A, "key pose on a few angles").
 struct PoseTarget {

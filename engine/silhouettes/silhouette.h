@@ -5,7 +5,7 @@
 
 #include "engine/base/image.h"
 
-namespace etude {
+namespace [[gnu::visibility("default")]] etude {
 
 /// Computes the signed Euclidean distance from every pixel's centre to the border of the mask, in mask pixels: positive
 /// outside, negative inside. The border runs half a pixel beyond the centres of set pixels, so |distance| ≥ 0.5. The

@@ -9,7 +9,7 @@
 #include "engine/base/angles.h"
 #include "engine/base/image.h"
 
-namespace etude {
+namespace [[gnu::visibility("default")]] etude {
 
 /// A colour as hue, saturation and intensity (Gonzalez & Woods; paper B, section 4.1.1).
 struct Hsi {

@@ -7,7 +7,7 @@
 #include "engine/base/image.h"
 #include "engine/vision/change_detection.h"
 
-namespace etude {
+namespace [[gnu::visibility("default")]] etude {
 
 /// Classifies one camera's pictures pixel by pixel *(ours)*: is the room more likely, as it is or in a shadow or more
 /// light, or one of the colours that the person wears? Those are learnt from picture to picture, as a histogram with

@@ -15,9 +15,9 @@ int main(int count, char** names) try {
     clips.push_back(ReadMotion(std::string(std::istreambuf_iterator<char>(file), {}), names[i]));
   }
 
-  const Features from = ComputeFeatures(clips[0]).front(), to = ComputeFeatures(clips[1]).front();
-  for (std::size_t i = 0; i < kFeatureCount; ++i) {
-    std::printf("%-8s %6.1f %6.1f\n", std::string(FeatureNames()[i]).c_str(), from[i], to[i]);
+  const PoseFeatures from = ComputeFeatures(clips[0]).front(), to = ComputeFeatures(clips[1]).front();
+  for (const Feature feature : AllFeatures()) {
+    std::printf("%-8s %6.1f %6.1f\n", std::string(FeatureName(feature)).c_str(), from[feature], to[feature]);
   }
   std::printf("fuzzy distance of the first frames: %.3f\n", FuzzyDistance(from, to));
 

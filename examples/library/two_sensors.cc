@@ -13,26 +13,27 @@ using namespace etude;
 int main(int count, char** names) try {
   if (count != 2) throw engine::BadInput("two_sensors CLIP.bvh");
   std::ifstream file(names[1], std::ios::binary);
-  const engine::Motion truth = engine::ReadMotion(std::string(std::istreambuf_iterator<char>(file), {}), names[1]);
+  const BodyMotion truth = engine::ReadMotion(std::string(std::istreambuf_iterator<char>(file), {}), names[1]);
   double squares = 0, tracked = 0, seen = 0;
-  const auto reports = sim::SenseSkeleton(truth, {.sensor = "v2", .seed = 7});
-  for (std::size_t f = 0; f < reports.size(); ++f) {
-    for (std::size_t j = 0; j < engine::kRoleCount; ++j, ++seen) {
-      if (reports[f].seen[j] != engine::Seen::kTracked) continue;
-      const glm::dvec3 off = reports[f].pose.joints[j] - truth.poses[f].joints[j];
-      squares += glm::dot(off, off), ++tracked;
+  const SkeletonStream reports = sim::SenseSkeleton(truth, {.sensor = "v2", .seed = 7});
+  for (std::size_t f = 0; f < reports.frames.size(); ++f) {
+    for (std::size_t j = 0; j < kRoleCount; ++j, ++seen) {
+      const SensedJoint& joint = reports.frames[f].joints[j];
+      if (joint.state != TrackingState::kTracked) continue;
+      squares += std::pow(glm::distance(joint.position, truth.poses[f].joints[j]), 2), ++tracked;
     }
   }
-  std::printf("%zu frames, %.1f %% of the joints tracked, off by %.1f mm\n", reports.size(), 100 * tracked / seen,
-              1000 * std::sqrt(squares / tracked));
+  std::printf("%zu frames, %.1f %% of the joints tracked, off by %.1f mm\n", reports.frames.size(),
+              100 * tracked / seen, 1000 * std::sqrt(squares / tracked));
   const auto cameras = sim::StereoCameras(truth);
   const sim::Studio studio(truth, cameras, {.scene = 0.5});
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     const sim::Picture picture = studio.Shoot(c, truth.poses.size() / 2);
     std::ofstream out(cameras[c].name + ".ppm", std::ios::binary);
-    out << "P6 " << picture.width << ' ' << picture.height << " 255\n";
-    out.write(reinterpret_cast<const char*>(picture.colour.data()), static_cast<long>(picture.colour.size()));
-    std::printf("%s: %td pixels of the person\n", cameras[c].name.c_str(), std::ranges::count(picture.person, 1));
+    out << "P6 " << picture.colour.width << ' ' << picture.colour.height << " 255\n";
+    for (const Rgb8& pixel : picture.colour.pixels) out << char(pixel.r) << char(pixel.g) << char(pixel.b);
+    const auto shown = std::ranges::count(picture.person.pixels, 1);
+    std::printf("%s: %td pixels of the person\n", cameras[c].name.c_str(), shown);
   }
 } catch (const std::exception& error) {
   return std::fprintf(stderr, "%s\n", error.what()), 2;

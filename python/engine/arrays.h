@@ -7,13 +7,17 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <glm/glm.hpp>
 #include <limits>
+#include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
+
+#include "engine/fuzzy/features.h"
 
 /// The module `etude_engine`: libetude's functions (docs/library.md) and simulated sensors on numpy arrays. Lists,
 /// other number types and views are converted, and shapes are checked. The interpreter's lock is released while the
@@ -61,66 +65,83 @@ inline void ExpectFinite(const char* name, const Array& array) {
   }
 }
 
-inline glm::dvec3 Vector(const double* values) { return {values[0], values[1], values[2]}; }
-/// Returns the matrix that numpy stores row by row.
-inline glm::dmat3 Matrix(const double* rows) {
-  return {{rows[0], rows[3], rows[6]}, {rows[1], rows[4], rows[7]}, {rows[2], rows[5], rows[8]}};
-}
-inline void Put(const glm::dvec3& vector, double* values) {
-  for (int i = 0; i < 3; ++i) values[i] = vector[i];
-}
-inline void Put(const glm::dmat3& matrix, double* rows) {
-  for (int i = 0; i < 9; ++i) rows[i] = matrix[i % 3][i / 3];
+/// The shape of a T in an array, which has its numbers row by row.
+template <typename T>
+const std::vector<py::ssize_t> kShape{};
+template <>
+inline const std::vector<py::ssize_t> kShape<glm::dvec2>{2};
+template <>
+inline const std::vector<py::ssize_t> kShape<glm::dvec3>{3};
+template <>
+inline const std::vector<py::ssize_t> kShape<glm::dmat3>{3, 3};
+template <>
+inline const std::vector<py::ssize_t> kShape<BodyPose>{kRoleCount, 3};
+template <>
+inline const std::vector<py::ssize_t> kShape<PoseFeatures>{kFeatureCount};
+template <typename T>
+constexpr py::ssize_t kNumbers = sizeof(T) / sizeof(double);
+
+template <typename T>
+std::vector<py::ssize_t> ShapeOfMany(py::ssize_t count) {
+  std::vector<py::ssize_t> shape = kShape<T>;
+  shape.insert(shape.begin(), count);
+  return shape;
 }
 
-inline Array ToArray(const glm::dvec3& vector) {
-  Array array(3);
-  Put(vector, array.mutable_data());
+template <typename T>
+T Get(const double* numbers) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  T value;
+  std::memcpy(static_cast<void*>(&value), numbers, sizeof(T));
+  if constexpr (std::is_same_v<T, glm::dmat3>) return glm::transpose(value);
+  return value;
+}
+template <typename T>
+void Put(T value, double* numbers) {
+  if constexpr (std::is_same_v<T, glm::dmat3>) value = glm::transpose(value);
+  std::memcpy(numbers, &value, sizeof(T));
+}
+
+template <typename T>
+T FromArray(const char* name, const Array& array) {
+  Expect(name, array, kShape<T>);
+  return Get<T>(array.data());
+}
+template <typename T>
+std::vector<T> FromArrays(const char* name, const Array& array) {
+  Expect(name, array, ShapeOfMany<T>(kAny));
+  std::vector<T> values;
+  for (py::ssize_t i = 0; i < array.shape(0); ++i) values.push_back(Get<T>(array.data() + i * kNumbers<T>));
+  return values;
+}
+
+template <typename T>
+Array ToArray(const T& value) {
+  Array array(kShape<T>);
+  Put(value, array.mutable_data());
   return array;
 }
-inline Array ToArray(const glm::dmat3& matrix) {
-  Array array({3, 3});
-  Put(matrix, array.mutable_data());
+template <typename T>
+Array ToArrays(const std::vector<T>& values) {
+  Array array(ShapeOfMany<T>(static_cast<py::ssize_t>(values.size())));
+  for (std::size_t i = 0; i < values.size(); ++i) Put(values[i], array.mutable_data() + i * kNumbers<T>);
   return array;
 }
 
-inline Array ToArray(const std::vector<double>& values, std::vector<py::ssize_t> shape) {
-  Array array(std::move(shape));
-  std::copy(values.begin(), values.end(), array.mutable_data());
-  return array;
-}
-
-/// Returns the getter of a class's matrix or vector as an array.
+/// Returns the getter of a class's member as an array.
 template <typename Class, typename Value>
 auto ArrayOf(Value Class::*member) {
   return [member](const Class& of) { return ToArray(of.*member); };
 }
-template <typename Class>
-auto SetVector(glm::dvec3 Class::*member, const char* name) {
-  return [member, name](Class& of, const Array& value) {
-    Expect(name, value, {3});
-    of.*member = Vector(value.data());
-  };
-}
-template <typename Class>
-auto SetMatrix(glm::dmat3 Class::*member, const char* name) {
-  return [member, name](Class& of, const Array& value) {
-    Expect(name, value, {3, 3});
-    of.*member = Matrix(value.data());
-  };
+template <typename Class, typename Value>
+auto ArraysOf(std::vector<Value> Class::*member) {
+  return [member](const Class& of) { return ToArrays(of.*member); };
 }
 
-inline Pose ToPose(const char* name, const Array& positions_m) {
-  Expect(name, positions_m, {kRoleCount, 3});
-  Pose pose;
-  for (std::size_t i = 0; i < kRoleCount; ++i) pose.joints[i] = Vector(positions_m.data() + 3 * i);
-  return pose;
-}
-
-inline Array FromPose(const Pose& pose) {
-  Array places({static_cast<py::ssize_t>(kRoleCount), py::ssize_t{3}});
-  for (std::size_t i = 0; i < kRoleCount; ++i) Put(pose.joints[i], places.mutable_data() + 3 * i);
-  return places;
+/// Works without the interpreter's lock, and returns the result.
+auto Unlocked(const auto& work) {
+  const py::gil_scoped_release free;
+  return work();
 }
 
 }  // namespace etude::engine

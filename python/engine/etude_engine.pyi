@@ -24,12 +24,14 @@ class Motion:
     def rate_hz(self) -> float: ...
     @property
     def positions_m(self) -> Array: ...
-    @property
-    def changes(self) -> List[str]: ...
     def __len__(self) -> int: ...
 
+class FileMotion(Motion):
+    @property
+    def changes(self) -> List[str]: ...
+
 def read_motion(path: Union[str, PathLike], rate_hz: float = 30.0, keep_floor: bool = False, up: str = "",
-                metres_per_unit: float = 0.0, marker_set: str = "") -> Motion: ...
+                metres_per_unit: float = 0.0, marker_set: str = "") -> FileMotion: ...
 def features(motion: Motion) -> Array: ...
 def fuzzy_distance(a: ArrayLike, b: ArrayLike) -> float: ...
 
@@ -132,6 +134,16 @@ class Camera:
     p1: float
     p2: float
     k3: float
+    k4: float
+    k5: float
+    k6: float
+    s1: float
+    s2: float
+    s3: float
+    s4: float
+    tau_x: float
+    tau_y: float
+    is_fisheye: bool
     @property
     def R_CW(self) -> Array: ...
     @R_CW.setter

@@ -18,102 +18,74 @@ namespace {
 
 using Settings = std::map<std::string, double>;
 
-Motion MakeMotion(const Array& positions_m, double rate_hz) {
-  Expect("positions_m", positions_m, {kAny, kRoleCount, 3});
+/// A motion that was read, and what was found and changed.
+struct FileMotion : BodyMotion {
+  std::vector<std::string> changes;
+};
+
+BodyMotion MakeMotion(const Array& positions_m, double rate_hz) {
+  BodyMotion motion{.rate_hz = rate_hz, .poses = FromArrays<BodyPose>("positions_m", positions_m)};
   ExpectFinite("positions_m", positions_m);
   if (!(std::isfinite(rate_hz) && rate_hz > 0)) throw BadInput("rate_hz: must be above 0");
-  Motion motion{.rate_hz = rate_hz, .poses = std::vector<Pose>(static_cast<std::size_t>(positions_m.shape(0)))};
-  const double* place = positions_m.data();
-  for (Pose& pose : motion.poses) {
-    for (glm::dvec3& joint : pose.joints) {
-      joint = Vector(place);
-      place += 3;
-    }
-  }
   return motion;
 }
 
-Array PositionsOf(const Motion& motion) {
-  Array positions(
-      {static_cast<py::ssize_t>(motion.poses.size()), static_cast<py::ssize_t>(kRoleCount), py::ssize_t{3}});
-  double* place = positions.mutable_data();
-  for (const Pose& pose : motion.poses) {
-    for (const glm::dvec3& joint : pose.joints) {
-      Put(joint, place);
-      place += 3;
-    }
-  }
-  return positions;
-}
-
-Motion ReadFile(const std::filesystem::path& path, double rate_hz, bool keep_floor, const std::string& up,
-                double metres_per_unit, const std::string& marker_set) {
+FileMotion ReadFile(const std::filesystem::path& path, double rate_hz, bool keep_floor, const std::string& up,
+                    double metres_per_unit, const std::string& marker_set) {
   std::ifstream file(path, std::ios::binary);
   const std::string bytes(std::istreambuf_iterator<char>(file), {});
   if (!file) throw BadInput(path.string() + ": cannot be read");
   if (up.size() > 1) throw BadInput("up: '" + up + "'; allowed: y, z");
-  return ReadMotion(bytes, path.string(), rate_hz,
-                    {.keep_floor = keep_floor,
-                     .up = up.empty() ? '\0' : up.front(),
-                     .metres_per_unit = metres_per_unit,
-                     .marker_set = marker_set});
+  const ReadingOptions options{.keep_floor = keep_floor,
+                               .up = up.empty() ? '\0' : up.front(),
+                               .metres_per_unit = metres_per_unit,
+                               .marker_set = marker_set};
+  FileMotion motion;
+  static_cast<BodyMotion&>(motion) = ReadMotion(bytes, path.string(), rate_hz, options, &motion.changes);
+  return motion;
 }
 
-std::vector<std::string> RoleNames() {
+/// Returns the names of roles or features.
+std::vector<std::string> NamesOf(const auto& all,
+                                 std::string_view (*name_of)(typename std::decay_t<decltype(all)>::value_type)) {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < kRoleCount; ++i) names.emplace_back(RoleName(static_cast<Role>(i)));
+  for (const auto one : all) names.emplace_back(name_of(one));
   return names;
-}
-
-Features ToFeatures(const char* name, const Array& array) {
-  Expect(name, array, {kFeatureCount});
-  ExpectFinite(name, array);
-  Features features;
-  std::copy_n(array.data(), kFeatureCount, features.begin());
-  return features;
 }
 
 }  // namespace
 
 void AddMotions(py::module_& module) {
-  py::class_<Motion>(module, "Motion", "Frames at a fixed rate: where the twenty joints of `ROLES` are.")
+  py::class_<BodyMotion>(module, "Motion", "Frames at a fixed rate: where the twenty joints of `ROLES` are.")
       .def(py::init(&MakeMotion), "positions_m"_a, "rate_hz"_a = 30.0,
            "positions_m: frames x 20 x 3, metres, Y up. Raises BadInput for another shape or what is not finite.")
-      .def_readonly("rate_hz", &Motion::rate_hz)
-      .def_property_readonly("positions_m", &PositionsOf, "A copy: frames x 20 x 3, metres, Y up.")
-      .def_readonly("changes", &Motion::changes,
-                    "Of a motion that was read: what was found, and every change of what the file holds.")
-      .def("__len__", [](const Motion& motion) { return motion.poses.size(); });
-  module.attr("ROLES") = py::tuple(py::cast(RoleNames()));
+      .def_readonly("rate_hz", &BodyMotion::rate_hz)
+      .def_property_readonly("positions_m", ArraysOf(&BodyMotion::poses), "A copy: frames x 20 x 3, metres, Y up.")
+      .def("__len__", [](const BodyMotion& motion) { return motion.poses.size(); });
+  py::class_<FileMotion, BodyMotion>(module, "FileMotion", "A Motion that was read.")
+      .def_readonly("changes", &FileMotion::changes, "What was found, and every change of what the file holds.");
+  module.attr("ROLES") = py::tuple(py::cast(NamesOf(AllRoles(), RoleName)));
   module.def(
       "read_motion", &ReadFile, "path"_a, "rate_hz"_a = 30.0, "keep_floor"_a = false, "up"_a = "",
       "metres_per_unit"_a = 0.0, "marker_set"_a = "", py::call_guard<py::gil_scoped_release>(),
-      "Reads a BVH, AMASS, C3D, TRC, CSV or Etude's own .npz file as the twenty joints, on the floor unless keep_floor; "
+      "Reads a BVH, AMASS, C3D, TRC, CSV or Etude's own .npz file as the twenty joints, on the floor unless "
+      "keep_floor; "
       "up ('y' or 'z'), metres_per_unit and marker_set overrule what is found. `changes` of the motion says what was "
       "changed. Raises BadInput with the place and what was found.");
 
-  module.attr("FEATURES") = py::tuple(py::cast(FeatureNames()));
+  module.attr("FEATURES") = py::tuple(py::cast(NamesOf(AllFeatures(), FeatureName)));
   module.def(
-      "features",
-      [](const Motion& motion) {
-        std::vector<Features> found;
-        {
-          const py::gil_scoped_release free;
-          found = ComputeFeatures(motion);
-        }
-        Array array({static_cast<py::ssize_t>(found.size()), static_cast<py::ssize_t>(kFeatureCount)});
-        double* value = array.mutable_data();
-        for (const Features& features : found) value = std::copy(features.begin(), features.end(), value);
-        return array;
-      },
+      "features", [](const BodyMotion& motion) { return ToArrays(Unlocked([&] { return ComputeFeatures(motion); })); },
       "motion"_a, "The ten pose features of every frame: frames x 10, in degrees except Posture (standing = 80).");
   module.def(
       "fuzzy_distance",
-      [](const Array& a, const Array& b) { return FuzzyDistance(ToFeatures("a", a), ToFeatures("b", b)); }, "a"_a,
-      "b"_a, "The fuzzy distance of two frames' features, from 0.");
+      [](const Array& a, const Array& b) {
+        return FuzzyDistance(FromArray<PoseFeatures>("a", a), FromArray<PoseFeatures>("b", b));
+      },
+      "a"_a, "b"_a, "The fuzzy distance of two frames' features, from 0.");
   py::class_<Bridges>(module, "Bridges",
                       "Clips made ready for transitions: performed by the body of the first, and tagged.")
-      .def(py::init([](const std::vector<Motion>& clips, int min_clips, double threshold) {
+      .def(py::init([](const std::vector<BodyMotion>& clips, int min_clips, double threshold) {
              const py::gil_scoped_release free;
              return std::make_unique<Bridges>(clips, BridgeOptions{min_clips, threshold});
            }),
@@ -129,10 +101,7 @@ void AddMotions(py::module_& module) {
       .def(
           "find",
           [](const Bridges& bridges, int clip, int frame, int to, double budget_s) -> py::object {
-            const auto point = [&] {
-              const py::gil_scoped_release free;
-              return bridges.Find(clip, frame, to, budget_s);
-            }();
+            const auto point = Unlocked([&] { return bridges.Find(clip, frame, to, budget_s); });
             return point ? py::object(py::make_tuple(point->from, point->to, point->distance)) : py::none();
           },
           "clip"_a, "frame"_a, "to"_a, "budget_s"_a = 1.0,
@@ -141,9 +110,9 @@ void AddMotions(py::module_& module) {
 
   module.attr("TRANSITION_CHOICES") = py::tuple(py::cast(TransitionChoices()));
   module.attr("TRANSITION_JOINS") = py::tuple(py::cast(TransitionJoins()));
-  const auto by_key = [](const std::vector<TransitionSetting>& settings) {
+  const auto by_key = [](const std::vector<NumberSetting>& settings) {
     py::dict told;
-    for (const TransitionSetting& one : settings) {
+    for (const NumberSetting& one : settings) {
       told[one.key.c_str()] = py::make_tuple(one.fallback, one.lowest, one.largest, one.meaning);
     }
     return told;
@@ -168,19 +137,20 @@ void AddMotions(py::module_& module) {
       "scenario_proportions",
       [] {
         const BodyProportions body = sim::ScenarioProportions();
-        return py::make_tuple(FromPose(body.pose), body.hip_height);
+        return py::make_tuple(ToArray(body.pose), body.hip_height);
       },
       "Proportions of the body that performs a scenario's clips, for a TransitionLibrary: (a pose, 20 x 3 metres; the "
       "height of its hips, metres).");
   py::class_<TransitionLibrary>(
       module, "TransitionLibrary",
       "Clips made ready for transitions: performed by one body, tagged, joined by in-betweens.")
-      .def(py::init([](const std::vector<Motion>& clips, const std::optional<std::pair<Array, double>>& proportions) {
-             std::optional<BodyProportions> body;
-             if (proportions) body = {ToPose("proportions", proportions->first), proportions->second};
-             const py::gil_scoped_release free;
-             return std::make_unique<TransitionLibrary>(clips, body);
-           }),
+      .def(py::init(
+               [](const std::vector<BodyMotion>& clips, const std::optional<std::pair<Array, double>>& proportions) {
+                 std::optional<BodyProportions> body;
+                 if (proportions) body = {FromArray<BodyPose>("proportions", proportions->first), proportions->second};
+                 const py::gil_scoped_release free;
+                 return std::make_unique<TransitionLibrary>(clips, body);
+               }),
            "clips"_a, "proportions"_a = py::none(),
            "proportions: of the body that performs the clips, (a pose, 20 x 3 metres; the standing height of its hips, "
            "metres), such as scenario_proportions(); else the first clip's. Raises BadInput for no clips, fewer than "

@@ -13,56 +13,53 @@ namespace etude::engine {
 namespace {
 
 /// The name and the right performances of each move.
-using Moves = std::vector<std::pair<std::string, std::vector<Motion>>>;
+using Moves = std::vector<std::pair<std::string, std::vector<BodyMotion>>>;
 
 std::vector<TaughtMove> ToTaught(const Moves& moves) {
   std::vector<TaughtMove> taught;
-  for (const auto& [name, examples] : moves) taught.push_back({name, examples});
+  for (const auto& [name, examples] : moves) {
+    taught.push_back({.name = name});
+    for (const BodyMotion& example : examples) taught.back().examples.push_back(StreamOf(example));
+  }
   return taught;
 }
 
 Recogniser Teach(const Moves& moves, const std::string& kind, bool smooths) {
-  const std::vector<TaughtMove> taught = ToTaught(moves);
   const py::gil_scoped_release free;
-  return Recogniser(taught, {.kind = kind, .smooths = smooths});
+  return Recogniser(ToTaught(moves), {.kind = kind, .smooths = smooths});
 }
 
-constexpr std::string_view kStates = "tin";  ///< letters in the order of Seen
+constexpr std::string_view kStates = "tin";  ///< letters in the order of TrackingState
 
-SensedPose ToSensed(const Array& positions_m, const std::string& states, bool body_seen) {
-  Expect("positions_m", positions_m, {kRoleCount, 3});
+SensedFrame ToSensed(const Array& positions_m, const std::string& states, bool body_seen) {
+  const BodyPose pose = FromArray<BodyPose>("positions_m", positions_m);
   if (!states.empty() && states.size() != kRoleCount) {
     throw BadInput("states: " + std::to_string(states.size()) + " letters; allowed: 20, or none");
   }
-  SensedPose frame{.pose = {}, .seen = {}, .body_seen = body_seen};
+  SensedFrame frame{.joints = {}, .body_seen = body_seen};
   for (std::size_t i = 0; i < kRoleCount; ++i) {
-    frame.pose.joints[i] = Vector(positions_m.data() + 3 * i);
-    if (states.empty()) continue;
-    const std::size_t place = kStates.find(states[i]);
+    const std::size_t place = states.empty() ? 0 : kStates.find(states[i]);
     if (place == std::string_view::npos) throw BadInput("states: letters are t, i, n");
-    frame.seen[i] = static_cast<Seen>(place);
+    frame.joints[i] = {pose.joints[i], static_cast<TrackingState>(place)};
   }
   return frame;
 }
 
 py::tuple UpdateStream(RecogniserStream& stream, const Array& positions_m, const std::string& states, bool body_seen) {
-  const SensedPose frame = ToSensed(positions_m, states, body_seen);
-  Evidence evidence;
-  {
-    const py::gil_scoped_release free;
-    evidence = stream.Update(frame);
-  }
-  return py::make_tuple(evidence.asked, ToArray(evidence.spotted, {static_cast<py::ssize_t>(evidence.spotted.size())}));
+  const SensedFrame frame = ToSensed(positions_m, states, body_seen);
+  const Evidence evidence = Unlocked([&] { return stream.Update(frame); });
+  return py::make_tuple(evidence.asked,
+                        Array(static_cast<py::ssize_t>(evidence.spotted.size()), evidence.spotted.data()));
 }
 
-Dance MakeDance(std::string title, Motion motion,
-                const std::vector<std::tuple<std::string, std::string, Array, Motion>>& moves,
+Dance MakeDance(std::string title, BodyMotion motion,
+                const std::vector<std::tuple<std::string, std::string, Array, BodyMotion>>& moves,
                 const std::vector<std::tuple<int, std::size_t, std::size_t>>& repetitions,
                 const std::vector<std::pair<std::size_t, double>>& tags,
-                const std::vector<std::tuple<std::string, Motion, bool>>& acts) {
+                const std::vector<std::tuple<std::string, BodyMotion, bool>>& acts) {
   Dance dance{.title = std::move(title), .motion = std::move(motion)};
   for (const auto& [name, hint, key_pose, slow] : moves) {
-    dance.moves.push_back({name, hint, ToPose("key_pose", key_pose), slow});
+    dance.moves.push_back({name, hint, FromArray<BodyPose>("key_pose", key_pose), slow});
   }
   for (const auto& [move, first, end] : repetitions) dance.repetitions.push_back({move, first, end});
   for (const auto& [frame, music_s] : tags) dance.tags.push_back({frame, music_s});
@@ -73,7 +70,6 @@ Dance MakeDance(std::string title, Motion motion,
 Coach MakeCoach(const Dance& dance, const Moves& moves, const std::string& policy, const std::string& recogniser,
                 bool dances_at_once, bool mirrors, bool smooths, std::optional<double> right_from,
                 const std::string& choice, const std::string& join) {
-  const std::vector<TaughtMove> taught = ToTaught(moves);
   const CoachOptions options{.policy = policy,
                              .choice = choice,
                              .join = join,
@@ -83,52 +79,58 @@ Coach MakeCoach(const Dance& dance, const Moves& moves, const std::string& polic
                              .dances_at_once = dances_at_once,
                              .right_from = right_from};
   const py::gil_scoped_release free;
-  return Coach(dance, taught, options);
+  return Coach(dance, ToTaught(moves), options);
 }
 
-CoachFrame StepCoach(Coach& coach, const Array& positions_m, const std::string& states, bool body_seen,
-                     std::optional<double> music_s) {
-  const SensedPose frame = ToSensed(positions_m, states, body_seen);
+CoachOutput StepCoach(Coach& coach, const Array& positions_m, const std::string& states, bool body_seen,
+                      std::optional<double> music_s) {
+  const SensedFrame frame = ToSensed(positions_m, states, body_seen);
   const py::gil_scoped_release free;
   return coach.Step(frame, music_s);
 }
 
-py::tuple SenseAll(const Motion& motion, const std::string& sensor, double strength, double distance_m, double turn_rad,
-                   double height_m, std::uint64_t seed) {
-  std::vector<SensedPose> sensed;
-  {
-    const py::gil_scoped_release free;
-    sensed = sim::SenseSkeleton(motion, {.sensor = sensor,
-                                         .strength = strength,
-                                         .distance_m = distance_m,
-                                         .turn = turn_rad,
-                                         .height_m = height_m,
-                                         .seed = seed});
-  }
-  const auto count = static_cast<py::ssize_t>(sensed.size());
-  Array places({count, static_cast<py::ssize_t>(kRoleCount), py::ssize_t{3}});
-  py::array_t<bool> body_seen(count);
+py::tuple SenseAll(const BodyMotion& motion, const std::string& sensor, double strength, double distance_m,
+                   double turn_rad, double height_m, std::uint64_t seed) {
+  const SkeletonStream sensed = Unlocked([&] {
+    return sim::SenseSkeleton(motion, {.sensor = sensor,
+                                       .strength = strength,
+                                       .distance_m = distance_m,
+                                       .turn = turn_rad,
+                                       .height_m = height_m,
+                                       .seed = seed});
+  });
+  py::array_t<bool> body_seen(static_cast<py::ssize_t>(sensed.frames.size()));
   std::vector<std::string> states;
-  double* place = places.mutable_data();
-  for (const SensedPose& frame : sensed) {
+  for (const SensedFrame& frame : sensed.frames) {
     body_seen.mutable_data()[states.size()] = frame.body_seen;
     std::string& letters = states.emplace_back();
-    for (std::size_t i = 0; i < kRoleCount; ++i, place += 3) {
-      Put(frame.pose.joints[i], place);
-      letters += kStates[static_cast<std::size_t>(frame.seen[i])];
-    }
+    for (const SensedJoint& joint : frame.joints) letters += kStates[static_cast<std::size_t>(joint.state)];
   }
-  return py::make_tuple(places, states, body_seen);
+  return py::make_tuple(ToArrays(MotionOf(sensed).poses), states, body_seen);
 }
 
 py::tuple BuiltinDance(const std::string& song) {
-  const sim::BuiltinDance found = [&] {
-    const py::gil_scoped_release free;
-    return sim::DanceOfSong(song);
-  }();
+  const sim::BuiltinDance found = Unlocked([&] { return sim::DanceOfSong(song); });
   Moves moves;
-  for (const TaughtMove& move : found.moves) moves.emplace_back(move.name, move.examples);
+  for (const TaughtMove& move : found.moves) moves.push_back({move.name, {MotionOf(move.examples.front())}});
   return py::make_tuple(found.dance, moves);
+}
+
+py::tuple ToTuple(const DanceMove& move) {
+  return py::make_tuple(move.name, move.hint, ToArray(move.key_pose), move.slow);
+}
+py::tuple ToTuple(const Repetition& one) { return py::make_tuple(one.move, one.first, one.end); }
+py::tuple ToTuple(const MusicTag& tag) { return py::make_tuple(tag.frame, tag.music_s); }
+py::tuple ToTuple(const CoachAct& act) { return py::make_tuple(act.name, act.motion, act.loops); }
+
+/// Returns the getter of a dance's parts as tuples.
+template <typename Part>
+auto TuplesOf(std::vector<Part> Dance::*parts) {
+  return [parts](const Dance& dance) {
+    py::list list;
+    for (const Part& part : dance.*parts) list.append(ToTuple(part));
+    return list;
+  };
 }
 
 void AddRecogniser(py::module_& module) {
@@ -158,63 +160,54 @@ void AddCoach(py::module_& module) {
            "the music), ascending. acts: (name, Motion, whether it loops) of COACH_ACTS. A Coach checks it.")
       .def_readonly("title", &Dance::title)
       .def_readonly("motion", &Dance::motion)
-      .def_property_readonly(
-          "moves",
-          [](const Dance& dance) {
-            std::vector<py::tuple> moves;
-            for (const DanceMove& move : dance.moves) {
-              moves.push_back(py::make_tuple(move.name, move.hint, FromPose(move.key_pose), move.slow));
-            }
-            return moves;
-          })
-      .def_property_readonly("repetitions",
-                             [](const Dance& dance) {
-                               std::vector<py::tuple> all;
-                               for (const Repetition& each : dance.repetitions) {
-                                 all.push_back(py::make_tuple(each.move, each.first, each.end));
-                               }
-                               return all;
-                             })
-      .def_property_readonly("tags",
-                             [](const Dance& dance) {
-                               std::vector<py::tuple> tags;
-                               for (const MusicTag& tag : dance.tags) {
-                                 tags.push_back(py::make_tuple(tag.frame, tag.music_s));
-                               }
-                               return tags;
-                             })
-      .def_property_readonly("acts", [](const Dance& dance) {
-        std::vector<py::tuple> acts;
-        for (const CoachAct& act : dance.acts) acts.push_back(py::make_tuple(act.name, act.motion, act.loops));
-        return acts;
-      });
+      .def_property_readonly("moves", TuplesOf(&Dance::moves))
+      .def_property_readonly("repetitions", TuplesOf(&Dance::repetitions))
+      .def_property_readonly("tags", TuplesOf(&Dance::tags))
+      .def_property_readonly("acts", TuplesOf(&Dance::acts));
   module.def("builtin_dance", &BuiltinDance, "song"_a,
              "(Dance, moves) of a song that comes with Etude, one of SONGS; moves: as a Recogniser or Coach is taught "
              "them. Raises BadInput for another name.");
-  py::class_<CoachDecision>(module, "CoachDecision", "A decision of the coach, explained.")
-      .def_readonly("event", &CoachDecision::event, "'woken', 'song begins', 'right', 'wrong', 'corrects', 'shows', …")
-      .def_readonly("frame", &CoachDecision::frame, "The frame, counted from the session's beginning.")
-      .def_readonly("move", &CoachDecision::move,
-                    "The move's number in the dance; None if the decision is about no move.")
-      .def_readonly("mistake", &CoachDecision::mistake, "The mistake; '' if the decision is about none.")
-      .def_readonly("evidence", &CoachDecision::evidence, "The evidence, 0 to 1, for 'right' and 'wrong'.")
-      .def_readonly("why", &CoachDecision::why, "One sentence with numbers.");
-  py::class_<CoachFrame>(module, "CoachFrame", "What the coach shows in one frame.")
-      .def_readonly("mode", &CoachFrame::mode,
-                    "'standby', 'attract', 'doze', 'wake', 'dance', 'correct', 'demonstrate', 'praise'")
+  py::class_<CoachRecord>(module, "CoachDecision", "A decision of the coach, explained.")
       .def_property_readonly(
-          "positions_m", [](const CoachFrame& frame) { return FromPose(frame.body); }, "The coach: 20 x 3, metres.")
-      .def_readonly("clip", &CoachFrame::clip, "The clip that it plays; in a transition, the next clip.")
-      .def_readonly("clip_frame", &CoachFrame::clip_frame)
-      .def_readonly("in_transition", &CoachFrame::in_transition)
-      .def_readonly("asked", &CoachFrame::asked,
-                    "The move that the player is asked for from the next frame on, or None.")
-      .def_readonly("say", &CoachFrame::say, "A line for the player, or ''.")
-      .def_readonly("hint", &CoachFrame::hint, "The key pose in words, or ''.")
-      .def_readonly("stand", &CoachFrame::stand, "'come into view', 'come nearer', 'step back' or ''.")
-      .def_readonly("play_from_s", &CoachFrame::play_from_s, "Music that begins now, seconds into the song, or None.")
-      .def_readonly("pause_music", &CoachFrame::pause_music)
-      .def_readonly("decisions", &CoachFrame::decisions, "CoachDecisions of this frame, in order.");
+          "event", [](const CoachRecord& record) { return EventName(record.event); },
+          "'woken', 'song begins', 'right', 'wrong', 'corrects', 'shows', …")
+      .def_readonly("frame", &CoachRecord::frame, "The frame, counted from the session's beginning.")
+      .def_property_readonly(
+          "move", [](const CoachRecord& record) { return record.move < 0 ? std::nullopt : std::optional(record.move); },
+          "The move's number in the dance; None if the decision is about no move.")
+      .def_property_readonly(
+          "mistake",
+          [](const CoachRecord& record) { return record.mistake == Mistake::kNone ? "" : MistakeName(record.mistake); },
+          "The mistake; '' if the decision is about none.")
+      .def_readonly("evidence", &CoachRecord::evidence, "The evidence, 0 to 1, for 'right' and 'wrong'.")
+      .def_readonly("why", &CoachRecord::why, "One sentence with numbers.");
+  py::class_<CoachOutput>(module, "CoachFrame", "What the coach shows in one frame.")
+      .def_property_readonly(
+          "mode", [](const CoachOutput& output) { return ModeName(output.mode); },
+          "'standby', 'attract', 'doze', 'wake', 'dance', 'correct', 'demonstrate', 'praise'")
+      .def_property_readonly("positions_m", ArrayOf(&CoachOutput::body), "The coach: 20 x 3, metres.")
+      .def_readonly("clip", &CoachOutput::clip, "The clip that it plays; in a transition, the next clip.")
+      .def_readonly("clip_frame", &CoachOutput::clip_frame)
+      .def_readonly("in_transition", &CoachOutput::in_transition)
+      .def_property_readonly(
+          "asked",
+          [](const CoachOutput& output) { return output.open ? std::optional(output.open->move) : std::nullopt; },
+          "The move that the player is asked for from the next frame on, or None.")
+      .def_readonly("say", &CoachOutput::say, "A line for the player, or ''.")
+      .def_readonly("hint", &CoachOutput::hint, "The key pose in words, or ''.")
+      .def_property_readonly(
+          "stand", [](const CoachOutput& output) { return HintText(output.stand); },
+          "'come into view', 'come nearer', 'step back' or ''.")
+      .def_property_readonly(
+          "play_from_s",
+          [](const CoachOutput& output) {
+            const bool begins = output.music.kind == MusicCommand::Kind::kPlayFrom;
+            return begins ? std::optional(output.music.music_s) : std::nullopt;
+          },
+          "Music that begins now, seconds into the song, or None.")
+      .def_property_readonly("pause_music",
+                             [](const CoachOutput& output) { return output.music.kind == MusicCommand::Kind::kPause; })
+      .def_readonly("decisions", &CoachOutput::records, "CoachDecisions of this frame, in order.");
   py::class_<Coach>(module, "Coach", "Paper A's coach: watches a player, shows a dance, corrects, and says why.")
       .def(py::init(&MakeCoach), "dance"_a, "moves"_a, "policy"_a = CoachOptions{}.policy,
            "recogniser"_a = CoachOptions{}.recogniser, "dances_at_once"_a = false, "mirrors"_a = false,
@@ -226,6 +219,7 @@ void AddCoach(py::module_& module) {
            "performance is right, in (0, 1]; None: the recogniser's. choice, join: of TRANSITION_CHOICES and "
            "TRANSITION_JOINS. Raises BadInput for a dance that breaks its form and names that there are not.")
       .def("step", &StepCoach, "positions_m"_a, "states"_a = "", "body_seen"_a = true, "music_s"_a = py::none(),
+           py::keep_alive<0, 1>(),  // texts are the dance's
            "Takes the sensor's next frame, at 30 Hz (as RecogniserStream.update does), and gives the CoachFrame to "
            "show. music_s: what is heard now, seconds into the song. Raises BadInput for another shape, letters, and "
            "what is not finite.");

@@ -1,7 +1,9 @@
 #include <etude/sim/pictures.h>
 #include <fmt/format.h>
 
-#include "engine/api/convert.h"
+#include <algorithm>
+
+#include "engine/api/checks.h"
 #include "sim/body/shape.h"
 #include "sim/render/renderer.h"
 #include "sim/rig/rig.h"
@@ -10,39 +12,31 @@
 namespace etude::sim {
 namespace {
 
-BodyMotion MotionToDraw(const engine::Motion& motion) {
-  BodyMotion drawn = engine::ToBodyMotion(motion);
-  if (drawn.poses.empty()) throw engine::BadInput("a motion without frames");
-  return drawn;
+const BodyMotion& MotionToDraw(const BodyMotion& motion) {
+  if (engine::Checked(motion).poses.empty()) throw engine::BadInput("a motion without frames");
+  return motion;
 }
 
-etude::Camera CameraToDraw(const engine::Camera& camera) {
-  const auto complain = [&](std::string_view what) {
-    throw engine::BadInput(fmt::format("camera '{}': {}", camera.name, what));
-  };
-  if (camera.width < 1 || camera.height < 1 || camera.width > kMaxPictureSide || camera.height > kMaxPictureSide) {
-    complain(fmt::format("a picture of {} x {} pixels; allowed: 1 to {} a side", camera.width, camera.height,
-                         kMaxPictureSide));
+Camera CameraToDraw(const NamedCamera& named) {
+  const auto& [width, height, fx, fy, cx, cy, skew] = named.camera.intrinsics;
+  if (width < 1 || height < 1 || width > kMaxPictureSide || height > kMaxPictureSide) {
+    throw engine::BadInput(fmt::format("camera '{}': a picture of {} x {} pixels; allowed: 1 to {} a side", named.name,
+                                       width, height, kMaxPictureSide));
   }
-  const etude::Camera made = engine::ToEngineCamera(camera);
-  if (!made.distortion.IsNone()) complain("a lens with distortion; allowed: none (k1, k2, p1, p2, k3 = 0)");
-  return made;
+  if (named.camera.distortion.IsNone()) return named.camera;
+  throw engine::BadInput(
+      fmt::format("camera '{}': a lens with distortion; allowed: none (k1, k2, p1, p2, k3 = 0)", named.name));
 }
 
-Picture PictureOf(const View& view) {
-  Picture picture;
-  picture.width = view.colour.width;
-  picture.height = view.colour.height;
-  picture.colour.reserve(3 * view.colour.pixels.size());
-  for (const Rgb8& pixel : view.colour.pixels) picture.colour.insert(picture.colour.end(), {pixel.r, pixel.g, pixel.b});
-  picture.person.reserve(view.labels.pixels.size());
-  for (const auto label : view.labels.pixels) picture.person.push_back(IsPerformer(label) ? 1 : 0);
+Picture PictureOf(View view) {
+  Picture picture{.colour = std::move(view.colour), .person = Mask(view.labels.width, view.labels.height)};
+  std::ranges::transform(view.labels.pixels, picture.person.pixels.begin(), IsPerformer);
   return picture;
 }
 
 }  // namespace
 
-std::vector<engine::Camera> StereoCameras(const engine::Motion& motion, double baseline_m, std::uint64_t seed) {
+std::vector<NamedCamera> StereoCameras(const BodyMotion& motion, double baseline_m, std::uint64_t seed) {
   if (!(baseline_m >= 0.05 && baseline_m <= 2)) {
     throw engine::BadInput(fmt::format("a baseline of {} m; allowed: 0.05 to 2", baseline_m));
   }
@@ -51,16 +45,16 @@ std::vector<engine::Camera> StereoCameras(const engine::Motion& motion, double b
   rig.shape = RigShape::kStereo;
   rig.heights_m = {1.4};
   rig.baseline_m = baseline_m;
-  std::vector<engine::Camera> cameras;
-  for (const etude::Camera& camera : SetUpCameras(rig, MotionToDraw(motion).poses, dice)) {
-    cameras.push_back(engine::FromEngineCamera(cameras.empty() ? "left" : "right", camera));
+  std::vector<NamedCamera> cameras;
+  for (const Camera& camera : SetUpCameras(rig, MotionToDraw(motion).poses, dice)) {
+    cameras.push_back({cameras.empty() ? "left" : "right", camera});
   }
   return cameras;
 }
 
 struct Studio::Room {
   BodyMotion motion;
-  std::vector<etude::Camera> cameras;
+  std::vector<Camera> cameras;
   std::uint64_t seed;
   StagedRoom stage;
   Renderer* renderer;
@@ -79,14 +73,14 @@ struct Studio::Room {
   }
 };
 
-Studio::Studio(const engine::Motion& motion, std::span<const engine::Camera> cameras, const StudioOptions& options) {
+Studio::Studio(const BodyMotion& motion, std::span<const NamedCamera> cameras, const StudioOptions& options) {
   if (!(options.scene >= 0 && options.scene <= 1)) {
     throw engine::BadInput(fmt::format("a scene of {}; allowed: 0 to 1", options.scene));
   }
   if (cameras.empty()) throw engine::BadInput("no camera");
   room_ = std::make_unique<Room>(
       Room{.motion = MotionToDraw(motion), .cameras = {}, .seed = options.seed, .stage = {}, .renderer = nullptr});
-  for (const engine::Camera& camera : cameras) room_->cameras.push_back(CameraToDraw(camera));
+  for (const NamedCamera& camera : cameras) room_->cameras.push_back(CameraToDraw(camera));
   room_->stage = StagedRoom({.seed = options.seed, .scene = options.scene}, room_->motion.poses, room_->cameras);
   room_->renderer = engine::OrThrow(SharedRenderer());
 }

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "engine/api/convert.h"
+#include "engine/api/checks.h"
 #include "sim/rig/rig.h"
 #include "sim/skeleton_sensor/skeleton_sensor.h"
 
@@ -27,40 +27,17 @@ SkeletonSensorOptions ErrorsOf(const SensorOptions& options) {
   return errors;
 }
 
-engine::Seen SeenOf(TrackingState state) {
-  switch (state) {
-    case TrackingState::kTracked:
-      return engine::Seen::kTracked;
-    case TrackingState::kInferred:
-      return engine::Seen::kInferred;
-    case TrackingState::kNotTracked:
-      break;
-  }
-  return engine::Seen::kNotTracked;
-}
-
 }  // namespace
 
-std::vector<engine::SensedPose> SenseSkeleton(const engine::Motion& motion, const SensorOptions& options) {
+SkeletonStream SenseSkeleton(const BodyMotion& motion, const SensorOptions& options) {
   const SkeletonSensorOptions errors = ErrorsOf(options);
   CheckRange("a distance in m", options.distance_m, 0.5, 10);
   CheckRange("a turn in radians", options.turn, -2 * std::numbers::pi, 2 * std::numbers::pi);
   CheckRange("a height in m", options.height_m, 0.1, 3);
-  const BodyMotion truth = engine::ToBodyMotion(motion);
-  if (truth.poses.empty()) throw engine::BadInput("a motion without frames");
-  etude::Camera eye = SkeletonSensorAt({options.distance_m, options.turn, options.height_m}, errors.view);
-  eye.p_WC += MiddleOnFloor(truth.poses);
-  const WorldKey dice{.suite_seed = options.seed, .scenario = "library"};
-  std::vector<engine::SensedPose> sensed;
-  for (const SensedFrame& frame : etude::SenseSkeleton(truth, eye, {}, errors, dice).frames) {
-    engine::SensedPose& pose = sensed.emplace_back();
-    pose.body_seen = frame.body_seen;
-    for (std::size_t i = 0; i < kRoleCount; ++i) {
-      pose.pose.joints[i] = frame.joints[i].position;
-      pose.seen[i] = SeenOf(frame.joints[i].state);
-    }
-  }
-  return sensed;
+  if (engine::Checked(motion).poses.empty()) throw engine::BadInput("a motion without frames");
+  Camera eye = SkeletonSensorAt({options.distance_m, options.turn, options.height_m}, errors.view);
+  eye.p_WC += MiddleOnFloor(motion.poses);
+  return etude::SenseSkeleton(motion, eye, {}, errors, {.suite_seed = options.seed, .scenario = "library"});
 }
 
 }  // namespace etude::sim

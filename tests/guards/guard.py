@@ -4,7 +4,7 @@
     guard.py RULE ROOT              complains about every file of ROOT that breaks RULE; exit code 1
     guard.py RULE ROOT --must-flag  the control: fails unless every file of ROOT is complained about
 
-Rules: imports, rooms (rooms.py), doors, determinism, types (two of one name, which the linker would take for one), pages
+Rules: imports, rooms (rooms.py), doors, installed (headers that users of the library get), determinism, types (two of one name, which the linker would take for one), pages
 (files that .md files mention), words (house words, in code and pages, for which the field has a term). Prints how many files it checked, so that a guard that looks at nothing cannot pass for one that finds nothing.
 """
 import fnmatch
@@ -93,6 +93,7 @@ WRITERS = ["io/files", "bench/outside/watched_program.cc", "io/process/child_pro
 DRAW = re.compile(r"\b(\w+)\.(?:Bits|Chance|IndexBelow|Normal3?|Uniform)(?=\()|(?<=[(, ])(random|dice)(?=[,)])")
 INNERMOST = re.compile(r"([({\[])([^(){}\[\]]*)[)}\]]")
 
+INSTALLED = re.compile(r"^namespace \[\[gnu::visibility", re.M)
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 
 
@@ -235,6 +236,16 @@ def check_doors(relative, path):
             yield number, f"{target} in a header: third-party headers stay in .cc files"
 
 
+def check_installed(relative, path):
+    root = path.parents[len(relative.parts) - 1]
+    def is_installed(file):
+        return "api/etude/" in file or ((root / file).is_file() and INSTALLED.search((root / file).read_text()))
+    for number, target in includes(path) if path.suffix == ".h" and is_installed(relative.as_posix()) else ():
+        ours = target.split("/")[0] in LAYERS
+        if not is_installed(target) if ours else re.search("[./]", target) and not target.startswith(("glm/", "etude/")):
+            yield number, f"{target} in a header that is installed; allowed: installed ones and GLM's"
+
+
 def statements(path):
     """The statements of a file, each with the number of its last line."""
     text = ""
@@ -345,7 +356,7 @@ class Types:
                 yield number, f"{name} is a type in {', '.join(others)}, too"
 
 
-RULES = {"imports": check_imports, "doors": check_doors, "determinism": check_determinism, "pages": check_pages, "words": check_words}
+RULES = {"imports": check_imports, "doors": check_doors, "installed": check_installed, "determinism": check_determinism, "pages": check_pages, "words": check_words}
 
 
 def main():

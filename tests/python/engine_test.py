@@ -273,6 +273,36 @@ class Stub(unittest.TestCase):
                 self.assertEqual(found, {each for each in inside if not each.startswith("_")}, name)
 
 
+class Limits(unittest.TestCase):
+    def test_what_is_just_beyond_each_limit_is_refused_and_what_is_just_within_is_taken(self):
+        mask, room, one = np.ones((3, 4), bool), np.zeros((1, 8193, 3), np.uint8), np.zeros((1, 29))
+        circle = engine.Tree([engine.Limb("a", -1, [0, 0, 0], 0), engine.Limb("b", 2, [1, 0, 0], 1),
+                              engine.Limb("c", 1, [1, 0, 0], 1)], [engine.Effector("tip", 2, [1, 0, 0])], [[-1, 1]] * 2)
+        for says, within, beyond in (
+                ("allowed: 1 to 1000, 0 to 100", ((mask, 1, 0), (mask, 1000, 100)), ((mask, 0), (mask, 1001), (mask, 3, -.1), (mask, 3, 101))),
+                ("a mask of .* allowed: 1 to 8192 each", ((np.ones((1, 8192), bool),), (np.ones((8192, 1), bool),)),
+                 ((np.ones((0, 1), bool),), (np.ones((1, 8193), bool),), (np.ones((8193, 1), bool),)))):
+            for arguments in within:
+                engine.outline(*arguments)
+            for arguments in beyond:
+                with self.assertRaisesRegex(engine.BadInput, says):
+                    engine.outline(*arguments)
+        engine.PersonFinder(room[:, 1:])
+        engine.Kinematics(None, 1, 0.1, 0.1, 1.0)
+        for says, call in (
+                ("a side of 8193 pixels", lambda: engine.PersonFinder(room)),
+                ("iteration limit", lambda: engine.Kinematics(None, 0)),
+                ("tolerance is negative", lambda: engine.Kinematics(None, 1, 0.1, 0.1, -1.0)),
+                ("not a tree", lambda: engine.Kinematics(circle)),
+                (r"target_positions_m: .* allowed: \(1, 4, 3\)", lambda: BODY.solve(one, np.zeros((1, 5, 3)))),
+                (r"root_axes: .* allowed: \(1, 3, 3\)", lambda: BODY.limbs(one, root_axes=np.zeros((2, 3, 3)))),
+                ("root_positions_m: value 0 is not finite", lambda: BODY.limbs(one, [np.nan, 0, 0])),
+                ("3 keypoints; allowed: those of layout coco, 17", lambda: engine.capture(rig(), [[np.zeros((1, 3, 3))]] * 2)),
+                ("layout 'cocoa'; allowed: coco, ", lambda: engine.capture(rig(), [[np.zeros((1, 3, 3))]] * 2, "cocoa"))):
+            with self.assertRaisesRegex(engine.BadInput, says):
+                call()
+
+
 class Fuzz(unittest.TestCase):
     def test_nothing_that_is_handed_over_is_more_than_an_exception(self):
         warnings.simplefilter("ignore")  # numpy's, of complex numbers made real

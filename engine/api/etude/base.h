@@ -3,12 +3,16 @@
 #include <stdexcept>
 #include <string_view>
 
-/// Marks the public symbols of the library; all others are hidden.
+/// Marks the public symbols of this folder's headers. Of the engine's own headers (`engine/…`), everything is public.
 #define ETUDE_API __attribute__((visibility("default")))
+
+namespace etude {}
 
 /// Declares what libetude offers other programs (docs/library.md). Lengths are metres and angles radians; the world is
 /// right-handed with Y up. p_AB_W is the position of B from A, expressed in W; R_WB rotates vectors from B to W.
 namespace etude::engine {
+
+using namespace etude;  // the engine's own types are the library's
 
 /// Thrown for input that cannot be processed. `what()` is one line: the position as far as it is known ("walk.bvh:12:3:
 /// …"), what was found and what is allowed. Numerical outcomes are statuses instead.

@@ -7,27 +7,18 @@
 #include <string>
 #include <vector>
 
+#include "engine/keypoints/people.h"
+
 namespace etude::engine {
 
-struct Keypoint {
-  glm::dvec2 pixel{0};
-  double confidence = 0;  ///< 0: not seen; 1: certain
-};
-
-/// One person in one picture: keypoints in the order of a layout.
-using SeenPerson = std::vector<Keypoint>;
-/// All people that one camera saw, frame by frame, in any order.
-using SeenPeople = std::vector<std::vector<SeenPerson>>;
-
 struct CaptureOptions {
-  std::string layout = "coco";  ///< or "body_25", "body_25b", "halpe_26", "halpe_26_hands"
   double rate_hz = 30;
   int person = 0;        ///< index among the people found; 0 is the one seen most
   double smooth_hz = 0;  ///< motion above this frequency is smoothed away; 0: no smoothing
 };
 
 struct CapturedMotion {
-  Motion motion;
+  BodyMotion motion;
   /// The same motion as a BVH file with rotating joints, metres, on the person's own skeleton.
   std::string bvh;
   std::vector<bool> is_held;  ///< frames that could not be recovered, and which repeat the last pose
@@ -37,8 +28,9 @@ struct CapturedMotion {
 /// Recovers a person's motion from keypoints of two or more synchronised cameras: people are identified over time and
 /// across cameras, contradictory keypoints are left out, gaps are bridged, and the person's own skeleton is fitted.
 /// Throws BadInput for inputs that do not belong together, and if no person is seen by two cameras.
-/// @param seen the keypoints of each camera, all with the same number of frames
-ETUDE_API CapturedMotion Capture(std::span<const Camera> cameras, std::span<const SeenPeople> seen,
+/// @param seen the keypoints of each camera, all with the same number of frames; FindKeypointLayout has the orders in
+/// which estimators list landmarks
+ETUDE_API CapturedMotion Capture(std::span<const NamedCamera> cameras, std::span<const SeenPeople> seen,
                                  const CaptureOptions& options = {});
 
 }  // namespace etude::engine

@@ -2,28 +2,22 @@
 
 #include <etude/motion.h>
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
+
+#include "engine/fuzzy/features.h"
 
 namespace etude::engine {
 
-/// The ten pose features of a frame, in degrees, except Posture (standing = 80).
-inline constexpr std::size_t kFeatureCount = 10;
-using Features = std::array<double, kFeatureCount>;
-
-/// Returns the features' names in their order: "RH", "LH", "RHE", "LHE", "Posture", "Trunk", "RF", "LF", "RFK", "LFK".
-ETUDE_API std::array<std::string_view, kFeatureCount> FeatureNames();
-
-/// Returns the features of every frame. The standing height of the hips is computed from the limb lengths of the first
-/// frame.
-ETUDE_API std::vector<Features> ComputeFeatures(const Motion& motion);
+/// Returns the ten pose features of every frame. The standing height of the hips is computed from the limb lengths of
+/// the first frame. Throws BadInput for a body without legs.
+ETUDE_API std::vector<PoseFeatures> ComputeFeatures(const BodyMotion& motion);
 
 /// Returns the fuzzy distance of two frames, from 0: the weighted Euclidean distance of their 24 grades of membership.
-ETUDE_API double FuzzyDistance(const Features& a, const Features& b);
+/// Throws BadInput for features that are not finite.
+ETUDE_API double FuzzyDistance(const PoseFeatures& a, const PoseFeatures& b);
 
 /// A pair of frames that are shown as one: the playing clip is left at `from`, the wanted clip is entered at `to`.
 struct TransitionPoint {
@@ -42,7 +36,7 @@ struct BridgeOptions {
 class ETUDE_API Bridges {
  public:
   /// Throws BadInput for no clips, a clip without frames or with another rate than the first, or options out of range.
-  explicit Bridges(std::span<const Motion> clips, const BridgeOptions& options = {});
+  explicit Bridges(std::span<const BodyMotion> clips, const BridgeOptions& options = {});
   Bridges(Bridges&&) noexcept;
   Bridges& operator=(Bridges&&) noexcept;
   ~Bridges();

@@ -8,27 +8,14 @@
 #include <string>
 #include <vector>
 
-namespace etude::engine {
+#include "engine/recognition/skeleton_stream.h"
+#include "engine/recognition/taught_move.h"
 
-/// A move to be taught: right performances of it, from the first beat to the last.
-struct TaughtMove {
-  std::string name;
-  std::vector<Motion> examples;  ///< at least one
-};
+namespace etude::engine {
 
 struct RecogniserOptions {
   std::string kind = "whole-body";  ///< or "dtw", "nearest"
   bool smooths = true;              ///< the stream goes through Kinect's own filter first
-};
-
-/// How a sensor saw a joint.
-enum class Seen { kTracked, kInferred, kNotTracked };
-
-/// One frame of a skeleton sensor, in the world.
-struct SensedPose {
-  Pose pose;
-  std::array<Seen, kRoleCount> seen{};  ///< all tracked
-  bool body_seen = true;                ///< false: all other members have no meaning
 };
 
 /// The evidence for moves in one frame, from this frame and those before it; all in 0…1.
@@ -43,7 +30,7 @@ class RecogniserStream;
 class ETUDE_API Recogniser {
  public:
   /// Throws BadInput for no moves, two moves with one name, a move without examples, examples without frames or with
-  /// positions that are not finite, and an unknown kind.
+  /// positions that are not finite, and an unknown kind. `StreamOf` makes an example of a motion.
   explicit Recogniser(std::span<const TaughtMove> moves, const RecogniserOptions& options = {});
   Recogniser(Recogniser&&) noexcept;
   Recogniser& operator=(Recogniser&&) noexcept;
@@ -70,7 +57,7 @@ class ETUDE_API RecogniserStream {
   /// Throws BadInput for a move that does not exist.
   void Ask(std::optional<int> move);
   /// Takes the next frame. Throws BadInput for positions that are not finite.
-  Evidence Update(const SensedPose& frame);
+  Evidence Update(const SensedFrame& frame);
 
  private:
   friend class Recogniser;

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/settings.h"
+
 namespace etude::engine {
 
 /// The settings of a transition from one clip to another.
@@ -20,28 +22,19 @@ struct TransitionOptions {
   std::map<std::string, double> choice_settings = {}, join_settings = {};
 };
 
-/// A setting of a choice or a join.
-struct TransitionSetting {
-  std::string key;
-  double fallback = 0;             ///< the value if nothing is set
-  double lowest = 0, largest = 0;  ///< both allowed
-  bool is_whole = false;
-  std::string meaning;  ///< one sentence
-};
-
 /// The names of all choices: "fuzzy-bridge" (paper A's), "played", "motion-matching", …
 ETUDE_API std::vector<std::string> TransitionChoices();
 /// The names of all joins: "cut" (paper A's), "crossfade", "planted-feet", …
 ETUDE_API std::vector<std::string> TransitionJoins();
 /// Lists the settings of a choice or a join. Throws BadInput for an unknown name.
-ETUDE_API std::vector<TransitionSetting> TransitionChoiceSettings(const std::string& choice);
-ETUDE_API std::vector<TransitionSetting> TransitionJoinSettings(const std::string& join);
+ETUDE_API std::vector<NumberSetting> TransitionChoiceSettings(const std::string& choice);
+ETUDE_API std::vector<NumberSetting> TransitionJoinSettings(const std::string& join);
 
 /// A transition from one clip to another, as it is shown.
 struct Transition {
   /// The playing clip from its first frame, the frames in between, and the wanted clip to its end, placed on the floor
   /// where the first clip was left. No frames if the choice finds no transition.
-  Motion motion;
+  BodyMotion motion;
   std::vector<int> points;  ///< the last frames of `motion` before another clip plays, ascending
   double wait_s = 0;        ///< seconds from the request until the wanted clip plays
   std::string branch;       ///< the kind of transition: "front half", "in-between", "now", … or "none"
@@ -50,7 +43,7 @@ struct Transition {
 
 /// The proportions of one person: those of a pose, scaled so that the hips stand at this height, metres.
 struct BodyProportions {
-  Pose pose;
+  BodyPose pose;
   double hip_height = 0;
 };
 
@@ -60,7 +53,7 @@ class ETUDE_API TransitionLibrary {
   /// The performing body is that of the first clip's first frame, or the given one (scenarios use
   /// sim::ScenarioProportions). Throws BadInput for no clips, a clip with fewer than two frames or another rate than 30
   /// Hz, positions that are not finite, a body without legs, and hips that are not 0.1 to 10 m high.
-  explicit TransitionLibrary(std::span<const Motion> clips, const std::optional<BodyProportions>& proportions = {});
+  explicit TransitionLibrary(std::span<const BodyMotion> clips, const std::optional<BodyProportions>& proportions = {});
   TransitionLibrary(TransitionLibrary&&) noexcept;
   TransitionLibrary& operator=(TransitionLibrary&&) noexcept;
   ~TransitionLibrary();

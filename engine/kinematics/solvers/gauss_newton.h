@@ -2,15 +2,13 @@
 
 #include <memory>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "engine/kinematics/ik_batch.h"
 #include "engine/kinematics/ik_problem.h"
 #include "engine/kinematics/tree.h"
 
-namespace etude {
+namespace [[gnu::visibility("default")]] etude {
 
 struct GaussNewtonOptions {
   /// The number of sweeps of coordinate descent before the first Gauss–Newton step. The default is 0, because damped
@@ -88,14 +86,5 @@ IkBatchSolution SolveGaussNewtonBatch(const KinematicTree& tree, const IkBatch& 
 std::vector<IkSolution> SolveGaussNewtonBatch(const KinematicTree& tree, std::span<const IkProblem> problems,
                                               const IkOptions& options, Precision precision,
                                               const GaussNewtonOptions& own = {});
-
-/// Returns the options for the sweeps of `gauss-newton`. The problem's limits must already be the allowed ranges.
-IkOptions GaussNewtonSweepOptions(const IkOptions& options);
-
-/// Returns the names of the instruction sets that this CPU supports, widest vectors first. For tests and benchmarks.
-std::vector<std::string> BatchTargets();
-/// Selects one of `BatchTargets` for batches and for solvers made from now on; an empty name selects the widest. For
-/// tests and benchmarks: results are the same.
-void SetBatchTarget(std::string_view name);
 
 }  // namespace etude

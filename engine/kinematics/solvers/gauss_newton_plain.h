@@ -3,6 +3,8 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/kinematics/ik_problem.h"
@@ -94,5 +96,14 @@ std::vector<int> JointHeights(const KinematicTree& tree);
 /// Returns the joints without the root, sorted by height: each comes after all joints beyond it, and joints of one
 /// height are independent of each other.
 std::vector<int> JointsInwards(const KinematicTree& tree);
+
+/// Returns the options for the sweeps of `gauss-newton`. The problem's limits must already be the allowed ranges.
+IkOptions GaussNewtonSweepOptions(const IkOptions& options);
+
+/// Returns the names of the instruction sets that this CPU supports, widest vectors first. For tests and benchmarks.
+std::vector<std::string> BatchTargets();
+/// Selects one of `BatchTargets` for batches and for solvers made from now on; an empty name selects the widest. For
+/// tests and benchmarks: results are the same.
+void SetBatchTarget(std::string_view name);
 
 }  // namespace etude

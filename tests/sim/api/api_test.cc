@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "engine/api/convert.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/rig/rig.h"
 #include "sim/skeleton_sensor/skeleton_sensor.h"
@@ -28,39 +27,41 @@ std::string RefusalOf(const Act& act) {
 }
 
 /// A person who glides sideways, 3 m from the origin.
-engine::Motion Gliding() {
-  engine::Motion motion{.rate_hz = 30, .poses = {}};
+BodyMotion Gliding() {
+  BodyMotion motion{.rate_hz = 30, .poses = {}};
   for (int frame = 0; frame < 40; ++frame) {
-    engine::Pose& pose = motion.poses.emplace_back();
-    pose.joints = PoseOf(Controls{}).joints;
+    BodyPose& pose = motion.poses.emplace_back();
+    pose = PoseOf(Controls{});
     for (glm::dvec3& joint : pose.joints) joint.x += 3 + 0.005 * frame;
   }
   return motion;
 }
 
 TEST(SimulatedSensor, ReportsWhatTheSimulationsOwnDoes) {
-  const engine::Motion motion = Gliding();
+  const BodyMotion motion = Gliding();
   const auto reports = SenseSkeleton(motion, {.sensor = "v1", .distance_m = 2, .turn = 0.3, .seed = 5});
   Camera eye = SkeletonSensorAt({.distance = 2, .turn = 0.3}, FindSensorPreset("v1")->view);
-  const BodyMotion truth = engine::ToBodyMotion(motion);
-  eye.p_WC += MiddleOnFloor(truth.poses);
+  eye.p_WC += MiddleOnFloor(motion.poses);
   const auto own =
-      etude::SenseSkeleton(truth, eye, {}, *FindSensorPreset("v1"), {.suite_seed = 5, .scenario = "library"});
-  ASSERT_EQ(reports.size(), own.frames.size());
-  for (std::size_t frame = 0; frame < reports.size(); ++frame) {
-    for (std::size_t joint = 0; joint < engine::kRoleCount; ++joint) {
-      EXPECT_EQ(reports[frame].pose.joints[joint], own.frames[frame].joints[joint].position);
+      etude::SenseSkeleton(motion, eye, {}, *FindSensorPreset("v1"), {.suite_seed = 5, .scenario = "library"});
+  ASSERT_EQ(reports.frames.size(), own.frames.size());
+  for (std::size_t frame = 0; frame < reports.frames.size(); ++frame) {
+    for (std::size_t joint = 0; joint < kRoleCount; ++joint) {
+      EXPECT_EQ(reports.frames[frame].joints[joint].state, own.frames[frame].joints[joint].state);
+      EXPECT_EQ(reports.frames[frame].joints[joint].position, own.frames[frame].joints[joint].position);
     }
   }
-  EXPECT_NE(SenseSkeleton(motion, {.sensor = "v1", .seed = 6})[20].pose.joints, reports[20].pose.joints);
+  EXPECT_NE(MotionOf(SenseSkeleton(motion, {.sensor = "v1", .seed = 6})).poses[20].joints,
+            MotionOf(reports).poses[20].joints);
 }
 
 TEST(SimulatedSensor, WithoutErrorsTellsTheTruth) {
-  const engine::Motion motion = Gliding();
+  const BodyMotion motion = Gliding();
   const auto reports = SenseSkeleton(motion, {.strength = 0});
-  for (std::size_t frame = 0; frame < reports.size(); ++frame) {
-    for (std::size_t joint = 0; joint < engine::kRoleCount; ++joint) {
-      EXPECT_NEAR(glm::distance(reports[frame].pose.joints[joint], motion.poses[frame].joints[joint]), 0, 1e-9);
+  for (std::size_t frame = 0; frame < reports.frames.size(); ++frame) {
+    for (std::size_t joint = 0; joint < kRoleCount; ++joint) {
+      EXPECT_NEAR(glm::distance(reports.frames[frame].joints[joint].position, motion.poses[frame].joints[joint]), 0,
+                  1e-9);
     }
   }
 }
@@ -74,30 +75,30 @@ TEST(SimulatedSensor, RefusesWhatItCannotSense) {
 }
 
 TEST(SimulatedStudio, ShowsThePersonWhereTheCamerasSeeTheBody) {
-  const engine::Motion motion = Gliding();
+  const BodyMotion motion = Gliding();
   const auto cameras = StereoCameras(motion, 0.5);
   ASSERT_EQ(cameras.size(), 2u);
-  EXPECT_NEAR(glm::distance(cameras[0].p_WC, cameras[1].p_WC), 0.5, 0.2);
+  EXPECT_NEAR(glm::distance(cameras[0].camera.p_WC, cameras[1].camera.p_WC), 0.5, 0.2);
   const Studio studio(motion, cameras);
   for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
     const Picture picture = studio.Shoot(camera, 39), before = studio.ShootEmpty(camera);
-    ASSERT_EQ(picture.person.size(), std::size_t{640} * 480);
-    ASSERT_EQ(picture.colour.size(), 3 * picture.person.size());
-    EXPECT_EQ(std::ranges::count(before.person, 1), 0);
-    for (const engine::Role role : {engine::Role::kHead, engine::Role::kSpine, engine::Role::kRightElbow}) {
-      const glm::dvec2 pixel = Project(cameras[camera], motion.poses[39][role]).value();
-      const auto at = static_cast<std::size_t>(pixel.y) * 640 + static_cast<std::size_t>(pixel.x);
-      EXPECT_EQ(picture.person[at], 1);
-      EXPECT_NE(picture.colour[3 * at], before.colour[3 * at]);
+    ASSERT_EQ(picture.person.pixels.size(), std::size_t{640} * 480);
+    ASSERT_EQ(picture.colour.pixels.size(), picture.person.pixels.size());
+    EXPECT_EQ(std::ranges::count(before.person.pixels, 1), 0);
+    for (const Role role : {Role::kHead, Role::kSpine, Role::kRightElbow}) {
+      const glm::dvec2 pixel = Project(cameras[camera].camera, motion.poses[39][role]).value();
+      const glm::ivec2 at(pixel);
+      EXPECT_EQ(picture.person.At(at.x, at.y), 1);
+      EXPECT_NE(picture.colour.At(at.x, at.y), before.colour.At(at.x, at.y));
     }
-    EXPECT_EQ(studio.Shoot(camera, 39).colour, picture.colour);
+    EXPECT_EQ(studio.Shoot(camera, 39).colour.pixels, picture.colour.pixels);
   }
 }
 
 TEST(SimulatedStudio, RefusesWhatItCannotDraw) {
-  const engine::Motion motion = Gliding();
-  engine::Camera lens;
-  lens.k1 = -0.1;
+  const BodyMotion motion = Gliding();
+  NamedCamera lens;
+  lens.camera.distortion.k1 = -0.1;
   EXPECT_THAT(RefusalOf([&] { Studio(motion, std::array{lens}); }), HasSubstr("a lens with distortion"));
   EXPECT_THAT(RefusalOf([&] { Studio(motion, {}); }), HasSubstr("no camera"));
   EXPECT_THAT(RefusalOf([&] { StereoCameras(motion, 0); }), HasSubstr("baseline of 0 m"));

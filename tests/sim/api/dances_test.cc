@@ -22,8 +22,8 @@ std::string WhyNot(const std::function<void()>& act) {
 }
 
 /// A player who dances along, and stands still from the 600th frame on.
-engine::SensedPose PlayerAt(const BodyMotion& motion, std::size_t frame) {
-  return {.pose = {motion.poses[std::min<std::size_t>(frame, 600)].joints}, .seen = {}, .body_seen = true};
+SensedFrame PlayerAt(const BodyMotion& motion, std::size_t frame) {
+  return StreamOf({.poses = {motion.poses[std::min<std::size_t>(frame, 600)]}}).frames.front();
 }
 
 TEST(BuiltinDance, TheCoachOfASongStepsAsTheEnginesDoesToTheLastBit) {
@@ -45,24 +45,22 @@ TEST(BuiltinDance, TheCoachOfASongStepsAsTheEnginesDoesToTheLastBit) {
   const Coach wanted(transitions, options, {FindPolicy("at-first-mistake"), {}});
   CoachSession session({.coach = &wanted, .recogniser = recogniser->get(), .filter = {.kind = FilterKind::kNone}},
                        wanted.BeginDancing());
-  std::set<std::string> events, modes;
+  std::set<std::string_view> events, modes;
   for (std::size_t frame = 0; frame < 900; ++frame) {
-    const engine::SensedPose player = PlayerAt(song.motion, frame);
-    SensedFrame seen{.joints = {}, .body_seen = true};
-    for (std::size_t j = 0; j < kRoleCount; ++j) seen.joints[j] = {player.pose.joints[j], TrackingState::kTracked};
+    const SensedFrame seen = PlayerAt(song.motion, frame);
     const double music_s = static_cast<double>(frame) / 30;
-    const engine::CoachFrame shown = coach.Step(player, music_s);
+    const CoachOutput shown = coach.Step(seen, music_s);
     const CoachOutput output = session.Next(seen, {.music_s = music_s});
     ASSERT_EQ(shown.body.joints, output.body.joints) << frame;
-    ASSERT_EQ(shown.mode, ModeName(output.mode)) << frame;
+    ASSERT_EQ(shown.mode, output.mode) << frame;
     ASSERT_EQ(shown.say, output.say) << frame;
-    ASSERT_EQ(shown.decisions.size(), output.records.size());
+    ASSERT_EQ(shown.records.size(), output.records.size());
     for (std::size_t i = 0; i < output.records.size(); ++i) {
-      EXPECT_EQ(shown.decisions[i].why, output.records[i].why);
-      EXPECT_EQ(shown.decisions[i].evidence, output.records[i].evidence);
-      events.insert(shown.decisions[i].event);
+      EXPECT_EQ(shown.records[i].why, output.records[i].why);
+      EXPECT_EQ(shown.records[i].evidence, output.records[i].evidence);
+      events.insert(EventName(shown.records[i].event));
     }
-    modes.insert(shown.mode);
+    modes.insert(ModeName(shown.mode));
   }
   EXPECT_THAT(events, testing::IsSupersetOf({"right", "wrong", "corrects", "transition"}));
   EXPECT_THAT(modes, testing::IsSupersetOf({"dance", "correct"}));

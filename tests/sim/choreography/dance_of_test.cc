@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/results.h"
+#include "engine/coaching/dance_library.h"
 
 namespace etude {
 namespace {

@@ -15,8 +15,8 @@ ETUDE_API std::vector<std::string> SongNames();
 
 /// A dance that is part of Etude, and its moves as they look when they are danced right.
 struct BuiltinDance {
-  engine::Dance dance;
-  std::vector<engine::TaughtMove> moves;
+  Dance dance;
+  std::vector<TaughtMove> moves;
 };
 /// Throws engine::BadInput for an unknown song.
 ETUDE_API BuiltinDance DanceOfSong(const std::string& song);

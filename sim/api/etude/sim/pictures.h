@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/image.h"
+
 namespace etude::sim {
 
 struct StudioOptions {
@@ -19,17 +21,16 @@ struct StudioOptions {
 };
 
 struct Picture {
-  int width = 0, height = 0;
-  std::vector<std::uint8_t> colour;  ///< three bytes per pixel: red, green, blue; row by row from the top
-  std::vector<std::uint8_t> person;  ///< one byte per pixel: 1 where the person is visible, otherwise 0
+  ColourImage colour;
+  Mask person;  ///< 1 where the person is visible
 };
 
 /// Returns two cameras side by side, as people set them up in front of a body that performs this motion: 640 × 480
 /// pixels, with nearly parallel axes, a few centimetres from the exact positions (random, by `seed`), and with the
 /// motion in both pictures as far as the lenses allow. Throws BadInput for a baseline that is not 0.05 to 2 m, and for
 /// a motion without frames.
-ETUDE_API std::vector<engine::Camera> StereoCameras(const engine::Motion& motion, double baseline_m = 0.6,
-                                                    std::uint64_t seed = 1);
+ETUDE_API std::vector<NamedCamera> StereoCameras(const BodyMotion& motion, double baseline_m = 0.6,
+                                                 std::uint64_t seed = 1);
 
 /// A room in which a person moves in front of cameras without errors, which take each picture in an instant. The same
 /// picture is always drawn alike. Only one thread at a time may draw, even with different studios.
@@ -38,7 +39,7 @@ class ETUDE_API Studio {
   /// Throws BadInput for a motion without frames, no cameras, pictures of more than 4096 pixels a side, a lens with
   /// distortion, or a scene out of range. It also throws if drawing is impossible; OSMesa or EGL is loaded when it is
   /// needed.
-  Studio(const engine::Motion& motion, std::span<const engine::Camera> cameras, const StudioOptions& options = {});
+  Studio(const BodyMotion& motion, std::span<const NamedCamera> cameras, const StudioOptions& options = {});
   Studio(Studio&&) noexcept;
   Studio& operator=(Studio&&) noexcept;
   ~Studio();

@@ -23,7 +23,6 @@ struct SensorOptions {
 /// Returns what the sensor would report of a body with this motion: one report per frame, positions in the world.
 /// Throws BadInput for options out of range, a motion without frames, a rate that is not positive, and positions that
 /// are not finite.
-ETUDE_API std::vector<engine::SensedPose> SenseSkeleton(const engine::Motion& motion,
-                                                        const SensorOptions& options = {});
+ETUDE_API SkeletonStream SenseSkeleton(const BodyMotion& motion, const SensorOptions& options = {});
 
 }  // namespace etude::sim

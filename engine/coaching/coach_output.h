@@ -1,0 +1,114 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/motion/body.h"
+
+namespace [[gnu::visibility("default")]] etude {
+
+struct TransitionRecord;
+
+/// An event or decision of the coach.
+enum class CoachEvent {
+  kWoken,       ///< a clap was detected
+  kSongBegins,  ///< the dance begins
+  kRight,       ///< a window closed with a right performance
+  kWrong,       ///< a window closed with a mistake
+  kUnjudged,    ///< a window closed without a verdict, or was cut off
+  kCorrects,    ///< the coach leaves the dance for a corrective act
+  kShows,       ///< a slow demonstration begins
+  kReturns,     ///< the coach returns to the dance at the repetition
+  kGoesOn,      ///< the dance continues after too many corrections of one repetition
+  kPraises,     ///< words after a corrected mistake, or the act at the song's end
+  kTag,         ///< a music-time tag was reached
+  kTransition,  ///< a transition between clips begins
+  kSongEnds,
+  kAttracts,  ///< nobody takes part, so the coach invites to dance
+  kDozes,
+};
+/// Returns the event's name, for example "woken", "song begins" or "right".
+std::string_view EventName(CoachEvent event);
+
+/// The kind of mistake in a performance.
+enum class Mistake {
+  kNone,
+  kNotReached,  ///< the move was not recognised
+  kStoodStill,  ///< the player did not follow, which paper A (3.1) counts as a mistake
+  kWrongSide,   ///< the mirror image of the move was recognised
+};
+std::string_view MistakeName(Mistake mistake);
+
+/// A decision with its explanation.
+struct CoachRecord {
+  CoachEvent event = CoachEvent::kWoken;
+  std::int64_t frame = 0;  ///< counted from the session's beginning
+  int repetition = -1;     ///< of the dance; −1 if the record is about none
+  int move = -1;           ///< of the dance; −1 if the record is about none
+  int tag = -1;            ///< of the dance, with kTag
+  Mistake mistake = Mistake::kNone;
+  double evidence = 0;      ///< with kRight, kWrong and kUnjudged
+  double beat_error_s = 0;  ///< with kTag: how late the dance is relative to the music; negative if it is early
+  double rate = 1;          ///< with kTag: frames of the dance per frame from now on
+  std::shared_ptr<const TransitionRecord> transition;  ///< with kTransition
+  std::string why;                                     ///< one sentence with numbers
+};
+
+/// The states of the coach; README.md shows the transitions between them.
+enum class CoachMode {
+  kStandby,
+  kAttract,
+  kDoze,
+  kWake,
+  kDance,
+  kCorrect,      ///< head shake, wave or puzzled
+  kDemonstrate,  ///< a slow demonstration of the move, which the player only watches
+  kPraise,
+};
+/// Returns the mode's name, for example "standby" or "attract".
+std::string_view ModeName(CoachMode mode);
+
+/// A request that the player change position.
+enum class PlayerHint { kNone, kComeIntoView, kComeNearer, kStepBack };
+/// Returns "", "come into view", "come nearer" or "step back".
+std::string_view HintText(PlayerHint hint);
+
+/// A command to the music player.
+struct MusicCommand {
+  enum class Kind { kNone, kPlayFrom, kPause };
+  Kind kind = Kind::kNone;
+  double music_s = 0;  ///< with kPlayFrom: the position to play in this frame and to continue from
+};
+
+/// The performance that the player is asked for while its window is open.
+struct OpenWindow {
+  int repetition = 0;  ///< of the dance
+  int move = 0;
+  friend bool operator==(const OpenWindow&, const OpenWindow&) = default;
+};
+
+/// The output of one frame: what to show, and why.
+struct CoachOutput {
+  CoachMode mode = CoachMode::kStandby;
+  BodyPose body;               ///< the coach's pose
+  std::string_view clip;       ///< "dance", an act's name, or "slow_" and a move's name; in a transition, the next clip
+  double clip_frame = 0;       ///< index in that clip
+  bool in_transition = false;  ///< true between two clips, until the next one is entered
+  int repetition = -1;         ///< the repetition that the coach dances; −1 if none
+  std::optional<OpenWindow> open;     ///< the window that is open in the next frame
+  bool asks = false;                  ///< true if `open` has changed: call MoveFollower::Ask before the next frame
+  std::string_view say;               ///< a line of text for the player; "" if there is none
+  std::string_view hint;              ///< the key pose asked for or shown, in words; valid as long as the dance
+  const BodyPose* picture = nullptr;  ///< the same key pose as a picture; valid as long as the dance
+  PlayerHint stand = PlayerHint::kNone;
+  MusicCommand music;
+  /// The lag of the dance behind the music in seconds, if it follows music; negative if it is early.
+  std::optional<double> beat_error_s;
+  std::vector<CoachRecord> records;  ///< the decisions of this frame, in order
+};
+
+}  // namespace etude

@@ -1,0 +1,2 @@
+#include <fmt/core.h>
+namespace [[gnu::visibility("default")]] etude {}
