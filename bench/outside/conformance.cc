@@ -43,6 +43,10 @@ const std::vector<Recipe>& Recipes() {
        {"builtin:clap", "builtin:sway"},
        {"{pairs: blindspots}", "{pairs: frames, pairs_per_world: 5}"}},
       {"capture", {"builtin:clap"}, {"{duration_s: 0.1}", "{duration_s: 0.1, clothes: everyday}"}},
+      {"inbetween",
+       {},
+       {"{truth: ['builtin:songs'], training: ['builtin:clap'], window: 30, gap: 5}",
+        "{truth: ['builtin:songs'], training: ['builtin:clap'], window: 40, gap: 15, given: 2}"}},
       {"coach", {}, {"{session_s: 10, people: adult}", "{session_s: 12, people: adult, noise: 2, song: sprint}"}}};
   return recipes;
 }
@@ -69,6 +73,11 @@ Result<Specimen> MakeSpecimen(const TaskKind& kind, const Recipe& recipe, std::s
   specimen.has_plain_method = seat.empty() && !method.empty();
   TaskInput input{fields, methods, *specimen.clips};
   input.recordings = recordings;
+  FoundFiles found;
+  if (kind.find_files != nullptr) {
+    ASSIGN_OR_RETURN(found, kind.find_files(node, methods, {}));
+    input.files = found.worlds;
+  }
   ASSIGN_OR_RETURN(auto task, kind.make(input));
   specimen.task = std::move(task);
   std::shared_ptr<const Payload> shared;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -52,12 +53,14 @@ Json DescribeClips(const ClipLibrary& library) {
 /// Lists the files of a task that judges files: for each world the truth, then its answers, as many as there are.
 Json DescribeFiles(const PreparedScenario& scenario) {
   Json files = Json::array();
+  std::map<std::string, Result<std::string>> known;  // several worlds may lie in one file
   for (const JudgedFiles& world : scenario.setup().files) {
     std::vector<std::string> references = {world.truth};
     references.insert(references.end(), world.answers.begin(), world.answers.end());
     for (const std::string& reference : references) {
       if (reference.empty()) continue;
-      const auto digest = DigestOfFile(reference, scenario.opening());
+      if (!known.contains(reference)) known.emplace(reference, DigestOfFile(reference, scenario.opening()));
+      const Result<std::string>& digest = known.at(reference);
       files.push_back({{"name", world.name}, {"source", reference}, {"digest", digest.value_or("")}});
       if (!digest) files.back()["note"] = ToString(digest.error());
     }

@@ -21,7 +21,7 @@ constexpr const char* kIdPattern = "^[a-z][a-z0-9_]{0,59}$";
 constexpr std::string_view kRowKeys[] = {"cell",  "scenario", "task",   "condition", "trial",        "clip",
                                          "units", "method",   "status", "reason",    "null_reasons", "ok_share"};
 /// Tasks whose cells keep no motion.
-constexpr std::string_view kTasksWithoutMotion[] = {"pose-distance", "evaluation", "plausibility"};
+constexpr std::string_view kTasksWithoutMotion[] = {"pose-distance", "evaluation", "plausibility", "inbetween"};
 
 bool IsMetricId(const std::string& name) {
   const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };

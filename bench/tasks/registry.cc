@@ -7,9 +7,9 @@ namespace etude {
 
 std::span<const TaskKind> AllTaskKinds() {
   static const std::vector<TaskKind> kinds = {
-      MakeTransitionTaskKind(), MakeDetectionTaskKind(),    MakeIkTaskKind(),
-      MakeTrackingTaskKind(),   MakeCaptureTaskKind(),      MakePoseDistanceTaskKind(),
-      MakeCoachTaskKind(),      MakeEvaluationTaskKind(),   MakePlausibilityTaskKind()};
+      MakeTransitionTaskKind(),   MakeDetectionTaskKind(),    MakeIkTaskKind(),    MakeTrackingTaskKind(),
+      MakeCaptureTaskKind(),      MakePoseDistanceTaskKind(), MakeCoachTaskKind(), MakeEvaluationTaskKind(),
+      MakePlausibilityTaskKind(), MakeInbetweenTaskKind()};
   return kinds;
 }
 

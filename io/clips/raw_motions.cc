@@ -38,7 +38,7 @@ void AddHipCentre(RawMotion& raw) {
   raw.rotations = std::move(rotations);
   raw.roles[Index(Role::kHipCentre)] = static_cast<int>(joints);
   raw.added.push_back(static_cast<int>(joints));
-  raw.joints.emplace_back("(midway between the hips)");
+  raw.joints.emplace_back(kMidwayHips);
   if (raw.parents.empty()) return;
   const int carrier = raw.parents[left];
   raw.parents.push_back(carrier);
@@ -130,7 +130,7 @@ Result<std::vector<bool>> ContactsIn(const std::string& reference, std::size_t f
 
 }  // namespace
 
-Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options) {
+Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, bool keeps_rig) {
   const std::string name = source.source;
   const ClipFormat format = source.format;
   RawMotion raw;
@@ -150,7 +150,7 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options) {
       const bool is_carrier = role == Role::kHipCentre && !is_body;
       if (!is_composed && !is_carrier) raw.roles[Index(role)] = opened.map[role].joint;
     }
-    if (is_body) {
+    if (is_body && !keeps_rig) {
       raw.rotations.clear();  // made up by RigClip
       raw.rest_rotations.clear();
       raw.rest_positions.clear();

@@ -6,6 +6,7 @@ import sys
 PROTOCOL = 1
 TASKS = {  # task → its seats; "" if the program answers whole problems
     "ik": [""], "tracking": [""], "transition": [""], "pose-distance": [""], "detection": [""],
+    "inbetween": [""],
     "capture": ["", "segmenter"], "coach": ["recogniser", "policy", "learner"],
 }
 

@@ -321,6 +321,63 @@ class PoseDistanceAnswer(Message):
 
 
 @dataclass
+class InbetweenPose(Message):
+    """One frame of a joint tree.
+
+    root_m: Where the first joint is, metres, Y up.
+    rotations: Each joint's rotation in its parent's frame, a unit quaternion [w, x, y, z]; in answers its length
+        may be off by a hundredth.
+    """
+    root_m: Vector
+    rotations: List[List[float]]
+
+
+@dataclass
+class InbetweenSetting(Message):
+    """The protocol.
+
+    past: How many frames before the gap are given.
+    gap: How many frames are hidden.
+    given: How many frames behind the gap are given.
+    """
+    past: int
+    gap: int
+    given: int
+
+
+@dataclass
+class InbetweenProblem(Message):
+    """The frames around a gap.
+
+    rate_hz: Frames per second.
+    joints: The names of the joints, parents first.
+    parents: The index of each joint's parent; -1 for the first.
+    offsets_m: Each joint's place in its parent's frame, metres.
+    gap: How many frames are missing.
+    past: The frames before the gap.
+    future: The frames behind the gap.
+    """
+    HOLDS: ClassVar[dict] = {"past": [InbetweenPose], "future": [InbetweenPose]}
+    rate_hz: float
+    joints: List[str]
+    parents: List[int]
+    offsets_m: List[Vector]
+    gap: int
+    past: List[InbetweenPose]
+    future: List[InbetweenPose]
+
+
+@dataclass
+class InbetweenAnswer(Message):
+    """The missing frames.
+
+    frames: As many as are missing.
+    """
+    HOLDS: ClassVar[dict] = {"frames": [InbetweenPose]}
+    frames: List[InbetweenPose]
+
+
+@dataclass
 class SearchTerm(Message):
     """The feature and term that a grade belongs to.
 

@@ -231,7 +231,7 @@ class Writer {
       json_["notes"].push_back(fmt::format("The marks of {} cannot be read: {}", method, extras.error().message));
       return 0;
     };
-    if (task_ == "evaluation") return add(ReadEvaluationExtras(recording.extras_json));
+    if (task_ == "evaluation" || task_ == "inbetween") return add(ReadEvaluationExtras(recording.extras_json));
     if (task_ == "ik") return add(ReadIkExtras(recording.extras_json));
     if (task_ == "transition") return add(ReadTransitionFacts(recording, method));
     if (task_ == "detection") return add(ReadDetectionExtras(recording.extras_json));

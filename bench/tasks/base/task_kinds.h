@@ -29,5 +29,7 @@ TaskKind MakeCoachTaskKind();
 TaskKind MakeEvaluationTaskKind();
 /// Could a person have moved as the motions of files do?
 TaskKind MakePlausibilityTaskKind();
+/// How well are hidden frames of a motion filled in? One world: a window of a file.
+TaskKind MakeInbetweenTaskKind();
 
 }  // namespace etude

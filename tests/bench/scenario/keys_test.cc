@@ -120,7 +120,9 @@ const std::vector<Probe> kProbes = {{"ik", ""},
                                     {"pose-distance", ""},
                                     {"pose-distance", "distance: point-cloud"},
                                     {"evaluation", ""},
-                                    {"plausibility", ""}};
+                                    {"plausibility", ""},
+                                    {"inbetween", "filler: interpolation"},
+                                    {"inbetween", "filler: inertialised"}};
 
 /// What the task complains of when it is made of a condition and one method. It has no clips: whether it gets as far
 /// as to miss them does not matter here.

@@ -1,0 +1,79 @@
+#include "bench/tasks/inbetween/exchange.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bench/tasks/base/answer_fields.h"
+
+namespace etude {
+namespace {
+
+Json Encode(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
+
+Json EncodePoses(std::span<const TreePose> poses) {
+  Json encoded = Json::array();
+  for (const TreePose& pose : poses) {
+    Json turns = Json::array();
+    for (const glm::dquat& q : pose.turns) turns.push_back({q.w, q.x, q.y, q.z});
+    encoded.push_back({{"root_m", Encode(pose.root)}, {"rotations", std::move(turns)}});
+  }
+  return encoded;
+}
+
+std::span<const TreePose> HiddenFrames(const HiddenWindow& hidden) {
+  return std::span(hidden.motion.poses)
+      .subspan(static_cast<std::size_t>(hidden.first), static_cast<std::size_t>(hidden.last - hidden.first + 1));
+}
+
+Result<TreePose> ReadPose(const Json& json, const std::string& path, std::size_t joints) {
+  constexpr double kFarthest_m = 1e4, kOffLength = 0.01;
+  AnswerFields fields(json, path);
+  const Json& root = fields.List("root_m", 3, 3);
+  const Json& turns = fields.List("rotations", joints, joints);
+  RETURN_IF_ERROR(fields.Finish());
+  ASSIGN_OR_RETURN(const auto at, ReadNumbers(root, fields.PathOf("root_m"), 3, {-kFarthest_m, kFarthest_m}));
+  TreePose pose{{at[0], at[1], at[2]}, {}};
+  for (std::size_t j = 0; j < joints; ++j) {
+    ASSIGN_OR_RETURN(const auto q, ReadNumbers(turns[j], fields.PathOf("rotations", j), 4, {-2, 2}));
+    const glm::dquat turn(q[0], q[1], q[2], q[3]);
+    if (std::abs(glm::length(turn) - 1) > kOffLength) {
+      return Fail({}, "{}: a quaternion {} long; allowed: 1 ± {:g}", fields.PathOf("rotations", j), glm::length(turn),
+                  kOffLength);
+    }
+    pose.turns.push_back(glm::normalize(turn));
+  }
+  return pose;
+}
+
+}  // namespace
+
+Payload GapPayload(const HiddenWindow& hidden, int given) {
+  const std::span poses = hidden.motion.poses;
+  Json offsets = Json::array();
+  for (const glm::dvec3& offset : hidden.motion.tree.offsets) offsets.push_back(Encode(offset));
+  const auto first = static_cast<std::size_t>(hidden.first), last = static_cast<std::size_t>(hidden.last);
+  return PayloadOf({{"rate_hz", hidden.motion.rate_hz},
+                    {"joints", hidden.motion.tree.names},
+                    {"parents", hidden.motion.tree.parents},
+                    {"offsets_m", std::move(offsets)},
+                    {"gap", last - first + 1},
+                    {"past", EncodePoses(poses.first(first))},
+                    {"future", EncodePoses(poses.subspan(last + 1, static_cast<std::size_t>(given)))}});
+}
+
+Payload HiddenPayload(const HiddenWindow& hidden) { return PayloadOf({{"frames", EncodePoses(HiddenFrames(hidden))}}); }
+
+Result<std::vector<TreePose>> ReadFrames(const Json& answer, const HiddenWindow& hidden) {
+  AnswerFields fields(answer);
+  const std::size_t missing = HiddenFrames(hidden).size();
+  const Json& frames = fields.List("frames", missing, missing);
+  RETURN_IF_ERROR(fields.Finish());
+  std::vector<TreePose> read;
+  for (std::size_t f = 0; f < missing; ++f) {
+    ASSIGN_OR_RETURN(auto pose, ReadPose(frames[f], fields.PathOf("frames", f), hidden.motion.tree.size()));
+    read.push_back(std::move(pose));
+  }
+  return read;
+}
+
+}  // namespace etude

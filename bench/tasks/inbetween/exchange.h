@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bench/model/payload.h"
+#include "bench/tasks/inbetween/score.h"
+
+namespace etude {
+
+/// Encodes the problem: the frames around a gap, on the joint tree of their file. A pose is the root's position in
+/// metres (Y up) and each joint's rotation in its parent's frame, as a unit quaternion.
+///
+///     {"rate_hz": 30, "joints": ["Hips", …], "parents": [-1, 0, …], "offsets_m": [[x, y, z], …], "gap": 30,
+///      "past": [{"root_m": [x, y, z], "rotations": [[w, x, y, z], …]}, …], "future": [likewise]}
+Payload GapPayload(const HiddenWindow& hidden, int given);
+
+/// Encodes the truth, which has the form of an answer:
+///
+///     {"frames": [{"root_m": [x, y, z], "rotations": [[w, x, y, z], …]}, …]}
+Payload HiddenPayload(const HiddenWindow& hidden);
+
+/// Reads an answer: as many frames as are missing. A quaternion's length may differ from 1 by a hundredth, and is then
+/// made 1. Anything else is an error that names the position in the answer.
+Result<std::vector<TreePose>> ReadFrames(const Json& answer, const HiddenWindow& hidden);
+
+}  // namespace etude

@@ -1,0 +1,185 @@
+#include "bench/tasks/inbetween/score.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/metrics/alignment.h"
+#include "bench/metrics/transition_join.h"
+#include "bench/metrics/transition_smoothness.h"
+#include "bench/model/recording.h"
+#include "bench/recordings/evaluation_extras.h"
+#include "engine/base/digest.h"
+#include "engine/base/order_statistics.h"
+#include "engine/motion/support.h"
+
+namespace etude {
+namespace {
+
+/// The joints of some frames in the world.
+struct Globals {
+  std::size_t joints = 0;
+  std::vector<glm::dvec3> positions;
+  std::vector<glm::dquat> turns;
+};
+
+Globals GlobalsOf(const JointTree& tree, std::span<const TreePose> poses) {
+  Globals globals{tree.size(), {}, {}};
+  for (const TreePose& pose : poses) AppendGlobals(tree, pose, globals.positions, globals.turns);
+  return globals;
+}
+
+std::size_t JudgedCount(const JointTree& tree) {
+  return static_cast<std::size_t>(std::ranges::count(tree.is_point, false));
+}
+
+/// Returns the frames from `first` to `last` without the points that have no rotation.
+template <typename Value>
+std::vector<Value> JudgedFrames(const std::vector<Value>& values, const JointTree& tree, int first, int last) {
+  std::vector<Value> judged;
+  for (std::size_t i = static_cast<std::size_t>(first) * tree.size();
+       i < static_cast<std::size_t>(last + 1) * tree.size(); ++i) {
+    if (!tree.is_point[i % tree.size()]) judged.push_back(values[i]);
+  }
+  return judged;
+}
+
+/// Returns the joint that plays a role or, if the file lacks it, the next role towards the hip centre.
+int JointOf(const std::array<int, kRoleCount>& roles, Role role) {
+  for (std::optional<Role> at = role; at; at = ParentOf(*at)) {
+    if (roles[Index(*at)] >= 0) return roles[Index(*at)];
+  }
+  return 0;
+}
+
+/// Returns the twenty joints; one that the file lacks is where its parent is.
+std::vector<BodyPose> BodiesOf(const Globals& globals, const std::array<int, kRoleCount>& roles, double floor_m) {
+  std::vector<BodyPose> bodies;
+  for (std::size_t at = 0; at < globals.positions.size(); at += globals.joints) {
+    BodyPose& body = bodies.emplace_back();
+    for (const Role role : AllRoles()) {
+      body[role] = globals.positions[at + static_cast<std::size_t>(JointOf(roles, role))];
+      body[role].y -= floor_m;
+    }
+  }
+  return bodies;
+}
+
+std::string DigestOf(std::span<const glm::dvec3> positions) {
+  return Digest().Add(std::span(&positions.front().x, 3 * positions.size())).Hex();
+}
+
+/// Returns global rotations as channels. Their signs follow from those of the local ones, as in LAFAN1's code.
+ChannelTracks ChannelsOf(const std::vector<glm::dquat>& turns, std::size_t joints) {
+  ChannelTracks tracks{4 * joints, {}};
+  for (const glm::dquat& q : turns) tracks.values.insert(tracks.values.end(), {q.w, q.x, q.y, q.z});
+  return tracks;
+}
+
+/// Measures what LAFAN1's code does.
+void MeasureDistances(const HiddenWindow& hidden, const Globals& found, const Globals& truth, CellResult& result) {
+  const auto part = [&](const auto& values) {
+    return JudgedFrames(values, hidden.motion.tree, hidden.first, hidden.last);
+  };
+  const std::size_t joints = JudgedCount(hidden.motion.tree);
+  EvaluatedPair pair;
+  pair.found = {joints, part(found.positions)};
+  pair.truth = {joints, part(truth.positions)};
+  // Positions, in deviations and in millimetres.
+  const auto deviations = JudgedFrames(hidden.deviations, hidden.motion.tree, 0, hidden.deviations.empty() ? -1 : 0);
+  const bool all_move =
+      std::ranges::none_of(deviations, [](const glm::dvec3& one) { return one.x <= 0 || one.y <= 0 || one.z <= 0; });
+  std::optional<double> l2p;
+  if (!deviations.empty() && all_move) {
+    const std::vector<glm::dvec3> means(joints);  // they cancel
+    l2p = MeanChannelDistance(StandardisedChannels(pair.found.positions, means, deviations),
+                              StandardisedChannels(pair.truth.positions, means, deviations));
+  }
+  result.MeasureOr(
+      "l2p@lafan1", l2p,
+      all_move ? "no training clip is as long as a training window" : "a coordinate never moves in training");
+  const ChannelTracks true_turns = ChannelsOf(part(truth.turns), joints);
+  const ChannelTracks found_turns = ChannelsOf(part(found.turns), joints);
+  result.MeasureOr("l2q@lafan1", MeanChannelDistance(found_turns, true_turns), "");
+  const auto npss = MeasurePowerSpectrum(found_turns, true_turns, true_turns.FrameCount(), PowerOf::kRealPart);
+  result.MeasureOr("npss@lafan1", npss ? std::optional(npss->value) : std::nullopt, "the truth has no power");
+  result.MeasureOr("npss_power@lafan1", npss ? std::optional(npss->power) : std::nullopt, "the truth has no power");
+  const FrameFits none(pair.found.FrameCount(), Similarity{});
+  result.MeasureOr("mpjpe_unaligned_mm", MeanOfSeen(JointErrorsMm(pair, none)), "");
+}
+
+/// Measures whether a body could move so.
+void MeasureBody(const HiddenWindow& hidden, const Globals& found, const Globals& truth, CellResult& result) {
+  using enum Role;
+  const std::vector<BodyPose> shown = BodiesOf(found, hidden.roles, hidden.floor_m);
+  const std::vector<BodyPose> own = BodiesOf(truth, hidden.roles, hidden.floor_m);
+  const SupportingClip clip{.poses = own};
+  const auto has = [&](Role role) { return hidden.roles[Index(role)] >= 0; };
+  const bool has_legs = has(kLeftKnee) && has(kLeftAnkle) && has(kRightKnee) && has(kRightAnkle);
+  std::optional<double> supported, slide;
+  if (has_legs) {
+    supported = IsSupported(FindSupport(shown, std::span(&clip, 1), hidden.first, hidden.last, hidden.motion.rate_hz));
+  }
+  if (has(kLeftFoot) && has(kRightFoot)) {
+    slide = FootSlideCmps(shown, hidden.first - 1, hidden.last + 1, hidden.motion.rate_hz);
+  }
+  result.MeasureOr("supported_share", supported, "the file has no legs");
+  result.MeasureOr("foot_slide_cmps", slide, "the file has no toes");
+  constexpr int kReach = 3;  // of a third difference
+  const std::size_t joints = JudgedCount(hidden.motion.tree);
+  const PointTracks around{
+      joints, JudgedFrames(found.positions, hidden.motion.tree, hidden.first - kReach, hidden.last + kReach)};
+  result.MeasureOr("jitter@wham", Jitter(around, hidden.motion.rate_hz), "");
+}
+
+Recording RecordingOf(const HiddenWindow& hidden, const Globals& found, const Globals& truth) {
+  EvaluationExtras extras;
+  extras.truth.rate_hz = hidden.motion.rate_hz;
+  extras.truth.joints = hidden.motion.tree.names;
+  extras.truth.parents = hidden.motion.tree.parents;
+  extras.answer = extras.truth;
+  extras.truth.positions = truth.positions;
+  extras.answer.positions = found.positions;
+  return {{}, WriteEvaluationExtras(extras)};
+}
+
+}  // namespace
+
+std::vector<std::string> InbetweenMetrics() {
+  return {"l2p@lafan1",         "l2q@lafan1",      "npss@lafan1",     "npss_power@lafan1",
+          "mpjpe_unaligned_mm", "supported_share", "foot_slide_cmps", "jitter@wham"};
+}
+
+double FloorOf(const HiddenWindow& whole) {
+  std::vector<double> lowest;
+  for (const BodyPose& body : BodiesOf(GlobalsOf(whole.motion.tree, whole.motion.poses), whole.roles, 0)) {
+    double& height = lowest.emplace_back(body[Role::kHead].y);
+    for (const Role role : AllRoles()) {
+      if (role != Role::kLeftHand && role != Role::kRightHand) height = std::min(height, body[role].y);
+    }
+  }
+  constexpr double kShare = 0.05;
+  return LowerPercentile(std::move(lowest), kShare);
+}
+
+CellResult ScoreFilling(const HiddenWindow& hidden, std::span<const TreePose> filled, bool keeps_motion) {
+  std::vector<TreePose> shown = hidden.motion.poses;
+  for (std::size_t f = 0; f < filled.size(); ++f) {
+    const std::size_t at = static_cast<std::size_t>(hidden.first) + f;
+    shown[at] = filled[f];
+    // Signs of quaternions are continuous in time.
+    for (std::size_t j = 0; j < filled[f].turns.size(); ++j) {
+      glm::dquat& turn = shown[at].turns[j];
+      if (glm::dot(turn, shown[at - 1].turns[j]) < 0) turn = -turn;
+    }
+  }
+  const Globals truth = GlobalsOf(hidden.motion.tree, hidden.motion.poses),
+                found = GlobalsOf(hidden.motion.tree, shown);
+  CellResult result = CellResult::Ended(Status::kOk, "");
+  result.digests = {{"truth", DigestOf(truth.positions)}, {"answer", DigestOf(found.positions)}};
+  MeasureDistances(hidden, found, truth, result);
+  MeasureBody(hidden, found, truth, result);
+  if (keeps_motion) result.recording = RecordingOf(hidden, found, truth);
+  return result;
+}
+
+}  // namespace etude

@@ -1,0 +1,202 @@
+#include "bench/tasks/inbetween/windows.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "bench/tasks/evaluation/find_files.h"
+#include "engine/base/names.h"
+#include "io/clips/open_clip.h"
+#include "io/clips/raw_motions.h"
+#include "io/clips/references.h"
+
+namespace etude {
+namespace {
+
+constexpr char kBeforeFirst = '@';
+
+/// Returns the rate of a file, or the multiple of the protocol's that it states with few digits (0.0083333 s a frame),
+/// of which whole frames are taken.
+double OwnRate(double rate_hz, const InbetweenOptions& options) {
+  constexpr double kFewDigits = 1e-4;
+  const double wanted = options.rate_hz.value_or(rate_hz), whole = wanted * std::round(rate_hz / wanted);
+  return std::abs(rate_hz - whole) < kFewDigits * rate_hz ? whole : rate_hz;
+}
+
+/// Returns how many frames `frames` become at the protocol's rate.
+std::size_t SampledFrames(std::size_t frames, double own_rate_hz, const InbetweenOptions& options) {
+  if (!options.rate_hz || frames == 0) return frames;
+  constexpr double kRounding = 1e-6;  // of a frame, as in `Sampled`
+  const double last = static_cast<double>(frames - 1) * *options.rate_hz / OwnRate(own_rate_hz, options);
+  return static_cast<std::size_t>(last + kRounding) + 1;
+}
+
+/// Calls `visit` with the first frame of each window, as LAFAN1's code takes them.
+template <typename Visit>
+void ForEachWindow(std::size_t frames, int window, int offset, const Visit& visit) {
+  for (std::size_t first = 0; first + static_cast<std::size_t>(window) < frames;
+       first += static_cast<std::size_t>(offset)) {
+    visit(static_cast<int>(first));
+  }
+}
+
+/// Fails at `place` if a file is judged and trains, whatever it is called.
+Result<void> RefuseCommon(std::span<const std::string> judged, std::span<const std::string> training,
+                          const Place& place) {
+  for (const std::string& other : training) {
+    for (const std::string& one : judged) {
+      std::error_code none;
+      const SplitReference a = Split(one), b = Split(other);
+      const bool is_one_file = std::filesystem::equivalent(FileOf(a.path), FileOf(b.path), none);
+      if (one != other && !(is_one_file && a.animation == b.animation)) continue;
+      return Fail(place, "'{}' is judged, so it must not be in 'training'", other);
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+int FirstFrameOf(const std::string& window) {
+  int first = 0;
+  const std::size_t at = window.rfind(kBeforeFirst) + 1;
+  std::from_chars(window.data() + at, window.data() + window.size(), first);
+  return first;
+}
+
+Result<FoundFiles> FindWindows(const Node& condition, std::span<const Node> methods,
+                               const std::map<std::string, std::string>& /*texts*/) {
+  // Read the keys; the task checks them all later.
+  InbetweenOptions options;
+  Fields fields(condition, "a scenario of task inbetween");
+  InbetweenConditionFields().Read(fields, options);
+  if (!fields.ok()) return tl::unexpected(fields.Finish().error());
+  if (const Node* trials = condition.Find("trials")) {
+    return Fail(trials->place, "'trials' has no use in task inbetween: each window is judged once");
+  }
+  const Place& place = condition.Find("truth")->place;
+  ASSIGN_OR_RETURN(const auto files, ExpandFiles(options.truth, Links::kAllowed, place));
+  const Place& other_place = condition.Find("training")->place;
+  ASSIGN_OR_RETURN(const auto training, ExpandFiles(options.training, Links::kAllowed, other_place));
+  RETURN_IF_ERROR(RefuseCommon(files, training, other_place));
+  // List the windows.
+  FoundFiles found;
+  std::map<std::string, std::string> named;
+  for (const std::string& file : files) {
+    const std::string name = NameOfReference(file);
+    const auto [known, is_new] = named.emplace(name, file);
+    if (!is_new) return Fail(place, "'{}' and '{}' have one name", known->second, file);
+    const auto clip = ReadOneClip(file, {});
+    if (!clip) {
+      found.left_out.emplace_back(file, ToString(clip.error()));
+      continue;
+    }
+    const std::size_t before = found.worlds.size();
+    const std::size_t frames = SampledFrames(clip->clip.frames.size(), clip->clip.rate_hz, options);
+    ForEachWindow(frames, options.window, options.offset, [&](int first) {
+      found.worlds.push_back({.name = fmt::format("{}{}{}", name, kBeforeFirst, first),
+                              .unit = name,
+                              .truth = file,
+                              .answers = std::vector<std::string>(methods.size())});
+    });
+    if (found.worlds.size() > kMaxPairs) return Fail(place, "more than {} windows", kMaxPairs);
+    if (found.worlds.size() > before) continue;
+    found.left_out.emplace_back(file, fmt::format("{} frames; a window of {} needs one more", frames, options.window));
+  }
+  if (found.worlds.empty()) {
+    return Fail(place, "no file has a window of {} frames: {}", options.window, found.left_out.front().second);
+  }
+  if (!options.people.empty()) {
+    // The person is told from what stands before the first frame.
+    RETURN_IF_ERROR(FindPeople(options.people + kBeforeFirst + '*', condition.Find("people")->place, found.worlds));
+  }
+  return found;
+}
+
+Result<HiddenWindow> OpenJudged(const std::string& reference, const InbetweenOptions& options,
+                                const OpenOptions& opening) {
+  ASSIGN_OR_RETURN(auto clip, ReadOneClip(reference, opening));
+  std::set<std::string> points = {kMidwayHips};
+  for (const Joint& joint : clip.clip.skeleton.joints) {
+    if (joint.is_end_site) points.insert(joint.name);
+  }
+  ASSIGN_OR_RETURN(auto raw, RawMotionOf(std::move(clip), opening, reference.starts_with(kBuiltinPrefix)));
+  if (options.rate_hz) {
+    raw.rate_hz = OwnRate(raw.rate_hz, options);
+    raw = Sampled(raw, *options.rate_hz, 0, SampledFrames(raw.FrameCount(), raw.rate_hz, options));
+  }
+  HiddenWindow whole;
+  ASSIGN_OR_RETURN(whole.motion, TreeMotionOf(raw, points));
+  whole.roles = raw.roles;
+  return whole;
+}
+
+std::vector<TreePose> PlacedWindow(std::span<const TreePose> poses, int first, int count, int past,
+                                   const glm::dvec3& facing) {
+  const auto begin = poses.begin() + first;
+  std::vector<TreePose> window(begin, begin + count);
+  // Around the origin of the floor.
+  glm::dvec3 mean(0);
+  for (const TreePose& pose : window) mean += pose.root / static_cast<double>(count);
+  mean.y = 0;
+  // Turned about the vertical axis, so that the axis points along X.
+  const glm::dvec3 axis = window[static_cast<std::size_t>(past - 1)].turns[0] * facing;
+  const glm::dquat turn = glm::angleAxis(std::atan2(axis.z, axis.x), glm::dvec3(0, 1, 0));
+  for (TreePose& pose : window) {
+    pose.root = turn * (pose.root - mean);
+    pose.turns[0] = turn * pose.turns[0];
+  }
+  return window;
+}
+
+Result<std::vector<TrainingTree>> Train(const InbetweenOptions& options, const OpenOptions& opening,
+                                        GapLibrary* library) {
+  ASSIGN_OR_RETURN(const auto files, ExpandFiles(options.training, Links::kAllowed, {}));
+  constexpr std::size_t kMaxLibraryFrames = 200'000;  // half a gigabyte
+  std::vector<TrainingTree> trees;
+  std::size_t frames = 0;
+  std::vector<glm::dvec3> positions;
+  std::vector<glm::dquat> turns;
+  for (const std::string& file : files) {
+    ASSIGN_OR_RETURN(auto judged, OpenJudged(file, options, opening));
+    TreeMotion& motion = judged.motion;
+    auto known = std::ranges::find_if(trees, [&](const TrainingTree& one) { return one.tree.IsLike(motion.tree); });
+    if (known == trees.end()) {
+      const std::vector<glm::dvec3> zeros(motion.tree.size());
+      known = trees.insert(trees.end(), TrainingTree{motion.tree, zeros, zeros, 0});
+    }
+    ForEachWindow(motion.poses.size(), options.training_window, options.training_offset, [&](int first) {
+      for (const TreePose& pose :
+           PlacedWindow(motion.poses, first, options.training_window, options.past, options.facing)) {
+        positions.clear();
+        turns.clear();
+        AppendGlobals(motion.tree, pose, positions, turns);
+        for (std::size_t j = 0; j < positions.size(); ++j) {
+          known->sums[j] += positions[j];
+          known->squares[j] += positions[j] * positions[j];
+        }
+        known->count += 1;
+      }
+    });
+    if (library == nullptr) continue;
+    frames += motion.poses.size();
+    if (frames > kMaxLibraryFrames) {
+      return Fail({file}, "the training clips have more than {} frames, too many for 'nearest-gap'", kMaxLibraryFrames);
+    }
+    library->Add(std::move(motion));
+  }
+  return trees;
+}
+
+std::vector<glm::dvec3> TrainingTree::Deviations() const {
+  std::vector<glm::dvec3> deviations;
+  for (std::size_t j = 0; j < tree.size() && count > 0; ++j) {
+    const glm::dvec3 mean = sums[j] / count;
+    deviations.push_back(glm::sqrt(glm::max(squares[j] / count - mean * mean, glm::dvec3(0))));
+  }
+  return deviations;
+}
+
+}  // namespace etude

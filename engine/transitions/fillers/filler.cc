@@ -1,0 +1,152 @@
+#include "engine/transitions/fillers/filler.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/base/angles.h"
+#include "engine/base/smoothstep.h"
+#include "engine/transitions/fillers/gap_library.h"
+#include "engine/transitions/joins/inertialise.h"
+#include "engine/transitions/joins/minimum_jerk.h"
+
+namespace etude {
+namespace {
+
+glm::dvec3 MeanVelocity(const Ends& ends) { return (ends.end - ends.start) / ends.seconds; }
+
+/// Returns how far a velocity that halves every `half_life_s` leads.
+glm::dvec3 Continued(const glm::dvec3& velocity, double seconds, double half_life_s) {
+  const double rate = std::numbers::ln2 / half_life_s;
+  return velocity * (-std::expm1(-rate * seconds) / rate);
+}
+
+/// Fills each channel by itself: the root's position, and each joint's rotation vector from its last pose, in which the
+/// shorter great arc is a straight line.
+template <typename Law>
+std::vector<TreePose> FillEach(const Gap& gap, const Law& law) {
+  const TreePose &before = gap.past[gap.past.size() - 2], &last = gap.past.back(), &next = gap.future.front();
+  const bool knows_velocity = gap.future.size() > 1;
+  std::vector<TreePose> filled(gap.frames, {glm::dvec3(0), std::vector<glm::dquat>(gap.tree.size())});
+  Ends ends{.seconds = gap.Seconds()};
+  const auto at = [&](std::size_t f) { return law(ends, static_cast<double>(f + 1) / gap.rate_hz); };
+  // The root.
+  ends.start = last.root;
+  ends.start_velocity = (last.root - before.root) * gap.rate_hz;
+  ends.end = next.root;
+  if (knows_velocity) ends.end_velocity = (gap.future[1].root - next.root) * gap.rate_hz;
+  for (std::size_t f = 0; f < gap.frames; ++f) filled[f].root = at(f);
+  // The joints.
+  ends.start = glm::dvec3(0);
+  for (std::size_t j = 0; j < gap.tree.size(); ++j) {
+    const glm::dquat back = glm::conjugate(last.turns[j]);
+    ends.start_velocity = -gap.rate_hz * RotationVector(back * before.turns[j]);
+    ends.end = RotationVector(back * next.turns[j]);
+    if (knows_velocity) {
+      glm::dvec3 after = RotationVector(back * gap.future[1].turns[j]);
+      // Beyond half a turn the rotation vector comes in from the other side.
+      if (glm::dot(after, ends.end) < 0 && glm::length(after) > kPi / 2) after -= 2 * kPi * glm::normalize(after);
+      ends.end_velocity = (after - ends.end) * gap.rate_hz;
+    }
+    for (std::size_t f = 0; f < gap.frames; ++f) filled[f].turns[j] = last.turns[j] * TurnOf(at(f));
+  }
+  return filled;
+}
+
+/// Returns the quaternion between two as LAFAN1's code computes it (`quat_slerp`, then `quat_normalize`): on a straight
+/// line where they are near each other.
+glm::dquat Lafan1Between(const glm::dquat& from, glm::dquat to, double share) {
+  double cosine = glm::dot(from, to);
+  if (cosine < 0) {
+    to = -to;
+    cosine = -cosine;
+  }
+  constexpr double kNear = 0.01;
+  if (1 - cosine < kNear) return glm::normalize((1 - share) * from + share * to);
+  const double angle = std::acos(cosine), sine = std::sin(angle);
+  return glm::normalize(std::sin((1 - share) * angle) / sine * from + std::sin(share * angle) / sine * to);
+}
+
+std::vector<TreePose> Interpolate(const Gap& gap, std::span<const double> /*values*/) {
+  const TreePose &last = gap.past.back(), &next = gap.future.front();
+  std::vector<TreePose> filled;
+  for (std::size_t f = 0; f < gap.frames; ++f) {
+    const double share = static_cast<double>(f + 1) / static_cast<double>(gap.frames + 1);
+    TreePose& pose = filled.emplace_back(TreePose{last.root + share * (next.root - last.root), {}});
+    for (std::size_t j = 0; j < gap.tree.size(); ++j) {
+      pose.turns.push_back(Lafan1Between(last.turns[j], next.turns[j], share));
+    }
+  }
+  return filled;
+}
+
+/// Fills each channel by a law with the setting `half_life_s`.
+template <auto Law, double kFallback>
+std::vector<TreePose> FillByHalfLife(const Gap& gap, std::span<const double> values) {
+  const double half_life_s = values.empty() ? kFallback : values[0];
+  return FillEach(gap, [&](const Ends& ends, double t) { return Law(ends, t, half_life_s); });
+}
+
+constexpr double kSpring_s = SpringOptions().half_life_s, kDead_s = 0.2;
+
+NumberSetting HalfLife(double fallback, const char* meaning) {
+  return {"half_life_s", fallback, 0.01, 10, false, meaning};
+}
+
+}  // namespace
+
+glm::dvec3 InertialisedAt(const Ends& ends, double seconds, double half_life_s) {
+  const glm::dvec3 mean = MeanVelocity(ends);
+  const auto rest = [&](const glm::dvec3& velocity, double since) {
+    return (1 - Smoothstep(0, ends.seconds, since)) *
+           SpringDecay({glm::dvec3(0), velocity}, since, {.half_life_s = half_life_s});
+  };
+  const double left = ends.seconds - seconds;
+  return ends.start + mean * seconds + rest(ends.start_velocity - mean, seconds) +
+         rest(mean - ends.end_velocity.value_or(mean), left);
+}
+
+glm::dvec3 DeadBlendedAt(const Ends& ends, double seconds, double half_life_s) {
+  const double left = ends.seconds - seconds;
+  const glm::dvec3 from = ends.start + Continued(ends.start_velocity, seconds, half_life_s);
+  const glm::dvec3 to = ends.end - Continued(ends.end_velocity.value_or(MeanVelocity(ends)), left, half_life_s);
+  return from + Smoothstep(0, ends.seconds, seconds) * (to - from);
+}
+
+glm::dvec3 LeastJerkAt(const Ends& ends, double seconds) {
+  if (ends.end_velocity) {
+    return ends.end +
+           MinimumJerkAt({ends.start - ends.end, ends.start_velocity, *ends.end_velocity}, seconds, ends.seconds);
+  }
+  // The jerk of least square is then proportional to (1 − s)², s = t / T, with its third integral, 1 at s = 1:
+  const double s = seconds / ends.seconds, left = 1 - s;
+  const double shape = s * s * 5 / 3 - s * 5 / 6 + (1 - left * left * left * left * left) / 6;
+  const glm::dvec3 missing = ends.end - ends.start - ends.start_velocity * ends.seconds;
+  return ends.start + ends.start_velocity * seconds + shape * missing;
+}
+
+std::span<const Filler> AllFillers() {
+  using Values = std::span<const double>;
+  static const std::vector<Filler> fillers = {
+      {.name = "zero-velocity",
+       .description = "the last pose stands",
+       .fill = [](const Gap& gap, Values) { return std::vector<TreePose>(gap.frames, gap.past.back()); }},
+      {.name = "interpolation", .description = "straight lines and great arcs (lerp, slerp)", .fill = Interpolate},
+      {.name = "inertialised",
+       .description = "interpolation; what each end's velocity differs from it decays like a spring",
+       .settings = {HalfLife(kSpring_s, "The time in which half of a difference is gone.")},
+       .fill = FillByHalfLife<InertialisedAt, kSpring_s>},
+      {.name = "dead-blending",
+       .description = "both ends go on with decaying velocities; one fades into the other",
+       .settings = {HalfLife(kDead_s, "The time in which a velocity halves.")},
+       .fill = FillByHalfLife<DeadBlendedAt, kDead_s>},
+      {.name = "minimum-jerk",
+       .description = "each joint by the movement of minimum jerk",
+       .fill = [](const Gap& gap, Values) { return FillEach(gap, LeastJerkAt); }},
+      {.name = "nearest-gap",
+       .description = "the training clips' gap whose ends are nearest, moved onto the ends",
+       .needs_library = true,
+       .fill = [](const Gap& gap, Values) { return gap.library ? gap.library->Fill(gap) : std::vector<TreePose>(); }}};
+  return fillers;
+}
+
+}  // namespace etude

@@ -1,0 +1,31 @@
+#!/usr/bin/env python3
+"""Fills gaps on numpy's arrays: every number of a pose by the cubic that leaves with the velocity of the last past frame and
+arrives with the mean velocity across the gap; quaternions are then made unit ones."""
+import etude
+import numpy as np
+
+
+def numbers(poses):
+    """Frames × (3 + 4 · joints)."""
+    return np.array([pose.root_m + [part for turn in pose.rotations for part in turn] for pose in poses])
+
+
+@etude.method(task="inbetween", name="inbetween-cubic-numpy", version="1.0")
+def fill(problem):
+    past, target = numbers(problem.past), numbers(problem.future)[0]
+    # Of a quaternion's two signs, the one that lies nearer to the last past frame's.
+    near = (past[-1, 3:].reshape(-1, 4) * target[3:].reshape(-1, 4)).sum(axis=1, keepdims=True)
+    target[3:] = (target[3:].reshape(-1, 4) * np.where(near < 0, -1, 1)).ravel()
+    steps = problem.gap + 1
+    t = np.arange(1, steps)[:, None] / steps
+    leave = (past[-1] - past[-2]) * steps
+    arrive = target - past[-1]
+    found = (past[-1] + leave * (t - 2 * t ** 2 + t ** 3) + arrive * (t ** 3 - t ** 2)
+             + (target - past[-1]) * (3 * t ** 2 - 2 * t ** 3))
+    turns = found[:, 3:].reshape(len(found), -1, 4)
+    turns /= np.linalg.norm(turns, axis=-1, keepdims=True)
+    return {"frames": [{"root_m": root.tolist(), "rotations": turn.tolist()} for root, turn in zip(found[:, :3], turns)]}
+
+
+if __name__ == "__main__":
+    etude.serve(fill)

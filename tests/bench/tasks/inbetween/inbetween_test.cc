@@ -1,0 +1,205 @@
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/tasks/base/task_kinds.h"
+#include "bench/tasks/inbetween/windows.h"
+#include "engine/document/node.h"
+#include "io/clips/clip_library.h"
+
+namespace etude {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* kFiles = "truth: [assimp:01_03], training: [assimp:01_01], rate_hz: 30";
+
+/// A task of one method, with its windows.
+struct Study {
+  std::vector<JudgedFiles> windows;
+  std::unique_ptr<Task> task;
+};
+
+Result<Study> StudyOf(const std::string& keys, const std::string& filler) {
+  ASSIGN_OR_RETURN(const auto condition, ParseYaml("{" + keys + "}", "s.yaml"));
+  ASSIGN_OR_RETURN(const auto method, ParseYaml("{name: a, filler: " + filler + "}", "s.yaml"));
+  const std::span methods(&method, 1);
+  ASSIGN_OR_RETURN(auto found, FindWindows(condition, methods, {}));
+  Fields fields(condition, "a condition");
+  const ClipLibrary no_clips;
+  TaskInput input{fields, methods, no_clips};
+  input.files = found.worlds;
+  ASSIGN_OR_RETURN(auto task, MakeInbetweenTaskKind().make(input));
+  RETURN_IF_ERROR(fields.Finish());
+  return Study{std::move(found.worlds), std::move(task)};
+}
+
+std::unique_ptr<TaskWorld> WorldOf(const Study& study, int trial) {
+  return study.task->MakeWorld({1, "s", trial}, false);
+}
+
+double Measured(const CellResult& result, const std::string& id) {
+  for (const MetricValue& metric : result.metrics) {
+    if (metric.id == id) return metric.value.value_or(-1);
+  }
+  return -2;
+}
+
+/// L2P, L2Q and NPSS over all windows, as a run averages them.
+struct Distances {
+  double l2p = 0, l2q = 0, npss = 0;
+};
+
+Distances DistancesOf(const std::string& keys, const std::string& filler, std::size_t windows) {
+  const auto study = StudyOf(keys, filler);
+  EXPECT_TRUE(study) << ToString(study.error());
+  EXPECT_EQ(study->windows.size(), windows);
+  Distances mean;
+  double power = 0;
+  for (std::size_t trial = 0; trial < windows; ++trial) {
+    const CellResult result = WorldOf(*study, static_cast<int>(trial))->Run(0);
+    mean.l2p += Measured(result, "l2p@lafan1") / static_cast<double>(windows);
+    mean.l2q += Measured(result, "l2q@lafan1") / static_cast<double>(windows);
+    mean.npss += Measured(result, "npss@lafan1") * Measured(result, "npss_power@lafan1");
+    power += Measured(result, "npss_power@lafan1");
+  }
+  mean.npss /= power;
+  return mean;
+}
+
+/// Figures of the source: ubisoft/ubisoft-laforge-animation-dataset 9408460, get_lafan1_set, get_train_stats and
+/// benchmark_interpolation, with its own reader, on every fourth frame of these files (and the number of joints instead
+/// of 22).
+struct Known {
+  int gap;
+  const char* filler;
+  double l2p, l2q, npss;
+};
+constexpr Known kKnown[] = {{5, "zero-velocity", 2.3656142542622094, 0.4966549082713087, 0.004297833756201702},
+                            {5, "interpolation", 0.5517855141646711, 0.25358764596597905, 0.002416645806239408},
+                            {15, "zero-velocity", 6.033227322137425, 1.0794794933508616, 0.03978111587567852},
+                            {15, "interpolation", 1.8733076677237197, 0.553268653387676, 0.025372097729388324},
+                            {30, "zero-velocity", 10.095389900945774, 1.5349829882192936, 0.1721970260278843},
+                            {30, "interpolation", 4.145798930708553, 0.937078937780961, 0.1443864832185145},
+                            {45, "zero-velocity", 13.095840533303804, 1.8686101658655785, 0.33940968437320324},
+                            {45, "interpolation", 6.017234810390206, 1.1953154006794986, 0.3067619453809995}};
+
+TEST(Inbetween, GivesTheFiguresOfTheSource) {
+  for (const Known& known : kKnown) {
+    const std::string what = fmt::format("{}, gap {}", known.filler, known.gap);
+    const Distances found = DistancesOf(fmt::format("{}, gap: {}", kFiles, known.gap), known.filler, 27);
+    EXPECT_NEAR(found.l2p, known.l2p, 1e-6) << what;
+    EXPECT_NEAR(found.l2q, known.l2q, 1e-6) << what;
+    EXPECT_NEAR(found.npss, known.npss, 1e-6) << what;
+  }
+}
+
+TEST(Inbetween, GivesOtherFiguresByAnotherProtocol) {
+  const Known& known = kKnown[5];
+  for (const char* other : {"facing: x", "past: 11", "training_window: 40"}) {
+    const Distances found = DistancesOf(fmt::format("{}, {}", kFiles, other), known.filler, 27);
+    EXPECT_GT(std::abs(found.l2p - known.l2p), 1e-4) << other;
+  }
+}
+
+/// The answer that a program would give, made of the truth by `change`.
+template <typename Change>
+CellResult JudgedAfter(TaskWorld& world, const Change& change) {
+  Json answer = *world.MakeTruth()->json;
+  int frame = 0;
+  for (Json& pose : answer.at("frames")) change(pose, frame++);
+  const auto result = world.Judge(answer);
+  EXPECT_TRUE(result) << ToString(result.error());
+  return result.value_or(CellResult{});
+}
+
+/// The first window in which the truth is supported and its feet rest.
+std::unique_ptr<TaskWorld> StandingWorld(const Study& study) {
+  for (std::size_t trial = 0; trial < study.windows.size(); ++trial) {
+    auto world = WorldOf(study, static_cast<int>(trial));
+    const CellResult own = world->Run(0);
+    if (Measured(own, "supported_share") == 1 && Measured(own, "foot_slide_cmps") < 3) return world;
+  }
+  return nullptr;
+}
+
+TEST(Inbetween, KnowsTheTruthAndWhatIsDoneToIt) {
+  const auto study = StudyOf("truth: ['builtin:warm_up'], training: ['builtin:sprint'], facing: z", "hidden");
+  ASSERT_TRUE(study) << ToString(study.error());
+  const auto world = StandingWorld(*study);
+  ASSERT_NE(world, nullptr);
+  const CellResult own = world->Run(0);
+  for (const char* id : {"l2p@lafan1", "l2q@lafan1", "npss@lafan1", "mpjpe_unaligned_mm"})
+    EXPECT_EQ(Measured(own, id), 0) << id;
+  // The same, sent by a program.
+  const CellResult same = JudgedAfter(*world, [](Json&, int) {});
+  EXPECT_LT(Measured(same, "mpjpe_unaligned_mm") + Measured(same, "l2q@lafan1"), 1e-9);
+  EXPECT_EQ(Measured(same, "supported_share"), 1);
+  // Lifted by 10 cm it floats, is that far off, and breaks at both ends.
+  const CellResult lifted =
+      JudgedAfter(*world, [](Json& pose, int) { pose["root_m"][1] = pose["root_m"][1].get<double>() + 0.1; });
+  EXPECT_EQ(Measured(lifted, "supported_share"), 0);
+  EXPECT_NEAR(Measured(lifted, "mpjpe_unaligned_mm"), 100, 1e-9);
+  EXPECT_NEAR(Measured(lifted, "l2q@lafan1"), 0, 1e-12);
+  EXPECT_GT(Measured(lifted, "jitter@wham"), 2 * Measured(own, "jitter@wham"));
+  // It glides along X by 1 cm a frame.
+  const CellResult glides =
+      JudgedAfter(*world, [](Json& pose, int f) { pose["root_m"][0] = pose["root_m"][0].get<double>() + 0.01 * f; });
+  EXPECT_GT(Measured(glides, "foot_slide_cmps"), Measured(own, "foot_slide_cmps") + 5);
+  // It shakes by 2 mm.
+  const CellResult shakes = JudgedAfter(*world, [](Json& pose, int f) {
+    pose["root_m"][2] = pose["root_m"][2].get<double>() + (f % 2 ? 0.002 : -0.002);
+  });
+  EXPECT_GT(Measured(shakes, "jitter@wham"), Measured(own, "jitter@wham") + 10);
+}
+
+TEST(Inbetween, TellsAProgramTheEndsAndNoMore) {
+  const auto study = StudyOf(kFiles, "interpolation");
+  ASSERT_TRUE(study);
+  const auto world = WorldOf(*study, 3);
+  const auto problem = world->MakeProblem(), truth = world->MakeTruth();
+  ASSERT_TRUE(problem && truth);
+  EXPECT_EQ(problem->json->at("past").size(), 10u);
+  EXPECT_EQ(problem->json->at("future").size(), 1u);
+  EXPECT_EQ(problem->json->at("gap"), 30);
+  EXPECT_THAT(problem->json->dump(), ::testing::Not(HasSubstr(truth->json->at("frames")[0].at("root_m").dump())));
+  const auto complaint = [&](const auto& change) {
+    Json answer = *truth->json;
+    change(answer.at("frames"));
+    const auto judged = world->Judge(answer);
+    return judged ? "" : judged.error().message;
+  };
+  EXPECT_EQ(complaint([](Json&) {}), "");
+  EXPECT_THAT(complaint([](Json& frames) { frames.erase(0); }), HasSubstr("frames"));
+  EXPECT_THAT(complaint([](Json& frames) {
+                frames[2]["rotations"][1] = {1, 1, 0, 0};
+              }),
+              HasSubstr("frames[2].rotations[1]: a quaternion 1.41"));
+  EXPECT_THAT(complaint([](Json& frames) { frames[2]["rotations"].erase(0); }), HasSubstr("frames[2].rotations"));
+  EXPECT_THAT(complaint([](Json& frames) { frames[4]["root_m"][0] = 1e9; }), HasSubstr("frames[4].root_m"));
+}
+
+std::string RefusalOf(const std::string& keys) {
+  const auto study = StudyOf(keys, "interpolation");
+  return study ? "" : ToString(study.error());
+}
+
+TEST(Inbetween, RefusesWhatCannotBeJudged) {
+  EXPECT_THAT(RefusalOf("truth: [assimp:01_03], training: [assimp:01_03]"),
+              HasSubstr("is judged, so it must not be in 'training'"));
+  EXPECT_THAT(RefusalOf("truth: [assimp:01_03], training: [/usr/share/assimp/models/BVH/01_03.bvh]"),
+              HasSubstr("is judged"));
+  EXPECT_THAT(RefusalOf("truth: [builtin:clap], training: [assimp:01_01], window: 9000, gap: 8900"),
+              HasSubstr("no file has a window of 9000 frames"));
+  EXPECT_THAT(RefusalOf(std::string(kFiles) + ", gap: 46"),
+              HasSubstr("gap 46 and future 10 must fit into a window of 65 frames"));
+  EXPECT_THAT(RefusalOf(std::string(kFiles) + ", given: 11"), HasSubstr("given 11 into future"));
+  EXPECT_THAT(RefusalOf(std::string(kFiles) + ", trials: 3"), HasSubstr("has no use"));
+  // Another skeleton has no training clip.
+  const auto study = StudyOf("truth: [assimp:Boxing_Toes], training: [assimp:01_01], rate_hz: 30", "interpolation");
+  ASSERT_TRUE(study);
+  EXPECT_THAT(WorldOf(*study, 0)->WhySkipped().value_or(""), HasSubstr("no training clip has its joints"));
+}
+
+}  // namespace
+}  // namespace etude

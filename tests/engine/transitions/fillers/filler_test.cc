@@ -1,0 +1,153 @@
+#include "engine/transitions/fillers/filler.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "engine/base/named.h"
+#include "engine/transitions/fillers/gap_library.h"
+
+namespace etude {
+namespace {
+
+using Law = std::function<glm::dvec3(const Ends&, double)>;
+
+const Filler& FillerOf(const char* name) { return *FindByName(AllFillers(), name); }
+
+JointTree ThreeJoints() {
+  return {{"root", "knee", "foot"}, {-1, 0, 1}, {{0, 0, 0}, {0, -0.4, 0.05}, {0, -0.4, 0}}, {false, false, false}};
+}
+
+/// The root moves straight on, joints turn about fixed axes, all at constant speed; at rest with speed 0.
+std::vector<TreePose> Steady(std::size_t frames, double speed) {
+  std::vector<TreePose> poses;
+  for (std::size_t f = 0; f < frames; ++f) {
+    const double t = speed * static_cast<double>(f);
+    poses.push_back({glm::dvec3(0.02, 0.001, -0.03) * t + glm::dvec3(1, 0.9, 2),
+                     {TurnOf(glm::dvec3(0, 0.3, 0.1)) * TurnOf(t * glm::dvec3(0.01, 0.02, 0)),
+                      TurnOf(t * glm::dvec3(-0.03, 0, 0.01)), TurnOf(glm::dvec3(1, 0, 0))}});
+  }
+  return poses;
+}
+
+/// A motion that changes its speed and turns everywhere.
+std::vector<TreePose> Wild(std::size_t frames) {
+  std::vector<TreePose> poses;
+  for (std::size_t f = 0; f < frames; ++f) {
+    const double t = 0.1 * static_cast<double>(f);
+    poses.push_back({{std::sin(t), 0.9 + 0.05 * std::cos(2 * t), t * t / 20},
+                     {TurnOf({0.1 * std::sin(3 * t), t / 3, 0}), TurnOf({std::sin(t), 0.2 * std::cos(5 * t), 0}),
+                      TurnOf({0, 0, std::cos(t)})}});
+  }
+  return poses;
+}
+
+double FarthestApart(std::span<const TreePose> a, std::span<const TreePose> b) {
+  double farthest = a.size() == b.size() ? 0 : 1e9;
+  for (std::size_t f = 0; f < std::min(a.size(), b.size()); ++f) {
+    farthest = std::max(farthest, glm::distance(a[f].root, b[f].root));
+    for (std::size_t j = 0; j < a[f].turns.size(); ++j) {
+      farthest = std::max(farthest, glm::length(RotationVector(glm::conjugate(a[f].turns[j]) * b[f].turns[j])));
+    }
+  }
+  return farthest;
+}
+
+/// How far a filler is from the frames that it does not see.
+double ErrorOf(const Filler& filler, const std::vector<TreePose>& poses, std::size_t past, std::size_t missing,
+               std::size_t given, const GapLibrary* library = nullptr) {
+  const JointTree tree = ThreeJoints();
+  const std::span all = poses;
+  const Gap gap{tree, all.first(past), all.subspan(past + missing, given), missing, 30, library};
+  return FarthestApart(filler.fill(gap, {}), all.subspan(past, missing));
+}
+
+TEST(Fillers, FillASteadyMotionExactlyIfTheyKnowSpeeds) {
+  for (const std::size_t given : {1u, 2u}) {
+    EXPECT_LT(ErrorOf(FillerOf("inertialised"), Steady(30, 1), 5, 12, given), 1e-9);
+    EXPECT_LT(ErrorOf(FillerOf("minimum-jerk"), Steady(30, 1), 5, 12, given), 1e-9);
+    EXPECT_LT(ErrorOf(FillerOf("interpolation"), Steady(30, 1), 5, 12, given), 1e-3)
+        << "a chord, not an arc, below 16°";
+    EXPECT_LT(ErrorOf(FillerOf("interpolation"), Steady(30, 4), 5, 12, given), 1e-9) << "arcs above";
+  }
+  EXPECT_GT(ErrorOf(FillerOf("zero-velocity"), Steady(30, 1), 5, 12, 1), 0.3);
+  EXPECT_GT(ErrorOf(FillerOf("dead-blending"), Steady(30, 1), 5, 12, 2), 0.004) << "its velocities decay";
+}
+
+TEST(Fillers, HoldABodyThatStands) {
+  for (const Filler& filler : AllFillers()) {
+    if (filler.needs_library) continue;
+    EXPECT_LT(ErrorOf(filler, Steady(30, 0), 3, 20, 1), 1e-12) << filler.name;
+    EXPECT_LT(ErrorOf(filler, Steady(30, 0), 3, 20, 2), 1e-12) << filler.name;
+    EXPECT_GT(ErrorOf(filler, Wild(60), 3, 20, 1), 0.01) << filler.name;
+  }
+}
+
+/// The largest error of a law's positions and velocities at both ends.
+double ErrorAtEnds(const Law& law, const Ends& ends) {
+  constexpr double kStep = 1e-6;
+  const double last = ends.seconds;
+  const glm::dvec3 first_velocity = (law(ends, kStep) - law(ends, 0)) / kStep;
+  const glm::dvec3 last_velocity = (law(ends, last) - law(ends, last - kStep)) / kStep;
+  return std::max({glm::distance(law(ends, 0), ends.start), glm::distance(law(ends, last), ends.end),
+                   glm::distance(first_velocity, ends.start_velocity),
+                   ends.end_velocity ? glm::distance(last_velocity, *ends.end_velocity) : 0.0});
+}
+
+TEST(Fillers, MeetBothEndsWithTheirVelocities) {
+  const Ends known{{1, 2, 3}, {-4, 0.5, 2}, {0, 2.5, 3.5}, glm::dvec3(3, -2, 1), 0.7},
+      unknown{{1, 2, 3}, {-4, 0.5, 2}, {0, 2.5, 3.5}, {}, 0.7};
+  for (const Ends& ends : {known, unknown}) {
+    const Law laws[] = {[](const Ends& e, double t) { return InertialisedAt(e, t, 0.1); },
+                        [](const Ends& e, double t) { return DeadBlendedAt(e, t, 0.2); }, LeastJerkAt};
+    for (const Law& law : laws) EXPECT_LT(ErrorAtEnds(law, ends), 1e-3);
+  }
+  const Law straight = [](const Ends& e, double t) { return e.start + t / e.seconds * (e.end - e.start); };
+  EXPECT_GT(ErrorAtEnds(straight, known), 1) << "a straight line does not";
+}
+
+double JerkOf(const Ends& ends) {
+  constexpr int kSteps = 400;
+  const double step = ends.seconds / kSteps;
+  double sum = 0;
+  for (int i = 0; i + 3 <= kSteps; ++i) {
+    const auto at = [&](int k) { return LeastJerkAt(ends, step * (i + k)); };
+    const glm::dvec3 third = at(3) - 3.0 * at(2) + 3.0 * at(1) - at(0);
+    sum += glm::dot(third, third);
+  }
+  return sum;
+}
+
+TEST(Fillers, LeaveAnUnknownVelocityWhereTheJerkIsLeast) {
+  Ends ends{{0, 0, 0}, {1, -2, 0}, {0.3, 0.2, -0.4}, {}, 0.5};
+  const double least = JerkOf(ends);
+  EXPECT_GT(least, 0);
+  for (double x = -4; x <= 4; x += 0.5) {
+    for (double y = -4; y <= 4; y += 0.5) {
+      ends.end_velocity = glm::dvec3(x, y, -1.5);
+      EXPECT_GT(JerkOf(ends), 0.999 * least);
+    }
+  }
+}
+
+TEST(Fillers, FindAGapInALibraryThatHoldsItTurnedAndMoved) {
+  const std::vector<TreePose> poses = Wild(80);
+  TreeMotion held{ThreeJoints(), 30, Wild(80)}, other{ThreeJoints(), 30, Steady(80, 1)};
+  const glm::dquat turn = TurnOf({0, 1.2, 0});
+  for (TreePose& pose : held.poses)
+    pose = {turn * pose.root + glm::dvec3(4, 0, -7), {turn * pose.turns[0], pose.turns[1], pose.turns[2]}};
+  GapLibrary library;
+  library.Add(other);
+  EXPECT_GT(ErrorOf(FillerOf("nearest-gap"), poses, 10, 20, 1, &library), 0.1);
+  library.Add(held);
+  EXPECT_LT(ErrorOf(FillerOf("nearest-gap"), poses, 10, 20, 1, &library), 1e-9);
+  EXPECT_EQ(ErrorOf(FillerOf("nearest-gap"), poses, 10, 20, 1), 1e9) << "without a library nothing is filled";
+  TreeMotion renamed = held;
+  renamed.tree.names[2] = "toe";
+  GapLibrary of_another_tree;
+  of_another_tree.Add(renamed);
+  EXPECT_EQ(ErrorOf(FillerOf("nearest-gap"), poses, 10, 20, 1, &of_another_tree), 1e9);
+}
+
+}  // namespace
+}  // namespace etude
