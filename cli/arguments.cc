@@ -98,6 +98,10 @@ const std::map<std::string_view, std::vector<std::string_view>>& ExamplesByComma
       {"bridge",
        {"etude bridge 'mocap/*.bvh' -o tags.xml", "etude bridge 'mocap/*.bvh' --json",
         "etude bridge 'mocap/*.bvh' --check tags.xml"}},
+      {"transition",
+       {"etude transition walk.bvh kick.bvh --at 2.5 -o out.bvh",
+        "etude transition builtin:groove builtin:clap --at 1 -o out.bvh --choice motion-matching --join inertialised-spring",
+        "etude transition lie.bvh run.bvh --at 3 -o out.glb --library 'mocap/*.bvh' --wait 2"}},
       {"train",
        {"etude train 'mocap/*.bvh' -o fuzzy.yaml", "etude train 'builtin:*' -o fuzzy.yaml --method adaptive",
         "etude train 'builtin:*' -o learnt.yaml --recogniser"}},
@@ -121,6 +125,9 @@ const std::map<std::string_view, std::vector<std::string_view>>& ExamplesByComma
       {"calibrate",
        {"etude calibrate --print board.png", "etude calibrate left/ right/ -o rig.yaml",
         "etude calibrate points.csv --size 1920x1080 -o rig.yaml"}},
+      {"forecast",
+       {"etude forecast rig.yaml", "etude forecast rig.yaml --noise-px 8 --size 4,2,4 --report rig.html",
+        "etude forecast Calib.toml --dropout 0.1 --picture map.png --table map.csv"}},
       {"capture",
        {"etude capture --rig rig.yaml left.mp4 right.mp4 --keypoints json/ -o motion.bvh",
         "etude capture --rig rig.yaml left.mp4 right.mp4 --silhouettes -o motion.bvh",
@@ -288,9 +295,9 @@ void GroupCommands(CLI::App& app) {
   const CommandGroup groups[] = {
       {"Run and judge",
        {"run", "evaluate", "scenario", "list", "report", "rows", "compare", "gate", "replay", "verify", "merge", "check-method"}},
-      {"Your motions", {"clip", "bridge", "train", "crowd"}},
+      {"Your motions", {"clip", "bridge", "transition", "train", "crowd"}},
       {"Your recordings of people", {"teach", "recognise", "coach", "sensor"}},
-      {"Your cameras", {"calibrate", "capture"}},
+      {"Your cameras", {"calibrate", "forecast", "capture"}},
       {"Share", {"cite", "export", "score", "completion"}}};
   for (const CommandGroup& group : groups) {
     for (const std::string& command : group.commands) app.get_subcommand(command)->group(group.name);
@@ -317,6 +324,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineList(app, action);
   DefineClip(app, action);
   DefineBridge(app, action);
+  DefineTransition(app, action);
   DefineCrowd(app, action);
   DefineTrain(app, action);
   DefineTeach(app, action);
@@ -324,6 +332,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineCoach(app, action);
   DefineSensor(app, action);
   DefineCalibrate(app, action);
+  DefineForecast(app, command_line, action);
   DefineCapture(app, command_line, action);
   DefineCite(app, action);
   DefineExport(app, action);

@@ -20,8 +20,9 @@ constexpr const char* kCaptureExamples =
     "folder of\n"
     "OpenPose's JSON or a COCO keypoint file), by marks drawn by hand (--marks: a folder of annotation\n"
     "pictures for each film), or by the films alone (--silhouettes: an adult's body is fitted to the outline of the\n"
-    "person who moves; --rooms names pictures of the empty room; without it, the room is estimated from the films). "
-    "Each entry's\n"
+    "person who moves; --rooms names pictures of the empty room; without it, the room is estimated from the films;\n"
+    "--masks names the person's masks by any segmenter: black and white, soft, or numbers, of which --mask-id is the "
+    "person). Each entry's\n"
     "name begins with its film's: cam01.mp4, cam01_json/, cam01.png.\n\n"
     "The distortion of lenses is removed. Persons are matched over cameras and time; each point is computed from "
     "all\ncameras that agree on it, weighted by confidence; gaps up to --longest-gap are bridged. Then a body whose "
@@ -50,7 +51,8 @@ constexpr const char* kCaptureExamples =
     "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --keypoints json/ -o motion.bvh\n"
     "  etude capture --rig Calib.toml cam*.mp4 --keypoints openpose/ --layout body_25b --fit letterbox \\\n"
     "                -o motion.trc --points keypoints.trc --film overlay.mp4 --smooth 6 --report page.html\n"
-    "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --silhouettes --stature 1.8 -o motion.bvh --report page.html";
+    "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --silhouettes --stature 1.8 -o motion.bvh --report page.html\n"
+    "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --silhouettes --masks masks/ --mask-id 1 -o motion.bvh";
 
 struct CaptureCommandOptions {
   CaptureFilmsOptions capture;
@@ -115,8 +117,17 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
                                      "Use the outlines of the only person, who moves in front of stationary cameras; "
                                      "with --keypoints, these then determine front and back and the limbs' lengths")
                           ->excludes(marks);
+  auto* masks = command
+                    ->add_option("--masks", options->masks,
+                                 "A folder with the person's masks for each film, of any segmenter: a folder of PNG files "
+                                 "or a film; then the outlines are theirs")
+                    ->needs(silhouettes);
+  command->add_option("--mask-id", options->mask_id, "The number of the person's pixels in masks of several people")
+      ->needs(masks)
+      ->check(CLI::Range(1, 255));
   command->add_option("--rooms", options->rooms, "A folder with a picture of the empty room for each film")
-      ->needs(silhouettes);
+      ->needs(silhouettes)
+      ->excludes(masks);
   command
       ->add_flag("--accept-doubtful", options->accepts_doubtful,
                  "Write a motion even if the outlines contradict it in most frames (otherwise: exit code 1)")

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -85,9 +86,27 @@ Performer PerformerNamed(const std::string& name) {
   return name == "none" ? Performer::kNone : Performer::kFile;
 }
 
+/// Writes the files of a motion into the folder of a data set. Files of the set itself that are there stay.
+Result<void> WriteBids(const BidsFiles& files, const std::filesystem::path& folder, bool overwrite) {
+  std::vector<std::pair<std::filesystem::path, const std::string*>> written;
+  for (const auto& [name, bytes] : files) {
+    const std::filesystem::path path = folder / name;
+    const bool is_of_set = name.find('/') == std::string::npos;
+    if (is_of_set && std::filesystem::exists(path)) continue;
+    RETURN_IF_ERROR(CheckOutput(path.string(), overwrite));
+    written.emplace_back(path, &bytes);
+  }
+  for (const auto& [path, bytes] : written) RETURN_IF_ERROR(WriteFileAtomically(path, *bytes));
+  return {};
+}
+
 Result<int> ClipConvertCommand(const ClipConvertOptions& given) {
-  RETURN_IF_ERROR(CheckOutput(given.output, given.overwrite));
-  ASSIGN_OR_RETURN(const auto format, FormatOfName(given.output));
+  const bool is_bids = given.output.ends_with('/') || std::filesystem::is_directory(given.output);
+  MotionFormat format = MotionFormat::kBids;
+  if (!is_bids) {
+    RETURN_IF_ERROR(CheckOutput(given.output, given.overwrite));
+    ASSIGN_OR_RETURN(format, FormatOfName(given.output));
+  }
   ASSIGN_OR_RETURN(auto reading, ReadOptions(given.reading));
   ASSIGN_OR_RETURN(const auto trim, ReadTrim(given.trim));
   ASSIGN_OR_RETURN(const auto references, ExpandReferences({given.input}));
@@ -102,10 +121,15 @@ Result<int> ClipConvertCommand(const ClipConvertOptions& given) {
                          .ground = given.ground,
                          .retarget = given.retarget,
                          .performer = PerformerNamed(given.character),
-                         .open = std::move(reading)};
+                         .open = std::move(reading),
+                         .version = ETUDE_VERSION};
   if (given.rate_hz > 0) options.rate_hz = given.rate_hz;
   ASSIGN_OR_RETURN(const auto converted, ConvertClips(std::move(clips), format, options));
-  RETURN_IF_ERROR(WriteFileAtomically(given.output, converted.bytes));
+  if (is_bids) {
+    RETURN_IF_ERROR(WriteBids(converted.files, given.output, given.overwrite));
+  } else {
+    RETURN_IF_ERROR(WriteFileAtomically(given.output, converted.bytes));
+  }
   if (given.as_json) {
     RETURN_IF_ERROR(PrintFacts("clip convert", {{"clip", references.front()},
                                                 {"output", given.output},
@@ -121,12 +145,13 @@ Result<int> ClipConvertCommand(const ClipConvertOptions& given) {
 
 void DefineConvert(CLI::App& clip, Action& action) {
   auto options = std::make_shared<ClipConvertOptions>();
-  CLI::App* command = clip.add_subcommand("convert", "Convert a clip to BVH, GLB, TRC, CSV, C3D, NPZ or MOT");
+  CLI::App* command = clip.add_subcommand("convert", "Convert a clip to BVH, GLB, TRC, CSV, C3D, NPZ, MOT or Motion-BIDS");
   command->add_option("input", options->input, "A clip")->required();
   command
       ->add_option(
           "output", options->output,
-          "The file to write: .bvh, .glb, .trc (OpenSim's markers), .mot (its angles), .csv, .c3d or .npz (NumPy)")
+          "The file to write: .bvh, .glb, .trc (OpenSim's markers), .mot (its angles), .csv, .c3d, .npz (NumPy); or a "
+          "folder, for Motion-BIDS: data/")
       ->required();
   command->add_option("--trim", options->trim, "Only the part FROM:TO in seconds, such as 1.5:4 or 2:");
   command
@@ -146,7 +171,7 @@ void DefineConvert(CLI::App& clip, Action& action) {
   command->footer(
       "\nWithout --ground, --retarget or --character a file keeps its own skeleton, unit and axes (GLB: metres, Y "
       "up).\n"
-      "TRC, CSV, C3D and NPZ hold the twenty joints of the body, MOT the angles between its limbs.");
+      "TRC, CSV, C3D, NPZ and Motion-BIDS hold the twenty joints of the body, MOT the angles between its limbs.");
   command->callback([=, &action] { action = [=] { return Finish(ClipConvertCommand(*options)); }; });
 }
 

@@ -92,6 +92,8 @@ void DefineGrades(CLI::App& clip, Action& action);
 /// `etude bridge`: finds bridge frames of clips and writes a tags file and a summary; or checks a tags file (exit code
 /// 2).
 void DefineBridge(CLI::App& app, Action& action);
+/// `etude transition FROM TO --at S -o FILE`: leads from one clip into another; exit code 1 if there is no way.
+void DefineTransition(CLI::App& app, Action& action);
 /// `etude train`: learns a fuzzy system or a recogniser from clips, and prints its scores on clips that were held out.
 void DefineTrain(CLI::App& app, Action& action);
 /// `etude teach`: learns moves from recordings.
@@ -106,6 +108,8 @@ void DefineSheet(CLI::App& sensor, Action& action);
 void DefineCalibrate(CLI::App& app, Action& action);
 /// `etude capture`: finds the motion of a person in films by several cameras.
 void DefineCapture(CLI::App& app, const std::string& command_line, Action& action);
+/// `etude forecast RIG`: tells which error a rig's captures will have.
+void DefineForecast(CLI::App& app, const std::string& command_line, Action& action);
 /// `etude coach`: coaches a song live from a skeleton stream.
 void DefineCoach(CLI::App& app, Action& action);
 /// `etude completion SHELL`, and the hidden command with which packages make their manual pages.

@@ -8,6 +8,7 @@
 
 #include "bench/scenario/methods.h"
 #include "engine/base/names.h"
+#include "engine/retargeting/map_file.h"
 
 namespace etude {
 namespace {

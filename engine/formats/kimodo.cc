@@ -1,48 +1,51 @@
 #include "engine/formats/kimodo.h"
 
 #include <cmath>
+#include <initializer_list>
+#include <string_view>
 
 
 namespace etude {
 namespace {
 
 struct SomaJoint {
-  const char* name;
+  std::string name;
   int parent;
 };
+using SomaSkeleton = std::vector<SomaJoint>;
 
-/// somaskel30.
-constexpr SomaJoint kSoma[] = {{"Hips", -1},
-                               {"Spine1", 0},
-                               {"Spine2", 1},
-                               {"Chest", 2},
-                               {"Neck1", 3},
-                               {"Neck2", 4},
-                               {"Head", 5},
-                               {"Jaw", 6},
-                               {"LeftEye", 6},
-                               {"RightEye", 6},
-                               {"LeftShoulder", 3},
-                               {"LeftArm", 10},
-                               {"LeftForeArm", 11},
-                               {"LeftHand", 12},
-                               {"LeftHandThumbEnd", 13},
-                               {"LeftHandMiddleEnd", 13},
-                               {"RightShoulder", 3},
-                               {"RightArm", 16},
-                               {"RightForeArm", 17},
-                               {"RightHand", 18},
-                               {"RightHandThumbEnd", 19},
-                               {"RightHandMiddleEnd", 19},
-                               {"LeftLeg", 0},
-                               {"LeftShin", 22},
-                               {"LeftFoot", 23},
-                               {"LeftToeBase", 24},
-                               {"RightLeg", 0},
-                               {"RightShin", 26},
-                               {"RightFoot", 27},
-                               {"RightToeBase", 28}};
-constexpr std::size_t kSomaJoints = std::size(kSoma);
+/// Adds joints, each the child of the one before; the first one is the child of `parent`. Returns the last one.
+int AddChain(SomaSkeleton& joints, int parent, const std::string& prefix, std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names) {
+    joints.push_back({prefix + std::string(name), parent});
+    parent = static_cast<int>(joints.size()) - 1;
+  }
+  return parent;
+}
+
+/// Returns the skeleton with whole fingers, somaskel77, or the one with two finger tips a hand, somaskel30.
+SomaSkeleton MakeSoma(bool is_whole) {
+  SomaSkeleton joints;
+  const int head = AddChain(joints, -1, "", {"Hips", "Spine1", "Spine2", "Chest", "Neck1", "Neck2", "Head"});
+  constexpr int kHips = 0, kChest = 3;
+  if (is_whole) joints.push_back({"HeadEnd", head});
+  for (const char* name : {"Jaw", "LeftEye", "RightEye"}) joints.push_back({name, head});
+  for (const std::string side : {"Left", "Right"}) {
+    const int hand = AddChain(joints, kChest, side, {"Shoulder", "Arm", "ForeArm", "Hand"});
+    if (!is_whole) {
+      for (const char* name : {"HandThumbEnd", "HandMiddleEnd"}) joints.push_back({side + name, hand});
+      continue;
+    }
+    AddChain(joints, hand, side + "HandThumb", {"1", "2", "3", "End"});
+    for (const char* finger : {"HandIndex", "HandMiddle", "HandRing", "HandPinky"})
+      AddChain(joints, hand, side + finger, {"1", "2", "3", "4", "End"});
+  }
+  for (const std::string side : {"Left", "Right"}) {
+    const int toes = AddChain(joints, kHips, side, {"Leg", "Shin", "Foot", "ToeBase"});
+    if (is_whole) joints.push_back({side + "ToeEnd", toes});
+  }
+  return joints;
+}
 
 }  // namespace
 
@@ -54,36 +57,39 @@ Result<Clip> ReadKimodo(const Npz& arrays, const std::string& file) {
   // Check the shapes and the values.
   const NumberArray &places = *arrays.Find("posed_joints"), &matrices = *arrays.Find("global_rot_mats");
   const std::size_t frames = places.shape.empty() ? 0 : places.shape[0];
-  if (frames == 0 || places.shape != std::vector<std::size_t>{frames, kSomaJoints, 3} ||
-      matrices.shape != std::vector<std::size_t>{frames, kSomaJoints, 3, 3}) {
-    return Fail({file}, "posed_joints {}, global_rot_mats {}; allowed: frames × 30 × 3 and frames × 30 × 3 × 3",
+  constexpr std::size_t kWholeJoints = 77;
+  const SomaSkeleton soma = MakeSoma(places.shape.size() > 1 && places.shape[1] == kWholeJoints);
+  const std::size_t joints = soma.size();
+  if (frames == 0 || places.shape != std::vector<std::size_t>{frames, joints, 3} ||
+      matrices.shape != std::vector<std::size_t>{frames, joints, 3, 3}) {
+    return Fail({file}, "posed_joints {}, global_rot_mats {}; allowed: frames × 30 × 3 and frames × 30 × 3 × 3, or 77",
                 ShapeText(places), ShapeText(matrices));
   }
   const auto place = [&](std::size_t frame, std::size_t joint) {
-    const double* v = &places.values[3 * (frame * kSomaJoints + joint)];
+    const double* v = &places.values[3 * (frame * joints + joint)];
     return glm::dvec3(v[0], v[1], v[2]);
   };
   const auto matrix = [&](std::size_t frame, std::size_t joint) {
-    const double* v = &matrices.values[9 * (frame * kSomaJoints + joint)];  // row by row
+    const double* v = &matrices.values[9 * (frame * joints + joint)];  // row by row
     return glm::dmat3(v[0], v[3], v[6], v[1], v[4], v[7], v[2], v[5], v[8]);
   };
   constexpr double kRounding = 1e-3, kMaxPlace_m = 1e6;
   for (std::size_t f = 0; f < frames; ++f) {
-    for (std::size_t j = 0; j < kSomaJoints; ++j) {
+    for (std::size_t j = 0; j < joints; ++j) {
       const glm::dvec3 p = place(f, j);
       if (!(std::abs(p.x) + std::abs(p.y) + std::abs(p.z) <= kMaxPlace_m)) {
-        return Fail({file}, "joint {} of frame {} is at {}, {}, {}; allowed: metres within ±10⁶", kSoma[j].name, f, p.x,
+        return Fail({file}, "joint {} of frame {} is at {}, {}, {}; allowed: metres within ±10⁶", soma[j].name, f, p.x,
                     p.y, p.z);
       }
       if (std::abs(glm::determinant(matrix(f, j)) - 1) <= kRounding) continue;
-      return Fail({file}, "the matrix of joint {} in frame {} is no rotation", kSoma[j].name, f);
+      return Fail({file}, "the matrix of joint {} in frame {} is no rotation", soma[j].name, f);
     }
   }
   // The skeleton at rest: the first frame's offsets with no rotation.
   Clip clip{.name = "kimodo", .skeleton = {}, .rate_hz = 30, .frames = {}};
-  for (std::size_t j = 0; j < kSomaJoints; ++j) {
-    const int parent = kSoma[j].parent;
-    Joint joint{.name = kSoma[j].name, .parent = parent, .rest = {}};
+  for (std::size_t j = 0; j < joints; ++j) {
+    const int parent = soma[j].parent;
+    Joint joint{.name = soma[j].name, .parent = parent, .rest = {}};
     if (parent >= 0) {
       joint.rest.translation = glm::transpose(matrix(0, parent)) * (place(0, j) - place(0, parent));
     }
@@ -94,8 +100,8 @@ Result<Clip> ReadKimodo(const Npz& arrays, const std::string& file) {
   for (std::size_t f = 0; f < frames; ++f) {
     LocalPose& pose = clip.frames.emplace_back(rest);
     pose[0].translation = place(f, 0);
-    for (std::size_t j = 0; j < kSomaJoints; ++j) {
-      const int parent = kSoma[j].parent;
+    for (std::size_t j = 0; j < joints; ++j) {
+      const int parent = soma[j].parent;
       const glm::dmat3 above = parent < 0 ? glm::dmat3(1) : matrix(f, parent);
       pose[j].rotation = glm::normalize(glm::quat_cast(glm::transpose(above) * matrix(f, j)));
     }

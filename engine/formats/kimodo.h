@@ -13,8 +13,8 @@ namespace etude {
 /// Returns true if the arrays are a motion that Kimodo (nv-tlabs/kimodo) generated.
 bool IsKimodoNpz(const Npz& arrays);
 
-/// Reads `posed_joints` (frames × 30 × 3, metres, Y up) and `global_rot_mats` (frames × 30 × 3 × 3) on Kimodo's
-/// skeleton somaskel30, whose rotations are the identity in its T-pose. Bones keep their lengths of the first frame.
+/// Reads `posed_joints` (frames × joints × 3, metres, Y up) and `global_rot_mats` (frames × joints × 3 × 3) on Kimodo's
+/// skeletons somaskel30 and somaskel77, whose rotations are the identity in their T-pose. Bones keep their lengths of the first frame.
 /// The file tells no rate: the model's is 30 Hz. Fails for other shapes, values that are not finite, and matrices that
 /// are no rotations.
 Result<Clip> ReadKimodo(const Npz& arrays, const std::string& file);

@@ -14,7 +14,7 @@
 namespace etude {
 
 /// Returns the layouts of joints that arrays may have: "etude" (20), "smpl" (22 or 24), "h36m" (17), "coco" (17),
-/// "body_25", "halpe_26".
+/// "body_25", "halpe_26", "mhr70" and "mhr" (127).
 std::vector<std::string> JointLayoutNames();
 
 /// Returns the names of a layout's joints in its order; a joint that plays a role has the role's name. `joints` selects
@@ -28,6 +28,10 @@ std::vector<std::string> JointsOfLayout(std::string_view layout, std::size_t joi
 /// and positions beyond ±10⁹.
 Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional<std::string>& layout,
                                    const std::string& file, std::string& note);
+
+/// Returns the array of SAM 3D Body's results that holds joints, moved to the camera's frame by `pred_cam_t` (frames × 3) if
+/// that is there: `pred_joint_coords` (127), else `pred_keypoints_3d` (70); nothing if the arrays are others.
+std::optional<NumberArray> JointsOfSam(const Npz& arrays);
 
 /// Writes a body's motion as an .npz file with the arrays, in the order of `names`: `positions` (T × 20 × 3, metres, Y
 /// up), `translations` and `rotations` relative to each joint's parent (T × 20 × 3; T × 20 × 4, w x y z), `offsets` (at

@@ -123,12 +123,12 @@ class Recovery {
   }
 
   Result<UnmarkedMotion> Run() {
-    Frames all(take_.pictures[0].size());
+    Frames all(FrameCount());
     // Alternate between estimating rooms and tracking the body in some frames, then track it in all.
     for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
     const Frames some = EvenlySpaced(all.size(), options_.samples);
     rooms_.assign(take_.rooms.begin(), take_.rooms.end());
-    const bool knows_rooms = !rooms_.empty();
+    const bool knows_rooms = !rooms_.empty() || !take_.masks.empty();  // nothing to estimate
     if (!knows_rooms) EstimateRooms(some, {});
     for (int round = 1; round < options_.rounds; ++round) {
       if (knows_rooms && (KnownStature(take_) || round > 1)) break;
@@ -140,6 +140,8 @@ class Recovery {
   }
 
  private:
+  std::size_t FrameCount() const { return take_.masks.empty() ? take_.pictures[0].size() : take_.masks[0].size(); }
+
   std::vector<ColourImage> PicturesOf(std::size_t camera, const Frames& frames) const {
     std::vector<ColourImage> pictures;
     for (const std::size_t k : frames) pictures.push_back(take_.pictures[camera][k]);
@@ -219,16 +221,17 @@ class Recovery {
     masks_.clear();
     silhouettes_.clear();
     for (std::size_t c = 0; c < take_.cameras.size(); ++c) {
-      PersonFinder finder(rooms_[c], options_.person);
+      std::optional<PersonFinder> finder;
+      if (take_.masks.empty()) finder.emplace(rooms_[c], options_.person);
       std::vector<Mask>& masks = masks_.emplace_back();
       std::vector<Silhouette>& silhouettes = silhouettes_.emplace_back();
       for (const std::size_t k : frames) {
-        masks.push_back(finder.Find(take_.pictures[c][k]));
+        masks.push_back(finder ? finder->Find(take_.pictures[c][k]) : take_.masks[c][k]);
         silhouettes.push_back(MakeSilhouette(masks.back(), {.mask_pixel = kMaskPixel}));
       }
     }
     // Scale the limits of motion per frame to the rate of these frames.
-    const double rate = take_.rate_hz * static_cast<double>(frames.size()) / take_.pictures[0].size();
+    const double rate = take_.rate_hz * static_cast<double>(frames.size()) / static_cast<double>(FrameCount());
     TrackOptions track = options_.track;
     track.angle_change *= kJudgedRateHz / rate;
     track.position_change_m *= kJudgedRateHz / rate;
@@ -277,7 +280,7 @@ class Recovery {
     const auto first = std::ranges::find_if(track.frames, [](const auto& fit) { return fit.has_value(); });
     if (first == track.frames.end()) {
       return Fail({}, "there is no frame in which two films show a moving person{}",
-                  take_.rooms.empty() ? "; a person who never moves cannot be distinguished from the room" : "");
+                  take_.rooms.empty() && take_.masks.empty() ? "; a person who never moves cannot be distinguished from the room" : "");
     }
     // Poses and cost; untracked frames repeat the last pose.
     BodyPose last = ToBodyPose(track.body, (*first)->state);
@@ -323,7 +326,9 @@ class Recovery {
 }  // namespace
 
 Result<UnmarkedMotion> RecoverUnmarked(const UnmarkedTake& take, const UnmarkedOptions& options) {
-  assert(take.cameras.size() >= 2 && take.pictures.size() == take.cameras.size() && !take.pictures[0].empty());
+  assert(take.cameras.size() >= 2);
+  assert(take.masks.empty() ? take.pictures.size() == take.cameras.size() && !take.pictures[0].empty()
+                            : take.masks.size() == take.cameras.size() && !take.masks[0].empty());
   assert(take.rooms.empty() || take.rooms.size() == take.cameras.size());
   return Recovery(take, options).Run();
 }

@@ -49,6 +49,9 @@ struct UnmarkedTake {
   std::span<const std::vector<ColourImage>> pictures;
   /// The empty room as seen by each camera; if empty, rooms are estimated from the pictures.
   std::span<const ColourImage> rooms;
+  /// `masks[camera][frame]`: the person in pictures of the cameras' sizes, from any segmenter. Then `pictures` and `rooms`
+  /// are not used and may be empty; if this is empty, the person is found in `pictures`.
+  std::span<const std::vector<Mask>> masks = {};
   double rate_hz = 30;
   /// The person's stature, metres; if empty, it is estimated from the pictures.
   std::optional<double> stature_m;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <map>
 
 #include "engine/base/names.h"
@@ -12,6 +13,7 @@
 #include "engine/formats/deepmimic.h"
 #include "engine/formats/gltf/gltf.h"
 #include "engine/formats/kimodo.h"
+#include "engine/formats/motion_bids.h"
 #include "engine/formats/npz.h"
 #include "engine/formats/text_scanner.h"
 #include "engine/retargeting/joint_arrays.h"
@@ -21,6 +23,7 @@
 #include "io/clips/marker_files.h"
 #include "io/clips/other_files.h"
 #include "io/files/files.h"
+#include "io/files/json.h"
 #include "io/images/image_files.h"
 #include "sim/camera/jpeg.h"
 #include "sim/choreography/canonical_body.h"
@@ -131,11 +134,33 @@ std::optional<JointMapOverrides> RolesOfBones(const std::map<std::string, int>& 
   return roles.joints.empty() ? std::nullopt : std::optional(std::move(roles));
 }
 
+/// Reads the rate from the _motion.json of Motion-BIDS.
+Result<double> BidsRate(const std::string& file, CappedReader& reader) {
+  ASSIGN_OR_RETURN(const auto text, reader.Read(file));
+  ASSIGN_OR_RETURN(const Json json, ReadJson(text, file));
+  const auto rate = json.is_object() ? json.find("SamplingFrequency") : json.end();
+  constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;
+  const double rate_hz = rate != json.end() && rate->is_number() ? rate->get<double>() : 0;
+  if (rate_hz >= kMinRate_hz && rate_hz <= kMaxRate_hz) return rate_hz;
+  return Fail({file}, "SamplingFrequency: allowed: a number from {:g} to {:g} Hz", kMinRate_hz, kMaxRate_hz);
+}
+
+/// Reads an array of joints, whose rate the file does not tell.
+Result<ClipFile> FileOfArray(const NumberArray& array, const std::optional<std::string>& layout, const std::string& path,
+                             const OpenOptions& options) {
+  std::string note;
+  ASSIGN_OR_RETURN(const auto joints, JointsOfArray(array, layout, path, note));
+  ASSIGN_OR_RETURN(auto file, FileOfMarkers(ClipFormat::kNpy, joints, path, options, ArrayUp()));
+  for (MadeBody& body : file.bodies) body.changes.push_back(note);
+  file.has_rate = false;
+  return file;
+}
+
 }  // namespace
 
 std::string_view FormatName(ClipFormat format) {
   constexpr std::array kNames = {"BVH", "glTF", "GLB", "FBX", "DeepMimic", "Acclaim", "AMASS",     "C3D",
-                                 "TRC", "CSV",  "NPZ", "NPY", "Motive",    "MOT",     "recording", "built-in"};
+                                 "TRC", "CSV",  "NPZ", "NPY", "Motive",    "MOT",     "Motion-BIDS", "recording", "built-in"};
   return kNames[static_cast<std::size_t>(format)];
 }
 
@@ -164,17 +189,22 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
       file.remarks.push_back("Kimodo's arrays, which tell no rate: 30 Hz is its model's");
       return file;
     }
+    if (const auto joints = JointsOfSam(arrays)) return FileOfArray(*joints, layout, path, options);
     ASSIGN_OR_RETURN(auto clip, ReadAmass(arrays, path));
     return FileOfOne(ClipFormat::kAmass, std::move(clip));
   }
   if (IsNpy(bytes)) {
     ASSIGN_OR_RETURN(const auto array, ReadNpy(bytes, path));
-    std::string note;
-    ASSIGN_OR_RETURN(const auto joints, JointsOfArray(array, layout, path, note));
-    ASSIGN_OR_RETURN(file, FileOfMarkers(ClipFormat::kNpy, joints, path, options, ArrayUp()));
-    for (MadeBody& body : file.bodies) body.changes.push_back(note);
-    file.has_rate = false;
-    return file;
+    return FileOfArray(array, layout, path, options);
+  }
+  // Motion-BIDS: rows of numbers, whose names and rate are in two files beside.
+  constexpr std::string_view kBidsEnd = "_motion.tsv";
+  if (path.ends_with(kBidsEnd)) {
+    const std::string stem = path.substr(0, path.size() - kBidsEnd.size());
+    ASSIGN_OR_RETURN(const auto channels, reader.Read(stem + "_channels.tsv"));
+    ASSIGN_OR_RETURN(const double rate_hz, BidsRate(stem + "_motion.json", reader));
+    ASSIGN_OR_RETURN(auto joints, ReadMotionBids(bytes, channels, rate_hz, {path, stem + "_channels.tsv"}));
+    return FileOfMarkers(ClipFormat::kBids, std::move(joints), path, options, ArrayUp());
   }
   // Markers, and recordings of runs.
   if (auto markers = ReadMarkers(bytes, path, options)) return *std::move(markers);
@@ -223,7 +253,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     return Fail(
         scanner.At(first),
         "{}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), FBX, Acclaim's .amc, AMASS's .npz, "
-        "C3D, TRC, joint CSV, Motive's CSV, .npy of joints, .mot of ours, DeepMimic's motions",
+        "C3D, TRC, joint CSV, Motive's CSV, _motion.tsv of Motion-BIDS, .npy of joints, .mot of ours, DeepMimic's motions",
         DescribeOtherFile(bytes, first.text));
   }
   ASSIGN_OR_RETURN(auto clip, ReadBvh(bytes, path, &file.remarks));

@@ -33,11 +33,12 @@ enum class ClipFormat {
   kNpy,
   kMotive,
   kMot,
+  kBids,
   kRecording,
   kBuiltin
 };
 /// Returns the name of a format: "BVH", "glTF", "GLB", "FBX", "DeepMimic", "Acclaim", "AMASS", "C3D", "TRC", "CSV",
-/// "NPZ", "NPY", "Motive", "MOT", "recording" or "built-in".
+/// "NPZ", "NPY", "Motive", "MOT", "Motion-BIDS", "recording" or "built-in".
 std::string_view FormatName(ClipFormat format);
 
 /// How a clip that is a body already was made.

@@ -160,6 +160,7 @@ Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat fo
     const std::string& name = opened.source.name;
     // Write the formats that hold one motion of joints.
     if (format == MotionFormat::kTrc) converted.bytes = WriteTrc(motion, name);
+    if (format == MotionFormat::kBids) converted.files = WriteMotionBids(motion, name, options.version);
     if (format == MotionFormat::kCsv) converted.bytes = WriteJointCsv(motion);
     if (format == MotionFormat::kC3d) converted.bytes = WriteC3d(motion);
     // The rest pose of a body with its own proportions is the canonical stance, scaled to its limb lengths.

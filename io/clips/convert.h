@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/formats/motion_bids.h"
 #include "engine/motion/clip.h"
 #include "io/clips/open_clip.h"
 
@@ -22,8 +23,9 @@ Result<TimeSpan> ParseTimeSpan(const std::string& text);
 /// Returns this part of a clip, or the whole clip without a span. An open end is the end of the clip.
 Result<Clip> TrimTo(const Clip& clip, const std::optional<TimeSpan>& span);
 
-enum class MotionFormat { kBvh, kGlb, kTrc, kCsv, kC3d, kNpz, kMot };
-/// Returns the format of a file by the extension of its name.
+/// kBids is a folder of files.
+enum class MotionFormat { kBvh, kGlb, kTrc, kCsv, kC3d, kNpz, kMot, kBids };
+/// Returns the format of a file by the extension of its name. It is never kBids.
 Result<MotionFormat> FormatOfName(const std::string& path);
 
 /// The figure that performs a converted motion.
@@ -37,11 +39,13 @@ struct ConvertOptions {
   bool retarget = false;  ///< write a body with the canonical proportions
   Performer performer = Performer::kFile;
   OpenOptions open;
+  std::string version = "";  ///< the program's, for formats that hold it
 };
 
 /// The bytes of the converted file, and what was done, in plain words.
 struct Converted {
   std::string bytes;
+  BidsFiles files = {};  ///< for kBids, instead of `bytes`
   std::string note;  ///< "own skeleton", "as a body: Plug-in Gait", …
   /// Every change that was made to the file's content; each once, also for several clips.
   std::vector<std::string> changes;

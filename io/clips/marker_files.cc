@@ -118,7 +118,7 @@ std::optional<UpRule> UpRuleOf(ClipFormat format) {
 
 bool IsOfMarkers(ClipFormat format) {
   constexpr std::array kFormats = {ClipFormat::kC3d, ClipFormat::kTrc, ClipFormat::kCsv, ClipFormat::kNpy,
-                                   ClipFormat::kMotive};
+                                   ClipFormat::kMotive, ClipFormat::kBids};
   return std::ranges::find(kFormats, format) != kFormats.end();
 }
 

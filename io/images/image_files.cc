@@ -152,9 +152,10 @@ std::string EncodePpm(const ColourImage& image) {
   return bytes.append(reinterpret_cast<const char*>(image.pixels.data()), 3 * image.pixels.size());
 }
 
-Result<ColourImage> LoadColourPng(const std::string& path) {
-  ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(path, kMaxPictureFileBytes));
-  png_image png{};
+namespace {
+
+/// Reads the head of a PNG file, and refuses pictures that are too large. `png` refers to `bytes` from then on.
+Result<void> BeginPng(const std::string& bytes, const std::string& path, png_image& png) {
   png.version = PNG_IMAGE_VERSION;
   if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) {
     return Fail({path}, "not a PNG picture: {}", png.message);
@@ -163,6 +164,31 @@ Result<ColourImage> LoadColourPng(const std::string& path) {
     png_image_free(&png);
     return Fail({path}, "{} x {} pixels; allowed: at most {} a side", png.width, png.height, kMaxPictureSide);
   }
+  return {};
+}
+
+}  // namespace
+
+Result<MaskPicture> LoadMaskPng(const std::string& path) {
+  ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(path, kMaxPictureFileBytes));
+  png_image png{};
+  RETURN_IF_ERROR(BeginPng(bytes, path, png));
+  // A palette is read as one, in its own order; its pixels stay indices.
+  MaskPicture mask{.values = {static_cast<int>(png.width), static_cast<int>(png.height)},
+                   .is_indexed = (png.format & PNG_FORMAT_FLAG_COLORMAP) != 0};
+  png.format = mask.is_indexed ? PNG_FORMAT_RGB_COLORMAP : PNG_FORMAT_GRAY;
+  std::array<std::uint8_t, std::size_t{3} * 256> palette{};
+  const png_color black{};
+  if (!png_image_finish_read(&png, &black, mask.values.pixels.data(), 0, palette.data())) {
+    return Fail({path}, "a damaged PNG picture: {}", png.message);
+  }
+  return mask;
+}
+
+Result<ColourImage> LoadColourPng(const std::string& path) {
+  ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(path, kMaxPictureFileBytes));
+  png_image png{};
+  RETURN_IF_ERROR(BeginPng(bytes, path, png));
   png.format = PNG_FORMAT_RGB;
   ColourImage image(static_cast<int>(png.width), static_cast<int>(png.height));
   const png_color black{};

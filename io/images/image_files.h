@@ -29,6 +29,14 @@ Result<ColourImage> LoadColourPng(const std::string& path);
 /// colours. The error names no file.
 Result<ColourImage> DecodeColourPng(std::string_view bytes, std::size_t max_pixels);
 
+/// A picture of one number per pixel, as segmenters write it.
+struct MaskPicture {
+  Image<std::uint8_t> values;  ///< the grey of each pixel, 0 to 255, or its index into a palette
+  bool is_indexed = false;     ///< the file has a palette
+};
+/// Reads a PNG of masks. Colours become grey, 16 bits become 8; transparent pixels are blended with black.
+Result<MaskPicture> LoadMaskPng(const std::string& path);
+
 /// A depth image and the name of its channel.
 struct DepthChannel {
   std::string name;

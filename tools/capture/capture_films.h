@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/cameras/rig_file.h"
 #include "engine/keypoints/place_rig.h"
 #include "io/files/json.h"
 #include "tools/listener.h"
@@ -20,6 +22,8 @@ struct CaptureFilmsOptions {
   bool silhouettes = false;          ///< use the person's silhouettes, alone or together with keypoints
   std::string rooms;                 ///< for silhouettes: a folder with a picture of each film's empty room, "" = none
   bool accepts_doubtful = false;     ///< for silhouettes: write the motion even if `CapturedFilms::doubt` is not empty
+  std::string masks;                 ///< for silhouettes: a folder with masks of each film, "" = the person is found here
+  std::optional<int> mask_id;        ///< the value of the person's pixels; absent = any but the background's
   double stature_m = 0;              ///< for silhouettes: the person's height, metres; 0 = estimated
   std::string output;                ///< BVH, GLB, TRC or CSV, chosen by the extension
   std::string points;                ///< a TRC of the triangulated keypoints, "" = none
@@ -48,6 +52,9 @@ struct CapturedFilms {
   std::string doubt;
   JsonPtr facts;          ///< the findings for programs (docs/schemas/facts.schema.json, "capture")
 };
+
+/// Opens a rig: the file `path`, or two files that belong together, by the name of one of them or of their folder.
+Result<RigFile> OpenRig(const std::string& path);
 
 /// Captures the motion of one person from films by two or more calibrated cameras, with keypoints, marks or
 /// silhouettes, and writes it. Fails before anything is written if films, rig or options do not fit together; every

@@ -268,7 +268,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   ReducedTake take;
   std::optional<UnmarkedMotion> both;
   if (options.silhouettes) {
-    ASSIGN_OR_RETURN(take, ReadTake(options, views, films.clocks));
+    ASSIGN_OR_RETURN(take, ReadTake(options, views, films.clocks, films.told));
     ASSIGN_OR_RETURN(both, WithOutlines(person, chosen, take, options));
     facts["silhouettes"] = {{"stature_m", both->stature_m}, {"cost", both->cost}, {"held_frames", both->held}};
     if (JoinOutlines(films.cameras, person.people[chosen], both->motion, AdjustOf(recover), person)) {

@@ -5,11 +5,11 @@
 #include <algorithm>
 
 #include "engine/base/base64.h"
-#include "io/drawing/assets/assets.h"
 #include "io/drawing/escape.h"
 #include "io/drawing/marks.h"
 #include "io/drawing/panel.h"
 #include "io/drawing/table.h"
+#include "io/drawing/tool_page.h"
 
 namespace etude {
 namespace {
@@ -150,21 +150,9 @@ std::string BodyHtml(const CapturePage& page) {
 }  // namespace
 
 std::string WriteCapturePage(const CapturePage& page) {
-  return fmt::format(
-             "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta "
-             "http-equiv=\"Content-Security-Policy\" "
-             "content=\"default-src 'none'; style-src 'unsafe-inline'; img-src data:; media-src data:\"><meta "
-             "name=\"viewport\" content=\"width=device-width, initial-scale=1\"><meta name=\"color-scheme\" "
-             "content=\"light dark\"><title>{} · Etude</title><style>{}{}.plot.wide {{ max-width: none; "
-             "}}</style></head>\n"
-             "<body><main><header><p class=\"eyebrow\">Etude · capture</p><h1>{}</h1><p "
-             "class=\"verdict\">{}</p></header>",
-             EscapeMarkup(page.title), ReportCss(), MarksCss(), EscapeMarkup(page.title), EscapeMarkup(page.verdict)) +
-         FilmHtml(page) + ToldHtml(page) + CamerasHtml(page) + BodyHtml(page) +
-         fmt::format(
-             "<footer><dl><div><dt>Etude</dt><dd>{}</dd></div><div><dt>Command</dt><dd>{}</dd></div></dl></footer>"
-             "</main></body></html>\n",
-             EscapeMarkup(page.version), EscapeMarkup(page.command));
+  return WriteToolPage({.kind = "capture", .title = page.title, .verdict = page.verdict, .version = page.version,
+                        .command = page.command},
+                       FilmHtml(page) + ToldHtml(page) + CamerasHtml(page) + BodyHtml(page));
 }
 
 }  // namespace etude

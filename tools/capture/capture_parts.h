@@ -128,9 +128,10 @@ struct ReducedTake {
   std::vector<double> reductions;  ///< pixels of a reduced picture per pixel of the rig's camera
   std::vector<std::vector<ColourImage>> pictures;
   std::vector<ColourImage> rooms;
+  std::vector<std::vector<Mask>> masks;  ///< if they are given, instead of `pictures`
 };
 Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
-                             const std::vector<FilmClock>& clocks);
+                             const std::vector<FilmClock>& clocks, MessageLog& told);
 ReducedTake PairOf(const ReducedTake& take, const CameraPair& pair);
 
 /// Findings from keypoints that support silhouettes: the person's keypoints, by the take's cameras, and the limb

@@ -12,6 +12,7 @@
 #include "engine/unmarked/recover_unmarked.h"
 #include "io/keypoints/read_people.h"
 #include "tools/capture/capture_parts.h"
+#include "tools/capture/mask_films.h"
 #include "tools/capture/reduced_film.h"
 
 namespace etude {
@@ -57,9 +58,10 @@ std::vector<FilmClock> ClocksByRates(const std::vector<FilmedView>& views, Messa
 }
 
 /// Selects the pictures of a film that are nearest to the times of the first film's frames.
-std::vector<ColourImage> NearestInTime(std::vector<ColourImage> film, const FilmClock& clock, std::size_t frames) {
+template <typename Picture>
+std::vector<Picture> NearestInTime(std::vector<Picture> film, const FilmClock& clock, std::size_t frames) {
   if (clock == FilmClock{} && film.size() == frames) return film;
-  std::vector<ColourImage> in_time;
+  std::vector<Picture> in_time;
   for (std::size_t k = 0; k < frames; ++k) {
     const double at = std::clamp(clock.FrameAt(static_cast<double>(k)), 0.0, static_cast<double>(film.size() - 1));
     in_time.push_back(film[static_cast<std::size_t>(std::lround(at))]);
@@ -70,7 +72,7 @@ std::vector<ColourImage> NearestInTime(std::vector<ColourImage> film, const Film
 }  // namespace
 
 Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
-                             const std::vector<FilmClock>& clocks) {
+                             const std::vector<FilmClock>& clocks, MessageLog& told) {
   std::size_t pictures = 0;
   for (const FilmedView& view : views) pictures += view.facts.frames;
   if (pictures > kMaxPictures) {
@@ -82,12 +84,18 @@ Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vect
   for (const FilmedView& view : views) {
     take.cameras.push_back(ReducedCamera(view.camera.camera, UnmarkedTake::kPictureSide));
     take.reductions.push_back(take.cameras.back().intrinsics.fx / view.camera.camera.intrinsics.fx);
+    const FilmClock& clock = clocks[take.cameras.size() - 1];
+    if (!options.masks.empty()) {
+      ASSIGN_OR_RETURN(auto masks, ReadMasks(options.masks, options.mask_id, view, told));
+      take.masks.push_back(NearestInTime(std::move(masks), clock, views.front().facts.frames));
+      continue;
+    }
     ASSIGN_OR_RETURN(auto film, ReadReduced(view.path, view.facts, view.camera.camera, view.fit,
                                             UnmarkedTake::kPictureSide, view.facts.frames));
     if (film.empty() || film.size() != static_cast<std::size_t>(view.facts.frames)) {
       return Fail({view.path.string()}, "{} frames, although its header states {}", film.size(), view.facts.frames);
     }
-    take.pictures.push_back(NearestInTime(std::move(film), clocks[take.pictures.size()], views.front().facts.frames));
+    take.pictures.push_back(NearestInTime(std::move(film), clock, views.front().facts.frames));
     if (options.rooms.empty()) continue;
     ASSIGN_OR_RETURN(ColourImage room, ReadRoom(options.rooms, view));
     take.rooms.push_back(std::move(room));
@@ -109,6 +117,7 @@ Result<UnmarkedMotion> RecoverByOutlines(const ReducedTake& take, const CaptureF
   return RecoverUnmarked({.cameras = take.cameras,
                           .pictures = take.pictures,
                           .rooms = take.rooms,
+                          .masks = take.masks,
                           .rate_hz = rate_hz,
                           .stature_m = options.stature_m > 0 ? std::optional(options.stature_m) : std::nullopt,
                           .lengths = beside.lengths,
@@ -120,7 +129,8 @@ ReducedTake PairOf(const ReducedTake& take, const CameraPair& pair) {
   for (const std::size_t i : {pair.first, pair.second}) {
     two.cameras.push_back(take.cameras[i]);
     two.reductions.push_back(take.reductions[i]);
-    two.pictures.push_back(take.pictures[i]);
+    if (!take.pictures.empty()) two.pictures.push_back(take.pictures[i]);
+    if (!take.masks.empty()) two.masks.push_back(take.masks[i]);
     if (!take.rooms.empty()) two.rooms.push_back(take.rooms[i]);
   }
   return two;
@@ -217,7 +227,7 @@ std::string TellUnmarked(const CaptureFilmsOptions& options, const std::vector<F
     wrong = fmt::format("in {:.0f} % of {}'s frames, body and outline overlap by less than half", kPercent * share,
                         views[i].camera.name);
   }
-  if (wrong.empty() || !options.rooms.empty()) return wrong;
+  if (wrong.empty() || !options.rooms.empty() || !options.masks.empty()) return wrong;
   return wrong +
          "; a person who stays in one place cannot be distinguished from the room: film each room empty (--rooms)";
 }
@@ -245,7 +255,7 @@ Result<bool> CaptureUnmarked(const CaptureFilmsOptions& options, const FilmedSes
   MessageLog told{options.listener.print};
   for (const std::string& line : session.told) told.Tell(line);
   const std::vector<FilmClock> clocks = ClocksByRates(views, told);
-  ASSIGN_OR_RETURN(const ReducedTake take, ReadTake(options, views, clocks));
+  ASSIGN_OR_RETURN(const ReducedTake take, ReadTake(options, views, clocks, told));
   ASSIGN_OR_RETURN(const UnmarkedMotion person, RecoverByOutlines(take, options, views.front().facts.rate_hz));
   const std::string doubt = TellUnmarked(options, views, person, told);
   facts["silhouettes"] = {{"stature_m", person.stature_m}, {"cost", person.cost}, {"held_frames", person.held}};

@@ -76,14 +76,6 @@ Result<RigPaths> RigPathsOf(const fs::path& path) {
   return RigPaths{path, {}};
 }
 
-Result<RigFile> OpenRig(const std::string& path) {
-  ASSIGN_OR_RETURN(const RigPaths paths, RigPathsOf(path));
-  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(paths.first.string()));
-  if (paths.second.empty()) return ReadRigFile(text, path);
-  ASSIGN_OR_RETURN(const auto other, ReadWholeFile(paths.second.string()));
-  return ReadRigPair(text, other, paths.first.string());
-}
-
 /// Estimates the picture size of a camera for which the rig file gives none. Candidates are the film's size, the same
 /// turned by 90°, and scaled versions; the one whose middle is nearest to the principal point wins. Intrinsics of a
 /// scaled size are converted to the film's scale.
@@ -161,6 +153,8 @@ std::string BytesOf(Clip clip, const BodyMotion& motion, MotionFormat format, co
       return WriteC3d(motion);
     case MotionFormat::kNpz:
       return WriteBodyNpz(motion, StandingPose());
+    case MotionFormat::kBids:
+      break;  // no name of a file
     case MotionFormat::kMot:
       return WriteOpenSimMotion(motion, Retarget({.poses = {StandingPose()}}, motion.poses.front()).poses.front(),
                                 name);
@@ -169,6 +163,14 @@ std::string BytesOf(Clip clip, const BodyMotion& motion, MotionFormat format, co
 }
 
 }  // namespace
+
+Result<RigFile> OpenRig(const std::string& path) {
+  ASSIGN_OR_RETURN(const RigPaths paths, RigPathsOf(path));
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(paths.first.string()));
+  if (paths.second.empty()) return ReadRigFile(text, path);
+  ASSIGN_OR_RETURN(const auto other, ReadWholeFile(paths.second.string()));
+  return ReadRigPair(text, other, paths.first.string());
+}
 
 Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options) {
   ASSIGN_OR_RETURN(RigFile rig_file, OpenRig(options.rig));

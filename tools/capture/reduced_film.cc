@@ -10,32 +10,7 @@ double ReductionOf(const Intrinsics& in, int side) {
   return std::max(1.0, static_cast<double>(std::max(in.width, in.height)) / side);
 }
 
-/// The film's pixels that one reduced pixel covers: left ≤ x < right, top ≤ y < bottom.
-struct Patch {
-  int left = 0, top = 0, right = 0, bottom = 0;
-};
-
-Image<Patch> PatchesOf(const FilmFacts& facts, const Camera& camera, const PixelFit& fit, int side) {
-  const Intrinsics small = ReducedCamera(camera, side).intrinsics;
-  const double reduction = ReductionOf(camera.intrinsics, side);
-  const glm::dvec2 half = 0.5 * reduction * fit.scale;
-  Image<Patch> patches(small.width, small.height);
-  for (int y = 0; y < small.height; ++y) {
-    for (int x = 0; x < small.width; ++x) {
-      const auto seen = DistortPixel(camera, reduction * glm::dvec2(x + 0.5, y + 0.5));
-      if (!seen) continue;
-      const glm::dvec2 low = fit.ToFilm(*seen) - half, high = low + 2.0 * half;
-      const auto within = [](double value, int size) {
-        return static_cast<int>(std::lround(std::clamp<double>(value, 0, size)));
-      };
-      patches.At(x, y) = {within(low.x, facts.width), within(low.y, facts.height), within(high.x, facts.width),
-                          within(high.y, facts.height)};
-    }
-  }
-  return patches;
-}
-
-Rgb8 MeanOf(const ColourImage& picture, const Patch& patch) {
+Rgb8 MeanOf(const ColourImage& picture, const FilmPatch& patch) {
   int r = 0, g = 0, b = 0;
   const int count = (patch.right - patch.left) * (patch.bottom - patch.top);
   if (count <= 0) return {};
@@ -51,6 +26,26 @@ Rgb8 MeanOf(const ColourImage& picture, const Patch& patch) {
 
 }  // namespace
 
+Image<FilmPatch> PatchesOf(const FilmFacts& facts, const Camera& camera, const PixelFit& fit, int side) {
+  const Intrinsics small = ReducedCamera(camera, side).intrinsics;
+  const double reduction = ReductionOf(camera.intrinsics, side);
+  const glm::dvec2 half = 0.5 * reduction * fit.scale;
+  Image<FilmPatch> patches(small.width, small.height);
+  for (int y = 0; y < small.height; ++y) {
+    for (int x = 0; x < small.width; ++x) {
+      const auto seen = DistortPixel(camera, reduction * glm::dvec2(x + 0.5, y + 0.5));
+      if (!seen) continue;
+      const glm::dvec2 low = fit.ToFilm(*seen) - half, high = low + 2.0 * half;
+      const auto within = [](double value, int size) {
+        return static_cast<int>(std::lround(std::clamp<double>(value, 0, size)));
+      };
+      patches.At(x, y) = {within(low.x, facts.width), within(low.y, facts.height), within(high.x, facts.width),
+                          within(high.y, facts.height)};
+    }
+  }
+  return patches;
+}
+
 Camera ReducedCamera(const Camera& camera, int side) {
   Camera small = camera;
   small.distortion = {};
@@ -65,7 +60,7 @@ Camera ReducedCamera(const Camera& camera, int side) {
 Result<std::vector<ColourImage>> ReadReduced(const std::filesystem::path& path, const FilmFacts& facts,
                                              const Camera& camera, const PixelFit& fit, int side,
                                              std::size_t max_pictures) {
-  const Image<Patch> patches = PatchesOf(facts, camera, fit, side);
+  const Image<FilmPatch> patches = PatchesOf(facts, camera, fit, side);
   ASSIGN_OR_RETURN(Decoder decoder, Decoder::Start(path, facts));
   std::vector<ColourImage> pictures;
   ColourImage frame;

@@ -7,6 +7,7 @@
 #include "engine/formats/deepmimic.h"
 #include "engine/formats/gltf/gltf.h"
 #include "engine/formats/joint_csv.h"
+#include "engine/formats/motion_bids.h"
 #include "engine/formats/motive_csv.h"
 #include "engine/formats/npz.h"
 #include "engine/formats/rigid_targets.h"
@@ -84,6 +85,18 @@ void Trc(std::string_view bytes) {
   RequireRoundTrip(
       bytes, [](std::string_view text) { return ReadTrc(text, kFile); },
       [](const MarkerMotion& motion) { return WriteTrc(motion, kFile); });
+}
+
+/// The channels, a form feed, the rows.
+void Bids(std::string_view bytes) {
+  const std::size_t end = std::min(bytes.find('\f'), bytes.size());
+  const std::string_view rows = bytes.substr(std::min(end + 1, bytes.size()));
+  if (const auto markers = ReadMotionBids(rows, bytes.substr(0, end), 30, {kFile, kFile})) FindMarkerBodies(*markers, kFile);
+}
+
+std::string BidsSeed() {
+  const BidsFiles files = WriteMotionBids(testing::WavingMotion(3), "seed", "1");
+  return files[1].second + "\f" + files[0].second;
 }
 
 void Csv(std::string_view bytes) { ReadJointCsv(bytes, kFile); }
@@ -240,6 +253,7 @@ std::vector<Target> MotionTargets() {
         R"("targets")",
         "-1"}},
       {"trc", Trc, [] { return std::vector{WriteTrc(testing::WavingMotion(3), "seed")}; }, {"Units", "cm", "nan"}},
+      {"motion-bids", Bids, [] { return std::vector{BidsSeed()}; }, {"n/a", "ORNT", "mm", "nan"}},
       {"joint-csv", Csv, [] { return std::vector{WriteJointCsv(testing::WavingMotion(3))}; }, {"nan", "1e400"}},
       {"rigid-targets", Targets17, [] { return std::vector{RigidRows()}; }, {"nan"}},
       {"deepmimic", DeepMimic, [] { return std::vector{DeepMimicText()}; }},

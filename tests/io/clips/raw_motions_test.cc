@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/formats/kimodo.h"
 #include "engine/formats/npz.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/clip.h"
@@ -172,6 +173,36 @@ TEST_F(RawMotionsTest, KimodosArraysKeepTheirRotationsAndContacts) {
   wrong["foot_contacts"] = {{2, 4}, std::vector<double>(8, 1)};
   EXPECT_THAT(testing::Refusal(OpenRawMotion(Write("w.npz", WriteNpz(wrong, {})), {})),
               HasSubstr("foot_contacts 2 × 4; allowed: 4 × 4"));
+}
+
+TEST_F(RawMotionsTest, KimodosWholeSkeletonHasItsFingersAndTheSameRoles) {
+  // Parents as published; places on a line, so that each joint has one of its own.
+  constexpr int kParents[] = {-1, 0,  1,  2,  3,  4,  5,  6,  6,  6,  6,  3,  11, 12, 13, 14, 15, 16, 17, 14, 19, 20, 21, 22, 14, 24,
+                              25, 26, 27, 14, 29, 30, 31, 32, 14, 34, 35, 36, 37, 3,  39, 40, 41, 42, 43, 44, 45, 42, 47, 48, 49, 50,
+                              42, 52, 53, 54, 55, 42, 57, 58, 59, 60, 42, 62, 63, 64, 65, 0,  67, 68, 69, 70, 0,  72, 73, 74, 75};
+  constexpr std::size_t kJoints = std::size(kParents);
+  static_assert(kJoints == 77);
+  NumberArray places{{1, kJoints, 3}, {}}, matrices{{1, kJoints, 3, 3}, {}};
+  for (std::size_t j = 0; j < kJoints; ++j) {
+    for (const double value : {0.01 * static_cast<double>(j), 1.0, 0.0}) places.values.push_back(value);
+    for (int k = 0; k < 9; ++k) matrices.values.push_back(k % 4 == 0 ? 1 : 0);
+  }
+  const auto arrays = [&] {
+    Npz made;
+    made.arrays = {{"posed_joints", places}, {"global_rot_mats", matrices}};
+    return made;
+  };
+  const Clip clip = ReadKimodo(arrays(), "k.npz").value();
+  ASSERT_EQ(clip.skeleton.joints.size(), kJoints);
+  for (std::size_t j = 0; j < kJoints; ++j) EXPECT_EQ(clip.skeleton.joints[j].parent, kParents[j]) << j;
+  const std::pair<std::size_t, const char*> kNames[] = {{7, "HeadEnd"},       {10, "RightEye"},     {18, "LeftHandThumbEnd"},
+                                                        {28, "LeftHandMiddleEnd"}, {42, "RightHand"}, {66, "RightHandPinkyEnd"},
+                                                        {67, "LeftLeg"},      {71, "LeftToeEnd"},   {76, "RightToeEnd"}};
+  for (const auto& [index, name] : kNames) EXPECT_EQ(clip.skeleton.joints[index].name, name);
+  places.shape[1] = 76;
+  const auto refused = ReadKimodo(arrays(), "k.npz");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("1 × 76 × 3"));
 }
 
 TEST_F(RawMotionsTest, ABuiltInClipIsItsOwnBody) {

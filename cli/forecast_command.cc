@@ -1,0 +1,146 @@
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "cli/facts.h"
+#include "cli/output_file.h"
+#include "cli/terminal_listener.h"
+#include "engine/base/angles.h"
+#include "tools/forecast/forecast_rig.h"
+
+namespace etude {
+namespace {
+
+constexpr const char* kForecastNotes =
+    "\nBefore you film: the error to be expected of triangulated points and of a fitted body, from the rig alone. "
+    "Errors "
+    "are\nroot mean squares, computed in closed form to first order: the covariance of the pixels, through the "
+    "triangulation, "
+    "and\nfor the body through the fit of its angles (bone lengths count as known). A person who hides a joint from a "
+    "camera "
+    "is a\ndropout. An estimator whose keypoints err the same way in all pictures errs by more.\n\n"
+    "The volume stands around the point that the cameras look at (--middle, --size). Its colours on the picture are "
+    "those of\n"
+    "20 x 20 places at ten heights. `etude calibrate --json` has the deviation of focal lengths. One more camera gets "
+    "the lens "
+    "of\nthe rig's first one; 324 places around the volume are tried.";
+
+struct ForecastCommandOptions {
+  ForecastOptions forecast;
+  std::vector<double> calibration = {5, 0.1, 0.2};
+  std::vector<double> middle;
+  std::vector<double> size = {3, 2, 3};
+  bool overwrite = false;
+  bool as_json = false;
+};
+
+Json TripleOf(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
+
+Json FactsOf(const RigForecast& forecast, const ForecastOptions& options) {
+  Json cameras = Json::array(), joints = Json::array(), changes = Json::array();
+  for (const auto& [name, camera] : forecast.cameras) {
+    cameras.push_back({{"camera", name}, {"place_m", TripleOf(camera.p_WC)}});
+  }
+  for (const ForecastJoint& joint : forecast.joints) {
+    joints.push_back({{"joint", RoleName(joint.role)},
+                      {"point_mm", joint.point_mm},
+                      {"body_mm", joint.body_mm},
+                      {"point_deg", joint.point_deg},
+                      {"body_deg", joint.body_deg}});
+  }
+  for (const RigWorth& worth : forecast.worths) {
+    changes.push_back({{"change", worth.change},
+                       {"camera_m", worth.added_m ? TripleOf(*worth.added_m) : Json()},
+                       {"seen", worth.seen},
+                       {"median_mm", worth.median_mm}});
+  }
+  return {{"rig", options.rig},
+          {"cameras", std::move(cameras)},
+          {"middle_m", {forecast.middle_m.x, forecast.middle_m.y}},
+          {"places", forecast.places.size()},
+          {"seen", forecast.seen},
+          {"median_mm", forecast.median_mm},
+          {"p95_mm", forecast.p95_mm},
+          {"worst_mm", *forecast.worst.error_mm},
+          {"worst_m", TripleOf(forecast.worst.place_m)},
+          {"bodies", forecast.bodies},
+          {"joints", std::move(joints)},
+          {"changes", std::move(changes)}};
+}
+
+Result<int> ForecastCommand(ForecastCommandOptions asked) {
+  ForecastOptions& options = asked.forecast;
+  constexpr double kMmPerM = 1000, kPercent = 100;
+  options.errors.calibration = {.place_m = asked.calibration[0] / kMmPerM,
+                                .turn = Radians(asked.calibration[1]),
+                                .focal = asked.calibration[2] / kPercent};
+  if (!asked.middle.empty()) options.middle_m = glm::dvec2(asked.middle[0], asked.middle[1]);
+  options.size_m = {asked.size[0], asked.size[1], asked.size[2]};
+  for (const std::string* path : {&options.picture, &options.table, &options.report}) {
+    if (!path->empty()) RETURN_IF_ERROR(CheckOutput(*path, asked.overwrite));
+  }
+  StdoutToStderr aside(asked.as_json);
+  ASSIGN_OR_RETURN(const RigForecast forecast, ForecastRig(options));
+  aside.End();
+  if (asked.as_json) RETURN_IF_ERROR(PrintFacts("forecast", FactsOf(forecast, options)));
+  return kSuccess;
+}
+
+}  // namespace
+
+void DefineForecast(CLI::App& app, const std::string& command_line, Action& action) {
+  auto asked = std::make_shared<ForecastCommandOptions>();
+  ForecastOptions* options = &asked->forecast;
+  options->command_line = command_line;
+  options->version = ETUDE_VERSION;
+  options->listener = TerminalListener();
+  CLI::App* command = app.add_subcommand("forecast", "The error to be expected of a rig, before it films");
+  command->add_option("rig", options->rig, "The calibrated cameras, as for `etude capture`")->required();
+  command
+      ->add_option(
+          "--rig-unit", options->place.unit,
+          fmt::format("The rig's unit of length: {}, metres in one unit, or auto (that of its format)", RigUnits()))
+      ->capture_default_str();
+  command->add_option("--rig-up", options->place.up, "The rig's axis that points up: x, y, z, -x, -y, -z, or auto")
+      ->capture_default_str();
+  command->add_option("--floor", options->place.floor, "The height in m that becomes 0, or auto (the rig's)")
+      ->capture_default_str();
+  // Where people move, and what errs.
+  command->add_option("--size", asked->size, "Width (x), height and depth (z) of the volume, m")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(NumberWithin(0.1, 100, "length in m"))
+      ->capture_default_str();
+  command
+      ->add_option("--middle", asked->middle,
+                   "Middle of the volume on the floor: x,z in m (default: where the cameras look)")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(NumberWithin(-1000, 1000, "place in m"));
+  command->add_option("--noise-px", options->errors.noise_px, "Standard deviation of keypoints along each axis, px")
+      ->check(NumberWithin(0.001, 1000, "deviation in px"))
+      ->capture_default_str();
+  command->add_option("--dropout", options->errors.dropout, "Share of its pictures in which a camera gives no keypoint")
+      ->check(NumberWithin(0, 0.9, "share"))
+      ->capture_default_str();
+  command
+      ->add_option("--calibration", asked->calibration,
+                   "Standard deviations of each camera: place in mm, direction in degrees, focal length in per cent")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(NumberWithin(0, 1000, "deviation"))
+      ->capture_default_str();
+  // The outputs.
+  command->add_option("--picture", options->picture, "Also draw a heat map for each height, and the cameras (.png)");
+  command->add_option("--table", options->table, "Also write the error at every place (.csv)");
+  command->add_option("--report", options->report, "Also write a page with the picture and all tables (.html)");
+  AddOverwrite(*command, asked->overwrite, "Replace existing files");
+  AddJson(*command, asked->as_json);
+  command->footer(kForecastNotes);
+  command->callback([=, &action] { action = [=] { return Finish(ForecastCommand(*asked)); }; });
+}
+
+}  // namespace etude

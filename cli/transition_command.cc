@@ -1,0 +1,100 @@
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/clip_reading.h"
+#include "cli/commands.h"
+#include "cli/facts.h"
+#include "cli/output_file.h"
+#include "engine/transitions/choices/choice.h"
+#include "engine/transitions/joins/join.h"
+#include "tools/clips/transition_file.h"
+
+namespace etude {
+namespace {
+
+constexpr const char* kTransitionNotes =
+    "\nThe file plays FROM from its start, leaves it after --at (the frame shown when TO is wanted), and plays TO to "
+    "its "
+    "end, where\nFROM was left. The default method is the recommended one; `etude list methods` describes all. Its "
+    "frames "
+    "are compared and\njoined as twenty joints, so the file has these joints in FROM's proportions, at 30 Hz, not "
+    "FROM's "
+    "own skeleton. A body that\nlies, sits or kneels needs a clip that stands up: name some by --library.";
+
+struct TransitionCommandOptions {
+  TransitionFileOptions transition;
+  ClipReading reading;
+  bool overwrite = false, as_json = false;
+};
+
+Result<int> TransitionCommand(TransitionCommandOptions asked) {
+  TransitionFileOptions& options = asked.transition;
+  RETURN_IF_ERROR(CheckOutput(options.output, asked.overwrite));
+  ASSIGN_OR_RETURN(options.reading, ReadOptions(asked.reading));
+  ASSIGN_OR_RETURN(const TransitionFile made, WriteTransition(options));
+  if (made.branch == Branch::kNone) {
+    Complain({{},
+              fmt::format("no transition from {} to {} within {:g} s: {}; nothing was written", options.from,
+                          options.to, options.budget_s, made.why)});
+    return kNothingWorked;
+  }
+  if (asked.as_json) {
+    RETURN_IF_ERROR(PrintFacts("transition", {{"from", options.from},
+                                              {"to", options.to},
+                                              {"choice", options.choice},
+                                              {"join", options.join},
+                                              {"branch", BranchName(made.branch)},
+                                              {"left_s", made.left_s},
+                                              {"entered_s", made.entered_s},
+                                              {"through", made.through.empty() ? Json() : Json(made.through)},
+                                              {"wait_s", made.wait_s},
+                                              {"points_s", made.points_s},
+                                              {"duration_s", made.duration_s},
+                                              {"why", made.why},
+                                              {"output", options.output}}));
+  } else {
+    fmt::print("{} is left at {:.2f} s{}, {} entered at {:.2f} s; {:.2f} s after it was wanted ({})\n", options.from,
+               made.left_s, made.through.empty() ? "" : fmt::format(" for {}", made.through), options.to,
+               made.entered_s, made.wait_s, BranchName(made.branch));
+    fmt::print("  {}\n  as a body: twenty joints, 30 Hz, {:.2f} s, the change at", made.why, made.duration_s);
+    for (const double point : made.points_s) fmt::print(" {:.2f} s", point);
+    fmt::print("\n");
+  }
+  TellWritten(options.output, asked.as_json ? stderr : stdout);
+  return kSuccess;
+}
+
+}  // namespace
+
+void DefineTransition(CLI::App& app, Action& action) {
+  auto asked = std::make_shared<TransitionCommandOptions>();
+  TransitionFileOptions* options = &asked->transition;
+  CLI::App* command = app.add_subcommand("transition", "Lead from one clip into another, as one motion file");
+  command->add_option("from", options->from, "The clip that plays")->required();
+  command->add_option("to", options->to, "The clip that is wanted")->required();
+  command->add_option("--at", options->at_s, "When it is wanted: seconds of the first clip")
+      ->check(NumberWithin(0, 36000, "time in s"))
+      ->required();
+  command->add_option("-o,--output", options->output, "The motion to write: .bvh, .glb, .trc, .csv, .c3d, .npz or .mot")
+      ->required();
+  command->add_option("--wait", options->budget_s, "Longest time until the wanted clip plays, s")
+      ->check(NumberWithin(0, 3600, "time in s"))
+      ->capture_default_str();
+  command->add_option("--choice", options->choice, "Which frames are left and entered")
+      ->check(CLI::IsMember(ChoiceNames()))
+      ->capture_default_str();
+  command->add_option("--join", options->join, "How the clips are joined there")
+      ->check(CLI::IsMember(JoinNames()))
+      ->capture_default_str();
+  command->add_option("--library", options->library, "Further clips, one of which may lead from the one to the other");
+  AddOverwrite(*command, asked->overwrite);
+  AddJson(*command, asked->as_json);
+  AddClipReading(*command, asked->reading);
+  command->footer(kTransitionNotes);
+  command->callback([=, &action] { action = [=] { return Finish(TransitionCommand(*asked)); }; });
+}
+
+}  // namespace etude

@@ -1,0 +1,179 @@
+#include "engine/formats/motion_bids.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <iterator>
+#include <map>
+
+#include "engine/base/names.h"
+#include "engine/formats/number_rows.h"
+
+namespace etude {
+namespace {
+
+std::string LabelOf(std::string_view name) {
+  std::string label;
+  for (const char c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c))) label += c;
+  }
+  return label.empty() ? "motion" : label;
+}
+
+std::vector<std::string_view> CellsOf(std::string_view line) {
+  std::vector<std::string_view> cells;
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  while (true) {
+    const std::size_t tab = line.find('\t');
+    cells.push_back(line.substr(0, tab));
+    if (tab == std::string_view::npos) return cells;
+    line.remove_prefix(tab + 1);
+  }
+}
+
+/// Where a recording's columns go.
+struct BidsChannels {
+  struct Column {
+    int point = -1;  ///< index into `points`; −1 for other channels than positions
+    int axis = 0;
+    double metres = 1;  ///< in one unit
+  };
+  std::vector<Column> columns;
+  std::vector<std::string> points;
+  std::size_t others = 0;
+};
+
+Result<BidsChannels> ReadChannels(std::string_view text, const std::string& file) {
+  BidsChannels channels;
+  std::array<std::size_t, 4> at{};  // component, type, tracked_point, units
+  constexpr std::array kHeads = {"component", "type", "tracked_point", "units"};
+  std::map<std::string, int, std::less<>> points;
+  std::vector<std::array<bool, 3>> has;
+  std::size_t heads = 0;
+  for (int line = 1; !text.empty(); ++line) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const auto cells = CellsOf(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (cells.size() == 1 && cells[0].empty()) continue;
+    if (heads == 0) {
+      heads = cells.size();
+      for (std::size_t k = 0; k < kHeads.size(); ++k) {
+        const auto found = std::ranges::find(cells, kHeads[k]);
+        if (found == cells.end())
+          return Fail({file, line}, "no column {}; needed: {}", kHeads[k], fmt::join(kHeads, ", "));
+        at[k] = static_cast<std::size_t>(found - cells.begin());
+      }
+      continue;
+    }
+    if (cells.size() != heads) return Fail({file, line}, "{} cells under {} headings", cells.size(), heads);
+    BidsChannels::Column& column = channels.columns.emplace_back();
+    if (cells[at[1]] != "POS") {
+      ++channels.others;
+      continue;
+    }
+    // A coordinate of a point.
+    const std::string_view component = cells[at[0]], units = cells[at[3]];
+    constexpr std::string_view kAxes = "xyz";
+    if (component.size() != 1 || kAxes.find(component) == std::string_view::npos)
+      return Fail({file, line}, "component {}; allowed for POS: x, y, z", Quote(component));
+    column.axis = static_cast<int>(kAxes.find(component));
+    constexpr std::pair<std::string_view, double> kUnits[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}};
+    const auto unit = std::ranges::find(kUnits, units, &std::pair<std::string_view, double>::first);
+    if (unit == std::end(kUnits)) return Fail({file, line}, "units {}; allowed for POS: m, cm, mm", Quote(units));
+    column.metres = unit->second;
+    const auto [point, is_new] =
+        points.try_emplace(std::string(cells[at[2]]), static_cast<int>(channels.points.size()));
+    if (is_new) {
+      channels.points.push_back(point->first);
+      has.emplace_back();
+    }
+    column.point = point->second;
+    bool& has_axis = has[static_cast<std::size_t>(column.point)][static_cast<std::size_t>(column.axis)];
+    if (has_axis) return Fail({file, line}, "{} has its {} twice", Quote(point->first), component);
+    has_axis = true;
+  }
+  for (std::size_t i = 0; i < has.size(); ++i) {
+    if (std::ranges::find(has[i], false) != has[i].end())
+      return Fail({file}, "{} lacks some of its x, y, z", Quote(channels.points[i]));
+  }
+  if (channels.points.empty()) return Fail({file}, "no channel of the type POS; only positions are read");
+  return channels;
+}
+
+}  // namespace
+
+BidsFiles WriteMotionBids(const BodyMotion& motion, std::string_view name, std::string_view version) {
+  const std::string label = LabelOf(name);
+  std::string rows, channels = "name\tcomponent\ttype\ttracked_point\tunits\treference_frame\n";
+  const auto out = std::back_inserter(rows);
+  for (const BodyPose& pose : motion.poses) {
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      const glm::dvec3& p = pose.joints[j];
+      fmt::format_to(out, "{}{:.6f}\t{:.6f}\t{:.6f}", j == 0 ? "" : "\t", p.x, p.y, p.z);
+    }
+    rows += '\n';
+  }
+  for (const Role role : AllRoles()) {
+    for (const char axis : {'x', 'y', 'z'})
+      channels += fmt::format("{0}_{1}\t{1}\tPOS\t{0}\tm\tglobal\n", RoleName(role), axis);
+  }
+  const std::string facts = fmt::format(
+      R"({{"TaskName": "{0}", "TrackingSystemName": "etude", "SamplingFrequency": {1}, "MotionChannelCount": {2},
+ "POSChannelCount": {2}, "TrackedPointsCount": {3}, "RecordingDuration": {4}, "SoftwareVersions": "Etude {5}",
+ "MissingValues": "n/a"}}
+)",
+      label, motion.rate_hz, 3 * kRoleCount, kRoleCount, static_cast<double>(motion.poses.size()) / motion.rate_hz,
+      version);
+  // Y is up; a person who faces +Z has their left at +X.
+  const std::string axes = R"({"reference_frame": {"Levels": {"global": {"SpatialAxes": "LSA",
+ "Description": "Metres; x to the left of a person who faces z, y up, origin on the floor"}}}}
+)";
+  const std::string set = fmt::format(
+      R"({{"Name": "Motions written by Etude", "BIDSVersion": "{}", "DatasetType": "raw", "License": "n/a",
+ "Authors": ["n/a"], "GeneratedBy": [{{"Name": "Etude", "Version": "{}"}}]}}
+)",
+      kBidsVersion, version);
+  const std::string stem = fmt::format("sub-01/motion/sub-01_task-{}_tracksys-etude", label);
+  return {{stem + "_motion.tsv", std::move(rows)},
+          {stem + "_channels.tsv", std::move(channels)},
+          {stem + "_channels.json", axes},
+          {stem + "_motion.json", facts},
+          {"dataset_description.json", set},
+          {"README",
+           "Positions of twenty joints, as _channels.tsv names them. Written by Etude; sub-01 is the performer.\n"}};
+}
+
+Result<MarkerMotion> ReadMotionBids(std::string_view motion_tsv, std::string_view channels_tsv, double rate_hz,
+                                    const std::array<std::string, 2>& files) {
+  ASSIGN_OR_RETURN(const BidsChannels channels, ReadChannels(channels_tsv, files[1]));
+  MarkerMotion motion{.rate_hz = rate_hz, .names = channels.points, .frames = {}};
+  // Missing values are "n/a" there; the reader of numbers knows "nan".
+  std::string rows(motion_tsv);
+  for (std::size_t at = 0; (at = rows.find("n/a", at)) != std::string::npos;) rows.replace(at, 3, "nan");
+  ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(rows, files[0]));
+  if (table.columns != channels.columns.size()) {
+    return Fail({files[0], 1}, "{} columns, but {} channels in {}", table.columns, channels.columns.size(), files[1]);
+  }
+  if (!table.heading.empty())
+    return Fail({files[0], 1}, "a heading; allowed: rows of numbers, which _channels.tsv names");
+  for (std::size_t t = 0; t < table.RowCount(); ++t) {
+    const auto row = table.Row(t);
+    std::vector<glm::dvec3> places(channels.points.size());
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const BidsChannels::Column& column = channels.columns[i];
+      if (column.point >= 0) places[static_cast<std::size_t>(column.point)][column.axis] = column.metres * row[i];
+    }
+    auto& frame = motion.frames.emplace_back(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (!std::isnan(places[i].x + places[i].y + places[i].z)) frame[i] = places[i];
+    }
+  }
+  if (channels.others > 0)
+    motion.remark = fmt::format("{} channels that are no positions are left out", channels.others);
+  return motion;
+}
+
+}  // namespace etude

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/cameras/point_error.h"
+#include "engine/motion/body.h"
+
+namespace etude {
+
+/// The expected errors of one joint, as mean squares, so that those of several places can be averaged. The limb is the
+/// one that ends in the joint; the hip centre has none.
+struct JointErrors {
+  double point = 0;       ///< of the triangulated position, m²
+  double body = 0;        ///< of the position in the fitted body, m²
+  double point_turn = 0;  ///< of the limb's direction by triangulated positions, rad²
+  double body_turn = 0;   ///< of the limb's direction in the fitted body, rad²
+};
+
+/// Computes the errors to be expected of the joints of one pose, as `TriangulatePerson` and `FitPerson` find them, to
+/// first order. Seventeen joints are triangulated; hip centre, shoulder centre and spine lie between them. To first
+/// order, the fitted body is the projection of all positions to those that its angles and its root can reach: J(JᵀJ)⁺Jᵀ
+/// with the derivatives J of the joints. Its bone lengths, medians of many frames, count as exact. *(Ours.)*
+class PoseErrorForecast {
+ public:
+  /// Fails if the pose is not one of a body: two joints coincide.
+  static Result<PoseErrorForecast> Of(const BodyPose& pose);
+
+  /// Returns the errors of all joints if the pose is moved by `shift`, metres; nullopt if some joint cannot be
+  /// triangulated there. Preconditions: those of ExpectedPointError.
+  std::optional<std::array<JointErrors, kRoleCount>> At(std::span<const Camera> cameras, const glm::dvec3& shift,
+                                                        const SightingErrors& errors) const;
+
+ private:
+  BodyPose pose_;
+  /// 60 × 60, column by column: from the errors of the triangulated joints to those of all joints, and to those of the
+  /// body.
+  std::vector<double> to_points_, to_body_;
+};
+
+}  // namespace etude

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace etude {
+
+/// What stands around the content of a tool's page. All texts are plain.
+struct ToolPage {
+  std::string_view kind;  ///< the command: "capture"
+  std::string title;
+  std::string verdict;  ///< one or two sentences
+  std::string version, command;
+};
+
+/// Writes one HTML page that needs no other file and may not use the network, in the style of a run's page.
+std::string WriteToolPage(const ToolPage& page, std::string_view content_html);
+
+}  // namespace etude

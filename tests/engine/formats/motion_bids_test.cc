@@ -1,0 +1,79 @@
+#include "engine/formats/motion_bids.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "sim/choreography/move.h"
+
+namespace etude {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::array<std::string, 2> kFiles = {"m.tsv", "c.tsv"};
+
+std::map<std::string, std::string> Written(const BodyMotion& motion) {
+  std::map<std::string, std::string> files;
+  for (const auto& [name, bytes] : WriteMotionBids(motion, "a clap_1", "9")) files[name] = bytes;
+  return files;
+}
+
+const std::string kStem = "sub-01/motion/sub-01_task-aclap1_tracksys-etude";
+
+TEST(MotionBids, IsReadBackToTheLastPrintedDigit) {
+  const BodyMotion motion = LoadBuiltinMove("clap").value().motion;
+  auto files = Written(motion);
+  ASSERT_EQ(files.size(), 6u);
+  const auto read =
+      ReadMotionBids(files[kStem + "_motion.tsv"], files[kStem + "_channels.tsv"], motion.rate_hz, kFiles);
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_EQ(read->rate_hz, motion.rate_hz);
+  ASSERT_EQ(read->frames.size(), motion.poses.size());
+  for (const Role role : AllRoles()) {
+    ASSERT_EQ(read->names[Index(role)], RoleName(role));
+    for (std::size_t f = 0; f < motion.poses.size(); ++f) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const double printed = std::round(1e6 * motion.poses[f][role][axis]);
+        EXPECT_EQ(std::round(1e6 * (*read->frames[f][Index(role)])[axis]), printed);
+      }
+    }
+  }
+}
+
+const std::string kChannels =
+    "name\ttype\tcomponent\ttracked_point\tunits\n"
+    "a_x\tPOS\tx\ta\tmm\na_z\tPOS\tz\ta\tcm\na_y\tPOS\ty\ta\tm\nq\tORNT\tx\ta\trad\n";
+
+TEST(MotionBids, OfOthersHasItsUnitsItsOrderAndItsGaps) {
+  const auto read = ReadMotionBids("1000\t50\t2\t9\nn/a\t50\t2\tn/a\n", kChannels, 50, kFiles);
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_EQ(read->frames[0][0], glm::dvec3(1, 2, 0.5));
+  EXPECT_FALSE(read->frames[1][0]);
+  EXPECT_EQ(read->remark, "1 channels that are no positions are left out");
+}
+
+TEST(MotionBids, SaysWhatIsWrong) {
+  const auto reason = [](const std::string& rows, const std::string& channels) {
+    const auto read = ReadMotionBids(rows, channels, 50, kFiles);
+    return read ? "read" : ToString(read.error());
+  };
+  const auto with = [](const std::string& from, const std::string& to) {
+    std::string text = kChannels;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  const std::string row = "1\t2\t3\t4\n";
+  EXPECT_EQ(reason(row, kChannels), "read") << "the control";
+  EXPECT_THAT(reason("1\t2\n", kChannels), HasSubstr("m.tsv:1: 2 columns, but 4 channels in c.tsv"));
+  EXPECT_THAT(reason(row, with("units", "unit")), HasSubstr("c.tsv:1: no column units"));
+  EXPECT_THAT(reason(row, with("mm", "feet")), HasSubstr("c.tsv:2: units 'feet'; allowed for POS: m, cm, mm"));
+  EXPECT_THAT(reason(row, with("\tx\t", "\tw\t")), HasSubstr("component 'w'; allowed for POS: x, y, z"));
+  EXPECT_THAT(reason(row, with("\ty\t", "\tz\t")), HasSubstr("c.tsv:4: 'a' has its z twice"));
+  EXPECT_THAT(reason("1\t2\t3\n", with("a_y\tPOS\ty\ta\tm\n", "")), HasSubstr("'a' lacks some of its x, y, z"));
+  EXPECT_THAT(reason("x\ty\tz\tq\n" + row, kChannels), HasSubstr("a heading"));
+}
+
+}  // namespace
+}  // namespace etude

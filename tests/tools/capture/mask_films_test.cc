@@ -1,0 +1,108 @@
+#include "tools/capture/mask_films.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "io/files/files.h"
+#include "io/files/temporary_folder.h"
+#include "io/images/image_files.h"
+
+namespace etude {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr int kWidth = 96, kHeight = 64;
+
+/// A PNG of one grey per channel, which the reader takes as its grey.
+std::string GreyPng(const Image<std::uint8_t>& values) {
+  ColourImage picture(values.width, values.height);
+  for (std::size_t i = 0; i < values.pixels.size(); ++i) {
+    const std::uint8_t grey = values.pixels[i];
+    picture.pixels[i] = {grey, grey, grey};
+  }
+  return EncodePng(picture);
+}
+
+/// A rectangle of `value` on 0.
+Image<std::uint8_t> Rectangle(int left, int right, std::uint8_t value, int width = kWidth) {
+  Image<std::uint8_t> values(width, kHeight);
+  for (int y = 10; y < 50; ++y) {
+    for (int x = left; x < right; ++x) values.At(x, y) = value;
+  }
+  return values;
+}
+
+class ReadMasksTest : public ::testing::Test {
+ protected:
+  void Add(const std::string& name, const Image<std::uint8_t>& values) {
+    ASSERT_TRUE(WriteFileAtomically(folder_.path() / "cam1_masks" / name, GreyPng(values)));
+  }
+  Result<std::vector<Mask>> Read(std::optional<int> id = {}, int frames = 2) {
+    FilmedView view{.path = "films/cam1.mp4", .facts = {kWidth, kHeight, 30, frames}, .camera = {}, .fit = {}};
+    view.camera = {"cam1", {.intrinsics = {kWidth, kHeight, 90, 90, kWidth / 2.0, kHeight / 2.0}}};
+    told_.lines.clear();
+    return ReadMasks(folder_.path().string(), id, view, told_);
+  }
+  std::string Reason(std::optional<int> id = {}, int frames = 2) {
+    const auto read = Read(id, frames);
+    return read ? "read" : ToString(read.error());
+  }
+  TemporaryFolder folder_ = TemporaryFolder::Make("masks").value();
+  MessageLog told_{[](const std::string&) {}};
+};
+
+TEST_F(ReadMasksTest, TakesBlackAndWhiteSoftOnesAndNumbers) {
+  for (const int value : {255, 128, 1, 7}) {
+    Add("9.png", Rectangle(20, 40, static_cast<std::uint8_t>(value)));
+    Add("10.png", Rectangle(30, 50, static_cast<std::uint8_t>(value)));
+    const auto masks = Read();
+    ASSERT_TRUE(masks) << value << ": " << ToString(masks.error());
+    ASSERT_EQ(masks->size(), 2u);
+    EXPECT_EQ((*masks)[0].At(25, 30), 1) << "9.png is before 10.png";
+    EXPECT_EQ((*masks)[0].At(45, 30), 0);
+    EXPECT_EQ((*masks)[1].At(45, 30), 1);
+    EXPECT_EQ(std::ranges::count((*masks)[0].pixels, 1), 20 * 40);
+    EXPECT_TRUE(told_.lines.empty());
+  }
+}
+
+TEST_F(ReadMasksTest, OfSeveralPeopleNeedTheNumberOfOne) {
+  Image<std::uint8_t> both = Rectangle(10, 30, 1);
+  for (int y = 10; y < 50; ++y) both.At(60, y) = both.At(61, y) = 2;
+  Add("1.png", both);
+  Add("2.png", both);
+  EXPECT_THAT(Reason(), HasSubstr("masks of several people or things: 1, 2; choose one by --mask-id"));
+  const auto second = Read(2);
+  ASSERT_TRUE(second);
+  EXPECT_EQ(std::ranges::count((*second)[0].pixels, 1), 2 * 40);
+  EXPECT_THAT(Reason(3), HasSubstr("there is no --mask-id 3, but 1, 2"));
+}
+
+TEST_F(ReadMasksTest, SayWhatLooksWrong) {
+  Add("1.png", Rectangle(0, 0, 0));
+  EXPECT_THAT(Reason(), HasSubstr("cam1_masks: 1 masks, but the film films/cam1.mp4 has 2 frames"));
+  Add("2.png", Rectangle(0, 0, 0));
+  EXPECT_THAT(Reason(), HasSubstr("no mask shows a person: all pixels are 0"));
+  Add("2.png", Rectangle(20, 40, 100));
+  EXPECT_THAT(Reason(), HasSubstr("the largest value is 100; allowed: 1, 255, shades from 128 on"));
+  Image<std::uint8_t> two = Rectangle(10, 30, 255);
+  for (int y = 10; y < 50; ++y) {
+    for (int x = 60; x < 75; ++x) two.At(x, y) = 255;
+  }
+  Add("2.png", two);
+  ASSERT_EQ(Reason(), "read");
+  ASSERT_EQ(told_.lines.size(), 2u);
+  EXPECT_EQ(told_.lines[0], "masks of cam1: 1 of 2 are empty");
+  EXPECT_THAT(told_.lines[1], HasSubstr("doubtful: masks of cam1: 1 of 2 have several large regions"));
+  EXPECT_THAT(Reason({}, 1), HasSubstr("more masks than the film films/cam1.mp4 has frames: 1"));
+  Add("2.png", Rectangle(20, 40, 255, 2 * kWidth));
+  EXPECT_THAT(Reason(), HasSubstr("2.png: a mask of 192 x 64 pixels, but the film films/cam1.mp4 has 96 x 64"));
+  std::filesystem::rename(folder_.path() / "cam1_masks", folder_.path() / "cam2_masks");
+  EXPECT_THAT(Reason(), HasSubstr("no file in it begins with the film's name cam1"));
+}
+
+}  // namespace
+}  // namespace etude

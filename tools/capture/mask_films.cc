@@ -1,0 +1,151 @@
+#include "tools/capture/mask_films.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <functional>
+
+#include "engine/base/names.h"
+#include "engine/vision/components.h"
+#include "io/films/decoder.h"
+#include "io/images/image_files.h"
+#include "io/keypoints/read_people.h"
+#include "tools/capture/reduced_film.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMaxNumber = 16;  // greys up to this are numbers, not shades
+
+/// Shows the masks of a film to `visit`, one after the other. `visit` gets the file's name for complaints.
+using MaskVisit = std::function<Result<void>(const MaskPicture& mask, const std::string& file)>;
+
+Result<void> VisitFolder(const fs::path& folder, const MaskVisit& visit) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".png" || entry.path().extension() == ".PNG") files.push_back(entry.path());
+  }
+  if (error) return Fail({folder.string()}, "{}", error.message());
+  // By number where names differ only in it: 9.png stands before 10.png.
+  std::ranges::sort(files, [](const fs::path& a, const fs::path& b) {
+    const std::string one = a.filename().string(), other = b.filename().string();
+    return std::pair(one.size(), one) < std::pair(other.size(), other);
+  });
+  for (const fs::path& file : files) {
+    ASSIGN_OR_RETURN(const MaskPicture mask, LoadMaskPng(file.string()));
+    RETURN_IF_ERROR(visit(mask, file.string()));
+  }
+  return {};
+}
+
+Result<void> VisitFilm(const fs::path& path, const MaskVisit& visit) {
+  ASSIGN_OR_RETURN(const FilmFacts facts, ProbeFilm(path));
+  ASSIGN_OR_RETURN(Decoder decoder, Decoder::Start(path, facts));
+  ColourImage frame;
+  MaskPicture mask{.values = {facts.width, facts.height}};
+  while (true) {
+    ASSIGN_OR_RETURN(const bool is_there, decoder.Next(frame));
+    if (!is_there) return {};
+    std::ranges::transform(frame.pixels, mask.values.pixels.begin(), [](const Rgb8& pixel) { return pixel.g; });
+    RETURN_IF_ERROR(visit(mask, path.string()));
+  }
+}
+
+/// Sets the pixels of whose patch at least half has the person.
+template <typename IsPerson>
+Mask Reduced(const Image<std::uint8_t>& values, const Image<FilmPatch>& patches, const IsPerson& is_person) {
+  Mask mask(patches.width, patches.height);
+  for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
+    const FilmPatch& patch = patches.pixels[i];
+    int count = 0;
+    for (int y = patch.top; y < patch.bottom; ++y) {
+      for (int x = patch.left; x < patch.right; ++x) count += is_person(values.At(x, y));
+    }
+    const int pixels = (patch.right - patch.left) * (patch.bottom - patch.top);
+    mask.pixels[i] = pixels > 0 && 2 * count >= pixels;
+  }
+  return mask;
+}
+
+bool IsEmpty(const Mask& mask) { return std::ranges::find(mask.pixels, 1) == mask.pixels.end(); }
+
+/// Returns true if the second largest region is more than a quarter of the largest.
+bool HasSeveral(const Mask& mask) {
+  std::array<int, 2> largest{};
+  for (const Components::Piece& piece : LabelComponents(mask).pieces) {
+    if (!piece.set || piece.size <= largest[1]) continue;
+    largest[1] = piece.size;
+    if (largest[1] > largest[0]) std::swap(largest[0], largest[1]);
+  }
+  return 4 * largest[1] > largest[0];
+}
+
+}  // namespace
+
+Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int> id, const FilmedView& view,
+                                    MessageLog& told) {
+  ASSIGN_OR_RETURN(const fs::path entry, EntryOfFilm(folder, view.path.stem().string()));
+  const Image<FilmPatch> patches = PatchesOf(view.facts, view.camera.camera, view.fit, UnmarkedTake::kPictureSide);
+  const auto frames = static_cast<std::size_t>(view.facts.frames);
+  // Both readings of the values are kept until all are known: shades, of which 128 and more are the person, or numbers.
+  std::vector<Mask> shades, numbers;
+  std::array<bool, 256> found{};
+  bool is_indexed = false;
+  const MaskVisit visit = [&](const MaskPicture& mask, const std::string& file) -> Result<void> {
+    const Image<std::uint8_t>& values = mask.values;
+    if (values.width != view.facts.width || values.height != view.facts.height) {
+      return Fail({file}, "a mask of {} x {} pixels, but the film {} has {} x {}", values.width, values.height,
+                  view.path.string(), view.facts.width, view.facts.height);
+    }
+    if (numbers.size() == frames) {
+      return Fail({entry.string()}, "more masks than the film {} has frames: {}", view.path.string(), frames);
+    }
+    is_indexed |= mask.is_indexed;
+    for (const std::uint8_t value : values.pixels) found[value] = true;
+    numbers.push_back(Reduced(values, patches, [&](std::uint8_t value) { return id ? value == *id : value != 0; }));
+    if (!id) shades.push_back(Reduced(values, patches, [](std::uint8_t value) { return value >= 128; }));
+    return {};
+  };
+  RETURN_IF_ERROR(fs::is_directory(entry) ? VisitFolder(entry, visit) : VisitFilm(entry, visit));
+  if (numbers.size() < frames) {
+    return Fail({entry.string()}, "{} masks, but the film {} has {} frames; allowed: a mask for each frame (PNG)",
+                numbers.size(), view.path.string(), frames);
+  }
+  // Which of the readings holds?
+  std::vector<std::string> ids;
+  int largest = 0;
+  for (int value = 1; value < 256; ++value) {
+    if (!found[value]) continue;
+    ids.push_back(std::to_string(value));
+    largest = value;
+  }
+  const bool are_numbers = id || is_indexed || largest <= kMaxNumber;
+  if (!id && are_numbers && ids.size() > 1) {
+    return Fail({entry.string()}, "masks of several people or things: {}; choose one by --mask-id", Join(ids));
+  }
+  std::vector<Mask>& masks = are_numbers ? numbers : shades;
+  const auto empty = std::ranges::count_if(masks, IsEmpty);
+  if (static_cast<std::size_t>(empty) == masks.size()) {
+    return Fail({entry.string()}, "no mask shows a person: {}",
+                ids.empty() ? "all pixels are 0"
+                : id        ? fmt::format("there is no --mask-id {}, but {}", *id, Join(ids))
+                            : fmt::format("the largest value is {}; allowed: 1, 255, shades from 128 on", largest));
+  }
+  // Report what looks wrong.
+  if (empty > 0) {
+    told.Tell(fmt::format("masks of {}: {} of {} are empty", view.camera.name, empty, masks.size()));
+  }
+  const auto several = std::ranges::count_if(masks, HasSeveral);
+  if (several > 0) {
+    told.Tell(fmt::format("doubtful: masks of {}: {} of {} have several large regions: more than one person?",
+                          view.camera.name, several, masks.size()));
+  }
+  return std::move(masks);
+}
+
+}  // namespace etude

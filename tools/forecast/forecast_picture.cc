@@ -1,0 +1,188 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/base/base64.h"
+#include "engine/base/order_statistics.h"
+#include "io/drawing/canvas.h"
+#include "io/drawing/escape.h"
+#include "io/drawing/look.h"
+#include "io/drawing/table.h"
+#include "io/drawing/tool_page.h"
+#include "tools/forecast/forecast_rig.h"
+
+namespace etude {
+namespace {
+
+constexpr int kWidth = 1280, kHeight = 580, kMargin = 20;
+constexpr double kPlanSize = 360, kPlanTop = 74;
+constexpr int kPanelsInRow = 5;
+constexpr double kCell = 8, kPanel = kCell * kForecastColumns, kPanelGap = 12, kPanelsLeft = 412, kPanelTitle = 22;
+constexpr double kTitleSize = 18, kTextSize = 13;
+constexpr Paint kUnseen{0.25, 0.27, 0.29, 1};
+
+/// The errors that the ends of the colour scale stand for, mm. The upper end is the 95th percentile.
+struct Scale {
+  double low = 0, high = 1;
+};
+
+Scale ScaleOf(const RigForecast& forecast) {
+  double low = *forecast.worst.error_mm;
+  for (const ForecastPlace& place : forecast.places) low = std::min(low, place.error_mm.value_or(low));
+  return {low, std::max(forecast.p95_mm, low + 1e-3)};
+}
+
+/// Returns the colour of a share of the scale: from dark blue (small) over green to yellow (large).
+Paint ColourOf(double share) {
+  constexpr std::array<Paint, 5> kStops = {
+      {{0.27, 0.00, 0.33}, {0.23, 0.32, 0.55}, {0.13, 0.57, 0.55}, {0.37, 0.79, 0.38}, {0.99, 0.91, 0.14}}};
+  const double at = std::clamp(share, 0.0, 1.0) * (kStops.size() - 1);
+  const std::size_t below = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
+  const double rest = at - static_cast<double>(below);
+  const Paint &a = kStops[below], &b = kStops[below + 1];
+  return {a.r + rest * (b.r - a.r), a.g + rest * (b.g - a.g), a.b + rest * (b.b - a.b), 1};
+}
+
+/// Draws the places of one height. Like the plan, it is seen from above: x to the right, z downwards.
+void DrawHeight(Canvas& canvas, const RigForecast& forecast, const Scale& scale, int height, double left, double top) {
+  const ForecastPlace* places = &forecast.places[static_cast<std::size_t>(height) * kForecastRows * kForecastColumns];
+  canvas.DrawText({left, top - 7}, fmt::format("{:.2f} m high", places->place_m.y), kTextSize, kSoftInk, kPanel);
+  for (int z = 0; z < kForecastRows; ++z) {
+    for (int x = 0; x < kForecastColumns; ++x) {
+      const auto& error = places[z * kForecastColumns + x].error_mm;
+      const Paint paint = error ? ColourOf((*error - scale.low) / (scale.high - scale.low)) : kUnseen;
+      canvas.FillBox({left + x * kCell, top + z * kCell, kCell, kCell}, paint);
+    }
+  }
+  const glm::dvec3 off = forecast.worst.place_m - places->place_m;
+  if (off.y != 0) return;
+  const auto* worst = std::ranges::find(places, places + kForecastRows * kForecastColumns, forecast.worst.place_m,
+                                        &ForecastPlace::place_m);
+  const auto index = static_cast<int>(worst - places);
+  canvas.DrawRing({left + (index % kForecastColumns + 0.5) * kCell, top + (index / kForecastColumns + 0.5) * kCell},
+                  kCell, 2, kInk);
+}
+
+/// Draws the cameras and the volume from above, and the best place for one more camera.
+void DrawPlan(Canvas& canvas, const RigForecast& forecast, const ForecastOptions& options) {
+  const glm::dvec2 half(options.size_m.x / 2, options.size_m.z / 2);
+  glm::dvec2 low = forecast.middle_m - half, high = forecast.middle_m + half;
+  const auto include = [&](const glm::dvec3& p) {
+    low = glm::min(low, glm::dvec2(p.x, p.z));
+    high = glm::max(high, glm::dvec2(p.x, p.z));
+  };
+  for (const auto& [name, camera] : forecast.cameras) include(camera.p_WC);
+  for (const RigWorth& worth : forecast.worths) {
+    if (worth.added_m) include(*worth.added_m);
+  }
+  constexpr double kRim = 24;
+  const double scale = (kPlanSize - 2 * kRim) / std::max(high.x - low.x, high.y - low.y);
+  const glm::dvec2 corner = glm::dvec2(kMargin, kPlanTop) + 0.5 * (glm::dvec2(kPlanSize) - scale * (high - low));
+  const auto at = [&](const glm::dvec2& p) { return corner + scale * (p - low); };
+  canvas.FillBox({kMargin, kPlanTop, kPlanSize, kPlanSize}, {0.13, 0.145, 0.16, 1}, kPanelRadius);
+  const glm::dvec2 from = at(forecast.middle_m - half), size = 2.0 * scale * half;
+  canvas.FillBox({from.x, from.y, size.x, size.y}, kUnseen);
+  const auto draw_camera = [&](const glm::dvec3& place, const glm::dvec2& towards, const std::string& name,
+                               const Paint& paint) {
+    const glm::dvec2 spot = at({place.x, place.z});
+    canvas.DrawDot(spot, 6, paint);
+    const double length = glm::length(towards);
+    if (length > 0) canvas.DrawLine(spot, spot + 24.0 / length * towards, 2.5, paint);
+    const double width = std::min(canvas.TextWidth(name, kTextSize), 120.0);
+    canvas.DrawText({std::clamp(spot.x - width / 2, kMargin + 4.0, kMargin + kPlanSize - width - 4),
+                     spot.y + (towards.y < 0 ? 22 : -10)},
+                    name, kTextSize, paint, 120);
+  };
+  for (const auto& [name, camera] : forecast.cameras) {
+    const glm::dvec3 axis = glm::transpose(camera.R_CW)[2];
+    draw_camera(camera.p_WC, {axis.x, axis.z}, name, kAccent);
+  }
+  for (const RigWorth& worth : forecast.worths) {
+    if (worth.added_m)
+      draw_camera(*worth.added_m, forecast.middle_m - glm::dvec2(worth.added_m->x, worth.added_m->z), "one more",
+                  kWarm);
+  }
+}
+
+void DrawScale(Canvas& canvas, const Scale& scale) {
+  constexpr double kTop = kPlanTop + kPlanSize + 34, kLong = 240, kThick = 14;
+  canvas.DrawText({kMargin, kTop - 9}, "Root mean square error of a point, mm", kTextSize, kInk, kPlanSize);
+  for (int i = 0; i < static_cast<int>(kLong); ++i)
+    canvas.FillBox({kMargin + i * 1.0, kTop, 1.0, kThick}, ColourOf(i / kLong));
+  canvas.DrawText({kMargin, kTop + 30}, fmt::format("{:.1f}", scale.low), kTextSize, kSoftInk, 80);
+  canvas.DrawText({kMargin + kLong - 50, kTop + 30}, fmt::format("{:.1f} or more", scale.high), kTextSize, kSoftInk,
+                  140);
+  canvas.FillBox({kMargin, kTop + 44, kThick, kThick}, kUnseen);
+  canvas.DrawText({kMargin + 22, kTop + 56}, "fewer than two cameras see it", kTextSize, kSoftInk, kPlanSize);
+  canvas.DrawRing({kMargin + 7, kTop + 76}, 6, 2, kInk);
+  canvas.DrawText({kMargin + 22, kTop + 81}, "the worst place", kTextSize, kSoftInk, kPlanSize);
+}
+
+std::string JointsHtml(const RigForecast& forecast) {
+  if (forecast.joints.empty()) return "<p>No place shows all joints of a standing body to two cameras.</p>";
+  Table table{.label = "Joints", .columns = {{.head = "Joint", .is_row_head = true}}};
+  for (const char* head :
+       {"By points, mm", "In the fitted body, mm", "Limb by points, degrees", "Limb in the body, degrees"})
+    table.columns.push_back({.head = head, .is_number = true});
+  for (const ForecastJoint& joint : forecast.joints) {
+    table.rows.push_back(
+        {{RoleName(joint.role), fmt::format("{:.1f}", joint.point_mm), fmt::format("{:.1f}", joint.body_mm),
+          fmt::format("{:.1f}", joint.point_deg), fmt::format("{:.1f}", joint.body_deg)}});
+  }
+  return fmt::format(
+             "<p>Means over the {:.0f} % of places of the floor where two cameras see all joints of a standing person. "
+             "A "
+             "limb is the one that ends in the joint.</p>",
+             100 * forecast.bodies) +
+         TableHtml(table);
+}
+
+std::string WorthsHtml(const RigForecast& forecast) {
+  Table table{.label = "Changes",
+              .columns = {{.head = "The rig", .is_row_head = true},
+                          {.head = "Median error, mm", .is_number = true},
+                          {.head = "Places seen", .is_number = true}}};
+  for (const RigWorth& worth : forecast.worths) {
+    table.rows.push_back(
+        {{worth.change, fmt::format("{:.1f}", worth.median_mm), fmt::format("{:.0f} %", 100 * worth.seen)}});
+  }
+  return "<p>Medians are over the places that the rig sees as it is.</p>" + TableHtml(table);
+}
+
+}  // namespace
+
+std::string ForecastPicture(const RigForecast& forecast, const ForecastOptions& options) {
+  Canvas canvas(kWidth, kHeight);
+  canvas.FillBox({0, 0, kWidth, kHeight}, kBackdrop);
+  canvas.DrawText({kMargin, 34}, "Expected error over the volume", kTitleSize, kInk, kWidth - 2 * kMargin, true);
+  canvas.DrawText({kMargin, 58}, AssumedWords(options), kTextSize, kSoftInk, kWidth - 2 * kMargin);
+  DrawPlan(canvas, forecast, options);
+  const Scale scale = ScaleOf(forecast);
+  DrawScale(canvas, scale);
+  for (int height = 0; height < kForecastHeights; ++height) {
+    const int column = height % kPanelsInRow, row = height / kPanelsInRow;
+    DrawHeight(canvas, forecast, scale, height, kPanelsLeft + column * (kPanel + kPanelGap),
+               kPlanTop + kPanelTitle + row * (kPanel + kPanelTitle + 2 * kPanelGap));
+  }
+  return canvas.Png();
+}
+
+std::string ForecastPage(const RigForecast& forecast, const ForecastOptions& options) {
+  const std::string picture = fmt::format(
+      "<figure class=\"film\"><img width=\"{}\" height=\"{}\" src=\"data:image/png;base64,{}\" alt=\"Heat maps by "
+      "height\"><figcaption>From above: x to the right, z downwards.</figcaption></figure>",
+      kWidth, kHeight, Base64(ForecastPicture(forecast, options)));
+  return WriteToolPage(
+      {.kind = "forecast",
+       .title = options.rig,
+       .verdict = FoundWords(forecast) + ".",
+       .version = options.version,
+       .command = options.command_line},
+      fmt::format("<p>{}.</p>{}<section class=\"card\"><h2>What would help</h2>{}</section>\n<section "
+                  "class=\"card\"><h2>A person there</h2>{}</section>\n",
+                  EscapeMarkup(AssumedWords(options)), picture, WorthsHtml(forecast), JointsHtml(forecast)));
+}
+
+}  // namespace etude

@@ -1,0 +1,306 @@
+#include "tools/forecast/forecast_rig.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/angles.h"
+#include "engine/base/order_statistics.h"
+#include "io/drawing/numbers.h"
+#include "io/drawing/table.h"
+#include "io/files/files.h"
+#include "sim/choreography/canonical_body.h"
+#include "tools/capture/capture_films.h"
+
+namespace etude {
+namespace {
+
+constexpr double kMmPerM = 1000;
+
+std::vector<Camera> CamerasOf(const std::vector<NamedCamera>& named) {
+  std::vector<Camera> cameras;
+  for (const NamedCamera& camera : named) cameras.push_back(camera.camera);
+  return cameras;
+}
+
+/// Returns the cameras of a rig file in the world, metres, Y up.
+Result<std::vector<NamedCamera>> PlacedCameras(const ForecastOptions& options) {
+  ASSIGN_OR_RETURN(const RigFile rig, OpenRig(options.rig));
+  constexpr std::size_t kMaxCameras = 32;
+  const std::size_t most = options.errors.dropout > 0 ? kMaxDroppingCameras : kMaxCameras;
+  if (rig.cameras.size() < 2 || rig.cameras.size() > most) {
+    return Fail({options.rig}, "{}; allowed: 2 to {}{}", Plural(static_cast<long long>(rig.cameras.size()), "camera"),
+                most, options.errors.dropout > 0 ? " with --dropout" : "");
+  }
+  RETURN_IF_ERROR(CheckPlace(options.place));
+  ASSIGN_OR_RETURN(const RigPlacement place, PlaceRig(rig, options.place));
+  std::vector<NamedCamera> cameras;
+  for (const NamedCamera& named : rig.cameras) {
+    cameras.push_back({named.name, Placed(place, named.camera)});
+    Intrinsics& in = cameras.back().camera.intrinsics;
+    if (in.width > 0) continue;
+    // The file states no size: the principal point is near the middle.
+    in.width = static_cast<int>(std::lround(2 * in.cx));
+    in.height = static_cast<int>(std::lround(2 * in.cy));
+    if (in.width <= 0 || in.height <= 0) return Fail({options.rig}, "camera {}: its pictures have no size", named.name);
+    options.listener.print(
+        fmt::format("{}: the rig states no size of its pictures; {} x {} is taken, twice its principal point\n",
+                    named.name, in.width, in.height));
+  }
+  return cameras;
+}
+
+/// Returns the point on the floor below the one that is nearest to all optical axes.
+Result<glm::dvec2> MiddleOf(const std::vector<NamedCamera>& cameras, const std::string& file) {
+  glm::dmat3 normal(0);
+  glm::dvec3 right(0);
+  for (const auto& [name, camera] : cameras) {
+    const glm::dvec3 axis_W = glm::transpose(camera.R_CW)[2];
+    const glm::dmat3 across = glm::dmat3(1) - glm::outerProduct(axis_W, axis_W);
+    normal += across;
+    right += across * camera.p_WC;
+  }
+  constexpr double kParallel = 1e-3;  // of the determinant for each camera: axes within about 2°
+  if (!(glm::determinant(normal) > kParallel * std::pow(static_cast<double>(cameras.size()), 3))) {
+    return Fail({file}, "its cameras look in parallel, so they show no common middle; name it: --middle X,Z in m");
+  }
+  const glm::dvec3 middle = glm::inverse(normal) * right;
+  return glm::dvec2(middle.x, middle.z);
+}
+
+std::vector<ForecastPlace> PlacesOf(const std::vector<Camera>& cameras, const glm::dvec2& middle,
+                                    const ForecastOptions& options, const SightingErrors& errors) {
+  std::vector<ForecastPlace> places;
+  const glm::dvec3 low(middle.x - options.size_m.x / 2, 0, middle.y - options.size_m.z / 2);
+  for (int h = 0; h < kForecastHeights; ++h) {
+    for (int z = 0; z < kForecastRows; ++z) {
+      for (int x = 0; x < kForecastColumns; ++x) {
+        const glm::dvec3 share((x + 0.5) / kForecastColumns, (h + 0.5) / kForecastHeights, (z + 0.5) / kForecastRows);
+        ForecastPlace place{.place_m = low + share * options.size_m};
+        const PointError error = ExpectedPointError(cameras, place.place_m, errors);
+        place.cameras = error.cameras;
+        place.lost = error.lost;
+        if (error.lost < 1) place.error_mm = kMmPerM * error.Rms();
+        places.push_back(place);
+      }
+    }
+  }
+  return places;
+}
+
+double ShareSeen(const std::vector<ForecastPlace>& places) {
+  const auto seen =
+      std::ranges::count_if(places, [](const ForecastPlace& place) { return place.error_mm.has_value(); });
+  return static_cast<double>(seen) / static_cast<double>(places.size());
+}
+
+/// Returns the errors at the places that `own` sees.
+std::vector<double> ErrorsWhere(const std::vector<ForecastPlace>& own, const std::vector<ForecastPlace>& places) {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    if (own[i].error_mm && places[i].error_mm) errors.push_back(*places[i].error_mm);
+  }
+  return errors;
+}
+
+/// Finds the best place for one more camera, with the lens of the first one, that looks at the middle of the volume: of
+/// 36 directions, three heights and three distances (0.75, 1 and 1.25 times the median of the rig's). The best has the
+/// largest mean of 1 / error over a coarse grid of places; a place that two cameras do not see counts 0.
+Camera BestAddition(const std::vector<Camera>& cameras, const std::vector<ForecastPlace>& places,
+                    const glm::dvec2& middle, const ForecastOptions& options) {
+  std::vector<const ForecastPlace*> coarse;
+  for (int h = 1; h < kForecastHeights; h += 3) {
+    for (int z = 2; z < kForecastRows; z += 4) {
+      for (int x = 2; x < kForecastColumns; x += 4)
+        coarse.push_back(&places[(h * kForecastRows + z) * kForecastColumns + x]);
+    }
+  }
+  std::vector<double> distances;
+  for (const Camera& camera : cameras)
+    distances.push_back(glm::distance(glm::dvec2(camera.p_WC.x, camera.p_WC.z), middle));
+  std::ranges::sort(distances);
+  const double usual = distances[distances.size() / 2];
+  const glm::dvec3 aim(middle.x, options.size_m.y / 2, middle.y);
+  std::vector<Camera> more = cameras;
+  more.emplace_back();
+  Camera best;
+  double best_score = -1;
+  constexpr int kDirections = 36;
+  for (int k = 0; k < kDirections; ++k) {
+    const double angle = 2 * kPi * k / kDirections;
+    for (const double height : {0.5, 1.5, 2.5}) {
+      for (const double distance : {0.75 * usual, usual, 1.25 * usual}) {
+        const glm::dvec3 p_WC(middle.x + distance * std::sin(angle), height, middle.y + distance * std::cos(angle));
+        if (distance < 0.1) continue;  // it would look straight down
+        more.back() = LookAt(cameras.front().intrinsics, p_WC, aim);
+        more.back().distortion = cameras.front().distortion;
+        double score = 0;
+        for (const ForecastPlace* place : coarse) {
+          const PointError error = ExpectedPointError(more, place->place_m, options.errors);
+          if (error.lost < 1) score += 1 / error.Rms();
+        }
+        if (score <= best_score) continue;
+        best_score = score;
+        best = more.back();
+      }
+    }
+  }
+  return best;
+}
+
+/// Adds the errors of standing bodies: at every second place of the floor in both directions, facing +Z and +X.
+Result<void> AddJoints(const std::vector<Camera>& cameras, const ForecastOptions& options, RigForecast& forecast) {
+  std::array<JointErrors, kRoleCount> sums{};
+  int whole = 0, all = 0;
+  for (const double yaw : {0.0, kPi / 2}) {
+    ASSIGN_OR_RETURN(const auto bodies, PoseErrorForecast::Of(FloorMove{.yaw = yaw}.Apply(PoseOf(ReadyStance()))));
+    for (int z = 0; z < kForecastRows; z += 2) {
+      for (int x = 0; x < kForecastColumns; x += 2) {
+        const glm::dvec3 place = forecast.places[z * kForecastColumns + x].place_m;
+        const auto errors = bodies.At(cameras, {place.x, 0, place.z}, options.errors);
+        ++all;
+        if (!errors) continue;
+        ++whole;
+        for (std::size_t i = 0; i < kRoleCount; ++i) {
+          sums[i].point += (*errors)[i].point;
+          sums[i].body += (*errors)[i].body;
+          sums[i].point_turn += (*errors)[i].point_turn;
+          sums[i].body_turn += (*errors)[i].body_turn;
+        }
+      }
+    }
+  }
+  forecast.bodies = static_cast<double>(whole) / all;
+  if (whole == 0) return {};
+  const auto mm = [&](double sum) { return kMmPerM * std::sqrt(sum / whole); };
+  const auto deg = [&](double sum) { return Degrees(std::sqrt(sum / whole)); };
+  for (const Role role : AllRoles()) {
+    const JointErrors& sum = sums[Index(role)];
+    forecast.joints.push_back({role, mm(sum.point), mm(sum.body), deg(sum.point_turn), deg(sum.body_turn)});
+  }
+  return {};
+}
+
+void AddWorths(const std::vector<Camera>& cameras, const ForecastOptions& options, RigForecast& forecast) {
+  const auto add = [&](const std::string& change, const std::vector<Camera>& changed, const SightingErrors& errors,
+                       std::optional<glm::dvec3> added = {}) {
+    const auto places = PlacesOf(changed, forecast.middle_m, options, errors);
+    const std::vector<double> there = ErrorsWhere(forecast.places, places);
+    forecast.worths.push_back({change, added, ShareSeen(places), Quantile(there, 0.5)});
+  };
+  add("as it is", cameras, options.errors);
+  SightingErrors errors = options.errors;
+  errors.noise_px /= 2;
+  add("pixels twice as exact", cameras, errors);
+  if (options.errors.calibration != CalibrationDeviation{}) {
+    errors = options.errors;
+    for (double* one : {&errors.calibration.place_m, &errors.calibration.turn, &errors.calibration.focal}) *one /= 2;
+    add("a calibration twice as exact", cameras, errors);
+    errors.calibration = {};
+    add("a perfect calibration", cameras, errors);
+  }
+  if (options.errors.dropout > 0 && cameras.size() == kMaxDroppingCameras) return;
+  std::vector<Camera> more = cameras;
+  more.push_back(BestAddition(cameras, forecast.places, forecast.middle_m, options));
+  const glm::dvec3 p = more.back().p_WC;
+  add(fmt::format("one more camera at x {:.1f}, z {:.1f}, {:.1f} m high", p.x, p.z, p.y), more, options.errors, p);
+}
+
+std::string PlacesCsv(const RigForecast& forecast) {
+  Table table;
+  for (const char* head : {"x_m", "height_m", "z_m", "cameras", "lost_share", "error_mm"})
+    table.columns.push_back({.head = head, .is_number = true});
+  for (const ForecastPlace& place : forecast.places) {
+    table.rows.push_back(
+        {{place.place_m.x, place.place_m.y, place.place_m.z, place.cameras, place.lost, TableCell(place.error_mm)}});
+  }
+  return TableCsv(table);
+}
+
+std::string JointsText(const RigForecast& forecast) {
+  if (forecast.joints.empty()) return "No place shows all joints of a standing body to two cameras.\n";
+  std::string text = fmt::format(
+      "\nA standing body, at the {:.0f} % of places that show all of it, root mean "
+      "square:\n{:<18}{:>12}{:>12}{:>14}{:>14}\n",
+      100 * forecast.bodies, "", "points, mm", "body, mm", "limb, deg", "in body, deg");
+  for (const ForecastJoint& joint : forecast.joints) {
+    text += fmt::format("{:<18}{:>12.1f}{:>12.1f}{:>14.1f}{:>14.1f}\n", RoleName(joint.role), joint.point_mm,
+                        joint.body_mm, joint.point_deg, joint.body_deg);
+  }
+  return text;
+}
+
+std::string WorthsText(const RigForecast& forecast) {
+  std::string text = fmt::format("\n{:<52}{:>12}{:>13}\n", "What would help", "median, mm", "places seen");
+  for (const RigWorth& worth : forecast.worths)
+    text += fmt::format("{:<52}{:>12.1f}{:>11.0f} %\n", worth.change, worth.median_mm, 100 * worth.seen);
+  return text;
+}
+
+}  // namespace
+
+std::string AssumedWords(const ForecastOptions& options) {
+  const SightingErrors& errors = options.errors;
+  return fmt::format(
+      "Assumed: pixels err by {:g} px along each axis, a camera gives none in {:g} % of its pictures; cameras err by "
+      "{:g} mm, "
+      "{:g} degrees, {:g} % of the focal length",
+      errors.noise_px, 100 * errors.dropout, kMmPerM * errors.calibration.place_m, Degrees(errors.calibration.turn),
+      100 * errors.calibration.focal);
+}
+
+std::string FoundWords(const RigForecast& forecast) {
+  const glm::dvec3& worst = forecast.worst.place_m;
+  return fmt::format(
+      "A point errs by {:.1f} mm in the median and {:.1f} at the 95th percentile of the {:.0f} % of places that two "
+      "cameras "
+      "see; worst: {:.1f} mm at x {:.2f}, z {:.2f}, {:.2f} m high",
+      forecast.median_mm, forecast.p95_mm, 100 * forecast.seen, *forecast.worst.error_mm, worst.x, worst.z, worst.y);
+}
+
+Result<RigForecast> ForecastRig(const ForecastOptions& options) {
+  RigForecast forecast;
+  ASSIGN_OR_RETURN(forecast.cameras, PlacedCameras(options));
+  const std::vector<Camera> cameras = CamerasOf(forecast.cameras);
+  if (options.middle_m) {
+    forecast.middle_m = *options.middle_m;
+  } else {
+    ASSIGN_OR_RETURN(forecast.middle_m, MiddleOf(forecast.cameras, options.rig));
+  }
+  // Every place of the grid.
+  forecast.places = PlacesOf(cameras, forecast.middle_m, options, options.errors);
+  forecast.seen = ShareSeen(forecast.places);
+  if (forecast.seen == 0) {
+    return Fail(
+        {options.rig},
+        "no place within {:g} x {:g} m around x {:.2f}, z {:.2f} is in the pictures of two cameras; allowed: another "
+        "--middle, --size or --rig-unit",
+        options.size_m.x, options.size_m.z, forecast.middle_m.x, forecast.middle_m.y);
+  }
+  const std::vector<double> errors = ErrorsWhere(forecast.places, forecast.places);
+  constexpr double kMedian = 0.5, k95Percent = 0.95;
+  forecast.median_mm = Quantile(errors, kMedian);
+  forecast.p95_mm = Quantile(errors, k95Percent);
+  forecast.worst = *std::ranges::max_element(forecast.places, {},
+                                             [](const ForecastPlace& place) { return place.error_mm.value_or(-1); });
+  // A person there, and what would help.
+  RETURN_IF_ERROR(AddJoints(cameras, options, forecast));
+  AddWorths(cameras, options, forecast);
+  options.listener.print(fmt::format(
+      "{} cameras around x {:.2f}, z {:.2f}, in a volume of {:g} x {:g} m, {:g} m high\n{}\n{}\n{}{}", cameras.size(),
+      forecast.middle_m.x, forecast.middle_m.y, options.size_m.x, options.size_m.z, options.size_m.y,
+      AssumedWords(options), FoundWords(forecast), JointsText(forecast), WorthsText(forecast)));
+  const auto write = [&](const std::string& path, const auto& bytes) -> Result<void> {
+    if (path.empty()) return {};
+    RETURN_IF_ERROR(WriteFileAtomically(path, bytes()));
+    TellWritten(options.listener, path);
+    return {};
+  };
+  RETURN_IF_ERROR(write(options.picture, [&] { return ForecastPicture(forecast, options); }));
+  RETURN_IF_ERROR(write(options.table, [&] { return PlacesCsv(forecast); }));
+  RETURN_IF_ERROR(write(options.report, [&] { return ForecastPage(forecast, options); }));
+  return forecast;
+}
+
+}  // namespace etude

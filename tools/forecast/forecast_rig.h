@@ -1,0 +1,85 @@
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/cameras/point_error.h"
+#include "engine/cameras/rig_file.h"
+#include "engine/keypoints/place_rig.h"
+#include "engine/keypoints/pose_error.h"
+#include "engine/motion/body.h"
+#include "tools/listener.h"
+
+namespace etude {
+
+struct ForecastOptions {
+  std::string rig;         ///< a calibration, as for `CaptureFilms`
+  PlacementOptions place;  ///< its unit, up axis and floor
+  SightingErrors errors;
+  glm::dvec3 size_m{3, 2, 3};  ///< the volume that people move in: width (x), height from the floor, depth (z)
+  std::optional<glm::dvec2>
+      middle_m;              ///< its middle on the floor (x, z); absent = the point nearest to all optical axes
+  std::string picture;       ///< a PNG of heat maps, "" = none
+  std::string table;         ///< a CSV of all places, "" = none
+  std::string report;        ///< an HTML page, "" = none
+  std::string command_line;  ///< the command as typed, for the page
+  std::string version;       ///< the program's, for the page
+  Listener listener = {};
+};
+
+/// The number of places along x, height and z at which errors are computed: the middles of equal cells.
+inline constexpr int kForecastColumns = 20, kForecastHeights = 10, kForecastRows = 20;
+
+/// The expected error at one place.
+struct ForecastPlace {
+  glm::dvec3 place_m{0};
+  int cameras = 0;                      ///< how many have it in their pictures
+  double lost = 1;                      ///< probability that it cannot be triangulated
+  std::optional<double> error_mm = {};  ///< root mean square distance; absent if two cameras never see it
+};
+
+/// How well a rig does over the volume: its own, or one with something changed.
+struct RigWorth {
+  std::string change;                      ///< for people
+  std::optional<glm::dvec3> added_m = {};  ///< the place of the camera that was added
+  double seen = 0;                         ///< share of all places that two cameras have in their pictures
+  double median_mm = 0;                    ///< over the places that the rig without any change sees
+};
+
+/// The expected root mean square errors of one joint of a person who stands in the volume.
+struct ForecastJoint {
+  Role role = Role::kHipCentre;
+  double point_mm = 0, body_mm = 0;    ///< of the triangulated joint; of the joint in the fitted body
+  double point_deg = 0, body_deg = 0;  ///< the same of the direction of the limb that ends there; 0 for the hip centre
+};
+
+struct RigForecast {
+  std::vector<NamedCamera> cameras;   ///< metres, Y up
+  glm::dvec2 middle_m{0};             ///< of the volume
+  std::vector<ForecastPlace> places;  ///< by height, then z, then x, each ascending
+  double seen = 0;                    ///< share of places that two cameras have in their pictures
+  double median_mm = 0, p95_mm = 0;   ///< over these
+  ForecastPlace worst;                ///< the place of the largest error
+  double bodies = 0;                  ///< share of places of the floor where all joints of a standing body are seen
+  std::vector<ForecastJoint> joints;  ///< of all roles, means over these places; empty if there are none
+  std::vector<RigWorth> worths;       ///< the rig itself, then each change
+};
+
+/// Computes what a rig is worth, reports it, and writes the files that `options` name. Fails, before anything is
+/// written, for a rig of fewer than two cameras, too many of them, cameras that look in parallel without a `middle_m`,
+/// and a volume of which two cameras see no place.
+Result<RigForecast> ForecastRig(const ForecastOptions& options);
+
+/// Draws a heat map for each height and a plan of the cameras. Returns the bytes of a PNG file.
+std::string ForecastPicture(const RigForecast& forecast, const ForecastOptions& options);
+/// Writes one HTML page with the picture and all tables.
+std::string ForecastPage(const RigForecast& forecast, const ForecastOptions& options);
+/// Says in one sentence each: what was assumed, and what was found.
+std::string AssumedWords(const ForecastOptions& options);
+std::string FoundWords(const RigForecast& forecast);
+
+}  // namespace etude
