@@ -202,15 +202,11 @@ std::optional<double> BalanceCm(const JoinView& view, std::span<const Support> s
   return offsets.empty() ? std::nullopt : std::optional(MeanOf(offsets));
 }
 
-bool IsCleanByVersion1(const CleanMeasures& m) {
-  constexpr double kMaxSlide_cmps = 6, kMaxSettle_s = 1.5, kMaxStrange_cm_s = 10, kMinLive = 0.5;
+bool IsCleanByVersion3(const CleanMeasures& m) {
+  constexpr double kMaxSlide_cmps = 6, kMaxSettle_s = 1.5, kMaxStrange_cm_s = 10, kMinLive = 0.5, kMaxSkipped = 1.0 / 3;
   return m.natural && m.calmly_natural && m.slide_cmps <= std::max(kMaxSlide_cmps, m.own_slide_cmps) && m.settle_s &&
-         *m.settle_s <= kMaxSettle_s && m.strange_cm_s <= kMaxStrange_cm_s && m.live >= kMinLive;
-}
-
-bool IsClean(const CleanMeasures& m) {
-  constexpr double kMaxSkipped = 1.0 / 3;
-  return IsCleanByVersion1(m) && m.supported && m.skipped_share <= kMaxSkipped;
+         *m.settle_s <= kMaxSettle_s && m.strange_cm_s <= kMaxStrange_cm_s && m.live >= kMinLive && m.supported &&
+         m.skipped_share <= kMaxSkipped;
 }
 
 }  // namespace etude

@@ -114,13 +114,13 @@ struct CleanMeasures {
   double own_slide_cmps = 0;  ///< foot slide of the clip that slides more, over the whole clip
   double skipped_share = 0;
   std::optional<double> settle_s;
+  bool possible = false;  ///< all measures of its body are within their limits (transition_body.h)
 };
-/// Returns true if the transition is clean by `clean_share_v1`: natural and calmly natural, slide ≤ 6 cm/s or ≤ that of
-/// the clips themselves, settled within 1.5 s, strange ≤ 10 cm·s, live ≥ 0.5. `supported` and `skipped_share` are not
-/// considered.
-bool IsCleanByVersion1(const CleanMeasures& measures);
-/// Returns true if the transition is clean by `clean_share`: it meets all conditions of version 1, is supported, and
-/// skips at most a third of the wanted clip.
-bool IsClean(const CleanMeasures& measures);
+/// Returns true if the transition is clean by `clean_share_v3`: natural and calmly natural, slide ≤ 6 cm/s or ≤ that of
+/// the clips themselves, settled within 1.5 s, strange ≤ 10 cm·s, live ≥ 0.5, supported, at most a third of the wanted
+/// clip skipped. `possible` is not considered.
+bool IsCleanByVersion3(const CleanMeasures& measures);
+/// Returns true if the transition is clean by `clean_share`: by version 3, and possible.
+inline bool IsClean(const CleanMeasures& measures) { return IsCleanByVersion3(measures) && measures.possible; }
 
 }  // namespace etude

@@ -15,6 +15,16 @@ namespace {
 
 using enum Role;
 
+struct Leg {
+  Role hip, knee, ankle, foot;
+};
+struct Arm {
+  Role elbow, wrist, hand;
+};
+constexpr std::array kLegs = {Leg{kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot},
+                              Leg{kRightHip, kRightKnee, kRightAnkle, kRightFoot}};
+constexpr std::array kArms = {Arm{kLeftElbow, kLeftWrist, kLeftHand}, Arm{kRightElbow, kRightWrist, kRightHand}};
+
 /// Appends a fault for every stretch of frames in which `value` is above `limit` for at least `min_s` seconds, or falls
 /// below it for less than 0.4 s; its size is the largest value.
 void AppendRanges(const BodyMotion& motion, const std::vector<double>& value, double limit, double min_s,
@@ -113,9 +123,51 @@ void FindStretches(const BodyMotion& motion, const FaultOptions& options, const 
   }
 }
 
-/// Returns by how much a knee is overextended, degrees; negative while it is bent as knees do. The toes show where the
-/// front of the shank is; 0 if they point along it.
-double Overextension(const BodyPose& pose, Role hip, Role knee, Role ankle, Role foot) {
+/// Returns KneeOverextension without toes: the knee is a hinge whose axis is the line of the hips.
+double OverextensionByHips(const BodyPose& pose, Role hip, Role knee, Role ankle) {
+  const glm::dvec3 thigh = pose[knee] - pose[hip], shank = pose[ankle] - pose[knee];
+  const glm::dvec3 left = UnitOr(pose[kLeftHip] - pose[kRightHip], {1, 0, 0});
+  return -Degrees(std::atan2(glm::dot(glm::cross(thigh, shank), left), glm::dot(thigh, shank) + 0.0));
+}
+
+void FindBends(const BodyMotion& motion, std::span<const JointSet> unseen, std::vector<MotionFault>& faults) {
+  constexpr double kLimit = 25, kMinSeconds = 0.1;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const auto [hip, knee, ankle, foot] = kLegs[side == Side::kLeft ? 0 : 1];
+    std::vector<double> angles;
+    for (int f = 0; f < static_cast<int>(motion.poses.size()); ++f) {
+      const BodyPose& pose = motion.poses[f];
+      if (!Shows(unseen, f, {hip, knee, ankle})) {
+        angles.push_back(0);
+      } else if (Shows(unseen, f, {foot})) {
+        angles.push_back(KneeOverextension(pose, side));
+      } else {
+        angles.push_back(OverextensionByHips(pose, hip, knee, ankle));
+      }
+    }
+    AppendRanges(motion, angles, kLimit, kMinSeconds, {.kind = FaultKind::kBends, .joint = knee}, faults);
+  }
+}
+
+void FindPasses(const BodyMotion& motion, std::span<const JointSet> unseen, std::vector<MotionFault>& faults) {
+  constexpr double kThin = 0.035, kMinSeconds = 0.05;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const auto [elbow, wrist, hand] = kArms[side == Side::kLeft ? 0 : 1];
+    std::vector<double> depth;
+    for (int f = 0; f < static_cast<int>(motion.poses.size()); ++f) {
+      const bool is_seen = Shows(unseen, f, {elbow, wrist}), sees_hand = Shows(unseen, f, {hand});
+      depth.push_back(is_seen ? -ArmFromSpine(motion.poses[f], side, sees_hand) : -1);
+    }
+    const std::size_t first = faults.size();
+    AppendRanges(motion, depth, -kThin, kMinSeconds, {.kind = FaultKind::kPasses, .joint = wrist}, faults);
+    for (std::size_t i = first; i < faults.size(); ++i) faults[i].size *= -1;
+  }
+}
+
+}  // namespace
+
+double KneeOverextension(const BodyPose& pose, Side side) {
+  const auto [hip, knee, ankle, foot] = kLegs[side == Side::kLeft ? 0 : 1];
   constexpr double kMinToes = 0.03;
   const glm::dvec3 thigh = pose[knee] - pose[hip], toes = pose[foot] - pose[ankle];
   const glm::dvec3 shank = UnitOr(pose[ankle] - pose[knee], {0, -1, 0});
@@ -125,34 +177,6 @@ double Overextension(const BodyPose& pose, Role hip, Role knee, Role ankle, Role
   return -Degrees(std::atan2(glm::dot(thigh, front) / length, glm::dot(thigh, shank) + 0.0));
 }
 
-/// Does the same without toes: the knee is a hinge whose axis is the line of the hips.
-double OverextensionByHips(const BodyPose& pose, Role hip, Role knee, Role ankle) {
-  const glm::dvec3 thigh = pose[knee] - pose[hip], shank = pose[ankle] - pose[knee];
-  const glm::dvec3 left = UnitOr(pose[kLeftHip] - pose[kRightHip], {1, 0, 0});
-  return -Degrees(std::atan2(glm::dot(glm::cross(thigh, shank), left), glm::dot(thigh, shank) + 0.0));
-}
-
-void FindBends(const BodyMotion& motion, std::span<const JointSet> unseen, std::vector<MotionFault>& faults) {
-  constexpr double kLimit = 25, kMinSeconds = 0.1;
-  constexpr Role kLegs[2][4] = {{kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot},
-                                {kRightHip, kRightKnee, kRightAnkle, kRightFoot}};
-  for (const auto& [hip, knee, ankle, foot] : kLegs) {
-    std::vector<double> angles;
-    for (int f = 0; f < static_cast<int>(motion.poses.size()); ++f) {
-      const BodyPose& pose = motion.poses[f];
-      if (!Shows(unseen, f, {hip, knee, ankle})) {
-        angles.push_back(0);
-      } else if (Shows(unseen, f, {foot})) {
-        angles.push_back(Overextension(pose, hip, knee, ankle, foot));
-      } else {
-        angles.push_back(OverextensionByHips(pose, hip, knee, ankle));
-      }
-    }
-    AppendRanges(motion, angles, kLimit, kMinSeconds, {.kind = FaultKind::kBends, .joint = knee}, faults);
-  }
-}
-
-/// Returns the smallest distance of two line segments (Ericson 2005, "Real-Time Collision Detection", 5.1.9).
 double SegmentDistance(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
   constexpr double kTiny = 1e-12;
   const glm::dvec3 u = b - a, v = d - c, w = a - c;
@@ -165,9 +189,8 @@ double SegmentDistance(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec
   return glm::distance(a + s * u, c + t * v);
 }
 
-/// Returns the smallest distance of forearm and hand from the spine without its ends (hands may rest on the thighs),
-/// and of the forearm from neck and head (hands may lie on the nape). A hand that is not seen does not count.
-double DistanceFromSpine(const BodyPose& pose, Role elbow, Role wrist, Role hand, bool sees_hand) {
+double ArmFromSpine(const BodyPose& pose, Side side, bool sees_hand) {
+  const auto [elbow, wrist, hand] = kArms[side == Side::kLeft ? 0 : 1];
   constexpr double kFromHips = 0.3, kToNeck = 0.95;
   const glm::dvec3 low = glm::mix(pose[kHipCentre], pose[kSpine], kFromHips);
   const glm::dvec3 middle = pose[kSpine];
@@ -179,23 +202,6 @@ double DistanceFromSpine(const BodyPose& pose, Role elbow, Role wrist, Role hand
   nearest = std::min(nearest, SegmentDistance(pose[wrist], pose[hand], low, middle));
   return std::min(nearest, SegmentDistance(pose[wrist], pose[hand], middle, high));
 }
-
-void FindPasses(const BodyMotion& motion, std::span<const JointSet> unseen, std::vector<MotionFault>& faults) {
-  constexpr double kThin = 0.035, kMinSeconds = 0.05;
-  constexpr Role kArms[2][3] = {{kLeftElbow, kLeftWrist, kLeftHand}, {kRightElbow, kRightWrist, kRightHand}};
-  for (const auto& [elbow, wrist, hand] : kArms) {
-    std::vector<double> depth;
-    for (int f = 0; f < static_cast<int>(motion.poses.size()); ++f) {
-      const bool is_seen = Shows(unseen, f, {elbow, wrist}), sees_hand = Shows(unseen, f, {hand});
-      depth.push_back(is_seen ? -DistanceFromSpine(motion.poses[f], elbow, wrist, hand, sees_hand) : -1);
-    }
-    const std::size_t first = faults.size();
-    AppendRanges(motion, depth, -kThin, kMinSeconds, {.kind = FaultKind::kPasses, .joint = wrist}, faults);
-    for (std::size_t i = first; i < faults.size(); ++i) faults[i].size *= -1;
-  }
-}
-
-}  // namespace
 
 void FindLimbFaults(const BodyMotion& motion, const FaultOptions& options, const std::vector<Pop>& pops,
                     std::vector<MotionFault>& faults) {

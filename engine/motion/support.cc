@@ -72,6 +72,30 @@ bool FitsFlight(std::span<const BodyPose> poses, int first, int last, double rat
   return rules.min_fall <= fit.fall && fit.fall <= rules.max_fall && fit.stray <= rules.flight_stray;
 }
 
+/// Removes raised feet from what bears a clip: an ankle whose heel is up while its toes bear, and toes high above the
+/// lowest joint. (Both may be slow enough to rest.) A frame in which nothing else bears the body keeps what it has.
+void RemoveRaisedFeet(std::span<const BodyPose> poses, const SupportRules& rules, std::vector<Bearing>& bearing) {
+  using enum Role;
+  for (const auto& [ankle, foot] : {std::pair{kLeftAnkle, kLeftFoot}, std::pair{kRightAnkle, kRightFoot}}) {
+    const auto rise = [&](std::size_t f) { return poses[f][ankle].y - poses[f][foot].y; };
+    // A foot is flat where its ankle is least above its toes, while both rest.
+    double flat = std::numeric_limits<double>::infinity();
+    for (std::size_t f = 0; f < poses.size(); ++f) {
+      if (bearing[f].rests[Index(ankle)] && bearing[f].rests[Index(foot)]) flat = std::min(flat, rise(f));
+    }
+    for (std::size_t f = 0; f < poses.size(); ++f) {
+      double lowest = poses[f].joints[0].y;
+      for (const glm::dvec3& joint : poses[f].joints) lowest = std::min(lowest, joint.y);
+      JointSet raised;
+      raised[Index(ankle)] = bearing[f].bears[Index(foot)] && rise(f) > flat + rules.heel;
+      raised[Index(foot)] = poses[f][foot].y > lowest + rules.toes;
+      if ((bearing[f].bears & ~raised).none()) continue;
+      bearing[f].rests &= ~raised;
+      bearing[f].bears &= ~raised;
+    }
+  }
+}
+
 // Marks each run of frames without support that is a flight.
 void MarkFlights(std::span<const BodyPose> shown, int first, double rate_hz, const SupportRules& rules,
                  std::vector<Support>& support) {
@@ -116,6 +140,7 @@ class SupportFinder::ClipSupport {
         window_(static_cast<int>(std::lround(rules.window_s * rate_hz))),
         velocities_(JointVelocities(clip.poses, rate_hz)),
         bearing_(FindBearing(clip.poses, rate_hz, rules)) {
+    RemoveRaisedFeet(clip.poses, rules, bearing_);
     lowest_.fill(std::numeric_limits<double>::infinity());
     for (std::size_t f = 0; f < bearing_.size(); ++f) {
       ever_bear_ |= bearing_[f].bears;
@@ -247,10 +272,13 @@ glm::dvec3 MassCentre(const BodyPose& pose) {
 
 std::optional<double> BalanceOffset(const BodyPose& pose, const JointSet& joints) {
   const glm::dvec3 mass = MassCentre(pose);
-  const glm::dvec2 centre(mass.x, mass.z);
-  std::vector<glm::dvec2> points;  // relative to the point below the mass centre
+  return OffsetFromJoints({mass.x, mass.z}, pose, joints);
+}
+
+std::optional<double> OffsetFromJoints(const glm::dvec2& point, const BodyPose& pose, const JointSet& joints) {
+  std::vector<glm::dvec2> points;  // relative to the given one
   for (std::size_t j = 0; j < kRoleCount; ++j) {
-    if (joints[j]) points.push_back(glm::dvec2(pose.joints[j].x, pose.joints[j].z) - centre);
+    if (joints[j]) points.push_back(glm::dvec2(pose.joints[j].x, pose.joints[j].z) - point);
   }
   if (points.empty()) return std::nullopt;
   // The hull contains the origin unless, for some vertex, all points lie to the left as seen from the origin. If it

@@ -21,6 +21,8 @@ struct SupportRules {
   double lowest = 0.12;       ///< a joint may bear the body if it is at most this high above the lowest joint
   double rest_speed = 0.5;    ///< a joint is at rest up to this speed: feet roll, and takes are noisy
   double height = 0.025;      ///< allowed height of a shown joint above the clip's own joint at rest
+  double heel = 0.03;         ///< a clip's ankle this much higher above its toes than in a flat foot is no support
+  double toes = 0.05;         ///< a clip's toes higher than this above its lowest joint are none
   double level = 0.12;        ///< heights of rest farther apart than this are two surfaces: a floor and a step
   double window_s = 1.0 / 3;  ///< a clip's rest heights are searched this long before and after a frame
   /// A body without support is in flight if the vertical acceleration of its mass centre is in this band, metres per
@@ -71,7 +73,8 @@ struct Support {
 };
 
 /// Finds what supports a body where clips are shown. Only the clips define possible support, so a floating motion
-/// cannot become its own floor. A joint supports the body
+/// cannot become its own floor. A raised heel, or a foot in the air, is no such support while anything else bears the
+/// clip (SupportRules::heel, toes). A joint supports the body
 /// - if it is at rest where the same joint of a clip rests near that time: at most SupportRules::height above the
 ///   lowest of these positions and at most SupportRules::level below it, or within `height` of a higher surface; or
 /// - if it moves like a joint that bears the clip in that frame or a neighbouring one: its height differs by at most
@@ -106,8 +109,10 @@ std::vector<Support> FindSupport(std::span<const BodyPose> shown, std::span<cons
 /// the finger tips.
 glm::dvec3 MassCentre(const BodyPose& pose);
 
-/// Returns the horizontal distance from the mass centre to the convex hull of `joints`, metres; 0 inside it. Returns
-/// nullopt without joints. Feet have no width here.
+/// Returns the distance, seen from above, from a point (x, z) of the floor to the convex hull of `joints`, metres; 0
+/// inside it. Returns nullopt without joints. Feet have no width here.
+std::optional<double> OffsetFromJoints(const glm::dvec2& point, const BodyPose& pose, const JointSet& joints);
+/// Returns this distance from the mass centre.
 std::optional<double> BalanceOffset(const BodyPose& pose, const JointSet& joints);
 
 }  // namespace etude

@@ -19,7 +19,7 @@ INVENTED = [2.5, 5.0, 10.0]
 GRID = {f"e{e:g}-i{i:g}": (e, i) for e in EXCESS for i in INVENTED}
 YARDSTICK = "unbroken"
 TUNING_SEED, JUDGED_SEED = 2, 3
-METRICS = ["clean_share", "clean_share_v1", "supported_share", "natural_share", "join_slide_cmps", "skipped_s"]
+METRICS = ["clean_share", "clean_share_v3", "supported_share", "natural_share", "join_slide_cmps", "skipped_s"]
 
 SCENARIO = """scenario: left-out
 question: Do weights that were chosen on other libraries hold on this one?

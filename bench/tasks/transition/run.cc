@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "bench/metrics/speed_profile.h"
+#include "bench/metrics/transition_body.h"
 #include "bench/metrics/transition_join.h"
 #include "bench/metrics/transition_smoothness.h"
 #include "bench/tasks/transition/exchange.h"
@@ -57,8 +58,15 @@ constexpr std::array kTransitionMetrics = {"jump_cm",
                                            "skipped_s",
                                            "skipped_share",
                                            "calm_natural_share",
+                                           kBodyRules[0].metric.data(),
+                                           kBodyRules[1].metric.data(),
+                                           kBodyRules[2].metric.data(),
+                                           kBodyRules[3].metric.data(),
+                                           kBodyRules[4].metric.data(),
+                                           kBodyRules[5].metric.data(),
+                                           kBodyRules[6].metric.data(),
                                            "clean_share",
-                                           "clean_share_v1"};
+                                           "clean_share_v3"};
 constexpr std::array kMatchingMetrics = {"direct_match", "matching_share", "false_smooth_share"};
 
 /// Returns the segments that played from the request until the wanted clip did.
@@ -130,6 +138,7 @@ void ScoreJoin(const TransitionOutcome& outcome, const Stage& stage, bool natura
   const double limit = CalmerLimitCm(stage, outcome.request.from, outcome.request.to);
   const std::vector<Support> support = JoinSupport(view);
   const SkippedStart skipped = SkippedOf(outcome, stage);
+  const BodyMeasures body = MeasureBody(view, support);
   const CleanMeasures clean{.natural = natural,
                             .calmly_natural = IsCalmlyNatural(view, limit),
                             .supported = IsSupported(support),
@@ -139,7 +148,8 @@ void ScoreJoin(const TransitionOutcome& outcome, const Stage& stage, bool natura
                             .own_slide_cmps = std::max(stage.natural_slides_cmps[outcome.request.from],
                                                        stage.natural_slides_cmps[outcome.request.to]),
                             .skipped_share = SkippedShare(skipped),
-                            .settle_s = SettleSeconds(view)};
+                            .settle_s = SettleSeconds(view),
+                            .possible = IsPossible(body)};
   // Each measure, then the shares that combine them.
   result.MeasureOr("settle_s", clean.settle_s, "the wanted clip was never reached");
   result.Measure("strange_cm_s", clean.strange_cm_s);
@@ -151,8 +161,11 @@ void ScoreJoin(const TransitionOutcome& outcome, const Stage& stage, bool natura
   result.Measure("skipped_s", SkippedSeconds(skipped));
   result.Measure("skipped_share", clean.skipped_share);
   result.Measure("calm_natural_share", clean.calmly_natural ? 1 : 0);
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    result.MeasureOr(std::string(kBodyRules[i].metric), body[i], std::string(kBodyRules[i].unmet));
+  }
   result.Measure("clean_share", IsClean(clean) ? 1 : 0);
-  result.Measure("clean_share_v1", IsCleanByVersion1(clean) ? 1 : 0);
+  result.Measure("clean_share_v3", IsCleanByVersion3(clean) ? 1 : 0);
 }
 
 }  // namespace
@@ -180,7 +193,7 @@ std::vector<std::string> TransitionMetrics() {
 
 std::optional<double> TransitionFailureValue(std::string_view metric) {
   constexpr std::array kShares = {"natural_share", "calm_natural_share", "supported_share", "clean_share",
-                                  "clean_share_v1"};
+                                  "clean_share_v3"};
   return std::ranges::find(kShares, metric) != kShares.end() ? std::optional(0.0) : std::nullopt;
 }
 

@@ -4,6 +4,7 @@
 
 #include "bench/metrics/matching.h"
 #include "bench/metrics/speed_profile.h"
+#include "bench/metrics/transition_body.h"
 #include "bench/metrics/transition_join.h"
 #include "bench/metrics/transition_smoothness.h"
 #include "engine/fuzzy/distance.h"
@@ -174,14 +175,22 @@ Value Balance(const Json& in) {
   return BalanceCm(join.View(), JoinSupport(join.View()));
 }
 
+template <std::size_t kRule>
+Value OfBody(const Json& in) {
+  const JoinInputs join(in.at("join"));
+  return MeasureBody(join.View(), JoinSupport(join.View()))[kRule];
+}
+
 CleanMeasures CleanOf(const Json& in) {
   const auto number = [&](const char* key) { return in.at(key).get<double>(); };
   CleanMeasures measures{.natural = in.at("natural").get<bool>(),
                          .calmly_natural = in.at("calmly_natural").get<bool>(),
+                         .supported = in.at("supported").get<bool>(),
                          .slide_cmps = number("slide_cmps"),
                          .strange_cm_s = number("strange_cm_s"),
                          .live = number("live"),
                          .own_slide_cmps = number("own_slide_cmps"),
+                         .skipped_share = number("skipped_share"),
                          .settle_s = {}};
   if (!in.at("settle_s").is_null()) measures.settle_s = number("settle_s");
   return measures;
@@ -189,8 +198,12 @@ CleanMeasures CleanOf(const Json& in) {
 
 Value Clean(const Json& in) {
   CleanMeasures measures = CleanOf(in);
-  measures.supported = in.at("supported").get<bool>();
-  measures.skipped_share = in.at("skipped_share").get<double>();
+  BodyMeasures body;
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    const Json& value = in.at("body").at(std::string(kBodyRules[i].metric));
+    if (!value.is_null()) body[i] = value.get<double>();
+  }
+  measures.possible = IsPossible(body);
   return IsClean(measures) ? 1 : 0;
 }
 
@@ -244,7 +257,14 @@ std::span<const Evaluator> TransitionEvaluators() {
       {"skipped_share", SkippedPart},
       {"calm_natural_share", CalmNatural},
       {"clean_share", Clean},
-      {"clean_share_v1", [](const Json& in) -> Value { return IsCleanByVersion1(CleanOf(in)) ? 1 : 0; }},
+      {"clean_share_v3", [](const Json& in) -> Value { return IsCleanByVersion3(CleanOf(in)) ? 1 : 0; }},
+      {"zmp_off_cm", OfBody<0>},
+      {"slip_mps2", OfBody<1>},
+      {"glide_cm", OfBody<2>},
+      {"foot_turn_deg", OfBody<3>},
+      {"beyond_joint_deg", OfBody<4>},
+      {"overlap_cm", OfBody<5>},
+      {"sunk_cm", OfBody<6>},
   };
   return kAll;
 }

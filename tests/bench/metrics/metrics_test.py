@@ -13,7 +13,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
 sys.path[:0] = [str(ROOT / "tests" / "cli"), str(ROOT / "tests" / "support")]
 import second_implementation as second  # noqa: E402
-from independent import capture, coach, common, detection, evaluation, ik, pose_distance  # noqa: E402
+from independent import body, capture, coach, common, detection, evaluation, ik, pose_distance  # noqa: E402
 from independent import support, tracking, transition  # noqa: E402
 from etude_case import IK, EtudeCase  # noqa: E402
 from json_schema import complaints, load_schema, own_complaints  # noqa: E402
@@ -103,6 +103,27 @@ MUTANTS = {
     "whoever moves glides": (support, {"GLIDING": 0}, ["unsupported_frames"]),
     "seen after three frames": (support, {"FLOATING_FRAMES": 3}, ["supported_share"]),
     "seen after five": (support, {"FLOATING_FRAMES": 5}, ["supported_share"]),
+    "raised heels bear": (support, {"HEEL": 0.1}, ["unsupported_frames", "supported_share"]),
+    "feet in the air bear": (support, {"TOES": 0.12}, ["unsupported_frames"]),
+    "twice the gravity": (body, {"GRAVITY": 19.62}, ["zmp_off_cm", "slip_mps2"]),
+    "half the friction": (body, {"FRICTION": 0.5}, ["slip_mps2"]),
+    "weight on a ground that hardly bears": (body, {"CARRIED": 0.1}, ["zmp_off_cm"]),
+    "accelerations fitted over more than a second": (body, {"REACH": 20}, ["zmp_off_cm"]),
+    "a frame is enough": (body, {"SUSTAINED": dict.fromkeys(body.SUSTAINED, 1)}, [
+        "zmp_off_cm", "beyond_joint_deg", "overlap_cm", "sunk_cm"]),
+    "clips excuse nothing": (body, {"ALLOWANCE": 0}, [
+        "zmp_off_cm", "slip_mps2", "foot_turn_deg", "beyond_joint_deg", "overlap_cm"]),
+    "clips excuse the same frame alone": (body, {"NEAR": 0}, ["beyond_joint_deg"]),
+    "a glide for a third of a second": (body, {"GLIDE_FRAMES": 10}, ["glide_cm"]),
+    "knees may go 40° back": (body, {"KNEE": 40}, ["beyond_joint_deg"]),
+    "a stiffer neck": (body, {"NECK": 70}, ["beyond_joint_deg"]),
+    "a stiffer trunk": (body, {"TRUNK": 70}, ["beyond_joint_deg"]),
+    "hips that turn less inwards": (body, {"INWARD": 50}, ["beyond_joint_deg"]),
+    "hips that turn less outwards": (body, {"OUTWARD": 100}, ["beyond_joint_deg"]),
+    "elbows fold flat": (body, {"FOLD": 5}, ["beyond_joint_deg"]),
+    "thicker arms": (body, {"ARM_CM": 5}, ["overlap_cm"]),
+    "thicker legs": (body, {"LEGS_CM": 5}, ["overlap_cm"]),
+    "a body may sink less": (transition, {"MOST_OF_BODY": {**transition.MOST_OF_BODY, "sunk_cm": 2}}, ["clean_share"]),
     "the nearest joint for the hull": (support, {"distance_to_hull": lambda point, points: min(
         math.dist(point, p) for p in points)}, ["balance_cm"]),
     "the hips for the mass centre": (support, {"mass_centre": lambda pose: pose["hip_centre"]}, ["balance_cm"]),

@@ -65,6 +65,7 @@ TEST(Vectors, LetNoMetricPassForAnother) {
       if (metric.id == other.id) continue;
       bool caught = false, understood = false;
       for (const MetricVector& vector : metric.vectors) {
+        if (caught) break;
         const auto value = EvaluateMetric(other.id, vector.input_json);
         if (!value) continue;
         understood = true;

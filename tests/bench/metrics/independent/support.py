@@ -8,6 +8,8 @@ from independent.transition import join_end, rate_of
 LOWEST = 0.12  # a joint this little above the lowest one may bear
 REST_MPS = 0.5
 HEIGHT = 0.025
+HEEL = 0.03  # a heel this much higher than in a flat foot is up
+TOES = 0.05  # toes this high above the lowest joint are in the air
 LEVEL = 0.12  # heights of rest further apart are two surfaces
 WINDOW_S = 1 / 3
 FALL_MPS2 = (6.5, 13)
@@ -71,6 +73,19 @@ class Clip:
                 REST_MPS, GLIDING * over_floor(minus(v[role], v["hip_centre"])))}
             self.rests.append(rests)
             self.bears.append(rests or carried)
+        for side in ("left", "right"):
+            self.remove_raised(f"{side}_ankle", f"{side}_foot")
+
+    def remove_raised(self, ankle, foot):
+        """No heel that is up while its toes bear, and no toes in the air, unless nothing else bears the body."""
+        rises = [pose[ankle][1] - pose[foot][1] for pose in self.frames]
+        flat = min((rise for rise, rests in zip(rises, self.rests) if {ankle, foot} <= rests), default=math.inf)
+        for f, pose in enumerate(self.frames):
+            raised = {ankle} if foot in self.bears[f] and rises[f] > flat + HEEL else set()
+            if pose[foot][1] > min(p[1] for p in pose.values()) + TOES:
+                raised.add(foot)
+            if self.bears[f] - raised:
+                self.rests[f], self.bears[f] = self.rests[f] - raised, self.bears[f] - raised
 
     def follows(self, shown, role, place, velocity):
         now = shown - self.begin
@@ -116,7 +131,12 @@ def support(join):
     judged = min(max(join_end(join), first + round(JUDGED_S * rate)), end)
     clips = [Clip(frames_of(join["left"]), rate, 0, first), Clip(frames_of(join["wanted"]), rate, last, math.inf),
              *(Clip(frames_of(clip), rate, clip["begin"], clip["left_at"]) for clip in join.get("between", []))]
-    moving = velocities(shown, rate)
+    return held(shown, clips, rate, first, judged)
+
+
+def held(shown, clips, rate, first, judged):
+    """As support(), of the frames `first` to `judged`."""
+    end, moving = len(shown) - 1, velocities(shown, rate)
 
     def held_by(f):
         return {role for role in ROLES for clip in clips

@@ -346,14 +346,19 @@ def calm_natural(given):
 MOST_SKIPPED = 1 / 3
 
 
-def clean_v1(given):
+def clean_v3(given):
     settled = given["settle_s"]
     return int(given["natural"] and given["calmly_natural"] and given["slide_cmps"] <= max(6, given["own_slide_cmps"])
-               and settled is not None and settled <= 1.5 and given["strange_cm_s"] <= 10 and given["live"] >= 0.5)
+               and settled is not None and settled <= 1.5 and given["strange_cm_s"] <= 10 and given["live"] >= 0.5
+               and given["supported"] and given["skipped_share"] <= MOST_SKIPPED)
+
+
+MOST_OF_BODY = {"zmp_off_cm": 25, "slip_mps2": 2, "glide_cm": 2, "foot_turn_deg": 60, "beyond_joint_deg": 0,
+                "overlap_cm": 0, "sunk_cm": 3}
 
 
 def clean(given):
-    return int(clean_v1(given) and given["supported"] and given["skipped_share"] <= MOST_SKIPPED)
+    return int(clean_v3(given) and all((given["body"][name] or 0) <= most for name, most in MOST_OF_BODY.items()))
 
 
 METRICS = {
@@ -365,7 +370,7 @@ METRICS = {
     "skipped_share": skipped_share,
     "calm_natural_share": calm_natural,
     "clean_share": clean,
-    "clean_share_v1": clean_v1,
+    "clean_share_v3": clean_v3,
     "jump_cm": jump,
     "mean_joint_jump_cm": mean_jump,
     "rotation_step_change_deg": rotation_step_change,

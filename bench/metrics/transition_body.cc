@@ -1,0 +1,391 @@
+#include "bench/metrics/transition_body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <utility>
+
+#include "engine/base/angles.h"
+#include "engine/base/directions.h"
+#include "engine/motion/limb_faults.h"
+#include "engine/motion/parabola.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+
+constexpr double kToCm = 100, kGravity = 9.81;
+constexpr std::array kSides = {Side::kLeft, Side::kRight};
+
+Role OnSide(Side side, Role left) { return side == Side::kLeft ? left : Mirrored(left); }
+
+double FloorSpeed(const glm::dvec3& velocity) { return std::hypot(velocity.x, velocity.z); }
+
+double LowestOf(const BodyPose& pose) { return std::ranges::min(pose.joints, {}, &glm::dvec3::y).y; }
+
+/// Returns the horizontal direction from one joint to another, radians about +Y; nothing if they are nearly above each
+/// other.
+std::optional<double> HeadingOf(const glm::dvec3& from, const glm::dvec3& to) {
+  constexpr double kShort = 0.03;
+  const double x = to.x - from.x, z = to.z - from.z;
+  return std::hypot(x, z) < kShort ? std::nullopt : std::optional(std::atan2(x, z));
+}
+
+/// Returns the turn from one heading to another, in [−π, π].
+double Turn(double from, double to) { return std::remainder(to - from, 2 * kPi); }
+
+/// Returns the heading of the hips: perpendicular to their line.
+std::optional<double> HipHeading(const BodyPose& pose) {
+  const auto line = HeadingOf(pose[kRightHip], pose[kLeftHip]);
+  return line ? std::optional(*line - 0.5 * kPi) : std::nullopt;
+}
+
+/// Returns the acceleration of the mass centre in every frame, metres per second²: of the parabola through the nine
+/// frames (0.3 s) around it, or, near an end, around the nearest frame that has them; 0 in a shorter motion.
+std::vector<glm::dvec3> MassAccelerations(std::span<const glm::dvec3> centres, double rate_hz) {
+  constexpr int kReach = 4;
+  const int last = static_cast<int>(centres.size()) - 1;
+  std::vector<glm::dvec3> accelerations(centres.size(), glm::dvec3(0));
+  for (int f = 0; f <= last && last >= 2 * kReach; ++f) {
+    const int middle = std::clamp(f, kReach, last - kReach);
+    for (int axis = 0; axis < 3; ++axis) {
+      std::array<double, 2 * kReach + 1> places{};
+      for (int i = -kReach; i <= kReach; ++i) places[i + kReach] = centres[middle + i][axis];
+      accelerations[f][axis] = -FitParabola(places, rate_hz).fall;
+    }
+  }
+  return accelerations;
+}
+
+/// Returns by how much the worst joint of a pose is beyond its limit, degrees; 0 if none is. `bears` holds the joints
+/// that bear the body: only feet that do so, below an upright trunk, show how the hips are twisted.
+double BeyondJoints(const BodyPose& pose, const JointSet& bears) {
+  constexpr double kKnee = 25, kMinElbow = 20, kMinKnee = 20, kNeck = 75, kTrunk = 75, kInward = 60, kOutward = 110;
+  constexpr double kUpright = 0.7;
+  const auto angle = [&](Role a, Role b, Role c) {
+    return Degrees(AngleBetween(pose[a] - pose[b], pose[c] - pose[b]));
+  };
+  double worst = std::max(0.0, 180 - angle(kSpine, kShoulderCentre, kHead) - kNeck);
+  // The trunk's twist, about its own axis.
+  const glm::dvec3 trunk = pose[kShoulderCentre] - pose[kHipCentre], axis = UnitOr(trunk, {0, 1, 0});
+  const auto across = [&](Role left) {
+    const glm::dvec3 line = pose[left] - pose[Mirrored(left)];
+    return line - glm::dot(line, axis) * axis;
+  };
+  worst = std::max(worst, Degrees(AngleBetween(across(kLeftHip), across(kLeftShoulder))) - kTrunk);
+  const auto hips = HipHeading(pose);
+  for (const Side side : kSides) {
+    const auto on = [&](Role left) { return OnSide(side, left); };
+    worst = std::max({worst, KneeOverextension(pose, side) - kKnee,
+                      kMinElbow - angle(on(kLeftShoulder), on(kLeftElbow), on(kLeftWrist)),
+                      kMinKnee - angle(on(kLeftHip), on(kLeftKnee), on(kLeftAnkle))});
+    const bool bears_here = bears[Index(on(kLeftFoot))] || bears[Index(on(kLeftAnkle))];
+    if (!bears_here || trunk.y < kUpright * glm::length(trunk)) continue;
+    const auto toes = HeadingOf(pose[on(kLeftAnkle)], pose[on(kLeftFoot)]);
+    if (!hips || !toes) continue;
+    const double outward = Degrees(Turn(*hips, *toes)) * (side == Side::kLeft ? 1 : -1);
+    worst = std::max({worst, outward - kOutward, -outward - kInward});
+  }
+  return worst;
+}
+
+/// Returns how far parts of the body are through each other, centimetres; 0 if they are not.
+double Overlap(const BodyPose& pose) {
+  constexpr double kArm = 0.035, kLegs = 0.03;
+  const double legs = SegmentDistance(pose[kLeftKnee], pose[kLeftAnkle], pose[kRightKnee], pose[kRightAnkle]);
+  return kToCm *
+         std::max({0.0, kArm - ArmFromSpine(pose, Side::kLeft), kArm - ArmFromSpine(pose, Side::kRight), kLegs - legs});
+}
+
+/// What is measured in one frame.
+struct BodyFrame {
+  bool flight = false;
+  std::optional<double> zmp_cm, slip_mps2;  // nothing without support
+  double glide_cm = 0;                      // in this frame
+  double beyond_deg = 0, overlap_cm = 0, sunk_cm = 0;
+  std::array<std::optional<double>, 2> twist = {};  // hips against each foot at rest, radians
+};
+
+/// A motion, its mass centre and its velocities.
+struct Moving {
+  Moving(std::span<const BodyPose> motion, double rate)
+      : poses(motion), rate_hz(rate), velocities(JointVelocities(motion, rate)) {
+    for (const BodyPose& pose : motion) centres.push_back(MassCentre(pose));
+    accelerations = MassAccelerations(centres, rate);
+  }
+
+  std::span<const BodyPose> poses;
+  double rate_hz;
+  std::vector<BodyPose> velocities;
+  std::vector<glm::dvec3> centres = {}, accelerations = {};
+};
+
+/// Measures what does not depend on clips.
+BodyFrame FrameOf(const Moving& moving, int f, const Support& support) {
+  constexpr double kFriction = 1, kCarried = 0.5, kRest = 0.3;
+  const BodyPose &pose = moving.poses[f], &velocity = moving.velocities[f];
+  BodyFrame frame;
+  frame.flight = support.flight;
+  // The force that the ground must exert, and the point of the ground that it comes from.
+  if (!support.flight && support.joints.any()) {
+    const glm::dvec3 &a = moving.accelerations[f], &c = moving.centres[f];
+    const double up = a.y + kGravity;
+    frame.slip_mps2 = std::max(FloorSpeed(a) - kFriction * std::max(up, 0.0), 0.0) + std::max(-up, 0.0);
+    double ground = c.y;
+    for (const Role role : AllRoles()) {
+      if (support.joints[Index(role)]) ground = std::min(ground, pose[role].y);
+    }
+    const double lever = (c.y - ground) / up;
+    if (up >= kCarried * kGravity)
+      frame.zmp_cm = kToCm * *OffsetFromJoints({c.x - lever * a.x, c.z - lever * a.z}, pose, support.joints);
+  }
+  frame.beyond_deg = BeyondJoints(pose, support.joints);
+  frame.overlap_cm = Overlap(pose);
+  // Hips above feet at rest.
+  const auto hips = HipHeading(pose);
+  for (std::size_t i = 0; i < kSides.size(); ++i) {
+    const Role ankle = OnSide(kSides[i], kLeftAnkle), foot = OnSide(kSides[i], kLeftFoot);
+    const bool bears = support.joints[Index(ankle)] || support.joints[Index(foot)];
+    const auto toes = HeadingOf(pose[ankle], pose[foot]);
+    if (!bears || !hips || !toes || glm::length(velocity[ankle]) > kRest || glm::length(velocity[foot]) > kRest)
+      continue;
+    frame.twist[i] = Turn(*toes, *hips);
+  }
+  return frame;
+}
+
+/// Returns the largest value that `frames` successive values reach. Missing values are passed over, but a flight ends
+/// the succession.
+template <class Value>
+std::optional<double> Sustained(std::span<const BodyFrame> frames, std::size_t length, const Value& value) {
+  std::optional<double> worst;
+  std::vector<double> recent;
+  for (const BodyFrame& frame : frames) {
+    if (frame.flight) recent.clear();
+    const std::optional<double> here = value(frame);
+    if (!here) continue;
+    worst = worst.value_or(0);
+    recent.push_back(*here);
+    if (recent.size() < length) continue;
+    worst = std::max(*worst, *std::min_element(recent.end() - static_cast<std::ptrdiff_t>(length), recent.end()));
+  }
+  return worst;
+}
+
+/// Returns the farthest way without a joint at rest within half a second.
+double FarthestGlide(std::span<const BodyFrame> frames) {
+  constexpr std::size_t kFrames = 15;
+  double farthest = 0, sum = 0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    sum += frames[i].glide_cm;
+    if (i >= kFrames) sum -= frames[i - kFrames].glide_cm;
+    farthest = std::max(farthest, sum);
+  }
+  return farthest;
+}
+
+/// Returns the largest turn of the hips against a foot while it rests, degrees.
+double LargestTwist(std::span<const BodyFrame> frames) {
+  double largest = 0;
+  for (std::size_t side = 0; side < kSides.size(); ++side) {
+    double turned = 0, least = 0, most = 0;
+    std::optional<double> before;
+    for (const BodyFrame& frame : frames) {
+      const auto& twist = frame.twist[side];
+      if (twist && before) {
+        turned += Turn(*before, *twist);
+        least = std::min(least, turned);
+        most = std::max(most, turned);
+        largest = std::max(largest, most - least);
+      } else {
+        turned = least = most = 0;
+      }
+      before = twist;
+    }
+  }
+  return Degrees(largest);
+}
+
+BodyMeasures Reduced(std::span<const BodyFrame> frames) {
+  constexpr std::size_t kZmp = 5, kSlip = 3, kJoint = 3, kOverlap = 2, kSunk = 4;
+  const auto of = [](double BodyFrame::*member) {
+    return [member](const BodyFrame& frame) { return std::optional(frame.*member); };
+  };
+  return {Sustained(frames, kZmp, [](const BodyFrame& frame) { return frame.zmp_cm; }),
+          Sustained(frames, kSlip, [](const BodyFrame& frame) { return frame.slip_mps2; }),
+          FarthestGlide(frames),
+          LargestTwist(frames),
+          Sustained(frames, kJoint, of(&BodyFrame::beyond_deg)),
+          Sustained(frames, kOverlap, of(&BodyFrame::overlap_cm)),
+          Sustained(frames, kSunk, of(&BodyFrame::sunk_cm))};
+}
+
+/// A clip beside a join: what its own body does there.
+class BesideClip {
+ public:
+  /// `begin` is the shown frame of poses[0]. Values are found for the shown frames `first` … `last` and a few around
+  /// them.
+  BesideClip(std::span<const BodyPose> poses, int begin, int first, int last, double rate_hz) {
+    // A second more of it, so that its support is known.
+    constexpr int kAround = 30;
+    const int from = std::clamp(first - begin - kAround, 0, static_cast<int>(poses.size()) - 1);
+    const int to = std::clamp(last - begin + kAround, from, static_cast<int>(poses.size()) - 1);
+    poses_ = poses.subspan(static_cast<std::size_t>(from), static_cast<std::size_t>(to - from + 1));
+    begin_ = begin + from;
+    const std::array itself = {SupportingClip{.poses = poses_}};
+    const Moving moving(poses_, rate_hz);
+    const std::vector<Support> support = FindSupport(poses_, itself, 0, to - from, rate_hz);
+    for (int f = 0; f <= to - from; ++f) {
+      frames_.push_back(FrameOf(moving, f, support[f]));
+      bears_.push_back(support[f].joints);
+    }
+  }
+
+  /// Returns the frames within `reach` of a shown frame; the clip's first or last frame stands for those that it does
+  /// not have.
+  std::span<const BodyFrame> Around(int frame, int reach) const {
+    const auto [from, to] = Indices(frame, reach);
+    return std::span(frames_).subspan(from, to - from + 1);
+  }
+
+  /// Returns the height of the clip's lowest joint within a third of a second of a shown frame.
+  double Floor(int frame) const {
+    constexpr int kWindow = 10;
+    const auto [from, to] = Indices(frame, kWindow);
+    double floor = LowestOf(poses_[from]);
+    for (std::size_t f = from; f <= to; ++f) floor = std::min(floor, LowestOf(poses_[f]));
+    return floor;
+  }
+
+  std::span<const BodyPose> poses() const { return poses_; }
+  /// Returns the index in poses() of a shown frame in which this joint bears the clip's body.
+  std::optional<int> BearsAt(int frame, std::size_t joint) const {
+    const int now = frame - begin_;
+    if (now < 0 || now >= static_cast<int>(poses_.size()) || !bears_[now][joint]) return std::nullopt;
+    return now;
+  }
+
+ private:
+  std::pair<std::size_t, std::size_t> Indices(int frame, int reach) const {
+    const int last = static_cast<int>(poses_.size()) - 1, now = frame - begin_;
+    return {static_cast<std::size_t>(std::clamp(now - reach, 0, last)),
+            static_cast<std::size_t>(std::clamp(now + reach, 0, last))};
+  }
+
+  std::span<const BodyPose> poses_;
+  int begin_ = 0;
+  std::vector<BodyFrame> frames_;
+  std::vector<JointSet> bears_;
+};
+
+/// Returns how far a joint travels over the floor from the frame before or to the frame after, whichever is nearer, so
+/// that a joint that has just come to rest, or is about to leave, rests; centimetres. With a clip it is the way against
+/// the same joint of its frame `clip_frame`. Nothing if neither frame exists.
+std::optional<double> TravelOf(std::span<const BodyPose> poses, int frame, std::size_t joint,
+                               std::span<const BodyPose> clip = {}, int clip_frame = 0) {
+  std::optional<double> slowest;
+  for (const int step : {-1, 1}) {
+    const auto way = [&](std::span<const BodyPose> all, int from) -> std::optional<glm::dvec3> {
+      const int to = from + step;
+      if (to < 0 || to >= static_cast<int>(all.size())) return std::nullopt;
+      return all[to].joints[joint] - all[from].joints[joint];
+    };
+    auto own = way(poses, frame);
+    if (!own) continue;
+    if (!clip.empty()) {
+      const auto beside = way(clip, clip_frame);
+      if (!beside) continue;
+      *own -= *beside;
+    }
+    const double here = FloorSpeed(*own) * kToCm;
+    slowest = std::min(slowest.value_or(here), here);
+  }
+  return slowest;
+}
+
+/// Returns the least of `speed(joint)` over the joints of a set.
+template <class Speed>
+double SlowestOf(const JointSet& joints, const Speed& speed) {
+  std::optional<double> slowest;
+  for (std::size_t j = 0; j < kRoleCount; ++j) {
+    if (!joints[j]) continue;
+    const double here = speed(j);
+    slowest = std::min(slowest.value_or(here), here);
+  }
+  return slowest.value_or(0);
+}
+
+/// Sets to 0 what a clip beside the join does itself at that time, a quarter more allowed.
+void Excuse(std::span<const BesideClip> clips, int shown_frame, BodyFrame& frame) {
+  constexpr int kReach = 3;
+  constexpr double kAllowance = 1.25;
+  BodyFrame own;
+  for (const BesideClip& clip : clips) {
+    for (const BodyFrame& at : clip.Around(shown_frame, kReach)) {
+      own.zmp_cm = std::max(own.zmp_cm, at.zmp_cm);
+      own.slip_mps2 = std::max(own.slip_mps2, at.slip_mps2);
+      own.beyond_deg = std::max(own.beyond_deg, at.beyond_deg);
+      own.overlap_cm = std::max(own.overlap_cm, at.overlap_cm);
+    }
+  }
+  if (frame.zmp_cm && *frame.zmp_cm <= kAllowance * own.zmp_cm.value_or(0)) frame.zmp_cm = 0;
+  if (frame.slip_mps2 && *frame.slip_mps2 <= kAllowance * own.slip_mps2.value_or(0)) frame.slip_mps2 = 0;
+  if (frame.beyond_deg <= kAllowance * own.beyond_deg) frame.beyond_deg = 0;
+  if (frame.overlap_cm <= kAllowance * own.overlap_cm) frame.overlap_cm = 0;
+}
+
+}  // namespace
+
+BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support) {
+  const int end = view.first + static_cast<int>(support.size()) - 1;
+  std::vector<BesideClip> clips;
+  const auto add = [&](std::span<const BodyPose> poses, int begin) {
+    if (!poses.empty()) clips.emplace_back(poses, begin, view.first, end, view.rate_hz);
+  };
+  add(view.left, 0);
+  add(view.wanted, view.last);
+  for (const SupportingClip& clip : view.between) add(clip.poses, clip.begin);
+  JointSet feet;
+  for (const Side side : kSides) feet.set(Index(OnSide(side, kLeftAnkle))).set(Index(OnSide(side, kLeftFoot)));
+  const Moving moving(view.shown, view.rate_hz);
+  std::vector<BodyFrame> frames;
+  for (int f = view.first; f <= end; ++f) {
+    const Support& held = support[f - view.first];
+    BodyFrame frame = FrameOf(moving, f, held);
+    Excuse(clips, f, frame);
+    if (!held.flight) {
+      frame.glide_cm = SlowestOf(held.joints.any() ? held.joints : feet, [&](std::size_t j) {
+        double slowest = TravelOf(view.shown, f, j).value_or(0);
+        for (const BesideClip& clip : clips) {
+          const auto at = clip.BearsAt(f, j);
+          if (at) slowest = std::min(slowest, TravelOf(view.shown, f, j, clip.poses(), *at).value_or(slowest));
+        }
+        return slowest;
+      });
+    }
+    double floor = clips.front().Floor(f);
+    for (const BesideClip& clip : clips) floor = std::min(floor, clip.Floor(f));
+    frame.sunk_cm = kToCm * std::max(floor - LowestOf(view.shown[f]), 0.0);
+    frames.push_back(frame);
+  }
+  BodyMeasures measures = Reduced(frames);
+  // Turns that a clip makes itself are its own.
+  constexpr std::size_t kTurn = 3;
+  constexpr double kAllowance = 1.25;
+  for (const BesideClip& clip : clips) {
+    const double own = LargestTwist(clip.Around((view.first + end) / 2, (end - view.first + 1) / 2));
+    if (*measures[kTurn] <= kAllowance * own) measures[kTurn] = 0;
+  }
+  return measures;
+}
+
+bool IsPossible(const BodyMeasures& measures) {
+  constexpr double kRounding = 1e-9;
+  for (std::size_t i = 0; i < measures.size(); ++i) {
+    if (measures[i] && *measures[i] > kBodyRules[i].limit + kRounding) return false;
+  }
+  return true;
+}
+
+}  // namespace etude

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "bench/metrics/transition_join.h"
+#include "engine/motion/body.h"
+#include "engine/motion/support.h"
+
+namespace etude {
+
+/// A measure of what no body can do, from the motion alone (docs/reference/metrics.md, Transitions).
+struct BodyRule {
+  std::string_view metric;
+  double limit = 0;        ///< largest value of a clean transition, in the unit of `metric`
+  std::string_view unmet;  ///< why a motion may have no value; empty: it always has one
+};
+/// The measures of a body, in the order of BodyMeasures.
+constexpr std::array kBodyRules = {
+    BodyRule{"zmp_off_cm", 25, "the body has no support"},
+    BodyRule{"slip_mps2", 2, "the body has no support"},
+    BodyRule{"glide_cm", 2, ""},
+    BodyRule{"foot_turn_deg", 60, ""},
+    BodyRule{"beyond_joint_deg", 0, ""},
+    BodyRule{"overlap_cm", 0, ""},
+    BodyRule{"sunk_cm", 3, ""},
+};
+/// One value for each of kBodyRules.
+using BodyMeasures = std::array<std::optional<double>, kBodyRules.size()>;
+
+/// Measures a join's body in the frames of `support`, which is JoinSupport's. What a clip's own body does at that time
+/// counts as 0.
+BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support);
+
+/// Returns true if no value exceeds its limit, rounding aside. A missing value exceeds none.
+bool IsPossible(const BodyMeasures& measures);
+
+}  // namespace etude
