@@ -107,8 +107,7 @@ class InbetweenTask final : public Task {
   std::vector<std::string> ClipsOf(const WorldKey& key) const override { return {WindowOf(key).unit}; }
 
   Result<Payload> Setting() const override {
-    const InbetweenOptions& options = study_.options;
-    return PayloadOf({{"past", options.past}, {"gap", options.gap}, {"given", options.given}});
+    return PayloadOf({{"past", study_.options.past}, {"gap", study_.options.gap}, {"given", study_.options.given}});
   }
 
  private:

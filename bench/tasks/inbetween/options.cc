@@ -13,11 +13,11 @@ const FieldTable<InbetweenOptions>& InbetweenConditionFields() {
   static const FieldTable<Options> table{
       {Key::Texts("truth", &Options::truth, "a list of motion files, patterns, folders",
                   "The motions of which frames are hidden; they need rotations of joints.")
-           .WhenAbsent(""),
+           .WhenAbsent("(none: it must stand)"),
        Key::Texts(
            "training", &Options::training, "a list of motion files, patterns, folders",
            "The motions that give L2P's deviations, the joints' offsets and what `nearest-gap` takes; none of `truth`.")
-           .WhenAbsent(""),
+           .WhenAbsent("(none: it must stand)"),
        Key::Text("people", &Options::people, "a pattern such as '*_{person}'",
                  "Which part of a file's name is the person: what claims beyond these files count.")
            .WhenAbsent("(each file counts for itself)"),

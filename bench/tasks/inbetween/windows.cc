@@ -42,19 +42,12 @@ void ForEachWindow(std::size_t frames, int window, int offset, const Visit& visi
   }
 }
 
-/// Fails at `place` if a file is judged and trains, whatever it is called.
-Result<void> RefuseCommon(std::span<const std::string> judged, std::span<const std::string> training,
-                          const Place& place) {
-  for (const std::string& other : training) {
-    for (const std::string& one : judged) {
-      std::error_code none;
-      const SplitReference a = Split(one), b = Split(other);
-      const bool is_one_file = std::filesystem::equivalent(FileOf(a.path), FileOf(b.path), none);
-      if (one != other && !(is_one_file && a.animation == b.animation)) continue;
-      return Fail(place, "'{}' is judged, so it must not be in 'training'", other);
-    }
-  }
-  return {};
+/// Returns true if two references name one motion, whatever they are called.
+bool IsSame(const std::string& one, const std::string& other) {
+  std::error_code none;
+  const SplitReference a = Split(one), b = Split(other);
+  if (one == other) return true;
+  return a.animation == b.animation && std::filesystem::equivalent(FileOf(a.path), FileOf(b.path), none);
 }
 
 }  // namespace
@@ -76,11 +69,12 @@ Result<FoundFiles> FindWindows(const Node& condition, std::span<const Node> meth
   if (const Node* trials = condition.Find("trials")) {
     return Fail(trials->place, "'trials' has no use in task inbetween: each window is judged once");
   }
-  const Place& place = condition.Find("truth")->place;
+  for (const char* key : {"truth", "training"}) {
+    if (condition.Find(key) == nullptr) return Fail(condition.place, "task inbetween needs '{}'", key);
+  }
+  const Place &place = condition.Find("truth")->place, &training_place = condition.Find("training")->place;
   ASSIGN_OR_RETURN(const auto files, ExpandFiles(options.truth, Links::kAllowed, place));
-  const Place& other_place = condition.Find("training")->place;
-  ASSIGN_OR_RETURN(const auto training, ExpandFiles(options.training, Links::kAllowed, other_place));
-  RETURN_IF_ERROR(RefuseCommon(files, training, other_place));
+  ASSIGN_OR_RETURN(const auto training, ExpandFiles(options.training, Links::kAllowed, training_place));
   // List the windows.
   FoundFiles found;
   std::map<std::string, std::string> named;
@@ -88,6 +82,9 @@ Result<FoundFiles> FindWindows(const Node& condition, std::span<const Node> meth
     const std::string name = NameOfReference(file);
     const auto [known, is_new] = named.emplace(name, file);
     if (!is_new) return Fail(place, "'{}' and '{}' have one name", known->second, file);
+    for (const std::string& other : training) {
+      if (IsSame(file, other)) return Fail(training_place, "'{}' is judged, so it must not be in 'training'", other);
+    }
     const auto clip = ReadOneClip(file, {});
     if (!clip) {
       found.left_out.emplace_back(file, ToString(clip.error()));

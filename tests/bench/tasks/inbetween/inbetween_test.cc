@@ -194,6 +194,7 @@ TEST(Inbetween, RefusesWhatCannotBeJudged) {
   EXPECT_THAT(RefusalOf(std::string(kFiles) + ", gap: 46"),
               HasSubstr("gap 46 and future 10 must fit into a window of 65 frames"));
   EXPECT_THAT(RefusalOf(std::string(kFiles) + ", given: 11"), HasSubstr("given 11 into future"));
+  EXPECT_THAT(RefusalOf("truth: [assimp:01_03]"), HasSubstr("needs 'training'"));
   EXPECT_THAT(RefusalOf(std::string(kFiles) + ", trials: 3"), HasSubstr("has no use"));
   // Another skeleton has no training clip.
   const auto study = StudyOf("truth: [assimp:Boxing_Toes], training: [assimp:01_01], rate_hz: 30", "interpolation");
