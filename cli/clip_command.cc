@@ -88,20 +88,19 @@ Performer PerformerNamed(const std::string& name) {
 
 /// Writes the files of a motion into the folder of a data set. Files of the set itself that are there stay.
 Result<void> WriteBids(const BidsFiles& files, const std::filesystem::path& folder, bool overwrite) {
-  std::vector<std::pair<std::filesystem::path, const std::string*>> written;
+  std::vector<std::pair<FilePath, const std::string*>> written;
   for (const auto& [name, bytes] : files) {
-    const std::filesystem::path path = folder / name;
     const bool is_of_set = name.find('/') == std::string::npos;
-    if (is_of_set && std::filesystem::exists(path)) continue;
-    RETURN_IF_ERROR(CheckOutput(path.string(), overwrite));
-    written.emplace_back(path, &bytes);
+    if (is_of_set && std::filesystem::exists(folder / name)) continue;
+    RETURN_IF_ERROR(CheckOutput((folder / name).string(), overwrite));
+    written.emplace_back(Inside(folder) / name, &bytes);  // never through a link in it
   }
   for (const auto& [path, bytes] : written) RETURN_IF_ERROR(WriteFileAtomically(path, *bytes));
   return {};
 }
 
 Result<int> ClipConvertCommand(const ClipConvertOptions& given) {
-  const bool is_bids = given.output.ends_with('/') || std::filesystem::is_directory(given.output);
+  const bool is_bids = given.output.ends_with('/');
   MotionFormat format = MotionFormat::kBids;
   if (!is_bids) {
     RETURN_IF_ERROR(CheckOutput(given.output, given.overwrite));

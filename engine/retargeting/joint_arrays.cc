@@ -196,8 +196,9 @@ std::optional<NumberArray> JointsOfSam(const Npz& arrays) {
     const auto moved = arrays.arrays.find("pred_cam_t");
     const bool fits = moved != arrays.arrays.end() && joints.shape.size() == 3 && joints.shape[2] == 3 &&
                       moved->second.shape == std::vector<std::size_t>{joints.shape[0], 3};
-    for (std::size_t i = 0; fits && i < joints.values.size(); ++i) {
-      joints.values[i] += moved->second.values[3 * (i / (3 * joints.shape[1])) + i % 3];
+    for (std::size_t i = 0; joints.shape.size() == 3 && joints.shape[2] == 3 && i < joints.values.size(); ++i) {
+      if (fits) joints.values[i] += moved->second.values[3 * (i / (3 * joints.shape[1])) + i % 3];
+      if (i % 3 != 0) joints.values[i] = -joints.values[i];  // y down and z forwards become y up and z backwards
     }
     return joints;
   }

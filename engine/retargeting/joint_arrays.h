@@ -29,8 +29,8 @@ std::vector<std::string> JointsOfLayout(std::string_view layout, std::size_t joi
 Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional<std::string>& layout,
                                    const std::string& file, std::string& note);
 
-/// Returns the array of SAM 3D Body's results that holds joints, moved to the camera's frame by `pred_cam_t` (frames × 3) if
-/// that is there: `pred_joint_coords` (127), else `pred_keypoints_3d` (70); nothing if the arrays are others.
+/// Returns the array of SAM 3D Body's results that holds joints, moved by `pred_cam_t` (frames × 3) if that is there, and
+/// turned from the camera's frame (y down, z forwards) to Y up, which is upright if the camera was level: `pred_joint_coords` (127), else `pred_keypoints_3d` (70); nothing if the arrays are others.
 std::optional<NumberArray> JointsOfSam(const Npz& arrays);
 
 /// Writes a body's motion as an .npz file with the arrays, in the order of `names`: `positions` (T × 20 × 3, metres, Y

@@ -189,7 +189,12 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
       file.remarks.push_back("Kimodo's arrays, which tell no rate: 30 Hz is its model's");
       return file;
     }
-    if (const auto joints = JointsOfSam(arrays)) return FileOfArray(*joints, layout, path, options);
+    if (const auto joints = JointsOfSam(arrays)) {
+      ASSIGN_OR_RETURN(file, FileOfArray(*joints, layout, path, options));
+      for (MadeBody& body : file.bodies)
+        body.changes.emplace_back("SAM 3D Body's arrays: the camera's frame, turned to Y up as if it was level");
+      return file;
+    }
     ASSIGN_OR_RETURN(auto clip, ReadAmass(arrays, path));
     return FileOfOne(ClipFormat::kAmass, std::move(clip));
   }

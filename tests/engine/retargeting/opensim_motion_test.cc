@@ -239,6 +239,23 @@ TEST(JointArrays, AreUnderstoodAsTheyWere) {
   EXPECT_TRUE(testing::AreKept(lines, "tests/engine/retargeting/joint_arrays.txt"));
 }
 
+TEST(JointArrays, OfSam3dBodyAreTurnedFromTheCamerasFrame) {
+  Npz arrays;
+  NumberArray joints{.shape = {2, 70, 3}, .values = std::vector<double>(420, 0.0)};
+  joints.values[3 * 70 + 3] = 1;  // frame 1, joint 1, x
+  arrays.arrays["pred_keypoints_3d"] = joints;
+  EXPECT_EQ(JointsOfSam(arrays)->values[3 * 70 + 3], 1);
+  arrays.arrays["pred_cam_t"] = {.shape = {2, 3}, .values = {0, 0, 3, 0.25, 0.5, 4}};
+  const NumberArray moved = *JointsOfSam(arrays);
+  EXPECT_EQ(moved.values[2], -3);
+  EXPECT_EQ(std::vector<double>(&moved.values[213], &moved.values[216]), (std::vector<double>{1.25, -0.5, -4}));
+  EXPECT_FALSE(JointsOfSam({}));
+  // The layouts' places, as their authors list them.
+  const auto keypoints = JointsOfLayout("mhr70", 70), whole = JointsOfLayout("mhr", 127);
+  EXPECT_EQ(keypoints[15] + keypoints[50] + keypoints[41] + keypoints[69], "left_footleft_handright_wristshoulder_centre");
+  EXPECT_EQ(whole[2] + whole[20] + whole[42] + whole[126], "left_hipright_ankleright_wristhead");
+}
+
 TEST(BodyNpz, TakesJointsByTheirNamesInAnyOrder) {
   const BodyMotion motion = LoadBuiltinMove("clap").value().motion;
   Npz arrays = ReadNpz(WriteBodyNpz(motion, AtAttention()), "a.npz").value();

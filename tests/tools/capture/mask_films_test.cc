@@ -35,6 +35,28 @@ Image<std::uint8_t> Rectangle(int left, int right, std::uint8_t value, int width
   return values;
 }
 
+/// A palette PNG of 4 x 1 pixels: the indices 0 to 3, of which 1 is dark red.
+std::string PalettePng() {
+  constexpr std::string_view kHex =
+      "89504e470d0a1a0a0000000d4948445200000004000000010803000000cee2ffff0000000c504c5445000000800000008000"
+      "80800038ec04800000000d49444154789c63606064620600000f0007848e996d0000000049454e44ae426082";
+  std::string bytes;
+  for (std::size_t i = 0; i < kHex.size(); i += 2)
+    bytes += static_cast<char>(std::stoi(std::string(kHex.substr(i, 2)), nullptr, 16));
+  return bytes;
+}
+
+TEST(LoadMaskPng, KeepsTheIndicesOfAPalette) {
+  const TemporaryFolder folder = TemporaryFolder::Make("palette").value();
+  ASSERT_TRUE(WriteFileAtomically(folder.path() / "a.png", PalettePng()));
+  const auto mask = LoadMaskPng((folder.path() / "a.png").string());
+  ASSERT_TRUE(mask) << ToString(mask.error());
+  EXPECT_TRUE(mask->is_indexed);
+  EXPECT_EQ(mask->values.pixels, (std::vector<std::uint8_t>{0, 1, 2, 3}));
+  ASSERT_TRUE(WriteFileAtomically(folder.path() / "b.png", PalettePng().substr(0, 60)));
+  EXPECT_FALSE(LoadMaskPng((folder.path() / "b.png").string()));
+}
+
 class ReadMasksTest : public ::testing::Test {
  protected:
   void Add(const std::string& name, const Image<std::uint8_t>& values) {
