@@ -103,8 +103,8 @@ void MeasureDistances(const HiddenWindow& hidden, const Globals& found, const Gl
   const auto npss = MeasurePowerSpectrum(found_turns, true_turns, true_turns.FrameCount(), PowerOf::kRealPart);
   result.MeasureOr("npss@lafan1", npss ? std::optional(npss->value) : std::nullopt, "the truth has no power");
   result.MeasureOr("npss_power@lafan1", npss ? std::optional(npss->power) : std::nullopt, "the truth has no power");
-  const FrameFits none(pair.found.FrameCount(), Similarity{});
-  result.MeasureOr("mpjpe_unaligned_mm", MeanOfSeen(JointErrorsMm(pair, none)), "");
+  const FrameFits none{{Similarity{}}, pair.found.FrameCount()};
+  result.MeasureOr("mpjpe_unaligned_mm", MeanJointErrorMm(pair, none), "");
 }
 
 /// Measures whether a body could move so.
