@@ -259,11 +259,11 @@ class BesideClip {
   }
 
   std::span<const BodyPose> poses() const { return poses_; }
-  /// Returns the index in poses() of a shown frame in which this joint bears the clip's body.
+  /// Returns the index in poses() of a shown frame in which this joint bears the clip's body, or nothing does.
   std::optional<int> BearsAt(int frame, std::size_t joint) const {
     const int now = frame - begin_;
-    if (now < 0 || now >= static_cast<int>(poses_.size()) || !bears_[now][joint]) return std::nullopt;
-    return now;
+    if (now < 0 || now >= static_cast<int>(poses_.size())) return std::nullopt;
+    return bears_[now][joint] || bears_[now].none() ? std::optional(now) : std::nullopt;
   }
 
  private:

@@ -21,7 +21,7 @@ struct BodyRule {
 };
 /// The measures of a body, in the order of BodyMeasures.
 constexpr std::array kBodyRules = {
-    BodyRule{"zmp_off_cm", 25, "the body has no support"},
+    BodyRule{"zmp_off_cm", 25, "the ground never bears half of the weight"},
     BodyRule{"slip_mps2", 2, "the body has no support"},
     BodyRule{"glide_cm", 2, ""},
     BodyRule{"foot_turn_deg", 60, ""},

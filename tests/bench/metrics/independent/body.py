@@ -194,7 +194,7 @@ def gliding(shown, f, here, clips):
         ways = [travel(shown, f, role)]
         for clip in clips:
             now = f - clip.begin
-            if 0 <= now < len(clip.frames) and role in clip.measured[now]["bears"]:
+            if 0 <= now < len(clip.frames) and role in (clip.measured[now]["bears"] or support.ROLES):
                 ways.append(travel(shown, f, role, clip.frames, now))
         found.append(min((way for way in ways if way is not None), default=0))
     return min(found)
