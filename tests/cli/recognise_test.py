@@ -103,7 +103,7 @@ class Recognise(EtudeCase):
             self.assertIn("rotated back", self.etude("teach", file, "-o", self.folder / "again.yaml", "--overwrite").stderr)
             v2 = [row.split() for row in text.splitlines()]
             sheet = self.write("v2.txt", "\n".join(" ".join(row + row[6:9] + 4 * row[21:24]) for row in v2) + "\n")
-            self.assertRegex(self.etude("sensor", "stats", sheet).stdout, r"; the sensor is turned by (90|180|270) degrees")
+            self.assertRegex(self.etude("sensor", "stats", sheet).stdout, r"; the sensor is rotated by (90|180|270) degrees")
 
     def test_labels_tell_moves_apart_within_a_recording_and_score(self):
         poses = arms(100) + arms(100, both=False) + arms(100) + arms(30)

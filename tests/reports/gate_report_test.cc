@@ -175,7 +175,7 @@ TEST(GateMarkdown, IsCutBeforeAPullRequestRefusesIt) {
 TEST(GateJunit, HasACaseForAllThatWasJudged) {
   const std::string xml = WriteGateJunit(Example());
   EXPECT_THAT(xml, HasSubstr("<property name=\"etude\" value=\"1.1\"/>"));
-  EXPECT_THAT(xml, HasSubstr("<testsuites name=\"quick gate\" tests=\"9\" failures=\"2\" errors=\"0\" skipped=\"1\">"));
+  EXPECT_THAT(xml, HasSubstr("<testsuites name=\"quick gate\" tests=\"10\" failures=\"2\" errors=\"0\" skipped=\"1\">"));
   EXPECT_THAT(xml, HasSubstr("name=\"every cell can be judged\"/>"));
   EXPECT_THAT(xml, HasSubstr("name=\"joint_noise_deg=5, adaptive: effector orientation error\"><failure"));
   EXPECT_THAT(xml, HasSubstr("name=\"processor time of adaptive over fixed at most 1.5\"/>"));
@@ -185,7 +185,7 @@ TEST(GateJunit, FailsOneCaseOfAnIncompleteRunAndEscapesWhatItSays) {
   GateReport report = Nothing();
   report.incomplete = {"<a> & \"b\""};
   const std::string xml = WriteGateJunit(report);
-  EXPECT_THAT(xml, HasSubstr("tests=\"2\" failures=\"1\""));
+  EXPECT_THAT(xml, HasSubstr("tests=\"3\" failures=\"1\""));
   EXPECT_THAT(xml, HasSubstr("&lt;a&gt; &amp; &quot;b&quot;"));
 }
 
