@@ -291,7 +291,7 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, const PlacementOptions& option
   if (const FileAxis* axis = AxisOf(options.up)) {
     place.R = Upright(rig.R_WF * axis->direction);
   } else if (const std::string camera = CameraOfTheWorld(rig); !camera.empty() || options.up == "floor") {
-    return Fail({}, "the keypoints do not show which direction is up{}; give the file's axis by --rig-up",
+    return Fail({}, "the rig does not show which direction is up{}; give the file's axis by --rig-up",
                 camera.empty() ? "" : fmt::format(" in {}'s own frame", camera));
   }
   if (const auto height = WholeNumber(options.floor)) place.shift.y = -*height;

@@ -175,9 +175,9 @@ TEST(PlaceRig, WithoutAPersonTakesWhatIsTold) {
   EXPECT_LT(glm::distance((*place)({0, 0, 1000}), glm::dvec3(0, 0.8, 0)), 1e-12);
   rig.unit_m = 0.01;
   EXPECT_DOUBLE_EQ(PlaceRig(rig, {.unit = "mm"})->scale, 0.1);
-  EXPECT_THAT(PlaceRig(rig, {.up = "floor"}).error().message, HasSubstr("the keypoints do not show which direction is up; give"));
+  EXPECT_THAT(PlaceRig(rig, {.up = "floor"}).error().message, HasSubstr("the rig does not show which direction is up; give"));
   rig.cameras.push_back({"eye", Camera{}});
-  EXPECT_THAT(PlaceRig(rig, {}).error().message, HasSubstr("the keypoints do not show which direction is up in eye's own frame"));
+  EXPECT_THAT(PlaceRig(rig, {}).error().message, HasSubstr("the rig does not show which direction is up in eye's own frame"));
   rig.has_unit = false;
   EXPECT_THAT(PlaceRig(rig, {.up = "y"}).error().message, HasSubstr("Pose2Sim's lengths have no unit"));
   EXPECT_TRUE(PlaceRig(rig, {.unit = "inch", .up = "y"}));
