@@ -12,13 +12,10 @@
 #include "bench/gate/gate.h"
 #include "bench/metrics/catalogue.h"
 #include "bench/results/folder.h"
-#include "bench/run/dry_run.h"
 #include "bench/run/run.h"
 #include "bench/run/shipped.h"
-#include "bench/statistics/beyond.h"
-#include "bench/statistics/bootstrap.h"
-#include "bench/statistics/distributions.h"
 #include "cli/commands.h"
+#include "cli/dry_run.h"
 #include "cli/facts.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
@@ -250,102 +247,6 @@ int MergeCommand(const MergeOptions& given) {
   TellUnlocked(*outcome);
   if (!outcome->stopped) return ShowOutcome(*outcome);
   return TellStopped({{}, "stopped; the shards are unchanged, and there is no merged run"});
-}
-
-constexpr double kSampleSeconds = 0.8;
-
-std::string Duration(double seconds) {
-  if (seconds < 100) return fmt::format("{:.0f} s", std::max(seconds, 1.0));
-  if (seconds < 6000) return fmt::format("{:.0f} min", seconds / 60);
-  return fmt::format("{:.1f} h", seconds / 3600);
-}
-
-std::string CountOf(std::size_t count, std::string_view what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
-/// Returns a difference in the unit of the scenario's metric: ", about 1.2 mm of joint position error"; "" if unknown.
-std::string InUnit(const ScenarioForecast& one, double deviations) {
-  const MetricInfo* metric = FindMetric(one.metric);
-  if (metric == nullptr || one.spread <= 0) return "";
-  const std::string unit = metric->unit.empty() ? "" : " " + metric->unit;
-  return fmt::format(", about {:.2g}{} of {} ({:g} matters)", deviations * one.spread, unit, metric->label,
-                     metric->practical);
-}
-
-void Print(const ScenarioForecast& one) {
-  fmt::print("{} ({}): {} × {} × {} = {} cells, {:.2g} s a world{}\n", one.name, one.task,
-             CountOf(one.conditions, "condition"), CountOf(one.worlds, "world"), CountOf(one.methods, "method"),
-             one.conditions * one.worlds * one.methods, one.seconds_per_world,
-             one.is_kept ? "" : ", measured on first ones");
-  if (one.comparisons == 0) return;
-  const int worlds = static_cast<int>(one.worlds);
-  const std::string among = one.comparisons == 1 ? "1 comparison" : fmt::format("{} comparisons", one.comparisons);
-  if (worlds < kMinSample) {
-    fmt::print("  on these worlds: no verdict; at least {} are needed\n", kMinSample);
-  } else {
-    const double least = MinDetectableDifference(worlds, one.comparisons);
-    fmt::print(
-        "  on these worlds: {} {} a mean difference of {:.2f} or more standard deviations of the worlds' differences{}\n",
-        among, one.comparisons == 1 ? "shows" : "show", least, InUnit(one, least));
-  }
-  if (WorldsAreUnits(one.unit)) return;
-  if (one.units < kMinUnits) {
-    fmt::print("  beyond them: no verdict: {}; at least {} are needed\n", CountUnits(one.units, one.unit), kMinUnits);
-    return;
-  }
-  fmt::print("  beyond them: from {:.2f} standard deviations of the mean differences of {}\n",
-             MinDetectableDifference(one.units, one.comparisons), CountUnits(one.units, one.unit));
-}
-
-Json FactsOf(const Forecast& forecast, const Shard& shard) {
-  Json scenarios = Json::array();
-  for (const ScenarioForecast& one : forecast.scenarios) {
-    scenarios.push_back({{"scenario", one.name},
-                         {"task", one.task},
-                         {"conditions", one.conditions},
-                         {"worlds", one.worlds},
-                         {"methods", one.methods},
-                         {"comparisons", one.comparisons},
-                         {"units", one.units},
-                         {"work", one.work},
-                         {"kept", one.is_kept},
-                         {"world_s", one.seconds_per_world},
-                         {"metric", one.metric},
-                         {"spread", one.spread > 0 ? Json(one.spread) : Json(nullptr)}});
-  }
-  return {{"shard", shard.IsWhole() ? Json(nullptr) : Json(ToString(shard))},
-          {"cells", forecast.cells},
-          {"run_s", forecast.seconds},
-          {"workers", forecast.workers},
-          {"yardstick_ms", forecast.pace.yardstick_ms},
-          {"scenarios", std::move(scenarios)}};
-}
-
-int DryRunCommand(const RunOptions& options, bool as_json) {
-  const auto forecast = DryRun(options, kSampleSeconds);
-  if (!forecast) return Complain(forecast.error());
-  if (as_json) {
-    const auto printed = PrintFacts("run --dry-run", FactsOf(*forecast, options.shard));
-    return printed ? kSuccess : Complain(printed.error());
-  }
-  std::size_t all = 0;
-  std::vector<std::string> guessed;
-  for (const ScenarioForecast& one : forecast->scenarios) {
-    Print(one);
-    all += one.conditions * one.worlds * one.methods;
-    if (!one.is_kept) guessed.push_back(one.name);
-  }
-  if (!options.shard.IsWhole())
-    fmt::print("Shard {}: {} of {} cells.\n", ToString(options.shard), forecast->cells, all);
-  fmt::print(
-      "{} cells, about {} on {}. The differences below are found with a probability of 80 %. Nothing was written.\n",
-      forecast->cells, Duration(forecast->seconds), CountOf(static_cast<std::size_t>(forecast->workers), "worker"));
-  if (!guessed.empty()) {
-    fmt::print("The time is an estimate: the costs of {} are not known, so its first worlds were measured just now.\n",
-               Join(guessed, ", "));
-  }
-  return kSuccess;
 }
 
 void AddOtherLibraries(CLI::App& command, bool& other_libraries) {
