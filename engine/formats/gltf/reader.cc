@@ -182,7 +182,7 @@ Result<void> CheckCounts(const nlohmann::json& json, const std::string& where, c
     for (const auto& [key, value] : json.items()) {
       if (key == "extras" || key == "extensions") continue;
       const std::string name = where.empty() ? key : where + "." + key;
-      const bool may_be_object = key == "indices";  // of a sparse accessor
+      const bool may_be_object = key == "indices" && !where.starts_with("meshes");  // of a sparse accessor
       if (std::ranges::find(kCounts, key) != kCounts.end() && !value.is_number_unsigned() &&
           !(may_be_object && value.is_object())) {
         return Fail({file}, "{}: found {}; allowed: a whole number from 0", name, value.dump().substr(0, 40));
@@ -203,12 +203,12 @@ Result<void> CheckCounts(const nlohmann::json& json, const std::string& where, c
 /// Refuses index lists without a buffer view: tinygltf 2.7 refuses them, 2.9 reads them as zeros. CheckCounts has passed.
 Result<void> CheckIndexLists(const nlohmann::json& json, const std::string& file) {
   const nlohmann::json::json_pointer to_meshes("/meshes"), to_accessors("/accessors");
-  if (!json.contains(to_meshes) || !json.contains(to_accessors)) return {};
+  if (!json.contains(to_meshes) || !json.contains(to_accessors) || !json[to_accessors].is_array()) return {};
   for (const auto& mesh : json[to_meshes]) {
     for (const auto& primitive : mesh.is_object() ? mesh.value("primitives", nlohmann::json()) : nlohmann::json()) {
-      if (!primitive.is_object() || !primitive.contains("indices") || primitive.contains("extensions")) continue;
-      const auto accessor = primitive["indices"].get<std::size_t>();
-      const auto list = json[to_accessors].size() > accessor ? json[to_accessors][accessor] : nlohmann::json();
+      if (!primitive.is_object() || primitive.contains("extensions")) continue;
+      const std::size_t accessor = primitive.value("indices", json[to_accessors].size());
+      const auto list = accessor < json[to_accessors].size() ? json[to_accessors][accessor] : nlohmann::json();
       if (!list.is_object() || list.contains("bufferView") || list.contains("sparse")) continue;
       return Fail({file}, "accessors[{}]: found no bufferView; an index list needs one", accessor);
     }

@@ -160,6 +160,19 @@ std::vector<std::string> SpoiltJson(const std::string& json, std::uint64_t seed,
   return spoilt;
 }
 
+TEST(Gltf, IndexListsOfAnotherShapeAreRefusedWithAReason) {
+  const std::pair<std::string, std::string> kShapes[] = {{"\"indices\":3", "\"indices\":{}"},
+                                                         {"\"indices\":3", "\"indices\":[3]"},
+                                                         {"\"accessors\":[", "\"accessors\":{},\"others\":["},
+                                                         {"\"meshes\":[", "\"meshes\":\"x\",\"others\":["}};
+  for (const auto& [from, to] : kShapes) {
+    std::string json(testing::kSmallGltf);
+    json.replace(json.find(from), from.size(), to);
+    const auto read = ReadGlb(testing::Glb(json, testing::SmallBinary()));
+    EXPECT_FALSE(read) << to;
+  }
+}
+
 TEST(Gltf, ComplaintsAboutOneThingSpoiltAreAsTheyWere) {
   const PackedNumbers rich = RichNumbers();
   const std::string small(testing::kSmallGltf), json = RichJson(rich);
