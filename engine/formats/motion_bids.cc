@@ -34,12 +34,12 @@ std::vector<std::string_view> CellsOf(std::string_view line) {
   }
 }
 
-/// Where a recording's columns go.
+/// The coordinate of a point that each column of a recording holds.
 struct BidsChannels {
   struct Column {
     int point = -1;  ///< index into `points`; −1 for other channels than positions
     int axis = 0;
-    double metres = 1;  ///< in one unit
+    double metres = 1;  ///< per unit of the column
   };
   std::vector<Column> columns;
   std::vector<std::string> points;
