@@ -149,7 +149,8 @@ Camera BestAddition(const std::vector<Camera>& cameras, const std::vector<Foreca
   return best;
 }
 
-/// Adds the mean errors of standing bodies, which face +Z and +X at every second place of the floor along x and z.
+/// Adds the root mean square errors of standing bodies, which face +Z and +X at every second place of the floor along x
+/// and z.
 Result<void> AddJoints(const std::vector<Camera>& cameras, const ForecastOptions& options, RigForecast& forecast) {
   std::array<JointErrors, kRoleCount> sums{};
   int whole = 0, all = 0;
@@ -182,6 +183,7 @@ Result<void> AddJoints(const std::vector<Camera>& cameras, const ForecastOptions
   return {};
 }
 
+/// Adds the rig as it is, with more exact pixels, with a better calibration, and with one more camera.
 void AddWorths(const std::vector<Camera>& cameras, const ForecastOptions& options, RigForecast& forecast) {
   const auto add = [&](const std::string& change, const std::vector<Camera>& changed, const SightingErrors& errors,
                        std::optional<glm::dvec3> added = {}) {
