@@ -35,7 +35,7 @@ double StandingHipsOf(const BodyPose& first);
 /// The largest possible fuzzy distance: the weights of the features sum to eight, and all grades differ by as much as
 /// they can.
 inline constexpr double kFarthestFuzzy = 6;
-/// Refuses a budget, the longest wait in seconds, that is out of range.
+/// Refuses a budget (the longest wait) outside of 0 to 3600 s.
 void CheckBudget(double budget_s);
 
 /// Returns the choice and the join of these names. Refuses unknown names.

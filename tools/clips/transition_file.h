@@ -16,7 +16,7 @@ struct TransitionFileOptions {
   double budget_s = 1;   ///< the longest wait until `to` plays, seconds
   std::string choice = "played", join = "planted-feet";  ///< names of ChoiceNames() and JoinNames()
   std::vector<std::string> library;  ///< references of further clips, through which a transition may lead
-  std::string output;                ///< a file of any MotionFormat
+  std::string output;                ///< a file of any MotionFormat but kBids
   OpenOptions reading;
 };
 
