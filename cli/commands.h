@@ -108,7 +108,7 @@ void DefineSheet(CLI::App& sensor, Action& action);
 void DefineCalibrate(CLI::App& app, Action& action);
 /// `etude capture`: finds the motion of a person in films by several cameras.
 void DefineCapture(CLI::App& app, const std::string& command_line, Action& action);
-/// `etude forecast RIG`: tells which error a rig's captures will have.
+/// `etude forecast RIG`: forecasts the errors of a rig's captures.
 void DefineForecast(CLI::App& app, const std::string& command_line, Action& action);
 /// `etude coach`: coaches a song live from a skeleton stream.
 void DefineCoach(CLI::App& app, Action& action);

@@ -41,6 +41,7 @@ Result<int> TransitionCommand(TransitionCommandOptions asked) {
                           options.to, options.budget_s, made.why)});
     return kNothingWorked;
   }
+  // Report what was written.
   if (asked.as_json) {
     RETURN_IF_ERROR(PrintFacts("transition", {{"from", options.from},
                                               {"to", options.to},

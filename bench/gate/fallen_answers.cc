@@ -14,7 +14,7 @@ bool Keeps(const SnapshotScenario& snapshot, const std::string& metric) {
   return std::ranges::find(snapshot.metrics, metric, &std::pair<std::string, int>::first) != snapshot.metrics.end();
 }
 
-/// Returns true if a snapshot keeps all that the answers of a study are made of.
+/// Returns true if a snapshot keeps every metric from which the answers of a study are computed.
 bool KeepsAnswers(const Study& study, const SnapshotScenario& snapshot) {
   std::vector<std::string> needed = study.metrics;
   if (!study.success.empty()) needed.push_back(study.success);
@@ -29,7 +29,7 @@ bool KeepsAnswers(const Study& study, const SnapshotScenario& snapshot) {
 ScenarioSummary SummaryOf(Study study, const SnapshotScenario& snapshot) {
   study.unit = SamplingUnit::kWorld;
   study.expectations.clear();
-  for (ComparedMethod& method : study.methods) method.has_oracle = true;  // nobody asks for rivals
+  for (ComparedMethod& method : study.methods) method.has_oracle = true;  // so that no rivals are compared
   ScenarioTable table(study);
   Row row;
   row.scenario = study.scenario;

@@ -46,7 +46,7 @@ struct GateReport {
   std::vector<GateAnswer> answers;  ///< against baselines; only those that fell decide anything (`fallen`)
   std::vector<RatioResult> ratios;
   SnapshotComparison comparison;
-  std::vector<FallenAnswer> fallen;     ///< answers that the baseline decided for more; one that flips fails the gate
+  std::vector<FallenAnswer> fallen;     ///< answers with a worse verdict than before; one that flips fails the gate
   std::vector<std::string> silent;      ///< a sentence per method without any answer: each fails the gate
   std::vector<std::string> incomplete;  ///< why there is no verdict
   bool runs_programs = false;           ///< some methods are programs, so `etude replay` needs permission

@@ -30,7 +30,7 @@ struct MeasuredSystem {
 };
 
 constexpr int kQuickCells = 2192;
-/// All in the task capture: Mesa 26.2 draws a few levels otherwise, and a camera's last digits differ.
+/// All are in task capture: Mesa 26.2 draws some pixels a few levels differently, and a camera's last digits differ.
 constexpr std::array<Difference, 13> kSidDiffers = {{
     {"auc_200mm", 3.2e-4},
     {"bone_length_error_cm", 4e-16},

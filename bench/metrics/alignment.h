@@ -47,7 +47,7 @@ class PairFits {
   FrameFits ByRoot(bool with_scale) const;
 
   const EvaluatedPair& pair_;
-  std::vector<PointMoments> moments_;                 // by frame
+  std::vector<PointMoments> moments_;  // by frame
   std::vector<std::optional<Similarity>> each_frame_;
 };
 
@@ -57,7 +57,7 @@ std::optional<Similarity> Fit(const PointMoments& moments, bool with_scale);
 /// Returns the distance of each joint, after the alignment, from its truth, frames × joints, millimetres; NaN where
 /// either is not seen or not aligned.
 std::vector<double> JointErrorsMm(const EvaluatedPair& pair, const FrameFits& fits);
-/// Returns the mean of these distances; nothing if all are NaN.
+/// Returns the mean of these distances, ignoring NaN; nothing if all are NaN.
 std::optional<double> MeanJointErrorMm(const EvaluatedPair& pair, const FrameFits& fits);
 
 }  // namespace etude

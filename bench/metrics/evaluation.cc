@@ -28,7 +28,7 @@ void SeenMean::Add(std::span<const double> values) {
     }
   };
   add_seen(std::min((kSums - next_) % kSums, values.size()));
-  // Whole rounds, as if all were seen; a NaN shows in a sum.
+  // Add whole rounds without testing for NaN: a NaN shows in a sum.
   const std::size_t rounds = (values.size() - i) / kSums;
   double sums[kSums];
   std::copy_n(sums_, kSums, sums);
@@ -112,10 +112,11 @@ std::optional<double> MeanLength(std::size_t begin, std::size_t end, std::size_t
 std::optional<double> AccelerationError(const PointTracks& found, const PointTracks& truth) {
   assert(found.positions.size() == truth.positions.size());
   const std::size_t n = found.points;
-  return MeanLength(2, found.FrameCount(), n, [&, a = found.positions.data(), t = truth.positions.data()](auto f, auto j) {
-    const std::size_t i = f * n + j;
-    return (a[i - 2 * n] - 2.0 * a[i - n] + a[i]) - (t[i - 2 * n] - 2.0 * t[i - n] + t[i]);
-  });
+  return MeanLength(2, found.FrameCount(), n,
+                    [&, a = found.positions.data(), t = truth.positions.data()](auto f, auto j) {
+                      const std::size_t i = f * n + j;
+                      return (a[i - 2 * n] - 2.0 * a[i - n] + a[i]) - (t[i - 2 * n] - 2.0 * t[i - n] + t[i]);
+                    });
 }
 
 std::optional<double> RootAccelerationError(const EvaluatedPair& pair) {

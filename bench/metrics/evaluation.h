@@ -36,7 +36,7 @@ struct EvaluatedPair {
   std::vector<bool> found_contacts, true_contacts;
 };
 
-/// The mean of values that are not NaN, which may be added in parts.
+/// The mean of all added values that are not NaN.
 class SeenMean {
  public:
   void Add(std::span<const double> values);
@@ -44,10 +44,10 @@ class SeenMean {
   std::optional<double> Value() const;
 
  private:
-  // Every fourth value joins the same sum: one sum alone would wait for each addition.
+  // Values join four sums in turn, because additions to a single sum would wait for each other.
   static constexpr std::size_t kSums = 4;
   double sums_[kSums] = {}, counts_[kSums] = {};
-  std::size_t next_ = 0;  // the sum of the next value
+  std::size_t next_ = 0;  // index of the sum that the next value joins
 };
 /// Returns the mean of the values that are not NaN; nothing if there are none.
 std::optional<double> MeanOfSeen(std::span<const double> values);
@@ -61,7 +61,8 @@ std::optional<double> SeenShare(const EvaluatedPair& pair);
 /// Returns the mean length of the difference between the second differences of answer and truth, over all joints and
 /// frames whose three frames both show; metres per frame².
 std::optional<double> AccelerationError(const PointTracks& found, const PointTracks& truth);
-/// Returns the same with the answer moved, in each frame, root onto root, and without the first frame and the last (WHAM).
+/// Returns the same after the answer is moved root onto root in each frame, without the first and the last frame
+/// (WHAM).
 std::optional<double> RootAccelerationError(const EvaluatedPair& pair);
 /// Returns the answer's third differences' mean length × rate³ ÷ 10 (WHAM).
 std::optional<double> Jitter(const PointTracks& found, double rate_hz);

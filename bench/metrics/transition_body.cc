@@ -35,14 +35,15 @@ std::optional<double> HeadingOf(const glm::dvec3& from, const glm::dvec3& to) {
 /// Returns the turn from one heading to another, in [−π, π].
 double Turn(double from, double to) { return std::remainder(to - from, 2 * kPi); }
 
-/// Returns the heading of the hips: perpendicular to their line.
+/// Returns the heading of the hips: perpendicular to the line between them, radians about +Y.
 std::optional<double> HipHeading(const BodyPose& pose) {
   const auto line = HeadingOf(pose[kRightHip], pose[kLeftHip]);
   return line ? std::optional(*line - 0.5 * kPi) : std::nullopt;
 }
 
-/// Returns the acceleration of the mass centre in every frame, metres per second²: of the parabola through the nine
-/// frames (0.3 s) around it, or, near an end, around the nearest frame that has them; 0 in a shorter motion.
+/// Returns the acceleration of the mass centre in every frame, metres per second²: that of the least-squares parabola
+/// through the nine frames (0.3 s) around it. Near an end, the nearest frame with nine frames around it counts. 0 in a
+/// shorter motion.
 std::vector<glm::dvec3> MassAccelerations(std::span<const glm::dvec3> centres, double rate_hz) {
   constexpr int kReach = 4;
   const int last = static_cast<int>(centres.size()) - 1;
@@ -58,8 +59,9 @@ std::vector<glm::dvec3> MassAccelerations(std::span<const glm::dvec3> centres, d
   return accelerations;
 }
 
-/// Returns by how much the worst joint of a pose is beyond its limit, degrees; 0 if none is. `bears` holds the joints
-/// that bear the body: only feet that do so, below an upright trunk, show how the hips are twisted.
+/// Returns the largest excess of a joint of a pose over its limit, degrees; 0 if all are within. `bears` holds the
+/// joints that bear the body. A foot's direction relative to the hips is judged only if the foot bears the body and the
+/// trunk is upright.
 double BeyondJoints(const BodyPose& pose, const JointSet& bears) {
   constexpr double kKnee = 25, kMinElbow = 20, kMinKnee = 20, kNeck = 75, kTrunk = 75, kInward = 60, kOutward = 110;
   constexpr double kUpright = 0.7;
@@ -90,7 +92,7 @@ double BeyondJoints(const BodyPose& pose, const JointSet& bears) {
   return worst;
 }
 
-/// Returns how far parts of the body are through each other, centimetres; 0 if they are not.
+/// Returns the largest depth of an arm in trunk, neck or head, or of one shank in the other, centimetres; 0 if none is.
 double Overlap(const BodyPose& pose) {
   constexpr double kArm = 0.035, kLegs = 0.03;
   const double legs = SegmentDistance(pose[kLeftKnee], pose[kLeftAnkle], pose[kRightKnee], pose[kRightAnkle]);
@@ -98,13 +100,13 @@ double Overlap(const BodyPose& pose) {
          std::max({0.0, kArm - ArmFromSpine(pose, Side::kLeft), kArm - ArmFromSpine(pose, Side::kRight), kLegs - legs});
 }
 
-/// What is measured in one frame.
+/// The measurements of one frame.
 struct BodyFrame {
   bool flight = false;
   std::optional<double> zmp_cm, slip_mps2;  // nothing without support
-  double glide_cm = 0;                      // in this frame
+  double glide_cm = 0;                      // least travel of a support in this frame
   double beyond_deg = 0, overlap_cm = 0, sunk_cm = 0;
-  std::array<std::optional<double>, 2> twist = {};  // hips against each foot at rest, radians
+  std::array<std::optional<double>, 2> twist = {};  // heading of the hips relative to each foot at rest, radians
 };
 
 /// A motion, its mass centre and its velocities.
@@ -121,13 +123,13 @@ struct Moving {
   std::vector<glm::dvec3> centres = {}, accelerations = {};
 };
 
-/// Measures what does not depend on clips.
+/// Measures all that does not depend on the clips; glide_cm and sunk_cm stay 0.
 BodyFrame FrameOf(const Moving& moving, int f, const Support& support) {
   constexpr double kFriction = 1, kCarried = 0.5, kRest = 0.3;
   const BodyPose &pose = moving.poses[f], &velocity = moving.velocities[f];
   BodyFrame frame;
   frame.flight = support.flight;
-  // The force that the ground must exert, and the point of the ground that it comes from.
+  // The force per mass that the ground must exert (slip), and the point where it acts (ZMP).
   if (!support.flight && support.joints.any()) {
     const glm::dvec3 &a = moving.accelerations[f], &c = moving.centres[f];
     const double up = a.y + kGravity;
@@ -142,7 +144,7 @@ BodyFrame FrameOf(const Moving& moving, int f, const Support& support) {
   }
   frame.beyond_deg = BeyondJoints(pose, support.joints);
   frame.overlap_cm = Overlap(pose);
-  // Hips above feet at rest.
+  // The heading of the hips relative to feet at rest.
   const auto hips = HipHeading(pose);
   for (std::size_t i = 0; i < kSides.size(); ++i) {
     const Role ankle = OnSide(kSides[i], kLeftAnkle), foot = OnSide(kSides[i], kLeftFoot);
@@ -155,8 +157,9 @@ BodyFrame FrameOf(const Moving& moving, int f, const Support& support) {
   return frame;
 }
 
-/// Returns the largest value that `frames` successive values reach. Missing values are passed over, but a flight ends
-/// the succession.
+/// Returns the largest value that is reached in each of `length` successive frames: the maximum of the minima over such
+/// runs. Frames without a value are skipped, but a flight ends a run. 0 if no run is long enough; nothing if no frame
+/// has a value.
 template <class Value>
 std::optional<double> Sustained(std::span<const BodyFrame> frames, std::size_t length, const Value& value) {
   std::optional<double> worst;
@@ -173,7 +176,7 @@ std::optional<double> Sustained(std::span<const BodyFrame> frames, std::size_t l
   return worst;
 }
 
-/// Returns the farthest way without a joint at rest within half a second.
+/// Returns the largest sum of glide_cm over half a second, centimetres.
 double FarthestGlide(std::span<const BodyFrame> frames) {
   constexpr std::size_t kFrames = 15;
   double farthest = 0, sum = 0;
@@ -207,6 +210,7 @@ double LargestTwist(std::span<const BodyFrame> frames) {
   return Degrees(largest);
 }
 
+/// Returns the values of kBodyRules, in their order, from those of all frames.
 BodyMeasures Reduced(std::span<const BodyFrame> frames) {
   constexpr std::size_t kZmp = 5, kSlip = 3, kJoint = 3, kOverlap = 2, kSunk = 4;
   const auto of = [](double BodyFrame::*member) {
@@ -221,13 +225,13 @@ BodyMeasures Reduced(std::span<const BodyFrame> frames) {
           Sustained(frames, kSunk, of(&BodyFrame::sunk_cm))};
 }
 
-/// A clip beside a join: what its own body does there.
+/// One of the clips of a join: the same measurements of the clip alone, at the time of the join.
 class BesideClip {
  public:
-  /// `begin` is the shown frame of poses[0]. Values are found for the shown frames `first` … `last` and a few around
-  /// them.
+  /// `begin` is the index of poses[0] in the shown motion. Measures the clip in the shown motion's frames `first` …
+  /// `last` and a second on either side.
   BesideClip(std::span<const BodyPose> poses, int begin, int first, int last, double rate_hz) {
-    // A second more of it, so that its support is known.
+    // One second more on either side, because support depends on the frames around.
     constexpr int kAround = 30;
     const int from = std::clamp(first - begin - kAround, 0, static_cast<int>(poses.size()) - 1);
     const int to = std::clamp(last - begin + kAround, from, static_cast<int>(poses.size()) - 1);
@@ -249,7 +253,7 @@ class BesideClip {
     return std::span(frames_).subspan(from, to - from + 1);
   }
 
-  /// Returns the height of the clip's lowest joint within a third of a second of a shown frame.
+  /// Returns the lowest height of a joint of the clip within a third of a second of a shown frame, metres.
   double Floor(int frame) const {
     constexpr int kWindow = 10;
     const auto [from, to] = Indices(frame, kWindow);
@@ -259,7 +263,8 @@ class BesideClip {
   }
 
   std::span<const BodyPose> poses() const { return poses_; }
-  /// Returns the index in poses() of a shown frame in which this joint bears the clip's body, or nothing does.
+  /// Returns the index in poses() of a shown frame if this joint, or no joint, bears the clip's body in it; else
+  /// nullopt.
   std::optional<int> BearsAt(int frame, std::size_t joint) const {
     const int now = frame - begin_;
     if (now < 0 || now >= static_cast<int>(poses_.size())) return std::nullopt;
@@ -279,9 +284,9 @@ class BesideClip {
   std::vector<JointSet> bears_;
 };
 
-/// Returns how far a joint travels over the floor from the frame before or to the frame after, whichever is nearer, so
-/// that a joint that has just come to rest, or is about to leave, rests; centimetres. With a clip it is the way against
-/// the same joint of its frame `clip_frame`. Nothing if neither frame exists.
+/// Returns the horizontal distance that a joint moves from the frame before or to the frame after, whichever is
+/// shorter, centimetres: a joint that has just come to rest, or is about to leave, counts as at rest. With a clip, the
+/// movement of the clip's joint at its frame `clip_frame` is subtracted first. Nothing if neither frame exists.
 std::optional<double> TravelOf(std::span<const BodyPose> poses, int frame, std::size_t joint,
                                std::span<const BodyPose> clip = {}, int clip_frame = 0) {
   std::optional<double> slowest;
@@ -304,7 +309,7 @@ std::optional<double> TravelOf(std::span<const BodyPose> poses, int frame, std::
   return slowest;
 }
 
-/// Returns the least of `speed(joint)` over the joints of a set.
+/// Returns the least of `speed(joint)` over the joints of a set; 0 for an empty set.
 template <class Speed>
 double SlowestOf(const JointSet& joints, const Speed& speed) {
   std::optional<double> slowest;
@@ -316,7 +321,7 @@ double SlowestOf(const JointSet& joints, const Speed& speed) {
   return slowest.value_or(0);
 }
 
-/// Sets to 0 what a clip beside the join does itself at that time, a quarter more allowed.
+/// Sets a value to 0 if it is at most 1.25 times the clips' own largest value within three frames of this one.
 void Excuse(std::span<const BesideClip> clips, int shown_frame, BodyFrame& frame) {
   constexpr int kReach = 3;
   constexpr double kAllowance = 1.25;
@@ -339,6 +344,7 @@ void Excuse(std::span<const BesideClip> clips, int shown_frame, BodyFrame& frame
 
 BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support) {
   const int end = view.first + static_cast<int>(support.size()) - 1;
+  // Measure each clip alone.
   std::vector<BesideClip> clips;
   const auto add = [&](std::span<const BodyPose> poses, int begin) {
     if (!poses.empty()) clips.emplace_back(poses, begin, view.first, end, view.rate_hz);
@@ -346,6 +352,7 @@ BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support)
   add(view.left, 0);
   add(view.wanted, view.last);
   for (const SupportingClip& clip : view.between) add(clip.poses, clip.begin);
+  // Measure each frame of the join.
   JointSet feet;
   for (const Side side : kSides) feet.set(Index(OnSide(side, kLeftAnkle))).set(Index(OnSide(side, kLeftFoot)));
   const Moving moving(view.shown, view.rate_hz);
@@ -354,6 +361,7 @@ BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support)
     const Support& held = support[f - view.first];
     BodyFrame frame = FrameOf(moving, f, held);
     Excuse(clips, f, frame);
+    // Travel of the slowest support, or of the slowest foot joint; also relative to a clip that is supported there.
     if (!held.flight) {
       frame.glide_cm = SlowestOf(held.joints.any() ? held.joints : feet, [&](std::size_t j) {
         double slowest = TravelOf(view.shown, f, j).value_or(0);
@@ -364,13 +372,14 @@ BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support)
         return slowest;
       });
     }
+    // Depth below the lowest joint of the clips.
     double floor = clips.front().Floor(f);
     for (const BesideClip& clip : clips) floor = std::min(floor, clip.Floor(f));
     frame.sunk_cm = kToCm * std::max(floor - LowestOf(view.shown[f]), 0.0);
     frames.push_back(frame);
   }
   BodyMeasures measures = Reduced(frames);
-  // Turns that a clip makes itself are its own.
+  // A turn of at most 1.25 times a clip's own counts as 0.
   constexpr std::size_t kTurn = 3;
   constexpr double kAllowance = 1.25;
   for (const BesideClip& clip : clips) {

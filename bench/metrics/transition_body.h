@@ -13,11 +13,11 @@
 
 namespace etude {
 
-/// A measure of what no body can do, from the motion alone (docs/reference/metrics.md, Transitions).
+/// A measure of what no human body can do, computed from the motion alone (docs/reference/metrics.md, Transitions).
 struct BodyRule {
   std::string_view metric;
   double limit = 0;        ///< largest value of a clean transition, in the unit of `metric`
-  std::string_view unmet;  ///< why a motion may have no value; empty: it always has one
+  std::string_view unmet;  ///< why a value may be missing; empty: it never is
 };
 /// The measures of a body, in the order of BodyMeasures.
 constexpr std::array kBodyRules = {
@@ -32,8 +32,9 @@ constexpr std::array kBodyRules = {
 /// One value for each of kBodyRules.
 using BodyMeasures = std::array<std::optional<double>, kBodyRules.size()>;
 
-/// Measures a join's body in the frames of `support`, which is JoinSupport's. What a clip's own body does at that time
-/// counts as 0.
+/// Measures the body of a join in the frames of `support`, which JoinSupport returned: one entry per frame from
+/// `view.first` on. What a clip's own body does at that time is not held against the join; docs/reference/metrics.md
+/// says how for each measure.
 BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support);
 
 /// Returns true if no value exceeds its limit, rounding aside. A missing value exceeds none.

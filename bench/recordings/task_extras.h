@@ -143,11 +143,11 @@ std::string WriteCoachExtras(const CoachExtras& extras);
 /// Fails, naming the key, when a key is missing or of another kind.
 Result<CoachExtras> ReadCoachExtras(const std::string& json);
 
-/// The extras of task `plausibility`: the faults found in the track "answer", which has its file's rate and heights.
+/// The extras of task `plausibility`: the faults in the track "answer", which keeps the rate and heights of its file.
 struct PlausibilityExtras {
   struct Fault {
-    std::string kind, text;  ///< FaultName, MotionFault::text
-    int begin_frame = 0, end_frame = 0;  ///< its first and its last
+    std::string kind, text;              ///< FaultName; MotionFault::text
+    int begin_frame = 0, end_frame = 0;  ///< first and last frame, both inclusive
   };
   double floor_m = 0;
   std::vector<Fault> faults;

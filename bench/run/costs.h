@@ -20,7 +20,7 @@ struct KeptCost {
   double once = 0;    ///< for start-up, preparation of conditions, and statistics
   double trial = 0;   ///< for one world of every condition, with all methods
   double spread = 0;  ///< ScenarioForecast::spread; 0 = not measured
-  /// ScenarioForecast::units of that many trials with that seed; 0 = not kept, because worlds are the units.
+  /// ScenarioForecast::units of these trials with this seed; 0: not kept, because worlds are the units.
   int units = 0;
   int trials = 0;
   std::uint64_t seed = 0;

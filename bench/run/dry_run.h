@@ -20,8 +20,8 @@ struct ScenarioForecast {
   double seconds_per_world = 0;  ///< all methods of a world, wall clock, on one worker
   int comparisons = 0;           ///< tested together, with one Holm correction
   SamplingUnit unit = SamplingUnit::kWorld;
-  int units = 0;            ///< in the first condition; the worlds, if each is a unit of its own
-  std::string metric = {};  ///< whose differences answers are about (ValueMetricOf), or success
+  int units = 0;            ///< number of units in the first condition; that of worlds if each is a unit
+  std::string metric = {};  ///< the metric whose differences answers compare (ValueMetricOf), or success
   /// The standard deviation over worlds of that metric's differences between the method in question (the first one that
   /// is compared with another) and its baseline, in its unit: the median over conditions. Kept, or of the worlds that
   /// were run to measure the time; 0 = fewer than kMinSample pairs.

@@ -30,7 +30,8 @@ namespace {
 /// give the same bytes on every machine.
 void FixEigenBlocking() { Eigen::setCpuCacheSizes(32 * 1024, 256 * 1024, 2 * 1024 * 1024); }
 
-/// Keeps up to 64 MiB of freed memory for the next cell: zeroed pages would be a quarter of the time of reading files.
+/// Keeps up to 64 MiB of freed memory for the next cell: zeroing new pages would take a quarter of the time of reading
+/// files.
 void KeepFreedMemory() {
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 64 << 20);
@@ -120,7 +121,7 @@ int RunWorker(std::istream& in, std::ostream& out) {
   // A job scheduler signals every process of a job, but only the parent decides when workers stop.
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGTERM, SIG_IGN);
-  std::signal(SIGBUS, SIG_DFL);  // a method's fault is a crash
+  std::signal(SIGBUS, SIG_DFL);     // a method's fault is a crash
   in.exceptions(std::ios::badbit);  // else a shortage of memory for a line would look like the end of input
   try {
     const auto done = Work(in, out);

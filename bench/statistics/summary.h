@@ -18,7 +18,7 @@ struct ConditionFindings {
   ConditionSummary summary;  ///< without comparisons; its answers are not judged yet
   std::vector<Question> against_baselines, against_rivals;
 };
-/// Measures one method under one condition; what belongs to no method is found with the first. Random streams depend
+/// Measures one method under one condition; what belongs to no method is computed with the first. Random streams depend
 /// only on what is compared, so this may be done in any order and by any process. Append joins the findings of a
 /// condition's next method.
 ConditionFindings MeasureMethod(const Study& study, const ConditionTable& table, std::size_t method,

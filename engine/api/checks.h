@@ -14,7 +14,7 @@
 #include "engine/recognition/taught_move.h"
 #include "engine/transitions/choices/choice.h"
 
-/// What the library refuses. Every function throws BadInput.
+/// Checks of the library's input. Every function throws BadInput if its check fails.
 namespace etude::engine {
 
 /// Returns the value of a result, or throws its error.
@@ -24,20 +24,21 @@ T OrThrow(Result<T> result) {
   if constexpr (!std::is_void_v<T>) return *std::move(result);
 }
 
-/// Refuses an invalid rate, and positions that are not finite. Returns the motion.
+/// Refuses an invalid rate and positions that are not finite; else returns the motion.
 const BodyMotion& Checked(const BodyMotion& motion);
-/// Also refuses no clips, a clip without frames, and different rates.
+/// Checks every clip as above, and refuses an empty list, clips without frames, and clips of different rates.
 void CheckClips(std::span<const BodyMotion> clips);
-/// Refuses a body without legs.
+/// Returns the standing height of the hips, computed from the limb lengths of `first`, metres. Refuses a body without
+/// legs.
 double StandingHipsOf(const BodyPose& first);
 
 /// The largest possible fuzzy distance: the weights of the features sum to eight, and all grades differ by as much as
 /// they can.
 inline constexpr double kFarthestFuzzy = 6;
-/// Refuses a budget unless a clip can be waited for this long.
+/// Refuses a budget (the longest wait) outside of 0 to 3600 s.
 void CheckBudget(double budget_s);
 
-/// Refuses unknown names.
+/// Returns the choice and the join of these names. Refuses unknown names.
 TransitionWay WayNamed(const std::string& choice, const std::string& join);
 
 /// Returns the recogniser of that name, which must learn from examples alone.

@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// The way from one camera's errors to pixels without distortion.
+/// The effect of one camera's errors on a pixel after the lens distortion is removed.
 struct PixelErrors {
   std::size_t camera = 0;
   glm::dmat3x2 by_position{0};                                      ///< derivative of the pixel by the position, px/m
@@ -18,7 +18,7 @@ struct PixelErrors {
   std::array<glm::dvec2, kCalibrationParameters> by_calibration{};  ///< px for one standard deviation
 };
 
-/// Returns the pixel of the lens if it lies within the picture.
+/// Returns the pixel, with lens distortion, if it lies within the picture.
 std::optional<glm::dvec2> PixelInPicture(const Camera& camera, const glm::dvec3& p_WQ) {
   const auto pixel = Project(camera, p_WQ);
   const Intrinsics& in = camera.intrinsics;
@@ -26,7 +26,7 @@ std::optional<glm::dvec2> PixelInPicture(const Camera& camera, const glm::dvec3&
   return pixel;
 }
 
-/// Returns the covariance of a pixel after the removal of the lens; nullopt at the rim of the lens's model.
+/// Returns the covariance of a pixel after the lens distortion is removed, px²; nullopt at the rim of the lens's model.
 std::optional<glm::dmat2> NoiseWithoutLens(const Camera& camera, const glm::dvec2& shown, double noise_px) {
   if (camera.distortion.IsNone()) return glm::dmat2(noise_px * noise_px);
   constexpr double kStep = 0.1;  // pixels
@@ -56,7 +56,7 @@ std::optional<PixelErrors> PixelErrorsOf(const Camera& camera, std::size_t index
   const glm::dmat3x2 by_point(glm::dvec2(in.fx, 0) / p_CQ.z, glm::dvec2(in.skew, in.fy) / p_CQ.z,
                               glm::dvec2(-in.fx * x - in.skew * y, -in.fy * y) / p_CQ.z);
   pixel.by_position = by_point * camera.R_CW;
-  // What one deviation of the calibration moves the pixel.
+  // The pixel's shift by one standard deviation of each calibration parameter.
   for (int axis = 0; axis < 3; ++axis) {
     glm::dvec3 unit(0);
     unit[axis] = 1;
@@ -119,7 +119,7 @@ PointError ExpectedPointError(std::span<const Camera> cameras, const glm::dvec3&
       }
     }
   }
-  // The moments in which the point is measured.
+  // Divide by the probability that the point is measured.
   expected.lost = std::max(0.0, 1 - measured);
   if (measured <= 0) return expected;
   expected.covariance /= measured;

@@ -13,7 +13,7 @@ namespace etude {
 struct CalibrationDeviation {
   double place_m = 0;  ///< of a camera's centre, along each axis
   double turn = 0;     ///< of a camera's direction, about each of its axes, radians
-  double focal = 0;    ///< of its focal length, a share of it
+  double focal = 0;    ///< of its focal length, as a share of it
 
   friend bool operator==(const CalibrationDeviation&, const CalibrationDeviation&) = default;
 };
@@ -25,7 +25,7 @@ struct SightingErrors {
   CalibrationDeviation calibration = {};
 };
 
-/// If some cameras drop out, all their combinations are summed up: 2ⁿ of them.
+/// The most cameras with a dropout: all 2ⁿ combinations of n cameras are summed up.
 constexpr std::size_t kMaxDroppingCameras = 10;
 
 /// The numbers of `CalibrationDeviation` for one camera: three turns, three coordinates, one focal length.
@@ -33,12 +33,12 @@ constexpr std::size_t kCalibrationParameters = 7;
 
 /// The expected error of one triangulated point.
 struct PointError {
-  int cameras = 0;           ///< how many have the point in their pictures
-  double lost = 1;           ///< probability that fewer than two give a pixel; the rest is about the other moments
+  int cameras = 0;  ///< how many have the point in their pictures
+  double lost = 1;  ///< probability that it cannot be triangulated; the members below are about the other frames
   glm::dmat3 covariance{0};  ///< of the position, m²
-  glm::dmat3 noise{0};       ///< the part of it that is due to the pixels' noise
+  glm::dmat3 noise{0};       ///< the part of `covariance` due to the pixels' noise
   /// For each camera, the mean displacement of the position by one standard deviation of each calibration parameter,
-  /// metres. They are common to all points of a take, so they correlate the errors of several points.
+  /// metres. They act on all points of a take, so the errors of different points are correlated.
   std::vector<std::array<glm::dvec3, kCalibrationParameters>> displacements = {};
 
   /// The root mean square distance from the true position, metres.
@@ -46,11 +46,11 @@ struct PointError {
 };
 
 /// Computes the error to be expected of the position that minimises the sum of squared pixel distances
-/// (`TriangulateLikeliest`, equal weights), to first order: with the derivatives J of the pixels by the position,
-/// K = (JᵀJ)⁻¹Jᵀ and the covariance S of the pixels, K S Kᵀ. S is the noise, carried through the removal of the lens,
-/// plus what one deviation of the calibration moves the pixel. Each combination of cameras counts with its probability.
-/// Without two cameras in whose pictures the point is, or if all lines of sight are parallel, `lost` is 1.
-/// Preconditions: at most kMaxDroppingCameras cameras unless `dropout` is 0.
+/// (`TriangulateLikeliest`, equal weights), to first order: with the derivatives J of the pixels by the position, K =
+/// (JᵀJ)⁻¹Jᵀ and the covariance S of the pixels, K S Kᵀ. S is the noise of the pixels after the lens distortion is
+/// removed, plus the covariance by the deviations of the calibration. Combinations of cameras are weighted by their
+/// probabilities. If fewer than two cameras have the point in their pictures, or if all lines of sight are parallel,
+/// `lost` is 1. Preconditions: at most kMaxDroppingCameras cameras unless `dropout` is 0.
 PointError ExpectedPointError(std::span<const Camera> cameras, const glm::dvec3& p_WQ, const SightingErrors& errors);
 
 /// Returns true if the camera has the point in its picture.

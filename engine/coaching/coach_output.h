@@ -19,7 +19,7 @@ enum class CoachEvent {
   kSongBegins,  ///< the dance begins
   kRight,       ///< a window closed with a right performance
   kWrong,       ///< a window closed with a mistake
-  kUnjudged,    ///< a window closed without a verdict, or was cut off
+  kUnjudged,    ///< a window closed without a verdict, or was interrupted
   kCorrects,    ///< the coach leaves the dance for a corrective act
   kShows,       ///< a slow demonstration begins
   kReturns,     ///< the coach returns to the dance at the repetition
@@ -53,7 +53,7 @@ struct CoachRecord {
   Mistake mistake = Mistake::kNone;
   double evidence = 0;      ///< with kRight, kWrong and kUnjudged
   double beat_error_s = 0;  ///< with kTag: how late the dance is relative to the music; negative if it is early
-  double rate = 1;          ///< with kTag: frames of the dance per frame from now on
+  double rate = 1;          ///< with kTag: speed of the dance from now on, frames of the dance per shown frame
   std::shared_ptr<const TransitionRecord> transition;  ///< with kTransition
   std::string why;                                     ///< one sentence with numbers
 };

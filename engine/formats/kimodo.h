@@ -14,9 +14,9 @@ namespace etude {
 bool IsKimodoNpz(const Npz& arrays);
 
 /// Reads `posed_joints` (frames × joints × 3, metres, Y up) and `global_rot_mats` (frames × joints × 3 × 3) on Kimodo's
-/// skeletons somaskel30 and somaskel77, whose rotations are the identity in their T-pose. Bones keep their lengths of the first frame.
-/// The file tells no rate: the model's is 30 Hz. Fails for other shapes, values that are not finite, and matrices that
-/// are no rotations.
+/// skeletons somaskel30 and somaskel77, whose rotations are the identity in their T-pose. Bones have the lengths of the
+/// first frame. The file contains no rate; the model's 30 Hz is used. Fails for other shapes, values that are not
+/// finite, and matrices that are no rotations.
 Result<Clip> ReadKimodo(const Npz& arrays, const std::string& file);
 
 /// Returns `foot_contacts` (frames × 4: left heel, left toes, right heel, right toes; 0 or 1), also of other files than

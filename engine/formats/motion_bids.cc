@@ -34,12 +34,12 @@ std::vector<std::string_view> CellsOf(std::string_view line) {
   }
 }
 
-/// Where a recording's columns go.
+/// The coordinate of a point that each column of a recording holds.
 struct BidsChannels {
   struct Column {
     int point = -1;  ///< index into `points`; −1 for other channels than positions
     int axis = 0;
-    double metres = 1;  ///< in one unit
+    double metres = 1;  ///< per unit of the column
   };
   std::vector<Column> columns;
   std::vector<std::string> points;
@@ -109,6 +109,7 @@ BidsFiles WriteMotionBids(const BodyMotion& motion, std::string_view name, std::
   const std::string label = LabelOf(name);
   std::string rows, channels = "name\tcomponent\ttype\ttracked_point\tunits\treference_frame\n";
   const auto out = std::back_inserter(rows);
+  // _motion.tsv: a row per frame; _channels.tsv: a row per coordinate.
   for (const BodyPose& pose : motion.poses) {
     for (std::size_t j = 0; j < kRoleCount; ++j) {
       const glm::dvec3& p = pose.joints[j];
@@ -120,6 +121,7 @@ BidsFiles WriteMotionBids(const BodyMotion& motion, std::string_view name, std::
     for (const char axis : {'x', 'y', 'z'})
       channels += fmt::format("{0}_{1}\t{1}\tPOS\t{0}\tm\tglobal\n", RoleName(role), axis);
   }
+  // _motion.json.
   const std::string facts = fmt::format(
       R"({{"TaskName": "{0}", "TrackingSystemName": "etude", "SamplingFrequency": {1}, "MotionChannelCount": {2},
  "POSChannelCount": {2}, "TrackedPointsCount": {3}, "RecordingDuration": {4}, "SoftwareVersions": "Etude {5}",
@@ -127,10 +129,11 @@ BidsFiles WriteMotionBids(const BodyMotion& motion, std::string_view name, std::
 )",
       label, motion.rate_hz, 3 * kRoleCount, kRoleCount, static_cast<double>(motion.poses.size()) / motion.rate_hz,
       version);
-  // Y is up; a person who faces +Z has their left at +X.
+  // _channels.json: x is left, y superior, z anterior (LSA) for a person who faces +Z.
   const std::string axes = R"({"reference_frame": {"Levels": {"global": {"SpatialAxes": "LSA",
  "Description": "Metres; x to the left of a person who faces z, y up, origin on the floor"}}}}
 )";
+  // dataset_description.json.
   const std::string set = fmt::format(
       R"({{"Name": "Motions written by Etude", "BIDSVersion": "{}", "DatasetType": "raw", "License": "n/a",
  "Authors": ["n/a"], "GeneratedBy": [{{"Name": "Etude", "Version": "{}"}}]}}
@@ -150,7 +153,7 @@ Result<MarkerMotion> ReadMotionBids(std::string_view motion_tsv, std::string_vie
                                     const std::array<std::string, 2>& files) {
   ASSIGN_OR_RETURN(const BidsChannels channels, ReadChannels(channels_tsv, files[1]));
   MarkerMotion motion{.rate_hz = rate_hz, .names = channels.points, .frames = {}};
-  // Missing values are "n/a" there; the reader of numbers knows "nan".
+  // Replace the missing values "n/a" by "nan", which the reader of numbers knows.
   std::string rows(motion_tsv);
   for (std::size_t at = 0; (at = rows.find("n/a", at)) != std::string::npos;) rows.replace(at, 3, "nan");
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(rows, files[0]));

@@ -12,21 +12,21 @@
 
 namespace etude {
 
-/// The version of the Brain Imaging Data Structure to which the files are written.
+/// The version of the Brain Imaging Data Structure that the files follow.
 inline constexpr std::string_view kBidsVersion = "1.10.0";
 
 /// The files of one motion: names relative to the data set's folder, and contents.
 using BidsFiles = std::vector<std::pair<std::string, std::string>>;
 
-/// Writes a motion as a data set of Motion-BIDS (Jeung et al. 2024) of one person, sub-01: `_motion.tsv` (positions in
-/// metres with six decimals, no heading), `_channels.tsv`, `_channels.json` (the axes), `_motion.json`, and the data
-/// set's own `dataset_description.json` and `README`. `name` becomes the task's label, of letters and digits only.
+/// Writes a motion as a Motion-BIDS data set (Jeung et al. 2024) of one person, sub-01. Its files are `_motion.tsv`
+/// (positions in metres with six decimals, without a heading), `_channels.tsv`, `_channels.json` (the axes),
+/// `_motion.json`, `dataset_description.json` and `README`. The letters and digits of `name` become the task's label.
 BidsFiles WriteMotionBids(const BodyMotion& motion, std::string_view name, std::string_view version);
 
 /// Reads the POS channels of a recording: tracked points with the components x, y, z in m, cm or mm; a point with a
 /// missing value (n/a) is not seen in that frame. Channels of other types are left out, and the remark says so. Fails,
-/// with the line, for channels without the required columns, points that lack a component, other units, and another
-/// number of channels than columns.
+/// with the line, for channels without the required columns, points that lack a component, other units, and if the
+/// numbers of channels and columns differ.
 /// @param rate_hz SamplingFrequency of `_motion.json`
 /// @param files the names of the two files, for complaints
 Result<MarkerMotion> ReadMotionBids(std::string_view motion_tsv, std::string_view channels_tsv, double rate_hz,

@@ -14,7 +14,7 @@ using Square = Eigen::Matrix<double, kNumbers, kNumbers>;
 
 int RowOf(Role role) { return 3 * static_cast<int>(role); }
 
-/// Returns the map from errors of triangulated joints to errors of all joints.
+/// Returns the linear map from errors of triangulated joints to errors of all joints.
 Square PointsMap() {
   Square map = Square::Identity();
   const auto compose = [&](Role role, Role a, double share_of_a, Role b) {
@@ -32,7 +32,7 @@ bool IsTriangulated(Role role) {
   return role != Role::kHipCentre && role != Role::kSpine && role != Role::kShoulderCentre;
 }
 
-/// Returns the derivatives of the twenty joints by the root's position and by all angles.
+/// Returns the derivatives of the twenty joints with respect to the root's position and all angles, 60 × (3 + angles).
 Eigen::MatrixXd JointDerivatives(const CaptureBody& body, const TreeState& state) {
   const TreeFrames frames = ComputeFrames(body.tree, state);
   const BodyPose pose = ToBodyPose(body, frames);
@@ -50,7 +50,7 @@ Eigen::MatrixXd JointDerivatives(const CaptureBody& body, const TreeState& state
   return derivatives;
 }
 
-/// The mean squares of position and direction that a covariance of all joints contains.
+/// The mean square errors of one joint's position, m², and of its limb's direction, rad².
 struct Squares {
   double place = 0, turn = 0;
 };
@@ -92,7 +92,7 @@ Result<PoseErrorForecast> PoseErrorForecast::Of(const BodyPose& pose) {
 std::optional<std::array<JointErrors, kRoleCount>> PoseErrorForecast::At(std::span<const Camera> cameras,
                                                                          const glm::dvec3& shift,
                                                                          const SightingErrors& errors) const {
-  // What is common to all joints (calibration), and what each joint has for itself.
+  // Split the covariance into what all joints share (calibration) and what each joint has alone (noise).
   Eigen::MatrixXd common =
       Eigen::MatrixXd::Zero(kNumbers, static_cast<Eigen::Index>(kCalibrationParameters * cameras.size()));
   Square own = Square::Zero();

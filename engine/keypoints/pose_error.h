@@ -24,7 +24,7 @@ struct JointErrors {
 /// Computes the errors to be expected of the joints of one pose, as `TriangulatePerson` and `FitPerson` find them, to
 /// first order. Seventeen joints are triangulated; hip centre, shoulder centre and spine lie between them. To first
 /// order, the fitted body is the projection of all positions to those that its angles and its root can reach: J(JᵀJ)⁺Jᵀ
-/// with the derivatives J of the joints. Its bone lengths, medians of many frames, count as exact. *(Ours.)*
+/// with the derivatives J of the joints. Its bone lengths are medians of many frames and count as exact. *(Ours.)*
 class PoseErrorForecast {
  public:
   /// Fails if the pose is not one of a body: two joints coincide.
@@ -37,8 +37,8 @@ class PoseErrorForecast {
 
  private:
   BodyPose pose_;
-  /// 60 × 60, column by column: from the errors of the triangulated joints to those of all joints, and to those of the
-  /// body.
+  /// 60 × 60, column by column: maps from the errors of the triangulated joints to those of all joints, and to those of
+  /// the body's joints.
   std::vector<double> to_points_, to_body_;
 };
 

@@ -54,10 +54,10 @@ bool Shows(std::span<const JointSet> unseen, int frame, std::initializer_list<Ro
   return std::ranges::none_of(joints, [&](Role joint) { return unseen[frame][Index(joint)]; });
 }
 
-/// By how much the length of a limb differs from its median.
+/// The changes of a limb's length, relative to its median.
 struct LengthChanges {
   Role end = kHead;           ///< the limb's far end
-  std::vector<double> share;  ///< by frame, of the median; 0 in frames that do not count
+  std::vector<double> share;  ///< change by frame, as a share of the median; 0 in frames that do not count
   double usual = 0;           ///< median over the frames that show the limb
 };
 

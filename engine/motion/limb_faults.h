@@ -8,11 +8,12 @@
 
 namespace etude {
 
-/// Returns by how much a knee is overextended, degrees; negative while it is bent as knees do. The toes show where the
-/// front of the shank is; 0 if they point along it.
+/// Returns the angle by which a knee is overextended, degrees; negative if it is bent as knees bend. The toes show
+/// where the front of the shank is; 0 if they point along it.
 double KneeOverextension(const BodyPose& pose, Side side);
 
-/// Returns the smallest distance of two line segments, a–b and c–d (Ericson 2005, "Real-Time Collision Detection", 5.1.9).
+/// Returns the smallest distance of two line segments, a–b and c–d (Ericson 2005, "Real-Time Collision
+/// Detection", 5.1.9).
 double SegmentDistance(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d);
 
 /// Returns the smallest distance of forearm and hand from the spine without its ends (hands may rest on the thighs),

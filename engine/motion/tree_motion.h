@@ -14,14 +14,15 @@ struct JointTree {
   std::vector<std::string> names;
   std::vector<int> parents;         ///< of joint 0: −1
   std::vector<glm::dvec3> offsets;  ///< from the parent, in its frame, metres; zero for joint 0
-  std::vector<bool> is_point;  ///< joints without a rotation of their own: end sites, and points that a reader added
+  std::vector<bool> is_point;       ///< true for joints without a rotation: end sites, and points that a reader added
 
   std::size_t size() const { return names.size(); }
   /// Returns true if both have the same joints below the same parents; offsets may differ.
   bool IsLike(const JointTree& other) const { return names == other.names && parents == other.parents; }
 };
 
-/// One frame of a tree: where its root is, metres, and every joint's rotation in its parent's frame.
+/// One frame of a tree: its root's position in the world, metres, and every joint's rotation in its parent's frame
+/// (unit quaternions; the root's in the world).
 struct TreePose {
   glm::dvec3 root{0};
   std::vector<glm::dquat> turns;
@@ -34,18 +35,18 @@ struct TreeMotion {
   std::vector<TreePose> poses;
 };
 
-/// Returns a motion as rotations in the parents' frames, with the offsets of its first frame: later changes of them are
-/// left out. `points` are the names of joints without a rotation of their own. Signs of quaternions are continuous in
-/// time. Fails for a motion without rotations, without frames, with
-/// positions that are not seen, or with two roots.
+/// Converts a motion to rotations in the parents' frames. Offsets are those of the first frame; later changes are
+/// dropped. `points` are the names of joints without a rotation. Quaternions keep their signs over time. Fails for a
+/// motion without rotations or frames, with positions that are not seen, or with several roots.
 Result<TreeMotion> TreeMotionOf(const RawMotion& motion, const std::set<std::string>& points);
 
-/// Appends the positions and global rotations of all joints in one frame.
+/// Appends the positions (metres) and rotations of all joints in the world, in one frame.
 void AppendGlobals(const JointTree& tree, const TreePose& pose, std::vector<glm::dvec3>& positions,
                    std::vector<glm::dquat>& turns);
 
-/// Returns the rotation vector of a unit quaternion, radians, at most π long, and the unit quaternion of one.
+/// Returns the rotation vector of a unit quaternion, radians; it is at most π long.
 glm::dvec3 RotationVector(glm::dquat turn);
+/// Returns the unit quaternion of a rotation vector.
 glm::dquat TurnOf(const glm::dvec3& rotation_vector);
 
 }  // namespace etude

@@ -29,8 +29,10 @@ std::vector<std::string> JointsOfLayout(std::string_view layout, std::size_t joi
 Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional<std::string>& layout,
                                    const std::string& file, std::string& note);
 
-/// Returns the array of SAM 3D Body's results that holds joints, moved by `pred_cam_t` (frames × 3) if that is there, and
-/// turned from the camera's frame (y down, z forwards) to Y up, which is upright if the camera was level: `pred_joint_coords` (127), else `pred_keypoints_3d` (70); nothing if the arrays are others.
+/// Returns the joints in SAM 3D Body's results: `pred_joint_coords` (frames × 127 × 3) or else `pred_keypoints_3d`
+/// (frames × 70 × 3), metres, moved by `pred_cam_t` (frames × 3) if that exists, and turned from the camera's frame (y
+/// down, z forwards) to Y up, z backwards. The body is upright if the camera was level. Returns nothing if neither
+/// array exists.
 std::optional<NumberArray> JointsOfSam(const Npz& arrays);
 
 /// Writes a body's motion as an .npz file with the arrays, in the order of `names`: `positions` (T × 20 × 3, metres, Y

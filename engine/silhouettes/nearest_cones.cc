@@ -17,7 +17,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Real = hn::CappedTag<double, kBlockPoints>;
 using Vec = hn::Vec<Real>;
 
-/// Cones, one a lane or the same in all lanes.
+/// Cones: another in every lane, or the same in all.
 struct Cone {
   Vec rows[kConeRows];
 };
@@ -51,7 +51,7 @@ HWY_INLINE Cone ConeInAllLanes(const ConeColumns& cones, size_t i) {
 }
 
 void FindNearest(const ConeColumns& cones, const PointColumns& points, double* distance, double* owner) {
-  constexpr double kRounding = 1e-6;  // pixels; far more than a distance is rounded by
+  constexpr double kRounding = 1e-6;  // pixels; far above the rounding error of a distance
   const Real real;
   const size_t lanes = hn::Lanes(real);
   double near[kMaxCones];
@@ -64,13 +64,14 @@ void FindNearest(const ConeColumns& cones, const PointColumns& points, double* d
       hn::StoreU(SignedDistance(ConesFrom(cones, i), centre_u, centre_v), real, near + i);
     }
     for (size_t i = 0; i < cones.count; ++i) least = near[i] < least ? near[i] : least;
-    // The farthest at which a cone can be nearest to a point, or nearer than the point's present distance.
+    // Beyond this reach from the centre, a cone is neither nearest to a point nor nearer than its present distance.
     double farthest = distance[first_point];
     for (size_t i = 1; i < kBlockPoints; ++i) {
       farthest = distance[first_point + i] > farthest ? distance[first_point + i] : farthest;
     }
     const double radius = points.radius[block], nearest_reach = least + 2 * radius, own_reach = farthest + radius;
     const double reach = (nearest_reach < own_reach ? nearest_reach : own_reach) + kRounding;
+    // Compare the points with every cone within reach.
     for (size_t cone = 0; cone < cones.count; ++cone) {
       if (!(near[cone] <= reach)) continue;
       const Cone same = ConeInAllLanes(cones, cone);

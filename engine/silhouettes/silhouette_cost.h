@@ -127,8 +127,8 @@ void AppendResiduals(const std::vector<ProjectedCapsule>& flesh, const Silhouett
 void AddLosses(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
                const SilhouetteCostOptions& options, double& sum);
 
-/// The two halves of AddLosses, for a search that tries many positions of a few capsules. OutlineDistances lowers each
-/// of `distances`, one for each of the silhouette's columns, to the point's smallest signed distance to `flesh` if that
+/// AddLosses in two steps, for a search that tries many positions of a few capsules. OutlineDistances lowers each of
+/// `distances` (pixels, one per column of the silhouette) to the point's smallest signed distance to `flesh`, if that
 /// is less.
 void AddContainmentLosses(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
                           const SilhouetteCostOptions& options, double& sum);

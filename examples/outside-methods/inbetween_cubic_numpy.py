@@ -1,19 +1,19 @@
 #!/usr/bin/env python3
-"""Fills gaps on numpy's arrays: every number of a pose by the cubic that leaves with the velocity of the last past frame and
-arrives with the mean velocity across the gap; quaternions are then made unit ones."""
+"""Fills gaps on numpy arrays. Each number of a pose follows the cubic that leaves with the velocity of the last past
+frame and arrives with the mean velocity across the gap. Quaternions are then normalised."""
 import etude
 import numpy as np
 
 
 def numbers(poses):
-    """Frames × (3 + 4 · joints)."""
+    """Returns the poses as an array, frames × (3 + 4 · joints)."""
     return np.array([pose.root_m + [part for turn in pose.rotations for part in turn] for pose in poses])
 
 
 @etude.method(task="inbetween", name="inbetween-cubic-numpy", version="1.0")
 def fill(problem):
     past, target = numbers(problem.past), numbers(problem.future)[0]
-    # Of a quaternion's two signs, the one that lies nearer to the last past frame's.
+    # Choose the sign of each quaternion that is nearer to the last past frame's.
     near = (past[-1, 3:].reshape(-1, 4) * target[3:].reshape(-1, 4)).sum(axis=1, keepdims=True)
     target[3:] = (target[3:].reshape(-1, 4) * np.where(near < 0, -1, 1)).ravel()
     steps = problem.gap + 1

@@ -39,14 +39,14 @@ struct ConvertOptions {
   bool retarget = false;  ///< write a body with the canonical proportions
   Performer performer = Performer::kFile;
   OpenOptions open;
-  std::string version = "";  ///< the program's, for formats that hold it
+  std::string version = "";  ///< the program's version, for formats that store it
 };
 
 /// The bytes of the converted file, and what was done, in plain words.
 struct Converted {
   std::string bytes;
   BidsFiles files = {};  ///< for kBids, instead of `bytes`
-  std::string note;  ///< "own skeleton", "as a body: Plug-in Gait", …
+  std::string note;      ///< "own skeleton", "as a body: Plug-in Gait", …
   /// Every change that was made to the file's content; each once, also for several clips.
   std::vector<std::string> changes;
 };

@@ -5,7 +5,7 @@
 
 namespace etude {
 
-/// What stands around the content of a tool's page. All texts are plain.
+/// The parts of a tool's page around its content. All are plain texts, not HTML.
 struct ToolPage {
   std::string_view kind;  ///< the command: "capture"
   std::string title;

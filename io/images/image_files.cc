@@ -173,7 +173,7 @@ Result<MaskPicture> LoadMaskPng(const std::string& path) {
   ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(path, kMaxPictureFileBytes));
   png_image png{};
   RETURN_IF_ERROR(BeginPng(bytes, path, png));
-  // A palette is read as one, in its own order; its pixels stay indices.
+  // Read a palette unchanged, so that pixels stay indices into it.
   MaskPicture mask{.values = {static_cast<int>(png.width), static_cast<int>(png.height)},
                    .is_indexed = (png.format & PNG_FORMAT_FLAG_COLORMAP) != 0};
   png.format = mask.is_indexed ? PNG_FORMAT_RGB_COLORMAP : PNG_FORMAT_GRAY;

@@ -65,7 +65,7 @@ inline void ExpectFinite(const char* name, const Array& array) {
   }
 }
 
-/// The shape of a T in an array, which has its numbers row by row.
+/// The shape of one T in an array, whose numbers are stored row by row.
 template <typename T>
 const std::vector<py::ssize_t> kShape{};
 template <>
@@ -138,7 +138,7 @@ auto ArraysOf(std::vector<Value> Class::*member) {
   return [member](const Class& of) { return ToArrays(of.*member); };
 }
 
-/// Works without the interpreter's lock, and returns the result.
+/// Calls `work` without the interpreter's lock, and returns its result.
 auto Unlocked(const auto& work) {
   const py::gil_scoped_release free;
   return work();

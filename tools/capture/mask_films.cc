@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMaxNumber = 16;  // greys up to this are numbers, not shades
+constexpr int kMaxNumber = 16;  // if all greys are at most this, they are numbers, not shades
 
 /// Shows the masks of a film to `visit`, one after the other. `visit` gets the file's name for complaints.
 using MaskVisit = std::function<Result<void>(const MaskPicture& mask, const std::string& file)>;
@@ -31,7 +31,7 @@ Result<void> VisitFolder(const fs::path& folder, const MaskVisit& visit) {
     if (entry.path().extension() == ".png" || entry.path().extension() == ".PNG") files.push_back(entry.path());
   }
   if (error) return Fail({folder.string()}, "{}", error.message());
-  // By number where names differ only in it: 9.png stands before 10.png.
+  // Shorter names first, so that 9.png comes before 10.png.
   std::ranges::sort(files, [](const fs::path& a, const fs::path& b) {
     const std::string one = a.filename().string(), other = b.filename().string();
     return std::pair(one.size(), one) < std::pair(other.size(), other);
@@ -56,7 +56,7 @@ Result<void> VisitFilm(const fs::path& path, const MaskVisit& visit) {
   }
 }
 
-/// Sets the pixels of whose patch at least half has the person.
+/// Returns the mask whose set pixels have a patch of which at least half shows the person.
 template <typename IsPerson>
 Mask Reduced(const Image<std::uint8_t>& values, const Image<FilmPatch>& patches, const IsPerson& is_person) {
   Mask mask(patches.width, patches.height);
@@ -92,7 +92,7 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
   ASSIGN_OR_RETURN(const fs::path entry, EntryOfFilm(folder, view.path.stem().string()));
   const Image<FilmPatch> patches = PatchesOf(view.facts, view.camera.camera, view.fit, UnmarkedTake::kPictureSide);
   const auto frames = static_cast<std::size_t>(view.facts.frames);
-  // Both readings of the values are kept until all are known: shades, of which 128 and more are the person, or numbers.
+  // Values are shades (the person from 128 on) or numbers. Keep both readings until all values are known.
   std::vector<Mask> shades, numbers;
   std::array<bool, 256> found{};
   bool is_indexed = false;
@@ -116,7 +116,7 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
     return Fail({entry.string()}, "{} masks, but the film {} has {} frames; allowed: a mask for each frame (PNG)",
                 numbers.size(), view.path.string(), frames);
   }
-  // Which of the readings holds?
+  // Choose the reading.
   std::vector<std::string> ids;
   int largest = 0;
   for (int value = 1; value < 256; ++value) {

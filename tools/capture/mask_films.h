@@ -10,12 +10,13 @@
 
 namespace etude {
 
-/// Reads the masks of one film from the entry of `folder` that has the film's name: a folder of PNG files, one for each
-/// frame in order of their names, or a film. They may be 0 and 1, 0 and 255, soft (the person from 128 on), or indexed:
-/// numbers of at most 16, or palettes; then `id` says which number is the person. The lens distortion and the view's
-/// fit are undone, and every pixel of the result is the person if half of the pixels that it covers are. Reports empty
-/// masks and masks of several regions. Fails, naming the file, for masks of another size or number than the film's
-/// frames, for several numbers without `id`, and if all masks are empty.
+/// Reads the masks of one film from the entry of `folder` that has the film's name: a film, or a folder of PNG files,
+/// one per frame in the order of their names. Values may be 0 and 1; 0 and 255; soft (the person from 128 on); or
+/// numbers of regions, up to 16 or by a palette: then `id` is the person's number. Returns one mask per frame, in the
+/// pixels of the view's reduced camera, without lens distortion. A pixel is the person if at least half of the film's
+/// pixels that it covers are. Reports empty masks and masks of several regions. Fails, naming the file, if size or
+/// number of the masks differ from those of the film's frames, for several numbers without `id`, and if all masks are
+/// empty.
 Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int> id, const FilmedView& view,
                                     MessageLog& told);
 

@@ -18,7 +18,7 @@
 namespace etude {
 namespace {
 
-/// A clip as a body at 30 Hz, and how much of its file was left out before it.
+/// A clip as a body at 30 Hz, and the time of its first frame in its file, seconds.
 struct TimedBody {
   std::string name;
   BodyMotion motion;
@@ -76,7 +76,7 @@ Result<TransitionFile> WriteTransition(const TransitionFileOptions& options) {
     motions.push_back(std::move(clip.motion));
   }
   const MotionLibrary library = MakeLibrary(std::move(names), motions, proportions);
-  // The transition, and its file.
+  // Make the transition, report it, and write the file.
   const TransitionRequest request{
       .from = 0, .request_frame = static_cast<int>(frame), .to = 1, .budget_s = options.budget_s};
   const Transition made =

@@ -9,32 +9,32 @@
 
 namespace etude {
 
-/// The request for a transition as a file.
+/// A request to write a transition into a file.
 struct TransitionFileOptions {
   std::string from, to;  ///< references of one clip each
   double at_s = 0;       ///< the time of the request, seconds from the first frame of `from`'s file
   double budget_s = 1;   ///< the longest wait until `to` plays, seconds
   std::string choice = "played", join = "planted-feet";  ///< names of ChoiceNames() and JoinNames()
   std::vector<std::string> library;  ///< references of further clips, through which a transition may lead
-  std::string output;                ///< a file of any MotionFormat
+  std::string output;                ///< a file of any MotionFormat but kBids
   OpenOptions reading;
 };
 
-/// What became of it. Times are in seconds; those of clips count from the first frames of their files.
+/// The outcome. Times are in seconds; those of clips count from the first frames of their files.
 struct TransitionFile {
   Branch branch = Branch::kNone;
-  std::string why;  ///< one sentence: why this way was taken, or why there is none
-  double left_s = 0, entered_s = 0;
-  double wait_s = 0;
+  std::string why;                    ///< one sentence: why this way was taken, or why there is none
+  double left_s = 0, entered_s = 0;   ///< when `from` is left and `to` entered
+  double wait_s = 0;                  ///< from the request until `to` plays
   std::string through = {};           ///< the name of the clip in between, "" = none
-  std::vector<double> points_s = {};  ///< the transition points in the file that was written
-  double duration_s = 0;
+  std::vector<double> points_s = {};  ///< times of the transition points in the written file
+  double duration_s = 0;              ///< of the written motion
 };
 
 /// Plays `from` from its start, changes into `to` by a choice of frames and a join, plays `to` to its end, and writes
 /// the whole: as twenty joints with the proportions of `from`'s body, 30 Hz, metres, Y up. If there is no way (`branch`
-/// is kNone), nothing is written. Fails for clips that cannot be opened, with fewer than two frames, and a time outside
-/// of `from`.
+/// is kNone), nothing is written. Fails for clips that cannot be opened or have fewer than two frames, and for a time
+/// outside `from`.
 Result<TransitionFile> WriteTransition(const TransitionFileOptions& options);
 
 }  // namespace etude

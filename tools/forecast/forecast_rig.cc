@@ -40,7 +40,7 @@ Result<std::vector<NamedCamera>> PlacedCameras(const ForecastOptions& options) {
     cameras.push_back({named.name, Placed(place, named.camera)});
     Intrinsics& in = cameras.back().camera.intrinsics;
     if (in.width > 0) continue;
-    // The file states no size: the principal point is near the middle.
+    // The file states no size: assume that the principal point is the picture's centre.
     in.width = static_cast<int>(std::lround(2 * in.cx));
     in.height = static_cast<int>(std::lround(2 * in.cy));
     if (in.width <= 0 || in.height <= 0) return Fail({options.rig}, "camera {}: its pictures have no size", named.name);
@@ -61,7 +61,7 @@ Result<glm::dvec2> MiddleOf(const std::vector<NamedCamera>& cameras, const std::
     normal += across;
     right += across * camera.p_WC;
   }
-  constexpr double kParallel = 1e-3;  // of the determinant for each camera: axes within about 2°
+  constexpr double kParallel = 1e-3;  // of the determinant over cameras³: axes within about 2° of each other
   if (!(glm::determinant(normal) > kParallel * std::pow(static_cast<double>(cameras.size()), 3))) {
     return Fail({file}, "its cameras look in parallel, so they show no common middle; name it: --middle X,Z in m");
   }
@@ -95,7 +95,7 @@ double ShareSeen(const std::vector<ForecastPlace>& places) {
   return static_cast<double>(seen) / static_cast<double>(places.size());
 }
 
-/// Returns the errors at the places that `own` sees.
+/// Returns the errors at `places`, mm, where both these and `own` have one.
 std::vector<double> ErrorsWhere(const std::vector<ForecastPlace>& own, const std::vector<ForecastPlace>& places) {
   std::vector<double> errors;
   for (std::size_t i = 0; i < own.size(); ++i) {
@@ -104,9 +104,9 @@ std::vector<double> ErrorsWhere(const std::vector<ForecastPlace>& own, const std
   return errors;
 }
 
-/// Finds the best place for one more camera, with the lens of the first one, that looks at the middle of the volume: of
-/// 36 directions, three heights and three distances (0.75, 1 and 1.25 times the median of the rig's). The best has the
-/// largest mean of 1 / error over a coarse grid of places; a place that two cameras do not see counts 0.
+/// Finds the best place for one more camera, which has the lens of the first one and looks at the middle of the volume.
+/// Tries 36 directions, three heights and three distances (0.75, 1 and 1.25 times the rig's median distance). The best
+/// has the largest sum of 1 / error over a coarse grid of places; a place that fewer than two cameras see counts 0.
 Camera BestAddition(const std::vector<Camera>& cameras, const std::vector<ForecastPlace>& places,
                     const glm::dvec2& middle, const ForecastOptions& options) {
   std::vector<const ForecastPlace*> coarse;
@@ -149,7 +149,8 @@ Camera BestAddition(const std::vector<Camera>& cameras, const std::vector<Foreca
   return best;
 }
 
-/// Adds the errors of standing bodies: at every second place of the floor in both directions, facing +Z and +X.
+/// Adds the root mean square errors of standing bodies, which face +Z and +X at every second place of the floor along x
+/// and z.
 Result<void> AddJoints(const std::vector<Camera>& cameras, const ForecastOptions& options, RigForecast& forecast) {
   std::array<JointErrors, kRoleCount> sums{};
   int whole = 0, all = 0;
@@ -182,6 +183,7 @@ Result<void> AddJoints(const std::vector<Camera>& cameras, const ForecastOptions
   return {};
 }
 
+/// Adds the rig as it is, with more exact pixels, with a better calibration, and with one more camera.
 void AddWorths(const std::vector<Camera>& cameras, const ForecastOptions& options, RigForecast& forecast) {
   const auto add = [&](const std::string& change, const std::vector<Camera>& changed, const SightingErrors& errors,
                        std::optional<glm::dvec3> added = {}) {

@@ -37,17 +37,17 @@ inline constexpr int kForecastColumns = 20, kForecastHeights = 10, kForecastRows
 /// The expected error at one place.
 struct ForecastPlace {
   glm::dvec3 place_m{0};
-  int cameras = 0;                      ///< how many have it in their pictures
+  int cameras = 0;                      ///< number of cameras that have it in their pictures
   double lost = 1;                      ///< probability that it cannot be triangulated
   std::optional<double> error_mm = {};  ///< root mean square distance; absent if two cameras never see it
 };
 
-/// How well a rig does over the volume: its own, or one with something changed.
+/// The expected error over the volume of the rig as it is, or with one change.
 struct RigWorth {
-  std::string change;                      ///< for people
-  std::optional<glm::dvec3> added_m = {};  ///< the place of the camera that was added
+  std::string change;                      ///< the change, in words for users
+  std::optional<glm::dvec3> added_m = {};  ///< position of the added camera, if there is one
   double seen = 0;                         ///< share of all places that two cameras have in their pictures
-  double median_mm = 0;                    ///< over the places that the rig without any change sees
+  double median_mm = 0;                    ///< over the places that the unchanged rig sees, too
 };
 
 /// The expected root mean square errors of one joint of a person who stands in the volume.
@@ -64,21 +64,21 @@ struct RigForecast {
   double seen = 0;                    ///< share of places that two cameras have in their pictures
   double median_mm = 0, p95_mm = 0;   ///< over these
   ForecastPlace worst;                ///< the place of the largest error
-  double bodies = 0;                  ///< share of places of the floor where all joints of a standing body are seen
+  double bodies = 0;  ///< share of places on the floor where two cameras see each joint of a standing body
   std::vector<ForecastJoint> joints;  ///< of all roles, means over these places; empty if there are none
   std::vector<RigWorth> worths;       ///< the rig itself, then each change
 };
 
-/// Computes what a rig is worth, reports it, and writes the files that `options` name. Fails, before anything is
-/// written, for a rig of fewer than two cameras, too many of them, cameras that look in parallel without a `middle_m`,
-/// and a volume of which two cameras see no place.
+/// Computes the expected errors of a rig, prints them, and writes the files that `options` name. Fails, before anything
+/// is written, for a rig of fewer than two cameras or of too many, for cameras that look in parallel if `middle_m` is
+/// absent, and for a volume in which no place is seen by two cameras.
 Result<RigForecast> ForecastRig(const ForecastOptions& options);
 
 /// Draws a heat map for each height and a plan of the cameras. Returns the bytes of a PNG file.
 std::string ForecastPicture(const RigForecast& forecast, const ForecastOptions& options);
 /// Writes one HTML page with the picture and all tables.
 std::string ForecastPage(const RigForecast& forecast, const ForecastOptions& options);
-/// Says in one sentence each: what was assumed, and what was found.
+/// Return one sentence for users: what was assumed; what was found.
 std::string AssumedWords(const ForecastOptions& options);
 std::string FoundWords(const RigForecast& forecast);
 

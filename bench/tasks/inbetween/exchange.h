@@ -8,8 +8,8 @@
 
 namespace etude {
 
-/// Encodes the problem: the frames around a gap, on the joint tree of their file. A pose is the root's position in
-/// metres (Y up) and each joint's rotation in its parent's frame, as a unit quaternion.
+/// Encodes the problem: the frames before a gap and `given` frames after it, on the joint tree of their file. A pose is
+/// the root's position in metres (Y up) and each joint's rotation in its parent's frame, as a unit quaternion.
 ///
 ///     {"rate_hz": 30, "joints": ["Hips", …], "parents": [-1, 0, …], "offsets_m": [[x, y, z], …], "gap": 30,
 ///      "past": [{"root_m": [x, y, z], "rotations": [[w, x, y, z], …]}, …], "future": [likewise]}
@@ -20,8 +20,8 @@ Payload GapPayload(const HiddenWindow& hidden, int given);
 ///     {"frames": [{"root_m": [x, y, z], "rotations": [[w, x, y, z], …]}, …]}
 Payload HiddenPayload(const HiddenWindow& hidden);
 
-/// Reads an answer: as many frames as are missing. A quaternion's length may differ from 1 by a hundredth, and is then
-/// made 1. Anything else is an error that names the position in the answer.
+/// Reads an answer, which must have as many frames as are hidden. A quaternion's length may differ from 1 by at most
+/// 0.01; it is normalised. Anything else is an error that names the position in the answer.
 Result<std::vector<TreePose>> ReadFrames(const Json& answer, const HiddenWindow& hidden);
 
 }  // namespace etude

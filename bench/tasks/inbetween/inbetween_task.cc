@@ -23,7 +23,7 @@ struct InbetweenStudy {
   OpenOptions opening;
   std::vector<TrainingTree> training;
   GapLibrary library;
-  // The file last used, whole: windows of a file follow each other.
+  // The file used last, kept because the windows of one file follow each other.
   mutable std::string reference;
   mutable Result<HiddenWindow> whole;
 
@@ -103,7 +103,7 @@ class InbetweenTask final : public Task {
     return std::make_unique<InbetweenWorld>(study_, WindowOf(key), keeps_motion);
   }
 
-  /// The file, or its person.
+  /// Returns the file's name or, with the key `people`, its person.
   std::vector<std::string> ClipsOf(const WorldKey& key) const override { return {WindowOf(key).unit}; }
 
   Result<Payload> Setting() const override {

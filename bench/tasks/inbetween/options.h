@@ -12,17 +12,17 @@ namespace etude {
 /// A condition of task inbetween. The defaults are LAFAN1's protocol.
 struct InbetweenOptions {
   std::vector<std::string> truth;     ///< files whose windows are judged
-  std::vector<std::string> training;  ///< files that give statistics, offsets and nearest-gap's library
-  std::string people;                 ///< a pattern for names; "" = each file counts for itself
+  std::vector<std::string> training;  ///< files that give L2P's deviations, offsets, and nearest-gap's library
+  std::string people;                 ///< the person in a file's name, as *_{person}; "" = each file counts for itself
   int window = 65, offset = 40;       ///< frames of a window, and from one window's first to the next one's
   int training_window = 50, training_offset = 20;
-  int past = 10;
-  int gap = 30;
-  int future = 10;                ///< behind the gap in the window; they fix no window, and one of them is given
-  int given = 1;                  ///< of the future frames
-  std::optional<double> rate_hz;  ///< to which motions are sampled; nothing: each file's own
+  int past = 10;                  ///< frames before the gap, all given
+  int gap = 30;                   ///< hidden frames
+  int future = 10;                ///< frames that a window must have after the gap
+  int given = 1;                  ///< how many of the future frames are given
+  std::optional<double> rate_hz;  ///< rate to which motions are sampled; nothing: each file's own
   glm::dvec3 facing{0, 1, 0};     ///< the root's axis that is turned to X in the last past frame
-  bool own_offsets = false;       ///< false: the first training file's
+  bool own_offsets = false;       ///< true: each file's own; false: those of the first training file
 };
 
 const FieldTable<InbetweenOptions>& InbetweenConditionFields();
@@ -33,7 +33,7 @@ struct InbetweenMethod {
   std::vector<double> settings;
 };
 
-/// Returns all fillers, and `hidden`, which has no function: the truth itself.
+/// Returns all fillers and `hidden`, the truth itself, whose `fill` is null.
 const std::vector<Filler>& TaskFillers();
 const FieldTable<InbetweenMethod>& InbetweenMethodFields();
 

@@ -75,7 +75,7 @@ ChannelTracks ChannelsOf(const std::vector<glm::dquat>& turns, std::size_t joint
   return tracks;
 }
 
-/// Measures what LAFAN1's code does.
+/// Measures the distances of LAFAN1's code, and the mean joint error.
 void MeasureDistances(const HiddenWindow& hidden, const Globals& found, const Globals& truth, CellResult& result) {
   const auto part = [&](const auto& values) {
     return JudgedFrames(values, hidden.motion.tree, hidden.first, hidden.last);
@@ -84,30 +84,32 @@ void MeasureDistances(const HiddenWindow& hidden, const Globals& found, const Gl
   EvaluatedPair pair;
   pair.found = {joints, part(found.positions)};
   pair.truth = {joints, part(truth.positions)};
-  // Positions, in deviations and in millimetres.
+  // Positions, divided by the deviations of training (L2P).
   const auto deviations = JudgedFrames(hidden.deviations, hidden.motion.tree, 0, hidden.deviations.empty() ? -1 : 0);
   const bool all_move =
       std::ranges::none_of(deviations, [](const glm::dvec3& one) { return one.x <= 0 || one.y <= 0 || one.z <= 0; });
   std::optional<double> l2p;
   if (!deviations.empty() && all_move) {
-    const std::vector<glm::dvec3> means(joints);  // they cancel
+    const std::vector<glm::dvec3> means(joints);  // equal means cancel in the difference
     l2p = MeanChannelDistance(StandardisedChannels(pair.found.positions, means, deviations),
                               StandardisedChannels(pair.truth.positions, means, deviations));
   }
   result.MeasureOr(
       "l2p@lafan1", l2p,
       all_move ? "no training clip is as long as a training window" : "a coordinate never moves in training");
+  // Rotations: their distance, and their spectrum.
   const ChannelTracks true_turns = ChannelsOf(part(truth.turns), joints);
   const ChannelTracks found_turns = ChannelsOf(part(found.turns), joints);
   result.MeasureOr("l2q@lafan1", MeanChannelDistance(found_turns, true_turns), "");
   const auto npss = MeasurePowerSpectrum(found_turns, true_turns, true_turns.FrameCount(), PowerOf::kRealPart);
   result.MeasureOr("npss@lafan1", npss ? std::optional(npss->value) : std::nullopt, "the truth has no power");
   result.MeasureOr("npss_power@lafan1", npss ? std::optional(npss->power) : std::nullopt, "the truth has no power");
+  // Positions in millimetres, without alignment.
   const FrameFits none{{Similarity{}}, pair.found.FrameCount()};
   result.MeasureOr("mpjpe_unaligned_mm", MeanJointErrorMm(pair, none), "");
 }
 
-/// Measures whether a body could move so.
+/// Measures whether a body could move like this: support, foot slide, jitter.
 void MeasureBody(const HiddenWindow& hidden, const Globals& found, const Globals& truth, CellResult& result) {
   using enum Role;
   const std::vector<BodyPose> shown = BodiesOf(found, hidden.roles, hidden.floor_m);
@@ -124,7 +126,7 @@ void MeasureBody(const HiddenWindow& hidden, const Globals& found, const Globals
   }
   result.MeasureOr("supported_share", supported, "the file has no legs");
   result.MeasureOr("foot_slide_cmps", slide, "the file has no toes");
-  constexpr int kReach = 3;  // of a third difference
+  constexpr int kReach = 3;  // frames that a third difference reaches back
   const std::size_t joints = JudgedCount(hidden.motion.tree);
   const PointTracks around{
       joints, JudgedFrames(found.positions, hidden.motion.tree, hidden.first - kReach, hidden.last + kReach)};
@@ -166,7 +168,7 @@ CellResult ScoreFilling(const HiddenWindow& hidden, std::span<const TreePose> fi
   for (std::size_t f = 0; f < filled.size(); ++f) {
     const std::size_t at = static_cast<std::size_t>(hidden.first) + f;
     shown[at] = filled[f];
-    // Signs of quaternions are continuous in time.
+    // Choose the sign of each quaternion that is nearer to the frame before.
     for (std::size_t j = 0; j < filled[f].turns.size(); ++j) {
       glm::dquat& turn = shown[at].turns[j];
       if (glm::dot(turn, shown[at - 1].turns[j]) < 0) turn = -turn;

@@ -17,8 +17,8 @@ namespace {
 
 constexpr char kBeforeFirst = '@';
 
-/// Returns the rate of a file, or the multiple of the protocol's that it states with few digits (0.0083333 s a frame),
-/// of which whole frames are taken.
+/// Returns the rate of a file. If it differs from a multiple of the protocol's rate only by rounding (0.0083333 s per
+/// frame), returns that multiple, so that sampling takes frames of the file as they are.
 double OwnRate(double rate_hz, const InbetweenOptions& options) {
   constexpr double kFewDigits = 1e-4;
   const double wanted = options.rate_hz.value_or(rate_hz), whole = wanted * std::round(rate_hz / wanted);
@@ -42,7 +42,7 @@ void ForEachWindow(std::size_t frames, int window, int offset, const Visit& visi
   }
 }
 
-/// Returns true if two references name one motion, whatever they are called.
+/// Returns true if two references name one motion, even by different paths.
 bool IsSame(const std::string& one, const std::string& other) {
   std::error_code none;
   const SplitReference a = Split(one), b = Split(other);
@@ -106,7 +106,7 @@ Result<FoundFiles> FindWindows(const Node& condition, std::span<const Node> meth
     return Fail(place, "no file has a window of {} frames: {}", options.window, found.left_out.front().second);
   }
   if (!options.people.empty()) {
-    // The person is told from what stands before the first frame.
+    // The person is part of the file's name, which ends at the '@'.
     RETURN_IF_ERROR(FindPeople(options.people + kBeforeFirst + '*', condition.Find("people")->place, found.worlds));
   }
   return found;
@@ -134,11 +134,11 @@ std::vector<TreePose> PlacedWindow(std::span<const TreePose> poses, int first, i
                                    const glm::dvec3& facing) {
   const auto begin = poses.begin() + first;
   std::vector<TreePose> window(begin, begin + count);
-  // Around the origin of the floor.
+  // Move the mean of the root above the origin.
   glm::dvec3 mean(0);
   for (const TreePose& pose : window) mean += pose.root / static_cast<double>(count);
   mean.y = 0;
-  // Turned about the vertical axis, so that the axis points along X.
+  // Turn about the vertical axis, so that the root's axis points along X.
   const glm::dvec3 axis = window[static_cast<std::size_t>(past - 1)].turns[0] * facing;
   const glm::dquat turn = glm::angleAxis(std::atan2(axis.z, axis.x), glm::dvec3(0, 1, 0));
   for (TreePose& pose : window) {
@@ -151,19 +151,21 @@ std::vector<TreePose> PlacedWindow(std::span<const TreePose> poses, int first, i
 Result<std::vector<TrainingTree>> Train(const InbetweenOptions& options, const OpenOptions& opening,
                                         GapLibrary* library) {
   ASSIGN_OR_RETURN(const auto files, ExpandFiles(options.training, Links::kAllowed, {}));
-  constexpr std::size_t kMaxLibraryFrames = 200'000;  // half a gigabyte
+  constexpr std::size_t kMaxLibraryFrames = 200'000;  // about half a gigabyte
   std::vector<TrainingTree> trees;
   std::size_t frames = 0;
   std::vector<glm::dvec3> positions;
   std::vector<glm::dquat> turns;
   for (const std::string& file : files) {
     ASSIGN_OR_RETURN(auto judged, OpenJudged(file, options, opening));
+    // Find the joint tree, or begin a new one.
     TreeMotion& motion = judged.motion;
     auto known = std::ranges::find_if(trees, [&](const TrainingTree& one) { return one.tree.IsLike(motion.tree); });
     if (known == trees.end()) {
       const std::vector<glm::dvec3> zeros(motion.tree.size());
       known = trees.insert(trees.end(), TrainingTree{motion.tree, zeros, zeros, 0});
     }
+    // Add up the positions in all training windows.
     ForEachWindow(motion.poses.size(), options.training_window, options.training_offset, [&](int first) {
       for (const TreePose& pose :
            PlacedWindow(motion.poses, first, options.training_window, options.past, options.facing)) {

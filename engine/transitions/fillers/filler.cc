@@ -14,14 +14,14 @@ namespace {
 
 glm::dvec3 MeanVelocity(const Ends& ends) { return (ends.end - ends.start) / ends.seconds; }
 
-/// Returns how far a velocity that halves every `half_life_s` leads.
+/// Returns the way that a velocity which halves every `half_life_s` leads in `seconds`.
 glm::dvec3 Continued(const glm::dvec3& velocity, double seconds, double half_life_s) {
   const double rate = std::numbers::ln2 / half_life_s;
   return velocity * (-std::expm1(-rate * seconds) / rate);
 }
 
-/// Fills each channel by itself: the root's position, and each joint's rotation vector from its last pose, in which the
-/// shorter great arc is a straight line.
+/// Fills each channel by itself. Channels are the root's position, and each joint's rotation vector relative to its
+/// last past rotation: there, slerp is a straight line.
 template <typename Law>
 std::vector<TreePose> FillEach(const Gap& gap, const Law& law) {
   const TreePose &before = gap.past[gap.past.size() - 2], &last = gap.past.back(), &next = gap.future.front();
@@ -43,7 +43,7 @@ std::vector<TreePose> FillEach(const Gap& gap, const Law& law) {
     ends.end = RotationVector(back * next.turns[j]);
     if (knows_velocity) {
       glm::dvec3 after = RotationVector(back * gap.future[1].turns[j]);
-      // Beyond half a turn the rotation vector comes in from the other side.
+      // RotationVector is at most π long: beyond half a turn, take the vector on this side.
       if (glm::dot(after, ends.end) < 0 && glm::length(after) > kPi / 2) after -= 2 * kPi * glm::normalize(after);
       ends.end_velocity = (after - ends.end) * gap.rate_hz;
     }
@@ -52,8 +52,8 @@ std::vector<TreePose> FillEach(const Gap& gap, const Law& law) {
   return filled;
 }
 
-/// Returns the quaternion between two as LAFAN1's code computes it (`quat_slerp`, then `quat_normalize`): on a straight
-/// line where they are near each other.
+/// Interpolates between two quaternions as LAFAN1's code does (`quat_slerp`, then `quat_normalize`): linearly if they
+/// are near each other, else by slerp.
 glm::dquat Lafan1Between(const glm::dquat& from, glm::dquat to, double share) {
   double cosine = glm::dot(from, to);
   if (cosine < 0) {
@@ -117,7 +117,7 @@ glm::dvec3 LeastJerkAt(const Ends& ends, double seconds) {
     return ends.end +
            MinimumJerkAt({ends.start - ends.end, ends.start_velocity, *ends.end_velocity}, seconds, ends.seconds);
   }
-  // The jerk of least square is then proportional to (1 − s)², s = t / T, with its third integral, 1 at s = 1:
+  // The optimal jerk is then proportional to (1 − s)², s = t / T. `shape` is its third integral, scaled to 1 at s = 1.
   const double s = seconds / ends.seconds, left = 1 - s;
   const double shape = s * s * 5 / 3 - s * 5 / 6 + (1 - left * left * left * left * left) / 6;
   const glm::dvec3 missing = ends.end - ends.start - ends.start_velocity * ends.seconds;
@@ -132,7 +132,7 @@ std::span<const Filler> AllFillers() {
        .fill = [](const Gap& gap, Values) { return std::vector<TreePose>(gap.frames, gap.past.back()); }},
       {.name = "interpolation", .description = "straight lines and great arcs (lerp, slerp)", .fill = Interpolate},
       {.name = "inertialised",
-       .description = "interpolation; what each end's velocity differs from it decays like a spring",
+       .description = "interpolation plus each end's difference in velocity, which decays like a spring",
        .settings = {HalfLife(kSpring_s, "The time in which half of a difference is gone.")},
        .fill = FillByHalfLife<InertialisedAt, kSpring_s>},
       {.name = "dead-blending",

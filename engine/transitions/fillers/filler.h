@@ -18,10 +18,11 @@ struct Gap {
   const JointTree& tree;
   std::span<const TreePose> past;    ///< at least two; the last is the frame before the gap
   std::span<const TreePose> future;  ///< at least one; the first is the frame after the gap
-  std::size_t frames = 0;            ///< missing ones, at least one
+  std::size_t frames = 0;            ///< how many are missing, at least one
   double rate_hz = 30;
   const GapLibrary* library = nullptr;  ///< for fillers that need one
 
+  /// Returns the time from the last past frame to the first future frame.
   double Seconds() const { return static_cast<double>(frames + 1) / rate_hz; }
 };
 
@@ -31,31 +32,34 @@ struct Filler {
   std::string description;  ///< one line for users
   std::vector<NumberSetting> settings = {};
   bool needs_library = false;
-  /// Returns the missing frames; none if a library holds no gap of that length on this tree. `values` holds one value
-  /// per setting, in order; empty means the defaults.
+  /// Returns the missing frames, or nothing if the filler needs a library and finds no gap of that length on this tree.
+  /// `values` holds one value per setting, in order; empty means the defaults.
   std::vector<TreePose> (*fill)(const Gap& gap, std::span<const double> values) = nullptr;
 };
 
-/// Returns all fillers, the field's first baseline first.
+/// Returns all fillers, the field's baselines first.
 std::span<const Filler> AllFillers();
 
-/// A channel across a gap: a position in metres or a rotation vector in radians; velocities are per second.
+/// The ends of one channel of a gap: a position in metres or a rotation vector in radians; velocities are per second.
+/// The functions below return the channel `seconds` after the start.
 struct Ends {
   glm::dvec3 start{0}, start_velocity{0}, end{0};
   std::optional<glm::dvec3> end_velocity = {};  ///< unknown with one future frame
   double seconds = 1;                           ///< from start to end
 };
 
-/// Returns the interpolation plus, at either end, the rest of what the end's velocity differs from it: a critically
-/// damped spring (SpringDecay), faded out with 3t² − 2t³ so that it is gone at the other end.
+/// Returns the straight line from start to end plus an offset for either end. The offset begins with the difference of
+/// that end's velocity from the mean velocity, decays as a critically damped spring (SpringDecay), and fades by 3s² −
+/// 2s³, s the share of the gap, to 0 at the other end. An unknown end velocity has no offset.
 glm::dvec3 InertialisedAt(const Ends& ends, double seconds, double half_life_s);
 
-/// Returns the start, continued, faded by 3t² − 2t³ into the end, continued backwards. Both continue with a velocity
-/// that halves every `half_life_s` (Holden 2023, "Dead Blending"). An unknown velocity is the mean one across the gap.
+/// Continues the start forwards and the end backwards, each with a velocity that halves every `half_life_s`, and fades
+/// from the one to the other by 3s² − 2s³, s the share of the gap (Holden 2023, "Dead Blending"). An unknown end
+/// velocity is taken as the mean velocity across the gap.
 glm::dvec3 DeadBlendedAt(const Ends& ends, double seconds, double half_life_s);
 
-/// Returns the movement of minimum jerk from rest acceleration (Flash and Hogan 1985). With an unknown end velocity,
-/// velocity and acceleration at the end are those of the least jerk.
+/// Returns the movement of minimum jerk with acceleration 0 at both ends (Flash and Hogan 1985). If the end velocity is
+/// unknown, velocity and acceleration at the end are free.
 glm::dvec3 LeastJerkAt(const Ends& ends, double seconds);
 
 }  // namespace etude

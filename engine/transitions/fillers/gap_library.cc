@@ -8,10 +8,11 @@
 namespace etude {
 namespace {
 
-constexpr double kVelocity_s = 0.1;  // what a velocity counts
-constexpr double kReach_m = 0.3;     // what a turn counts: the distance of a point that far from the axis
+constexpr double kVelocity_s = 0.1;  // a velocity counts like the way that it leads in this time
+constexpr double kReach_m = 0.3;     // a rotation counts like the way of a point this far from its axis
 
-/// Appends what is seen from the root: where the joints are and, once for each joint, which way is up, and how high.
+/// Appends the features of a pose, in the root's frame: the joints' positions, the vertical direction, and the root's
+/// height. Direction and height weigh as much as one position of every joint.
 void AppendSeen(const JointTree& tree, const TreePose& pose, std::vector<double>& seen) {
   std::vector<glm::dvec3> points;
   std::vector<glm::dquat> turns;
@@ -30,7 +31,7 @@ glm::dquat HeadingOf(const glm::dquat& turn) {
   return length > 0 ? glm::dquat(turn.w / length, 0, turn.y / length, 0) : glm::dquat(1, 0, 0, 0);
 }
 
-/// A movement of the root from one frame to another, seen from the first of them.
+/// The root's displacement (m) and rotation (times kReach_m) from one frame to another, in the first one's root frame.
 struct RootWay {
   glm::dvec3 way, turn;
   RootWay(const TreePose& from, const TreePose& to)
@@ -62,6 +63,7 @@ const GapLibrary::Entry* GapLibrary::FindNearest(const Gap& gap, std::size_t& fr
   const double joints = static_cast<double>(gap.tree.size()), per_step = kVelocity_s * gap.rate_hz;
   const double velocity_weight = per_step * per_step;
 
+  // Compare with every gap of every motion; a sum that exceeds the least is abandoned.
   const Entry* nearest = nullptr;
   double least = std::numeric_limits<double>::infinity();
   for (const Entry& entry : entries_) {
@@ -90,7 +92,7 @@ std::vector<TreePose> GapLibrary::Fill(const Gap& gap) const {
   std::size_t first = 0;
   const Entry* nearest = FindNearest(gap, first);
   if (nearest == nullptr) return {};
-  // Its frames from the one before the gap to the one after it, with the gap's heading and place.
+  // Place the library's frames, from the one before the gap to the one after it: heading and position of the gap.
   const std::vector<TreePose>& poses = nearest->motion.poses;
   const TreePose &last = gap.past.back(), &before = gap.past[gap.past.size() - 2], &next = gap.future.front();
   const glm::dquat heading = HeadingOf(last.turns[0] * glm::conjugate(poses[first].turns[0]));
@@ -105,7 +107,7 @@ std::vector<TreePose> GapLibrary::Fill(const Gap& gap) const {
   std::vector<TreePose> filled;
   for (std::size_t f = 1; f <= gap.frames; ++f) filled.push_back(placed(first + f));
 
-  // Channel by channel, what is wrong at the ends: the library's velocity is right at the second end.
+  // Spread the differences at both ends, channel by channel. At the second end the library's velocity is kept.
   const auto spread = [&](const glm::dvec3& at_before, const glm::dvec3& at_last, const glm::dvec3& at_next,
                           const auto& correct) {
     const Movement movement{at_last - at_next, (at_last - at_before) * gap.rate_hz, glm::dvec3(0)};

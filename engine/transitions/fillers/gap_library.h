@@ -6,23 +6,24 @@
 
 namespace etude {
 
-/// The motions of which `nearest-gap` takes its gaps: not those that are judged. *(Ours, after motion matching.)*
+/// The motions from which `nearest-gap` takes its gaps; none of them is judged. *(Ours, after motion matching.)*
 class GapLibrary {
  public:
-  /// Adds a motion, about 100 bytes a joint and frame.
+  /// Adds a motion. It takes about 100 bytes per joint and frame.
   void Add(TreeMotion motion);
 
-  /// Returns the frames of the nearest gap, turned and moved over the floor so that its first end has the heading and
-  /// position of the last past frame; what is still wrong at either end is spread over the gap by a movement of minimum
-  /// jerk. The nearest has the least sum of squares of: what is seen from the root at both ends (joints, tilt, height);
-  /// its velocity and the root's at the first, times 0.1 s; the root's way and turn between the ends. Of equally near
-  /// ones the first added is taken. None if no motion has a gap of that length on the same tree.
+  /// Returns the frames of the library's nearest gap, moved and turned about the vertical axis so that its first end
+  /// has the root position and heading of the last past frame. The differences that remain at both ends are spread over
+  /// the gap by a movement of minimum jerk. The nearest gap has the least sum of squared differences of: joints, tilt
+  /// and height as seen from the root, at both ends; their velocities and the root's at the first end, times 0.1 s; the
+  /// root's displacement and rotation between the ends. Of equally near gaps the first added is taken. Returns nothing
+  /// if no motion of the same tree and rate has a gap of that length.
   std::vector<TreePose> Fill(const Gap& gap) const;
 
  private:
   struct Entry {
     TreeMotion motion;
-    std::vector<double> seen;  ///< frames × what is seen from the root
+    std::vector<double> seen;  ///< frames × features (AppendSeen)
   };
 
   const Entry* FindNearest(const Gap& gap, std::size_t& frame) const;
