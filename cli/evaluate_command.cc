@@ -251,7 +251,9 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   const bool has_silent = std::ranges::any_of(summary.conditions.front().methods,
                                               [](const MethodSummary& method) { return method.ok == 0; });
   const Triage triage = options.alone.is_alone ? TriageOf(data) : Triage{};
-  const int code = has_silent || !triage.beyond_limits.empty() ? kNothingWorked : kSuccess;
+  // A clip that cannot be judged keeps no limits.
+  const bool exceeds = !triage.beyond_limits.empty() || (!options.alone.limits.empty() && !triage.not_judged.empty());
+  const int code = has_silent || exceeds ? kNothingWorked : kSuccess;
   const std::string folder = outcome->folder.string();
   const std::vector<AngleAgreement> angles = AgreementByAngle(data);
   if (options.as_json) {

@@ -304,7 +304,8 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
   // Refuse options that no scenario can use.
   if (!options.clips.empty() || !options.libraries.empty()) {
     RETURN_IF_ERROR(CheckThatUsed(options.scenarios, users.clips,
-                                  "--clips or --library: no task of its scenarios makes worlds from clips"));
+                                  "--clips or --library: no task of its scenarios takes clips; a task that "
+                                  "judges files names them in the scenario (truth)"));
   }
   if (!options.streams.empty() || !options.labels.empty()) {
     RETURN_IF_ERROR(CheckThatUsed(options.scenarios, users.recordings,

@@ -101,7 +101,7 @@ class Scenarios(EtudeCase):
             refused = self.folder / "refused"
             result = self.ends(2, "run", *paths, *clips, "-o", refused)
             self.assertEqual(result.stderr, f"etude: {ik}: cannot use --clips or --library: no task of its "
-                                            "scenarios makes worlds from clips\n")
+                                            "scenarios takes clips; a task that judges files names them in the scenario (truth)\n")
             self.assertFalse(refused.exists())
 
     def test_the_list_of_methods_says_what_goes_with_what(self):

@@ -80,6 +80,9 @@ class Triage(EtudeCase):
         self.triage(self.folder / "m", "--limits", limits, out=self.folder / "own")
         facts = self.facts("evaluate", "--alone", self.folder / "m", "--limits", limits, "-o", self.folder / "facts")
         self.assertEqual(facts["beyond_limits"], [])
+        # A clip that cannot be read keeps no limits.
+        self.write("m/torn.bvh", "HIERARCHY\n")
+        self.triage(self.folder / "m", "--limits", limits, code=1, out=self.folder / "torn")
 
     def test_motions_that_are_kept_are_shown_with_the_time_of_each_fault(self):
         self.triage(self.popping("m/popping.csv"), "--keep", "motions")

@@ -142,6 +142,7 @@ TaskKind MakeInbetweenTaskKind() {
           .make = MakeInbetweenTask,
           .condition_keys = InbetweenConditionFields().Describe(),
           .method_keys = InbetweenMethodFields().Describe(),
+          .truth = {"filler", "hidden"},
           .uses_clips = false,
           .units = {SamplingUnit::kClip, SamplingUnit::kWorld},
           .find_files = FindWindows,
