@@ -42,7 +42,7 @@ Frame Time: 0.5
 0 90 0 0 0 0 0 20 0 0 0 0
 0 90 0 0 0 0 0 20 0 0 0 0
 BVH
-LD_LIBRARY_PATH=$folder/root/usr/lib/x86_64-linux-gnu root/usr/bin/assimp export stand.bvh stand.glb -fglb2 > /dev/null
+LD_LIBRARY_PATH=$(echo "$folder"/root/usr/lib/*-linux-gnu) root/usr/bin/assimp export stand.bvh stand.glb -fglb2 > /dev/null
 
 cat > heights.mjs <<'CODE'
 import { readFileSync } from 'node:fs';

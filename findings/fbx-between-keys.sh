@@ -167,7 +167,7 @@ CODE
 try() {  # WHAT FLAGS ANGLES-ABOUT-X ANGLES-ABOUT-Y
   turn "$2" "$3" "$4" > turn.fbx
   node_modules/fbx2gltf/bin/Linux/FBX2glTF --binary --anim-framerate bake60 --input turn.fbx --output sdk > /dev/null
-  LD_LIBRARY_PATH=$folder/root/usr/lib/x86_64-linux-gnu root/usr/bin/assimp export turn.fbx assimp.glb -fglb2 > /dev/null
+  LD_LIBRARY_PATH=$(echo "$folder"/root/usr/lib/*-linux-gnu) root/usr/bin/assimp export turn.fbx assimp.glb -fglb2 > /dev/null
   echo "$1"
   node apart.mjs
 }

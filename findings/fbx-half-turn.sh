@@ -164,7 +164,7 @@ CODE
 for keys in '0 160' '0 180' '0 270' '170 179 -172'; do
   turn $keys > turn.fbx
   node_modules/fbx2gltf/bin/Linux/FBX2glTF --binary --anim-framerate bake60 --input turn.fbx --output sdk > /dev/null
-  LD_LIBRARY_PATH=$folder/root/usr/lib/x86_64-linux-gnu root/usr/bin/assimp export turn.fbx assimp.glb -fglb2 > /dev/null
+  LD_LIBRARY_PATH=$(echo "$folder"/root/usr/lib/*-linux-gnu) root/usr/bin/assimp export turn.fbx assimp.glb -fglb2 > /dev/null
   echo "keys $keys"
   node angles.mjs
 done | tee said

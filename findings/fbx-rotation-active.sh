@@ -104,7 +104,7 @@ CODE
 for active in 0 1; do
   pose "$active" > pose.fbx
   node_modules/fbx2gltf/bin/Linux/FBX2glTF --binary --input pose.fbx --output sdk > /dev/null
-  LD_LIBRARY_PATH=$folder/root/usr/lib/x86_64-linux-gnu root/usr/bin/assimp export pose.fbx assimp.glb -fglb2 > /dev/null
+  LD_LIBRARY_PATH=$(echo "$folder"/root/usr/lib/*-linux-gnu) root/usr/bin/assimp export pose.fbx assimp.glb -fglb2 > /dev/null
   echo "RotationActive $active"
   node knee.mjs
 done | tee said

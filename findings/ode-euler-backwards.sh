@@ -43,7 +43,7 @@ int main(void) {
 CODE
 gcc -O1 -w -DdIDEDOUBLE -isystem root/usr/include turn.c -o turn root/usr/lib/x86_64-linux-gnu/libode.so.8 -lm -Wl,--allow-shlib-undefined
 echo 'ODE 0.16.2 (Debian 12):'
-LD_LIBRARY_PATH=$folder/root/usr/lib/x86_64-linux-gnu ./turn | tee said
+LD_LIBRARY_PATH=$(echo "$folder"/root/usr/lib/*-linux-gnu) ./turn | tee said
 
 for axis in X Y Z; do echo "0.5 about $axis: Euler -0.500, axis and angle +0.500, quaternion +0.500"; done | diff - said
 echo 'As stated: Euler angles turn backwards.'

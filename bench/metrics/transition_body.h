@@ -13,13 +13,15 @@
 
 namespace etude {
 
-/// A measure of what no human body can do, computed from the motion alone (docs/reference/metrics.md, Transitions).
+/// A limit that a human body keeps, and the metric that is compared with it. The metric is computed from the motion
+/// alone (docs/reference/metrics.md, Transitions).
 struct BodyRule {
   std::string_view metric;
   double limit = 0;        ///< largest value of a clean transition, in the unit of `metric`
   std::string_view unmet;  ///< why a value may be missing; empty: it never is
 };
-/// The measures of a body, in the order of BodyMeasures.
+
+/// The rules of clean_share version 4, in the order of the values of BodyMeasures.
 constexpr std::array kBodyRules = {
     BodyRule{"zmp_off_cm", 25, "the ground never bears half of the weight"},
     BodyRule{"slip_mps2", 2, "the body has no support"},

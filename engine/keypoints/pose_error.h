@@ -37,8 +37,8 @@ class PoseErrorForecast {
 
  private:
   BodyPose pose_;
-  /// 60 × 60, column by column: maps from the errors of the triangulated joints to those of all joints, and to those of
-  /// the body's joints.
+  /// Matrices of 60 × 60, column by column, in metres per metre. They map the errors of the triangulated joints to the
+  /// errors of all joints (`to_points_`) and of the fitted body's joints (`to_body_`).
   std::vector<double> to_points_, to_body_;
 };
 

@@ -17,8 +17,8 @@ namespace {
 
 constexpr char kBeforeFirst = '@';
 
-/// Returns the rate of a file. If it differs from a multiple of the protocol's rate only by rounding (0.0083333 s per
-/// frame), returns that multiple, so that sampling takes frames of the file as they are.
+/// Returns the rate of a file, Hz. A file may round its time per frame (0.0083333 s for 120 Hz); a rate that rounding
+/// alone separates from a multiple of the protocol's rate becomes that multiple, so that no frame is interpolated.
 double OwnRate(double rate_hz, const InbetweenOptions& options) {
   constexpr double kFewDigits = 1e-4;
   const double wanted = options.rate_hz.value_or(rate_hz), whole = wanted * std::round(rate_hz / wanted);

@@ -39,7 +39,8 @@ glm::dvec3 Quintic(const std::array<glm::dvec3, 3>& from, const std::array<glm::
 /// 0 at both ends of a join, 1 from 1/n of it to 1 − 1/n.
 double Plateau(double s, double n) { return Smootherstep(n * s) - Smootherstep(n * s - (n - 1)); }
 
-/// What a cheat does to a frame of the join; `s` goes from 0 to 1, and beyond in the frames after the join.
+/// Changes the pose of one frame as a cheat does. `s` is 0 where the join begins, 1 where it ends, and larger in the
+/// frames after it; `seconds` is the length of the join.
 using Cheat = std::function<void(BodyPose&, double s, double seconds)>;
 
 void Lift(BodyPose& pose, double height) {
