@@ -6,6 +6,7 @@
 
 #include "engine/api/checks.h"
 #include "engine/base/names.h"
+#include "engine/base/utf8.h"
 #include "engine/formats/amass.h"
 #include "engine/formats/bvh.h"
 #include "engine/formats/c3d.h"
@@ -130,6 +131,7 @@ MarkerMotion MarkersOf(const JointCsv& csv) {
 }
 
 ReadBody BodyOfBytes(std::string_view bytes, const std::string& file, double rate_hz, const ReadingOptions& options) {
+  bytes = WithoutByteOrderMark(bytes);
   if (IsZip(bytes)) return BodyOfArrays(OrThrow(ReadNpz(bytes, file)), file, rate_hz, options);
   if (IsC3d(bytes)) {
     const C3d c3d = OrThrow(ReadC3d(bytes, file));

@@ -39,6 +39,12 @@ Utf8Character FirstCharacter(std::string_view text) {
   return {code, length};
 }
 
+std::string_view WithoutByteOrderMark(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  return text;
+}
+
 Result<void> CheckUtf8(std::string_view text, const std::string& file) {
   int line = 1, column = 1;
   while (!text.empty()) {

@@ -83,7 +83,7 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file) {
       rate->values.size() != 1) {
     std::vector<std::string> names;
     for (const auto& [name, array] : npz.arrays) names.push_back(name);
-    for (const std::string& name : npz.skipped) names.push_back(name + " (no plain little-endian numbers)");
+    for (const std::string& name : npz.skipped) names.push_back(name + " (no plain numbers)");
     return Fail({file},
                 "arrays {}; allowed: a motion of AMASS with poses (frames × 72, 156 or 165), trans (frames × 3) and "
                 "mocap_framerate or mocap_frame_rate, or of Kimodo with posed_joints and global_rot_mats; use a .npy file "
@@ -106,6 +106,17 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file) {
       if (std::abs(array->values[i]) <= kMaxValue) continue;
       return Fail({file}, "{} of frame {} is {}; allowed: numbers within ±10⁶", array == poses ? "poses" : "trans",
                   i / array->shape[1], array->values[i]);
+    }
+  }
+  // Rotations are radians; degrees, read so, wind several times round.
+  constexpr double kMaxAngle = 4 * kPi;
+  for (std::size_t t = 0; t < frames; ++t) {
+    for (std::size_t joint = 0; joint < kJoints; ++joint) {
+      const double* turn = &poses->values[t * width + 3 * joint];
+      const double angle = glm::length(glm::dvec3(turn[0], turn[1], turn[2]));
+      if (angle <= kMaxAngle) continue;
+      return Fail({file}, "poses of frame {} rotates {} by {:.4g} radians; allowed: at most 12.57 (4π); are they degrees?", t,
+                  kSmpl[joint].name, angle);
     }
   }
   // Make the clip; rotations beyond the 22 body joints are left out.

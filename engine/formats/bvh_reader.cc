@@ -325,6 +325,18 @@ void AddOffsets(const std::vector<BvhChannel>& channels, Clip& clip) {
   }
 }
 
+/// Returns the largest rotation of a joint relative to its parent, degrees, in about a hundred of the frames.
+double LargestRotation(const std::vector<LocalPose>& frames) {
+  constexpr std::size_t kSamples = 100;
+  double sine = 0;  // of half the angle
+  for (std::size_t f = 0; f < frames.size(); f += 1 + frames.size() / kSamples) {
+    for (const LocalTransform& local : frames[f]) {
+      sine = std::max(sine, glm::length(glm::dvec3(local.rotation.x, local.rotation.y, local.rotation.z)));
+    }
+  }
+  return 2 * Degrees(std::asin(std::min(sine, 1.0)));
+}
+
 /// For joints below the root with an offset of 0, takes the positions of the first frame as rest positions. Returns the
 /// number of such joints.
 std::size_t TakeOffsetsFromFrame(const LocalPose& frame, Skeleton& skeleton) {
@@ -376,6 +388,13 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
   if (AreRelativeToOffsets(clip.skeleton, hierarchy.channels, clip.frames)) {
     AddOffsets(hierarchy.channels, clip);
     remark("the joints' positions are relative to their OFFSETs, which were added");
+  }
+  // Angles in radians, read as degrees, hardly move the body.
+  constexpr double kMaxRadians = 6.2832, kMoves = 1.2;
+  if (const double largest = LargestRotation(clip.frames); largest > kMoves && largest < kMaxRadians) {
+    remark(fmt::format("no joint rotates by more than {:.2g} degrees: if the file's angles are radians, convert them to "
+                       "degrees, which BVH files have",
+                       largest));
   }
   // Offsets of 0 beside positions do not define a rest pose.
   if (const std::size_t taken = TakeOffsetsFromFrame(clip.frames.front(), clip.skeleton); taken > 0) {

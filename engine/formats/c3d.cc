@@ -11,6 +11,7 @@
 
 #include "engine/base/names.h"
 #include "engine/formats/c3d_parameters.h"
+#include "engine/formats/length_units.h"
 
 namespace etude {
 namespace {
@@ -19,17 +20,6 @@ constexpr unsigned char kC3dKey = 0x50;
 constexpr std::size_t kMaxPoints = 10'000;
 constexpr double kMaxC3dFrames = 1e7;
 constexpr double kMaxValue = 1e9;
-
-std::optional<double> MetresOf(std::string unit) {
-  std::ranges::transform(unit, unit.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
-  constexpr std::pair<std::string_view, double> kUnits[] = {{"", 0.001},    {"mm", 0.001}, {"millimeters", 0.001},
-                                                            {"cm", 0.01},   {"m", 1},      {"meters", 1},
-                                                            {"in", 0.0254}, {"ft", 0.3048}};
-  for (const auto& [name, metres] : kUnits) {
-    if (name == unit) return metres;
-  }
-  return std::nullopt;
-}
 
 /// Returns the names of all points, from LABELS, LABELS2 and so on.
 std::vector<std::string> PointNames(const C3dParameters& parameters, std::size_t points) {
@@ -123,7 +113,7 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   const auto units = parameters.Texts("POINT:UNITS");
   C3d read{.markers = {.rate_hz = rate, .names = PointNames(parameters, layout.points), .frames = {}},
            .unit = units.empty() ? "" : units.front()};
-  const auto metres = MetresOf(read.unit);
+  const auto metres = MetresOfUnit(read.unit.empty() ? "mm" : read.unit);
   if (!metres) return Fail({file}, "units {}; allowed: m, cm, mm, in, ft", Quote(read.unit));
   // A negative scale means that points are stored as floats.
   layout.has_floats = scale < 0;

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "engine/base/names.h"
+#include "engine/formats/length_units.h"
 #include "engine/formats/number_rows.h"
 
 namespace etude {
@@ -80,10 +81,9 @@ Result<BidsChannels> ReadChannels(std::string_view text, const std::string& file
     if (component.size() != 1 || kAxes.find(component) == std::string_view::npos)
       return Fail({file, line}, "component {}; allowed for POS: x, y, z", Quote(component));
     column.axis = static_cast<int>(kAxes.find(component));
-    constexpr std::pair<std::string_view, double> kUnits[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}};
-    const auto unit = std::ranges::find(kUnits, units, &std::pair<std::string_view, double>::first);
-    if (unit == std::end(kUnits)) return Fail({file, line}, "units {}; allowed for POS: m, cm, mm", Quote(units));
-    column.metres = unit->second;
+    const auto metres = MetresOfUnit(units);
+    if (!metres) return Fail({file, line}, "units {}; allowed for POS: m, cm, mm, in, ft", Quote(units));
+    column.metres = *metres;
     const auto [point, is_new] =
         points.try_emplace(std::string(cells[at[2]]), static_cast<int>(channels.points.size()));
     if (is_new) {

@@ -9,6 +9,8 @@
 #include <limits>
 
 #include "engine/base/names.h"
+#include "engine/base/utf8.h"
+#include "engine/formats/length_units.h"
 #include "engine/formats/row_clock.h"
 
 namespace etude {
@@ -78,11 +80,7 @@ std::vector<PlaceColumns> PlaceColumnsOf(std::string_view type, const std::vecto
 
 }  // namespace
 
-bool IsMotiveCsv(std::string_view text) {
-  return text.starts_with("Format Version,") || text.starts_with(
-                                                    "\xEF\xBB\xBF"
-                                                    "Format Version,");
-}
+bool IsMotiveCsv(std::string_view text) { return WithoutByteOrderMark(text).starts_with("Format Version,"); }
 
 Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& file) {
   if (text.size() > kMaxFileBytes) return Fail({file}, "{} bytes; allowed: {}", text.size(), kMaxFileBytes);
@@ -91,8 +89,8 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
   const auto facts = CommaCells(NextLine(text, line));
   const Place first{file, line, 0};
   const std::string_view unit = ValueBehind(facts, "Length Units"), space = ValueBehind(facts, "Coordinate Space");
-  const double metres = unit == "Meters" ? 1 : unit == "Centimeters" ? 0.01 : unit == "Millimeters" ? 0.001 : 0;
-  if (metres == 0) return Fail(first, "Length Units {}; allowed: Meters, Centimeters, Millimeters", Quote(unit));
+  const auto metres = MetresOfUnit(unit);
+  if (!metres) return Fail(first, "Length Units {}; allowed: Meters, Centimeters, Millimeters", Quote(unit));
   if (!space.empty() && space != "Global") return Fail(first, "Coordinate Space {}; allowed: Global", Quote(space));
   auto rate = MotiveNumber(ValueBehind(facts, "Export Frame Rate"));
   if (!rate) rate = MotiveNumber(ValueBehind(facts, "Capture Frame Rate"));
@@ -117,7 +115,7 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
   }
 
   // Read the frames; a position with an empty cell was not seen.
-  MarkerRows rows{.markers = {.rate_hz = *rate, .names = {}, .frames = {}, .metres_per_unit = metres},
+  MarkerRows rows{.markers = {.rate_hz = *rate, .names = {}, .frames = {}, .metres_per_unit = *metres},
                   .times_s = {},
                   .lines = {},
                   .rate_name = "the first line"};
@@ -142,7 +140,7 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
         const auto value = MotiveNumber(cell);
         if (!cell.empty() && !value) return Fail({file, line, 0}, "{} is not a number", Quote(cell));
         is_seen = is_seen && value;
-        if (is_seen) at[axis] = metres * *value;
+        if (is_seen) at[axis] = *metres * *value;
       }
       frame.push_back(is_seen ? std::optional(at) : std::nullopt);
     }

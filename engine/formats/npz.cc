@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <memory>
 #include <new>
 #include <optional>
+#include <utility>
 
 #include "engine/base/names.h"
 #include "engine/base/npy_head.h"
@@ -29,6 +31,19 @@ std::string_view ValueOf(std::string_view header, std::string_view key, char end
   return header.substr(0, header.find(end));
 }
 
+/// A number of IEEE 754's binary16.
+struct Half {
+  std::uint16_t bits;
+  explicit operator double() const {
+    const int exponent = bits >> 10 & 31, fraction = bits & 1023;
+    double size = exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(1024 + fraction, exponent - 25);
+    if (exponent == 31) {
+      size = fraction == 0 ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
+    }
+    return bits >> 15 == 0 ? size : -size;
+  }
+};
+
 template <typename Number>
 void Append(std::string_view bytes, std::vector<double>& values) {
   values.resize(bytes.size() / sizeof(Number));
@@ -41,26 +56,29 @@ void Append(std::string_view bytes, std::vector<double>& values) {
   }
 }
 
-/// Reads the numbers of a type such as "<f4"; nullopt if they are not numbers.
+/// Reads the numbers of a type such as "<f4" or ">i2"; nullopt if they are not numbers.
 std::optional<std::vector<double>> NumbersOf(std::string_view type, std::string_view bytes) {
+  using Reader = void (*)(std::string_view, std::vector<double>&);
+  constexpr std::pair<std::string_view, Reader> kReaders[] = {
+      {"f8", Append<double>},        {"f4", Append<float>},         {"f2", Append<Half>},
+      {"i8", Append<std::int64_t>},  {"i4", Append<std::int32_t>},  {"i2", Append<std::int16_t>},
+      {"u8", Append<std::uint64_t>}, {"u4", Append<std::uint32_t>}, {"u2", Append<std::uint16_t>},
+      {"i1", Append<std::int8_t>},   {"u1", Append<std::uint8_t>},  {"b1", Append<std::uint8_t>}};
+  if (type.size() != 3) return std::nullopt;
+  const auto* const reader = std::ranges::find(kReaders, type.substr(1), &std::pair<std::string_view, Reader>::first);
+  if (reader == std::end(kReaders)) return std::nullopt;
   std::vector<double> values;
-  if (type == "<f8") {
-    Append<double>(bytes, values);
-  } else if (type == "<f4") {
-    Append<float>(bytes, values);
-  } else if (type == "<i8") {
-    Append<std::int64_t>(bytes, values);
-  } else if (type == "<i4") {
-    Append<std::int32_t>(bytes, values);
-  } else if (type == "<u4") {
-    Append<std::uint32_t>(bytes, values);
-  } else if (type == "<i2") {
-    Append<std::int16_t>(bytes, values);
-  } else if (type == "|u1" || type == "|b1") {
-    Append<std::uint8_t>(bytes, values);
-  } else {
-    return std::nullopt;
+  if (type[0] != '>') {
+    reader->second(bytes, values);
+    return values;
   }
+  // Turn big-endian numbers round.
+  const auto size = static_cast<std::size_t>(type[2] - '0');
+  std::string turned(bytes.substr(0, bytes.size() / size * size));
+  for (auto at = turned.begin(); at != turned.end(); at += static_cast<std::ptrdiff_t>(size)) {
+    std::reverse(at, at + static_cast<std::ptrdiff_t>(size));
+  }
+  reader->second(turned, values);
   return values;
 }
 
@@ -167,7 +185,7 @@ bool IsNpy(std::string_view bytes) { return bytes.starts_with(kNpyMagic); }
 Result<NumberArray> ReadNpy(std::string_view bytes, const std::string& file) {
   ASSIGN_OR_RETURN(const auto parts, SplitNpy(bytes, file));
   ASSIGN_OR_RETURN(auto array, NumbersIn(parts, file));
-  if (!array) return Fail({file}, "does not contain plain numbers; allowed: floats and whole numbers, little-endian");
+  if (!array) return Fail({file}, "does not contain plain numbers; allowed: floats and whole numbers");
   return *std::move(array);
 }
 

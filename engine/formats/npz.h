@@ -32,7 +32,7 @@ std::string ShapeText(const NumberArray& array);
 /// Returns true if bytes begin like a ZIP file.
 bool IsZip(std::string_view bytes);
 
-/// Reads an .npz file, stored or deflated, also ZIP64, with floats and whole numbers of any size, little-endian.
+/// Reads an .npz file, stored or deflated, also ZIP64, with floats and whole numbers of any size and byte order.
 /// Returns an error if the file is damaged, has more than 1,000 members, or has more than 512 MiB in total when
 /// unpacked.
 Result<Npz> ReadNpz(std::string_view bytes, const std::string& file);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "engine/base/names.h"
+#include "engine/base/utf8.h"
 
 namespace etude {
 namespace {
@@ -62,7 +63,7 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
     return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kMaxNumberTextBytes);
   }
   // Skip a byte order mark, then read line by line.
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  text = WithoutByteOrderMark(text);
   NumberRows table;
   for (int line_number = 1; !text.empty(); ++line_number) {
     const std::size_t end = std::min(text.find('\n'), text.size());

@@ -101,6 +101,16 @@ std::string DescribeGrid(const RowGrid& grid, std::size_t twice) {
   return Join(said, "; ");
 }
 
+/// Returns true if times in milliseconds, not seconds, agree with the stated rate.
+bool AreMilliseconds(std::span<const double> times, double rate_hz) {
+  constexpr double kTolerance = 0.1, kPerSecond = 1000;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    if (const double step = times[i] - times[i - 1]; !std::isnan(step)) steps.push_back(step);
+  }
+  return !steps.empty() && std::abs(Median(std::move(steps)) * rate_hz / kPerSecond - 1) < kTolerance;
+}
+
 void AddRemark(std::string& remark, const std::string& text) {
   if (!text.empty()) remark += (remark.empty() ? "" : "; ") + text;
 }
@@ -192,6 +202,12 @@ std::vector<double> TimesOfNumbers(std::span<const double> numbers, double rate_
 Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
   MarkerMotion& markers = rows.markers;
   const std::optional<double> told = rows.rate_name.empty() ? std::nullopt : std::optional(markers.rate_hz);
+  if (told && AreMilliseconds(rows.times_s, *told)) {
+    for (double& time : rows.times_s) time /= 1000;
+    AddRemark(markers.remark,
+              fmt::format("the column Time is taken as milliseconds, by which its rows come at the {} of {:g} Hz",
+                          rows.rate_name, *told));
+  }
   ASSIGN_OR_RETURN(const auto grid, GridOfRows(rows.times_s, rows.lines, told, markers.names.size(), file));
   if (!grid) return std::move(markers);
   if (told && grid->rate_hz != *told) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/names.h"
+#include "engine/base/utf8.h"
 
 namespace etude {
 namespace {
@@ -18,10 +19,8 @@ bool IsMark(char c) { return c == '{' || c == '}' || c == ':'; }
 
 }  // namespace
 
-TextScanner::TextScanner(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());
-}
+TextScanner::TextScanner(std::string_view text, std::string file)
+    : text_(WithoutByteOrderMark(text)), file_(std::move(file)) {}
 
 void TextScanner::SkipBlanks() {
   while (position_ < text_.size() && IsBlank(text_[position_])) ++position_;

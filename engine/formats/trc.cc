@@ -9,6 +9,7 @@
 #include <limits>
 #include <span>
 
+#include "engine/formats/length_units.h"
 #include "engine/formats/row_clock.h"
 
 namespace etude {
@@ -98,9 +99,9 @@ Result<TrcHeader> ReadHeader(std::string_view names, std::string_view values, co
                 "their values in the next line, between tabs");
   }
   const std::string_view unit = of("Units");
-  const double metres = unit == "m" ? 1 : unit == "cm" ? 0.01 : unit == "mm" || unit == "MM" ? 0.001 : 0;
-  if (metres == 0) return Fail(place, "units '{}'; allowed: m, cm, mm", unit);
-  return TrcHeader{*rate, static_cast<std::size_t>(*frames), static_cast<std::size_t>(*markers), metres};
+  const auto metres = MetresOfUnit(unit);
+  if (!metres) return Fail(place, "units '{}'; allowed: m, cm, mm, in, ft", unit);
+  return TrcHeader{*rate, static_cast<std::size_t>(*frames), static_cast<std::size_t>(*markers), *metres};
 }
 
 Result<std::vector<std::optional<glm::dvec3>>> ReadFrame(std::string_view line, const TrcHeader& header,

@@ -146,14 +146,16 @@ Stance MeasureStance(const Frames& frames, const glm::dvec3& up) {
 /// Returns true if a motion is sufficient evidence that `other` points up, and not the usual axis.
 bool Overrules(const Stance& other, const Stance& usual, bool is_opposite, const UpRule& rule) {
   constexpr double kMostly = 0.8, kStillFloor = 0.05;
-  // A handstand: arms stretched beyond the head. In a file whose axes point down, like a camera's, arms usually hang.
-  if (is_opposite && other.on_hands > 0.5) return false;
+  // A handstand: arms stretched beyond the head to hands that stay on the floor.
+  if (is_opposite && other.on_hands > 0.5 && usual.floor < kStillFloor) return false;
   // The floor is still along the other axis only.
   constexpr double kNow = 0.1, kFloorless = 0.15;
   if (other.upright >= kNow && other.floor < kStillFloor && usual.floor > std::max(kFloorless, 3 * other.floor)) {
     return true;
   }
   if (other.upright < kMostly || usual.upright >= kHardlyEver) return false;
+  // Nobody stands on the head without the hands. If the usual axis is only a guess, the body may lie along it instead.
+  if (is_opposite && other.on_hands <= 0.5 && rule.evidence != UpEvidence::kPosture) return true;
   // It walks.
   if (other.way > 0.5 && other.steps > 0.4) return true;
   if (rule.is_of_rest) return false;

@@ -40,6 +40,7 @@ struct UpFinding {
 /// - the lowest joint stays at one height along it, but not along the usual axis (this also holds for people who lie,
 ///   crawl or stand on their hands), or
 /// - it walks: it travels across that axis while one foot stands, or
+/// - the file or its format states the usual axis, along which it stands on its head, but not on its hands, or
 /// - its weight is always over its feet along that axis (which is not so for a person who lies), and either it moves
 ///   and the lowest joint's height varies less along it, or it stands quite still and straight, as in static trials.
 /// In case of doubt, the usual axis is taken. `poses` are in the file's unit and axes, at `rate_hz`; there is at least

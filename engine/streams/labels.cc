@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/names.h"
+#include "engine/base/utf8.h"
 #include "engine/recognition/skeleton_stream.h"
 
 namespace etude {
@@ -41,9 +42,7 @@ std::vector<Cell> CellsOf(std::string_view line, char separator) {
 /// Iterates over the lines of a text; empty lines and lines that begin with '#' are skipped.
 class Lines {
  public:
-  explicit Lines(std::string_view text) : text_(text) {
-    if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
-  }
+  explicit Lines(std::string_view text) : text_(WithoutByteOrderMark(text)) {}
   /// Returns the next line; nullopt at the end.
   std::optional<std::string_view> Next() {
     while (!text_.empty()) {

@@ -9,6 +9,7 @@
 #include "engine/base/named.h"
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
+#include "engine/base/utf8.h"
 #include "engine/formats/joint_csv.h"
 #include "engine/formats/number_rows.h"
 #include "engine/formats/row_clock.h"
@@ -135,9 +136,8 @@ std::string_view StreamFormatName(StreamFormat format) { return kFormats[static_
 StreamFormat FindStreamFormat(std::string_view name) { return ValueNamed(kFormats, name); }
 
 std::optional<StreamFormat> DetectStreamFormat(std::string_view text) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   // Recognise formats with keywords by their first lines.
-  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  text = WithoutByteOrderMark(text);
   const std::size_t start = text.find_first_not_of(" \t\r\n");
   if (start == std::string_view::npos) return std::nullopt;
   if (text[start] == '{') return StreamFormat::kAzureKinect;

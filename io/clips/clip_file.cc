@@ -7,6 +7,7 @@
 #include <map>
 
 #include "engine/base/names.h"
+#include "engine/base/utf8.h"
 #include "engine/formats/acclaim.h"
 #include "engine/formats/amass.h"
 #include "engine/formats/bvh.h"
@@ -167,7 +168,8 @@ std::string_view FormatName(ClipFormat format) {
 Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::string>& layout,
                               const OpenOptions& options) {
   CappedReader reader;
-  ASSIGN_OR_RETURN(const auto bytes, reader.Read(path));
+  ASSIGN_OR_RETURN(auto bytes, reader.Read(path));
+  bytes.erase(0, bytes.size() - WithoutByteOrderMark(bytes).size());
   TextScanner scanner(bytes, path);
   const bool has_text = scanner.SkipToText();
   const Token first = has_text ? scanner.Next() : Token{};

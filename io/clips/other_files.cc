@@ -91,8 +91,6 @@ bool Has(std::string_view head, const Mark& mark) {
 }  // namespace
 
 std::string DescribeOtherFile(std::string_view bytes, std::string_view first_word) {
-  constexpr std::string_view kByteOrder = "\xEF\xBB\xBF";
-  if (bytes.starts_with(kByteOrder)) bytes.remove_prefix(kByteOrder.size());
   const std::string_view head = bytes.substr(0, kHeadBytes);
   if (first_word.empty()) return "an empty file";
   const auto* const known = std::ranges::find_if(kMarks, [&](const Mark& mark) { return Has(head, mark); });

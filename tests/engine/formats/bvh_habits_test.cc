@@ -127,6 +127,14 @@ TEST(BvhHabits, OfARowTooManyAreTold) {
   EXPECT_EQ(remarks, (std::vector<std::string>{"2 rows where 1 frames are announced: the last row was dropped"}));
 }
 
+TEST(BvhHabits, OfAnglesInRadiansAreTold) {
+  std::vector<std::string> remarks;
+  const std::string radians = Replaced(Replaced(kSmallBvh, "1 2 3 90 0", "1 2 3 1.571 0"), "0 0 0 90 0 0", "0 0 0 1.571 0 0");
+  ASSERT_TRUE(ReadBvh(radians, "small.bvh", &remarks));
+  EXPECT_EQ(remarks, (std::vector<std::string>{"no joint rotates by more than 1.6 degrees: if the file's angles are "
+                                               "radians, convert them to degrees, which BVH files have"}));
+}
+
 TEST(BvhHabits, IncludePlacesInTheChannelsAlone) {
   std::string text = Replaced(kSmallBvh, "OFFSET 0 10 0\n    CHANNELS 3",
                               "OFFSET 0 0 0\n    CHANNELS 6 Xposition Yposition Zposition");

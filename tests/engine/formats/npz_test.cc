@@ -50,8 +50,21 @@ TEST(Npy, ReadsEveryKindOfNumber) {
   ExpectRead<std::int32_t>("<i4", {-5, 70000});
   ExpectRead<std::uint32_t>("<u4", {4000000000u, 1});
   ExpectRead<std::int16_t>("<i2", {-300, 7});
+  ExpectRead<std::uint64_t>("<u8", {1u << 31, 5});
+  ExpectRead<std::uint16_t>("<u2", {65535, 7});
+  ExpectRead<std::int8_t>("|i1", {-3, 100});
   ExpectRead<std::uint8_t>("|u1", {200, 1});
   ExpectRead<std::uint8_t>("|b1", {1, 0, 1});
+}
+
+TEST(Npy, ReadsHalfPrecisionAndBigEndianNumbers) {
+  // IEEE 754: 1, -2, the largest, the smallest normal and subnormal number, and an infinity.
+  const auto half = ReadNpy(NpyOf<std::uint16_t>("<f2", "6,", {0x3c00, 0xc000, 0x7bff, 0x0400, 0x0001, 0xfc00}), "a.npy");
+  EXPECT_THAT(half->values, ElementsAre(1, -2, 65504, std::ldexp(1, -14), std::ldexp(1, -24), -INFINITY));
+  EXPECT_TRUE(std::isnan(ReadNpy(NpyOf<std::uint16_t>("<f2", "1,", {0x7e00}), "a.npy")->values[0]));
+  // 1.0 and 258, the most significant byte first.
+  EXPECT_THAT(ReadNpy(NpyOf<std::uint8_t>(">f8", "1,", {0x3f, 0xf0, 0, 0, 0, 0, 0, 0}), "a.npy")->values, ElementsAre(1));
+  EXPECT_THAT(ReadNpy(NpyOf<std::uint8_t>(">i2", "2,", {1, 2, 0xff, 0xff}), "a.npy")->values, ElementsAre(258, -1));
 }
 
 TEST(Npy, PutsFortransOrderRight) {
@@ -91,7 +104,7 @@ TEST(Npy, RefusesWhatIsDamagedOrNoNumbers) {
   EXPECT_THAT(reason(good.substr(0, good.size() - 8)), HasSubstr("has 1 numbers; its shape requires 2"));
   EXPECT_THAT(reason(NpyOf<double>("<f8", "two", {1, 2})), HasSubstr("its shape is 'two'"));
   EXPECT_THAT(reason(NpyOf<double>("<f8", "536870912, 2", {1, 2})), HasSubstr("is larger than possible"));
-  for (const char* type : {"|O", ">f8", "<U4"}) {
+  for (const char* type : {"|O", "<c8", "<U4"}) {
     EXPECT_THAT(reason(NpyOf<double>(type, "2,", {1, 2})), HasSubstr("does not contain plain numbers")) << type;
   }
 }
@@ -166,6 +179,8 @@ TEST(Amass, RefusesArraysThatAreNoMotion) {
               HasSubstr("allowed: 1 to 10000"));
   EXPECT_THAT(reason([](Npz& npz) { npz.arrays["trans"].values[4] = 2e6; }), HasSubstr("trans of frame 1 is 2000000"));
   EXPECT_THAT(reason([](Npz& npz) { npz.arrays["poses"].values[3] = NAN; }), HasSubstr("poses of frame 0 is nan"));
+  EXPECT_THAT(reason([](Npz& npz) { npz.arrays["poses"].values[156 + 4] = -90; }),
+              HasSubstr("poses of frame 1 rotates left_hip by 90 radians; allowed: at most 12.57 (4π); are they degrees?"));
 }
 
 /// A take as Motive exports it.

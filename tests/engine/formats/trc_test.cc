@@ -70,12 +70,12 @@ TEST(Trc, KeepsItsFirstLineWhateverTheName) {
       WriteTrc(Steps(), "a\nb\tc \xC3\xA9").starts_with("PathFileType\t4\t(X/Y/Z)\ta_b_c \xC3\xA9.trc\nDataRate"));
 }
 
-/// One marker that stands still for so many frames at 50 Hz, where DataRate says otherwise.
-std::string AtFiftyHertz(int data_rate, int frames) {
+/// One marker that stands still for so many frames at 50 Hz, where DataRate says otherwise. `unit_s`: of the column Time.
+std::string AtFiftyHertz(int data_rate, int frames, double unit_s = 1) {
   std::string text = fmt::format(
       "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tNumFrames\tNumMarkers\tUnits\n{}\t{}\t1\tm\nFrame#\tTime\tA\n\n",
       data_rate, frames);
-  for (int t = 0; t < frames; ++t) text += fmt::format("{}\t{:.2f}\t1\t2\t3\n", t + 1, 7 + 0.02 * t);
+  for (int t = 0; t < frames; ++t) text += fmt::format("{}\t{:.2f}\t1\t2\t3\n", t + 1, (7 + 0.02 * t) / unit_s);
   return text;
 }
 
@@ -87,6 +87,29 @@ TEST(ReadTrc, TakesTheRateOfItsTimesWhereDataRateIsAnother) {
   EXPECT_EQ(alike->rate_hz, 50) << "at the end they are a frame apart";
   EXPECT_EQ(brief->rate_hz, 100) << "so few times tell no rate";
   EXPECT_EQ(brief->remark, "");
+}
+
+TEST(ReadTrc, TakesTimesInMillisecondsWhereOnlyTheyAgreeWithDataRate) {
+  ASSERT_OK(read, ReadTrc(AtFiftyHertz(50, 60, 0.001), "a.trc"));
+  EXPECT_EQ(read->rate_hz, 50);
+  EXPECT_EQ(read->frames.size(), 60u);
+  EXPECT_EQ(read->remark, "the column Time is taken as milliseconds, by which its rows come at the DataRate of 50 Hz");
+  EXPECT_EQ(ReadTrc(AtFiftyHertz(50, 60), "a.trc")->remark, "");
+}
+
+TEST(ReadTrc, KnowsUnitsByTheirNamesInAnyCase) {
+  const auto metres = [](const std::string& unit) {
+    std::string text = AtFiftyHertz(50, 60);
+    text.replace(text.find("\tm\n"), 3, "\t" + unit + "\n");
+    const auto read = ReadTrc(text, "a.trc");
+    return read ? read->metres_per_unit : 0;
+  };
+  EXPECT_EQ(metres("Meters"), 1);
+  EXPECT_EQ(metres("centimetres"), 0.01);
+  EXPECT_EQ(metres("MM"), 0.001);
+  EXPECT_EQ(metres("in"), 0.0254);
+  EXPECT_EQ(metres("feet"), 0.3048);
+  EXPECT_EQ(metres("furlong"), 0);
 }
 
 TEST(ReadTrc, ReadsWhatWasWrittenAndWhatWasNotSeen) {

@@ -221,6 +221,33 @@ TEST(MarkersUp, OfPeopleWhoLieCrawlOrStandOnTheirHandsIsTheFormatsAxis) {
   }
 }
 
+TEST(MarkersUp, OfPeopleWithRaisedArmsInAFileWhoseAxesPointDownIsNotThatOfAHandstand) {
+  // Arms wave above the head: if Y was up, neither hands nor anything else would stay on a floor.
+  const auto waving = [](std::size_t t) {
+    BodyPose pose = StandingAt(t);
+    const glm::dvec3 up(0.1 * std::sin(0.3 * static_cast<double>(t)), 0.25, 0);
+    for (const Role hand : {Role::kLeftWrist, Role::kRightWrist, Role::kLeftHand, Role::kRightHand}) {
+      pose[hand] = pose[Role::kHead] + (1 + std::sin(0.3 * static_cast<double>(t))) * up;
+    }
+    return pose;
+  };
+  std::vector<BodyPose> poses = Frames(waving);
+  const auto down = [](glm::dvec3 p) { return glm::dvec3(p.x, -p.y, -p.z); };
+  const auto trc = FindMarkerBodies(Keypoints(poses, down), "a.trc", {.up = TrcUp()});
+  ASSERT_TRUE(trc);
+  EXPECT_LT(OffUp(trc->front(), poses), 1e-9) << trc->front().Note();
+  EXPECT_THAT(trc->front().up.doubt, HasSubstr("−Y is assumed to be up"));
+}
+
+TEST(MarkersUp, OfPeopleWhoStandOnTheirHeadsIsSaidToBeTheOther) {
+  std::vector<BodyPose> poses = Frames(StandingAt);
+  const auto down = [](glm::dvec3 p) { return glm::dvec3(p.x, -p.y, -p.z); };
+  const auto motive = FindMarkerBodies(Keypoints(poses, down), "a.csv", {.up = MotiveUp()});
+  ASSERT_TRUE(motive);
+  EXPECT_EQ(motive->front().up.doubt,
+            "the body stands along −Y, but Y is the rule of Motive's exports; --up overrules that");
+}
+
 TEST(MarkersUp, OfPeopleWhoLieAndThenStandIsTheAxisThatKeepsTheFloor) {
   std::vector<BodyPose> poses = Frames(Lying, 80);
   for (std::size_t t = 0; t < 20; ++t) poses.push_back(StandingAt(0));

@@ -36,6 +36,14 @@ class OpenClipTest : public ClipFolder {
   std::string dance_;
 };
 
+TEST_F(OpenClipTest, AByteOrderMarkBeforeTextChangesNothing) {
+  BodyMotion still{.rate_hz = 30, .poses = std::vector<BodyPose>(40, StandingPose())};
+  const std::string trc = WriteTrc(still, "still");
+  ASSERT_OK(plain, ReadClips(Write("plain.trc", trc)));
+  ASSERT_OK(marked, ReadClips(Write("marked.trc", "\xEF\xBB\xBF" + trc)));
+  EXPECT_EQ(marked->at(0).clip.frames, plain->at(0).clip.frames);
+}
+
 TEST_F(OpenClipTest, EveryAnimationIsAClipOfItsOwn) {
   ASSERT_OK(clips, ReadClips(dance_));
   ASSERT_EQ(clips->size(), 2u);

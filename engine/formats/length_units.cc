@@ -1,0 +1,24 @@
+#include "engine/formats/length_units.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace etude {
+
+std::optional<double> MetresOfUnit(std::string_view name) {
+  constexpr std::pair<std::string_view, double> kUnits[] = {
+      {"m", 1},        {"meters", 1},          {"metres", 1},
+      {"cm", 0.01},    {"centimeters", 0.01},  {"centimetres", 0.01},
+      {"mm", 0.001},   {"millimeters", 0.001}, {"millimetres", 0.001},
+      {"in", 0.0254},  {"inches", 0.0254},     {"ft", 0.3048},
+      {"feet", 0.3048}};
+  std::string lower(name);
+  std::ranges::transform(lower, lower.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
+  for (const auto& [unit, metres] : kUnits) {
+    if (unit == lower) return metres;
+  }
+  return std::nullopt;
+}
+
+}  // namespace etude
