@@ -1,5 +1,3 @@
-#include "tests/bench/statistics/verdict_rates.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +8,8 @@
 #include <iostream>
 #include <iterator>
 #include <sstream>
+
+#include "tests/bench/statistics/verdict_rates.h"
 
 namespace etude {
 namespace {
@@ -121,7 +121,8 @@ std::vector<std::vector<double>> NumbersOf(std::istream& table) {
   std::vector<std::vector<double>> numbers;
   for (std::string line; std::getline(table, line);) {
     if (line.size() < 3 || !std::isdigit(static_cast<unsigned char>(line[2]))) continue;
-    std::ranges::replace_if(line, [](unsigned char c) { return !std::isdigit(c) && c != '.'; }, ' ');
+    std::ranges::replace_if(
+        line, [](unsigned char c) { return !std::isdigit(c) && c != '.'; }, ' ');
     std::istringstream words(line);
     numbers.emplace_back(std::istream_iterator<double>(words), std::istream_iterator<double>());
   }

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <array>
 #include <cmath>
 
 #include "bench/statistics/bootstrap.h"
@@ -62,7 +61,9 @@ double DrawContribution(SampleLaw law, RandomStream& dice) {
 }
 
 /// Draws what a world adds to its unit's contribution.
-double DrawNoise(SampleLaw law, RandomStream& dice) { return IsOfUnits(law) ? dice.Normal() : DrawContribution(law, dice); }
+double DrawNoise(SampleLaw law, RandomStream& dice) {
+  return IsOfUnits(law) ? dice.Normal() : DrawContribution(law, dice);
+}
 
 /// Draws −1, 0 or 1 with probabilities ¼, ½ and ¼, the difference of two fair coins, with the mean shifted by `effect`.
 double CoinsDiffer(double effect, RandomStream& dice) {
