@@ -1,3 +1,6 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include "bench/tasks/registry.h"
 #include "tests/bench/tasks/base/make_task.h"
 #include "tests/support/kept_answers.h"
