@@ -6,7 +6,6 @@
 
 #include "bench/gate/baseline_file.h"
 #include "bench/model/run_data.h"
-#include "bench/results/folder.h"
 #include "engine/base/machine.h"
 #include "engine/base/utf8.h"
 

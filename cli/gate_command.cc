@@ -12,7 +12,6 @@
 #include "bench/gate/gate.h"
 #include "bench/gate/self_test.h"
 #include "bench/results/folder.h"
-#include "bench/statistics/verdict_rates.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/move_table.h"
@@ -30,7 +29,6 @@ struct GateOptions {
   bool self_test = false;     ///< measure the gate's own rates of false alarms and of detection
   int repetitions = 40;       ///< self-test: pairs of seeds
   std::optional<int> trials;  ///< self-test: worlds per condition; default: the scenario's
-  bool verdicts = false;      ///< self-test: measure the verdicts for other units instead
   bool as_json = false;
   Sealing sealing = Sealing::kRequired;
 };
@@ -201,24 +199,8 @@ Result<int> SelfTest(const GateOptions& options) {
   return report.Holds() ? kSuccess : kRegression;
 }
 
-int VerdictsCommand(int repetitions) {
-  const std::vector<SampleDesign> designs = PublishedDesigns();
-  const auto tell = [&](std::size_t done) { fmt::print(stderr, "\r{} of {} designs", done, designs.size()); };
-  const auto rates = MeasureAll(designs, {repetitions, std::max(repetitions / 5, 1)}, tell);
-  std::fputs("\n\n", stderr);
-  fmt::print("{}\n", VerdictRatesMarkdown(rates));
-  const auto broken = std::count_if(rates.begin(), rates.end(),
-                                    [&](const VerdictRates& one) { return !KeepsPromise(one, rates.size()); });
-  fmt::print(
-      "{} of {} designs keep the limits: false alarms at most 5 %, 6 % for laws of units (a binomial test over all "
-      "designs; upper end of the 95 % interval 6.5 %), intervals that hold the truth in at least 93 %.\n",
-      rates.size() - static_cast<std::size_t>(broken), rates.size());
-  return broken == 0 ? kSuccess : kRegression;
-}
-
 Result<int> GateCommand(const GateOptions& options) {
   if (options.target.empty() && !options.self_test) return Fail({}, "etude gate needs a result folder");
-  if (options.verdicts) return VerdictsCommand(options.repetitions);
   if (options.self_test) return SelfTest(options);
   ASSIGN_OR_RETURN(const auto run, LoadFinishedRun(options.target, options.sealing));
   TellUnsealed(run.data.unsealed);
@@ -239,10 +221,7 @@ void DefineGate(CLI::App& app, Action& action) {
   CLI::Option* self_test =
       command->add_flag("--self-test", options->self_test, "Measure the gate's own false alarms and power")
           ->excludes(baseline);
-  command
-      ->add_flag("--verdicts", options->verdicts, "Self-test: test the verdicts about other clips and people instead")
-      ->needs(self_test);
-  command->add_option("--repetitions", options->repetitions, "Self-test: pairs of seeds, or samples of each design")
+  command->add_option("--repetitions", options->repetitions, "Self-test: pairs of seeds")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str()
       ->needs(self_test);

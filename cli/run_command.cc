@@ -105,10 +105,6 @@ std::vector<std::string> SilentMethods(const ScenarioSummary& scenario) {
 
 bool HasSilentMethod(const ScenarioSummary& scenario) { return !SilentMethods(scenario).empty(); }
 
-}  // namespace
-
-namespace {
-
 /// Returns the facts that `run --json` prints; `run` is null for a shard.
 Json FactsOf(const RunOutcome& outcome, const Shard& shard, const RunData* run) {
   Json scenarios = Json::array(), silent = Json::array();

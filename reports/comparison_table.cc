@@ -12,7 +12,6 @@
 #include "io/drawing/escape.h"
 #include "io/drawing/table.h"
 #include "reports/badge.h"
-#include "reports/words/figures.h"
 #include "reports/words/judged.h"
 
 namespace etude {

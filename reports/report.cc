@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <set>
-#include <string_view>
 
 #include "bench/recordings/capture_extras.h"
 #include "io/drawing/escape.h"

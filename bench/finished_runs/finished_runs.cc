@@ -8,7 +8,7 @@
 #include "bench/metrics/catalogue.h"
 #include "bench/run/cell_runner.h"
 #include "bench/run/outside_programs.h"
-#include "bench/scenario/scenario.h"
+#include "bench/scenario/study_of.h"
 #include "bench/tasks/registry.h"
 #include "engine/base/digest.h"
 #include "engine/base/machine.h"

@@ -5,7 +5,6 @@
 #include <map>
 #include <utility>
 
-#include "bench/gate/finished_run.h"
 #include "bench/statistics/bootstrap.h"
 #include "engine/base/order_statistics.h"
 

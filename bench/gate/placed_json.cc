@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "engine/base/names.h"
-#include "io/files/json.h"
 
 namespace etude {
 namespace {

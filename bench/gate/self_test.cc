@@ -4,7 +4,6 @@
 #include <array>
 #include <set>
 
-#include "bench/gate/comparison.h"
 #include "bench/gate/gate.h"
 #include "bench/statistics/interval.h"
 #include "sim/random/stream.h"

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <map>
 #include <span>
-#include <string_view>
 
 #include "engine/base/names.h"
 

@@ -1,7 +1,5 @@
 #include "bench/keys/field_table.h"
 
-#include <algorithm>
-
 #include "engine/base/names.h"
 
 namespace etude {

@@ -174,25 +174,25 @@ std::string RecordingsAsMarkdown() {
          RecordFields::Page<PlausibilityExtras>();
 }
 
-std::string WriteIkExtras(const IkExtras& extras) { return RecordFields::Write(extras); }
-Result<IkExtras> ReadIkExtras(const std::string& json) { return RecordFields::Read<IkExtras>(json); }
-
-std::string WriteTransitionExtras(const TransitionExtras& extras) { return RecordFields::Write(extras); }
-Result<TransitionExtras> ReadTransitionExtras(const std::string& json) {
-  return RecordFields::Read<TransitionExtras>(json);
+template <typename Extras>
+std::string WriteExtras(const Extras& extras) {
+  return RecordFields::Write(extras);
 }
 
-std::string WriteDetectionExtras(const DetectionExtras& extras) { return RecordFields::Write(extras); }
-Result<DetectionExtras> ReadDetectionExtras(const std::string& json) {
-  return RecordFields::Read<DetectionExtras>(json);
+template <typename Extras>
+Result<Extras> ReadExtras(const std::string& json) {
+  return RecordFields::Read<Extras>(json);
 }
 
-std::string WriteCoachExtras(const CoachExtras& extras) { return RecordFields::Write(extras); }
-Result<CoachExtras> ReadCoachExtras(const std::string& json) { return RecordFields::Read<CoachExtras>(json); }
-
-std::string WritePlausibilityExtras(const PlausibilityExtras& extras) { return RecordFields::Write(extras); }
-Result<PlausibilityExtras> ReadPlausibilityExtras(const std::string& json) {
-  return RecordFields::Read<PlausibilityExtras>(json);
-}
+template std::string WriteExtras(const IkExtras&);
+template Result<IkExtras> ReadExtras(const std::string&);
+template std::string WriteExtras(const TransitionExtras&);
+template Result<TransitionExtras> ReadExtras(const std::string&);
+template std::string WriteExtras(const DetectionExtras&);
+template Result<DetectionExtras> ReadExtras(const std::string&);
+template std::string WriteExtras(const CoachExtras&);
+template Result<CoachExtras> ReadExtras(const std::string&);
+template std::string WriteExtras(const PlausibilityExtras&);
+template Result<PlausibilityExtras> ReadExtras(const std::string&);
 
 }  // namespace etude

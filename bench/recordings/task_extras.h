@@ -23,9 +23,6 @@ struct IkExtras {
   std::vector<double> axis_error_max_deg;  ///< of the worst single axis, by which "solved" is judged
   std::vector<std::optional<glm::dvec3>> targets_m;
 };
-std::string WriteIkExtras(const IkExtras& extras);
-/// Reads the extras; members that are missing or of another type stay empty. Fails if the text is not a JSON object.
-Result<IkExtras> ReadIkExtras(const std::string& json);
 
 /// The extras of task `transition`: a transition, with some seconds before and after it. Tracks "coach", "left" and
 /// "wanted" (docs/reference/recordings.md), from which the join's metrics can be computed.
@@ -63,10 +60,6 @@ struct TransitionExtras {
   std::string cost_unit;
   std::vector<Candidate> candidates;
 };
-std::string WriteTransitionExtras(const TransitionExtras& extras);
-/// Reads the extras; members that are missing or of another type stay empty, because recordings of older runs and of
-/// outside methods hold less. Fails if the text is not a JSON object.
-Result<TransitionExtras> ReadTransitionExtras(const std::string& json);
 
 /// The extras of task `detection`: a session in front of the sensor. Tracks "truth" and "sensed", as the recogniser saw
 /// it.
@@ -100,9 +93,6 @@ struct DetectionExtras {
   std::vector<Alarm> alarms;
   std::vector<std::string> joint_states;  ///< one letter per joint, one text per frame (StateLetters)
 };
-std::string WriteDetectionExtras(const DetectionExtras& extras);
-/// Fails, naming the key, when a key is missing or of another kind.
-Result<DetectionExtras> ReadDetectionExtras(const std::string& json);
 
 /// The extras of task `coach`: a session with a learner. Tracks "coach", "truth" (the learner's real motion) and
 /// "sensed".
@@ -139,9 +129,6 @@ struct CoachExtras {
   std::vector<double> beats_s;  ///< times of the music's beats, ascending
   std::vector<std::string> joint_states;
 };
-std::string WriteCoachExtras(const CoachExtras& extras);
-/// Fails, naming the key, when a key is missing or of another kind.
-Result<CoachExtras> ReadCoachExtras(const std::string& json);
 
 /// The extras of task `plausibility`: the faults in the track "answer", which keeps the rate and heights of its file.
 struct PlausibilityExtras {
@@ -152,9 +139,15 @@ struct PlausibilityExtras {
   double floor_m = 0;
   std::vector<Fault> faults;
 };
-std::string WritePlausibilityExtras(const PlausibilityExtras& extras);
-/// Fails, naming the key, when a key is missing or of another kind.
-Result<PlausibilityExtras> ReadPlausibilityExtras(const std::string& json);
+
+/// Writes the extras of a task. `Extras` is one of the types above.
+template <typename Extras>
+std::string WriteExtras(const Extras& extras);
+/// Reads what WriteExtras writes. Fails, naming the key, if a key is missing or of another kind; in IkExtras and
+/// TransitionExtras such members stay empty, because recordings of older runs and of outside methods hold less. Fails
+/// also if the text is not a JSON object.
+template <typename Extras>
+Result<Extras> ReadExtras(const std::string& json);
 
 /// Returns the page docs/reference/recordings.md: the keys of all formats, in Markdown.
 std::string RecordingsAsMarkdown();

@@ -1,7 +1,6 @@
 #include "bench/replay/pack.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 

@@ -95,8 +95,6 @@ Result<ColumnIndex> Decode(const Json& json, const Place& place) {
   return index;
 }
 
-namespace fs = std::filesystem;
-
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 constexpr std::array<std::pair<const char*, double CellUsage::*>, 5> kTimes = {

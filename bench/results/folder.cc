@@ -9,14 +9,11 @@
 #include <set>
 
 #include "bench/metrics/export.h"
-#include "bench/results/columns.h"
 #include "bench/results/row_json.h"
 #include "bench/results/seal.h"
 #include "bench/results/summary_json.h"
 #include "engine/base/digest.h"
 #include "engine/base/named.h"
-#include "io/files/files.h"
-#include "io/files/json.h"
 #include "sim/random/seed.h"
 
 namespace etude {

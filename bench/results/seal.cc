@@ -2,7 +2,6 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
-#include <string>
 
 #include "bench/results/folder.h"
 #include "engine/base/digest.h"

@@ -1,7 +1,6 @@
 #include "bench/run/cell_runner.h"
 
 #include <algorithm>
-#include <ctime>
 #include <exception>
 #include <fstream>
 #include <new>

@@ -5,11 +5,11 @@
 #include <set>
 
 #include "bench/run/cell_runner.h"
-#include "bench/run/costs.h"
 #include "bench/run/plan.h"
 #include "bench/run/suite.h"
 #include "bench/run/supervisor.h"
 #include "bench/scenario/scenario.h"
+#include "bench/scenario/study_of.h"
 #include "bench/statistics/answers.h"
 #include "bench/statistics/bootstrap.h"
 #include "bench/statistics/compare.h"

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "bench/results/folder.h"
-#include "bench/run/journal.h"
 #include "bench/run/machine_trial.h"
 #include "bench/run/manifest.h"
 #include "bench/run/outside_metrics.h"

@@ -11,13 +11,13 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <utility>
-#include <vector>
 
 #include "bench/results/columns.h"
 #include "bench/results/folder.h"
 #include "bench/results/seal.h"
 #include "bench/run/sum_up.h"
 #include "bench/scenario/scenario.h"
+#include "bench/scenario/study_of.h"
 #include "engine/base/machine.h"
 #include "io/files/files.h"
 

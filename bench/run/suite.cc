@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <set>
 #include <string_view>
 
@@ -31,8 +30,6 @@ fs::path TopOf(const fs::path& folder) {
   const fs::path inside = folder.lexically_relative(shipped);
   return shipped.empty() || inside.empty() || *inside.begin() == ".." ? fs::path() : shipped;
 }
-
-namespace fs = std::filesystem;
 
 std::string SuiteName(const std::vector<std::string>& paths) {
   if (paths.size() != 1) return "suite";

@@ -16,7 +16,6 @@
 #include <thread>
 
 #include "bench/run/outside_programs.h"
-#include "bench/run/plan.h"
 #include "bench/run/worker.h"
 #include "engine/base/machine.h"
 #include "io/process/child_process.h"

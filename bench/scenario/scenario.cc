@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "bench/keys/key_schema.h"
 #include "bench/scenario/judging.h"
 #include "bench/scenario/methods.h"
 #include "bench/scenario/outside_metrics.h"
@@ -16,7 +14,6 @@
 #include "engine/base/named.h"
 #include "engine/base/names.h"
 #include "io/files/files.h"
-#include "io/files/json.h"
 
 namespace etude {
 namespace {
@@ -353,70 +350,6 @@ Result<std::vector<Scenario>> ParseScenarios(const std::string& file, const Sour
     if (text == texts.end()) return Fail(asked_at, "the text of '{}' is missing", path);
     return text->second;
   });
-}
-
-namespace {
-
-std::vector<std::string> StagesOf(const Node* oracle) {
-  std::vector<std::string> stages;
-  if (oracle == nullptr || oracle->kind != Node::Kind::kSequence) return stages;
-  for (const Node& stage : oracle->items) stages.push_back(stage.scalar);
-  return stages;
-}
-
-/// Returns the settings of a built-in method as text: its entry without name, oracle and description.
-std::string SettingsOf(const MethodEntry& method) {
-  if (!method.exec.empty()) return "";  // the settings of a program are unknown
-  Node settings = method.node;
-  std::erase_if(settings.entries, [](const Node::Entry& entry) {
-    return entry.key == "name" || entry.key == "oracle" || entry.key == "description";
-  });
-  const auto text = WriteJson(ToJson(settings));
-  return text ? *text : "";
-}
-
-/// Returns a method's description, or one made from its settings: "solver ccd, weights fixed", "a program".
-std::string DescriptionOf(const MethodEntry& method) {
-  if (!method.description.empty()) return method.description;
-  std::string text = method.exec.empty() ? "" : "a program";
-  for (const Node::Entry& entry : method.node.entries) {
-    if (entry.key == "name" || entry.key == "exec" || entry.value.kind == Node::Kind::kMapping) continue;
-    std::string value = entry.value.scalar;
-    for (const Node& item : entry.value.items) value += (value.empty() ? "" : " and ") + item.scalar;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", entry.key, value);
-  }
-  return text;
-}
-
-}  // namespace
-
-Study StudyOf(const Scenario& scenario) {
-  Study study{.scenario = scenario.name,
-              .task = scenario.task,
-              .question = scenario.question,
-              .description = scenario.description,
-              .unit = scenario.unit,
-              .trials = scenario.trials,
-              .methods = {},
-              .conditions = {},
-              .metrics = scenario.metrics,
-              .across = scenario.across,
-              .success = scenario.success,
-              .success_matters = scenario.success_matters,
-              .rival = scenario.rival,
-              .expectations = scenario.expectations,
-              .gate = scenario.gate};
-  const TaskKind& kind = *FindTaskKind(scenario.task);
-  for (const MethodEntry& method : scenario.methods) {
-    const Node* oracle = method.node.Find("oracle");
-    const Node* truth = method.node.Find(kind.truth.first);
-    const bool has_oracle = (oracle != nullptr && (oracle->kind != Node::Kind::kSequence || !oracle->items.empty())) ||
-                            (truth != nullptr && truth->scalar == kind.truth.second);
-    study.methods.push_back(
-        {method.name, method.against, has_oracle, StagesOf(oracle), SettingsOf(method), DescriptionOf(method)});
-  }
-  for (const Condition& condition : scenario.conditions) study.conditions.push_back(condition.swept);
-  return study;
 }
 
 }  // namespace etude

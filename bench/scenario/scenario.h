@@ -153,7 +153,4 @@ const FieldTable<StreamSource>& ReadingFields();
 /// The keys of `video`. They name methods of `scenario`, which must outlive the table.
 FieldTable<RecordingSelection> VideoFields(const Scenario& scenario);
 
-/// Returns the part of a scenario that is needed to judge its rows.
-Study StudyOf(const Scenario& scenario);
-
 }  // namespace etude

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "engine/base/names.h"
-#include "engine/document/fields.h"
 
 namespace etude {
 namespace {

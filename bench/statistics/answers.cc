@@ -1,8 +1,6 @@
 #include "bench/statistics/answers.h"
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
 
 #include "bench/statistics/beyond.h"
 #include "bench/statistics/bootstrap.h"

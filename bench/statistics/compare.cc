@@ -6,7 +6,6 @@
 
 #include "bench/statistics/bootstrap.h"
 #include "bench/statistics/distributions.h"
-#include "bench/statistics/interval.h"
 #include "bench/statistics/paired_tests.h"
 
 namespace etude {

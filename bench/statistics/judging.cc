@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include "bench/statistics/answers.h"
 #include "bench/statistics/beyond.h"
 #include "bench/statistics/bootstrap.h"
 #include "bench/statistics/compare.h"
 #include "bench/statistics/paired_tests.h"
-#include "bench/statistics/scenario_table.h"
 #include "engine/base/order_statistics.h"
 
 namespace etude {

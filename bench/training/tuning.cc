@@ -4,8 +4,6 @@
 
 #include "bench/metrics/detection.h"
 #include "bench/statistics/curves/curves.h"
-#include "bench/training/genetic_search.h"
-#include "bench/training/training_pairs.h"
 
 namespace etude {
 namespace {

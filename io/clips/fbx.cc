@@ -12,13 +12,11 @@
 #include <cstring>
 #include <ctime>
 #include <fstream>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "engine/base/names.h"
 #include "io/clips/fbx_rotations.h"
-#include "io/process/forked_copy.h"
 #include "io/process/pinned_environment.h"
 
 namespace etude {

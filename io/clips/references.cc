@@ -6,7 +6,6 @@
 #include <array>
 #include <filesystem>
 #include <string_view>
-#include <vector>
 
 #include "engine/base/names.h"
 #include "engine/base/utf8.h"

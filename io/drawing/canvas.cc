@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 
 #include "engine/base/angles.h"
 #include "io/drawing/pixel_lanes.h"

@@ -10,10 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cerrno>
 #include <cstring>
 
-#include "engine/base/image.h"
 #include "io/files/files.h"
 
 namespace etude {

@@ -10,7 +10,6 @@
 #include <span>
 #include <vector>
 
-#include "engine/keypoints/people.h"
 #include "engine/vision/strokes.h"
 #include "io/files/files.h"
 #include "io/files/json.h"
@@ -242,10 +241,6 @@ Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const
   LayByNames(file_names, of, film);
   return film;
 }
-
-}  // namespace
-
-namespace {
 
 /// Converts keypoints to pixels if all of them lie within 0…1, as shares of the film's width and height.
 void Denormalise(const FilmOfKeypoints& of, PeopleOfFilm& film) {

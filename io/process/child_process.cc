@@ -16,7 +16,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
@@ -26,7 +25,6 @@
 
 #include "engine/base/machine.h"
 #include "io/process/pinned_environment.h"
-#include "io/process/process_tree.h"
 
 namespace etude {
 namespace {

@@ -11,7 +11,6 @@
 #include <filesystem>
 #include <sstream>
 #include <string_view>
-#include <vector>
 
 #include "io/process/child_process.h"
 

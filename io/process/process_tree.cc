@@ -11,9 +11,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <cstdlib>
-#include <string>
 
 namespace etude {
 namespace {

@@ -8,7 +8,6 @@
 
 #include "engine/base/names.h"
 #include "engine/recognition/recognise.h"
-#include "io/clips/clip_library.h"
 #include "io/clips/references.h"
 #include "io/files/files.h"
 

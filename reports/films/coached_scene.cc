@@ -37,7 +37,7 @@ void KeepWithin(CoachedSessionFacts& facts) {
 
 Result<CoachedSessionFacts> ReadCoachedSession(const ShownCell& cell) {
   const Place place{.file = "recording " + cell.row->Id()};
-  auto extras = ReadCoachExtras(cell.recording->extras_json);
+  auto extras = ReadExtras<CoachExtras>(cell.recording->extras_json);
   CoachedSessionFacts facts;
   for (const auto& [name, motion] :
        {std::pair{"coach", &facts.coach}, std::pair{"truth", &facts.learner}, std::pair{"sensed", &facts.sensed}}) {

@@ -55,11 +55,11 @@ bool AreErrors(const std::vector<double>& values, std::size_t count) {
   return values.size() == count && std::ranges::all_of(values, [](double value) { return value >= 0; });
 }
 
-Result<IkExtras> ReadExtras(const Row& row, const Recording& recording) {
+Result<IkExtras> ExtrasOf(const Row& row, const Recording& recording) {
   const Place place{.file = "recording " + row.Id()};
   const BodyMotion* motion = FindTrack(recording, "solution");
   if (motion == nullptr || motion->poses.empty()) return Fail(place, "it lacks the track solution");
-  auto extras = ReadIkExtras(recording.extras_json);
+  auto extras = ReadExtras<IkExtras>(recording.extras_json);
   if (!extras) return Fail(place, "its extras are {}", extras.error().message);
   const std::size_t count = motion->poses.size();
   const std::vector<int>& iterations = extras->iterations;
@@ -111,7 +111,7 @@ Result<IkRace> MakeRace(const std::array<RecordedCell, 2>& cells) {
   race.truth = truth->poses.front();
   std::vector<std::optional<glm::dvec3>> targets;  // of both methods, because their world is the same
   for (std::size_t i = 0; i < 2; ++i) {
-    ASSIGN_OR_RETURN(auto extras, ReadExtras(*cells[i].row, *cells[i].recording));
+    ASSIGN_OR_RETURN(auto extras, ExtrasOf(*cells[i].row, *cells[i].recording));
     if (i == 0) targets = extras.targets_m;
     race.paths[i] = PathOf(*cells[i].row, *cells[i].recording, std::move(extras));
   }

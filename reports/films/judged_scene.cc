@@ -90,7 +90,7 @@ Facts::Judge JudgeIn(const DetectionExtras& extras, const std::string& method) {
 }
 
 Result<DetectionExtras> ExtrasOf(const Recording& recording, const Place& place) {
-  auto extras = ReadDetectionExtras(recording.extras_json);
+  auto extras = ReadExtras<DetectionExtras>(recording.extras_json);
   if (!extras) return Fail(place, "its extras do not fit a judged session: {}", extras.error().message);
   return extras;
 }

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "engine/fuzzy/fuzzy_system.h"
-#include "engine/fuzzy/membership.h"
 #include "io/drawing/escape.h"
 #include "io/drawing/panel.h"
 #include "io/drawing/table.h"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "io/drawing/escape.h"
 #include "reports/plots/verdicts.h"

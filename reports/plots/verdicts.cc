@@ -1,6 +1,5 @@
 #include "reports/plots/verdicts.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "reports/words/cell_series.h"

@@ -11,7 +11,7 @@
 namespace etude {
 
 Result<TransitionFacts> ReadTransitionFacts(const Recording& recording, const std::string& cell) {
-  auto facts = ReadTransitionExtras(recording.extras_json);
+  auto facts = ReadExtras<TransitionExtras>(recording.extras_json);
   if (!facts) return Fail({.file = "recording " + cell}, "its extras are {}", facts.error().message);
   const BodyMotion* coach = FindTrack(recording, "coach");
   const int frames = coach == nullptr ? 0 : static_cast<int>(coach->poses.size());

@@ -6,7 +6,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <span>
-#include <string_view>
 
 #include "io/drawing/escape.h"
 #include "io/files/json.h"

@@ -7,7 +7,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <span>
 #include <string_view>
 
 #include "bench/recordings/evaluation_extras.h"
@@ -232,11 +231,11 @@ class Writer {
       return 0;
     };
     if (task_ == "evaluation" || task_ == "inbetween") return add(ReadEvaluationExtras(recording.extras_json));
-    if (task_ == "ik") return add(ReadIkExtras(recording.extras_json));
+    if (task_ == "ik") return add(ReadExtras<IkExtras>(recording.extras_json));
     if (task_ == "transition") return add(ReadTransitionFacts(recording, method));
-    if (task_ == "detection") return add(ReadDetectionExtras(recording.extras_json));
-    if (task_ == "coach") return add(ReadCoachExtras(recording.extras_json));
-    if (task_ == "plausibility") return add(ReadPlausibilityExtras(recording.extras_json));
+    if (task_ == "detection") return add(ReadExtras<DetectionExtras>(recording.extras_json));
+    if (task_ == "coach") return add(ReadExtras<CoachExtras>(recording.extras_json));
+    if (task_ == "plausibility") return add(ReadExtras<PlausibilityExtras>(recording.extras_json));
     return 0;
   }
 

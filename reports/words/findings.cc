@@ -1,9 +1,6 @@
 #include "reports/words/findings.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <tuple>
 

@@ -44,41 +44,6 @@ class Errors(EtudeCase):
         self.refuses_scenario(IK.replace("solver: ccd, weights: fixed", "solver: cdc, weights: fixed"),
                               says=[":7:27: ", "unknown solver 'cdc'; did you mean 'ccd'?", "ccd-hinges"])
 
-    def test_numbers_out_of_range(self):
-        self.refuses_scenario(IK.replace("trials: 4", "trials: 0"), says=[":4:9: ", "0 is out of range; allowed: 1 to"])
-        self.refuses_scenario(IK.replace("[2, 5]", "[2, many]"), says=[":5:30: ", "expected a number, found 'many'"])
-
-    def test_keys_of_inverse_kinematics_that_contradict_each_other(self):
-        one = IK.replace("sweep: {joint_noise_deg: [2, 5]}\n", "")  # methods from line 6 on
-        cases = [
-            ("start: middle\njoint_noise_deg: 3\n",
-             ":9:18: start 'middle' has no 'joint_noise_deg'; allowed with start: disturbed"),
-            ("start: stretched\nposes: 1\n",
-             ":9:8: start 'stretched' has no 'poses'; allowed with start: disturbed, middle"),
-            ("sweep: {together: {start: [middle, stretched], poses: [0.5, 1]}}\n",
-             ":8:61: start 'stretched' has no 'poses'; allowed with start: disturbed, middle"),
-            ("targets: orientation\nunreachable_cm: 5\n", ":9:17: 'unreachable_cm' needs positions; allowed with targets: "),
-            ("targets: [position]\n", ":8:10: 'targets' must be text, found a list"),
-            ("limit_set: AMA\n", ":8:12: unknown limit_set 'AMA'; did you mean 'ama'? Allowed: adult, aaos"),
-            ("record: effector_errors\n", ":8:9: 'record': expected a list, found 'effector_errors'"),
-            ("record: [angle_changes, nonsense]\n", ":8:25: unknown record 'nonsense'. Allowed: effector_errors, "),
-            ("record: []\nrecord: []\n", ":9:1: the key 'record' appears twice here"),
-        ]
-        for lines, says in cases:
-            self.refuses_scenario(one + lines, says=[says])
-
-    def test_settings_of_another_solver(self):
-        cases = [
-            ("weights: fixed",
-             ":7:28: solver 'gauss-newton' (the default) has no 'weights'; allowed with solver: ccd, ccd-hinges, "),
-            ("solver: ccd, memory: 3", ":7:40: solver 'ccd' has no 'memory'; allowed with solver: ccd-anderson"),
-            ("solver: ccd-anderson, memory: 0", ":7:49: 'memory': 0 is out of range; allowed: 1 to 20"),
-            ("first_sweeps: 1.5", ":7:33: 'first_sweeps' must be a whole number, found 1.5"),
-            ("tolerance_deg: 3, tolerance_times_noise: 1", ":7:5: a method has either 'tolerance_deg' or"),
-        ]
-        for method, says in cases:
-            self.refuses_scenario(IK.replace("solver: ccd, weights: fixed", method), says=[says])
-
     def test_clips_that_cannot_be_found_or_read(self):
         scenario = IK.replace("task: ik", "task: transition").replace("sweep: {joint_noise_deg: [2, 5]}\n", "")
         scenario = scenario[: scenario.index("methods:")] + "methods: [{name: now, choice: now}]\n"

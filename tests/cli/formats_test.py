@@ -11,6 +11,19 @@ from etude_case import HEAVY
 from motion_file_case import MotionFileCase
 
 
+def edit_glb(path, change):
+    """Changes the scene of a GLB file; `change` takes it and the file's numbers, and gives more numbers or nothing."""
+    data = path.read_bytes()
+    length = struct.unpack("<I", data[12:16])[0]
+    scene, numbers = json.loads(data[20:20 + length]), data[28 + length:]
+    numbers += change(scene, numbers) or b""
+    scene["buffers"][0]["byteLength"] = len(numbers)
+    text = json.dumps(scene).encode()
+    text += b" " * (-len(text) % 4)
+    path.write_bytes(data[:8] + struct.pack("<II", 28 + len(text) + len(numbers), len(text)) + b"JSON" + text
+                     + struct.pack("<I", len(numbers)) + b"BIN\0" + numbers)
+
+
 class Formats(MotionFileCase):
     def amass(self, name, width, rate_key, compressed, **more):
         frames = 60
@@ -303,23 +316,22 @@ class Formats(MotionFileCase):
         path = self.folder / "a.glb"
         self.ends(0, "clip", "convert", "builtin:sway", path)
         before = self.info(path)["clips"][0]["body"]
-        data = path.read_bytes()
-        length = struct.unpack("<I", data[12:16])[0]
-        scene, rest = json.loads(data[20:20 + length]), data[20 + length:]
         bones = {"left_shoulder": "leftUpperArm", "left_elbow": "leftLowerArm", "left_wrist": "leftHand",
                  "left_hip": "leftUpperLeg", "left_knee": "leftLowerLeg", "left_ankle": "leftFoot"}
         bones |= {role.replace("left", "right"): bone.replace("left", "right") for role, bone in bones.items()}
         bones["shoulder_centre"] = "neck"
-        nodes = {node.get("name"): i for i, node in enumerate(scene["nodes"])}
+        nodes = {}
+
+        def rename(scene, _):
+            nodes.update({node.get("name"): i for i, node in enumerate(scene["nodes"])})
+            for i, node in enumerate(scene["nodes"]):
+                node["name"] = f"X{i}"
+
+        edit_glb(path, rename)
         table = {bone: {"node": nodes[role]} for role, bone in bones.items()}
-        for i, node in enumerate(scene["nodes"]):
-            node["name"] = f"X{i}"
         for extension in ({"VRMC_vrm_animation": {"humanoid": {"humanBones": table}}},
                           {"VRM": {"humanoid": {"humanBones": [{"bone": bone, **node} for bone, node in table.items()]}}}):
-            text = json.dumps(scene | {"extensions": extension}).encode()
-            text += b" " * (-len(text) % 4)
-            size = struct.pack("<II", 12 + 8 + len(text) + len(rest), len(text))
-            path.write_bytes(data[:8] + size[:4] + size[4:] + data[16:20] + text + rest)
+            edit_glb(path, lambda scene, _: scene.update({"extensions": extension}))
             body = self.info(path)["clips"][0]["body"]
             self.assertNotIn("by the skeleton's shape", body["note"])
             for role in bones:
@@ -329,25 +341,22 @@ class Formats(MotionFileCase):
     def test_a_scale_on_the_hips_that_the_rest_pose_has_not_is_undone(self):
         path = self.folder / "a.glb"
         self.ends(0, "clip", "convert", "builtin:sway", path)
-        before, data = self.joints(path), path.read_bytes()
-        length = struct.unpack("<I", data[12:16])[0]
+        before, whole = self.joints(path), path.read_bytes()
         for factor in (0.5, 2, 100):
-            scene, numbers = json.loads(data[20:20 + length]), data[28 + length:]
-            moves = scene["animations"][0]
-            times = moves["samplers"][0]["input"]
-            keys = struct.pack("<3f", *3 * [factor]) * scene["accessors"][times]["count"]
-            scene["bufferViews"].append({"buffer": 0, "byteOffset": len(numbers), "byteLength": len(keys)})
-            scene["accessors"].append(scene["accessors"][times] | {"bufferView": len(scene["bufferViews"]) - 1, "byteOffset": 0, "type": "VEC3"})
-            scene["accessors"][-1].pop("min"), scene["accessors"][-1].pop("max")
-            moves["samplers"].append({"input": times, "output": len(scene["accessors"]) - 1})
-            hips = next(i for i, node in enumerate(scene["nodes"]) if node.get("name") == "hip_centre")
-            moves["channels"].append({"sampler": len(moves["samplers"]) - 1, "target": {"node": hips, "path": "scale"}})
-            scene["buffers"][0]["byteLength"] = len(numbers) + len(keys)
-            text = json.dumps(scene).encode()
-            text += b" " * (-len(text) % 4)
-            sizes = [28 + len(text) + len(numbers) + len(keys), len(text)]
-            path.write_bytes(data[:8] + struct.pack("<II", *sizes) + data[16:20] + text + struct.pack("<I", len(numbers) + len(keys))
-                             + data[24 + length:28 + length] + numbers + keys)
+            def scale(scene, numbers):
+                moves = scene["animations"][0]
+                times = moves["samplers"][0]["input"]
+                keys = struct.pack("<3f", *3 * [factor]) * scene["accessors"][times]["count"]
+                scene["bufferViews"].append({"buffer": 0, "byteOffset": len(numbers), "byteLength": len(keys)})
+                scene["accessors"].append(scene["accessors"][times] | {"bufferView": len(scene["bufferViews"]) - 1, "byteOffset": 0, "type": "VEC3"})
+                scene["accessors"][-1].pop("min"), scene["accessors"][-1].pop("max")
+                moves["samplers"].append({"input": times, "output": len(scene["accessors"]) - 1})
+                hips = next(i for i, node in enumerate(scene["nodes"]) if node.get("name") == "hip_centre")
+                moves["channels"].append({"sampler": len(moves["samplers"]) - 1, "target": {"node": hips, "path": "scale"}})
+                return keys
+
+            path.write_bytes(whole)
+            edit_glb(path, scale)
             note = self.info(path)["clips"][0]["body"]["note"]
             self.assertIn(f"removed scales of the frames that the rest pose does not have; they made the body {factor:g} times as tall", note)
             for a, b in zip(before, self.joints(path)):
@@ -358,12 +367,7 @@ class Formats(MotionFileCase):
         path = self.folder / "a.glb"
         self.ends(0, "clip", "convert", "builtin:sway", path)
         self.assertNotIn("not read", self.info(path)["clips"][0]["body"]["note"])
-        data = path.read_bytes()
-        length = struct.unpack("<I", data[12:16])[0]
-        scene = json.loads(data[20:20 + length]) | {"extensionsUsed": ["KHR_animation_pointer"]}
-        text = json.dumps(scene).encode()
-        text += b" " * (-len(text) % 4)
-        path.write_bytes(data[:8] + struct.pack("<II", len(data) - length + len(text), len(text)) + data[16:20] + text + data[20 + length:])
+        edit_glb(path, lambda scene, _: scene.update({"extensionsUsed": ["KHR_animation_pointer"]}))
         self.assertIn("animations by KHR_animation_pointer are not read", self.info(path)["clips"][0]["body"]["note"])
 
     def turned(self, name, unit=1.0):

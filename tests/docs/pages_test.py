@@ -164,6 +164,13 @@ class Pages(unittest.TestCase):
                 self.assertLessEqual(words(text), 1_200)
                 self.assertIn(f"]({page.name})", listed)
 
+    def test_verdicts_shows_lines_of_what_was_measured(self):
+        page = (ROOT / "docs/findings/verdicts.md").read_text()
+        shown = re.search(r"<!-- verdicts -->\n(.*?)<!-- /verdicts -->", page, re.S)[1].splitlines()
+        published = (ROOT / "docs/figures/verdicts.txt").read_text().splitlines()
+        self.assertGreater(len(shown), 12)
+        self.assertEqual([line for line in shown if line and line not in published], [])
+
     def test_links_lead_somewhere(self):
         dead, count = dead_links(ROOT, [ROOT / name for name in source_files(ROOT) if name.suffix == ".md"])
         self.assertEqual(dead, [])

@@ -6,7 +6,6 @@
 
 #include "bench/tasks/base/answer_fields.h"
 #include "engine/keypoints/people.h"
-#include "io/files/json.h"
 
 namespace etude {
 namespace {

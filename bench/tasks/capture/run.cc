@@ -2,18 +2,15 @@
 
 #include <algorithm>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include "bench/tasks/capture/film.h"
 #include "bench/tasks/capture/silhouettes.h"
 #include "engine/capture/adjust_take.h"
 #include "engine/capture/fit_pose.h"
-#include "engine/capture/recover_frames.h"
 #include "engine/keypoints/adjust_person.h"
 #include "engine/keypoints/people.h"
 #include "engine/keypoints/recover_person.h"
-#include "engine/kinematics/capture_body.h"
 #include "engine/kinematics/start_angles.h"
 #include "engine/motion/rest_body.h"
 #include "engine/unmarked/join_outlines.h"

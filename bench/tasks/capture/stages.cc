@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include "bench/metrics/measurement.h"
@@ -14,7 +13,6 @@
 #include "engine/boards/find_boards.h"
 #include "engine/boards/find_disc.h"
 #include "engine/capture/calibrate_cameras.h"
-#include "engine/capture/measure_frames.h"
 #include "engine/capture/synchronise.h"
 #include "sim/rig/calibration_target.h"
 

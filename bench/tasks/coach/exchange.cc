@@ -247,7 +247,7 @@ Recording RecordCoaching(const CoachStage& stage, const SessionLog& log) {
   }
   extras.beats_s = log.beats_s;
   for (const SensedFrame& frame : log.sensed.frames) extras.joint_states.push_back(StateLetters(frame));
-  return {{{"coach", log.coach}, {"truth", log.learner}, {"sensed", MotionOf(log.sensed)}}, WriteCoachExtras(extras)};
+  return {{{"coach", log.coach}, {"truth", log.learner}, {"sensed", MotionOf(log.sensed)}}, WriteExtras(extras)};
 }
 
 }  // namespace etude

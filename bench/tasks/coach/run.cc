@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string>
-#include <utility>
 
 #include "bench/metrics/coach.h"
 #include "bench/metrics/transition_smoothness.h"

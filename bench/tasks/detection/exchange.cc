@@ -248,7 +248,7 @@ Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdi
     extras.alarms.push_back({repertoire.taught[alarm.move].name, alarm.frame});
   }
   for (const SensedFrame& frame : world.stream.frames) extras.joint_states.push_back(StateLetters(frame));
-  return {{{"truth", world.motion}, {"sensed", MotionOf(verdict.filtered)}}, WriteDetectionExtras(extras)};
+  return {{{"truth", world.motion}, {"sensed", MotionOf(verdict.filtered)}}, WriteExtras(extras)};
 }
 
 }  // namespace etude

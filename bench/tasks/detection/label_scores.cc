@@ -8,7 +8,6 @@
 
 #include "engine/base/named.h"
 #include "engine/recognition/pose_vector.h"
-#include "io/files/json.h"
 
 namespace etude {
 namespace {

@@ -1,8 +1,5 @@
 #include "bench/tasks/detection/options.h"
 
-#include "bench/keys/field_table.h"
-#include "sim/skeleton_sensor/options.h"
-
 namespace etude {
 namespace {
 

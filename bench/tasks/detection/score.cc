@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "bench/metrics/detection.h"
 #include "bench/model/recording.h"
 #include "engine/base/digest.h"
 #include "engine/streams/labels.h"

@@ -10,7 +10,6 @@
 #include "engine/base/named.h"
 #include "sim/choreography/dance_of.h"
 #include "sim/choreography/move.h"
-#include "sim/skeleton_sensor/skeleton_sensor.h"
 
 namespace etude {
 namespace {
@@ -55,7 +54,6 @@ Occluders MakeOccluders(OccluderKind kind, const SensorPlacement& sensor, std::s
   }
   return {};
 }
-
 
 Repertoire RepertoireOf(const ClipLibrary& library) {
   Repertoire repertoire;

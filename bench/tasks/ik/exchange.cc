@@ -99,7 +99,7 @@ Recording RecordIk(const KinematicTree& tree, const IkWorld& world, std::span<co
     auto& target_m = extras.targets_m.emplace_back();
     if (target.position_weight > 0) target_m = target.position;
   }
-  return {{std::move(truth), std::move(start), std::move(solution)}, WriteIkExtras(extras)};
+  return {{std::move(truth), std::move(start), std::move(solution)}, WriteExtras(extras)};
 }
 
 }  // namespace etude

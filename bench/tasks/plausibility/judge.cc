@@ -80,7 +80,7 @@ Recording RecordingOf(BodyInPlace body, const MotionFaults& found) {
     extras.faults.push_back(
         {std::string(FaultName(fault.kind)), fault.text, frame_at(fault.from_s), frame_at(fault.to_s)});
   }
-  return {{{"answer", std::move(body.motion)}}, WritePlausibilityExtras(extras)};
+  return {{{"answer", std::move(body.motion)}}, WriteExtras(extras)};
 }
 
 }  // namespace

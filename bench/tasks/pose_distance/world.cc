@@ -2,7 +2,6 @@
 
 #include <cassert>
 #include <initializer_list>
-#include <vector>
 
 #include "engine/base/angles.h"
 #include "engine/motion/body.h"

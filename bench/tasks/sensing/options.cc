@@ -1,6 +1,5 @@
 #include "bench/tasks/sensing/options.h"
 
-#include "bench/keys/field_table.h"
 #include "bench/tasks/base/sensor_key.h"
 
 namespace etude {

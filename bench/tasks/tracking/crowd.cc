@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "engine/kinematics/body_tree.h"
-#include "engine/kinematics/solvers/gauss_newton.h"
 #include "io/clips/clip_library.h"
 #include "io/clips/references.h"
 #include "sim/choreography/move.h"

@@ -238,7 +238,7 @@ Recording RecordTransition(const TransitionOutcome& outcome, const Stage& stage)
   // The motion shown, and the clips it was made of.
   Recording recording{
       {track("coach", view.shown, 0), track("left", view.left, 0, asked), track("wanted", view.wanted, view.last)},
-      WriteTransitionExtras(extras)};
+      WriteExtras(extras)};
   for (const SupportingClip& clip : view.between) {
     if (!clip.poses.empty()) recording.tracks.push_back(track("through", clip.poses, clip.begin, asked));
   }

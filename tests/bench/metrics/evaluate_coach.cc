@@ -1,5 +1,4 @@
 #include <nlohmann/json.hpp>
-#include <string>
 #include <vector>
 
 #include "bench/metrics/coach.h"

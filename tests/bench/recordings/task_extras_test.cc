@@ -5,6 +5,7 @@
 
 #include "io/files/files.h"
 #include "tests/support/gtest_printers.h"
+#include "tests/support/kept_answers.h"
 #include "tests/support/results.h"
 
 namespace etude {
@@ -12,12 +13,6 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-template <typename Extras>
-std::string ComplaintOfExtras(Result<Extras> (*read)(const std::string&), const std::string& json) {
-  const auto extras = read(json);
-  return extras ? "none" : ToString(extras.error());
-}
 
 DetectionExtras Session() {
   DetectionExtras extras{.moves = {{"clap", {{{"RH", 90, 20.5}}, {{"LH", 10, 5}, {"Trunk", 0, 5}}}}}};
@@ -41,7 +36,7 @@ DetectionExtras Session() {
 TEST(DetectionExtras, AreWrittenInTheOrderOfTheirKeys) {
   DetectionExtras extras = Session();
   extras.events.pop_back();
-  EXPECT_EQ(WriteDetectionExtras(extras),
+  EXPECT_EQ(WriteExtras(extras),
             R"({"format":"etude-detection","version":1,"moves":[{"name":"clap","key_poses":[[{"feature":"RH",)"
             R"("degrees":90.0,"tolerance_deg":20.5}],[{"feature":"LH","degrees":10.0,"tolerance_deg":5.0},)"
             R"({"feature":"Trunk","degrees":0.0,"tolerance_deg":5.0}]]}],"events":[{"move":"clap","truth":"right",)"
@@ -52,38 +47,20 @@ TEST(DetectionExtras, AreWrittenInTheOrderOfTheirKeys) {
 TEST(DetectionExtras, SurviveWritingAndReading) {
   DetectionExtras extras = Session();
   extras.threshold = 0.4;
-  const std::string text = WriteDetectionExtras(extras);
-  ASSERT_OK(read, ReadDetectionExtras(text));
+  const std::string text = WriteExtras(extras);
+  ASSERT_OK(read, ReadExtras<DetectionExtras>(text));
   EXPECT_EQ(read->threshold, 0.4);
   EXPECT_EQ(read->moves[0].key_poses[1][1].feature, "Trunk");
   EXPECT_EQ(read->events[0].called_frame, 7);
   EXPECT_FALSE(read->events[1].called_frame.has_value());
-  EXPECT_EQ(WriteDetectionExtras(*read), text);
+  EXPECT_EQ(WriteExtras(*read), text);
 }
 
 TEST(DetectionExtras, AreRefusedNamingThePlaceWhatWasFoundAndWhatItMeans) {
-  const std::string good = WriteDetectionExtras(Session());
-  const auto with = [&](const std::string& old, const std::string& now) {
-    std::string text = good;
-    text.replace(text.rfind(old), old.size(), now);
-    return ComplaintOfExtras(ReadDetectionExtras, text);
-  };
-  EXPECT_EQ(with("0.25", "0.25"), "none") << "a control";
-  EXPECT_EQ(with("0.25", R"("high")"),
-            R"(events[1].score: "high" is not a number (the method's confidence that it was right))");
-  EXPECT_EQ(with("20.5", "null"),
-            "moves[0].key_poses[0][0].tolerance_deg: null is not a number (largest deviation that is accepted)");
-  EXPECT_THAT(with(R"("end_frame":9)", R"("end":9)"), HasSubstr("events[1].end_frame: it is missing (the first after"));
-  EXPECT_THAT(with(R"("end_frame":9)", R"("end_frame":9.5)"),
-              HasSubstr("events[1].end_frame: 9.5 is not a whole number"));
-  EXPECT_THAT(with(R"("end_frame":9)", R"("end_frame":9e12)"), HasSubstr("allowed: -1000000000…1000000000"));
-  EXPECT_EQ(with(R"(["tin"])", "7"), "joint_states: 7 is not a list");
-  EXPECT_EQ(with(R"({"move":"sway","frame":4})", "7"), "alarms[0]: 7 is not an object");
-  EXPECT_THAT(with(R"("version":1)", R"("version":2)"), HasSubstr("version: 2; allowed: 1"));
-  EXPECT_THAT(with("etude-detection", "etude-coach"),
-              HasSubstr(R"(format: "etude-coach"; allowed: "etude-detection")"));
-  EXPECT_EQ(ComplaintOfExtras(ReadDetectionExtras, "[1]"), "not a JSON object but a list of 1");
-  EXPECT_THAT(ComplaintOfExtras(ReadDetectionExtras, "{"), HasSubstr("not a JSON object: not valid JSON"));
+  EXPECT_TRUE(testing::AnswersAreKept(
+      "tests/bench/recordings/complaints.txt", [good = WriteExtras(Session())](const std::string& edit) {
+        return testing::Refusal(ReadExtras<DetectionExtras>(testing::Edited(good, edit)));
+      }));
 }
 
 TEST(CoachExtras, SurviveWritingAndReading) {
@@ -95,30 +72,31 @@ TEST(CoachExtras, SurviveWritingAndReading) {
   extras.corrections = {8};
   extras.transitions = {9, 12};
   extras.beats_s = {0.5};
-  const std::string text = WriteCoachExtras(extras);
+  const std::string text = WriteExtras(extras);
   EXPECT_THAT(text, HasSubstr(R"(1.0,2.0,3.5]},{"begin_frame":5,"say":"","hint":""}],"decisions")"));
   EXPECT_THAT(text, HasSubstr(R"([{"move":"clap","begin_frame":0,"end_frame":8,"truth":"grey","faults":"none",)"));
-  ASSERT_OK(read, ReadCoachExtras(text));
+  ASSERT_OK(read, ReadExtras<CoachExtras>(text));
   EXPECT_EQ(read->words[0].picture->joints, extras.words[0].picture->joints);
   EXPECT_FALSE(read->words[1].picture.has_value());
   EXPECT_THAT(read->transitions, ElementsAre(9, 12));
-  EXPECT_EQ(WriteCoachExtras(*read), text);
+  EXPECT_EQ(WriteExtras(*read), text);
 }
 
 TEST(IkExtras, TellNullWhereNoPositionIsAskedFor) {
   IkExtras extras{.iterations = {0, 1}, .axis_error_max_deg = {3, 0.5}};
   extras.targets_m = {glm::dvec3(0, 1, 2), std::nullopt};
-  const std::string text = WriteIkExtras(extras);
+  const std::string text = WriteExtras(extras);
   EXPECT_EQ(text, R"({"iterations":[0,1],"position_error_max_cm":[],"orientation_error_max_deg":[],)"
                   R"("axis_error_max_deg":[3.0,0.5],"targets_m":[[0.0,1.0,2.0],null]})");
-  EXPECT_EQ(WriteIkExtras(*ReadIkExtras(text)), text);
+  EXPECT_EQ(WriteExtras(*ReadExtras<IkExtras>(text)), text);
 }
 
 TEST(IkExtras, LeaveEmptyWhateverIsNotWhatItShouldBe) {
-  ASSERT_OK(read, ReadIkExtras(R"({"iterations": [0, "1"], "axis_error_max_deg": [1, 2], "targets_m": [[1, 2]]})"));
+  ASSERT_OK(read,
+            ReadExtras<IkExtras>(R"({"iterations": [0, "1"], "axis_error_max_deg": [1, 2], "targets_m": [[1, 2]]})"));
   EXPECT_TRUE(read->iterations.empty() && read->targets_m.empty());
   EXPECT_THAT(read->axis_error_max_deg, ElementsAre(1, 2));
-  EXPECT_THAT(ComplaintOfExtras(ReadIkExtras, "3"), HasSubstr("not a JSON object"));
+  EXPECT_THAT(testing::Refusal(ReadExtras<IkExtras>("3")), HasSubstr("not a JSON object"));
 }
 
 TEST(TransitionExtras, SurviveWritingAndReading) {
@@ -129,14 +107,14 @@ TEST(TransitionExtras, SurviveWritingAndReading) {
   extras.candidates = {
       {.point = 0, .from_frame = 4, .to_frame = 2, .distance = 0.5, .partials = {}, .cost = {}, .outcome = "taken"}};
   extras.pairs_seen = 900;
-  const std::string text = WriteTransitionExtras(extras);
+  const std::string text = WriteExtras(extras);
   EXPECT_THAT(text, HasSubstr(R"("distance":0.25,"partials":{"RH":0.0,"LH":0.0,)"));
   EXPECT_THAT(text, HasSubstr(R"("pairs_seen":900,"pairs_matched":null)"));
   EXPECT_THAT(text, HasSubstr(R"("partials":null,"cost":null,"outcome":"taken"}]})"));
-  ASSERT_OK(read, ReadTransitionExtras(text));
+  ASSERT_OK(read, ReadExtras<TransitionExtras>(text));
   EXPECT_EQ((*read->points[0].partials)[9], 0.0625);
   EXPECT_EQ(read->candidates, extras.candidates);
-  EXPECT_EQ(WriteTransitionExtras(*read), text);
+  EXPECT_EQ(WriteExtras(*read), text);
 }
 
 TEST(TaskExtras, AreTheOnesThatThePageTellsOf) {

@@ -4,7 +4,6 @@ namespace etude {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 const std::string kOfLibraries = "scenario: s\nquestion: q\ntask: transition\nmethods: [{name: a}]\n";
 
@@ -32,15 +31,6 @@ TEST(Libraries, CanBeAddedOnceToThoseOfTheScenarioAndToNone) {
   Scenario without = ParseOne(kOfLibraries + "clips: ['builtin:*']\nsweep: {threshold: [0.3, 0.4]}\n");
   AddLibraries(extra, without);
   EXPECT_THAT(Labels(without), ElementsAre("library=mine, threshold=0.3", "library=mine, threshold=0.4"));
-}
-
-TEST(Libraries, AreRefusedWhereTheyMakeNoSense) {
-  EXPECT_THAT(Complaint(kOfLibraries + "libraries: [a.bvh]\n"), HasSubstr("'libraries' must map names"));
-  EXPECT_THAT(Complaint(kOfLibraries + "libraries: {}\n"), HasSubstr("'libraries' must map names"));
-  EXPECT_THAT(Complaint(kOfLibraries + "clips: [a.bvh]\nlibraries: {mine: [a.bvh]}\n"),
-              HasSubstr("replaces 'clips'; leave out one of them"));
-  EXPECT_THAT(Complaint(kOfLibraries + "libraries: {'my own': [a.bvh]}\n"), HasSubstr("not a valid name"));
-  EXPECT_THAT(Complaint(kHead + kMethods + "libraries: {mine: [a.bvh]}\n"), HasSubstr("is not used in task ik"));
 }
 
 }  // namespace

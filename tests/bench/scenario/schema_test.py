@@ -128,10 +128,6 @@ class Schema(EtudeCase):
             result = self.etude("run", self.write("s.yaml", text), "-o", self.out)
             self.assertEqual(result.returncode, 2, text + result.stdout + result.stderr)
 
-    def test_the_program_writes_it(self):
-        written = self.etude("list", "keys", "--schema").stdout
-        self.assertEqual(written, (ROOT / "docs" / "schemas" / "scenario.schema.json").read_text())
-
 
 if __name__ == "__main__":
     unittest.main()

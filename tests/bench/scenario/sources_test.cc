@@ -52,47 +52,6 @@ TEST(Sources, LetsASingleScenarioInclude) {
   EXPECT_EQ(scenarios->front().trials, 3);
 }
 
-TEST(Sources, PointsIntoTheFileWhereTheKeyStands) {
-  EXPECT_EQ(Complaint("include: [more.yaml]\n" + kHead + kMethods, {{"more.yaml", "defaults:\n  trials: 0\n"}}),
-            "more.yaml:2:11: 'trials': 0 is out of range; allowed: 1 to 1000000");
-  EXPECT_THAT(Complaint("include: [more.yaml]\n" + kHead + kMethods, {{"more.yaml", "defaults:\n  trails: 1\n"}}),
-              HasSubstr("more.yaml:2:3: unknown key of a scenario 'trails'; did you mean 'trials'?"));
-}
-
-TEST(Sources, TellsWhatIsWrongWithAFileOfSeveralScenarios) {
-  EXPECT_THAT(Complaint("scenarios: []\n"), HasSubstr("s.yaml:1:12: 'scenarios' must be a list of at least one"));
-  EXPECT_THAT(Complaint("scenarios: 1\n"), HasSubstr("found '1'"));
-  EXPECT_THAT(Complaint("scenarios: [1]\n"), HasSubstr("s.yaml:1:13: a scenario must be a mapping"));
-  EXPECT_THAT(Complaint("scenarios: [{include: [a]}]\n"), HasSubstr("'include' belongs at the top level of a file"));
-  EXPECT_THAT(Complaint("default: {trials: 1}\nscenarios: [{}]\n"),
-              HasSubstr("s.yaml:1:1: unknown key of a file of several scenarios 'default'; did you mean 'defaults'?"));
-  EXPECT_THAT(Complaint("scenario: s\nscenarios: [{}]\n"), HasSubstr("unknown key of a file of several scenarios"));
-  EXPECT_THAT(Complaint("defaults: {scenario: s}\nscenarios: [{}]\n"),
-              HasSubstr("s.yaml:1:12: 'scenario' cannot be a default"));
-  EXPECT_THAT(Complaint("defaults: [trials]\nscenarios: [{}]\n"), HasSubstr("'defaults' must be a mapping"));
-  EXPECT_THAT(Complaint("defaults: {trials: 5}\n"), HasSubstr("s.yaml:1:1: no scenario, only 'defaults'"));
-  EXPECT_THAT(Complaint("defaults: {question: q, task: ik, methods: [{name: a}]}\n"
-                        "scenarios: [{scenario: s}, {scenario: s}]\n"),
-              HasSubstr("s.yaml:2:39: two scenarios of this file are named 's'"));
-  EXPECT_THAT(Complaint(""), HasSubstr("a scenario must be a mapping (key: value), found nothing"));
-}
-
-TEST(Sources, TellsWhatIsWrongWithAnInclude) {
-  const auto complaint = [](const std::string& include, const SourceTexts& more) {
-    return Complaint("include: " + include + "\n" + kHead + kMethods, more);
-  };
-  EXPECT_THAT(complaint("a.yaml", {}), HasSubstr("s.yaml:1:10: 'include': expected a list, found 'a.yaml'"));
-  EXPECT_THAT(complaint("[a.yaml]", {}), HasSubstr("s.yaml:1:11: the text of 'a.yaml' is missing"));
-  EXPECT_THAT(complaint("['']", {}), HasSubstr("s.yaml:1:11: the name of a file is empty"));
-  EXPECT_THAT(complaint("[s.yaml]", {}), HasSubstr("s.yaml:1:11: 's.yaml' includes itself"));
-  EXPECT_THAT(complaint("[a.yaml]", {{"a.yaml", "include: [./x/../s.yaml]\n"}}),
-              HasSubstr("a.yaml:1:11: 's.yaml' includes itself"));
-  EXPECT_THAT(complaint("[a.yaml]", {{"a.yaml", "trials: 5\n"}}),
-              HasSubstr("a.yaml:1:1: unknown key of an included file 'trials'. Allowed: include, defaults"));
-  EXPECT_THAT(complaint("[a.yaml]", {{"a.yaml", "- 1\n"}}), HasSubstr("an included file must be a mapping"));
-  EXPECT_THAT(complaint("[a.yaml]", {{"a.yaml", "defaults: {\n"}}), HasSubstr("a.yaml:2:1: not valid YAML"));
-}
-
 TEST(Sources, RefusesAnAvalancheOfIncludes) {
   SourceTexts deep;
   for (int i = 0; i < 50; ++i) deep[fmt::format("{}.yaml", i)] = fmt::format("include: [{}.yaml]\n", i + 1);

@@ -14,8 +14,6 @@ std::vector<std::string> Labels(const std::string& sweep) {
   return labels;
 }
 
-std::string SweepComplaint(const std::string& sweep) { return Complaint(kHead + kMethods + "sweep: " + sweep + "\n"); }
-
 TEST(Sweep, TakesTheProductLastFastest) {
   EXPECT_THAT(Labels("{max_sweeps: [1, 2], noise: [uniform, gaussian]}"),
               ElementsAre("max_sweeps=1, noise=uniform", "max_sweeps=1, noise=gaussian", "max_sweeps=2, noise=uniform",
@@ -72,56 +70,6 @@ TEST(Sweep, StepsThroughParametersTogether) {
             6u);
 }
 
-TEST(Sweep, TellsWhatIsWrongWithAList) {
-  EXPECT_EQ(SweepComplaint("[1]"),
-            "s.yaml:5:8: 'sweep' must map parameters to lists or ranges of values, found a list");
-  EXPECT_THAT(SweepComplaint("{trials: [1]}"), HasSubstr("s.yaml:5:9: 'trials' cannot be swept"));
-  EXPECT_THAT(SweepComplaint("{joint_nose_deg: [1]}"),
-              HasSubstr("s.yaml:5:9: unknown parameter of task ik 'joint_nose_deg'; did you mean 'joint_noise_deg'?"));
-  EXPECT_THAT(SweepComplaint("{poses: []}"), HasSubstr("s.yaml:5:16: 'poses' needs a list of values to sweep over"));
-  EXPECT_THAT(SweepComplaint("{poses: 1}"), HasSubstr("or a range such as {from: 5, to: 20, step: 5}, found '1'"));
-  EXPECT_THAT(SweepComplaint("{poses: [1, 1]}"), HasSubstr("s.yaml:5:20: the value '1' is listed twice"));
-  EXPECT_THAT(SweepComplaint("{poses: [1, 1.0]}"), HasSubstr("s.yaml:5:20: the value '1.0' is listed twice"));
-  EXPECT_THAT(SweepComplaint("{poses: [a/b]}"), HasSubstr("found 'a/b'"));
-  EXPECT_THAT(SweepComplaint("{poses: [[1]]}"), HasSubstr("must be a number or a text, found a list"));
-}
-
-TEST(Sweep, TellsWhatIsWrongWithARange) {
-  const auto complaint = [](const std::string& range) { return SweepComplaint("{poses: " + range + "}"); };
-  EXPECT_THAT(complaint("{from: 1}"), HasSubstr("s.yaml:5:16: a range needs 'to'"));
-  EXPECT_THAT(complaint("{from: a, to: 1, step: 1}"), HasSubstr("s.yaml:5:23: 'from': expected a number, found 'a'"));
-  EXPECT_THAT(complaint("{from: 0, to: 1, stp: 1}"), HasSubstr("unknown key of a range 'stp'; did you mean 'step'?"));
-  EXPECT_THAT(complaint("{from: 0, to: 1}"), HasSubstr("either 'step' or 'count', found neither"));
-  EXPECT_THAT(complaint("{from: 0, to: 1, step: 1, count: 2}"), HasSubstr("either 'step' or 'count', found both"));
-  EXPECT_THAT(complaint("{from: 0, to: 1, step: 0}"), HasSubstr("steps of 0 do not lead from 0 to 1"));
-  EXPECT_THAT(complaint("{from: 0, to: 1, step: -1}"), HasSubstr("steps of -1 do not lead from 0 to 1"));
-  EXPECT_THAT(complaint("{from: 0, to: 0, step: 0}"), HasSubstr("steps of 0 do not lead from 0 to 0"));
-  EXPECT_THAT(complaint("{from: 0, to: 1, step: 1e-300}"), HasSubstr("more than 1000 values"));
-  EXPECT_THAT(complaint("{from: -1e308, to: 1e308, step: 1}"), HasSubstr("too far apart"));
-  EXPECT_THAT(complaint("{from: -1e308, to: 1e308, count: 4}"), HasSubstr("too far apart"));
-  EXPECT_THAT(complaint("{from: 1e-308, to: 1e308, count: 4, scale: log}"), HasSubstr("too far apart"));
-  EXPECT_THAT(complaint("{from: 0, to: 1, count: 1}"), HasSubstr("'count': 1 is out of range; allowed: 2 to 1000"));
-  EXPECT_THAT(complaint("{from: 0, to: 1, count: 2000}"), HasSubstr("allowed: 2 to 1000"));
-  EXPECT_THAT(complaint("{from: 0, to: 1, count: 5, scale: log}"), HasSubstr("'from' and 'to' above 0"));
-  EXPECT_THAT(complaint("{from: 1, to: 2, step: 1, scale: log}"), HasSubstr("'scale: log' needs 'count'"));
-  EXPECT_THAT(complaint("{from: 1, to: 1, count: 2}"), HasSubstr("the value '1' is listed twice"));
-}
-
-TEST(Sweep, TellsWhatIsWrongWithParametersSteppedTogether) {
-  EXPECT_THAT(
-      SweepComplaint("{together: {poses: [1, 0.5], max_sweeps: [1, 2, 3]}}"),
-      HasSubstr(
-          "s.yaml:5:49: 'poses' and 'max_sweeps' are stepped together; they need equally many values, found 2 and 3"));
-  EXPECT_THAT(SweepComplaint("{together: {poses: [1]}}"), HasSubstr("s.yaml:5:19: 'together' needs at least two"));
-  EXPECT_THAT(SweepComplaint("{together: [1, 2]}"), HasSubstr("found '1'"));
-  EXPECT_THAT(SweepComplaint("{together: []}"), HasSubstr("'together' needs at least two"));
-  EXPECT_THAT(SweepComplaint("{poses: [1], together: {poses: [1], max_sweeps: [2]}}"),
-              HasSubstr("'poses' is swept twice"));
-  EXPECT_THAT(SweepComplaint("{together: {poses: [1, 0.5, 1], max_sweeps: [1, 2, 1]}}"),
-              HasSubstr("s.yaml:5:36: the values 'poses=1, max_sweeps=1' are listed twice"));
-  EXPECT_THAT(SweepComplaint("{together: {poses: [1, 2], max_swaps: [1, 2]}}"), HasSubstr("did you mean 'max_sweeps'"));
-}
-
 TEST(Sweep, AllowsAValueToReturnWhereItsPartnerHasChanged) {
   EXPECT_EQ(Labels("{together: {poses: [1, 1], max_sweeps: [1, 2]}}").size(), 2u);
 }
@@ -129,10 +77,8 @@ TEST(Sweep, AllowsAValueToReturnWhereItsPartnerHasChanged) {
 TEST(Sweep, RefusesAHugeSweepBeforeItTakesMemory) {
   std::string values = "0";
   for (int i = 1; i < 5000; ++i) values += fmt::format(",{}", i);
-  EXPECT_THAT(SweepComplaint("{max_sweeps: [" + values + "]}"), HasSubstr("more than 1000 values"));
-  const std::string many = "{from: 0, to: 0.99, step: 0.01}";
-  EXPECT_THAT(SweepComplaint("{poses: " + many + ", joint_noise_deg: " + many + "}"),
-              HasSubstr("more than 1000 conditions"));
+  EXPECT_THAT(Complaint(kHead + kMethods + "sweep: {max_sweeps: [" + values + "]}\n"),
+              HasSubstr("more than 1000 values"));
   // Each condition is a copy of the scenario's mapping.
   EXPECT_THAT(
       Complaint(kHead + kMethods + "clips: [" + values + "]\nsweep: {poses: {from: 0, to: 0.9, step: 0.001}}\n"),

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "bench/scenario/scenario.h"
+#include "bench/scenario/study_of.h"
 #include "bench/statistics/summary.h"
 #include "tests/bench/scenario/parse.h"
 

@@ -1,3 +1,4 @@
+#include "bench/scenario/study_of.h"
 #include "bench/statistics/scenario_table.h"
 
 #include <gmock/gmock.h>

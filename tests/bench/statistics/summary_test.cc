@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/scenario/scenario.h"
+#include "bench/scenario/study_of.h"
 #include "bench/statistics/judging.h"
 #include "tests/bench/scenario/parse.h"
 

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "tests/support/kept_answers.h"
+
 namespace etude::testing {
 namespace {
 
@@ -17,6 +19,18 @@ TEST(KeptLines, NameTheFirstLineThatDiffersAndAreNotWrittenUnasked) {
   EXPECT_TRUE(AreKept({"one", "two"}, path)) << "the file is as it was";
   std::filesystem::remove(path);
   EXPECT_FALSE(AreKept({}, path)) << "there is no file";
+}
+
+TEST(KeptAnswers, AreComparedLineByLine) {
+  const std::string path = ::testing::TempDir() + "kept_answers.txt";
+  const auto answer = [](const std::string& text) { return std::to_string(text.size()); };
+  std::ofstream(path) << "# a\none\n  3\n@ [\\n…]\nfour\n  7\n";
+  EXPECT_TRUE(AnswersAreKept(path, answer));
+  EXPECT_FALSE(AnswersAreKept(path, [](const std::string& text) { return text; }));
+  std::ofstream(path) << "# a\n";
+  EXPECT_FALSE(AnswersAreKept(path, answer)) << "it asks nothing";
+  std::filesystem::remove(path);
+  EXPECT_EQ(Edited("a b a", "a => c"), "c b a");
 }
 
 TEST(ComplaintLines, HoldOneComplaintOfAKind) {

@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include "engine/cameras/opencv_file.h"
 #include "engine/cameras/pairs_file.h"

@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <set>
 #include <string>
-#include <vector>
 
 #include "io/process/child_process.h"
 #include "io/process/fence.h"

@@ -71,7 +71,7 @@ Recording SessionRecording() {
   extras.corrections = {150};
   extras.transitions = {152, 250};
   extras.beats_s = {0.5, 1.0, 4.5, 9.9};
-  return {{{"coach", motion}, {"truth", motion}, {"sensed", motion}}, WriteCoachExtras(extras)};
+  return {{{"coach", motion}, {"truth", motion}, {"sensed", motion}}, WriteExtras(extras)};
 }
 
 /// A recorded cell that stays where it is.

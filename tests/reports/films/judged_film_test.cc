@@ -44,7 +44,7 @@ Recording SessionRecording(bool calls_right) {
   extras.events[1].end_frame = 290;
   if (calls_right) extras.events[0].called_frame = end - 10;
   extras.alarms = {{"sway", 20}};
-  return {{{"truth", motion}, {"sensed", motion}}, WriteDetectionExtras(extras)};
+  return {{{"truth", motion}, {"sensed", motion}}, WriteExtras(extras)};
 }
 
 /// Two methods in one world; the first is right about both.

@@ -29,7 +29,7 @@ Recording RecordSettling(const Settling& cell) {
   for (const Effector& effector : tree.effectors) {
     extras.targets_m.emplace_back(truth[BodyTreeLimbs()[effector.joint].to]);
   }
-  return {{truths, starts, solutions}, WriteIkExtras(extras)};
+  return {{truths, starts, solutions}, WriteExtras(extras)};
 }
 
 }  // namespace

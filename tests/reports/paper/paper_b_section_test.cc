@@ -4,9 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <string_view>
-
 #include "reports/page.h"
 #include "tests/reports/support/count_of.h"
 #include "tests/reports/support/effector_run.h"

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "bench/recordings/evaluation_extras.h"
 #include "bench/recordings/task_extras.h"
@@ -207,7 +206,7 @@ TEST(WorldScript, FaultsOfAMotionAloneAreMarksOnItsFloor) {
   row.task = "plausibility";
   row.clip = "walk 7";
   const PlausibilityExtras extras{.floor_m = 0.3, .faults = {{"floats", "floats 6 cm from 0.10 to 0.20 s", 3, 6}}};
-  run.recordings = {{row.Id(), Recording({{"answer", Walk(10)}}, WritePlausibilityExtras(extras))}};
+  run.recordings = {{row.Id(), Recording({{"answer", Walk(10)}}, WriteExtras(extras))}};
   const auto worlds = RecordedWorlds(run);
   const nlohmann::json json = JsonOf(WorldScript(run, worlds.front()));
   EXPECT_THAT(worlds.front().Name(), testing::HasSubstr("walk 7"));

@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "io/files/files.h"
 #include "io/files/temporary_folder.h"
 #include "io/images/image_files.h"

@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <functional>
 #include <glm/gtc/quaternion.hpp>
-#include <map>
 #include <sstream>
 
 #include "engine/base/angles.h"

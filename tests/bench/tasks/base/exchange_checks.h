@@ -55,16 +55,22 @@ inline std::string ComplaintAbout(TaskWorld& world, const Json& answer) {
   return judged ? "no complaint" : judged.error().message;
 }
 
-/// Why a good answer is refused once `change` was done to it, or "no complaint".
-template <typename Change>
-std::string ComplaintAfter(TaskWorld& world, Json answer, Change change) {
-  change(answer);
+/// The same of a good answer once `value` stands at a place of it ("/events/2/score").
+inline std::string ComplaintWith(TaskWorld& world, Json answer, const char* pointer, const Json& value) {
+  answer[Json::json_pointer(pointer)] = value;
   return ComplaintAbout(world, answer);
 }
 
-/// The same once `value` stands at a place of it ("/events/2/score").
-inline std::string ComplaintWith(TaskWorld& world, Json answer, const char* pointer, const Json& value) {
-  answer[Json::json_pointer(pointer)] = value;
+/// The same of a good answer after an edit "PLACE = VALUE" or "PLACE erased", or of another answer.
+inline std::string ComplaintOfEdit(TaskWorld& world, Json answer, const std::string& edit) {
+  if (!edit.starts_with('/')) return ComplaintAbout(world, Json::parse(edit));
+  const std::size_t end = edit.find(' ');
+  const Json::json_pointer place(edit.substr(0, end));
+  if (edit.substr(end) != " erased") {
+    return ComplaintWith(world, answer, place.to_string().c_str(), Json::parse(edit.substr(end + 3)));
+  }
+  Json& around = answer[place.parent_pointer()];
+  around.is_array() ? around.erase(std::stoul(place.back())) : static_cast<void>(around.erase(place.back()));
   return ComplaintAbout(world, answer);
 }
 

@@ -306,32 +306,5 @@ TEST(CaptureTask, ReadsTheColoursOfASuitWhateverAnAnnotatorWouldErr) {
   }
 }
 
-TEST(CaptureTask, RefusesWhatItDoesNotKnowAndSaysWhatItDoes) {
-  struct Case {
-    const char* yaml;
-    const char* complaint;
-  };
-  for (const Case& c : {
-           Case{"methods: [{name: a, segmenter: hew}]", "did you mean 'hue'"},
-           Case{"methods: [{name: a, solver: cdc}]", "did you mean 'ccd'"},
-           Case{"methods: [{name: a, oracle: [pints]}]", "did you mean 'points'"},
-           Case{"methods: [{name: a, wieghts: fixed}]", "did you mean 'weights'"},
-           Case{"methods: [{name: a, solver: damped-least-squares, weights: fixed}]", "has no 'weights'"},
-           Case{"camera_heights_m: [1]\nmethods: [{name: a}]", "one for each of the 2 cameras"},
-           Case{"calibration_target: boards\ncalibration_pairs: 9\nmethods: [{name: a}]", "has no 'calibration_pairs'"},
-           Case{"camera_angles_deg: [0]\nmethods: [{name: a}]", "it needs 2 to 8"},
-           Case{"figure: own\nmethods: [{name: a}]", "test.yaml:1:9: 'figure: own' needs clips with meshes (glTF)"},
-           Case{"duration_s: -1\nmethods: [{name: a}]", "duration_s"},
-           Case{"methods: [{name: a}, {name: b, marks: colours}]",
-                "test.yaml:1:22: 'marks: colours' reads the colours of a suit; allowed with clothes: coded"},
-           Case{"clothes: coded\nmethods: [{name: a, marks: colours, oracle: [marks]}]", "both say who marks"},
-           Case{"clothes: coded\nmethods: [{name: a, marks: colours, recovery: silhouettes}]", "has no 'marks'"},
-       }) {
-    const auto task = Make(c.yaml);
-    ASSERT_FALSE(task) << c.yaml;
-    EXPECT_THAT(ToString(task.error()), HasSubstr(c.complaint));
-  }
-}
-
 }  // namespace
 }  // namespace etude

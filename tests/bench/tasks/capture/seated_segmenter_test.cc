@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <sstream>
 
 #include "bench/tasks/base/task_kinds.h"
@@ -14,6 +13,7 @@
 #include "engine/vision/change_detection.h"
 #include "io/clips/clip_library.h"
 #include "tests/bench/tasks/base/cell_values.h"
+#include "tests/bench/tasks/base/make_task.h"
 #include "tests/support/results.h"
 
 namespace etude {
@@ -82,11 +82,7 @@ class ImaginedSegmenter final : public LiveProgram {
 /// A world of three frames; the first method is the built-in segmenter, the second leaves it to a program.
 std::unique_ptr<Task> MakeTaskOf(const std::string& methods) {
   static const ClipLibrary clips = *LoadClips({"builtin:boxing"}, {});
-  const Node node = *ParseYaml("{duration_s: 0.1}", "test.yaml");
-  const Node list = *ParseYaml(methods, "methods.yaml");
-  Fields condition(node, "a test");
-  TaskInput input{condition, list.items, clips};
-  auto task = MakeCaptureTaskKind().make(input);
+  auto task = MakeTask(MakeCaptureTaskKind(), "{duration_s: 0.1}", methods, clips);
   EXPECT_TRUE(task) << ToString(task.error());
   return std::move(*task);
 }
@@ -162,22 +158,6 @@ TEST(SeatedSegmenter, IsAskedNoMoreOnceItHasFailed) {
   (void)task->MakeWorld(kSeatWorld, false)->RunWith(program, 0);
   EXPECT_EQ(program.pictures.size(), 1u);
   EXPECT_EQ(program.sessions.size(), 1u);
-}
-
-TEST(SeatedSegmenter, DoesWhatTheMethodMustThereforeNotSay) {
-  const ClipLibrary clips = *LoadClips({"builtin:boxing"}, {});
-  const auto complaint = [&](const std::string& method) {
-    const Node node = *ParseYaml("{duration_s: 0.1}", "test.yaml"), list = *ParseYaml("[" + method + "]", "m.yaml");
-    Fields condition(node, "a test");
-    TaskInput input{condition, list.items, clips};
-    const auto task = MakeCaptureTaskKind().make(input);
-    return task ? std::string("taken") : ToString(task.error());
-  };
-  EXPECT_EQ(complaint("{name: a, seat: segmenter, segmenter: hue}"),
-            "m.yaml:1:40: the program in this seat replaces 'segmenter'");
-  EXPECT_EQ(complaint("{name: a, seat: segmenter, oracle: [segmentation]}"),
-            "m.yaml:1:37: the program in this seat replaces segmentation");
-  EXPECT_EQ(complaint("{name: a, seat: segmenter, oracle: [marks]}"), "taken");
 }
 
 }  // namespace

@@ -10,15 +10,7 @@
 namespace etude {
 namespace {
 
-using ::testing::HasSubstr;
-
-class DetectionCameras : public DetectionFixture {
- protected:
-  static std::string ComplaintAbout(const std::string& yaml) {
-    const auto task = MakeTask(yaml, FourMoves());
-    return task ? "" : ToString(task.error());
-  }
-};
+class DetectionCameras : public DetectionFixture {};
 
 constexpr const char* kTruth = "methods: [{name: truth, oracle: [stream]}]\n";
 
@@ -56,19 +48,6 @@ methods:
     EXPECT_EQ(ValueOf(cells[perfect], "false_alarms_per_min"), ValueOf(cells[0], "false_alarms_per_min"));
   }
   EXPECT_GT(FarthestApart(cells[3], cells[0]), 10 * kTolerance) << "the control";
-}
-
-TEST_F(DetectionCameras, HaveKeysThatNoOtherSensorHasAndTheOtherWayRound) {
-  EXPECT_THAT(ComplaintAbout(std::string("scene: 0.5\n") + kTruth), HasSubstr("cameras"));
-  EXPECT_THAT(ComplaintAbout(std::string("sensor: v1\ncamera_angles_deg: [0, 40]\n") + kTruth), HasSubstr("cameras"));
-  EXPECT_THAT(ComplaintAbout(std::string("sensor: cameras\nnoise: 2\n") + kTruth), HasSubstr("skeleton sensors"));
-  EXPECT_THAT(ComplaintAbout("methods: [{name: a, capture: {causal: true}}]\n"), HasSubstr("needs cameras"));
-  EXPECT_THAT(ComplaintAbout("sensor: cameras\nmethods: [{name: a, capture: {marks: colours}}]\n"),
-              HasSubstr("allowed with clothes: coded"));
-  EXPECT_THAT(ComplaintAbout("sensor: cameras\nmethods: [{name: a, capture: {recovery: bundle, causal: true}}]\n"),
-              HasSubstr("causal"));
-  EXPECT_THAT(ComplaintAbout("sensor: cameras\ncamera_heights_m: [1]\n" + std::string(kTruth)), HasSubstr("heights"));
-  EXPECT_EQ(ComplaintAbout(std::string("sensor: cameras\nscene: 0.5\npicture_every: 3\n") + kTruth), "");
 }
 
 TEST_F(DetectionCameras, TellNoStreamToMethodsOutside) {

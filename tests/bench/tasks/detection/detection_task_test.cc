@@ -101,32 +101,5 @@ TEST_F(DetectionTask, CreditsAMethodWithoutAnswerWithTheMissesItMade) {
   EXPECT_EQ(all_wrong->ValueOfFailure("recall"), std::nullopt) << "nothing could be missed";
 }
 
-struct BadScenario {
-  const char* yaml;
-  const char* complaint;
-};
-
-TEST_F(DetectionTask, RefusesWhatItDoesNotKnowAndSaysWhatIsAllowed) {
-  const std::vector<BadScenario> cases = {
-      {"methods:\n  - {name: a, filter: hold}\n", "'holt'"},
-      {"methods:\n  - {name: a, recogniser: keypose}\n", "key-pose"},
-      {"methods:\n  - {name: a, beta_per_m: 2}\n", "one-euro"},
-      {"methods:\n  - {name: a, weights: adaptiv}\n", "'adaptive'"},
-      {"methods:\n  - {name: a, treshold: 0.5}\n", "threshold"},
-      {"methods:\n  - {name: a, weights: fixed, inferred_weight: 0.5}\n", "inferred_weight"},
-      {"methods:\n  - {name: a, oracle: [steam]}\n", "'stream'"},
-      {"noise: -1\nmethods:\n  - {name: a}\n", "-1"},
-      {"turn_deg: east\nmethods:\n  - {name: a}\n", "east"},
-  };
-  for (const BadScenario& bad : cases) {
-    const auto task = MakeTask(bad.yaml, FourMoves());
-    ASSERT_FALSE(task) << bad.yaml;
-    EXPECT_NE(task.error().message.find(bad.complaint), std::string::npos) << task.error().message;
-    EXPECT_GT(task.error().place.line, 0) << bad.yaml;
-  }
-  EXPECT_FALSE(MakeTask("methods:\n  - {name: a}\n", ClipLibrary{}));
-  EXPECT_TRUE(MakeTask("methods:\n  - {name: a}\n", FourMoves()));  // control
-}
-
 }  // namespace
 }  // namespace etude

@@ -9,6 +9,7 @@
 #include "bench/tasks/detection/score.h"
 #include "engine/base/named.h"
 #include "tests/bench/tasks/base/exchange_checks.h"
+#include "tests/support/kept_answers.h"
 #include "tests/bench/tasks/detection/detection_fixture.h"
 
 namespace etude {
@@ -161,25 +162,18 @@ TEST_F(DetectionExchange, RefusesAWrongAnswerAndNamesThePlace) {
   Json good = AnswerOf(world->Run(0));
   good["alarms"] = {{{"move", "clap"}, {"frame", 3}}};
   ASSERT_EQ(ComplaintAbout(*world, good), "no complaint");  // the control
+  EXPECT_TRUE(testing::AnswersAreKept("tests/bench/tasks/detection/complaints.txt", [&](const std::string& edit) {
+    return ComplaintOfEdit(*world, good, edit);
+  }));
   const Json asked = (*world->MakeProblem()->json)["events"][2];
   const auto complaint = [&](const char* pointer, const Json& value) {
     return ComplaintWith(*world, good, pointer, value);
   };
-  EXPECT_EQ(complaint("/events", Json::array()), "events: 0 entries, not 6");
-  EXPECT_EQ(complaint("/events/2/score", "high"), "events[2].score: \"high\" is not a finite number");
   EXPECT_EQ(complaint("/events/2/score", std::numeric_limits<double>::infinity()),
             "events[2].score: inf is not a finite number");
-  EXPECT_EQ(complaint("/events/2/score", 1e12), "events[2].score: 1000000000000.0; allowed: -1e+09…1e+09");
   EXPECT_EQ(complaint("/events/2/right_at_frame", asked["end_frame"]),
             "events[2].right_at_frame: " + asked["end_frame"].dump() + "; allowed: " + asked["begin_frame"].dump() +
                 "…" + std::to_string(asked["end_frame"].get<int>() - 1));
-  EXPECT_EQ(complaint("/events/2/right_at_frame", 40.5), "events[2].right_at_frame: 40.5 is not a whole number");
-  EXPECT_THAT(complaint("/events/2/rigth", true), HasSubstr("events[2]: unknown key 'rigth'"));
-  EXPECT_EQ(complaint("/events/3", Json()), "events[3]: null is not an object");
-  EXPECT_THAT(complaint("/alarms/0/move", "waltz"), HasSubstr("alarms[0].move: \"waltz\"; allowed: boxing, clap"));
-  EXPECT_THAT(complaint("/alarms/0/frame", 1000000), HasSubstr("alarms[0].frame: 1000000; allowed: 0…"));
-  EXPECT_EQ(complaint("/alarms", 4), "alarms: 4 is not a list");
-  EXPECT_EQ(ComplaintAbout(*world, Json("right")), "the answer: \"right\" is not an object");
 }
 
 TEST_F(DetectionExchange, RefusesOrScoresWhateverIsSaid) {

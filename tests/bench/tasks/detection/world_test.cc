@@ -10,8 +10,6 @@
 namespace etude {
 namespace {
 
-using ::testing::HasSubstr;
-
 class DetectionWorldTest : public DetectionFixture {
  protected:
   static DetectionWorld Make(const SessionOptions& session, int trial) {
@@ -19,10 +17,6 @@ class DetectionWorldTest : public DetectionFixture {
   }
   static double HeadHeight(const DetectionWorld& world) {
     return world.motion.poses.front().joints[Index(Role::kHead)].y;
-  }
-  static std::string ComplaintAbout(const std::string& keys) {
-    const auto task = MakeTask(keys + "methods: [{name: a}]\n", FourMoves());
-    return task ? "no complaint" : ToString(task.error());
   }
 };
 
@@ -56,13 +50,6 @@ TEST_F(DetectionWorldTest, WorseFaultsLeaveFewerRight) {
   EXPECT_LT(right(0.3), 16);
   EXPECT_LT(right(0.6), right(0.3));
   EXPECT_EQ(right(1), 0);
-}
-
-TEST_F(DetectionWorldTest, RefusesPeopleAndFaultsThatDoNotExist) {
-  EXPECT_EQ(ComplaintAbout("people: toddler\nseverity: 0.4\nfaults: [late, wrong_side]\n"), "no complaint");
-  EXPECT_THAT(ComplaintAbout("people: giant\n"), HasSubstr("school-child"));
-  EXPECT_THAT(ComplaintAbout("faults: [lat]\n"), HasSubstr("late"));
-  EXPECT_THAT(ComplaintAbout("severity: 1.5\n"), HasSubstr("severity"));
 }
 
 }  // namespace

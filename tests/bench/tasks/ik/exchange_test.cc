@@ -13,6 +13,8 @@
 #include "io/clips/clip_library.h"
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/bench/tasks/base/exchange_checks.h"
+#include "tests/bench/tasks/base/make_task.h"
+#include "tests/support/kept_answers.h"
 #include "tests/support/results.h"
 
 namespace etude {
@@ -24,11 +26,7 @@ const WorldKey kExchangeWorld{.suite_seed = 1, .scenario = "exchange", .trial = 
 constexpr int kMaxSteps = 200;
 
 std::unique_ptr<Task> MakeIkTask(const std::string& condition = "{}") {
-  const Node node = *ParseYaml(condition, "test.yaml");
-  Fields fields(node, "an ik scenario");
-  const ClipLibrary no_clips;
-  TaskInput input{fields, {}, no_clips};
-  return std::move(*MakeIkTaskKind().make(input));
+  return *MakeTask(MakeIkTaskKind(), condition);
 }
 
 // What a stranger would write who knows nothing but the words of exchange.h: plain lists of rows.
@@ -196,16 +194,11 @@ TEST(IkExchange, RefusesWhatIsNoAnswerNamingThePlaceInIt) {
   const auto task = MakeIkTask();
   const auto world = task->MakeWorld(kExchangeWorld, false);
   const Json good = *world->MakeTruth()->json;
-  const auto complaint = [&](auto change) { return ComplaintAfter(*world, good, change); };
-  EXPECT_EQ(complaint([](Json&) {}), "no complaint");
-  EXPECT_THAT(complaint([](Json& a) { a = 3; }), HasSubstr("not an object"));
-  EXPECT_THAT(complaint([](Json& a) { a.erase("angles_deg"); }), HasSubstr("angles_deg"));
-  EXPECT_THAT(complaint([](Json& a) { a["angles_deg"].push_back(0); }), HasSubstr("30 entries, not 29"));
-  EXPECT_THAT(complaint([](Json& a) { a["angles_deg"][3] = "high"; }), HasSubstr("angles_deg[3]"));
-  EXPECT_THAT(complaint([](Json& a) { a["angles_deg"][3] = std::nan(""); }), HasSubstr("angles_deg[3]"));
-  EXPECT_THAT(complaint([](Json& a) { a["angles_deg"][3] = 1e300; }), HasSubstr("angles_deg[3]"));
-  EXPECT_THAT(complaint([](Json& a) { a["iterations"] = -1; }), HasSubstr("iterations"));
-  EXPECT_THAT(complaint([](Json& a) { a["iteration"] = 1; }), HasSubstr("did you mean 'iterations'"));
+  EXPECT_EQ(ComplaintAbout(*world, good), "no complaint");
+  EXPECT_TRUE(testing::AnswersAreKept("tests/bench/tasks/ik/complaints.txt", [&](const std::string& edit) {
+    return ComplaintOfEdit(*world, good, edit);
+  }));
+  EXPECT_THAT(ComplaintWith(*world, good, "/angles_deg/3", std::nan("")), HasSubstr("angles_deg[3]"));
 }
 
 TEST(IkExchange, CreditsNoAnswerWithAFailure) {

@@ -3,7 +3,8 @@
 
 #include "bench/metrics/catalogue.h"
 #include "bench/tasks/base/task_kinds.h"
-#include "io/clips/clip_library.h"
+#include "tests/bench/tasks/base/cell_values.h"
+#include "tests/bench/tasks/base/make_task.h"
 #include "tests/support/results.h"
 #include "tests/support/run_world.h"
 
@@ -19,26 +20,10 @@ constexpr char kMethods[] = R"(
 )";
 
 Result<std::unique_ptr<Task>> Make(const std::string& condition, const std::string& methods = kMethods) {
-  const Node condition_node = *ParseYaml(condition, "test.yaml");
-  const Node method_node = *ParseYaml(methods, "methods.yaml");
-  Fields fields(condition_node, "an ik scenario");
-  const ClipLibrary no_clips;
-  TaskInput input{fields, method_node.items, no_clips};
-  return MakeIkTaskKind().make(input);
+  return MakeTask(MakeIkTaskKind(), condition, methods);
 }
 
-std::string ComplaintOf(const std::string& condition, const std::string& methods = kMethods) {
-  const auto task = Make(condition, methods);
-  return task ? "" : ToString(task.error());
-}
-
-double Metric(const CellResult& cell, const std::string& id) {
-  for (const MetricValue& metric : cell.metrics) {
-    if (metric.id == id) return metric.value.value();
-  }
-  ADD_FAILURE() << "no metric " << id;
-  return 0;
-}
+double Metric(const CellResult& cell, const std::string& id) { return ValueOf(cell, id).value(); }
 
 const WorldKey kWorld{.suite_seed = 1, .scenario = "test", .trial = 0};
 
@@ -143,35 +128,6 @@ TEST(IkTask, KeepsTheSeriesThatAScenarioAsksFor) {
   EXPECT_THAT(names("{}"), ::testing::ElementsAre("position_error_max_cm", "orientation_error_max_deg"));
   EXPECT_EQ(names("{record: [effector_errors, angle_changes, effector_curves]}").size(), 2u + 12 + 2 + 16);
   EXPECT_THAT(names("{record: [angle_changes]}"), ::testing::Contains("angle_error_deg"));
-}
-
-TEST(IkTask, RefusesWhatItDoesNotKnowAndSaysWhereItStands) {
-  EXPECT_THAT(ComplaintOf("{joint_noise_deg: -3}"), HasSubstr("test.yaml:1:19"));
-  EXPECT_THAT(ComplaintOf("{poses: {unifrom: 0.5}}"), HasSubstr("uniform"));
-  EXPECT_THAT(ComplaintOf("{poses: {uniform: 2}}"), HasSubstr("0 to 1"));
-  EXPECT_THAT(ComplaintOf("{noise: pink}"), HasSubstr("gaussian"));
-  EXPECT_THAT(ComplaintOf("{}", "[{name: a, solver: cdc}]"), HasSubstr("did you mean 'ccd'"));
-  EXPECT_THAT(ComplaintOf("{}", "[{name: a, solver: ccd, weights: adaptiv}]"), HasSubstr("did you mean 'adaptive'"));
-  EXPECT_THAT(ComplaintOf("{}", "[{name: a, wieghts: fixed}]"), HasSubstr("weights"));
-  EXPECT_THAT(ComplaintOf("{}", "[{name: a, solver: damped-least-squares, weights: fixed}]"),
-              HasSubstr("has no 'weights'; allowed with solver: ccd, ccd-hinges, ccd-anderson"));
-  EXPECT_THAT(ComplaintOf("{}", "[{name: a, tolerance_deg: 1, tolerance_times_noise: 1}]"), HasSubstr("either"));
-  EXPECT_EQ(ComplaintOf("{poses: 0.7, noise: uniform, joint_noise_deg: 25, stop_at: tight}"), "");
-}
-
-TEST(IkTask, RefusesKeysThatMeanNothingWhereItStarts) {
-  EXPECT_THAT(ComplaintOf("{start: middle, joint_noise_deg: 3}"),
-              HasSubstr("1:34: start 'middle' has no 'joint_noise_deg'; allowed with start: disturbed"));
-  EXPECT_THAT(ComplaintOf("{start: stretched, poses: 1}"), HasSubstr("has no 'poses'"));
-  EXPECT_THAT(ComplaintOf("{start: stretched, unreachable_cm: 1}"), HasSubstr("has no 'unreachable_cm'"));
-  EXPECT_THAT(ComplaintOf("{start: middle}", "[{name: a, tolerance_times_noise: 1}]"),
-              HasSubstr("needs noise; allowed with start: disturbed"));
-  EXPECT_THAT(ComplaintOf("{targets: orientation, unreachable_cm: 1}"),
-              HasSubstr("1:40: 'unreachable_cm' needs positions"));
-  EXPECT_THAT(ComplaintOf("{limit_set: hopenfeld}"), HasSubstr("did you mean 'hoppenfeld'"));
-  EXPECT_THAT(ComplaintOf("{record: [angle_changes, effector_error]}"),
-              HasSubstr("1:26: unknown record 'effector_error'; did you mean 'effector_errors'"));
-  EXPECT_EQ(ComplaintOf("{start: stretched, limit_set: ama, record: [angle_changes]}"), "");
 }
 
 TEST(IkTask, JudgesOnlyWhatIsAskedFor) {

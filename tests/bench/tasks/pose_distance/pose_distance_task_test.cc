@@ -132,14 +132,5 @@ TEST_F(PoseDistanceTask, AnswersThatDoNotFitAreRefusedByName) {
   EXPECT_THAT(complaint({{"distances", {0.3}}, {"alike", {true}}, {"mood", 1}}), HasSubstr("mood"));
 }
 
-TEST_F(PoseDistanceTask, RefusesWhatCannotBeAsked) {
-  EXPECT_THAT(testing::Refusal(Make("{pairs: frames}", "{name: fuzzy}", Clips({"clap", "clap"}))),
-              HasSubstr("two different ones at least"));
-  EXPECT_THAT(testing::Refusal(Make("{pairs: blindspots, pairs_per_world: 5}", "{name: fuzzy}", {})),
-              HasSubstr("has no 'pairs_per_world'"));
-  const auto weighted = Make("{}", "{name: cloud, distance: point-cloud, weights: adaptive}", {});
-  EXPECT_FALSE(weighted) << "joints have no weights";
-}
-
 }  // namespace
 }  // namespace etude

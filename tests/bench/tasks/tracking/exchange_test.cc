@@ -11,7 +11,9 @@
 #include "engine/kinematics/body_tree.h"
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/bench/tasks/base/exchange_checks.h"
+#include "tests/bench/tasks/base/make_task.h"
 #include "tests/bench/tasks/tracking/some_clips.h"
+#include "tests/support/kept_answers.h"
 #include "tests/support/results.h"
 
 namespace etude {
@@ -23,11 +25,7 @@ const WorldKey kTrackedWorld{.suite_seed = 1, .scenario = "exchange", .trial = 0
 constexpr double kRate = 30;
 
 std::unique_ptr<Task> MakeTrackingTask(const std::string& condition = "{duration_s: 0.5}") {
-  const Node node = *ParseYaml(condition, "test.yaml");
-  Fields fields(node, "a tracking scenario");
-  const ClipLibrary clips{{BuiltinClipOf("builtin:boxing")}};
-  TaskInput input{fields, {}, clips};
-  return std::move(*MakeTrackingTaskKind().make(input));
+  return *MakeTask(MakeTrackingTaskKind(), condition, "[]", {{BuiltinClipOf("builtin:boxing")}});
 }
 
 TEST(TrackingExchange, TellsTheBodyOnceAndEveryFramesRootAndTargets) {
@@ -109,18 +107,10 @@ TEST(TrackingExchange, RefusesWhatIsNoAnswerNamingThePlaceInIt) {
   const auto task = MakeTrackingTask();
   const auto world = task->MakeWorld(kTrackedWorld, false);
   const Json good = *world->MakeTruth()->json;
-  const auto complaint = [&](auto change) { return ComplaintAfter(*world, good, change); };
-  EXPECT_EQ(complaint([](Json&) {}), "no complaint");
-  EXPECT_THAT(complaint([](Json& a) { a = 3; }), HasSubstr("not an object"));
-  EXPECT_THAT(complaint([](Json& a) { a.erase("angles_deg"); }), HasSubstr("angles_deg"));
-  EXPECT_THAT(complaint([](Json& a) { a["angles_deg"].erase(2); }), HasSubstr("14 entries, not 15"));
-  EXPECT_THAT(complaint([](Json& a) { a["angles_deg"][2].erase(3); }), HasSubstr("angles_deg[2]: 28 numbers, not 29"));
-  EXPECT_THAT(complaint([](Json& a) { a["angles_deg"][2][3] = "high"; }), HasSubstr("angles_deg[2][3]"));
-  EXPECT_THAT(complaint([](Json& a) { a["angles_deg"][2][3] = 1e300; }), HasSubstr("angles_deg[2][3]"));
-  EXPECT_THAT(complaint([](Json& a) { a["iterations"] = {1, 2}; }), HasSubstr("iterations: 2 numbers, not 15"));
-  EXPECT_THAT(complaint([](Json& a) { a["iterations"] = std::vector<double>(15, 0.5); }),
-              HasSubstr("iterations[0]: 0.5 is not a whole number"));
-  EXPECT_THAT(complaint([](Json& a) { a["iteration"] = 1; }), HasSubstr("did you mean 'iterations'"));
+  EXPECT_EQ(ComplaintAbout(*world, good), "no complaint");
+  EXPECT_TRUE(testing::AnswersAreKept("tests/bench/tasks/tracking/complaints.txt", [&](const std::string& edit) {
+    return ComplaintOfEdit(*world, good, edit);
+  }));
 }
 
 TEST(TrackingExchange, ScoresOrRefusesWhateverIsSaid) {

@@ -7,6 +7,7 @@
 #include "engine/base/angles.h"
 #include "engine/kinematics/body_tree.h"
 #include "tests/bench/tasks/base/cell_values.h"
+#include "tests/bench/tasks/base/make_task.h"
 #include "tests/bench/tasks/tracking/some_clips.h"
 #include "tests/support/results.h"
 #include "tests/support/run_world.h"
@@ -25,17 +26,8 @@ constexpr char kMethods[] = R"(
 )";
 
 Result<std::unique_ptr<Task>> Make(const std::string& condition, const std::string& methods = kMethods,
-                                   ClipLibrary clips = {{BuiltinClipOf("builtin:clap")}}) {
-  const Node condition_node = *ParseYaml(condition, "test.yaml");
-  const Node method_node = *ParseYaml(methods, "methods.yaml");
-  Fields fields(condition_node, "a tracking scenario");
-  TaskInput input{fields, method_node.items, clips};
-  return MakeTrackingTaskKind().make(input);
-}
-
-std::string ComplaintOf(const std::string& condition, const std::string& methods = kMethods) {
-  const auto task = Make(condition, methods);
-  return task ? "" : ToString(task.error());
+                                   const ClipLibrary& clips = {{BuiltinClipOf("builtin:clap")}}) {
+  return MakeTask(MakeTrackingTaskKind(), condition, methods, clips);
 }
 
 const std::vector<double>& SeriesOf(const CellResult& cell, std::string_view name) {
@@ -184,17 +176,6 @@ TEST(TrackingTask, SkipsAClipThatIsTooShort) {
   const CellResult cell = RunWorld(**task, kWorld, 3)[1];
   EXPECT_EQ(cell.status, Status::kSkipped);
   EXPECT_THAT(cell.reason, HasSubstr("tracking needs 4"));
-}
-
-TEST(TrackingTask, RefusesWhatItDoesNotKnowAndSaysWhereItStands) {
-  EXPECT_THAT(ComplaintOf("{rate_hz: 60}"), HasSubstr("test.yaml:1:11"));
-  EXPECT_THAT(ComplaintOf("{duration_s: 0.1, rate_hz: 10}"), HasSubstr("0.1 s at 10 Hz are 1 frame; at least 4"));
-  EXPECT_THAT(ComplaintOf("{stop_at: now}"), HasSubstr("practical"));
-  EXPECT_THAT(ComplaintOf("{}", "[{name: a, start: hot}]"), HasSubstr("warm, cold"));
-  EXPECT_THAT(ComplaintOf("{}", "[{name: a, solver: cdc}]"), HasSubstr("did you mean 'ccd'"));
-  EXPECT_THAT(ComplaintOf("{}", "[{name: a, strat: warm}]"), HasSubstr("start"));
-  EXPECT_THAT(testing::Refusal(Make("{}", kMethods, {})), HasSubstr("needs clips"));
-  EXPECT_EQ(ComplaintOf("{rate_hz: 10, target_noise_deg: 3, stop_at: tight}", "[{name: a, tolerance_deg: 3}]"), "");
 }
 
 }  // namespace

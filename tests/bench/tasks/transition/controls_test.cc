@@ -6,7 +6,6 @@
 #include <cmath>
 #include <functional>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "bench/metrics/transition_smoothness.h"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "bench/metrics/transition_smoothness.h"
@@ -12,6 +11,7 @@
 #include "engine/motion/body.h"
 #include "engine/transitions/choices/choice.h"
 #include "tests/bench/tasks/base/exchange_checks.h"
+#include "tests/support/kept_answers.h"
 #include "tests/bench/tasks/transition/transition_fixture.h"
 
 namespace etude {
@@ -216,39 +216,22 @@ TEST_F(TransitionExchange, RefusesAWrongAnswerAndNamesThePlace) {
   const Json clip = (*task_->Setting()->json)["clips"][problem["from"].get<int>()]["poses"];
   const Json good = {{"leave_frame", request}, {"enter_frame", 3}, {"between", {clip[request], clip[request]}}};
   ASSERT_EQ(ComplaintAbout(*world, good), "no complaint");  // the control
+  EXPECT_TRUE(testing::AnswersAreKept("tests/bench/tasks/transition/complaints.txt", [&](const std::string& edit) {
+    return ComplaintOfEdit(*world, good, edit);
+  }));
   const auto complaint = [&](const char* pointer, const Json& value) {
     return ComplaintWith(*world, good, pointer, value);
   };
   EXPECT_EQ(complaint("/leave_frame", 100000),
             "leave_frame: 100000; allowed: " + std::to_string(request) + "…" + std::to_string(clip.size() - 1));
   EXPECT_THAT(complaint("/leave_frame", request - 1), HasSubstr("leave_frame: "));
-  EXPECT_EQ(complaint("/leave_frame", "soon"), "leave_frame: \"soon\" is not a whole number");
-  EXPECT_EQ(complaint("/enter_frame", 3.5), "enter_frame: 3.5 is not a whole number");
-  EXPECT_THAT(complaint("/enter_frame", -1), HasSubstr("enter_frame: -1; allowed: 0…"));
-  EXPECT_THAT(complaint("/join", "glue"), HasSubstr("join: \"glue\"; allowed: cut, "));
-  EXPECT_EQ(complaint("/join", "inertialised-spring"), "no complaint");
-  EXPECT_EQ(complaint("/between_start", {1, 2}), "between_start: 2 numbers, not 60");
   EXPECT_EQ(ComplaintAbout(*world, {{"leave_frame", request}, {"enter_frame", 3}, {"between_start", clip[0]}}),
             "between_start: only together with 'between'");
-  EXPECT_EQ(complaint("/matched", 1), "matched: 1; allowed: true, false");
-  EXPECT_THAT(complaint("/entr_frame", 1), HasSubstr("unknown key 'entr_frame'; did you mean 'enter_frame'?"));
-  EXPECT_EQ(complaint("/between", 7), "between: 7 is not a list");
-  EXPECT_EQ(complaint("/between/1", Json::array({1, 2})), "between[1]: 2 numbers, not 60");
-  EXPECT_EQ(complaint("/between/1/7", nullptr), "between[1][7]: null is not a finite number");
-  EXPECT_EQ(complaint("/between/0/59", std::numeric_limits<double>::quiet_NaN()),
-            "between[0][59]: nan is not a finite number");
-  EXPECT_EQ(complaint("/between/0/0", 1e30), "between[0][0]: 1e+30; allowed: -1000…1000");
+  EXPECT_EQ(complaint("/between/0/59", std::nan("")), "between[0][59]: nan is not a finite number");
   EXPECT_THAT(complaint("/between/1/9", clip[request][9].get<double>() + 0.3), HasSubstr("between[1]: head is 0."));
   EXPECT_EQ(complaint("/between", Json(std::vector<Json>(301, clip[0]))), "between: 301 entries; allowed: 0…300");
   EXPECT_EQ(complaint("/through", {{{"clip", 99}, {"enter_frame", 0}, {"leave_frame", 9}}}),
             "through[0].clip: 99; allowed: 0…" + std::to_string(library_.clips.size() - 1));
-  EXPECT_EQ(complaint("/through", {{{"clip", 1}, {"enter_frame", 5}, {"leave_frame", 5}}}).substr(0, 36),
-            "through[0].leave_frame: 5; allowed: ");
-  EXPECT_EQ(complaint("/through", {{{"clip", 1}, {"enter_frame", 0}, {"leave_frame", 9}}}),
-            "through: not together with 'between'");
-  EXPECT_EQ(ComplaintAbout(*world, Json::array({1, 2})), "the answer: a list of 2 is not an object");
-  EXPECT_EQ(ComplaintAbout(*world, {{"enter_frame", 1}}), "leave_frame: it is missing");
-  EXPECT_EQ(ComplaintAbout(*world, {{"unsolved", ""}}), "unsolved: \"\" is not a text");
 }
 
 TEST_F(TransitionExchange, RefusesOrScoresWhateverIsSaid) {

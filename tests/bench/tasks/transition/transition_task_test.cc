@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -229,22 +228,6 @@ TEST_F(TransitionTaskTest, RecordsTheTransitionWithWhatExplainsIt) {
     double weights = 0;
     for (const auto& [feature, weight] : told["weights"].items()) weights += weight.get<double>();
     EXPECT_NEAR(weights, kWeightSum, 1e-12);
-  }
-}
-
-TEST_F(TransitionTaskTest, ComplainsAboutUnknownNames) {
-  const auto wrong = Make("methods: [{name: x, choice: fuzy-bridge}]", SmallLibrary());
-  ASSERT_FALSE(wrong);
-  EXPECT_THAT(ToString(wrong.error()), HasSubstr("fuzzy-bridge"));
-  EXPECT_THAT(ToString(wrong.error()), HasSubstr("scenario.yaml:1:"));
-  EXPECT_FALSE(Make("methods: [{name: x, join: glue}]", SmallLibrary()));
-  EXPECT_FALSE(Make("methods: [{name: x, treshold: 1}]", SmallLibrary()));
-  EXPECT_FALSE(Make("methods: [{name: x, threshold: -1}]", SmallLibrary()));
-  for (const char* misplaced :
-       {"choice: now, threshold: 0.3", "choice: now, pick: smallest", "join: cut, blend_s: 0.2"}) {
-    const auto task = Make(fmt::format("methods: [{{name: x, {}}}]", misplaced), SmallLibrary());
-    ASSERT_FALSE(task) << misplaced;
-    EXPECT_THAT(ToString(task.error()), HasSubstr("; allowed with ")) << misplaced;
   }
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <functional>
+#include <array>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -79,10 +80,6 @@ VerdictRates MeasureVerdicts(const SampleDesign& design, const VerdictRepetition
 /// of 0, 0.5 and 0.9 × every law of worlds; 60 worlds drawn from two units each, of 6, 8, 12 and 30; then uneven units:
 /// one world each of 6 to 60 units.
 std::vector<SampleDesign> PublishedDesigns();
-
-/// Measures each design. Calls `done` after each with the number of designs measured so far.
-std::vector<VerdictRates> MeasureAll(std::span<const SampleDesign> designs, const VerdictRepetitions& repetitions,
-                                     const std::function<void(std::size_t)>& done);
 
 /// Returns true if the verdicts of a design keep the promise, as far as the samples of `designs` designs can tell:
 ///   - false alarms do not exceed 5 % (6 % for laws of units): a binomial test finds no excess, at a level of 5 % over

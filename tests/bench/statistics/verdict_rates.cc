@@ -1,8 +1,7 @@
-#include "bench/statistics/verdict_rates.h"
+#include "tests/bench/statistics/verdict_rates.h"
 
 #include <fmt/core.h>
 
-#include <array>
 #include <cmath>
 
 #include "bench/statistics/bootstrap.h"
@@ -42,7 +41,7 @@ constexpr double kModeWidth = 0.3;
 bool IsOfUnits(SampleLaw law) { return static_cast<int>(law) >= kWorldLaws; }
 
 /// Draws a unit's contribution.
-double Draw(SampleLaw law, RandomStream& dice) {
+double DrawContribution(SampleLaw law, RandomStream& dice) {
   switch (law) {
     case SampleLaw::kHeavyTailed:
       return HeavyTailed(dice);
@@ -62,7 +61,9 @@ double Draw(SampleLaw law, RandomStream& dice) {
 }
 
 /// Draws what a world adds to its unit's contribution.
-double DrawNoise(SampleLaw law, RandomStream& dice) { return IsOfUnits(law) ? dice.Normal() : Draw(law, dice); }
+double DrawNoise(SampleLaw law, RandomStream& dice) {
+  return IsOfUnits(law) ? dice.Normal() : DrawContribution(law, dice);
+}
 
 /// Draws −1, 0 or 1 with probabilities ¼, ½ and ¼, the difference of two fair coins, with the mean shifted by `effect`.
 double CoinsDiffer(double effect, RandomStream& dice) {
@@ -103,9 +104,9 @@ class Sampler {
     for (int unit = 0; unit < design.units; ++unit) {
       sample_.names.push_back(fmt::format("{:03}", unit));
       Brings& brings = brings_.emplace_back();
-      for (double& value : brings.own) value = Draw(design.law, dice);
+      for (double& value : brings.own) value = DrawContribution(design.law, dice);
       for (std::size_t i = 0; i < 2; ++i) {
-        const double fresh = Draw(design.law, dice), r = design.part_alike;
+        const double fresh = DrawContribution(design.law, dice), r = design.part_alike;
         brings.other[i] = r * brings.own[i] + std::sqrt(1 - r * r) * fresh;
       }
       brings.coins = CoinsDiffer(effect_, dice);
@@ -351,16 +352,6 @@ std::vector<SampleDesign> PublishedDesigns() {
     }
   }
   return designs;
-}
-
-std::vector<VerdictRates> MeasureAll(std::span<const SampleDesign> designs, const VerdictRepetitions& repetitions,
-                                     const std::function<void(std::size_t)>& done) {
-  std::vector<VerdictRates> rates;
-  for (const SampleDesign& design : designs) {
-    rates.push_back(MeasureVerdicts(design, repetitions));
-    done(rates.size());
-  }
-  return rates;
 }
 
 bool KeepsPromise(const VerdictRates& rates, std::size_t designs) {

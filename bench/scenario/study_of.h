@@ -1,0 +1,11 @@
+#pragma once
+
+#include "bench/model/study.h"
+#include "bench/scenario/scenario.h"
+
+namespace etude {
+
+/// Returns the part of a scenario that is needed to judge its rows.
+Study StudyOf(const Scenario& scenario);
+
+}  // namespace etude
