@@ -60,7 +60,7 @@ const std::map<std::string_view, std::vector<std::string_view>>& ExamplesByComma
        {"etude compare out/before out/after", "etude compare out/quick-1 out/quick-2",
         "etude compare out/here out/copied --unsealed"}},
       {"export",
-       {"etude export quick/ik -o problems", "etude export full/capture_rivals -o films --films --trials 2",
+       {"etude export quick/ik -o problems", "etude export full/capture_rivals -o takes --depth --trials 2",
         "etude export mine.yaml -o problems --seed 7"}},
       {"score",
        {"etude score problems answers -o out/mine --name mine", "etude score problems answers -o out/mine --alone",

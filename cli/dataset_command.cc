@@ -76,7 +76,7 @@ void DefineExport(CLI::App& app, Action& action) {
   command->add_option("scenarios", options->scenarios, "Scenario files, folders of them, or names of shipped scenarios")
       ->required();
   command->add_option("-o,--output", options->output, "Folder of the data set")->required();
-  command->add_flag("--films", options->films, "Also write each camera's take as an MP4");
+  command->add_flag("--depth", options->depth, "Also write depth, labels and normals of every picture of a take (EXR)");
   AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map, options->clip_facts);
   const Action act = WithSecretKey(*command, &options->seed, options->key, [=] {
     std::ranges::for_each(WhichIsMeant(options->scenarios), Complain);

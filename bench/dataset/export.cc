@@ -38,7 +38,8 @@ constexpr const char* kReadme =
 the problems of a condition share is `SCENARIO/CONDITION/setting.json` (of recorded people, whom others taught, one
 beside each problem). What they hold, and what an answer looks like,
 stands in Etude's `docs/outside-methods.md`, task by task. A method's predictions are a folder of answers, one JSON
-object per problem, under the same names: `SCENARIO/CONDITION/TRIAL.json`. Judge them with
+object per problem, under the same names: `SCENARIO/CONDITION/TRIAL.json`. Pictures that `problem.json` names but that are
+not there are the frames of a film: `ffmpeg -i camera-1.mkv -start_number 0 camera-1-%04d.png`. Judge the answers with
 
     etude score THIS_FOLDER PREDICTIONS -o RESULT --name METHOD
 )";
@@ -136,6 +137,7 @@ class NewFolder {
 Result<void> SavePayload(const Payload& payload, const FilePath& folder, const char* name) {
   RETURN_IF_ERROR(SaveJson(folder / name, *payload.json, OnDisk::kLater));
   for (const Attachment& file : payload.files) {
+    if (IsPictureOfTake(file.name)) continue;  // a frame of a film
     RETURN_IF_ERROR(WriteFileAtomically(folder / file.name, file.bytes, OnDisk::kLater));
   }
   return {};
@@ -145,8 +147,8 @@ class Exporter {
  public:
   static constexpr std::size_t kParts = 3;  ///< steps per world: problem made, problem written, truth written
 
-  Exporter(const PreparedScenario& scenario, FilePath folder, bool films)
-      : scenario_(scenario), folder_(std::move(folder)), films_(films) {}
+  Exporter(const PreparedScenario& scenario, FilePath folder, bool depth)
+      : scenario_(scenario), folder_(std::move(folder)), depth_(depth) {}
 
   /// Writes the setting of a condition, if its worlds have none of their own.
   Result<void> SaveSetting(int condition, const std::string& place) {
@@ -184,17 +186,24 @@ class Exporter {
         if (!setting) return About(path, setting.error());
         RETURN_IF_ERROR(SavePayload(*setting, folder_ / "inputs" / path, "setting.json"));
       }
-      if (films_) RETURN_IF_ERROR(SaveFilms(*problem, condition, path));
+      RETURN_IF_ERROR(SaveFilms(*problem, condition, path));
       on_part(2);
     }
     const auto truth = world->MakeTruth();
     if (!truth) return About(path, truth.error());
-    return SavePayload(*truth, folder_ / "truth" / path, "truth.json");
+    RETURN_IF_ERROR(SavePayload(*truth, folder_ / "truth" / path, "truth.json"));
+    if (!depth_) return {};
+    const auto drawn = world->MakeTruePictures([&](const Attachment& file) {
+      return WriteFileAtomically(folder_ / "truth" / path / file.name, file.bytes, OnDisk::kLater);
+    });
+    return drawn ? drawn : About(path, drawn.error());
   }
 
  private:
-  /// Writes films at the rate of the setting; a task without a rate has no pictures.
+  /// Writes the pictures of takes, if there are any, as films at the rate of the setting.
   Result<void> SaveFilms(const Payload& problem, int condition, const std::string& path) const {
+    const auto is_picture = [](const Attachment& file) { return IsPictureOfTake(file.name); };
+    if (std::ranges::none_of(problem.files, is_picture)) return {};
     const auto setting = scenario_.task(condition).Setting();
     if (!setting) return About(path, setting.error());
     const double rate_hz = setting->json->value("rate_hz", 30.0);
@@ -208,7 +217,7 @@ class Exporter {
 
   const PreparedScenario& scenario_;
   const FilePath folder_;
-  const bool films_;
+  const bool depth_;
 };
 
 }  // namespace
@@ -235,7 +244,7 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress
   ASSIGN_OR_RETURN(const auto suite, ReadSuite(run));
   RETURN_IF_ERROR(RefuseFiles(suite));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(suite));
-  ASSIGN_OR_RETURN(const auto manifest, MakeManifest(suite, scenarios, options.program_version));
+  ASSIGN_OR_RETURN(auto manifest, MakeManifest(suite, scenarios, options.program_version));
   // Check the key, and begin the folder.
   const KeyUse use{"export", suite.suite, DigestOfRun(manifest), {}, options.output};
   if (options.key && !options.reuse_key) RETURN_IF_ERROR(CheckUnused(*options.key, use));
@@ -251,7 +260,7 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress
     const World& world = plan.world(w);
     const PreparedScenario& scenario = plan.scenario_of(w);
     const std::string place = scenario.scenario().name + "/" + ConditionFolders(scenario.scenario())[world.condition];
-    Exporter exporter(scenario, folder.partial(), options.films);
+    Exporter exporter(scenario, folder.partial(), options.depth);
     if (world.trial == 0) {
       RETURN_IF_ERROR(exporter.SaveSetting(world.condition, place));
     }
@@ -267,6 +276,7 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress
   index.insert(index.begin(), "scenario,task,condition,trial,clip,problem,prediction,skipped\n");
   RETURN_IF_ERROR(save("inputs/index.csv", fmt::format("{}", fmt::join(index, ""))));
   RETURN_IF_ERROR(save("README.md", kReadme));
+  manifest["data_set"] = kDataSetVersion;
   RETURN_IF_ERROR(SaveJson(folder.partial() / "manifest.json", manifest));
   if (options.key) RETURN_IF_ERROR(NoteUse(*options.key, use, options.reuse_key));
   RETURN_IF_ERROR(folder.Finish());

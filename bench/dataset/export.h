@@ -20,7 +20,7 @@ struct ExportOptions {
   std::vector<std::string> clips;      ///< if not empty, replaces the scenarios' clips
   std::string joint_map;               ///< if not empty, replaces the scenarios' joint maps
   std::string clip_facts = {};         ///< RunOptions::clip_facts
-  bool films = false;                  ///< also write a film per camera of a capture
+  bool depth = false;                  ///< also write the pictures of the truth (TaskWorld::MakeTruePictures)
   std::string output;
   std::string program_version;
 };
@@ -36,14 +36,18 @@ struct ExportOutcome {
 ///     README.md
 ///     inputs/index.csv                             one line per world
 ///     inputs/SCENARIO/CONDITION/setting.json       shared by the problems of a condition
-///     inputs/SCENARIO/CONDITION/TRIAL/problem.json and its files
+///     inputs/SCENARIO/CONDITION/TRIAL/problem.json and its files; pictures of a take as one lossless film
 ///     truth/SCENARIO/CONDITION/TRIAL/truth.json and its files
 ///
 /// The names and the order of secret worlds do not reveal their trials, and the index leaves out trial and clip. The
 /// data set is written completely and synced to disk, or not at all. Fails before writing if the folder is not empty or
 /// another export is writing it. The process must be in the pinned environment, so that pictures are the same on every
-/// machine. `on_progress` counts three steps per world: problem made, problem and films written, truth written.
+/// machine. `on_progress` counts three steps per world: problem made, problem written, truth written.
 Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress& on_progress);
+
+/// The version of the layout of a data set, the key `data_set` of its manifest. Without that key it is 1, whose
+/// pictures are PNG files.
+constexpr int kDataSetVersion = 2;
 
 /// Deletes the temporary folder of a killed export to this folder.
 void RemoveUnfinishedExport(const std::filesystem::path& output);

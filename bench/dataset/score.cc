@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/dataset/export.h"
 #include "bench/run/cell_runner.h"
 #include "bench/run/manifest.h"
 #include "bench/run/outside_metrics.h"
@@ -18,6 +19,14 @@ namespace etude {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Refuses data sets of a newer layout. Older ones are scored like today's, because only their manifest is read.
+Result<void> CheckVersion(const FilePath& manifest) {
+  ASSIGN_OR_RETURN(const auto json, ReadJsonFile(manifest));
+  const Json version = json.is_object() ? json.value("data_set", Json(1)) : Json(1);
+  if (version.is_number_integer() && version >= 1 && version <= kDataSetVersion) return {};
+  return Fail({manifest.string()}, "a data set of version {}; allowed: 1 to {}", version.dump(), kDataSetVersion);
+}
 
 Result<SuiteSetup> ReadTarget(const ScoreOptions& options) {
   const FilePath manifest = Inside(options.target) / "manifest.json";
@@ -38,6 +47,7 @@ Result<SuiteSetup> ReadTarget(const ScoreOptions& options) {
         {manifest.string(), 0, 0},
         "already sets seed, trials and clips; leave out --seed, --trials, --clips, --joint-map, --unit, --up, --rate");
   }
+  RETURN_IF_ERROR(CheckVersion(manifest));
   ASSIGN_OR_RETURN(auto suite, ReadManifest(manifest));
   RETURN_IF_ERROR(OpenSeeds(options.key, {manifest.string()}, suite));
   return suite;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "io/films/encoder.h"
 #include "io/images/image_files.h"
@@ -23,6 +22,8 @@ std::string_view TakeOf(std::string_view name) {
 
 }  // namespace
 
+bool IsPictureOfTake(std::string_view name) { return !TakeOf(name).empty(); }
+
 Result<void> SaveTakeFilms(std::span<const Attachment> files, int rate_hz, const FilePath& folder) {
   std::optional<Encoder> film;
   std::string_view filmed;
@@ -33,8 +34,8 @@ Result<void> SaveTakeFilms(std::span<const Attachment> files, int rate_hz, const
     ASSIGN_OR_RETURN(const auto picture, DecodeColourPng(file.bytes, kMaxPixels));
     if (!film || take != filmed) {
       if (film) RETURN_IF_ERROR(film->Finish());
-      const FilePath path = folder / (std::string(take) + ".mp4");
-      ASSIGN_OR_RETURN(auto started, Encoder::Start(path, picture.width, picture.height, rate_hz));
+      const FilePath path = folder / (std::string(take) + ".mkv");
+      ASSIGN_OR_RETURN(auto started, Encoder::Start(path, picture.width, picture.height, rate_hz, {}, Encoder::Form::kExactRgb));
       film.emplace(std::move(started));
       filmed = take;
     }

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "engine/base/result.h"
 #include "io/files/json.h"
 
 namespace etude {
@@ -12,6 +14,9 @@ struct Attachment {
   std::string name;  ///< the plain file name by which the JSON refers to it
   std::string bytes;
 };
+
+/// Receives files one after the other, where there are too many to keep; may fail.
+using AttachmentSink = std::function<Result<void>(const Attachment&)>;
 
 /// The part of a world that an outside method is given, or the truth about it (docs/outside-methods.md).
 struct Payload {

@@ -31,29 +31,6 @@ std::vector<double> Jackknife(std::span<const double> sorted, Aggregate aggregat
   return values;
 }
 
-/// Calls `use` with `count` random indices below `count`, two from each 64 random bits. No index is favoured by more
-/// than count / 2³².
-template <typename Use>
-void DrawIndices(RandomStream& dice, std::size_t count, const Use& use) {
-  std::array<std::uint64_t, 128> buffer;
-  for (std::size_t left = count; left > 0;) {
-    const std::span<std::uint64_t> drawn(buffer.data(), std::min(buffer.size(), (left + 1) / 2));
-    dice.FillBits(drawn);
-    for (const std::uint64_t bits : drawn) {
-      use(((bits & 0xffffffffu) * count) >> 32);
-      if (--left == 0) break;
-      use(((bits >> 32) * count) >> 32);
-      --left;
-    }
-  }
-}
-
-double ResampledMean(std::span<const double> sorted, RandomStream& dice) {
-  double sum = 0;
-  DrawIndices(dice, sorted.size(), [&](std::size_t index) { sum += sorted[index]; });
-  return sum / static_cast<double>(sorted.size());
-}
-
 /// Returns the median of a resample in which value i occurs `counts[i]` times. Walking to the middle avoids sorting.
 double MedianOfDrawn(std::span<const double> sorted, std::span<const int> counts) {
   const int low = static_cast<int>(sorted.size() - 1) / 2, high = static_cast<int>(sorted.size()) / 2;
@@ -65,10 +42,40 @@ double MedianOfDrawn(std::span<const double> sorted, std::span<const int> counts
   return 0.5 * (lower + sorted[index]);
 }
 
-double ResampledMedian(std::span<const double> sorted, RandomStream& dice, std::vector<int>& counts) {
-  counts.assign(sorted.size(), 0);
-  DrawIndices(dice, sorted.size(), [&](std::size_t index) { ++counts[index]; });
-  return MedianOfDrawn(sorted, counts);
+/// Fills `means` and `medians` with the aggregates of resamples; either may be empty, else it has kResamples entries.
+/// Each resample draws as many indices as there are values, two from each 64 random bits; no index is favoured by more
+/// than count / 2³². The sums of several resamples grow side by side, because each addition waits for the one before it.
+void Resample(std::span<const double> sorted, RandomStream& dice, std::span<double> means, std::span<double> medians) {
+  constexpr std::size_t kTogether = 4;
+  const std::size_t count = sorted.size(), words = (count + 1) / 2, pairs = count / 2;
+  const auto first = [&](std::uint64_t bits) { return ((bits & 0xffffffffu) * count) >> 32; };
+  const auto second = [&](std::uint64_t bits) { return ((bits >> 32) * count) >> 32; };
+  std::vector<std::uint64_t> bits(kTogether * words);
+  std::vector<int> counts;
+  for (std::size_t done = 0; done < kResamples; done += kTogether) {
+    const std::size_t together = std::min(kTogether, kResamples - done);
+    dice.FillBits(std::span(bits).first(together * words));
+    const std::uint64_t* const drawn = bits.data();
+    if (!means.empty()) {
+      std::array<double, kTogether> sums{};
+      for (std::size_t i = 0; i < words; ++i) {
+        for (std::size_t k = 0; k < kTogether; ++k) {
+          sums[k] += sorted[first(drawn[k * words + i])];
+          if (i < pairs) sums[k] += sorted[second(drawn[k * words + i])];
+        }
+      }
+      for (std::size_t k = 0; k < together; ++k) means[done + k] = sums[k] / static_cast<double>(count);
+    }
+    for (std::size_t k = 0; k < together && !medians.empty(); ++k) {
+      counts.assign(count, 0);
+      for (std::size_t i = 0; i < pairs; ++i) {
+        ++counts[first(drawn[k * words + i])];
+        ++counts[second(drawn[k * words + i])];
+      }
+      if (pairs < words) ++counts[first(drawn[k * words + pairs])];
+      medians[done + k] = MedianOfDrawn(sorted, counts);
+    }
+  }
 }
 
 /// Returns the corrected level of one end of the interval; nothing where the correction is undefined.
@@ -177,10 +184,8 @@ std::optional<Interval> BootstrapInterval(std::span<const double> values, Aggreg
   if (const auto known = IntervalWithoutDice(sorted, aggregate, confidence)) return known;
   RandomStream dice = DiceOf(seed, purpose);
   std::vector<double> replicates(kResamples);
-  std::vector<int> counts;
-  for (double& replicate : replicates) {
-    replicate = aggregate == Aggregate::kMedian ? ResampledMedian(sorted, dice, counts) : ResampledMean(sorted, dice);
-  }
+  const bool is_median = aggregate == Aggregate::kMedian;
+  Resample(sorted, dice, is_median ? std::span<double>() : replicates, is_median ? replicates : std::span<double>());
   return BcaInterval(replicates, AggregateOf(sorted, aggregate), Jackknife(sorted, aggregate), confidence);
 }
 
@@ -194,17 +199,7 @@ std::optional<MedianAndMean> BootstrapMedianAndMean(std::span<const double> valu
   RandomStream dice = DiceOf(seed, purpose);
   // Both aggregates see the same resamples, in the order in which BootstrapInterval would draw them.
   std::vector<double> medians(kResamples), means(kResamples);
-  std::vector<int> counts;
-  for (std::size_t i = 0; i < kResamples; ++i) {
-    counts.assign(sorted.size(), 0);
-    double sum = 0;
-    DrawIndices(dice, sorted.size(), [&](std::size_t index) {
-      ++counts[index];
-      sum += sorted[index];
-    });
-    medians[i] = MedianOfDrawn(sorted, counts);
-    means[i] = sum / static_cast<double>(sorted.size());
-  }
+  Resample(sorted, dice, means, medians);
   const auto interval = [&](std::vector<double>& replicates, Aggregate aggregate) {
     return BcaInterval(replicates, AggregateOf(sorted, aggregate), Jackknife(sorted, aggregate), confidence);
   };

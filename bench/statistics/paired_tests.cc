@@ -231,7 +231,7 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
       ordered.size() % 64 == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << (ordered.size() % 64)) - 1;
   int extreme = 0;
   for (int draw = 0; draw < kDraws; ++draw) {
-    for (std::uint64_t& word : signs) word = dice.Bits();
+    dice.FillBits(signs);
     signs.back() &= last;
     extreme += std::abs(sample.AggregateUnder(signs)) >= reached;
   }

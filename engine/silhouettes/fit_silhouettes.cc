@@ -175,14 +175,26 @@ void ForEachPrior(const SilhouetteBody& body, const TreeState& state, const Pose
   }
 }
 
+// Projects the flesh of `state` into all views: fills `workspace.frames` and `workspace.flesh`.
+void See(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state,
+         FitWorkspace& workspace) {
+  ComputeFrames(body.tree, state, workspace.frames);
+  workspace.flesh.resize(views.size());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    ProjectFlesh(body, workspace.frames, views[i].matrix, workspace.flesh[i].capsules);
+    MeasureFlesh(*views[i].silhouette, workspace.flesh[i]);
+  }
+}
+
+// Linearises at `state`, whose flesh is `workspace.kept`.
 Linearisation LineariseAt(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state,
                           const PosePrior* prior, const SilhouetteCostOptions& options, FitWorkspace& workspace) {
   Linearisation linear(body, kRootDofs + body.tree.dof_count());
   ComputeFrames(body.tree, state, workspace.frames);
-  for (const SilhouetteView& view : views) {
-    ProjectFlesh(body, workspace.frames, view.matrix, workspace.flesh);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const SilhouetteView& view = views[i];
     workspace.residuals.clear();
-    AppendResiduals(workspace.flesh, *view.silhouette, options, workspace.residuals);
+    AppendResiduals(workspace.kept[i], *view.silhouette, options, workspace.residuals);
     linear.Add(workspace.residuals, workspace.frames, view.matrix, options);
     linear.Add(view.joints, workspace.frames, view.matrix, options);
   }
@@ -219,15 +231,14 @@ Eigen::VectorXd Step(const Linearisation& linear, const std::vector<bool>& held,
   return -h.llt().solve(g);
 }
 
-}  // namespace
-
-SilhouetteFit CostOf(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state,
-                     const PosePrior* prior, const SilhouetteCostOptions& options, FitWorkspace& workspace) {
+// Computes the cost of `state`, whose flesh is `flesh`.
+SilhouetteFit CostOfSeen(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state,
+                         const PosePrior* prior, const SilhouetteCostOptions& options,
+                         const std::vector<SeenFlesh>& flesh, const FitWorkspace& workspace) {
   SilhouetteFit fit{.state = state};
-  ComputeFrames(body.tree, state, workspace.frames);
-  for (const SilhouetteView& view : views) {
-    ProjectFlesh(body, workspace.frames, view.matrix, workspace.flesh);
-    AddLosses(workspace.flesh, *view.silhouette, options, fit.picture_cost);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const SilhouetteView& view = views[i];
+    AddLosses(flesh[i], *view.silhouette, options, fit.picture_cost);
     const PixelScale camera(view.matrix);
     for (const SeenJoint& seen : view.joints) {
       fit.picture_cost += JointErrorOf(seen, body, workspace.frames, camera, options).loss;
@@ -239,9 +250,19 @@ SilhouetteFit CostOf(const SilhouetteBody& body, std::span<const SilhouetteView>
   return fit;
 }
 
+}  // namespace
+
+SilhouetteFit CostOf(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state,
+                     const PosePrior* prior, const SilhouetteCostOptions& options, FitWorkspace& workspace) {
+  See(body, views, state, workspace);
+  return CostOfSeen(body, views, state, prior, options, workspace.flesh, workspace);
+}
+
 NormalEquations NormalEquationsAt(const SilhouetteBody& body, std::span<const SilhouetteView> views,
                                   const TreeState& state, const PosePrior* prior, const SilhouetteCostOptions& options,
                                   FitWorkspace& workspace) {
+  See(body, views, state, workspace);
+  std::swap(workspace.flesh, workspace.kept);
   const Linearisation linear = LineariseAt(body, views, state, prior, options, workspace);
   return {{linear.gradient().begin(), linear.gradient().end()},
           {linear.hessian().data(), linear.hessian().data() + linear.hessian().size()}};
@@ -249,8 +270,16 @@ NormalEquations NormalEquationsAt(const SilhouetteBody& body, std::span<const Si
 
 SilhouetteFit FitSilhouettes(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& start,
                              const PosePrior* prior, const FitOptions& options, FitWorkspace& workspace) {
+  See(body, views, start, workspace);
+  std::swap(workspace.flesh, workspace.kept);
+  return FitFurther(body, views, start, prior, options, workspace);
+}
+
+SilhouetteFit FitFurther(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& start,
+                         const PosePrior* prior, const FitOptions& options, FitWorkspace& workspace) {
   constexpr double kFirstDamping = 1e-2, kGrows = 4, kShrinks = 0.3, kMaxDamping = 1e6;
-  SilhouetteFit fit = CostOf(body, views, start, prior, options.cost, workspace);
+  ComputeFrames(body.tree, start, workspace.frames);
+  SilhouetteFit fit = CostOfSeen(body, views, start, prior, options.cost, workspace.kept, workspace);
   double damping = kFirstDamping;
   while (fit.iterations < options.max_iterations && damping < kMaxDamping) {
     // Linearise at the current pose; angles that their limits hold stay out of the step.
@@ -267,6 +296,7 @@ SilhouetteFit FitSilhouettes(const SilhouetteBody& body, std::span<const Silhoue
       is_better = trial.cost < fit.cost;
       damping = is_better ? damping * kShrinks : damping * kGrows;
       if (!is_better) continue;
+      std::swap(workspace.flesh, workspace.kept);
       const bool is_last = fit.cost - trial.cost < options.enough * fit.cost;
       trial.iterations = fit.iterations;
       fit = std::move(trial);

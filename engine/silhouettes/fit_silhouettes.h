@@ -35,7 +35,8 @@ struct SilhouetteFit {
 /// Memory that is reused from fit to fit.
 struct FitWorkspace {
   TreeFrames frames;
-  std::vector<ProjectedCapsule> flesh;
+  std::vector<SeenFlesh> flesh;  ///< by view, of the pose whose cost was computed last
+  std::vector<SeenFlesh> kept;   ///< by view, of the pose at which the last fit ended
   std::vector<SilhouetteResidual> residuals;
 };
 
@@ -48,6 +49,10 @@ SilhouetteFit CostOf(const SilhouetteBody& body, std::span<const SilhouetteView>
 /// of the step). This is analysis by synthesis: no pixel is labelled with a limb; the nearest capsule explains it.
 SilhouetteFit FitSilhouettes(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& start,
                              const PosePrior* prior, const FitOptions& options, FitWorkspace& workspace);
+/// Fits the body further, with other options, from `start`, at which the last fit of the same body to the same views
+/// ended with this workspace.
+SilhouetteFit FitFurther(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& start,
+                         const PosePrior* prior, const FitOptions& options, FitWorkspace& workspace);
 
 /// The normal equations of a step of `FitSilhouettes`: the gradient of half the cost and the Gauss–Newton approximation
 /// of its Hessian, by columns. The coordinates are the root's position, its rotation (a rotation vector in the world),

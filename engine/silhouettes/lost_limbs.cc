@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "engine/base/angles.h"
@@ -47,7 +48,8 @@ class LimbCost {
     }
   }
 
-  double Of(const TreeState& state) {
+  // Returns the cost, or infinity as soon as it reaches `limit`: it is a sum of losses, none of which is negative.
+  double Of(const TreeState& state, double limit) {
     double cost = 0;
     ComputeFrames(limb_.tree, state, frames_);
     for (std::size_t i = 0; i < views_.size(); ++i) {
@@ -58,6 +60,7 @@ class LimbCost {
         cost += LossOf({.value = distances_[static_cast<std::size_t>(place)]}, options_).loss;
       }
       AddContainmentLosses(flesh_, *views_[i].silhouette, options_, cost);
+      if (cost >= limit) return std::numeric_limits<double>::infinity();
     }
     return cost;
   }
@@ -109,7 +112,10 @@ std::vector<TreeState> LimbCandidates(const SilhouetteBody& body, std::span<cons
         trial.angles[upper + 2] = InRange(body.tree, upper + 2, share(z, kTwist));
         for (int b = 0; b < kBend; ++b) {
           trial.angles[lower] = InRange(body.tree, lower, share(b, kBend));
-          best.push_back({trial, cost.Of(trial)});
+          const double limit = best.size() < kKept ? std::numeric_limits<double>::infinity() : best.back().cost;
+          const double trial_cost = cost.Of(trial, limit);
+          if (best.size() == kKept && trial_cost >= limit) continue;
+          best.push_back({trial, trial_cost});
           std::ranges::inplace_merge(best, best.end() - 1, {}, &Candidate::cost);
           if (best.size() > kKept) best.pop_back();
         }

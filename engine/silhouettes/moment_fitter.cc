@@ -22,13 +22,15 @@ ThicknessEstimate::ThicknessEstimate(const SilhouetteBody& body)
 void ThicknessEstimate::Add(std::span<const SilhouetteView> views, const TreeState& state,
                             const SilhouetteCostOptions& options, FitWorkspace& workspace) {
   ComputeFrames(body_.tree, state, workspace.frames);
+  SeenFlesh& flesh = workspace.flesh.empty() ? workspace.flesh.emplace_back() : workspace.flesh.front();
   for (const SilhouetteView& view : views) {
-    ProjectFlesh(body_, workspace.frames, view.matrix, workspace.flesh);
+    ProjectFlesh(body_, workspace.frames, view.matrix, flesh.capsules);
+    MeasureFlesh(*view.silhouette, flesh);
     workspace.residuals.clear();
-    AppendResiduals(workspace.flesh, *view.silhouette, options, workspace.residuals);
+    AppendResiduals(flesh, *view.silhouette, options, workspace.residuals);
     for (const SilhouetteResidual& residual : workspace.residuals) {
       if (residual.is_inside) continue;
-      const ProjectedCapsule& capsule = workspace.flesh[residual.capsule];
+      const ProjectedCapsule& capsule = flesh.capsules[residual.capsule];
       const double radius = -residual.slopes[2] * capsule.radius_a - residual.slopes[5] * capsule.radius_b;
       const double weight = LossOf(residual, options).weight;
       const int part = body_.flesh[residual.capsule].part;
@@ -80,9 +82,9 @@ PosePrior MomentFitter::PriorNear(const TreeState& state) const {
 }
 
 SilhouetteFit MomentFitter::Fit(const MomentViews& views, const TreeState& start, const PosePrior* prior, bool is_far) {
-  TreeState from = start;
-  if (is_far) from = FitSilhouettes(body_, views, start, prior, wide_, workspace_).state;
-  return FitSilhouettes(body_, views, from, prior, fine_, workspace_);
+  if (!is_far) return FitSilhouettes(body_, views, start, prior, fine_, workspace_);
+  const TreeState from = FitSilhouettes(body_, views, start, prior, wide_, workspace_).state;
+  return FitFurther(body_, views, from, prior, fine_, workspace_);
 }
 
 SilhouetteFit MomentFitter::FitKnown(const MomentViews& views, const TreeState& start) {

@@ -61,24 +61,22 @@ std::vector<double> SquaredDistancesTo(const Mask& mask, std::uint8_t value) {
   const int width = mask.width, height = mask.height;
   const int longest = std::max(width, height);
   std::vector<double> squared(mask.pixels.size());
-  // Along each column, count the steps to the nearest such pixel above and below.
-  for (int x = 0; x < width; ++x) {
-    double steps = Envelope::kNone;
-    const auto walk = [&](int y) {
+  // Along each column, count the steps to the nearest such pixel above and below; all columns advance row by row.
+  std::vector<double> steps(width, Envelope::kNone);
+  const auto walk = [&](int y, const auto& take) {
+    for (int x = 0; x < width; ++x) {
       const std::size_t i = static_cast<std::size_t>(y) * width + x;
-      steps = mask.pixels[i] == value ? 0 : steps + 1;
-      return i;
-    };
-    for (int y = 0; y < height; ++y) {
-      const std::size_t i = walk(y);
-      squared[i] = steps;
+      steps[x] = mask.pixels[i] == value ? 0 : steps[x] + 1;
+      take(squared[i], steps[x]);
     }
-    steps = Envelope::kNone;
-    for (int y = height - 1; y >= 0; --y) {
-      const std::size_t i = walk(y);
-      const double nearest = std::min(squared[i], steps);
-      squared[i] = nearest >= Envelope::kNone ? Envelope::kNone : nearest * nearest;
-    }
+  };
+  for (int y = 0; y < height; ++y) walk(y, [](double& above, double count) { above = count; });
+  steps.assign(width, Envelope::kNone);
+  for (int y = height - 1; y >= 0; --y) {
+    walk(y, [](double& nearest, double below) {
+      nearest = std::min(nearest, below);
+      nearest = nearest >= Envelope::kNone ? Envelope::kNone : nearest * nearest;
+    });
   }
   // Along each row, combine the columns' squared distances by the lower envelope.
   Envelope envelope(longest);

@@ -67,39 +67,33 @@ PointColumns PointsOf(const OutlineColumns& columns) {
           columns.centre_u.data(), columns.centre_v.data(), columns.radius.data()};
 }
 
-// The nearest capsule of every outline point, by column.
-struct Owners {
-  std::vector<double> distances, capsules;
-
-  Owners(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette)
-      : distances(silhouette.columns.u.size(), std::numeric_limits<double>::infinity()),
-        capsules(distances.size(), -1) {
-    FindNearestCones(ConesOf(flesh), PointsOf(silhouette.columns), distances.data(), capsules.data());
-  }
-};
-
-void AppendOutline(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
-                   std::vector<SilhouetteResidual>& out) {
-  const Owners owners(flesh, silhouette);
+void AppendOutline(const SeenFlesh& flesh, const Silhouette& silhouette, std::vector<SilhouetteResidual>& out) {
   for (std::size_t i = 0; i < silhouette.outline.size(); ++i) {
-    const int owner = static_cast<int>(owners.capsules[static_cast<std::size_t>(silhouette.columns.places[i])]);
+    const int owner = static_cast<int>(flesh.owners[static_cast<std::size_t>(silhouette.columns.places[i])]);
     if (owner < 0) continue;
     SilhouetteResidual& residual =
-        out.emplace_back(DistanceTo(flesh[static_cast<std::size_t>(owner)], silhouette.outline[i].pixel));
+        out.emplace_back(DistanceTo(flesh.capsules[static_cast<std::size_t>(owner)], silhouette.outline[i].pixel));
     residual.capsule = owner;
   }
 }
 
-// Calls take(residual) for every residual of AppendContainment.
-template <typename Take>
-void ForEachContainment(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
-                        const SilhouetteCostOptions& options, const Take& take) {
-  constexpr std::array<double, 4> kSamples = {0, 1.0 / 3, 2.0 / 3, 1};
+// The points along a capsule's axis at which it must lie inside the silhouette: 0 at a, 1 at b.
+constexpr std::array<double, SeenFlesh::kInsideSamples> kSamples = {0, 1.0 / 3, 2.0 / 3, 1};
+
+DistanceAt DistanceAtSample(const Silhouette& silhouette, const ProjectedCapsule& capsule, std::size_t sample) {
+  return DistanceAtPixel(silhouette, glm::mix(capsule.a, capsule.b, kSamples[sample]));
+}
+
+// Calls take(residual) for every residual of containment; distance_at(capsule, sample) is the silhouette's distance.
+template <typename Distance, typename Take>
+void ForEachContainment(const std::vector<ProjectedCapsule>& flesh, const SilhouetteCostOptions& options,
+                        const Distance& distance_at, const Take& take) {
   for (std::size_t i = 0; i < flesh.size(); ++i) {
     if (!flesh[i].is_valid) continue;
-    for (const double t : kSamples) {
+    for (std::size_t sample = 0; sample < kSamples.size(); ++sample) {
+      const double t = kSamples[sample];
       const double radius = std::lerp(flesh[i].radius_a, flesh[i].radius_b, t);
-      const DistanceAt at = DistanceAtPixel(silhouette, glm::mix(flesh[i].a, flesh[i].b, t));
+      const DistanceAt at = distance_at(i, sample);
       const double outside = at.distance + options.inside_share * radius;
       if (outside <= 0) continue;
       const double s = 1 - t, share = options.inside_share;
@@ -131,6 +125,19 @@ void ProjectFlesh(const SilhouetteBody& body, const TreeFrames& frames, const Pr
   }
 }
 
+void MeasureFlesh(const Silhouette& silhouette, SeenFlesh& flesh) {
+  flesh.distances.assign(silhouette.columns.u.size(), std::numeric_limits<double>::infinity());
+  flesh.owners.assign(flesh.distances.size(), -1);
+  FindNearestCones(ConesOf(flesh.capsules), PointsOf(silhouette.columns), flesh.distances.data(), flesh.owners.data());
+  flesh.inside.resize(flesh.capsules.size());
+  for (std::size_t i = 0; i < flesh.capsules.size() && silhouette.area > 0; ++i) {
+    if (!flesh.capsules[i].is_valid) continue;
+    for (std::size_t sample = 0; sample < kSamples.size(); ++sample) {
+      flesh.inside[i][sample] = DistanceAtSample(silhouette, flesh.capsules[i], sample);
+    }
+  }
+}
+
 double SignedDistanceTo(const ProjectedCapsule& capsule, const glm::dvec2& pixel) {
   return NearestOnCone(capsule, pixel).signed_distance;
 }
@@ -143,42 +150,40 @@ SilhouetteResidual DistanceTo(const ProjectedCapsule& capsule, const glm::dvec2&
   return {nearest.signed_distance, 0, {-s * normal.x, -s * normal.y, -s, -t * normal.x, -t * normal.y, -t}, false};
 }
 
-void AppendResiduals(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
-                     const SilhouetteCostOptions& options, std::vector<SilhouetteResidual>& out) {
+void AppendResiduals(const SeenFlesh& flesh, const Silhouette& silhouette, const SilhouetteCostOptions& options,
+                     std::vector<SilhouetteResidual>& out) {
   if (silhouette.area == 0) return;
   AppendOutline(flesh, silhouette, out);
-  ForEachContainment(flesh, silhouette, options, [&](const SilhouetteResidual& residual) { out.push_back(residual); });
+  ForEachContainment(
+      flesh.capsules, options, [&](std::size_t i, std::size_t sample) { return flesh.inside[i][sample]; },
+      [&](const SilhouetteResidual& residual) { out.push_back(residual); });
 }
 
-void AddLosses(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
-               const SilhouetteCostOptions& options, double& sum) {
+void AddLosses(const SeenFlesh& flesh, const Silhouette& silhouette, const SilhouetteCostOptions& options,
+               double& sum) {
   if (silhouette.area == 0) return;
-  const Owners owners(flesh, silhouette);
+  double outline = sum;  // a local number, which no option can be
   for (const int place : silhouette.columns.places) {
     const auto at = static_cast<std::size_t>(place);
-    if (owners.capsules[at] >= 0) sum += LossOf({.value = owners.distances[at]}, options).loss;
+    if (flesh.owners[at] >= 0) outline += LossOf({.value = flesh.distances[at]}, options).loss;
   }
-  AddContainmentLosses(flesh, silhouette, options, sum);
+  sum = outline;
+  ForEachContainment(
+      flesh.capsules, options, [&](std::size_t i, std::size_t sample) { return flesh.inside[i][sample]; },
+      [&](const SilhouetteResidual& residual) { sum += LossOf(residual, options).loss; });
 }
 
 void AddContainmentLosses(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
                           const SilhouetteCostOptions& options, double& sum) {
-  ForEachContainment(flesh, silhouette, options,
-                     [&](const SilhouetteResidual& residual) { sum += LossOf(residual, options).loss; });
+  ForEachContainment(
+      flesh, options, [&](std::size_t i, std::size_t sample) { return DistanceAtSample(silhouette, flesh[i], sample); },
+      [&](const SilhouetteResidual& residual) { sum += LossOf(residual, options).loss; });
 }
 
 void OutlineDistances(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
                       std::span<double> distances) {
   std::vector<double> owners(distances.size());
   FindNearestCones(ConesOf(flesh), PointsOf(silhouette.columns), distances.data(), owners.data());
-}
-
-Loss LossOf(const SilhouetteResidual& residual, const SilhouetteCostOptions& options) {
-  const double reach = residual.is_inside ? options.inside_reach_px : options.outline_reach_px;
-  const double counts = (residual.is_inside ? options.inside_weight : 1) / (options.sigma_px * options.sigma_px);
-  const double square = residual.value * residual.value;
-  const double share = 1 / (1 + square / (reach * reach));
-  return {counts * square * share, counts * share * share};
 }
 
 }  // namespace etude

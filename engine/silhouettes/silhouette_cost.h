@@ -115,17 +115,29 @@ SilhouetteResidual DistanceTo(const ProjectedCapsule& capsule, const glm::dvec2&
 /// Returns that distance alone.
 double SignedDistanceTo(const ProjectedCapsule& capsule, const glm::dvec2& pixel);
 
+/// The flesh of one pose in one picture, with the nearest capsule of every point of the outline. It depends on no option
+/// of the cost, so a fit computes it once for each pose.
+struct SeenFlesh {
+  std::vector<ProjectedCapsule> capsules;
+  std::vector<double> distances;  ///< by column of the silhouette: the smallest signed distance to a capsule, pixels
+  std::vector<double> owners;     ///< by column: that capsule's index; -1 if none is valid
+  /// By capsule: the silhouette's signed distances at kInsideSamples points along its axis, pixels.
+  static constexpr std::size_t kInsideSamples = 4;
+  std::vector<std::array<DistanceAt, kInsideSamples>> inside;
+};
+/// Finds all distances of `flesh.capsules`.
+void MeasureFlesh(const Silhouette& silhouette, SeenFlesh& flesh);
+
 /// Appends the residuals of the flesh in one picture to `out`:
 /// - coverage: every point of the silhouette's outline lies on the outline of the flesh, so its signed distance to the
 ///   nearest capsule is 0;
 /// - containment: every capsule lies inside the silhouette: at samples along its axis, the silhouette's signed distance
 ///   plus `inside_share` of the radius is at most 0. Samples that satisfy this leave no residual.
-void AppendResiduals(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
-                     const SilhouetteCostOptions& options, std::vector<SilhouetteResidual>& out);
+void AppendResiduals(const SeenFlesh& flesh, const Silhouette& silhouette, const SilhouetteCostOptions& options,
+                     std::vector<SilhouetteResidual>& out);
 
 /// Adds the losses (LossOf) of the same residuals to `sum`, one after the other.
-void AddLosses(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
-               const SilhouetteCostOptions& options, double& sum);
+void AddLosses(const SeenFlesh& flesh, const Silhouette& silhouette, const SilhouetteCostOptions& options, double& sum);
 
 /// AddLosses in two steps, for a search that tries many positions of a few capsules. OutlineDistances lowers each of
 /// `distances` (pixels, one per column of the silhouette) to the point's smallest signed distance to `flesh`, if that
@@ -141,6 +153,12 @@ struct Loss {
   double loss = 0;
   double weight = 0;
 };
-Loss LossOf(const SilhouetteResidual& residual, const SilhouetteCostOptions& options);
+inline Loss LossOf(const SilhouetteResidual& residual, const SilhouetteCostOptions& options) {
+  const double reach = residual.is_inside ? options.inside_reach_px : options.outline_reach_px;
+  const double counts = (residual.is_inside ? options.inside_weight : 1) / (options.sigma_px * options.sigma_px);
+  const double square = residual.value * residual.value;
+  const double share = 1 / (1 + square / (reach * reach));
+  return {counts * square * share, counts * share * share};
+}
 
 }  // namespace etude

@@ -99,8 +99,16 @@ def body(joints, ears, lengths):
     return places
 
 
+def unpack(folder):
+    """Makes the pictures of an exported take, the frames of its lossless films: camera-1-0000.png, …."""
+    for film in folder.glob("camera-*.mkv"):
+        subprocess.run(["ffmpeg", "-v", "error", "-y", "-i", film, "-start_number", "0",
+                        folder / f"{film.stem}-%04d.png"], check=True)
+
+
 def estimate(folder, problem):
     """Seventeen [u, v, score] of every picture, by its name."""
+    unpack(folder)
     pictures = [str(folder / name) for camera in problem["cameras"] for name in camera["pictures"]]
     return json.loads(subprocess.run(["node", HERE / "estimate.mjs", *pictures], check=True, stdout=subprocess.PIPE).stdout)
 

@@ -2,7 +2,6 @@
 """How hard pictures are for a neural estimator: rendered ones, by scenario's condition, beside real ones.
 
     etude export SCENARIO -o DATA
-    node estimate.mjs $(find DATA/inputs -name 'camera-*-[0-9]*.png') …      one call per folder: see --estimate
     compare.py --export DATA [--real FOLDER --calibration FILE.toml --reference FILE.trc] [--estimate]
 
 A line per condition, and one for the real pictures: how many have a person, how sure the estimator is, and how far its
@@ -21,6 +20,8 @@ import sys
 import tomllib
 
 import numpy as np
+
+from answer import unpack
 
 HERE = pathlib.Path(__file__).parent
 SURE = 0.3      # a person is there when the twelve joints' mean score reaches this
@@ -127,6 +128,7 @@ class Figures:
 
 def estimate(pictures, kept, wanted):
     if wanted or not kept.exists():
+        unpack(pictures[0].parent)
         found = subprocess.run(["node", HERE / "estimate.mjs", *pictures], check=True, capture_output=True, text=True)
         kept.write_text(found.stdout.splitlines()[-1])
     return json.loads(kept.read_text())
@@ -142,12 +144,13 @@ def compare_export(data, wanted):
         poses = np.array(json.loads(truth_file.read_text())["poses"]).reshape(-1, len(joints), 3)
         height = height_of([poses[:, joints.index(role)] for role in ROLES_DOWN])
         columns = [joints.index(role) for role, _ in JOINTS.values()]
-        pictures = sorted(inputs.glob("camera-*-[0-9]*.png"))
-        found = estimate(pictures, folder / "keypoints.json", wanted)
+        problem = json.loads((inputs / "problem.json").read_text())
+        pictures = [name for camera in problem["cameras"] for name in camera["pictures"]]
+        found = estimate([inputs / name for name in pictures], folder / "keypoints.json", wanted)
         for picture in pictures:
-            camera_name, frame = re.fullmatch(r"(camera-\d+)-(\d+)\.png", picture.name).groups()
+            camera_name, frame = re.fullmatch(r"(camera-\d+)-(\d+)\.png", picture).groups()
             camera = read_opencv(folder / f"{camera_name}.yaml")
-            by_condition[folder.parent.name].add(found[picture.name], camera, poses[int(frame)][columns], height)
+            by_condition[folder.parent.name].add(found[picture], camera, poses[int(frame)][columns], height)
     return by_condition
 
 

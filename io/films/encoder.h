@@ -16,15 +16,16 @@
 
 namespace etude {
 
-/// Encodes pictures as an MP4 by sending them to ffmpeg, which is started directly, without a shell. The same pictures
+/// Encodes pictures as a film by sending them to ffmpeg, which is started directly, without a shell. The same pictures
 /// give the same bytes on every CPU. The file gets its name when it is complete; an encoder that is destroyed before
 /// Finish leaves no file.
 class Encoder {
  public:
-  /// The form of the pictures: RGB, or I420, the form that encoders need (three planes, BT.601).
-  enum class Form { kRgb, kI420 };
+  /// The pictures and the film. kRgb and kI420 make an MP4 (H.264, lossy) of RGB, or of I420, the form that its encoder
+  /// needs (three planes, BT.601). kExactRgb makes a Matroska file (FFV1) that keeps every bit of RGB pictures.
+  enum class Form { kRgb, kI420, kExactRgb };
 
-  /// Starts ffmpeg. Pictures must have this size (even numbers) and follow at `rate_hz`. `sound` is a WAV file that is
+  /// Starts ffmpeg. Pictures must have this size (even numbers, unless exact) and follow at `rate_hz`. `sound` is a WAV file that is
   /// stored losslessly (FLAC); empty = silence. Fails with the reason if `program` cannot be started.
   static Result<Encoder> Start(const FilePath& path, int width, int height, int rate_hz,
                                const std::filesystem::path& sound = {}, Form form = Form::kRgb,

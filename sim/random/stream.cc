@@ -9,6 +9,7 @@
 
 #include "engine/base/angles.h"
 #include "engine/base/digest.h"
+#include "sim/random/philox_lanes.h"
 
 namespace etude {
 
@@ -59,15 +60,12 @@ std::uint64_t RandomStream::Bits() {
 void RandomStream::FillBits(std::span<std::uint64_t> out) {
   std::size_t i = 0;
   while (i < out.size() && used_ != 4) out[i++] = Bits();
-  // Whole blocks are independent of each other, so the processor computes several at once.
-  if (is_secret_) {
-    for (; i + 4 <= out.size(); i += 4) std::ranges::copy(Block(counter_++), out.begin() + i);
-  } else {
-    for (; i + 4 <= out.size(); i += 4) {
-      const auto block = r123::Philox4x64()({{counter_++, 0, 0, 0}}, {{key_[0], key_[1]}});
-      for (std::size_t j = 0; j < 4; ++j) out[i + j] = block[j];
-    }
+  if (!is_secret_) {
+    const std::size_t blocks = FillPhiloxBlocks(counter_, key_[0], key_[1], (out.size() - i) / 4, out.data() + i);
+    counter_ += blocks;
+    i += 4 * blocks;
   }
+  for (; i + 4 <= out.size(); i += 4) std::ranges::copy(Block(counter_++), out.begin() + i);
   while (i < out.size()) out[i++] = Bits();
 }
 

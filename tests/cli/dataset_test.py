@@ -2,6 +2,7 @@
 import csv
 import json
 import shutil
+import subprocess
 import unittest
 
 from etude_case import IK, EtudeCase, heavy, png_size
@@ -23,7 +24,7 @@ class DataSets(EtudeCase):
         """One export of each scenario, and its truth turned into a folder of answers, for all tests to copy."""
         cls.shared = cls.shared_folder()
         cls.index = cls.export("ik", IK)
-        cls.export("film", FILM, "--films")
+        cls.export("film", FILM, "--depth")
 
     @classmethod
     def export(cls, name, text, *more):
@@ -154,6 +155,21 @@ class DataSets(EtudeCase):
             self.assertIn(words, complaint)
         self.assertIn("broken", self.score(data, answers, "--allow-missing", code=2))
 
+    def test_a_data_set_of_an_older_version_is_scored_and_a_newer_one_refused(self):
+        data, answers = self.exported()
+        manifest = json.loads((data / "manifest.json").read_text())
+        self.assertEqual(manifest.pop("data_set"), 2)
+        old = self.folder / "old"
+        old.mkdir()
+        (old / "manifest.json").write_text(json.dumps(manifest))
+        rows = self.score(old, answers, "--alone")
+        self.assertEqual({row["status"] for row in rows}, {"ok"})
+        shutil.rmtree(self.out)
+        for version in (3, "2", 0):
+            (old / "manifest.json").write_text(json.dumps({**manifest, "data_set": version}))
+            self.assertIn(f"a data set of version {json.dumps(version)}; allowed: 1 to 2",
+                          self.score(old, answers, "--alone", code=2))
+
     def test_a_method_needs_a_name_of_its_own(self):
         data, answers = self.exported()
         self.assertIn("has a method named 'fixed' already", self.score(data, answers, "--name", "fixed", code=2))
@@ -204,7 +220,7 @@ class DataSets(EtudeCase):
             shutil.copy(take / f"marks-hue-camera-{camera}.coco.json", marks / f"camera-{camera}.coco.json")
         result = self.etude("calibrate", take / "calibration-points.yaml", "--method", "dlt", "-o", rig)
         self.assertEqual(result.returncode, 0, result.stderr)
-        result = self.etude("capture", "--rig", rig, take / "camera-1.mp4", take / "camera-2.mp4", "--keypoints", marks,
+        result = self.etude("capture", "--rig", rig, take / "camera-1.mkv", take / "camera-2.mkv", "--keypoints", marks,
                             "-o", self.folder / "motion.csv")
         self.assertEqual(result.returncode, 0, result.stderr)
         with open(self.folder / "motion.csv", newline="") as file:
@@ -215,13 +231,31 @@ class DataSets(EtudeCase):
         self.assertAlmostEqual(rows["predictions"], rows["keypoints"], places=3)
 
     @heavy
+    def test_depth_is_written_on_request(self):
+        data, _ = self.exported("film")
+        self.ends(0, "export", self.shared / "film/film.yaml", "-o", self.folder / "flat")
+        told = {path.relative_to(data) for path in data.rglob("*") if path.is_file()}
+        flat = {path.relative_to(self.folder / "flat") for path in (self.folder / "flat").rglob("*") if path.is_file()}
+        self.assertEqual({path.suffix for path in told - flat}, {".exr"})
+        self.assertEqual(flat - told, set())
+        for path in flat:
+            self.assertEqual((data / path).read_bytes(), (self.folder / "flat" / path).read_bytes(), path)
+
+    @heavy
     def test_a_film_comes_in_formats_that_others_read(self):
         data, answers = self.exported("film")
         inputs, truth = data / "inputs/film/all", data / "truth/film/all/000"
         problem = json.loads((inputs / "000/problem.json").read_text())
         for camera in problem["cameras"]:
-            for picture in [camera["background"], *camera["pictures"]]:
-                self.assertEqual(png_size((inputs / "000" / picture).read_bytes()), (640, 480))
+            self.assertEqual(png_size((inputs / "000" / camera["background"]).read_bytes()), (640, 480))
+        # The command of docs/datasets.md makes the pictures that the problem names, and no others.
+        for number, camera in enumerate(problem["cameras"], 1):
+            film = inputs / "000" / f"camera-{number}.mkv"
+            subprocess.run(["ffmpeg", "-v", "error", "-i", film, "-start_number", "0",
+                            self.folder / f"camera-{number}-%04d.png"], check=True)
+            unpacked = sorted(path.name for path in self.folder.glob(f"camera-{number}-*.png"))
+            self.assertEqual(unpacked, camera["pictures"])
+            self.assertEqual(png_size((self.folder / unpacked[-1]).read_bytes()), (640, 480))
         lines = (truth / "truth.trc").read_text().splitlines()
         self.assertEqual(len(lines), 6 + problem["frames"])
         with open(truth / "truth.csv", newline="") as file:

@@ -95,7 +95,7 @@ class Interrupts(EtudeCase):
             sent_at.append(time.monotonic())
             return began
 
-        self.interrupt(["export", long, "--films", "-o", self.out], renders)
+        self.interrupt(["export", long, "--depth", "-o", self.out], renders)
         self.assertLess(time.monotonic() - sent_at[-1], 5, "the first signal ends it")
         self.assertEqual([path.name for path in self.folder.iterdir()], ["long.yaml"])
 
@@ -115,7 +115,7 @@ class Interrupts(EtudeCase):
         whole = self.folder / "whole"
         self.run_suite(many, out=whole)
         said = self.interrupt(["run", many, "-o", self.out], lambda _: (self.out / "cells.partial.jsonl").exists())
-        self.assertIn("stopped; 6000 cells are kept", said)
+        self.assertIn(f"stopped; cells kept in {self.out}: 6000;", said)
         self.assertFalse((self.out / "cells.jsonl").exists())
         self.run_suite(many, "--resume")
         self.assert_same_results(whole, self.out)

@@ -54,12 +54,13 @@ class PoseEstimator(EtudeCase):
     def compare(self, shift, score):
         """The line of figures for keypoints `shift` pixels to the right of the truth."""
         keypoints = {}
-        for picture in (self.data / "inputs" / "pictures" / "all" / "000").glob("camera-*-0*.png"):
-            camera, frame = picture.stem.rsplit("-", 1)
+        problem = json.loads((self.data / "inputs" / "pictures" / "all" / "000" / "problem.json").read_text())
+        for picture in (name for camera in problem["cameras"] for name in camera["pictures"]):
+            camera, frame = picture.removesuffix(".png").rsplit("-", 1)
             points = np.column_stack([self.poses[int(frame)][self.limbs], np.ones(12)])
             u, v, w = projection(self.truth / f"{camera}.yaml") @ points.T
             found = [[0, 0, 0]] * 5 + [[x + shift, y, score] for x, y in zip(u / w, v / w)]
-            keypoints[picture.name] = found
+            keypoints[picture] = found
         (self.truth / "keypoints.json").write_text(json.dumps(keypoints))
         told = subprocess.run([sys.executable, COMPARE, "--export", self.data], capture_output=True, text=True)
         self.assertEqual(told.returncode, 0, told.stderr)

@@ -49,7 +49,7 @@ DOORS = {
     "nlohmann/": ["bench", "cli", "io", "tools", "engine/formats/deepmimic.cc", "engine/formats/gltf", "engine/formats/json_text.cc",
                   "engine/formats/json_text.h", "engine/streams", "reports"],
     "boost/": ["bench/statistics"],
-    "hwy/": ["engine/kinematics/solvers", "engine/silhouettes", "engine/transitions/search", "engine/vision"],
+    "hwy/": ["engine/kinematics/solvers", "engine/silhouettes", "engine/transitions/search", "engine/vision", "sim/random"],
     "libxml/": ["engine/cameras", "engine/transitions/tags_file"],
     "pagmo/": ["bench/training"],
     "assimp/": ["io/clips/assimp", "bench/peers"],

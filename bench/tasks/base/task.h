@@ -60,6 +60,8 @@ class TaskWorld {
   virtual Result<Payload> MakeProblem() = 0;
   /// Returns the truth of this world, which `etude export` writes separately from the problem.
   virtual Result<Payload> MakeTruth() = 0;
+  /// Makes the pictures of the truth (depth, labels), if the task has any, and passes each to `keep`.
+  virtual Result<void> MakeTruePictures(const AttachmentSink& /*keep*/) { return {}; }
   /// Scores an answer as if a built-in method had given it. An answer of the wrong shape, size or range is an Error
   /// that names the position in the answer (e.g. "angles[3]"), the value found, and what is allowed.
   virtual Result<CellResult> Judge(const Json& answer) = 0;

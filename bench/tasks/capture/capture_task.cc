@@ -61,7 +61,10 @@ class CaptureTaskWorld : public TaskWorld {
   }
 
   Result<Payload> MakeProblem() override { return MakeCaptureProblem(study_.options, key_, stages_); }
-  Result<Payload> MakeTruth() override { return MakeCaptureTruth(study_.options, key_, stages_); }
+  Result<Payload> MakeTruth() override { return MakeCaptureTruth(stages_); }
+  Result<void> MakeTruePictures(const AttachmentSink& keep) override {
+    return MakeCapturePictures(study_.options, key_, stages_, keep);
+  }
 
   Result<SensorSheet> MakeSensorSheet() override { return MakeCaptureSheet(study_.options, key_, stages_); }
 

@@ -202,33 +202,41 @@ Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey&
   return problem;
 }
 
-Result<Payload> MakeCaptureTruth(const StudioOptions& options, const WorldKey& key, CaptureStages& stages) {
+Result<Payload> MakeCaptureTruth(CaptureStages& stages) {
   const CaptureWorld& world = stages.world();
   RETURN_IF_ERROR(CheckSize(world));
-  ASSIGN_OR_RETURN(const auto renderer, stages.GetRenderer());
-
   Payload truth = PayloadOf({});
   *truth.json = {{"poses", EncodePoses(world.truth)}, {"labels", PartNumbers()}};
   const BodyMotion motion{kJudgedRateHz, world.truth};
   truth.files = {{"truth.bvh", WriteBvh(ToClip(motion, "truth"))},
                  {"truth.trc", WriteTrc(motion, "truth")},
                  {"truth.csv", WriteJointCsv(motion)}};
-  // Shoot every frame without faults of the camera, and simulate the depth cameras.
   std::vector<NamedCamera> rig;
-  Shooting shooting(world, FaultlessPictures(options.camera), key, *renderer);
   for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
     truth.files.push_back({fmt::format("camera-{}.yaml", camera + 1), WriteOpenCvCamera(world.cameras[camera])});
     rig.push_back({fmt::format("cam_{:02}", camera + 1), world.cameras[camera]});
+  }
+  truth.files.push_back({"calibration.toml", WritePose2SimCalibration(rig)});
+  return truth;
+}
+
+Result<void> MakeCapturePictures(const StudioOptions& options, const WorldKey& key, CaptureStages& stages,
+                                 const AttachmentSink& keep) {
+  const CaptureWorld& world = stages.world();
+  RETURN_IF_ERROR(CheckSize(world));
+  ASSIGN_OR_RETURN(const auto renderer, stages.GetRenderer());
+  // Shoot every frame without faults of the camera, and simulate the depth cameras.
+  Shooting shooting(world, FaultlessPictures(options.camera), key, *renderer);
+  for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
     DepthCameras depth_cameras(key, camera);
     for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
       const View view = shooting.Shoot(camera, frame, Targets::kAll);
       const auto measured = depth_cameras.Measure(view.depth, world.cameras[camera]);
       ASSIGN_OR_RETURN(auto bytes, EncodeExr(view, NormalsOf(view.depth, world.cameras[camera]), measured));
-      truth.files.push_back({PictureName(camera, frame, "exr"), std::move(bytes)});
+      RETURN_IF_ERROR(keep({PictureName(camera, frame, "exr"), std::move(bytes)}));
     }
   }
-  truth.files.push_back({"calibration.toml", WritePose2SimCalibration(rig)});
-  return truth;
+  return {};
 }
 
 Result<CaptureAnswer> ReadCaptureAnswer(const Json& json, std::size_t frames) {

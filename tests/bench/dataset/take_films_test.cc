@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "io/files/files.h"
+#include "io/films/decoder.h"
 #include "io/images/image_files.h"
 
 namespace etude {
@@ -47,11 +48,11 @@ TEST_F(TakeFilms, AreOneForEachCamera) {
                                          {"marks-hue-camera-1.coco.json", "{}"},
                                          {"camera-2-0000.png", Grey(90)}};
   ASSERT_TRUE(SaveTakeFilms(files, 30, folder_));
-  EXPECT_THAT(Saved(), ElementsAre("camera-1.mp4", "camera-2.mp4"));
-  const std::string film = ReadWholeFile(folder_ / "camera-1.mp4").value_or("");
-  EXPECT_THAT(film.substr(0, 12), HasSubstr("ftyp"));
+  EXPECT_THAT(Saved(), ElementsAre("camera-1.mkv", "camera-2.mkv"));
+  const std::string film = ReadWholeFile(folder_ / "camera-1.mkv").value_or("");
+  EXPECT_EQ(film.substr(0, 4), "\x1a\x45\xdf\xa3") << "the head of Matroska";
   ASSERT_TRUE(SaveTakeFilms(files, 30, folder_));
-  EXPECT_EQ(film, ReadWholeFile(folder_ / "camera-1.mp4").value_or(""));
+  EXPECT_EQ(film, ReadWholeFile(folder_ / "camera-1.mkv").value_or(""));
 }
 
 TEST_F(TakeFilms, AreNoneWhereThereAreNoPictures) {
@@ -59,10 +60,39 @@ TEST_F(TakeFilms, AreNoneWhereThereAreNoPictures) {
   EXPECT_FALSE(fs::exists(folder_));
 }
 
-TEST_F(TakeFilms, SayWhatFfmpegSays) {
-  const auto saved = SaveTakeFilms(std::vector<Attachment>{{"camera-1-0000.png", Grey(1, 31)}}, 30, folder_);
+TEST_F(TakeFilms, KeepEveryBitOfEveryPicture) {
+  // Noise in every channel, of an odd size.
+  std::vector<ColourImage> pictures(4, ColourImage(31, 23));
+  std::vector<Attachment> files;
+  std::uint32_t state = 1;
+  const auto next = [&] { return static_cast<std::uint8_t>((state = 1664525 * state + 1013904223) >> 24); };
+  for (ColourImage& picture : pictures) {
+    for (Rgb8& pixel : picture.pixels) pixel = {next(), next(), next()};
+    files.push_back({"camera-1-000" + std::to_string(files.size()) + ".png", EncodePng(picture)});
+  }
+  ASSERT_TRUE(SaveTakeFilms(files, 30, folder_));
+  const auto facts = ProbeFilm(folder_ / "camera-1.mkv");
+  ASSERT_TRUE(facts) << ToString(facts.error());
+  EXPECT_EQ(facts->frames, 4);
+  EXPECT_EQ(facts->rate_hz, 30);
+  auto film = Decoder::Start(folder_ / "camera-1.mkv", *facts);
+  ASSERT_TRUE(film) << ToString(film.error());
+  ColourImage frame;
+  for (const ColourImage& picture : pictures) {
+    ASSERT_TRUE(film->Next(frame).value_or(false));
+    EXPECT_EQ(frame.pixels, picture.pixels);
+  }
+  EXPECT_FALSE(film->Next(frame).value_or(true));
+}
+
+TEST_F(TakeFilms, SayWhyTheyCannotBeWritten) {
+  ASSERT_TRUE(WriteFileAtomically(folder_, "a file where the folder would be"));
+  const auto saved = SaveTakeFilms(std::vector<Attachment>{{"camera-1-0000.png", Grey(1)}}, 30, folder_);
   ASSERT_FALSE(saved);
-  EXPECT_THAT(ToString(saved.error()), HasSubstr("camera-1.mp4"));
+  EXPECT_THAT(ToString(saved.error()), HasSubstr("etude_take_films_"));
+  const auto damaged = SaveTakeFilms(std::vector<Attachment>{{"camera-1-0000.png", Grey(1).substr(0, 50)}}, 30, folder_);
+  ASSERT_FALSE(damaged);
+  EXPECT_THAT(ToString(damaged.error()), HasSubstr("PNG"));
 }
 
 }  // namespace

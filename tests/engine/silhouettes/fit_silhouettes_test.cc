@@ -133,13 +133,15 @@ TEST(FitSilhouettes, NearestCapsulesAreThoseThatAComparisonOfAllFinds) {
     for (const double scatter : {0.0, 0.1, 0.4}) {
       const int size = kRootDofs + body.tree.dof_count();
       const TreeState state = Moved(body.tree, Posed(body), Scatter(size, scatter));
-      std::vector<ProjectedCapsule> flesh;
+      SeenFlesh seen;
+      std::vector<ProjectedCapsule>& flesh = seen.capsules;
       ProjectFlesh(body, ComputeFrames(body.tree, state), MatrixOf(shown.cameras[camera]), flesh);
       flesh[3].is_valid = false;
       flesh[5].radius_a = glm::distance(flesh[5].a, flesh[5].b) + 2 * flesh[5].radius_b;  // one end holds the other
       const Silhouette& silhouette = shown.silhouettes[camera];
       std::vector<SilhouetteResidual> found;
-      AppendResiduals(flesh, silhouette, options, found);
+      MeasureFlesh(silhouette, seen);
+      AppendResiduals(seen, silhouette, options, found);
       // Every outline point, in order: the first of the nearest capsules, with the same bits.
       ASSERT_GE(found.size(), silhouette.outline.size());
       for (std::size_t i = 0; i < silhouette.outline.size(); ++i, ++compared) {
@@ -156,7 +158,7 @@ TEST(FitSilhouettes, NearestCapsulesAreThoseThatAComparisonOfAllFinds) {
       // The sum of their losses.
       double sum = 0, told = 0;
       for (const SilhouetteResidual& residual : found) sum += LossOf(residual, options).loss;
-      AddLosses(flesh, silhouette, options, told);
+      AddLosses(seen, silhouette, options, told);
       EXPECT_EQ(told, sum);
       // Some capsules lower given distances, by column.
       std::vector<double> distances(silhouette.columns.u.size(), 1.5);

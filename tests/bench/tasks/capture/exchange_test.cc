@@ -92,6 +92,10 @@ struct ToldTake {
   std::unique_ptr<Task> task = MakeTask("{duration_s: 0.1, camera_distance_m: 2.5}");
   std::unique_ptr<TaskWorld> world = task->MakeWorld(kExchangeKey, true);
   Result<Payload> truth = world->MakeTruth();
+  Result<void> pictures = world->MakeTruePictures([this](const Attachment& file) -> Result<void> {
+    truth->files.push_back(file);
+    return {};
+  });
   Result<CellResult> cell = world->Judge(Json{{"poses", (*truth.value().json)["poses"]}});
 };
 
@@ -101,7 +105,8 @@ const ToldTake& TakeThatIsTold() {
 }
 
 TEST(CaptureExchange, TheTruthIsAPerfectAnswerAndItsFilesTellTheSame) {
-  const auto& [task, world, truth, cell] = TakeThatIsTold();
+  const auto& [task, world, truth, pictures, cell] = TakeThatIsTold();
+  ASSERT_TRUE(pictures) << ToString(pictures.error());
   ASSERT_TRUE(cell) << ToString(cell.error());
   EXPECT_EQ(cell->status, Status::kOk) << cell->reason;
   EXPECT_EQ(ValueOf(*cell, "mpjpe_mm"), 0);
