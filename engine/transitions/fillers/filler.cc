@@ -1,11 +1,11 @@
 #include "engine/transitions/fillers/filler.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "engine/base/angles.h"
 #include "engine/base/smoothstep.h"
 #include "engine/transitions/fillers/gap_library.h"
+#include "engine/transitions/fillers/planted_gap.h"
 #include "engine/transitions/joins/inertialise.h"
 #include "engine/transitions/joins/minimum_jerk.h"
 
@@ -13,12 +13,6 @@ namespace etude {
 namespace {
 
 glm::dvec3 MeanVelocity(const Ends& ends) { return (ends.end - ends.start) / ends.seconds; }
-
-/// Returns the way that a velocity which halves every `half_life_s` leads in `seconds`.
-glm::dvec3 Continued(const glm::dvec3& velocity, double seconds, double half_life_s) {
-  const double rate = std::numbers::ln2 / half_life_s;
-  return velocity * (-std::expm1(-rate * seconds) / rate);
-}
 
 /// Fills each channel by itself. Channels are the root's position, and each joint's rotation vector relative to its
 /// last past rotation: there, slerp is a straight line.
@@ -86,7 +80,19 @@ std::vector<TreePose> FillByHalfLife(const Gap& gap, std::span<const double> val
   return FillEach(gap, [&](const Ends& ends, double t) { return Law(ends, t, half_life_s); });
 }
 
-constexpr double kSpring_s = SpringOptions().half_life_s, kDead_s = 0.2;
+constexpr double kSpring_s = SpringOptions().half_life_s, kDead_s = DeadOptions().half_life_s;
+
+std::vector<TreePose> DeadBlend(const Gap& gap) { return FillByHalfLife<DeadBlendedAt, kDead_s>(gap, {}); }
+
+std::vector<TreePose> FillLikeNear(const Gap& gap, std::span<const double> /*values*/) {
+  return gap.library ? gap.library->FillLikeNear(gap, DeadBlend) : DeadBlend(gap);
+}
+
+std::vector<TreePose> FillWithPlantedFeet(const Gap& gap, std::span<const double> values) {
+  std::vector<TreePose> filled = FillLikeNear(gap, values);
+  PlantGap(gap, filled);
+  return filled;
+}
 
 NumberSetting HalfLife(double fallback, const char* meaning) {
   return {"half_life_s", fallback, 0.01, 10, false, meaning};
@@ -107,8 +113,8 @@ glm::dvec3 InertialisedAt(const Ends& ends, double seconds, double half_life_s) 
 
 glm::dvec3 DeadBlendedAt(const Ends& ends, double seconds, double half_life_s) {
   const double left = ends.seconds - seconds;
-  const glm::dvec3 from = ends.start + Continued(ends.start_velocity, seconds, half_life_s);
-  const glm::dvec3 to = ends.end - Continued(ends.end_velocity.value_or(MeanVelocity(ends)), left, half_life_s);
+  const glm::dvec3 from = ends.start + DecayingWay(ends.start_velocity, seconds, half_life_s);
+  const glm::dvec3 to = ends.end - DecayingWay(ends.end_velocity.value_or(MeanVelocity(ends)), left, half_life_s);
   return from + Smoothstep(0, ends.seconds, seconds) * (to - from);
 }
 
@@ -143,9 +149,20 @@ std::span<const Filler> AllFillers() {
        .description = "each joint by the movement of minimum jerk",
        .fill = [](const Gap& gap, Values) { return FillEach(gap, LeastJerkAt); }},
       {.name = "nearest-gap",
-       .description = "the training clips' gap whose ends are nearest, moved onto the ends",
-       .needs_library = true,
-       .fill = [](const Gap& gap, Values) { return gap.library ? gap.library->Fill(gap) : std::vector<TreePose>(); }}};
+       .description = "dead blending, plus what it misses in the training clips' gap whose ends are nearest",
+       .uses_library = true,
+       .fill =
+           [](const Gap& gap, Values) {
+             return gap.library ? gap.library->FillLikeNearest(gap, DeadBlend) : std::vector<TreePose>();
+           }},
+      {.name = "near-gaps",
+       .description = "dead blending, plus the mean of what it misses in the training clips' near gaps",
+       .uses_library = true,
+       .fill = FillLikeNear},
+      {.name = "planted-feet",
+       .description = "near-gaps, and feet that bear the body stay while others step",
+       .uses_library = true,
+       .fill = FillWithPlantedFeet}};
   return fillers;
 }
 
