@@ -12,9 +12,8 @@ Result<TreeMotion> TreeMotionOf(const RawMotion& motion) {
     return Fail({motion.name}, "has {} roots; allowed: one, the first joint", std::ranges::count(motion.parents, -1));
   }
   if (!std::ranges::all_of(motion.positions, IsSeen)) return Fail({motion.name}, "has joints that are not seen");
-  TreeMotion made{{motion.joints, motion.parents, std::vector<glm::dvec3>(joints), std::vector<bool>(joints)},
-                  motion.rate_hz,
-                  {}};
+  TreeMotion made{
+      {motion.joints, motion.parents, std::vector<glm::dvec3>(joints), std::vector<bool>(joints)}, motion.rate_hz, {}};
   for (const int joint : motion.added) made.tree.is_point[static_cast<std::size_t>(joint)] = true;
   made.poses.resize(motion.FrameCount());
   for (std::size_t f = 0; f < made.poses.size(); ++f) {

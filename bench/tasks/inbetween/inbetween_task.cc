@@ -124,10 +124,9 @@ Result<std::unique_ptr<Task>> MakeInbetweenTask(TaskInput& input) {
   study.windows.assign(input.files.begin(), input.files.end());
   if (input.opening != nullptr) study.opening = *input.opening;
   if (!study.windows.empty()) {
-    const bool needs_library =
-        std::ranges::any_of(study.methods, [](const InbetweenMethod& method) {
-          return method.filler != nullptr && method.filler->uses_library;
-        });
+    const bool needs_library = std::ranges::any_of(study.methods, [](const InbetweenMethod& method) {
+      return method.filler != nullptr && method.filler->uses_library;
+    });
     ASSIGN_OR_RETURN(study.training, Train(study.options, study.opening, needs_library ? &study.library : nullptr));
   }
   return std::make_unique<InbetweenTask>(std::move(study));

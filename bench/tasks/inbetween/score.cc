@@ -119,6 +119,7 @@ void MeasureDistances(const HiddenWindow& hidden, const Globals& found, const Gl
 std::string WhyNotClean(const HiddenWindow& hidden) {
   if (hidden.motion.rate_hz != kJudgedRateHz) return fmt::format("the rate is not {:g} Hz", kJudgedRateHz);
   for (const Role role : AllRoles()) {
+    if (role == Role::kLeftHand || role == Role::kRightHand) continue;  // at the wrist, if the file has none
     if (hidden.roles[Index(role)] < 0) return fmt::format("the file has no {}", RoleName(role));
   }
   return "";
@@ -177,13 +178,19 @@ void MeasureMovement(const HiddenWindow& hidden, const Globals& found, const Glo
   result.MeasureOr("jitter@wham", Jitter(around, hidden.motion.rate_hz), "");
   const std::string unmet = WhyNotClean(hidden);
   result.MeasureOr("clean_share",
-                   unmet.empty() ? std::optional(IsCleanFilling(hidden, found, truth) ? 1.0 : 0.0) : std::nullopt, unmet);
+                   unmet.empty() ? std::optional(IsCleanFilling(hidden, found, truth) ? 1.0 : 0.0) : std::nullopt,
+                   unmet);
 }
 
 Recording RecordingOf(const HiddenWindow& hidden, const Globals& found, const Globals& truth) {
   EvaluationExtras extras;
   extras.truth.rate_hz = hidden.motion.rate_hz;
   extras.truth.joints = hidden.motion.tree.names;
+  // Joints that play a role get its name, by which clips are read.
+  for (const Role role : AllRoles()) {
+    if (hidden.roles[Index(role)] >= 0)
+      extras.truth.joints[static_cast<std::size_t>(hidden.roles[Index(role)])] = RoleName(role);
+  }
   extras.truth.parents = hidden.motion.tree.parents;
   extras.answer = extras.truth;
   extras.truth.positions = truth.positions;
@@ -194,8 +201,8 @@ Recording RecordingOf(const HiddenWindow& hidden, const Globals& found, const Gl
 }  // namespace
 
 std::vector<std::string> InbetweenMetrics() {
-  return {"l2p@lafan1",         "l2q@lafan1",      "npss@lafan1",     "npss_power@lafan1",
-          "mpjpe_unaligned_mm", "supported_share", "foot_slide_cmps", "jitter@wham", "clean_share"};
+  return {"l2p@lafan1",      "l2q@lafan1",      "npss@lafan1", "npss_power@lafan1", "mpjpe_unaligned_mm",
+          "supported_share", "foot_slide_cmps", "jitter@wham", "clean_share"};
 }
 
 std::shared_ptr<const JudgedFile> JudgeFile(const HiddenWindow& whole) {

@@ -28,7 +28,7 @@ struct HiddenWindow {
   TreeMotion motion;
   int first = 0, last = 0;  ///< the hidden frames, both inclusive; three or more frames are on either side
   std::array<int, kRoleCount> roles = RawMotion::NoRoles();  ///< the joint of each role; −1: none
-  std::vector<glm::dvec3> deviations;  ///< of each joint in training, metres, by which L2P divides; empty: unknown
+  std::vector<glm::dvec3> deviations;      ///< of each joint in training, metres, by which L2P divides; empty: unknown
   std::shared_ptr<const JudgedFile> file;  ///< shared by the file's windows, which outlive its motion
 };
 

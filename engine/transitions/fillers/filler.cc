@@ -16,19 +16,19 @@ glm::dvec3 MeanVelocity(const Ends& ends) { return (ends.end - ends.start) / end
 
 /// Fills each channel by itself. Channels are the root's position, and each joint's rotation vector relative to its
 /// last past rotation: there, slerp is a straight line.
-template <typename Law>
-std::vector<TreePose> FillEach(const Gap& gap, const Law& law) {
+template <typename RootLaw, typename Law>
+std::vector<TreePose> FillEach(const Gap& gap, const RootLaw& root_law, const Law& law) {
   const TreePose &before = gap.past[gap.past.size() - 2], &last = gap.past.back(), &next = gap.future.front();
   const bool knows_velocity = gap.future.size() > 1;
   std::vector<TreePose> filled(gap.frames, {glm::dvec3(0), std::vector<glm::dquat>(gap.tree.size())});
   Ends ends{.seconds = gap.Seconds()};
-  const auto at = [&](std::size_t f) { return law(ends, static_cast<double>(f + 1) / gap.rate_hz); };
+  const auto at = [&](const auto& any, std::size_t f) { return any(ends, static_cast<double>(f + 1) / gap.rate_hz); };
   // The root.
   ends.start = last.root;
   ends.start_velocity = (last.root - before.root) * gap.rate_hz;
   ends.end = next.root;
   if (knows_velocity) ends.end_velocity = (gap.future[1].root - next.root) * gap.rate_hz;
-  for (std::size_t f = 0; f < gap.frames; ++f) filled[f].root = at(f);
+  for (std::size_t f = 0; f < gap.frames; ++f) filled[f].root = at(root_law, f);
   // The joints.
   ends.start = glm::dvec3(0);
   for (std::size_t j = 0; j < gap.tree.size(); ++j) {
@@ -41,7 +41,7 @@ std::vector<TreePose> FillEach(const Gap& gap, const Law& law) {
       if (glm::dot(after, ends.end) < 0 && glm::length(after) > kPi / 2) after -= 2 * kPi * glm::normalize(after);
       ends.end_velocity = (after - ends.end) * gap.rate_hz;
     }
-    for (std::size_t f = 0; f < gap.frames; ++f) filled[f].turns[j] = last.turns[j] * TurnOf(at(f));
+    for (std::size_t f = 0; f < gap.frames; ++f) filled[f].turns[j] = last.turns[j] * TurnOf(at(law, f));
   }
   return filled;
 }
@@ -77,12 +77,22 @@ std::vector<TreePose> Interpolate(const Gap& gap, std::span<const double> /*valu
 template <auto Law, double kFallback>
 std::vector<TreePose> FillByHalfLife(const Gap& gap, std::span<const double> values) {
   const double half_life_s = values.empty() ? kFallback : values[0];
-  return FillEach(gap, [&](const Ends& ends, double t) { return Law(ends, t, half_life_s); });
+  const auto law = [&](const Ends& ends, double t) { return Law(ends, t, half_life_s); };
+  return FillEach(gap, law, law);
 }
 
 constexpr double kSpring_s = SpringOptions().half_life_s, kDead_s = DeadOptions().half_life_s;
 
-std::vector<TreePose> DeadBlend(const Gap& gap) { return FillByHalfLife<DeadBlendedAt, kDead_s>(gap, {}); }
+/// Dead blending whose velocities halve in 0.2 s over the floor, and sooner in heights and joints, which swing.
+std::vector<TreePose> DeadBlend(const Gap& gap) {
+  constexpr double kSwinging_s = 0.06;
+  const auto swinging = [](const Ends& ends, double t) { return DeadBlendedAt(ends, t, kSwinging_s); };
+  const auto root = [&](const Ends& ends, double t) {
+    const glm::dvec3 over_floor = DeadBlendedAt(ends, t, kDead_s);
+    return glm::dvec3(over_floor.x, swinging(ends, t).y, over_floor.z);
+  };
+  return FillEach(gap, root, swinging);
+}
 
 std::vector<TreePose> FillLikeNear(const Gap& gap, std::span<const double> /*values*/) {
   return gap.library ? gap.library->FillLikeNear(gap, DeadBlend) : DeadBlend(gap);
@@ -147,7 +157,7 @@ std::span<const Filler> AllFillers() {
        .fill = FillByHalfLife<DeadBlendedAt, kDead_s>},
       {.name = "minimum-jerk",
        .description = "each joint by the movement of minimum jerk",
-       .fill = [](const Gap& gap, Values) { return FillEach(gap, LeastJerkAt); }},
+       .fill = [](const Gap& gap, Values) { return FillEach(gap, LeastJerkAt, LeastJerkAt); }},
       {.name = "nearest-gap",
        .description = "dead blending, plus what it misses in the training clips' gap whose ends are nearest",
        .uses_library = true,

@@ -21,7 +21,7 @@ struct Gap {
   std::span<const TreePose> future;  ///< at least one; the first is the frame after the gap
   std::size_t frames = 0;            ///< how many are missing, at least one
   double rate_hz = 30;
-  const GapLibrary* library = nullptr;  ///< for fillers that use one
+  const GapLibrary* library = nullptr;                       ///< for fillers that use one
   std::array<int, kRoleCount> roles = RawMotion::NoRoles();  ///< the joint of each role; −1: none
 
   /// Returns the time from the last past frame to the first future frame.

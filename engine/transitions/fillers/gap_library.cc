@@ -117,11 +117,11 @@ std::vector<TreePose> GapLibrary::FillLikeNearest(const Gap& gap, Fill fill) con
 }
 
 std::vector<TreePose> GapLibrary::FillLikeNear(const Gap& gap, Fill fill) const {
-  constexpr double kReach_m = 0.6, kWidth_m = 0.2, kNothing = 0.5;
+  constexpr double kWidth_m = 0.12, kFarthest_m = 3 * kWidth_m, kNothing = 2;
   const std::size_t apart = gap.frames / 2;
   // Of gaps that overlap by more than half, keep the nearest.
   std::vector<Near> kept;
-  double limit = kReach_m * kReach_m;
+  double limit = kFarthest_m * kFarthest_m;
   ForEachNear(gap, limit, [&](const Near& near) {
     const bool overlaps = !kept.empty() && kept.back().entry == near.entry && near.frame - kept.back().frame < apart;
     if (!overlaps) return kept.push_back(near);

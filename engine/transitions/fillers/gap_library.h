@@ -8,8 +8,8 @@ namespace etude {
 
 /// The motions from which fillers learn; none of them is judged. *(Ours, after motion matching.)*
 ///
-/// Two gaps are compared by the mean over joints of squared distances: joints, tilt and height as seen from the root, at
-/// both ends; their velocities and the root's at the first end, times 0.1 s; the root's displacement and rotation
+/// Two gaps are compared by the mean over joints of squared distances: joints, tilt and height as seen from the root,
+/// at both ends; their velocities and the root's at the first end, times 0.1 s; the root's displacement and rotation
 /// between the ends. Only gaps of one joint tree, rate and length are compared.
 class GapLibrary {
  public:
@@ -24,9 +24,9 @@ class GapLibrary {
   /// nothing if no gap can be compared.
   std::vector<TreePose> FillLikeNearest(const Gap& gap, Fill fill) const;
 
-  /// Fills a gap by `fill`, plus the weighted mean of what `fill` misses in the library's gaps at most 0.6 m away; of
-  /// overlapping ones only the nearest counts. The weight is exp(−d²/2h²), h = 0.2 m; nothing missed counts with weight
-  /// 1/2 (kernel regression, shrunk towards `fill`).
+  /// Fills a gap by `fill`, plus the weighted mean of what `fill` misses in the library's gaps at most 0.36 m away; of
+  /// gaps that overlap by more than half, the nearest counts. The weight is exp(−d²/2h²), h = 0.12 m; missing nothing
+  /// counts with weight 2 (kernel regression, shrunk towards `fill`).
   std::vector<TreePose> FillLikeNear(const Gap& gap, Fill fill) const;
 
  private:

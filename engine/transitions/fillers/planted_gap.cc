@@ -34,8 +34,8 @@ struct Globals {
 constexpr std::size_t kMaxFrames = 256;
 using Frames = std::bitset<kMaxFrames>;
 
-/// A place in which a foot stands from one frame to another; a foot that is in the air at an end of the gap has a stance
-/// of one frame there, which `bears` nothing.
+/// A place in which a foot stands from one frame to another; a foot that is in the air at an end of the gap has a
+/// stance of one frame there, which `bears` nothing.
 struct Stance {
   int from = 0, to = 0;
   bool bears = true;
@@ -51,15 +51,20 @@ struct Footfalls {
 
 /// What is known of one foot before its steps are planned.
 struct FootView {
+  const glm::dvec3& End(std::size_t end) const { return end == 0 ? path.front() : path.back(); }
+  /// Returns the tip at an end of the gap, lowered to where it stands.
+  glm::dvec3 Lowered(std::size_t end) const { return End(end) - glm::dvec3(0, raised[end], 0); }
+
   TreeLeg leg;
-  std::vector<glm::dvec3> path;  ///< of its tip as filled, from the frame before the gap to the one after it
-  std::vector<glm::dvec3> hips;  ///< of its hip joint likewise
-  glm::dvec3 velocity{0};        ///< of its tip before the gap, metres per second
-  std::array<bool, 2> stands{};  ///< at both ends
-  double length = 0;             ///< from hip to tip, the leg stretched, metres
+  std::vector<glm::dvec3> path;    ///< of its tip as filled, from the frame before the gap to the one after it
+  std::vector<glm::dvec3> hips;    ///< of its hip joint likewise
+  glm::dvec3 velocity{0};          ///< of its tip before the gap, metres per second
+  std::array<bool, 2> stands{};    ///< at both ends
+  double length = 0;               ///< from hip to tip, the leg stretched, metres
+  std::array<double, 2> raised{};  ///< height of a standing tip above the lowest one around the gap, metres
 };
 
-constexpr double kLowest_m = 0.06, kRest_mps = 0.4, kLanded_m = 0.04;
+constexpr double kLowest_m = 0.1, kRest_mps = 0.4, kLanded_m = 0.06, kPassing_m = 0.02, kTravels_mps = 0.5;
 
 /// Finds the legs and their paths; nothing if the tree lacks roles.
 std::optional<std::array<FootView, 2>> ViewFeet(const Gap& gap, std::span<const Globals> frames) {
@@ -78,17 +83,35 @@ std::optional<std::array<FootView, 2>> ViewFeet(const Gap& gap, std::span<const 
       foot.path.push_back(frame[leg.tip]);
       foot.hips.push_back(frame[leg.hip]);
     }
-    const Globals &first = frames.front(), &last = frames.back();
+    const Globals& first = frames.front();
     foot.length = glm::distance(first[leg.hip], first[leg.knee]) + glm::distance(first[leg.knee], first[leg.ankle]) +
                   glm::distance(first[leg.ankle], first[leg.tip]);
     foot.velocity = gap.rate_hz * (first[leg.tip] - before[leg.tip]);
-    foot.stands[0] = first[leg.tip].y <= first.Lowest() + kLowest_m && glm::length(foot.velocity) <= kRest_mps;
-    // With one future frame only the height tells.
-    foot.stands[1] = last[leg.tip].y <= last.Lowest() + kLanded_m;
-    if (!knows_velocity) continue;
-    const Globals after(gap.tree, gap.future[1]);
-    foot.stands[1] = last[leg.tip].y <= last.Lowest() + kLowest_m &&
-                     gap.rate_hz * glm::distance(after[leg.tip], last[leg.tip]) <= kRest_mps;
+  }
+  // The lowest tips that both feet show around the gap; where a tip is a little higher, its foot is raised.
+  double floor = std::numeric_limits<double>::infinity();
+  const auto look = [&](const TreePose& pose) {
+    const Globals frame(gap.tree, pose);
+    for (const FootView& foot : feet) floor = std::min(floor, frame[foot.leg.tip].y);
+  };
+  std::ranges::for_each(gap.past.last(std::min<std::size_t>(gap.past.size(), 10)), look);
+  std::ranges::for_each(gap.future, look);
+  constexpr double kRaised_m = 0.02, kSurface_m = 0.12;
+  const double speed = glm::distance(gap.past.back().root, gap.future.front().root) / gap.Seconds();
+  const double landed = std::min(feet[0].path.back().y, feet[1].path.back().y);
+  for (FootView& foot : feet) {
+    const int tip = foot.leg.tip;
+    for (std::size_t end = 0; end < 2; ++end) {
+      const double rise = foot.End(end).y - floor;
+      foot.raised[end] = rise <= kSurface_m ? std::max(rise - kRaised_m, 0.0) : 0;
+    }
+    const glm::dvec3 &first = frames.front()[tip], &last = frames.back()[tip];
+    foot.stands[0] = first.y <= frames.front().Lowest() + kLowest_m && glm::length(foot.velocity) <= kRest_mps;
+    // With one future frame, only the height tells; a body that travels raises a foot only a little.
+    const glm::dvec3 after = knows_velocity ? Globals(gap.tree, gap.future[1])[tip] : last;
+    const double highest = knows_velocity ? kLowest_m : speed > kTravels_mps ? kPassing_m : kLanded_m;
+    foot.stands[1] = last.y <= frames.back().Lowest() + kLowest_m && last.y <= landed + highest &&
+                     gap.rate_hz * glm::distance(after, last) <= kRest_mps;
   }
   return feet;
 }
@@ -98,7 +121,7 @@ std::optional<std::array<double, 2>> Floors(const FootView& foot, const FootView
   std::array<std::optional<double>, 2> known;
   for (std::size_t end = 0; end < 2; ++end) {
     for (const FootView* one : {&other, &foot}) {
-      if (one->stands[end]) known[end] = (end == 0 ? one->path.front() : one->path.back()).y;
+      if (one->stands[end]) known[end] = one->Lowered(end).y;
     }
   }
   if (!known[0] && !known[1]) return std::nullopt;
@@ -120,7 +143,8 @@ class FootPlanner {
 
   /// Returns the cheapest, the very cheapest first.
   std::vector<Footfalls> Cheapest() {
-    std::vector<Stance> stances = {{.bears = foot_.stands[0], .tip = foot_.path.front()}};
+    std::vector<Stance> stances = {
+        {.bears = foot_.stands[0], .tip = foot_.stands[0] ? foot_.Lowered(0) : foot_.End(0)}};
     Extend(stances);
     constexpr std::size_t kKept = 300;
     std::ranges::stable_sort(found_, {}, &Footfalls::cost);
@@ -171,8 +195,8 @@ class FootPlanner {
 
   /// Lets the last stance go on to the end of the gap, where the foot stands.
   void End(std::vector<Stance> stances, int from) {
-    stances.back() = {.from = from, .to = last_, .bears = true, .tip = foot_.path.back()};
-    if (stances.size() == 1) stances.front().tip = foot_.path.front();
+    stances.back() = {.from = from, .to = last_, .bears = true, .tip = foot_.Lowered(1)};
+    if (stances.size() == 1) stances.front().tip = foot_.Lowered(0);
     Keep(stances);
   }
 
@@ -185,13 +209,16 @@ class FootPlanner {
 
   /// Prices footfalls and keeps them.
   void Keep(const std::vector<Stance>& stances) {
-    constexpr double kPerStep = 0.02, kPerDrift = 30, kPerHaste = 0.01, kHaste_mps = 4, kPerStretch = 4;
+    constexpr double kPerStep = 0.02, kPerDrift = 30, kPerHaste = 0.01, kHaste_mps = 4, kPerStretch = 4, kPerLate = 0.2,
+                     kLong_s = 0.55;
     Footfalls made;
     made.stances = stances;
     const double share = 1.0 / (last_ + 1);
     const auto far = [&](int frame, const glm::dvec3& tip) {
-      const double stretch = std::max(glm::distance(foot_.hips[static_cast<std::size_t>(frame)], tip) - foot_.length, 0.0);
-      return share * (SquareOnFloor(tip, foot_.path[static_cast<std::size_t>(frame)]) + kPerStretch * stretch * stretch);
+      const double stretch =
+          std::max(glm::distance(foot_.hips[static_cast<std::size_t>(frame)], tip) - foot_.length, 0.0);
+      return share *
+             (SquareOnFloor(tip, foot_.path[static_cast<std::size_t>(frame)]) + kPerStretch * stretch * stretch);
     };
     for (std::size_t i = 0; i < stances.size(); ++i) {
       const Stance& stance = stances[i];
@@ -207,8 +234,8 @@ class FootPlanner {
         made.cost += far(f, glm::mix(before.tip, stance.tip, s));
       }
       const double speed = std::sqrt(SquareOnFloor(before.tip, stance.tip)) * rate_hz_ / frames;
-      const double haste = std::max(speed - kHaste_mps, 0.0);
-      made.cost += kPerStep + kPerHaste * haste * haste;
+      const double haste = std::max(speed - kHaste_mps, 0.0), late = std::max(frames / rate_hz_ - kLong_s, 0.0);
+      made.cost += kPerStep + kPerHaste * haste * haste + kPerLate * late;
     }
     if (stances.size() == 1) made.cost += kPerDrift * SquareOnFloor(stances[0].tip, foot_.path.back());
     found_.push_back(std::move(made));
@@ -224,7 +251,7 @@ class FootPlanner {
 
 /// Returns the cheapest pair of footfalls.
 std::array<Footfalls, 2> PlanFeet(const std::array<std::vector<Footfalls>, 2>& feet, std::size_t frames) {
-  const double per_frame = 0.1 / static_cast<double>(frames);  // a frame in which no foot stands
+  const double per_frame = 0.3 / static_cast<double>(frames);  // a frame in which no foot stands
   double least = std::numeric_limits<double>::infinity();
   std::array<const Footfalls*, 2> best{};
   for (const Footfalls& left : feet[0]) {
@@ -265,9 +292,10 @@ std::vector<FootPose> Walk(const FootView& foot, const Footfalls& falls, std::sp
     const int frames = stance.from - before.to;
     const glm::dvec3 way = stance.tip - before.tip;
     Ends ends{.start = before.tip, .end = stance.tip, .seconds = frames / rate_hz};
-    if (!before.bears) ends.start_velocity = foot.velocity;
+    if (!before.bears) ends.start_velocity = foot.velocity * glm::dvec3(1, 0.5, 1);  // a swing soon stops rising
     if (stance.bears) ends.end_velocity = glm::dvec3(0);
-    const double lift = before.bears || stance.bears ? LiftFor(std::hypot(way.x, way.z)) : 0;
+    const double share = before.bears ? 1 : stance.bears ? 0.5 : 0;  // a foot in the air is lifted already
+    const double lift = share * LiftFor(std::hypot(way.x, way.z));
     for (int f = before.to + 1; f < stance.from; ++f) {
       const double s = static_cast<double>(f - before.to) / frames, rest = s * (1 - s);
       FootPose& pose = poses[static_cast<std::size_t>(f)];
@@ -276,16 +304,22 @@ std::vector<FootPose> Walk(const FootView& foot, const Footfalls& falls, std::sp
       pose.turn = glm::slerp(turn_of(before), turn_of(stance), Smootherstep(s));
     }
   }
-  if (falls.stances.size() > 1) return poses;
-  // A foot that stays takes up what its places at both ends differ by.
+  // A foot that stays takes up what its places at both ends differ by; a raised one is lowered to its stance.
+  constexpr double kLower_s = 0.2;
   for (std::size_t f = 0; f < count; ++f) {
     const double s = static_cast<double>(f) / last;
-    poses[f] = {glm::mix(foot.path.front(), foot.path.back(), s), glm::slerp(turns.front(), turns.back(), s)};
+    if (falls.stances.size() == 1) {
+      poses[f] = {glm::mix(foot.Lowered(0), foot.Lowered(1), s), glm::slerp(turns.front(), turns.back(), s)};
+    }
+    for (std::size_t end = 0; end < 2; ++end) {
+      const double since = (end == 0 ? s : 1 - s) * last / rate_hz;
+      if (foot.stands[end]) poses[f].tip.y += foot.raised[end] * (1 - Smootherstep(since / kLower_s));
+    }
   }
   return poses;
 }
 
-/// Returns a foot's pose with the heel raised about the tip, as far as the hip needs for its leg to reach the ankle.
+/// Returns the rotation of a foot's ankle with the heel raised about the tip, as far as the leg needs to reach it.
 glm::dquat RaisedHeel(const FootPose& foot, const glm::dvec3& hip, const glm::dvec3& limb, double reach) {
   const glm::dvec3 heel = -(foot.turn * limb), to_hip = hip - foot.tip;
   const double length = glm::length(heel), far = glm::length(to_hip);
@@ -353,7 +387,7 @@ void PlantGap(const Gap& gap, std::vector<TreePose>& filled) {
     walks[side] = Walk((*feet)[side], falls[side], turns, gap.rate_hz);
     const Globals &first = frames.front(), &last = frames.back();
     const auto length = [&](int a, int b) { return glm::distance(first[a], first[b]); };
-    constexpr double kEasy = 0.98, kMost = 0.9995;
+    constexpr double kEasy = 0.98, kMost = 0.9995, kHeel = 0.95;
     const double whole = length(leg.hip, leg.knee) + length(leg.knee, leg.ankle);
     reach[side] = std::clamp(std::max(length(leg.hip, leg.ankle), glm::distance(last[leg.hip], last[leg.ankle])),
                              kEasy * whole, kMost * whole);
@@ -361,7 +395,7 @@ void PlantGap(const Gap& gap, std::vector<TreePose>& filled) {
         glm::conjugate(first.turns[static_cast<std::size_t>(leg.ankle)]) * (first[leg.tip] - first[leg.ankle]);
     for (std::size_t f = 0; f < frames.size(); ++f) {
       const FootPose& foot = walks[side][f];
-      drop[f] = std::max(drop[f], HipDrop(frames[f][leg.hip], foot.tip - foot.turn * limb, reach[side]));
+      drop[f] = std::max(drop[f], HipDrop(frames[f][leg.hip], foot.tip, reach[side] + kHeel * glm::length(limb)));
     }
   }
   // Lower the body and solve the legs.
