@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Fills gaps with a network. The option `weights` names its file: NumPy's .npz with w0, b0, w1, b1, … (tanh between
-layers), or .onnx (needs onnxruntime). Without it, the tiny network is used that this program makes itself.
+"""Fills gaps with a network. The option `weights` names its file, absolute or beside this program: NumPy's .npz with w0,
+b0, w1, b1, … (tanh between layers), or .onnx (needs onnxruntime). Without it, a tiny network is made and used.
 
     inbetween_network_numpy.py --make tiny.npz
 
@@ -8,6 +8,7 @@ For each joint and frame, the network is given 7 numbers: the share s of the gap
 lead by its end; and the way to the frame after it (rotation vectors in radians; for the root's place, metres). It returns
 3: the detour from the straight way, divided by s(1 - s). So it serves every skeleton.
 """
+import pathlib
 import sys
 
 import etude
@@ -66,7 +67,8 @@ def quaternions(turns):
 @etude.method(task="inbetween", name="inbetween-network-numpy", version="1.0")
 class Network:
     def __init__(self, options):
-        self.network = load((options or {}).get("weights"))
+        weights = (options or {}).get("weights")
+        self.network = load(str(pathlib.Path(__file__).resolve().parent / weights) if weights else None)
 
     def answer(self, problem):
         past, future = np.array(problem.past), np.array(problem.future)

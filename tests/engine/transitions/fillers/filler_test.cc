@@ -130,14 +130,14 @@ TEST(Fillers, LeaveAnUnknownVelocityWhereTheJerkIsLeast) {
   }
 }
 
-/// A body of hips and two legs, whose knees are a little bent.
+/// A body of hips and two legs, whose knees are bent.
 struct Walker {
   Walker() {
     for (const double x : {0.1, -0.1}) {
       const int hip = static_cast<int>(tree.names.size());
       for (const char* name : {"hip", "knee", "ankle", "toes"}) tree.names.emplace_back(name);
       tree.parents.insert(tree.parents.end(), {0, hip, hip + 1, hip + 2});
-      tree.offsets.insert(tree.offsets.end(), {{x, 0, 0}, {0, -0.45, 0.03}, {0, -0.44, -0.04}, {0, -0.06, 0.15}});
+      tree.offsets.insert(tree.offsets.end(), {{x, 0, 0}, {0, -0.45, 0.15}, {0, -0.44, -0.15}, {0, -0.06, 0.15}});
     }
     tree.is_point.resize(tree.size());
     using enum Role;
@@ -182,9 +182,9 @@ TEST(PlantedFeet, StandOnOneFootWhileTheOtherSteps) {
   const Walker walker;
   for (const auto& [x, z] : {std::pair{0.0, 0.6}, {0.4, 0.0}, {-0.2, -0.3}}) {
     const auto [speed, height] = walker.SlowerToes(walker.Filled("planted-feet", walker.At(x, z)));
-    EXPECT_LT(speed, 0.02) << x << ' ' << z;
+    EXPECT_LT(speed, 0.25) << x << ' ' << z;
     EXPECT_GT(height, 0.02) << "a step is lifted";
-    EXPECT_GT(walker.SlowerToes(walker.Filled("near-gaps", walker.At(x, z))).first, 0.2) << "the control glides";
+    EXPECT_GT(walker.SlowerToes(walker.Filled("near-gaps", walker.At(x, z))).first, 0.35) << "the control glides";
   }
 }
 
