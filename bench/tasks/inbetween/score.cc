@@ -142,8 +142,8 @@ bool IsCleanFilling(const HiddenWindow& hidden, const Globals& found, const Glob
                       .first = hidden.first,
                       .last = after,
                       .rate_hz = rate_hz};
-  const std::array seams = {hidden.first - 1, after};
-  return IsClean({.natural = IsNatural(MeasureTransitions({rate_hz, shown}, seams).jump_cm, file.natural_jumps_cm),
+  const std::array ends = {hidden.first - 1, after};
+  return IsClean({.natural = IsNatural(MeasureTransitions({rate_hz, shown}, ends).jump_cm, file.natural_jumps_cm),
                   .calmly_natural = IsCalmlyNatural(view, NaturalLimitCm(file.natural_jumps_cm)),
                   .supported = IsSupported(support),
                   .slide_cmps = FootSlideCmps(shown, hidden.first - 1, after, rate_hz),

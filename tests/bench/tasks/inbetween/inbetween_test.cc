@@ -161,7 +161,7 @@ TEST(Inbetween, SaysWhyAFillingIsNeitherCleanNorNot) {
     const auto study = StudyOf(keys, "interpolation");
     EXPECT_TRUE(study) << ToString(study.error());
     for (const MetricValue& metric : WorldOf(*study, 0)->Run(0).metrics) {
-      if (metric.id == "clean_share") return metric.value ? "measured" : metric.reason;
+      if (metric.id == "clean_share") return metric.value ? "measured" : metric.null_reason;
     }
     return std::string("not reported");
   };
