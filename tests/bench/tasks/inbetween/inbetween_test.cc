@@ -22,7 +22,9 @@ struct Study {
 
 Result<Study> StudyOf(const std::string& keys, const std::string& filler) {
   ASSIGN_OR_RETURN(const auto condition, ParseYaml("{" + keys + "}", "s.yaml"));
-  ASSIGN_OR_RETURN(const auto method, ParseYaml("{name: a, " + (filler == "hidden" ? "oracle: [frames]" : "filler: " + filler) + "}", "s.yaml"));
+  ASSIGN_OR_RETURN(
+      const auto method,
+      ParseYaml("{name: a, " + (filler == "hidden" ? "oracle: [frames]" : "filler: " + filler) + "}", "s.yaml"));
   const std::span methods(&method, 1);
   ASSIGN_OR_RETURN(auto found, FindWindows(condition, methods, {}));
   Fields fields(condition, "a condition");
@@ -137,22 +139,19 @@ TEST(Inbetween, KnowsTheTruthAndWhatIsDoneToIt) {
   EXPECT_EQ(Measured(same, "supported_share"), 1);
   EXPECT_EQ(Measured(same, "clean_share"), 1);
   // Lifted by 10 cm it floats, is that far off, and breaks at both ends.
-  const CellResult lifted =
-      JudgedAfter(*world, [](Json& pose, int) { pose[1] = pose[1].get<double>() + 0.1; });
+  const CellResult lifted = JudgedAfter(*world, [](Json& pose, int) { pose[1] = pose[1].get<double>() + 0.1; });
   EXPECT_EQ(Measured(lifted, "supported_share"), 0);
   EXPECT_EQ(Measured(lifted, "clean_share"), 0);
   EXPECT_NEAR(Measured(lifted, "mpjpe_unaligned_mm"), 100, 1e-9);
   EXPECT_NEAR(Measured(lifted, "l2q@lafan1"), 0, 1e-12);
   EXPECT_GT(Measured(lifted, "jitter@wham"), 2 * Measured(own, "jitter@wham"));
   // It glides along X by 1 cm a frame.
-  const CellResult glides =
-      JudgedAfter(*world, [](Json& pose, int f) { pose[0] = pose[0].get<double>() + 0.01 * f; });
+  const CellResult glides = JudgedAfter(*world, [](Json& pose, int f) { pose[0] = pose[0].get<double>() + 0.01 * f; });
   EXPECT_GT(Measured(glides, "foot_slide_cmps"), Measured(own, "foot_slide_cmps") + 5);
   EXPECT_EQ(Measured(glides, "clean_share"), 0);
   // It shakes by 2 mm.
-  const CellResult shakes = JudgedAfter(*world, [](Json& pose, int f) {
-    pose[2] = pose[2].get<double>() + (f % 2 ? 0.002 : -0.002);
-  });
+  const CellResult shakes =
+      JudgedAfter(*world, [](Json& pose, int f) { pose[2] = pose[2].get<double>() + (f % 2 ? 0.002 : -0.002); });
   EXPECT_GT(Measured(shakes, "jitter@wham"), Measured(own, "jitter@wham") + 10);
 }
 

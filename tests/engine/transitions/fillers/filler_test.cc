@@ -190,9 +190,11 @@ TEST(PlantedFeet, StandOnOneFootWhileTheOtherSteps) {
 
 TEST(PlantedFeet, ChangeNothingWhereNothingMovesOrNoRoleIsKnown) {
   const Walker walker;
-  EXPECT_LT(FarthestApart(walker.Filled("planted-feet", walker.At(0, 0)), std::vector<TreePose>(30, walker.At(0, 0))), 1e-6);
-  EXPECT_EQ(FarthestApart(walker.Filled("planted-feet", walker.At(0, 1), false), walker.Filled("near-gaps", walker.At(0, 1))),
-            0);
+  EXPECT_LT(FarthestApart(walker.Filled("planted-feet", walker.At(0, 0)), std::vector<TreePose>(30, walker.At(0, 0))),
+            1e-6);
+  EXPECT_EQ(
+      FarthestApart(walker.Filled("planted-feet", walker.At(0, 1), false), walker.Filled("near-gaps", walker.At(0, 1))),
+      0);
 }
 
 TEST(Fillers, FindAGapInALibraryThatHoldsItTurnedAndMoved) {
@@ -207,11 +209,13 @@ TEST(Fillers, FindAGapInALibraryThatHoldsItTurnedAndMoved) {
   library.Add(held);
   EXPECT_LT(ErrorOf(FillerOf("nearest-gap"), poses, 10, 20, 1, &library), 1e-9);
   EXPECT_EQ(ErrorOf(FillerOf("nearest-gap"), poses, 10, 20, 1), 1e9) << "without a library nothing is filled";
-  // Of one gap that is the same and otherwise none near, a third of what dead blending misses is taken (weights 1 and 2).
+  // Of one gap that is the same and otherwise none near, a third of what dead blending misses is taken (weights 1 and
+  // 2).
   GapLibrary of_held;
   of_held.Add(held);
-  EXPECT_NEAR(ErrorOf(FillerOf("near-gaps"), poses, 10, 20, 1, &of_held) / ErrorOf(FillerOf("near-gaps"), poses, 10, 20, 1),
-              2.0 / 3, 0.05);
+  EXPECT_NEAR(
+      ErrorOf(FillerOf("near-gaps"), poses, 10, 20, 1, &of_held) / ErrorOf(FillerOf("near-gaps"), poses, 10, 20, 1),
+      2.0 / 3, 0.05);
   TreeMotion renamed = held;
   renamed.tree.names[2] = "toe";
   GapLibrary of_another_tree;

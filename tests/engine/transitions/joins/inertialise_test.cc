@@ -111,7 +111,6 @@ TEST(QuinticDecay, IsNothingWithoutOffsetOrWithoutTime) {
   EXPECT_EQ(Left(QuinticLaw({.blend_s = 0}), 0.3, 0, 0.03), 0);
 }
 
-
 // A velocity v that halves every h leads v·h/ln 2·(1 − 2^(−t/h)) far in the time t.
 TEST(DeadBlending, GoesOnWithVelocitiesThatHalveWhileTheNewMotionFadesIn) {
   const auto raised = [](double degrees, double x) {
