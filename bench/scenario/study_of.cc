@@ -60,12 +60,9 @@ Study StudyOf(const Scenario& scenario) {
               .rival = scenario.rival,
               .expectations = scenario.expectations,
               .gate = scenario.gate};
-  const TaskKind& kind = *FindTaskKind(scenario.task);
   for (const MethodEntry& method : scenario.methods) {
     const Node* oracle = method.node.Find("oracle");
-    const Node* truth = method.node.Find(kind.truth.first);
-    const bool has_oracle = (oracle != nullptr && (oracle->kind != Node::Kind::kSequence || !oracle->items.empty())) ||
-                            (truth != nullptr && truth->scalar == kind.truth.second);
+    const bool has_oracle = oracle != nullptr && (oracle->kind != Node::Kind::kSequence || !oracle->items.empty());
     study.methods.push_back(
         {method.name, method.against, has_oracle, StagesOf(oracle), SettingsOf(method), DescriptionOf(method)});
   }

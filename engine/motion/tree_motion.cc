@@ -5,15 +5,16 @@
 
 namespace etude {
 
-Result<TreeMotion> TreeMotionOf(const RawMotion& motion, const std::set<std::string>& points) {
+Result<TreeMotion> TreeMotionOf(const RawMotion& motion) {
   const std::size_t joints = motion.joints.size();
   if (motion.rotations.empty()) return Fail({motion.name}, "has points and no rotations of joints");
   if (std::ranges::count(motion.parents, -1) != 1 || motion.parents.front() != -1) {
     return Fail({motion.name}, "has {} roots; allowed: one, the first joint", std::ranges::count(motion.parents, -1));
   }
   if (!std::ranges::all_of(motion.positions, IsSeen)) return Fail({motion.name}, "has joints that are not seen");
-  TreeMotion made{{motion.joints, motion.parents, std::vector<glm::dvec3>(joints), {}}, motion.rate_hz, {}};
-  for (const std::string& joint : motion.joints) made.tree.is_point.push_back(points.contains(joint));
+  TreeMotion made{
+      {motion.joints, motion.parents, std::vector<glm::dvec3>(joints), std::vector<bool>(joints)}, motion.rate_hz, {}};
+  for (const int joint : motion.added) made.tree.is_point[static_cast<std::size_t>(joint)] = true;
   made.poses.resize(motion.FrameCount());
   for (std::size_t f = 0; f < made.poses.size(); ++f) {
     TreePose& pose = made.poses[f];

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <set>
 #include <string>
 #include <vector>
 
@@ -36,9 +35,9 @@ struct TreeMotion {
 };
 
 /// Converts a motion to rotations in the parents' frames. Offsets are those of the first frame; later changes are
-/// dropped. `points` are the names of joints without a rotation. Quaternions keep their signs over time. Fails for a
-/// motion without rotations or frames, with positions that are not seen, or with several roots.
-Result<TreeMotion> TreeMotionOf(const RawMotion& motion, const std::set<std::string>& points);
+/// dropped. Joints that are none of the file's own (RawMotion::added) are points. Quaternions keep their signs over
+/// time. Fails for a motion without rotations or frames, with positions that are not seen, or with several roots.
+Result<TreeMotion> TreeMotionOf(const RawMotion& motion);
 
 /// Appends the positions (metres) and rotations of all joints in the world, in one frame.
 void AppendGlobals(const JointTree& tree, const TreePose& pose, std::vector<glm::dvec3>& positions,

@@ -321,18 +321,6 @@ class PoseDistanceAnswer(Message):
 
 
 @dataclass
-class InbetweenPose(Message):
-    """One frame of a joint tree.
-
-    root_m: Where the first joint is, metres, Y up.
-    rotations: Each joint's rotation in its parent's frame, a unit quaternion [w, x, y, z]; in answers its length
-        may be off by a hundredth.
-    """
-    root_m: Vector
-    rotations: List[List[float]]
-
-
-@dataclass
 class InbetweenSetting(Message):
     """The protocol.
 
@@ -354,27 +342,26 @@ class InbetweenProblem(Message):
     parents: The index of each joint's parent; -1 for the first.
     offsets_m: Each joint's place in its parent's frame, metres.
     gap: How many frames are missing.
-    past: The frames before the gap.
-    future: The frames behind the gap.
+    past: The frames before the gap: of each, 3 + 4 numbers per joint. First the position of the first joint,
+        metres, Y up; then each joint's rotation in its parent's frame, a unit quaternion w, x, y, z.
+    future: The frames behind the gap, likewise.
     """
-    HOLDS: ClassVar[dict] = {"past": [InbetweenPose], "future": [InbetweenPose]}
     rate_hz: float
     joints: List[str]
     parents: List[int]
     offsets_m: List[Vector]
     gap: int
-    past: List[InbetweenPose]
-    future: List[InbetweenPose]
+    past: List[List[float]]
+    future: List[List[float]]
 
 
 @dataclass
 class InbetweenAnswer(Message):
     """The missing frames.
 
-    frames: As many as are missing.
+    frames: As many as are missing, in the form of past; a quaternion's length may be off by a hundredth.
     """
-    HOLDS: ClassVar[dict] = {"frames": [InbetweenPose]}
-    frames: List[InbetweenPose]
+    frames: List[List[float]]
 
 
 @dataclass

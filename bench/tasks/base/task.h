@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <string_view>
 #include <vector>
 
@@ -140,9 +139,6 @@ struct TaskKind {
   Result<std::unique_ptr<Task>> (*make)(TaskInput& input);
   std::vector<KeyInfo> condition_keys;  ///< its keys in a scenario
   std::vector<KeyInfo> method_keys;     ///< its keys in a method, beside `name`
-  /// The key and value of a method that answers with the truth, if there is one. It shows an upper bound and does not
-  /// compete.
-  std::pair<std::string, std::string> truth = {};
   /// The seats of its loop that a program may take, named by the method's key `seat`. The program is then asked step by
   /// step, and the method uses the task's keys for everything else.
   std::vector<std::string> seats = {};

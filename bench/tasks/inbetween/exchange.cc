@@ -8,14 +8,12 @@
 namespace etude {
 namespace {
 
-Json Encode(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
-
+/// Encodes each pose as numbers: root, then quaternions (w, x, y, z).
 Json EncodePoses(std::span<const TreePose> poses) {
   Json encoded = Json::array();
   for (const TreePose& pose : poses) {
-    Json turns = Json::array();
-    for (const glm::dquat& q : pose.turns) turns.push_back({q.w, q.x, q.y, q.z});
-    encoded.push_back({{"root_m", Encode(pose.root)}, {"rotations", std::move(turns)}});
+    Json& numbers = encoded.emplace_back(Json{pose.root.x, pose.root.y, pose.root.z});
+    for (const glm::dquat& q : pose.turns) numbers.insert(numbers.end(), {q.w, q.x, q.y, q.z});
   }
   return encoded;
 }
@@ -27,17 +25,12 @@ std::span<const TreePose> HiddenFrames(const HiddenWindow& hidden) {
 
 Result<TreePose> ReadPose(const Json& json, const std::string& path, std::size_t joints) {
   constexpr double kFarthest_m = 1e4, kOffLength = 0.01;
-  AnswerFields fields(json, path);
-  const Json& root = fields.List("root_m", 3, 3);
-  const Json& turns = fields.List("rotations", joints, joints);
-  RETURN_IF_ERROR(fields.Finish());
-  ASSIGN_OR_RETURN(const auto at, ReadNumbers(root, fields.PathOf("root_m"), 3, {-kFarthest_m, kFarthest_m}));
-  TreePose pose{{at[0], at[1], at[2]}, {}};
-  for (std::size_t j = 0; j < joints; ++j) {
-    ASSIGN_OR_RETURN(const auto q, ReadNumbers(turns[j], fields.PathOf("rotations", j), 4, {-2, 2}));
-    const glm::dquat turn(q[0], q[1], q[2], q[3]);
+  ASSIGN_OR_RETURN(const auto numbers, ReadNumbers(json, path, 3 + 4 * joints, {-kFarthest_m, kFarthest_m}));
+  TreePose pose{{numbers[0], numbers[1], numbers[2]}, {}};
+  for (std::size_t at = 3; at < numbers.size(); at += 4) {
+    const glm::dquat turn(numbers[at], numbers[at + 1], numbers[at + 2], numbers[at + 3]);
     if (std::abs(glm::length(turn) - 1) > kOffLength) {
-      return Fail({}, "{}: a quaternion {} long; allowed: 1 ± {:g}", fields.PathOf("rotations", j), glm::length(turn),
+      return Fail({}, "{}[{}…{}]: a quaternion {} long; allowed: 1 ± {:g}", path, at, at + 3, glm::length(turn),
                   kOffLength);
     }
     pose.turns.push_back(glm::normalize(turn));
@@ -50,7 +43,7 @@ Result<TreePose> ReadPose(const Json& json, const std::string& path, std::size_t
 Payload GapPayload(const HiddenWindow& hidden, int given) {
   const std::span poses = hidden.motion.poses;
   Json offsets = Json::array();
-  for (const glm::dvec3& offset : hidden.motion.tree.offsets) offsets.push_back(Encode(offset));
+  for (const glm::dvec3& offset : hidden.motion.tree.offsets) offsets.push_back({offset.x, offset.y, offset.z});
   const auto first = static_cast<std::size_t>(hidden.first), last = static_cast<std::size_t>(hidden.last);
   return PayloadOf({{"rate_hz", hidden.motion.rate_hz},
                     {"joints", hidden.motion.tree.names},

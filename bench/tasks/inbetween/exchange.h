@@ -9,15 +9,16 @@
 namespace etude {
 
 /// Encodes the problem: the frames before a gap and `given` frames after it, on the joint tree of their file. A pose is
-/// the root's position in metres (Y up) and each joint's rotation in its parent's frame, as a unit quaternion.
+/// a list of numbers: the root's position in metres (Y up), then each joint's rotation in its parent's frame, as a unit
+/// quaternion (w, x, y, z).
 ///
 ///     {"rate_hz": 30, "joints": ["Hips", …], "parents": [-1, 0, …], "offsets_m": [[x, y, z], …], "gap": 30,
-///      "past": [{"root_m": [x, y, z], "rotations": [[w, x, y, z], …]}, …], "future": [likewise]}
+///      "past": [[x, y, z, w, x, y, z, …], …], "future": [likewise]}
 Payload GapPayload(const HiddenWindow& hidden, int given);
 
 /// Encodes the truth, which has the form of an answer:
 ///
-///     {"frames": [{"root_m": [x, y, z], "rotations": [[w, x, y, z], …]}, …]}
+///     {"frames": [[x, y, z, w, x, y, z, …], …]}
 Payload HiddenPayload(const HiddenWindow& hidden);
 
 /// Reads an answer, which must have as many frames as are hidden. A quaternion's length may differ from 1 by at most

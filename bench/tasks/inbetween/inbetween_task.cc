@@ -37,7 +37,7 @@ struct InbetweenStudy {
     if (known == training.end()) return whole = Fail({wanted}, "no training clip has its joints");
     if (!options.own_offsets) tree.offsets = known->tree.offsets;
     whole->deviations = known->Deviations();
-    whole->floor_m = FloorOf(*whole);
+    whole->file = JudgeFile(*whole);
     return whole;
   }
 };
@@ -58,8 +58,8 @@ class InbetweenWorld final : public TaskWorld {
                options.past,
                options.past + options.gap - 1,
                file->roles,
-               file->floor_m,
-               file->deviations};
+               file->deviations,
+               file->file};
   }
 
   std::optional<std::string> WhySkipped() const override { return why_; }
@@ -68,13 +68,14 @@ class InbetweenWorld final : public TaskWorld {
     const InbetweenMethod& one = study_.methods[method];
     const std::span poses = hidden_.motion.poses;
     const auto first = static_cast<std::size_t>(hidden_.first), after = static_cast<std::size_t>(hidden_.last) + 1;
-    if (one.filler->fill == nullptr) return ScoreFilling(hidden_, poses.subspan(first, after - first), keeps_motion_);
+    if (one.filler == nullptr) return ScoreFilling(hidden_, poses.subspan(first, after - first), keeps_motion_);
     const Gap gap{.tree = hidden_.motion.tree,
                   .past = poses.first(first),
                   .future = poses.subspan(after, static_cast<std::size_t>(study_.options.given)),
                   .frames = after - first,
                   .rate_hz = hidden_.motion.rate_hz,
-                  .library = &study_.library};
+                  .library = &study_.library,
+                  .roles = hidden_.roles};
     const std::vector<TreePose> filled = one.filler->fill(gap, one.settings);
     if (filled.empty())
       return CellResult::Ended(Status::kFailed, "the library has no gap of this length on these joints");
@@ -123,8 +124,9 @@ Result<std::unique_ptr<Task>> MakeInbetweenTask(TaskInput& input) {
   study.windows.assign(input.files.begin(), input.files.end());
   if (input.opening != nullptr) study.opening = *input.opening;
   if (!study.windows.empty()) {
-    const bool needs_library =
-        std::ranges::any_of(study.methods, [](const InbetweenMethod& method) { return method.filler->needs_library; });
+    const bool needs_library = std::ranges::any_of(study.methods, [](const InbetweenMethod& method) {
+      return method.filler != nullptr && method.filler->uses_library;
+    });
     ASSIGN_OR_RETURN(study.training, Train(study.options, study.opening, needs_library ? &study.library : nullptr));
   }
   return std::make_unique<InbetweenTask>(std::move(study));
@@ -142,7 +144,6 @@ TaskKind MakeInbetweenTaskKind() {
           .make = MakeInbetweenTask,
           .condition_keys = InbetweenConditionFields().Describe(),
           .method_keys = InbetweenMethodFields().Describe(),
-          .truth = {"filler", "hidden"},
           .uses_clips = false,
           .units = {SamplingUnit::kClip, SamplingUnit::kWorld},
           .find_files = FindWindows,

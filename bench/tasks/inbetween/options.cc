@@ -46,23 +46,21 @@ const FieldTable<InbetweenOptions>& InbetweenConditionFields() {
   return table;
 }
 
-const std::vector<Filler>& TaskFillers() {
-  static const std::vector<Filler> fillers = [] {
-    std::vector<Filler> all(AllFillers().begin(), AllFillers().end());
-    all.push_back({.name = "hidden", .description = "the hidden frames themselves: what the metrics give the truth"});
-    return all;
-  }();
-  return fillers;
-}
-
 const FieldTable<InbetweenMethod>& InbetweenMethodFields() {
   using Method = InbetweenMethod;
   using Key = Field<Method>;
   static const FieldTable<Method> table = [] {
     NamedValues<const Filler*> values;
-    for (const Filler& filler : TaskFillers()) values.emplace_back(filler.name, &filler);
-    FieldTable<Method> made{{Key::Name("filler", &Method::filler, values, "How the hidden frames are filled in.")}};
-    for (const Key& key : SettingFields<Method>("filler", TaskFillers(), &Method::settings)) made.fields.push_back(key);
+    for (const Filler& filler : AllFillers()) values.emplace_back(filler.name, &filler);
+    FieldTable<Method> made{{Key::Name("filler", &Method::filler, values, "How the hidden frames are filled in.")
+                                 .WhenAbsent("(none: it must stand, unless `oracle` does)"),
+                             Key::Flags("oracle", {{"frames", &Method::knows_frames}},
+                                        "`frames`: the hidden frames themselves, what the metrics give the truth.")}};
+    for (const Key& key : SettingFields<Method>("filler", AllFillers(), &Method::settings)) made.fields.push_back(key);
+    made.check = [](Fields& fields, Method& method) {
+      if (method.knows_frames == (method.filler != nullptr))
+        fields.Complain(fields.node().place, "a method needs either 'filler' or 'oracle: [frames]'");
+    };
     return made;
   }();
   return table;

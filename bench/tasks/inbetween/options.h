@@ -29,12 +29,11 @@ const FieldTable<InbetweenOptions>& InbetweenConditionFields();
 
 struct InbetweenMethod {
   std::string name;
-  const Filler* filler = nullptr;  ///< one of TaskFillers
+  const Filler* filler = nullptr;  ///< null: the truth itself (`oracle: [frames]`)
   std::vector<double> settings;
+  bool knows_frames = false;
 };
 
-/// Returns all fillers and `hidden`, the truth itself, whose `fill` is null.
-const std::vector<Filler>& TaskFillers();
 const FieldTable<InbetweenMethod>& InbetweenMethodFields();
 
 }  // namespace etude

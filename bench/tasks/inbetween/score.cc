@@ -1,16 +1,20 @@
 #include "bench/tasks/inbetween/score.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "bench/metrics/alignment.h"
-#include "bench/metrics/transition_join.h"
+#include "bench/metrics/transition_body.h"
 #include "bench/metrics/transition_smoothness.h"
 #include "bench/model/recording.h"
 #include "bench/recordings/evaluation_extras.h"
 #include "engine/base/digest.h"
 #include "engine/base/order_statistics.h"
+#include "engine/fuzzy/features.h"
 #include "engine/motion/support.h"
+#include "sim/choreography/judged_proportions.h"
 
 namespace etude {
 namespace {
@@ -51,14 +55,16 @@ int JointOf(const std::array<int, kRoleCount>& roles, Role role) {
   return 0;
 }
 
-/// Returns the twenty joints; one that the file lacks is where its parent is.
-std::vector<BodyPose> BodiesOf(const Globals& globals, const std::array<int, kRoleCount>& roles, double floor_m) {
+/// Returns the twenty joints above the floor, scaled; one that the file lacks is where its parent is.
+std::vector<BodyPose> BodiesOf(const Globals& globals, const std::array<int, kRoleCount>& roles, double floor_m,
+                               double scale = 1) {
   std::vector<BodyPose> bodies;
   for (std::size_t at = 0; at < globals.positions.size(); at += globals.joints) {
     BodyPose& body = bodies.emplace_back();
     for (const Role role : AllRoles()) {
       body[role] = globals.positions[at + static_cast<std::size_t>(JointOf(roles, role))];
       body[role].y -= floor_m;
+      body[role] *= scale;
     }
   }
   return bodies;
@@ -109,11 +115,50 @@ void MeasureDistances(const HiddenWindow& hidden, const Globals& found, const Gl
   result.MeasureOr("mpjpe_unaligned_mm", MeanJointErrorMm(pair, none), "");
 }
 
-/// Measures whether a body could move like this: support, foot slide, jitter.
-void MeasureBody(const HiddenWindow& hidden, const Globals& found, const Globals& truth, CellResult& result) {
+/// Returns why `clean_share` cannot be measured; "" if it can.
+std::string WhyNotClean(const HiddenWindow& hidden) {
+  if (hidden.motion.rate_hz != kJudgedRateHz) return fmt::format("the rate is not {:g} Hz", kJudgedRateHz);
+  for (const Role role : AllRoles()) {
+    if (role == Role::kLeftHand || role == Role::kRightHand) continue;  // at the wrist, if the file has none
+    if (hidden.roles[Index(role)] < 0) return fmt::format("the file has no {}", RoleName(role));
+  }
+  return "";
+}
+
+/// Returns true if the gap is filled as clean as a transition (clean_share version 4): the truth is the only clip, all
+/// frames of its file are real ones, and the gap's length is given, so time to settle does not count.
+bool IsCleanFilling(const HiddenWindow& hidden, const Globals& found, const Globals& truth) {
+  const JudgedFile& file = *hidden.file;
+  const std::vector<BodyPose> shown = BodiesOf(found, hidden.roles, file.floor_m, file.scale);
+  const std::vector<BodyPose> own = BodiesOf(truth, hidden.roles, file.floor_m, file.scale);
+  const SupportingClip clip{.poses = own};
+  const double rate_hz = hidden.motion.rate_hz;
+  const auto support = FindSupport(shown, std::span(&clip, 1), hidden.first, hidden.last, rate_hz);
+  const int after = hidden.last + 1;
+  const JoinView view{.shown = shown,
+                      .left = own,
+                      .wanted = std::span<const BodyPose>(own).subspan(static_cast<std::size_t>(after)),
+                      .request = hidden.first,
+                      .first = hidden.first,
+                      .last = after,
+                      .rate_hz = rate_hz};
+  const std::array ends = {hidden.first - 1, after};
+  return IsClean({.natural = IsNatural(MeasureTransitions({rate_hz, shown}, ends).jump_cm, file.natural_jumps_cm),
+                  .calmly_natural = IsCalmlyNatural(view, NaturalLimitCm(file.natural_jumps_cm)),
+                  .supported = IsSupported(support),
+                  .slide_cmps = FootSlideCmps(shown, hidden.first - 1, after, rate_hz),
+                  .strange_cm_s = StrangeCmSeconds(view, file.frames),
+                  .live = Liveness(view),
+                  .own_slide_cmps = file.own_slide_cmps,
+                  .settle_s = 0,
+                  .possible = IsPossible(MeasureBody(view, support))});
+}
+
+/// Measures whether a body could move like this: support, foot slide, jitter, and all of `clean_share`.
+void MeasureMovement(const HiddenWindow& hidden, const Globals& found, const Globals& truth, CellResult& result) {
   using enum Role;
-  const std::vector<BodyPose> shown = BodiesOf(found, hidden.roles, hidden.floor_m);
-  const std::vector<BodyPose> own = BodiesOf(truth, hidden.roles, hidden.floor_m);
+  const std::vector<BodyPose> shown = BodiesOf(found, hidden.roles, hidden.file->floor_m);
+  const std::vector<BodyPose> own = BodiesOf(truth, hidden.roles, hidden.file->floor_m);
   const SupportingClip clip{.poses = own};
   const auto has = [&](Role role) { return hidden.roles[Index(role)] >= 0; };
   const bool has_legs = has(kLeftKnee) && has(kLeftAnkle) && has(kRightKnee) && has(kRightAnkle);
@@ -131,12 +176,21 @@ void MeasureBody(const HiddenWindow& hidden, const Globals& found, const Globals
   const PointTracks around{
       joints, JudgedFrames(found.positions, hidden.motion.tree, hidden.first - kReach, hidden.last + kReach)};
   result.MeasureOr("jitter@wham", Jitter(around, hidden.motion.rate_hz), "");
+  const std::string unmet = WhyNotClean(hidden);
+  result.MeasureOr("clean_share",
+                   unmet.empty() ? std::optional(IsCleanFilling(hidden, found, truth) ? 1.0 : 0.0) : std::nullopt,
+                   unmet);
 }
 
 Recording RecordingOf(const HiddenWindow& hidden, const Globals& found, const Globals& truth) {
   EvaluationExtras extras;
   extras.truth.rate_hz = hidden.motion.rate_hz;
   extras.truth.joints = hidden.motion.tree.names;
+  // Joints that play a role get its name, by which clips are read.
+  for (const Role role : AllRoles()) {
+    if (hidden.roles[Index(role)] >= 0)
+      extras.truth.joints[static_cast<std::size_t>(hidden.roles[Index(role)])] = RoleName(role);
+  }
   extras.truth.parents = hidden.motion.tree.parents;
   extras.answer = extras.truth;
   extras.truth.positions = truth.positions;
@@ -147,20 +201,34 @@ Recording RecordingOf(const HiddenWindow& hidden, const Globals& found, const Gl
 }  // namespace
 
 std::vector<std::string> InbetweenMetrics() {
-  return {"l2p@lafan1",         "l2q@lafan1",      "npss@lafan1",     "npss_power@lafan1",
-          "mpjpe_unaligned_mm", "supported_share", "foot_slide_cmps", "jitter@wham"};
+  return {"l2p@lafan1",      "l2q@lafan1",      "npss@lafan1", "npss_power@lafan1", "mpjpe_unaligned_mm",
+          "supported_share", "foot_slide_cmps", "jitter@wham", "clean_share"};
 }
 
-double FloorOf(const HiddenWindow& whole) {
+std::shared_ptr<const JudgedFile> JudgeFile(const HiddenWindow& whole) {
+  auto file = std::make_shared<JudgedFile>();
+  const Globals globals = GlobalsOf(whole.motion.tree, whole.motion.poses);
+  // The floor.
   std::vector<double> lowest;
-  for (const BodyPose& body : BodiesOf(GlobalsOf(whole.motion.tree, whole.motion.poses), whole.roles, 0)) {
+  for (const BodyPose& body : BodiesOf(globals, whole.roles, 0)) {
     double& height = lowest.emplace_back(body[Role::kHead].y);
     for (const Role role : AllRoles()) {
       if (role != Role::kLeftHand && role != Role::kRightHand) height = std::min(height, body[role].y);
     }
   }
   constexpr double kShare = 0.05;
-  return LowerPercentile(std::move(lowest), kShare);
+  file->floor_m = LowerPercentile(std::move(lowest), kShare);
+  if (!WhyNotClean(whole).empty()) return file;
+  // The body at the judged size.
+  BodyMotion motion{whole.motion.rate_hz, BodiesOf(globals, whole.roles, file->floor_m)};
+  file->scale = JudgedProportions().standing_hip_height / StandingHipHeight(motion.poses.front());
+  for (BodyPose& pose : motion.poses) {
+    for (glm::dvec3& joint : pose.joints) joint *= file->scale;
+  }
+  file->natural_jumps_cm = NaturalJumpsCm(motion);
+  file->own_slide_cmps = FootSlideCmps(motion.poses, 0, static_cast<int>(motion.poses.size()) - 1, motion.rate_hz);
+  file->frames = RealFrames(std::span(&motion, 1));
+  return file;
 }
 
 CellResult ScoreFilling(const HiddenWindow& hidden, std::span<const TreePose> filled, bool keeps_motion) {
@@ -179,7 +247,7 @@ CellResult ScoreFilling(const HiddenWindow& hidden, std::span<const TreePose> fi
   CellResult result = CellResult::Ended(Status::kOk, "");
   result.digests = {{"truth", DigestOf(truth.positions)}, {"answer", DigestOf(found.positions)}};
   MeasureDistances(hidden, found, truth, result);
-  MeasureBody(hidden, found, truth, result);
+  MeasureMovement(hidden, found, truth, result);
   if (keeps_motion) result.recording = RecordingOf(hidden, found, truth);
   return result;
 }

@@ -1,32 +1,42 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "bench/metrics/transition_join.h"
 #include "bench/model/row.h"
 #include "engine/motion/body.h"
 #include "engine/motion/tree_motion.h"
 
 namespace etude {
 
+/// What the whole file of a window says of its windows. Bodies are scaled so that their hips stand at 0.90 m.
+struct JudgedFile {
+  double floor_m = 0;  ///< the 5th percentile, over the frames, of the lowest joint's height (hands do not count)
+  double scale = 1;    ///< to the judged body
+  std::vector<double> natural_jumps_cm;
+  double own_slide_cmps = 0;
+  RealFrames frames;
+};
+
 /// A window of a motion, of which some frames are hidden.
 struct HiddenWindow {
   TreeMotion motion;
   int first = 0, last = 0;  ///< the hidden frames, both inclusive; three or more frames are on either side
   std::array<int, kRoleCount> roles = RawMotion::NoRoles();  ///< the joint of each role; −1: none
-  double floor_m = 0;                                        ///< FloorOf the whole file
-  std::vector<glm::dvec3> deviations;  ///< of each joint in training, metres, by which L2P divides; empty: unknown
+  std::vector<glm::dvec3> deviations;      ///< of each joint in training, metres, by which L2P divides; empty: unknown
+  std::shared_ptr<const JudgedFile> file;  ///< shared by the file's windows, which outlive its motion
 };
 
 /// Returns the ids of all metrics, in the order in which they are measured.
 std::vector<std::string> InbetweenMetrics();
 
-/// Returns the height of the floor, metres: the 5th percentile, over the frames, of the lowest joint's height. Joints
-/// with the role of a hand do not count.
-double FloorOf(const HiddenWindow& whole);
+/// Measures a whole file, of which only `motion` and `roles` are set.
+std::shared_ptr<const JudgedFile> JudgeFile(const HiddenWindow& whole);
 
 /// Measures a window whose hidden frames are replaced by `filled`, one for each. With `keeps_motion`, the result's
 /// recording holds this window and the true one.

@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <set>
 
 #include "bench/tasks/evaluation/find_files.h"
 #include "engine/base/names.h"
@@ -115,17 +114,13 @@ Result<FoundFiles> FindWindows(const Node& condition, std::span<const Node> meth
 Result<HiddenWindow> OpenJudged(const std::string& reference, const InbetweenOptions& options,
                                 const OpenOptions& opening) {
   ASSIGN_OR_RETURN(auto clip, ReadOneClip(reference, opening));
-  std::set<std::string> points = {kMidwayHips};
-  for (const Joint& joint : clip.clip.skeleton.joints) {
-    if (joint.is_end_site) points.insert(joint.name);
-  }
   ASSIGN_OR_RETURN(auto raw, RawMotionOf(std::move(clip), opening, reference.starts_with(kBuiltinPrefix)));
   if (options.rate_hz) {
     raw.rate_hz = OwnRate(raw.rate_hz, options);
     raw = Sampled(raw, *options.rate_hz, 0, SampledFrames(raw.FrameCount(), raw.rate_hz, options));
   }
   HiddenWindow whole;
-  ASSIGN_OR_RETURN(whole.motion, TreeMotionOf(raw, points));
+  ASSIGN_OR_RETURN(whole.motion, TreeMotionOf(raw));
   whole.roles = raw.roles;
   return whole;
 }

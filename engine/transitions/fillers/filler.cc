@@ -1,11 +1,11 @@
 #include "engine/transitions/fillers/filler.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "engine/base/angles.h"
 #include "engine/base/smoothstep.h"
 #include "engine/transitions/fillers/gap_library.h"
+#include "engine/transitions/fillers/planted_gap.h"
 #include "engine/transitions/joins/inertialise.h"
 #include "engine/transitions/joins/minimum_jerk.h"
 
@@ -14,27 +14,21 @@ namespace {
 
 glm::dvec3 MeanVelocity(const Ends& ends) { return (ends.end - ends.start) / ends.seconds; }
 
-/// Returns the way that a velocity which halves every `half_life_s` leads in `seconds`.
-glm::dvec3 Continued(const glm::dvec3& velocity, double seconds, double half_life_s) {
-  const double rate = std::numbers::ln2 / half_life_s;
-  return velocity * (-std::expm1(-rate * seconds) / rate);
-}
-
 /// Fills each channel by itself. Channels are the root's position, and each joint's rotation vector relative to its
 /// last past rotation: there, slerp is a straight line.
-template <typename Law>
-std::vector<TreePose> FillEach(const Gap& gap, const Law& law) {
+template <typename RootLaw, typename Law>
+std::vector<TreePose> FillEach(const Gap& gap, const RootLaw& root_law, const Law& law) {
   const TreePose &before = gap.past[gap.past.size() - 2], &last = gap.past.back(), &next = gap.future.front();
   const bool knows_velocity = gap.future.size() > 1;
   std::vector<TreePose> filled(gap.frames, {glm::dvec3(0), std::vector<glm::dquat>(gap.tree.size())});
   Ends ends{.seconds = gap.Seconds()};
-  const auto at = [&](std::size_t f) { return law(ends, static_cast<double>(f + 1) / gap.rate_hz); };
+  const auto at = [&](const auto& any, std::size_t f) { return any(ends, static_cast<double>(f + 1) / gap.rate_hz); };
   // The root.
   ends.start = last.root;
   ends.start_velocity = (last.root - before.root) * gap.rate_hz;
   ends.end = next.root;
   if (knows_velocity) ends.end_velocity = (gap.future[1].root - next.root) * gap.rate_hz;
-  for (std::size_t f = 0; f < gap.frames; ++f) filled[f].root = at(f);
+  for (std::size_t f = 0; f < gap.frames; ++f) filled[f].root = at(root_law, f);
   // The joints.
   ends.start = glm::dvec3(0);
   for (std::size_t j = 0; j < gap.tree.size(); ++j) {
@@ -47,7 +41,7 @@ std::vector<TreePose> FillEach(const Gap& gap, const Law& law) {
       if (glm::dot(after, ends.end) < 0 && glm::length(after) > kPi / 2) after -= 2 * kPi * glm::normalize(after);
       ends.end_velocity = (after - ends.end) * gap.rate_hz;
     }
-    for (std::size_t f = 0; f < gap.frames; ++f) filled[f].turns[j] = last.turns[j] * TurnOf(at(f));
+    for (std::size_t f = 0; f < gap.frames; ++f) filled[f].turns[j] = last.turns[j] * TurnOf(at(law, f));
   }
   return filled;
 }
@@ -83,10 +77,32 @@ std::vector<TreePose> Interpolate(const Gap& gap, std::span<const double> /*valu
 template <auto Law, double kFallback>
 std::vector<TreePose> FillByHalfLife(const Gap& gap, std::span<const double> values) {
   const double half_life_s = values.empty() ? kFallback : values[0];
-  return FillEach(gap, [&](const Ends& ends, double t) { return Law(ends, t, half_life_s); });
+  const auto law = [&](const Ends& ends, double t) { return Law(ends, t, half_life_s); };
+  return FillEach(gap, law, law);
 }
 
-constexpr double kSpring_s = SpringOptions().half_life_s, kDead_s = 0.2;
+constexpr double kSpring_s = SpringOptions().half_life_s, kDead_s = DeadOptions().half_life_s;
+
+/// Dead blending whose velocities halve in 0.2 s over the floor, and sooner in heights and joints, which swing.
+std::vector<TreePose> DeadBlend(const Gap& gap) {
+  constexpr double kSwinging_s = 0.06;
+  const auto swinging = [](const Ends& ends, double t) { return DeadBlendedAt(ends, t, kSwinging_s); };
+  const auto root = [&](const Ends& ends, double t) {
+    const glm::dvec3 over_floor = DeadBlendedAt(ends, t, kDead_s);
+    return glm::dvec3(over_floor.x, swinging(ends, t).y, over_floor.z);
+  };
+  return FillEach(gap, root, swinging);
+}
+
+std::vector<TreePose> FillLikeNear(const Gap& gap, std::span<const double> /*values*/) {
+  return gap.library ? gap.library->FillLikeNear(gap, DeadBlend) : DeadBlend(gap);
+}
+
+std::vector<TreePose> FillWithPlantedFeet(const Gap& gap, std::span<const double> values) {
+  std::vector<TreePose> filled = FillLikeNear(gap, values);
+  PlantGap(gap, filled);
+  return filled;
+}
 
 NumberSetting HalfLife(double fallback, const char* meaning) {
   return {"half_life_s", fallback, 0.01, 10, false, meaning};
@@ -107,8 +123,8 @@ glm::dvec3 InertialisedAt(const Ends& ends, double seconds, double half_life_s) 
 
 glm::dvec3 DeadBlendedAt(const Ends& ends, double seconds, double half_life_s) {
   const double left = ends.seconds - seconds;
-  const glm::dvec3 from = ends.start + Continued(ends.start_velocity, seconds, half_life_s);
-  const glm::dvec3 to = ends.end - Continued(ends.end_velocity.value_or(MeanVelocity(ends)), left, half_life_s);
+  const glm::dvec3 from = ends.start + DecayingWay(ends.start_velocity, seconds, half_life_s);
+  const glm::dvec3 to = ends.end - DecayingWay(ends.end_velocity.value_or(MeanVelocity(ends)), left, half_life_s);
   return from + Smoothstep(0, ends.seconds, seconds) * (to - from);
 }
 
@@ -141,11 +157,22 @@ std::span<const Filler> AllFillers() {
        .fill = FillByHalfLife<DeadBlendedAt, kDead_s>},
       {.name = "minimum-jerk",
        .description = "each joint by the movement of minimum jerk",
-       .fill = [](const Gap& gap, Values) { return FillEach(gap, LeastJerkAt); }},
+       .fill = [](const Gap& gap, Values) { return FillEach(gap, LeastJerkAt, LeastJerkAt); }},
       {.name = "nearest-gap",
-       .description = "the training clips' gap whose ends are nearest, moved onto the ends",
-       .needs_library = true,
-       .fill = [](const Gap& gap, Values) { return gap.library ? gap.library->Fill(gap) : std::vector<TreePose>(); }}};
+       .description = "dead blending, plus what it misses in the training clips' gap whose ends are nearest",
+       .uses_library = true,
+       .fill =
+           [](const Gap& gap, Values) {
+             return gap.library ? gap.library->FillLikeNearest(gap, DeadBlend) : std::vector<TreePose>();
+           }},
+      {.name = "near-gaps",
+       .description = "dead blending, plus the mean of what it misses in the training clips' near gaps",
+       .uses_library = true,
+       .fill = FillLikeNear},
+      {.name = "planted-feet",
+       .description = "near-gaps, and feet that bear the body stay while others step",
+       .uses_library = true,
+       .fill = FillWithPlantedFeet}};
   return fillers;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,7 +21,8 @@ struct Gap {
   std::span<const TreePose> future;  ///< at least one; the first is the frame after the gap
   std::size_t frames = 0;            ///< how many are missing, at least one
   double rate_hz = 30;
-  const GapLibrary* library = nullptr;  ///< for fillers that need one
+  const GapLibrary* library = nullptr;                       ///< for fillers that use one
+  std::array<int, kRoleCount> roles = RawMotion::NoRoles();  ///< the joint of each role; −1: none
 
   /// Returns the time from the last past frame to the first future frame.
   double Seconds() const { return static_cast<double>(frames + 1) / rate_hz; }
@@ -31,7 +33,7 @@ struct Filler {
   std::string name;
   std::string description;  ///< one line for users
   std::vector<NumberSetting> settings = {};
-  bool needs_library = false;
+  bool uses_library = false;
   /// Returns the missing frames, or nothing if the filler needs a library and finds no gap of that length on this tree.
   /// `values` holds one value per setting, in order; empty means the defaults.
   std::vector<TreePose> (*fill)(const Gap& gap, std::span<const double> values) = nullptr;

@@ -1,9 +1,8 @@
 #include "engine/transitions/fillers/gap_library.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "engine/transitions/joins/minimum_jerk.h"
 
 namespace etude {
 namespace {
@@ -52,7 +51,8 @@ void GapLibrary::Add(TreeMotion motion) {
   entries_.push_back(std::move(entry));
 }
 
-const GapLibrary::Entry* GapLibrary::FindNearest(const Gap& gap, std::size_t& frame) const {
+template <typename Visit>
+void GapLibrary::ForEachNear(const Gap& gap, double& limit, const Visit& visit) const {
   const TreePose &before = gap.past[gap.past.size() - 2], &last = gap.past.back(), &next = gap.future.front();
   std::vector<double> at_before, at_last, at_next;
   AppendSeen(gap.tree, before, at_before);
@@ -63,68 +63,75 @@ const GapLibrary::Entry* GapLibrary::FindNearest(const Gap& gap, std::size_t& fr
   const double joints = static_cast<double>(gap.tree.size()), per_step = kVelocity_s * gap.rate_hz;
   const double velocity_weight = per_step * per_step;
 
-  // Compare with every gap of every motion; a sum that exceeds the least is abandoned.
-  const Entry* nearest = nullptr;
-  double least = std::numeric_limits<double>::infinity();
+  // Compare with every gap of every motion; a sum that exceeds the limit is abandoned.
   for (const Entry& entry : entries_) {
     if (!entry.motion.tree.IsLike(gap.tree) || entry.motion.rate_hz != gap.rate_hz) continue;
     const std::vector<TreePose>& poses = entry.motion.poses;
     for (std::size_t f = 1; f + ahead < poses.size(); ++f) {
       const double *seen = &entry.seen[f * size], *seen_before = seen - size, *seen_next = seen + ahead * size;
+      const double most = joints * limit;
       double sum = 0;
-      for (std::size_t i = 0; i < size && sum < least; ++i) {
+      for (std::size_t i = 0; i < size && sum < most; ++i) {
         const double first = seen[i] - at_last[i], second = seen_next[i] - at_next[i];
         const double change = (seen[i] - seen_before[i]) - (at_last[i] - at_before[i]);
         sum += first * first + second * second + velocity_weight * change * change;
       }
-      if (sum < least) sum += joints * way.SquareTo({poses[f], poses[f + ahead]});
-      if (sum < least) sum += joints * velocity_weight * step.SquareTo({poses[f - 1], poses[f]});
-      if (sum >= least) continue;
-      least = sum;
-      nearest = &entry;
-      frame = f;
+      if (sum < most) sum += joints * way.SquareTo({poses[f], poses[f + ahead]});
+      if (sum < most) sum += joints * velocity_weight * step.SquareTo({poses[f - 1], poses[f]});
+      if (sum < most) visit(Near{&entry, f, sum / joints});
     }
   }
-  return nearest;
 }
 
-std::vector<TreePose> GapLibrary::Fill(const Gap& gap) const {
-  std::size_t first = 0;
-  const Entry* nearest = FindNearest(gap, first);
-  if (nearest == nullptr) return {};
-  // Place the library's frames, from the one before the gap to the one after it: heading and position of the gap.
-  const std::vector<TreePose>& poses = nearest->motion.poses;
-  const TreePose &last = gap.past.back(), &before = gap.past[gap.past.size() - 2], &next = gap.future.front();
-  const glm::dquat heading = HeadingOf(last.turns[0] * glm::conjugate(poses[first].turns[0]));
-  const auto placed = [&](std::size_t f) {
-    TreePose pose = poses[f];
-    pose.root = last.root + heading * (pose.root - poses[first].root);
-    pose.turns[0] = heading * pose.turns[0];
-    return pose;
-  };
-  const TreePose own_before = placed(first - 1), own_last = placed(first), own_next = placed(first + gap.frames + 1);
-  const double seconds = gap.Seconds();
-  std::vector<TreePose> filled;
-  for (std::size_t f = 1; f <= gap.frames; ++f) filled.push_back(placed(first + f));
-
-  // Spread the differences at both ends, channel by channel. At the second end the library's velocity is kept.
-  const auto spread = [&](const glm::dvec3& at_before, const glm::dvec3& at_last, const glm::dvec3& at_next,
-                          const auto& correct) {
-    const Movement movement{at_last - at_next, (at_last - at_before) * gap.rate_hz, glm::dvec3(0)};
-    for (std::size_t f = 0; f < gap.frames; ++f) {
-      const double t = static_cast<double>(f + 1) / gap.rate_hz;
-      correct(filled[f], at_next + MinimumJerkAt(movement, t, seconds));
+void GapLibrary::AddMissed(const Gap& gap, const Near& near, Fill fill, double share, std::vector<TreePose>& filled) {
+  const std::span<const TreePose> poses = near.entry->motion.poses;
+  const std::size_t after = near.frame + gap.frames + 1;
+  const Gap own{.tree = gap.tree,
+                .past = poses.first(near.frame + 1),
+                .future = poses.subspan(after, std::min(gap.future.size(), poses.size() - after)),
+                .frames = gap.frames,
+                .rate_hz = gap.rate_hz};
+  const std::vector<TreePose> guess = fill(own);
+  const glm::dquat heading = HeadingOf(gap.past.back().turns[0] * glm::conjugate(poses[near.frame].turns[0]));
+  for (std::size_t f = 0; f < filled.size(); ++f) {
+    const TreePose& truth = poses[near.frame + 1 + f];
+    filled[f].root += share * (heading * (truth.root - guess[f].root));
+    for (std::size_t j = 0; j < gap.tree.size(); ++j) {
+      const glm::dvec3 missed = RotationVector(glm::conjugate(guess[f].turns[j]) * truth.turns[j]);
+      filled[f].turns[j] = filled[f].turns[j] * TurnOf(share * missed);
     }
-  };
-  spread(before.root - own_before.root, last.root - own_last.root, next.root - own_next.root,
-         [](TreePose& pose, const glm::dvec3& off) { pose.root += off; });
-  for (std::size_t j = 0; j < gap.tree.size(); ++j) {
-    const auto off = [&](const TreePose& wanted, const TreePose& own) {
-      return RotationVector(glm::conjugate(own.turns[j]) * wanted.turns[j]);
-    };
-    spread(off(before, own_before), off(last, own_last), off(next, own_next),
-           [&](TreePose& pose, const glm::dvec3& turn) { pose.turns[j] = pose.turns[j] * TurnOf(turn); });
   }
+}
+
+std::vector<TreePose> GapLibrary::FillLikeNearest(const Gap& gap, Fill fill) const {
+  double limit = std::numeric_limits<double>::infinity();
+  Near nearest;
+  ForEachNear(gap, limit, [&](const Near& near) {
+    nearest = near;
+    limit = near.squared;
+  });
+  if (nearest.entry == nullptr) return {};
+  std::vector<TreePose> filled = fill(gap);
+  AddMissed(gap, nearest, fill, 1, filled);
+  return filled;
+}
+
+std::vector<TreePose> GapLibrary::FillLikeNear(const Gap& gap, Fill fill) const {
+  constexpr double kWidth_m = 0.12, kFarthest_m = 3 * kWidth_m, kNothing = 2;
+  const std::size_t apart = gap.frames / 2;
+  // Of gaps that overlap by more than half, keep the nearest.
+  std::vector<Near> kept;
+  double limit = kFarthest_m * kFarthest_m;
+  ForEachNear(gap, limit, [&](const Near& near) {
+    const bool overlaps = !kept.empty() && kept.back().entry == near.entry && near.frame - kept.back().frame < apart;
+    if (!overlaps) return kept.push_back(near);
+    if (near.squared < kept.back().squared) kept.back() = near;
+  });
+  const auto weight = [](const Near& near) { return std::exp(-near.squared / (2 * kWidth_m * kWidth_m)); };
+  double weights = kNothing;
+  for (const Near& near : kept) weights += weight(near);
+  std::vector<TreePose> filled = fill(gap);
+  for (const Near& near : kept) AddMissed(gap, near, fill, weight(near) / weights, filled);
   return filled;
 }
 

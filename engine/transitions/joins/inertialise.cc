@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "engine/base/angles.h"
+#include "engine/base/smoothstep.h"
+#include "engine/transitions/joins/crossfade.h"
 #include "engine/transitions/joins/limbs.h"
 
 namespace etude {
@@ -83,6 +85,34 @@ glm::dvec3 QuinticDecay(const Offset& offset, double seconds, const QuinticOptio
 
 Blend InertialiseQuintic(const JoinInput& input, const QuinticOptions& options) {
   return Inertialise<QuinticDecay>(input, options);
+}
+
+glm::dvec3 DecayingWay(const glm::dvec3& velocity, double seconds, double half_life_s) {
+  const double rate = std::numbers::ln2 / half_life_s;
+  return velocity * (-std::expm1(-rate * seconds) / rate);
+}
+
+const SettingTable<DeadOptions>& DeadSettings() {
+  static const SettingTable<DeadOptions> kSettings(
+      {{"blend_s", &DeadOptions::blend_s, 0, 5,
+        "Seconds after the transition point until the new motion is shown alone."},
+       {"half_life_s", &DeadOptions::half_life_s, 0.01, 10, "The time in which the old motion's velocity halves."}});
+  return kSettings;
+}
+
+Blend DeadBlending(const JoinInput& input, const DeadOptions& options) {
+  // The old motion's velocities, relative to the last frame shown: its offset from itself is zero.
+  const DecayLaw law = [options](const Offset& offset, double seconds) {
+    return DecayingWay(offset.velocity, seconds, options.half_life_s);
+  };
+  const BodyPose last = input.shown.now;
+  JoinInput still = input;
+  still.target = {last, last};
+  return [=, continuation = Inertialiser(still, law), rate_hz = input.rate_hz](const BodyPose& target, int frames) {
+    const double seconds = frames / rate_hz;
+    if (seconds >= options.blend_s) return target;
+    return PoseBetween(continuation.Apply(last, seconds), target, Smoothstep(0, options.blend_s, seconds));
+  };
 }
 
 }  // namespace etude

@@ -57,4 +57,22 @@ const SettingTable<QuinticOptions>& QuinticSettings();
 glm::dvec3 QuinticDecay(const Offset& offset, double seconds, const QuinticOptions& options = {});
 Blend InertialiseQuintic(const JoinInput& input, const QuinticOptions& options = {});
 
+/// Returns the way that a velocity which halves every `half_life_s` leads in `seconds`.
+glm::dvec3 DecayingWay(const glm::dvec3& velocity, double seconds, double half_life_s);
+
+struct DeadOptions {
+  /// The time until only the new motion is shown, in seconds (default ours). A longer time shows more of the
+  /// continuation, which is no clip's.
+  double blend_s = 0.33;
+  /// The time in which the old motion's velocity halves, in seconds (default ours). A longer time keeps momentum, but
+  /// carries limbs farther away.
+  double half_life_s = 0.2;
+};
+const SettingTable<DeadOptions>& DeadSettings();
+
+/// Joins by dead blending (Holden 2023, "Dead Blending"): the old motion goes on from the last frame shown, each limb
+/// and the hip centre with a velocity that decays, and the new motion takes over with the weight 3t² − 2t³. Unlike an
+/// offset that decays, the continuation does not depend on the new motion's velocity.
+Blend DeadBlending(const JoinInput& input, const DeadOptions& options = {});
+
 }  // namespace etude

@@ -39,6 +39,11 @@ std::span<const JoinKind> Table() {
       JoinKind{.name = "inertialised-spring",
                .description = "the offset decays like a critically damped spring (Holden 2020)",
                .begin = SpringDefaults},
+      JoinKind{
+          .name = "dead-blending",
+          .description = "the old motion goes on with decaying velocities while the new one fades in (Holden 2023)",
+          .settings = DeadSettings().Describe(),
+          .begin = BeginWith<DeadBlending, DeadSettings>},
       JoinKind{.name = "minimum-jerk",
                .description = "the offset decays along the minimum-jerk quintic, for any velocity",
                .settings = MinimumJerkSettings().Describe(),

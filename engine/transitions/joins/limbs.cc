@@ -5,6 +5,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/base/directions.h"
+#include "engine/base/smoothstep.h"
 
 namespace etude {
 
@@ -60,6 +61,43 @@ Leg SolveLeg(const glm::dvec3& hip, const glm::dvec3& ankle, double thigh, doubl
   // The shin is rebuilt from its direction, so that rounding near a straight leg cannot change its length.
   leg.ankle = leg.knee + shin * DirectionOr(hip + reach * axis - leg.knee, axis);
   return leg;
+}
+
+double LiftFor(double travel) {
+  constexpr double kMaxLift_m = 0.05, kLiftPerMetre = 0.2;
+  return travel <= kStill ? 0 : std::min(kMaxLift_m, kLiftPerMetre * (travel - kStill) + 0.02);
+}
+
+double HipDrop(const glm::dvec3& hip, const glm::dvec3& ankle, double reach) {
+  constexpr double kMaxDrop = 0.10;
+  const double floor = std::hypot(hip.x - ankle.x, hip.z - ankle.z);
+  if (floor >= reach) return kMaxDrop;
+  return std::clamp(hip.y - ankle.y - std::sqrt(reach * reach - floor * floor), 0.0, kMaxDrop);
+}
+
+std::vector<double> SmoothlyAbove(const std::vector<double>& needed) {
+  const int count = static_cast<int>(needed.size());
+  constexpr int kBlur = 2, kPasses = 2;
+  const auto at = [&](const std::vector<double>& v, int i) { return v[std::clamp(i, 0, count - 1)]; };
+  // Take the running maximum, so that the blurred curve stays above `needed`.
+  std::vector<double> curve(needed.size());
+  for (int i = 0; i < count; ++i) {
+    for (int k = -kBlur * kPasses; k <= kBlur * kPasses; ++k) curve[i] = std::max(curve[i], at(needed, i + k));
+  }
+  // Blur it.
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const std::vector<double> sharp = curve;
+    for (int i = 0; i < count; ++i) {
+      curve[i] = 0;
+      for (int k = -kBlur; k <= kBlur; ++k) curve[i] += at(sharp, i + k) / (2 * kBlur + 1);
+    }
+  }
+  // Ramp it to 0 at both ends.
+  const double ramp = std::max(std::min(8.0, (count - 1) / 2.0), 1.0);
+  for (int i = 0; i < count; ++i) {
+    curve[i] *= Smootherstep(i / ramp) * Smootherstep((count - 1 - i) / ramp);
+  }
+  return curve;
 }
 
 }  // namespace etude

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <vector>
 
 namespace etude {
 
@@ -32,5 +33,13 @@ struct Leg {
 /// cannot reach, the ankle is placed as near as possible on the line. The knee points towards `pole` (of any length;
 /// only its component perpendicular to the leg counts).
 Leg SolveLeg(const glm::dvec3& hip, const glm::dvec3& ankle, double thigh, double shin, const glm::dvec3& pole);
+
+constexpr double kStill = 0.005;  ///< metres; a foot that travels no farther is not lifted
+/// Returns the height of a step in its middle, for a foot that travels this far: at most 5 cm. Metres.
+double LiftFor(double travel);
+/// Returns how far a hip must be lowered for its leg to reach the ankle, in metres; at most 10 cm.
+double HipDrop(const glm::dvec3& hip, const glm::dvec3& ankle, double reach);
+/// Returns a smooth curve above `needed`. Near both ends it goes down to 0, so it may be below `needed` there.
+std::vector<double> SmoothlyAbove(const std::vector<double>& needed);
 
 }  // namespace etude

@@ -56,14 +56,6 @@ class FloorFit {
 
 double FloorDistance(const glm::dvec3& a, const glm::dvec3& b) { return std::hypot(a.x - b.x, a.z - b.z); }
 
-constexpr double kStill = 0.005;       // metres; a foot that travels no farther is not lifted
-constexpr double kMaxLift_m = 0.05;    // metres
-constexpr double kLiftPerMetre = 0.2;  // of travel
-
-double LiftFor(double travel) {
-  return travel <= kStill ? 0 : std::min(kMaxLift_m, kLiftPerMetre * (travel - kStill) + 0.02);
-}
-
 /// A set of frames of a window, one bit per frame.
 using Frames = std::uint64_t;
 constexpr int kMaxFrames = 63;  // steps are planned within these; a longer join uses only its first frames
@@ -245,40 +237,6 @@ double ReachAt(const JoinWindow& window, const LegRoles& leg, int frame) {
   return std::min(std::max(own, kEasy * whole), whole) - kGiven * 64 * rest * rest * rest;
 }
 
-/// Returns how far a hip must be lowered for its leg to reach the ankle, in metres; at most 10 cm.
-double DropFor(const glm::dvec3& hip, const glm::dvec3& ankle, double reach) {
-  constexpr double kMaxDrop = 0.10;
-  const double floor = FloorDistance(hip, ankle);
-  if (floor >= reach) return kMaxDrop;
-  return std::clamp(hip.y - ankle.y - std::sqrt(reach * reach - floor * floor), 0.0, kMaxDrop);
-}
-
-/// Returns a smooth curve above `needed`. Near both ends it goes down to 0, so it may be below `needed` there.
-std::vector<double> Smoothed(const std::vector<double>& needed) {
-  const int count = static_cast<int>(needed.size());
-  constexpr int kBlur = 2, kPasses = 2;
-  const auto at = [&](const std::vector<double>& v, int i) { return v[std::clamp(i, 0, count - 1)]; };
-  // Take the running maximum, so that the blurred curve stays above `needed`.
-  std::vector<double> curve(needed.size());
-  for (int i = 0; i < count; ++i) {
-    for (int k = -kBlur * kPasses; k <= kBlur * kPasses; ++k) curve[i] = std::max(curve[i], at(needed, i + k));
-  }
-  // Blur it.
-  for (int pass = 0; pass < kPasses; ++pass) {
-    const std::vector<double> sharp = curve;
-    for (int i = 0; i < count; ++i) {
-      curve[i] = 0;
-      for (int k = -kBlur; k <= kBlur; ++k) curve[i] += at(sharp, i + k) / (2 * kBlur + 1);
-    }
-  }
-  // Ramp it to 0 at both ends.
-  const double ramp = std::max(std::min(8.0, (count - 1) / 2.0), 1.0);
-  for (int i = 0; i < count; ++i) {
-    curve[i] *= Smootherstep(i / ramp) * Smootherstep((count - 1 - i) / ramp);
-  }
-  return curve;
-}
-
 void PutLeg(const JoinWindow& window, const LegRoles& leg, const LegPath& path, int frame, BodyPose& pose) {
   const BodyPose &old = window.old[frame], &next = window.next[frame];
   const double share = Smootherstep(static_cast<double>(frame) / window.Frames());
@@ -363,14 +321,14 @@ int PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played) {
       if (plan[side].keeps) continue;
       const LegPath path = PathAt(window, kLegs[side], plan[side], frame);
       const glm::dvec3& hip = played[frame][kLegs[side].hip];
-      drop[frame] = std::max(drop[frame], DropFor(hip, path.ankle, ReachAt(window, kLegs[side], frame)));
+      drop[frame] = std::max(drop[frame], HipDrop(hip, path.ankle, ReachAt(window, kLegs[side], frame)));
       farthest = std::max(farthest, glm::distance(path.ankle, played[frame][kLegs[side].ankle]));
     }
   }
   constexpr double kRounding = 1e-9;
   if (farthest < kRounding) return unplanted_frames;  // the join changes nothing
   // Lower the body and solve each leg for its path.
-  drop = Smoothed(drop);
+  drop = SmoothlyAbove(drop);
   for (int frame = 1; frame < static_cast<int>(played.size()); ++frame) {
     BodyPose& pose = played[frame];
     for (glm::dvec3& joint : pose.joints) joint.y -= drop[frame];

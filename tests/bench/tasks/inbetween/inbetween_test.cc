@@ -22,7 +22,9 @@ struct Study {
 
 Result<Study> StudyOf(const std::string& keys, const std::string& filler) {
   ASSIGN_OR_RETURN(const auto condition, ParseYaml("{" + keys + "}", "s.yaml"));
-  ASSIGN_OR_RETURN(const auto method, ParseYaml("{name: a, filler: " + filler + "}", "s.yaml"));
+  ASSIGN_OR_RETURN(
+      const auto method,
+      ParseYaml("{name: a, " + (filler == "hidden" ? "oracle: [frames]" : "filler: " + filler) + "}", "s.yaml"));
   const std::span methods(&method, 1);
   ASSIGN_OR_RETURN(auto found, FindWindows(condition, methods, {}));
   Fields fields(condition, "a condition");
@@ -118,7 +120,7 @@ std::unique_ptr<TaskWorld> StandingWorld(const Study& study) {
   for (std::size_t trial = 0; trial < study.windows.size(); ++trial) {
     auto world = WorldOf(study, static_cast<int>(trial));
     const CellResult own = world->Run(0);
-    if (Measured(own, "supported_share") == 1 && Measured(own, "foot_slide_cmps") < 3) return world;
+    if (Measured(own, "clean_share") == 1 && Measured(own, "foot_slide_cmps") < 3) return world;
   }
   return nullptr;
 }
@@ -135,22 +137,45 @@ TEST(Inbetween, KnowsTheTruthAndWhatIsDoneToIt) {
   const CellResult same = JudgedAfter(*world, [](Json&, int) {});
   EXPECT_LT(Measured(same, "mpjpe_unaligned_mm") + Measured(same, "l2q@lafan1"), 1e-9);
   EXPECT_EQ(Measured(same, "supported_share"), 1);
+  EXPECT_EQ(Measured(same, "clean_share"), 1);
   // Lifted by 10 cm it floats, is that far off, and breaks at both ends.
-  const CellResult lifted =
-      JudgedAfter(*world, [](Json& pose, int) { pose["root_m"][1] = pose["root_m"][1].get<double>() + 0.1; });
+  const CellResult lifted = JudgedAfter(*world, [](Json& pose, int) { pose[1] = pose[1].get<double>() + 0.1; });
   EXPECT_EQ(Measured(lifted, "supported_share"), 0);
+  EXPECT_EQ(Measured(lifted, "clean_share"), 0);
   EXPECT_NEAR(Measured(lifted, "mpjpe_unaligned_mm"), 100, 1e-9);
   EXPECT_NEAR(Measured(lifted, "l2q@lafan1"), 0, 1e-12);
   EXPECT_GT(Measured(lifted, "jitter@wham"), 2 * Measured(own, "jitter@wham"));
   // It glides along X by 1 cm a frame.
-  const CellResult glides =
-      JudgedAfter(*world, [](Json& pose, int f) { pose["root_m"][0] = pose["root_m"][0].get<double>() + 0.01 * f; });
+  const CellResult glides = JudgedAfter(*world, [](Json& pose, int f) { pose[0] = pose[0].get<double>() + 0.01 * f; });
   EXPECT_GT(Measured(glides, "foot_slide_cmps"), Measured(own, "foot_slide_cmps") + 5);
+  EXPECT_EQ(Measured(glides, "clean_share"), 0);
   // It shakes by 2 mm.
-  const CellResult shakes = JudgedAfter(*world, [](Json& pose, int f) {
-    pose["root_m"][2] = pose["root_m"][2].get<double>() + (f % 2 ? 0.002 : -0.002);
-  });
+  const CellResult shakes =
+      JudgedAfter(*world, [](Json& pose, int f) { pose[2] = pose[2].get<double>() + (f % 2 ? 0.002 : -0.002); });
   EXPECT_GT(Measured(shakes, "jitter@wham"), Measured(own, "jitter@wham") + 10);
+}
+
+TEST(Inbetween, SaysWhyAFillingIsNeitherCleanNorNot) {
+  const auto reason = [](const std::string& keys) {
+    const auto study = StudyOf(keys, "interpolation");
+    EXPECT_TRUE(study) << ToString(study.error());
+    for (const MetricValue& metric : WorldOf(*study, 0)->Run(0).metrics) {
+      if (metric.id == "clean_share") return metric.value ? "measured" : metric.null_reason;
+    }
+    return std::string("not reported");
+  };
+  EXPECT_EQ(reason(kFiles), "measured");
+  EXPECT_EQ(reason("truth: [assimp:01_03], training: [assimp:01_01], rate_hz: 60"), "the rate is not 30 Hz");
+}
+
+TEST(Inbetween, TakesAFillerOrTheTruth) {
+  const auto complaint = [](const std::string& method) {
+    const auto study = StudyOf(kFiles, method);
+    return study ? "" : study.error().message;
+  };
+  EXPECT_EQ(complaint("interpolation"), "");
+  EXPECT_EQ(complaint("hidden"), "");
+  EXPECT_THAT(complaint("interpolation, oracle: [frames]"), HasSubstr("either 'filler' or 'oracle: [frames]'"));
 }
 
 TEST(Inbetween, TellsAProgramTheEndsAndNoMore) {
@@ -162,7 +187,7 @@ TEST(Inbetween, TellsAProgramTheEndsAndNoMore) {
   EXPECT_EQ(problem->json->at("past").size(), 10u);
   EXPECT_EQ(problem->json->at("future").size(), 1u);
   EXPECT_EQ(problem->json->at("gap"), 30);
-  EXPECT_THAT(problem->json->dump(), ::testing::Not(HasSubstr(truth->json->at("frames")[0].at("root_m").dump())));
+  EXPECT_THAT(problem->json->dump(), ::testing::Not(HasSubstr(truth->json->at("frames")[0][0].dump())));
   const auto complaint = [&](const auto& change) {
     Json answer = *truth->json;
     change(answer.at("frames"));
@@ -172,11 +197,11 @@ TEST(Inbetween, TellsAProgramTheEndsAndNoMore) {
   EXPECT_EQ(complaint([](Json&) {}), "");
   EXPECT_THAT(complaint([](Json& frames) { frames.erase(0); }), HasSubstr("frames"));
   EXPECT_THAT(complaint([](Json& frames) {
-                frames[2]["rotations"][1] = {1, 1, 0, 0};
+                for (std::size_t i = 0; i < 4; ++i) frames[2][7 + i] = i < 2 ? 1 : 0;
               }),
-              HasSubstr("frames[2].rotations[1]: a quaternion 1.41"));
-  EXPECT_THAT(complaint([](Json& frames) { frames[2]["rotations"].erase(0); }), HasSubstr("frames[2].rotations"));
-  EXPECT_THAT(complaint([](Json& frames) { frames[4]["root_m"][0] = 1e9; }), HasSubstr("frames[4].root_m"));
+              HasSubstr("frames[2][7…10]: a quaternion 1.41"));
+  EXPECT_THAT(complaint([](Json& frames) { frames[2].erase(0); }), HasSubstr("frames[2]"));
+  EXPECT_THAT(complaint([](Json& frames) { frames[4][0] = 1e9; }), HasSubstr("frames[4]"));
 }
 
 std::string RefusalOf(const std::string& keys) {

@@ -192,10 +192,11 @@ TEST(MakeTransition, TakesSettingsToTheirLimits) {
       check({.choice = &AllChoices()[0], .join = &join, .rules = {}, .choice_settings = {}, .join_settings = values});
     }
   }
-  EXPECT_EQ(tried, 2 * (8 + 8)) << "eight settings of choices, eight of joins";
+  EXPECT_EQ(tried, 2 * (8 + 10)) << "eight settings of choices, ten of joins";
 }
 
-TEST(Unbroken, IsTheClipItselfByAnyJoin) {
+// Dead blending shows its own continuation in place of the clip's, so there a difference is right.
+TEST(Unbroken, IsTheClipItselfByAnyJoinButDeadBlending) {
   const Trial trial = DrawTrial(5);
   const TransitionRequest request{.from = 1, .request_frame = 1, .to = 0};
   ASSERT_GT(trial.library.motions[1].poses.size(), 2u);
@@ -205,9 +206,11 @@ TEST(Unbroken, IsTheClipItselfByAnyJoin) {
         {.choice = FindChoice("unbroken"), .join = &join, .rules = {}, .choice_settings = {}, .join_settings = {}});
     const std::vector<BodyPose>&clip = trial.library.motions[1].poses, &shown = result.splice.motion.poses;
     ASSERT_EQ(shown.size(), clip.size());
+    double farthest = 0;
     for (std::size_t f = 0; f < clip.size(); ++f) {
-      for (Role role : AllRoles()) EXPECT_NEAR(glm::distance(shown[f][role], clip[f][role]), 0, 1e-9) << join.name;
+      for (Role role : AllRoles()) farthest = std::max(farthest, glm::distance(shown[f][role], clip[f][role]));
     }
+    EXPECT_EQ(farthest > 1e-9, join.name == "dead-blending") << join.name << ' ' << farthest;
   }
 }
 

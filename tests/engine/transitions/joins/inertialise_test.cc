@@ -111,5 +111,29 @@ TEST(QuinticDecay, IsNothingWithoutOffsetOrWithoutTime) {
   EXPECT_EQ(Left(QuinticLaw({.blend_s = 0}), 0.3, 0, 0.03), 0);
 }
 
+// A velocity v that halves every h leads v·h/ln 2·(1 − 2^(−t/h)) far in the time t.
+TEST(DeadBlending, GoesOnWithVelocitiesThatHalveWhileTheNewMotionFadesIn) {
+  const auto raised = [](double degrees, double x) {
+    PosedBody body;
+    body.left_arm.upper = body.left_arm.lower = PosedBody::Raised(degrees, {1, 0, 0});
+    BodyPose pose = body.Pose();
+    for (glm::dvec3& joint : pose.joints) joint.x += x;
+    return pose;
+  };
+  constexpr double kHalf_s = 0.25, kBlend_s = 0.8, kRate = 30;
+  const BodyPose now = raised(20, 0.1), wanted = raised(0, 3);
+  const Blend blend = DeadBlending({.shown = {raised(18, 0.07), now}, .target = {wanted, wanted}, .continuation = {}},
+                                   {.blend_s = kBlend_s, .half_life_s = kHalf_s});
+  for (const int frames : {1, 6, 12, 23, 24, 40}) {
+    const double t = frames / kRate, s = std::min(t / kBlend_s, 1.0), share = s * s * (3 - 2 * s);
+    const double way = kHalf_s / std::log(2) * (1 - std::pow(0.5, t / kHalf_s));
+    const BodyPose shown = blend(wanted, frames);
+    EXPECT_NEAR(shown[Role::kHipCentre].x, (1 - share) * (0.1 + 0.03 * kRate * way) + share * 3, 1e-9) << frames;
+    // The arm turns in one plane, so its angles add up: it goes on by 2° a frame, and back to 0.
+    const double angle = ComputeFeatures(shown, PosedBody::kStandingHipHeight)[Feature::kLH];
+    EXPECT_NEAR(angle, (1 - share) * (20 + 2 * kRate * way), 1e-6) << frames;
+  }
+}
+
 }  // namespace
 }  // namespace etude

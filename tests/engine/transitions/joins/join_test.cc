@@ -50,19 +50,19 @@ TEST_P(EverySmoothJoin, TurnsOppositeLimbsAroundWithoutBreakingThem) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EverySmoothJoin,
-                         ::testing::Values("crossfade", "inertialised-quintic", "inertialised-spring", "minimum-jerk",
-                                           "planted-feet"),
+                         ::testing::Values("crossfade", "inertialised-quintic", "inertialised-spring", "dead-blending",
+                                           "minimum-jerk", "planted-feet"),
                          [](const auto& parameter) {
                            std::string name = parameter.param;
                            std::erase(name, '-');
                            return name;
                          });
 
-TEST(Joins, AreAllTestedHere) { EXPECT_EQ(AllJoins().size(), 1 + 5u); }
+TEST(Joins, AreAllTestedHere) { EXPECT_EQ(AllJoins().size(), 1 + 6u); }
 
 TEST(Joins, WithABlendEndExactlyInTheNewMotionAfterIt) {
   const BodyMotion cut = CutTogether();
-  for (const char* name : {"crossfade", "inertialised-quintic"}) {
+  for (const char* name : {"crossfade", "inertialised-quintic", "dead-blending"}) {
     const Splice splice =
         SpliceSegments(Strangers(), Segments(19, 5, Strangers()[1]), *FindJoin(name), std::vector{0.5});
     ExpectSamePose(splice.motion.poses[19 + 15], cut.poses[19 + 15], 1e-9);

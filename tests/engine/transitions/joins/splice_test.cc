@@ -18,6 +18,7 @@ TEST(SpliceSegments, ReproducesAClipThatIsJoinedToItself) {
   for (BodyPose& pose : elsewhere.poses) pose = FloorMove{.yaw = 1, .x = 2, .z = 3}.Apply(pose);
   const BodyMotion clips[] = {clip, elsewhere};
   for (const JoinKind& join : AllJoins()) {
+    if (join.name == "dead-blending") continue;  // it shows its own continuation (choices/transition_test.cc)
     const Splice splice = SpliceSegments(clips, Segments(19, 19, clip), join);
     ASSERT_EQ(splice.motion.poses.size(), clip.poses.size());
     for (std::size_t f = 0; f < clip.poses.size(); ++f) ExpectSamePose(splice.motion.poses[f], clip.poses[f], 1e-9);
