@@ -45,9 +45,9 @@ class GaussNewtonSolver:
         def residual(at):
             return (geometry.model_parameters_to_skeleton_state(character, at.astype(np.float32))[:, :3] - targets).ravel()
 
-        for _ in range(min(6, self.options.max_iterations)):
+        for _ in range(min(10, self.options.max_iterations)):
             now = residual(state)
             step = 1e-2
             jacobian = np.stack([(residual(state + step * unit) - now) / step for unit in np.eye(len(state))], 1)
-            state -= np.linalg.solve(jacobian.T @ jacobian + 1e-3 * np.eye(len(state)), jacobian.T @ now)
+            state -= np.linalg.solve(jacobian.T @ jacobian + np.eye(len(state)), jacobian.T @ now)
         return state.astype(np.float32)
