@@ -20,7 +20,7 @@ seed: 1
 clothes: everyday
 scene: 0.25
 methods:
-  - {{name: blazepose, segmenter: hue, seat: segmenter, exec: [node, {SEGMENTER}/method.mjs], time_s: 120}}
+  - {{name: blazepose, seat: segmenter, exec: [node, {SEGMENTER}/method.mjs], time_s: 120}}
 metrics: [iou]
 """
 
