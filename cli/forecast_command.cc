@@ -63,8 +63,9 @@ Json FactsOf(const RigForecast& forecast, const ForecastOptions& options) {
   return {{"rig", options.rig},
           {"cameras", std::move(cameras)},
           {"middle_m", {forecast.middle_m.x, forecast.middle_m.y}},
-          {"measured", forecast.measured ? Json{{"noise_px", forecast.measured->all_px}, {"points", forecast.measured->points}}
-                                         : Json()},
+          {"measured", forecast.measured
+                           ? Json{{"noise_px", forecast.measured->all_px}, {"points", forecast.measured->points}}
+                           : Json()},
           {"places", forecast.places.size()},
           {"seen", forecast.seen},
           {"median_mm", forecast.median_mm},
@@ -125,18 +126,21 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
       ->delimiter(',')
       ->expected(2)
       ->check(NumberWithin(-1000, 1000, "place in m"));
-  auto* noise = command->add_option("--noise-px", options->errors.noise_px,
-                                    "Standard deviation of keypoints along each axis, px")
-                    ->check(NumberWithin(0.001, 1000, "deviation in px"))
-                    ->capture_default_str();
-  auto* films = command->add_option("--films", options->take.films, "Measure the deviation: films of any take with the rig");
+  auto* noise =
+      command->add_option("--noise-px", options->errors.noise_px, "Standard deviation of keypoints along each axis, px")
+          ->check(NumberWithin(0.001, 1000, "deviation in px"))
+          ->capture_default_str();
+  auto* films =
+      command->add_option("--films", options->take.films, "Measure the deviation: films of any take with the rig");
   auto* keypoints = command
                         ->add_option("--keypoints", options->take.keypoints,
                                      "... and a folder with keypoints for each film, as for `etude capture`")
                         ->excludes(noise)
                         ->needs(films);
   films->needs(keypoints);
-  command->add_option("--layout", options->take.layout, "... the order of these keypoints, if their number does not determine it")
+  command
+      ->add_option("--layout", options->take.layout,
+                   "... the order of these keypoints, if their number does not determine it")
       ->check(CLI::IsMember(KeypointLayoutNames()))
       ->needs(keypoints);
   command

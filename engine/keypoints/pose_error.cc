@@ -90,8 +90,7 @@ Result<PoseErrorForecast> PoseErrorForecast::Of(const BodyPose& pose) {
 }
 
 std::optional<std::array<JointErrors, kRoleCount>> PoseErrorForecast::At(std::span<const Camera> cameras,
-                                                                         const glm::dvec3& shift,
-                                                                         SightingErrors errors,
+                                                                         const glm::dvec3& shift, SightingErrors errors,
                                                                          std::span<const double> noise_px) const {
   // Split the covariance into what all joints share (calibration) and what each joint has alone (noise).
   Eigen::MatrixXd common =

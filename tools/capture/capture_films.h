@@ -63,7 +63,8 @@ Result<RigFile> OpenRig(const std::string& path);
 Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options);
 
 /// Measures the random error of the person's keypoints, in the rig's pixels, after the corrections of `CaptureFilms`,
-/// which it reports. Uses films, rig, keypoints, cameras, fit, layout, person and `sync_s`. Fails as `CaptureFilms` does.
+/// which it reports. Uses films, rig, keypoints, cameras, fit, layout, person and `sync_s`. Fails as `CaptureFilms`
+/// does.
 Result<KeypointNoise> MeasureFilmedNoise(const CaptureFilmsOptions& options);
 
 }  // namespace etude

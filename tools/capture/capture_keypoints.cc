@@ -231,8 +231,8 @@ Result<KeypointNoise> MeasureFilmedNoise(const CaptureFilmsOptions& options) {
   ASSIGN_OR_RETURN(const RecoveredPerson person, LocatePerson(films.cameras, films.people, recover));
   const std::size_t chosen = IndexOfPerson(person, recover.person).value_or(0);
   TellMends(person, chosen, session.views, films.told);
-  const auto noise = MeasureKeypointNoise(films.cameras, person.people[chosen], recover.triangulate.min_confidence,
-                                          person.outlier_px);
+  const auto noise =
+      MeasureKeypointNoise(films.cameras, person.people[chosen], recover.triangulate.min_confidence, person.outlier_px);
   if (!noise) return Fail({options.keypoints}, "no keypoint is seen by two cameras that agree on it");
   return *noise;
 }

@@ -123,14 +123,13 @@ void DrawScale(Canvas& canvas, const Scale& scale) {
 std::string JointsHtml(const RigForecast& forecast) {
   if (forecast.joints.empty()) return "<p>No place shows all joints of a standing body to two cameras.</p>";
   Table table{.label = "Joints", .columns = {{.head = "Joint", .is_row_head = true}}};
-  for (const char* head :
-       {"Keypoints, px", "By points, mm", "In the fitted body, mm", "Limb by points, degrees", "Limb in the body, degrees"})
+  for (const char* head : {"Keypoints, px", "By points, mm", "In the fitted body, mm", "Limb by points, degrees",
+                           "Limb in the body, degrees"})
     table.columns.push_back({.head = head, .is_number = true});
   for (const ForecastJoint& joint : forecast.joints) {
-    table.rows.push_back(
-        {{RoleName(joint.role), joint.noise_px ? fmt::format("{:.1f}", *joint.noise_px) : "–", fmt::format("{:.1f}", joint.point_mm),
-          fmt::format("{:.1f}", joint.body_mm), fmt::format("{:.1f}", joint.point_deg),
-          fmt::format("{:.1f}", joint.body_deg)}});
+    table.rows.push_back({{RoleName(joint.role), joint.noise_px ? fmt::format("{:.1f}", *joint.noise_px) : "–",
+                           fmt::format("{:.1f}", joint.point_mm), fmt::format("{:.1f}", joint.body_mm),
+                           fmt::format("{:.1f}", joint.point_deg), fmt::format("{:.1f}", joint.body_deg)}});
   }
   return fmt::format(
              "<p>Means over the {:.0f} % of places of the floor where two cameras see all joints of a standing person. "

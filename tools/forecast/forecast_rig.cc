@@ -250,11 +250,11 @@ std::string WorthsText(const RigForecast& forecast) {
 std::string AssumedWords(const RigForecast& forecast, const ForecastOptions& options) {
   const SightingErrors& errors = options.errors;
   const std::string measured =
-      forecast.measured ? fmt::format("Measured: keypoints err by {:.1f} px along each axis ({} points); assumed",
+      forecast.measured ? fmt::format("Measured: keypoints err by {:.1f} px along each axis ({} points). Assumed:",
                                       forecast.measured->all_px, forecast.measured->points)
-                        : fmt::format("Assumed: pixels err by {:g} px along each axis", errors.noise_px);
+                        : fmt::format("Assumed: pixels err by {:g} px along each axis,", errors.noise_px);
   return fmt::format(
-      "{}, a camera gives none in {:g} % of its pictures; cameras err by {:g} mm, {:g} degrees, {:g} % of the focal "
+      "{} a camera gives none in {:g} % of its pictures; cameras err by {:g} mm, {:g} degrees, {:g} % of the focal "
       "length",
       measured, 100 * errors.dropout, kMmPerM * errors.calibration.place_m, Degrees(errors.calibration.turn),
       100 * errors.calibration.focal);

@@ -83,7 +83,7 @@ Result<RigForecast> ForecastRig(const ForecastOptions& options);
 std::string ForecastPicture(const RigForecast& forecast, const ForecastOptions& options);
 /// Writes one HTML page with the picture and all tables.
 std::string ForecastPage(const RigForecast& forecast, const ForecastOptions& options);
-/// Return one sentence for users: what was assumed or measured; what was found.
+/// Return text for users: what was measured and assumed; what was found.
 std::string AssumedWords(const RigForecast& forecast, const ForecastOptions& options);
 std::string FoundWords(const RigForecast& forecast);
 

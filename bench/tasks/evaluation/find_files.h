@@ -27,7 +27,8 @@ Result<FoundFiles> FindEvaluatedFiles(const Node& condition, std::span<const Nod
 enum class Links { kAllowed, kRefused };
 
 /// Lists the files that references stand for, in their order; a folder stands for the motion files in it, a BIDS data
-/// set for the recordings of all people. Fails at `place` if one stands for none, for more than kMaxPairs, or for a link that is refused.
+/// set for the recordings of all people. Fails at `place` if one stands for none, for more than kMaxPairs, or for a
+/// link that is refused.
 Result<std::vector<std::string>> ExpandFiles(const std::vector<std::string>& references, Links links,
                                              const Place& place);
 
