@@ -9,6 +9,7 @@
 #include "cli/output_file.h"
 #include "cli/terminal_listener.h"
 #include "engine/base/angles.h"
+#include "engine/keypoints/people.h"
 #include "tools/forecast/forecast_rig.h"
 
 namespace etude {
@@ -21,7 +22,8 @@ constexpr const char* kForecastNotes =
     "triangulation, "
     "and\nfor the body through the fit of its angles (bone lengths count as known). A person who hides a joint from a "
     "camera "
-    "is a\ndropout. An estimator whose keypoints err the same way in all pictures errs by more.\n\n"
+    "is a\ndropout. An estimator whose keypoints err the same way in all pictures errs by more.\n"
+    "--films and --keypoints measure the pixels' deviation by how well the cameras agree on the person's points.\n\n"
     "The volume stands around the point that the cameras look at (--middle, --size). Its colours on the picture are "
     "those of\n"
     "20 x 20 places at ten heights. `etude calibrate --json` has the deviation of focal lengths. One more camera gets "
@@ -46,6 +48,7 @@ Json FactsOf(const RigForecast& forecast, const ForecastOptions& options) {
   }
   for (const ForecastJoint& joint : forecast.joints) {
     joints.push_back({{"joint", RoleName(joint.role)},
+                      {"noise_px", joint.noise_px ? Json(*joint.noise_px) : Json()},
                       {"point_mm", joint.point_mm},
                       {"body_mm", joint.body_mm},
                       {"point_deg", joint.point_deg},
@@ -60,6 +63,9 @@ Json FactsOf(const RigForecast& forecast, const ForecastOptions& options) {
   return {{"rig", options.rig},
           {"cameras", std::move(cameras)},
           {"middle_m", {forecast.middle_m.x, forecast.middle_m.y}},
+          {"measured", forecast.measured
+                           ? Json{{"noise_px", forecast.measured->all_px}, {"points", forecast.measured->points}}
+                           : Json()},
           {"places", forecast.places.size()},
           {"seen", forecast.seen},
           {"median_mm", forecast.median_mm},
@@ -120,8 +126,27 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
       ->delimiter(',')
       ->expected(2)
       ->check(NumberWithin(-1000, 1000, "place in m"));
-  command->add_option("--noise-px", options->errors.noise_px, "Standard deviation of keypoints along each axis, px")
-      ->check(NumberWithin(0.001, 1000, "deviation in px"))
+  auto* noise =
+      command->add_option("--noise-px", options->errors.noise_px, "Standard deviation of keypoints along each axis, px")
+          ->check(NumberWithin(0.001, 1000, "deviation in px"))
+          ->capture_default_str();
+  auto* films =
+      command->add_option("--films", options->take.films, "Measure the deviation: films of any take with the rig");
+  auto* keypoints = command
+                        ->add_option("--keypoints", options->take.keypoints,
+                                     "... and a folder with keypoints for each film, as for `etude capture`")
+                        ->excludes(noise)
+                        ->needs(films);
+  films->needs(keypoints);
+  command
+      ->add_option("--layout", options->take.layout,
+                   "... the order of these keypoints, if their number does not determine it")
+      ->check(CLI::IsMember(KeypointLayoutNames()))
+      ->needs(keypoints);
+  command
+      ->add_option("--fit", options->take.fit, "... and how the rig's pictures were changed into films of another size")
+      ->check(CLI::IsMember({"none", "letterbox", "stretch", "crop"}))
+      ->needs(keypoints)
       ->capture_default_str();
   command->add_option("--dropout", options->errors.dropout, "Share of its pictures in which a camera gives no keypoint")
       ->check(NumberWithin(0, 0.9, "share"))

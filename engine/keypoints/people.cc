@@ -122,9 +122,6 @@ double HeightPx(const SeenPerson& person) {
   return std::max(0.0, high - low);
 }
 
-namespace {
-
-/// Returns the landmark at a joint where strokes end or a disc lies; nullopt for other joints.
 std::optional<Landmark> LandmarkAt(Role role) {
   constexpr std::pair<Role, Landmark> kSame[] = {
       {Role::kLeftShoulder, Landmark::kLeftShoulder}, {Role::kRightShoulder, Landmark::kRightShoulder},
@@ -141,8 +138,6 @@ std::optional<Landmark> LandmarkAt(Role role) {
   }
   return std::nullopt;
 }
-
-}  // namespace
 
 SeenPerson PersonOf(const Marks& marks) {
   std::array<glm::dvec2, kLandmarkCount> sums{};

@@ -12,6 +12,7 @@
 namespace [[gnu::visibility("default")]] etude {
 
 struct Marks;
+enum class Role;
 
 /// The body landmarks that keypoint estimators detect, and the finger tips that marks show. Left is the person's own.
 enum class Landmark {
@@ -53,6 +54,9 @@ constexpr std::size_t Index(Landmark landmark) { return static_cast<std::size_t>
 /// Returns the landmark's name in OpenPose and Pose2Sim: "RHip", "LBigToe", …
 std::string_view LandmarkName(Landmark landmark);
 std::optional<Landmark> FindLandmark(std::string_view name);
+
+/// Returns the landmark at a joint; nullopt for hip centre and spine.
+std::optional<Landmark> LandmarkAt(Role role);
 
 /// The order of the landmarks in an estimator's list of keypoints.
 struct KeypointLayout {

@@ -28,10 +28,6 @@ Square PointsMap() {
   return map;
 }
 
-bool IsTriangulated(Role role) {
-  return role != Role::kHipCentre && role != Role::kSpine && role != Role::kShoulderCentre;
-}
-
 /// Returns the derivatives of the twenty joints with respect to the root's position and all angles, 60 × (3 + angles).
 Eigen::MatrixXd JointDerivatives(const CaptureBody& body, const TreeState& state) {
   const TreeFrames frames = ComputeFrames(body.tree, state);
@@ -71,6 +67,10 @@ Squares SquaresOf(const Square& covariance, const BodyPose& pose, Role role) {
 
 }  // namespace
 
+bool IsTriangulated(Role role) {
+  return role != Role::kHipCentre && role != Role::kSpine && role != Role::kShoulderCentre;
+}
+
 Result<PoseErrorForecast> PoseErrorForecast::Of(const BodyPose& pose) {
   std::array<double, kRoleCount> lengths{};
   for (const Bone& bone : AllBones()) lengths[Index(bone.child)] = BoneLength(pose, bone);
@@ -90,14 +90,15 @@ Result<PoseErrorForecast> PoseErrorForecast::Of(const BodyPose& pose) {
 }
 
 std::optional<std::array<JointErrors, kRoleCount>> PoseErrorForecast::At(std::span<const Camera> cameras,
-                                                                         const glm::dvec3& shift,
-                                                                         const SightingErrors& errors) const {
+                                                                         const glm::dvec3& shift, SightingErrors errors,
+                                                                         std::span<const double> noise_px) const {
   // Split the covariance into what all joints share (calibration) and what each joint has alone (noise).
   Eigen::MatrixXd common =
       Eigen::MatrixXd::Zero(kNumbers, static_cast<Eigen::Index>(kCalibrationParameters * cameras.size()));
   Square own = Square::Zero();
   for (const Role role : AllRoles()) {
     if (!IsTriangulated(role)) continue;
+    if (!noise_px.empty()) errors.noise_px = noise_px[Index(role)];
     const PointError error = ExpectedPointError(cameras, pose_[role] + shift, errors);
     if (error.lost >= 1) return std::nullopt;
     const int row = RowOf(role);

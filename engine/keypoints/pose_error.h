@@ -21,6 +21,9 @@ struct JointErrors {
   double body_turn = 0;   ///< of the limb's direction in the fitted body, rad²
 };
 
+/// Returns false for hip centre, shoulder centre and spine, which lie between triangulated joints.
+bool IsTriangulated(Role role);
+
 /// Computes the errors to be expected of the joints of one pose, as `TriangulatePerson` and `FitPerson` find them, to
 /// first order. Seventeen joints are triangulated; hip centre, shoulder centre and spine lie between them. To first
 /// order, the fitted body is the projection of all positions to those that its angles and its root can reach: J(JᵀJ)⁺Jᵀ
@@ -32,8 +35,10 @@ class PoseErrorForecast {
 
   /// Returns the errors of all joints if the pose is moved by `shift`, metres; nullopt if some joint cannot be
   /// triangulated there. Preconditions: those of ExpectedPointError.
+  /// @param noise_px the deviation of each role's keypoints; empty: `errors.noise_px` for all
   std::optional<std::array<JointErrors, kRoleCount>> At(std::span<const Camera> cameras, const glm::dvec3& shift,
-                                                        const SightingErrors& errors) const;
+                                                        SightingErrors errors,
+                                                        std::span<const double> noise_px = {}) const;
 
  private:
   BodyPose pose_;

@@ -146,6 +146,11 @@ std::vector<std::string> JointsOfLayout(std::string_view layout, std::size_t joi
 
 Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional<std::string>& layout,
                                    const std::string& file, std::string& note) {
+  constexpr std::size_t kHumanMl3dFeatures = 263;
+  if (array.shape.size() == 2 && array.shape[1] == kHumanMl3dFeatures) {
+    return Fail({file}, "an array of {}: features of HumanML3D; convert them to joints (docs/clips.md#humanml3d)",
+                ShapeText(array));
+  }
   if (array.shape.size() != 3 || array.shape[2] != 3 || array.shape[0] == 0) {
     return Fail({file}, "an array of {}; allowed: frames × joints × 3", ShapeText(array));
   }

@@ -92,7 +92,8 @@ class Triangulation:
         known = np.isfinite(ends).all(axis=-1, keepdims=True)
         return np.where(known.any(axis=2), np.where(known, ends, 0).sum(axis=2) / np.maximum(known.sum(axis=2), 1), np.nan)
 
-    def answer(self, problem):
+    def points(self, problem):
+        """The joints, frames × joints × 3, metres, without gaps."""
         joints = self.setting.joints
         at = {name: joint for joint, name in enumerate(joints)}
         marks = problem.marks[self.options.get("segmenter", next(iter(problem.marks)))]
@@ -102,6 +103,10 @@ class Triangulation:
         found[:, at["spine"]] = (1 - SPINE) * found[:, at["hip_centre"]] + SPINE * found[:, at["shoulder_centre"]]
         if not np.isfinite(found).all():
             raise etude.NoAnswer("a joint was never seen by two cameras")
+        return found
+
+    def answer(self, problem):
+        found = self.points(problem)
         found = low_pass(found, self.setting.rate_hz, self.options.get("cutoff_hz", 6), self.options.get("order", 4))
         return {"poses": found.reshape(len(found), -1).tolist()}
 

@@ -418,9 +418,9 @@ class Mistakes(EtudeCase):
                             "-frames:v", str(frames), "-preset", "ultrafast", "-pix_fmt", "yuv420p", str(cls.films / f"{name}.mp4")],
                            check=True)
 
-    def capture(self, rig="Pose2Sim", keypoints="OpenPose, 26", mistake="none", cameras=None, lens=Lens(LENS[:5]),
-                more=(), truth=figure, pixels=None, noise_px=0):
-        """Runs a capture; gives what it printed, and the errors in mm."""
+    def take(self, rig="Pose2Sim", keypoints="OpenPose, 26", mistake="none", cameras=None, lens=Lens(LENS[:5]),
+             truth=figure, pixels=None, noise_px=0):
+        """Writes a take; gives its folder, its rig, its films and the options that the rig needs."""
         folder = self.folder / f"take{len(list(self.folder.iterdir()))}"
         folder.mkdir()
         names = list(PLACES)[:cameras or (2 if rig == "OpenCV stereo" else 4)]
@@ -441,7 +441,12 @@ class Mistakes(EtudeCase):
             shutil.copy(self.films / f"{kind}.mp4", folder / f"{name}.mp4")
         if str(rig).startswith("Caliscope"):
             arguments = [*arguments, "--cameras", ",".join(names)]
-        result = self.etude("capture", "--rig", folder / named, *(folder / f"{name}.mp4" for name in names), "--keypoints",
+        return folder, folder / named, [folder / f"{name}.mp4" for name in names], arguments
+
+    def capture(self, *how, more=(), truth=figure, **named):
+        """Runs a capture; gives what it printed, and the errors in mm."""
+        folder, rig, films, arguments = self.take(*how, truth=truth, **named)
+        result = self.etude("capture", "--rig", rig, *films, "--keypoints",
                             folder / "keypoints", "--points", folder / "p.trc", *(() if "-o" in more else ("-o", folder / "m.csv")), *arguments, *more)
         if result.returncode != 0:
             return result.stderr, None, None
@@ -495,6 +500,26 @@ class Mistakes(EtudeCase):
             self.assertNotIn(word, told)
         rig, _, words = STRANGERS["two cameras exchanged"]
         self.assertIn(words, self.capture(rig, cameras=2, noise_px=2)[0])
+
+    def test_forecast_measures_how_keypoints_err_and_is_right_about_the_capture(self):
+        for cameras, noise_px in ((2, 1.5), (3, 0.5), (4, 1.5), (4, 4)) if HEAVY else ((3, 1.5),):
+            with self.subTest(cameras=cameras, noise_px=noise_px):
+                folder, rig, films, _ = self.take(cameras=cameras, noise_px=noise_px)
+                there = ("forecast", rig, "--middle", "0,0", "--size", "0.6,1.8,0.6", "--calibration", "0,0,0")
+                told = self.facts(*there, "--films", *films, "--keypoints", folder / "keypoints")
+                self.assertAlmostEqual(told["measured"]["noise_px"] / noise_px, 1, delta=0.05)
+                self.assertGreater(told["measured"]["points"], 20 * FRAMES)
+                elbows = [joint for joint in told["joints"] if "elbow" in joint["joint"] or "knee" in joint["joint"]]
+                for joint in elbows:
+                    self.assertAlmostEqual(joint["noise_px"] / noise_px, 1, delta=0.4, msg=joint)
+                _, errors, _ = self.capture(cameras=cameras, noise_px=noise_px, more=("--outlier", "60"))
+                expected = np.sqrt(np.mean([joint["point_mm"] ** 2 for joint in told["joints"] if joint["noise_px"]]))
+                self.assertAlmostEqual(expected / np.sqrt(np.mean(np.square(errors))), 1, delta=0.15)
+                assumed = self.facts(*there, "--noise-px", noise_px)
+                self.assertIsNone(assumed["measured"])
+                self.assertAlmostEqual(assumed["median_mm"] / told["median_mm"], 1, delta=0.05)
+        refused = self.refusal(*there, "--noise-px", "1", "--films", *films, "--keypoints", folder / "keypoints")
+        self.assertIn("--noise-px", refused)
 
     def test_focal_lengths_that_are_off_are_doubted(self):
         off = lambda films: altered_toml(lambda name, R, T, K: (name, R, T, K @ np.diag([1.05, 1.05, 1]) if name in films else K))

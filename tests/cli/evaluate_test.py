@@ -3,6 +3,7 @@ import csv
 import json
 import pathlib
 import random
+import shutil
 import sys
 
 from etude_case import EtudeCase
@@ -240,6 +241,32 @@ class Evaluate(EtudeCase):
         self.assertLess(first["seen_share"], 1)
         told = self.etude("clip", "info", f"{cell}/{first['method']}@answer", "--json")
         self.assertEqual([clip["frames"] for clip in json.loads(told.stdout)["clips"]], [len(noisy)], told.stderr)
+
+    def test_pairs_are_read_and_written_as_motion_bids(self):
+        truth, mine, kept = self.folder / "truth", self.folder / "mine", self.folder / "kept"
+        for name in "clap", "sway":
+            self.ends(0, "clip", "convert", f"builtin:{name}", f"{self.folder}/{name}/")
+            shutil.copytree(self.folder / name, truth, dirs_exist_ok=True)
+        # The same recordings by another tracking system, 1 cm aside.
+        for path in (path for path in truth.rglob("*") if path.is_file()):
+            copy = mine / path.relative_to(truth).parent / path.name.replace("tracksys-etude", "tracksys-imu")
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            text = path.read_text()
+            if path.name.endswith("_motion.tsv"):
+                rows = [[float(cell) for cell in line.split("\t")] for line in text.splitlines()]
+                text = "".join("\t".join(f"{x + 0.01 * (k % 3 == 0):.6f}" for k, x in enumerate(row)) + "\n" for row in rows)
+            copy.write_text(text)
+        self.evaluate(truth, f"imu={mine}", "--keep", "motions", out=kept)
+        rows = self.rows(kept)
+        self.assertEqual([row["clip"] for row in rows], ["sub-01_task-builtinclap", "sub-01_task-builtinsway"])
+        for number, row in enumerate(rows):
+            self.assertAlmostEqual(row["mpjpe_unaligned_mm"], 10, 2)
+            again = self.folder / f"again{number}"
+            self.ends(0, "clip", "convert", f"{kept}#{row['scenario']}/-/{number:03}@truth", f"{again}/")
+            (read,), (written,) = (list(folder.rglob(f"{name}_motion.tsv")) for folder, name in ((truth, row["clip"] + "*"), (again, "*")))
+            for line, other in zip(read.read_text().splitlines(), written.read_text().splitlines(), strict=True):
+                for x, y in zip(line.split("\t"), other.split("\t"), strict=True):
+                    self.assertAlmostEqual(float(x), float(y), delta=1.1e-6)
 
     def test_the_page_shows_it(self):
         self.evaluate(self.shared / "clap.csv", self.shared / "clap.npz")

@@ -2,7 +2,10 @@
 import csv
 import json
 import math
+import pathlib
 import struct
+import subprocess
+import sys
 import unittest
 
 import numpy
@@ -271,6 +274,113 @@ class Formats(MotionFileCase):
         self.refused(path, "allowed: frames × joints × 3")
         path.write_bytes(path.read_bytes()[:200])
         self.refused(path, "poses.npy")
+
+    def test_the_page_converts_what_humanml3d_wrote(self):
+        names, places = self.body("builtin:sway")
+        order = ("hip_centre left_hip right_hip spine left_knee right_knee spine left_ankle right_ankle spine left_foot right_foot "
+                 "shoulder_centre left_shoulder right_shoulder head left_shoulder right_shoulder left_elbow right_elbow "
+                 "left_wrist right_wrist").split()
+        joints = places[:, [names.index(name) for name in order]]
+        joints = joints - [1, 0, 1] * joints[:1, :1]  # begins at the origin
+        # Its features, by its own definitions: turns and steps from frame to frame, joints in the axes of the body.
+        turns = numpy.concatenate([[0], 0.02 * numpy.cumsum(numpy.sin(numpy.arange(len(joints) - 1) / 7))])
+        features = numpy.random.default_rng(1).normal(size=(len(joints), 263))
+        for t, turn in enumerate(turns):
+            to_body = numpy.array([[math.cos(turn), 0, math.sin(turn)], [0, 1, 0], [-math.sin(turn), 0, math.cos(turn)]])
+            features[t, 3] = joints[t, 0, 1]
+            features[t, 4:67] = ((joints[t, 1:] - [1, 0, 1] * joints[t, 0]) @ to_body.T).ravel()
+            if t > 0:
+                features[t - 1, 0] = (turn - turns[t - 1]) / 2
+                features[t - 1, 1:3] = (to_body @ (joints[t, 0] - joints[t - 1, 0]))[[0, 2]]
+        path, converted = self.folder / "features.npy", self.folder / "joints.npy"
+        numpy.save(path, features)
+        self.refused(path, f"{len(joints)} × 263: features of HumanML3D; convert them to joints (docs/clips.md#humanml3d)")
+        page = (pathlib.Path(__file__).parents[2] / "docs" / "clips.md").read_text()
+        code = page.split("### HumanML3D")[1].split("```python\n")[1].split("```")[0]
+        subprocess.run([sys.executable, "-c", code, path, converted], check=True)
+        numpy.testing.assert_allclose(numpy.load(converted), joints, atol=1e-9)
+        self.assertIn("at 20 Hz", self.etude("clip", "info", f"{converted}#smpl", "--rate", 20).stdout)
+
+    # SOMA's joints at rest, metres from their parents; the left side. Fingers are chains of 3 cm.
+    SOMA = {"Hips": (0, 1, 0), "Spine1": (0, .05, 0), "Spine2": (0, .071, 0), "Chest": (0, .076, -.008), "Neck1": (0, .263, -.006),
+            "Neck2": (0, .077, .023), "Head": (0, .061, .02), "HeadEnd": (0, .15, 0), "Jaw": (0, .005, .031), "LeftEye": (.032, .054, .076),
+            "LeftShoulder": (.016, .232, .051), "LeftArm": (.149, 0, -.055), "LeftForeArm": (.287, 0, 0), "LeftHand": (.271, 0, 0),
+            "LeftHandThumbEnd": (.123, -.032, .048), "LeftHandMiddleEnd": (.19, -.003, 0), "LeftLeg": (.1, -.084, .026),
+            "LeftShin": (0, -.432, -.008), "LeftFoot": (0, -.422, -.035), "LeftToeBase": (0, -.051, .132), "LeftToeEnd": (0, -.01, .06)}
+
+    def soma(self, is_whole):
+        """SOMA's 77 joints or its 30 as (name, parent, offset)."""
+        joints = []
+
+        def chain(parent, names):
+            for name in names:
+                known = self.SOMA.get(name.replace("Right", "Left"))
+                if known is None or (is_whole and name.endswith("HandMiddleEnd") or is_whole and name.endswith("ThumbEnd")):
+                    known = (.03, 0, .02 if "Thumb" in name else 0)
+                joints.append((name, parent, numpy.array(known) * [-1 if "Right" in name else 1, 1, 1]))
+                parent = len(joints) - 1
+            return parent
+        head = chain(-1, ["Hips", "Spine1", "Spine2", "Chest", "Neck1", "Neck2", "Head"])
+        for name in ["HeadEnd"] * is_whole + ["Jaw", "LeftEye", "RightEye"]:
+            chain(head, [name])
+        for side in ("Left", "Right"):
+            hand = chain(3, [side + name for name in ("Shoulder", "Arm", "ForeArm", "Hand")])
+            if not is_whole:
+                chain(hand, [side + "HandThumbEnd"]), chain(hand, [side + "HandMiddleEnd"])
+                continue
+            chain(hand, [f"{side}HandThumb{name}" for name in (1, 2, 3, "End")])
+            for finger in ("Index", "Middle", "Ring", "Pinky"):
+                chain(hand, [f"{side}Hand{finger}{name}" for name in (1, 2, 3, 4, "End")])
+        for side in ("Left", "Right"):
+            chain(0, [side + name for name in ["Leg", "Shin", "Foot", "ToeBase"] + ["ToeEnd"] * is_whole])
+        return joints
+
+    def test_somas_bvh_and_arrays_have_the_joints_of_the_generator(self):
+        def turn(z, y, x):
+            (cz, sz), (cy, sy), (cx, sx) = ((math.cos(a), math.sin(a)) for a in (z, y, x))
+            return (numpy.array([[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]]) @ [[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]]
+                    @ numpy.array([[1, 0, 0], [0, cx, -sx], [0, sx, cx]]))
+        plays = {"left_wrist": "LeftHand", "right_elbow": "RightForeArm", "left_shoulder": "LeftArm", "right_hip": "RightLeg",
+                 "left_knee": "LeftShin", "right_ankle": "RightFoot"}
+        for is_whole, count in ((False, 30), (True, 77)):
+            with self.subTest(count):
+                joints = self.soma(is_whole)
+                self.assertEqual(len(joints), count)
+                dice = numpy.random.default_rng(count)
+                phase = dice.uniform(0, 6, (count, 3))
+                frames, places, turns, rows = 60, [], [], []
+                for t in range(frames):
+                    angles = numpy.radians(8) * numpy.sin(phase + 0.07 * t)
+                    hips, at, by, row = numpy.array([0.003 * t, 1 + 0.02 * math.sin(t / 9), 0.01 * t]), [], [], [0] * 6
+                    for number, (name, parent, offset) in enumerate(joints):
+                        local = turn(*angles[number])
+                        at.append(hips if parent < 0 else at[parent] + by[parent] @ offset)
+                        by.append(local if parent < 0 else by[parent] @ local)
+                        row += [*(100 * hips)] * (parent < 0) + [*numpy.degrees(angles[number])]
+                    places.append(at)
+                    turns.append(by)
+                    rows.append(" ".join(f"{value:.6f}" for value in row))
+                places = numpy.array(places)
+                six = "CHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation Xrotation"
+
+                # As Kimodo's export and BONES-SEED have it: a Root above, centimetres, no End Site.
+                def block(number):
+                    name, parent, offset = joints[number]
+                    below = "".join(block(k) for k in range(count) if joints[k][1] == number)
+                    channels = six if parent < 0 else "CHANNELS 3 Zrotation Yrotation Xrotation"
+                    return f"JOINT {name}\n{{\nOFFSET {' '.join(f'{100 * x:.6f}' for x in offset)}\n{channels}\n{below}}}\n"
+                bvh = self.write("soma.bvh", f"HIERARCHY\nROOT Root\n{{\nOFFSET 0 0 0\n{six}\n{block(0)}}}\nMOTION\nFrames: {frames}\n"
+                                             f"Frame Time: {1 / 30}\n" + "\n".join(rows) + "\n")
+                numpy.savez(self.folder / "soma.npz", posed_joints=places.astype("f4"), global_rot_mats=numpy.array(turns, "f4"),
+                            foot_contacts=numpy.zeros((frames, 4), bool))
+                for path in (bvh, self.folder / "soma.npz"):
+                    told = self.info(path)["clips"][0]
+                    self.assertEqual(len(told["body"]["roles"]), 20)
+                    read = self.joints(path, "--keep-floor")
+                    for role, name in {**plays, "head": "HeadEnd" if is_whole else "Head"}.items():
+                        number, left = ([joint[0] for joint in joints].index(one) for one in (name, "LeftLeg"))
+                        off = numpy.array([frame[role] - frame["left_hip"] for frame in read]) - (places[:, number] - places[:, left])
+                        self.assertLess(numpy.abs(off).max(), 1e-5, (path, role))
 
     MOTIVE = {"Hip": "hip_centre", "Ab": "spine", "Neck": "shoulder_centre", "Head": "head", "LUArm": "left_shoulder",
               "LFArm": "left_elbow", "LHand": "left_wrist", "RUArm": "right_shoulder", "RFArm": "right_elbow",

@@ -372,7 +372,7 @@ def main():
         for path in sorted((root / layer).rglob("*")):
             is_build_file = path.name == "CMakeLists.txt" and rule is check_determinism
             kinds = {check_pages: {".md"}, check_words: {".h", ".cc", ".py", ".pyi", ".js", ".md", ".yaml"}}.get(rule, {".h", ".cc"})
-            if (path.suffix not in kinds and not is_build_file) or "must_flag" in path.relative_to(root).parts:
+            if (path.suffix not in kinds and not is_build_file) or {"must_flag", "node_modules"} & set(path.relative_to(root).parts):
                 continue
             checked += 1
             for number, message in rule(path.relative_to(root), path):

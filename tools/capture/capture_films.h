@@ -6,6 +6,7 @@
 
 #include "engine/base/result.h"
 #include "engine/cameras/rig_file.h"
+#include "engine/keypoints/keypoint_noise.h"
 #include "engine/keypoints/place_rig.h"
 #include "io/files/json.h"
 #include "tools/listener.h"
@@ -60,5 +61,10 @@ Result<RigFile> OpenRig(const std::string& path);
 /// silhouettes, and writes it. Fails before anything is written if films, rig or options do not fit together; every
 /// complaint names the file or the option.
 Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options);
+
+/// Measures the random error of the person's keypoints, in the rig's pixels, after the corrections of `CaptureFilms`,
+/// which it reports. Uses films, rig, keypoints, cameras, fit, layout, person and `sync_s`. Fails as `CaptureFilms`
+/// does.
+Result<KeypointNoise> MeasureFilmedNoise(const CaptureFilmsOptions& options);
 
 }  // namespace etude

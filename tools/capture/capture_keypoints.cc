@@ -224,6 +224,19 @@ void TellDoubts(const MatchedPerson& person, const std::vector<FilmedView>& view
   }
 }
 
+Result<KeypointNoise> MeasureFilmedNoise(const CaptureFilmsOptions& options) {
+  ASSIGN_OR_RETURN(FilmedSession session, OpenFilms(options));
+  const RecoverPersonOptions recover = RecoverOptionsOf(options, session.views);
+  ASSIGN_OR_RETURN(SeenFilms films, SeeFilms(options, recover, session));
+  ASSIGN_OR_RETURN(const RecoveredPerson person, LocatePerson(films.cameras, films.people, recover));
+  const std::size_t chosen = IndexOfPerson(person, recover.person).value_or(0);
+  TellMends(person, chosen, session.views, films.told);
+  const auto noise =
+      MeasureKeypointNoise(films.cameras, person.people[chosen], recover.triangulate.min_confidence, person.outlier_px);
+  if (!noise) return Fail({options.keypoints}, "no keypoint is seen by two cameras that agree on it");
+  return *noise;
+}
+
 Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession session,
                               const std::optional<MarkerMotion>& reference, Json& facts) {
   std::vector<FilmedView>& views = session.views;

@@ -74,6 +74,11 @@ Mask Reduced(const Image<std::uint8_t>& values, const Image<FilmPatch>& patches,
 
 bool IsEmpty(const Mask& mask) { return std::ranges::find(mask.pixels, 1) == mask.pixels.end(); }
 
+/// Returns true if the person takes more than half of the picture.
+bool CoversMost(const Mask& mask) {
+  return 2 * std::ranges::count(mask.pixels, 1) > static_cast<std::ptrdiff_t>(mask.pixels.size());
+}
+
 /// Returns true if the second largest region is more than a quarter of the largest.
 bool HasSeveral(const Mask& mask) {
   std::array<int, 2> largest{};
@@ -139,6 +144,11 @@ Result<std::vector<Mask>> ReadMasks(const std::string& folder, std::optional<int
   // Report what looks wrong.
   if (empty > 0) {
     told.Tell(fmt::format("masks of {}: {} of {} are empty", view.camera.name, empty, masks.size()));
+  }
+  const auto covering = std::ranges::count_if(masks, CoversMost);
+  if (2 * static_cast<std::size_t>(covering) > masks.size()) {
+    told.Tell(fmt::format("doubtful: masks of {}: {} of {} cover most of the picture: is the person black?",
+                          view.camera.name, covering, masks.size()));
   }
   const auto several = std::ranges::count_if(masks, HasSeveral);
   if (several > 0) {

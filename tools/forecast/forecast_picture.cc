@@ -123,13 +123,13 @@ void DrawScale(Canvas& canvas, const Scale& scale) {
 std::string JointsHtml(const RigForecast& forecast) {
   if (forecast.joints.empty()) return "<p>No place shows all joints of a standing body to two cameras.</p>";
   Table table{.label = "Joints", .columns = {{.head = "Joint", .is_row_head = true}}};
-  for (const char* head :
-       {"By points, mm", "In the fitted body, mm", "Limb by points, degrees", "Limb in the body, degrees"})
+  for (const char* head : {"Keypoints, px", "By points, mm", "In the fitted body, mm", "Limb by points, degrees",
+                           "Limb in the body, degrees"})
     table.columns.push_back({.head = head, .is_number = true});
   for (const ForecastJoint& joint : forecast.joints) {
-    table.rows.push_back(
-        {{RoleName(joint.role), fmt::format("{:.1f}", joint.point_mm), fmt::format("{:.1f}", joint.body_mm),
-          fmt::format("{:.1f}", joint.point_deg), fmt::format("{:.1f}", joint.body_deg)}});
+    table.rows.push_back({{RoleName(joint.role), joint.noise_px ? fmt::format("{:.1f}", *joint.noise_px) : "–",
+                           fmt::format("{:.1f}", joint.point_mm), fmt::format("{:.1f}", joint.body_mm),
+                           fmt::format("{:.1f}", joint.point_deg), fmt::format("{:.1f}", joint.body_deg)}});
   }
   return fmt::format(
              "<p>Means over the {:.0f} % of places of the floor where two cameras see all joints of a standing person. "
@@ -157,7 +157,7 @@ std::string ForecastPicture(const RigForecast& forecast, const ForecastOptions& 
   Canvas canvas(kWidth, kHeight);
   canvas.FillBox({0, 0, kWidth, kHeight}, kBackdrop);
   canvas.DrawText({kMargin, 34}, "Expected error over the volume", kTitleSize, kInk, kWidth - 2 * kMargin, true);
-  canvas.DrawText({kMargin, 58}, AssumedWords(options), kTextSize, kSoftInk, kWidth - 2 * kMargin);
+  canvas.DrawText({kMargin, 58}, AssumedWords(forecast, options), kTextSize, kSoftInk, kWidth - 2 * kMargin);
   DrawPlan(canvas, forecast, options);
   const Scale scale = ScaleOf(forecast);
   DrawScale(canvas, scale);
@@ -182,7 +182,7 @@ std::string ForecastPage(const RigForecast& forecast, const ForecastOptions& opt
        .command = options.command_line},
       fmt::format("<p>{}.</p>{}<section class=\"card\"><h2>What would help</h2>{}</section>\n<section "
                   "class=\"card\"><h2>A person there</h2>{}</section>\n",
-                  EscapeMarkup(AssumedWords(options)), picture, WorthsHtml(forecast), JointsHtml(forecast)));
+                  EscapeMarkup(AssumedWords(forecast, options)), picture, WorthsHtml(forecast), JointsHtml(forecast)));
 }
 
 }  // namespace etude

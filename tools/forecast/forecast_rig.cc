@@ -11,7 +11,6 @@
 #include "io/drawing/table.h"
 #include "io/files/files.h"
 #include "sim/choreography/canonical_body.h"
-#include "tools/capture/capture_films.h"
 
 namespace etude {
 namespace {
@@ -153,13 +152,17 @@ Camera BestAddition(const std::vector<Camera>& cameras, const std::vector<Foreca
 /// and z.
 Result<void> AddJoints(const std::vector<Camera>& cameras, const ForecastOptions& options, RigForecast& forecast) {
   std::array<JointErrors, kRoleCount> sums{};
+  std::array<double, kRoleCount> noise_px{};
+  for (const Role role : AllRoles()) {
+    noise_px[Index(role)] = forecast.measured ? forecast.measured->Of(role) : options.errors.noise_px;
+  }
   int whole = 0, all = 0;
   for (const double yaw : {0.0, kPi / 2}) {
     ASSIGN_OR_RETURN(const auto bodies, PoseErrorForecast::Of(FloorMove{.yaw = yaw}.Apply(PoseOf(ReadyStance()))));
     for (int z = 0; z < kForecastRows; z += 2) {
       for (int x = 0; x < kForecastColumns; x += 2) {
         const glm::dvec3 place = forecast.places[z * kForecastColumns + x].place_m;
-        const auto errors = bodies.At(cameras, {place.x, 0, place.z}, options.errors);
+        const auto errors = bodies.At(cameras, {place.x, 0, place.z}, options.errors, noise_px);
         ++all;
         if (!errors) continue;
         ++whole;
@@ -178,7 +181,8 @@ Result<void> AddJoints(const std::vector<Camera>& cameras, const ForecastOptions
   const auto deg = [&](double sum) { return Degrees(std::sqrt(sum / whole)); };
   for (const Role role : AllRoles()) {
     const JointErrors& sum = sums[Index(role)];
-    forecast.joints.push_back({role, mm(sum.point), mm(sum.body), deg(sum.point_turn), deg(sum.body_turn)});
+    const auto noise = IsTriangulated(role) ? std::optional(noise_px[Index(role)]) : std::nullopt;
+    forecast.joints.push_back({role, noise, mm(sum.point), mm(sum.body), deg(sum.point_turn), deg(sum.body_turn)});
   }
   return {};
 }
@@ -224,11 +228,12 @@ std::string JointsText(const RigForecast& forecast) {
   if (forecast.joints.empty()) return "No place shows all joints of a standing body to two cameras.\n";
   std::string text = fmt::format(
       "\nA standing body, at the {:.0f} % of places that show all of it, root mean "
-      "square:\n{:<18}{:>12}{:>12}{:>14}{:>14}\n",
-      100 * forecast.bodies, "", "points, mm", "body, mm", "limb, deg", "in body, deg");
+      "square:\n{:<18}{:>14}{:>12}{:>12}{:>14}{:>14}\n",
+      100 * forecast.bodies, "", "keypoints, px", "points, mm", "body, mm", "limb, deg", "in body, deg");
   for (const ForecastJoint& joint : forecast.joints) {
-    text += fmt::format("{:<18}{:>12.1f}{:>12.1f}{:>14.1f}{:>14.1f}\n", RoleName(joint.role), joint.point_mm,
-                        joint.body_mm, joint.point_deg, joint.body_deg);
+    const std::string noise = joint.noise_px ? fmt::format("{:.1f}", *joint.noise_px) : "-";
+    text += fmt::format("{:<18}{:>14}{:>12.1f}{:>12.1f}{:>14.1f}{:>14.1f}\n", RoleName(joint.role), noise,
+                        joint.point_mm, joint.body_mm, joint.point_deg, joint.body_deg);
   }
   return text;
 }
@@ -242,13 +247,16 @@ std::string WorthsText(const RigForecast& forecast) {
 
 }  // namespace
 
-std::string AssumedWords(const ForecastOptions& options) {
+std::string AssumedWords(const RigForecast& forecast, const ForecastOptions& options) {
   const SightingErrors& errors = options.errors;
+  const std::string measured =
+      forecast.measured ? fmt::format("Measured: keypoints err by {:.1f} px along each axis ({} points). Assumed:",
+                                      forecast.measured->all_px, forecast.measured->points)
+                        : fmt::format("Assumed: pixels err by {:g} px along each axis,", errors.noise_px);
   return fmt::format(
-      "Assumed: pixels err by {:g} px along each axis, a camera gives none in {:g} % of its pictures; cameras err by "
-      "{:g} mm, "
-      "{:g} degrees, {:g} % of the focal length",
-      errors.noise_px, 100 * errors.dropout, kMmPerM * errors.calibration.place_m, Degrees(errors.calibration.turn),
+      "{} a camera gives none in {:g} % of its pictures; cameras err by {:g} mm, {:g} degrees, {:g} % of the focal "
+      "length",
+      measured, 100 * errors.dropout, kMmPerM * errors.calibration.place_m, Degrees(errors.calibration.turn),
       100 * errors.calibration.focal);
 }
 
@@ -261,8 +269,15 @@ std::string FoundWords(const RigForecast& forecast) {
       forecast.median_mm, forecast.p95_mm, 100 * forecast.seen, *forecast.worst.error_mm, worst.x, worst.z, worst.y);
 }
 
-Result<RigForecast> ForecastRig(const ForecastOptions& options) {
+Result<RigForecast> ForecastRig(const ForecastOptions& asked) {
   RigForecast forecast;
+  ForecastOptions options = asked;
+  if (!options.take.keypoints.empty()) {
+    options.take.rig = options.rig;
+    options.take.listener = options.listener;
+    ASSIGN_OR_RETURN(forecast.measured, MeasureFilmedNoise(options.take));
+    options.errors.noise_px = forecast.measured->all_px;
+  }
   ASSIGN_OR_RETURN(forecast.cameras, PlacedCameras(options));
   const std::vector<Camera> cameras = CamerasOf(forecast.cameras);
   if (options.middle_m) {
@@ -292,7 +307,7 @@ Result<RigForecast> ForecastRig(const ForecastOptions& options) {
   options.listener.print(fmt::format(
       "{} cameras around x {:.2f}, z {:.2f}, in a volume of {:g} x {:g} m, {:g} m high\n{}\n{}\n{}{}", cameras.size(),
       forecast.middle_m.x, forecast.middle_m.y, options.size_m.x, options.size_m.z, options.size_m.y,
-      AssumedWords(options), FoundWords(forecast), JointsText(forecast), WorthsText(forecast)));
+      AssumedWords(forecast, options), FoundWords(forecast), JointsText(forecast), WorthsText(forecast)));
   const auto write = [&](const std::string& path, const auto& bytes) -> Result<void> {
     if (path.empty()) return {};
     RETURN_IF_ERROR(WriteFileAtomically(path, bytes()));

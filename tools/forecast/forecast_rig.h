@@ -9,9 +9,11 @@
 #include "engine/base/result.h"
 #include "engine/cameras/point_error.h"
 #include "engine/cameras/rig_file.h"
+#include "engine/keypoints/keypoint_noise.h"
 #include "engine/keypoints/place_rig.h"
 #include "engine/keypoints/pose_error.h"
 #include "engine/motion/body.h"
+#include "tools/capture/capture_films.h"
 #include "tools/listener.h"
 
 namespace etude {
@@ -20,6 +22,7 @@ struct ForecastOptions {
   std::string rig;         ///< a calibration, as for `CaptureFilms`
   PlacementOptions place;  ///< its unit, up axis and floor
   SightingErrors errors;
+  CaptureFilmsOptions take = {};  ///< films and keypoints with the rig, whose noise replaces `errors.noise_px`, or none
   glm::dvec3 size_m{3, 2, 3};  ///< the volume that people move in: width (x), height from the floor, depth (z)
   std::optional<glm::dvec2>
       middle_m;              ///< its middle on the floor (x, z); absent = the point nearest to all optical axes
@@ -53,12 +56,14 @@ struct RigWorth {
 /// The expected root mean square errors of one joint of a person who stands in the volume.
 struct ForecastJoint {
   Role role = Role::kHipCentre;
+  std::optional<double> noise_px;      ///< of its keypoints; absent if it is not triangulated
   double point_mm = 0, body_mm = 0;    ///< of the triangulated joint; of the joint in the fitted body
   double point_deg = 0, body_deg = 0;  ///< the same of the direction of the limb that ends there; 0 for the hip centre
 };
 
 struct RigForecast {
   std::vector<NamedCamera> cameras;   ///< metres, Y up
+  std::optional<KeypointNoise> measured;  ///< from the take's keypoints, if there is one
   glm::dvec2 middle_m{0};             ///< of the volume
   std::vector<ForecastPlace> places;  ///< by height, then z, then x, each ascending
   double seen = 0;                    ///< share of places that two cameras have in their pictures
@@ -78,8 +83,8 @@ Result<RigForecast> ForecastRig(const ForecastOptions& options);
 std::string ForecastPicture(const RigForecast& forecast, const ForecastOptions& options);
 /// Writes one HTML page with the picture and all tables.
 std::string ForecastPage(const RigForecast& forecast, const ForecastOptions& options);
-/// Return one sentence for users: what was assumed; what was found.
-std::string AssumedWords(const ForecastOptions& options);
+/// Return text for users: what was measured and assumed; what was found.
+std::string AssumedWords(const RigForecast& forecast, const ForecastOptions& options);
 std::string FoundWords(const RigForecast& forecast);
 
 }  // namespace etude

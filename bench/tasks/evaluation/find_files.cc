@@ -19,13 +19,23 @@ constexpr std::string_view kPerson = "{person}";
 constexpr std::string_view kEndings[] = {".bvh", ".glb", ".gltf", ".fbx", ".amc", ".npz",
                                          ".npy", ".c3d", ".trc",  ".csv", ".mot", ".vrm"};
 
-/// Lists the motion files of a folder, sorted.
+constexpr std::string_view kBidsEnding = "_motion.tsv", kBidsHead = "dataset_description.json";
+
+/// Lists the motion files of a folder, sorted; of a BIDS data set those of all people.
 std::vector<std::string> FilesIn(const std::string& folder) {
   std::vector<std::string> files;
   std::error_code error;
+  if (fs::exists(fs::path(folder) / kBidsHead, error)) {
+    for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+      if (entry->path().string().ends_with(kBidsEnding)) files.push_back(entry->path().string());
+    }
+    std::ranges::sort(files);
+    return files;
+  }
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     const std::string ending = entry->path().extension().string();
-    if (std::ranges::find(kEndings, ending) != std::end(kEndings)) files.push_back(entry->path().string());
+    const bool is_known = std::ranges::find(kEndings, ending) != std::end(kEndings);
+    if (is_known || entry->path().string().ends_with(kBidsEnding)) files.push_back(entry->path().string());
   }
   std::ranges::sort(files);
   return files;
@@ -68,7 +78,12 @@ std::vector<std::string> SplitAtCommas(std::string_view line) {
 std::string NameOfReference(const std::string& reference) {
   if (reference.starts_with(kBuiltinPrefix)) return reference.substr(kBuiltinPrefix.size());
   const SplitReference split = Split(reference);
-  const std::string stem = fs::path(split.path).stem().string();
+  std::string stem = fs::path(split.path).stem().string();
+  // In a BIDS data set the tracking system tells truth and answers apart: it is not part of the name.
+  if (const std::size_t at = stem.find("_tracksys-"); at != std::string::npos && split.path.ends_with(kBidsEnding)) {
+    stem.erase(at, stem.find('_', at + 1) - at);
+    stem.resize(stem.rfind('_'));
+  }
   return split.animation ? stem + "#" + *split.animation : stem;
 }
 

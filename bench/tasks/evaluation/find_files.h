@@ -26,15 +26,17 @@ Result<FoundFiles> FindEvaluatedFiles(const Node& condition, std::span<const Nod
 /// Says what happens to links among the files that a folder or a pattern stands for.
 enum class Links { kAllowed, kRefused };
 
-/// Lists the files that references stand for, in their order; a folder stands for the motion files in it. Fails at
-/// `place` if one stands for none, for more than kMaxPairs, or for a link that is refused.
+/// Lists the files that references stand for, in their order; a folder stands for the motion files in it, a BIDS data
+/// set for the recordings of all people. Fails at `place` if one stands for none, for more than kMaxPairs, or for a
+/// link that is refused.
 Result<std::vector<std::string>> ExpandFiles(const std::vector<std::string>& references, Links links,
                                              const Place& place);
 
 /// Splits a line at its commas. A carriage return at its end is dropped.
 std::vector<std::string> SplitAtCommas(std::string_view line);
 
-/// Returns the name of a reference: its file's without folder and extension, and the clip behind '#'.
+/// Returns the name of a reference: its file's without folder and extension, and the clip behind '#'. A Motion-BIDS
+/// recording's is without its tracking system, so that truth and answers have one name.
 std::string NameOfReference(const std::string& reference);
 
 /// Sets the unit of each world to the person in its name (PersonIn); `people` must not be empty. Fails at `place` for a

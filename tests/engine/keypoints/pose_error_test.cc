@@ -132,5 +132,19 @@ TEST(PoseErrorForecast, SaysThatABodyHelps) {
   EXPECT_FALSE(forecast.At(Rig(3), {9, 0, 0}, {.noise_px = 2})) << "outside of the pictures";
 }
 
+TEST(PoseErrorForecast, TakesTheNoiseOfEachJoint) {
+  const auto forecast = PoseErrorForecast::Of(Standing()).value();
+  std::array<double, kRoleCount> noise_px;
+  noise_px.fill(2);
+  const auto same = forecast.At(Rig(3), glm::dvec3(0), {.noise_px = 2}).value();
+  const auto each = forecast.At(Rig(3), glm::dvec3(0), {.noise_px = 9}, noise_px).value();
+  for (std::size_t i = 0; i < kRoleCount; ++i) EXPECT_EQ(each[i].body, same[i].body);
+  noise_px[Index(Role::kLeftWrist)] = 4;
+  const auto worse = forecast.At(Rig(3), glm::dvec3(0), {}, noise_px).value();
+  EXPECT_NEAR(worse[Index(Role::kLeftWrist)].point / same[Index(Role::kLeftWrist)].point, 4, 1e-9);
+  EXPECT_EQ(worse[Index(Role::kLeftElbow)].point, same[Index(Role::kLeftElbow)].point);
+  EXPECT_GT(worse[Index(Role::kLeftElbow)].body, same[Index(Role::kLeftElbow)].body);
+}
+
 }  // namespace
 }  // namespace etude

@@ -117,6 +117,13 @@ TEST_F(ReadMasksTest, SayWhatLooksWrong) {
   ASSERT_EQ(told_.lines.size(), 2u);
   EXPECT_EQ(told_.lines[0], "masks of cam1: 1 of 2 are empty");
   EXPECT_THAT(told_.lines[1], HasSubstr("doubtful: masks of cam1: 1 of 2 have several large regions"));
+  for (const char* name : {"1.png", "2.png"}) {
+    Image<std::uint8_t> inverted = Rectangle(20, 40, 255);
+    for (std::uint8_t& value : inverted.pixels) value = static_cast<std::uint8_t>(255 - value);
+    Add(name, inverted);
+  }
+  ASSERT_EQ(Reason(), "read");
+  EXPECT_EQ(told_.lines.front(), "doubtful: masks of cam1: 2 of 2 cover most of the picture: is the person black?");
   EXPECT_THAT(Reason({}, 1), HasSubstr("more masks than the film films/cam1.mp4 has frames: 1"));
   Add("2.png", Rectangle(20, 40, 255, 2 * kWidth));
   EXPECT_THAT(Reason(), HasSubstr("2.png: a mask of 192 x 64 pixels, but the film films/cam1.mp4 has 96 x 64"));

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "engine/cameras/camera.h"
+#include "engine/keypoints/match_people.h"
+#include "engine/motion/body.h"
+
+namespace etude {
+
+/// The random error of one person's keypoints: standard deviations along each axis of the picture, px.
+struct KeypointNoise {
+  double all_px = 0;                                       ///< of all landmarks together
+  std::array<std::optional<double>, kLandmarkCount> px{};  ///< of landmarks with at least 30 points
+  std::size_t points = 0;                                  ///< number of triangulated points
+
+  /// Returns the deviation of the landmark that shows a joint; of all landmarks if none does.
+  double Of(Role role) const;
+};
+
+/// Measures the random error of keypoints by how well the cameras agree. A point from n cameras, triangulated with
+/// equal weights, leaves a sum of squared reprojection errors of σ²χ² with 2n − 3 degrees of freedom. σ² is the median,
+/// over all points, of that sum divided by the median of its χ² (Wilson and Hilferty 1931). Errors that all cameras
+/// share, and a wrong calibration, are not separated. Returns nullopt without a point. *(Ours.)*
+/// @param cameras of the rig without distortion; the pixels are undistorted, too
+/// @param outlier_px keypoints farther off are left out (`RobustOptions`)
+std::optional<KeypointNoise> MeasureKeypointNoise(std::span<const ProjectionMatrix> cameras,
+                                                  const MatchedPerson& person, double min_confidence,
+                                                  double outlier_px);
+
+}  // namespace etude
