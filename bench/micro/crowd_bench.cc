@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <ctime>
 #include <string_view>
 
 #include "bench/tasks/tracking/crowd.h"
+#include "engine/base/text.h"
 #include "engine/kinematics/solvers/gauss_newton.h"
 #include "engine/kinematics/solvers/gauss_newton_plain.h"
 
@@ -52,8 +52,8 @@ void Measure(std::span<const TrackingWorld> worlds, int frames, const std::strin
 bool Read(std::string_view argument, std::string_view key, int& number) {
   if (!argument.starts_with(key)) return false;
   argument.remove_prefix(key.size());
-  const auto [end, error] = std::from_chars(argument.data(), argument.data() + argument.size(), number);
-  return error == std::errc() && end == argument.data() + argument.size() && number >= kMinTrackedFrames;
+  number = ParseNumber<int>(argument).value_or(0);
+  return number >= kMinTrackedFrames;
 }
 
 int Run(std::span<char* const> arguments) {
