@@ -4,7 +4,6 @@
 #include <sys/stat.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <iostream>
 #include <map>
 #include <string_view>
@@ -13,6 +12,7 @@
 #include "bench/run/outside_programs.h"
 #include "bench/run/worker.h"
 #include "cli/commands.h"
+#include "engine/base/text.h"
 #include "engine/retargeting/marker_sets.h"
 #include "io/process/pinned_environment.h"
 
@@ -276,10 +276,8 @@ void AddOutsideRules(CLI::App& command, OutsideRules& rules) {
 
 std::function<std::string(const std::string&)> NumberWithin(double low, double high, const std::string& kind) {
   return [=](const std::string& text) -> std::string {
-    double number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool is_number = error == std::errc() && end == text.data() + text.size();
-    if (is_number && number >= low && number <= high) return "";
+    const auto number = ParseNumber<double>(text);
+    if (number && *number >= low && *number <= high) return "";
     return fmt::format("'{}' is not a {}; allowed: {} to {}", text, kind, low, high);
   };
 }

@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <iostream>
 #include <map>
@@ -15,6 +14,7 @@
 #include "cli/stream_reading.h"
 #include "engine/base/named.h"
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/recognition/filters.h"
 #include "engine/recognition/recognisers.h"
 #include "engine/streams/live_stream.h"
@@ -66,14 +66,12 @@ Result<std::vector<double>> ReadSettings(const RecogniserKind& kind, const std::
       return Fail({"--set"}, "{}", UnknownName("setting of " + kind.name, text.substr(0, at), names));
     }
     const auto i = static_cast<std::size_t>(found - names.begin());
-    double value = 0;
-    const char* const end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data() + std::min(at + 1, text.size()), end, value);
+    const auto value = ParseNumber<double>(std::string_view(text).substr(std::min(at + 1, text.size())));
     const NumberSetting& setting = kind.settings[i];
-    if (error != std::errc() || rest != end || !(value >= setting.lowest && value <= setting.largest)) {
+    if (!value || !(*value >= setting.lowest && *value <= setting.largest)) {
       return Fail({"--set"}, "{}; allowed: {} to {}", Quote(text), setting.lowest, setting.largest);
     }
-    values[i] = value;
+    values[i] = *value;
   }
   return values;
 }

@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -24,6 +23,7 @@
 #include "cli/progress_bar.h"
 #include "engine/base/named.h"
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "io/clips/clip_library.h"
 #include "io/clips/references.h"
 #include "io/files/files.h"
@@ -75,17 +75,10 @@ struct Split {
   std::vector<std::vector<TrainingFrame>> learnt, held_out;
 };
 
-std::optional<double> ReadShare(const std::string& text) {
-  double share = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), share);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return share;
-}
-
 /// Chooses the clips that are held out: those whose names match the pattern, or else a randomly drawn share.
 Result<std::vector<bool>> ChooseHeldOut(const std::vector<std::string>& names, const TrainOptions& options) {
   std::vector<bool> held_out(names.size(), false);
-  const auto share = ReadShare(options.hold_out);
+  const auto share = ParseNumber<double>(options.hold_out);
   if (!share) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       held_out[i] = fnmatch(options.hold_out.c_str(), names[i].c_str(), 0) == 0;

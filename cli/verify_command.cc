@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -19,6 +18,7 @@
 #include "cli/progress_bar.h"
 #include "engine/base/machine.h"
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "reports/report.h"
 
 namespace etude {
@@ -39,18 +39,12 @@ struct VerifyCommandOptions {
 };
 
 /// Parses --sample; returns nullopt for "all".
-std::optional<std::size_t> ReadSample(const std::string& text) {
-  std::size_t number = 0;
-  std::from_chars(text.data(), text.data() + text.size(), number);
-  return text == kWholeSample ? std::nullopt : std::optional(number);
-}
+std::optional<std::size_t> ReadSample(const std::string& text) { return ParseNumber<std::size_t>(text); }
 
 /// Returns "" for a valid value of --sample, else the complaint.
 std::string CheckSample(const std::string& text) {
   if (text == kWholeSample) return "";
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc() && end == text.data() + text.size() && number <= kMaxSample) return "";
+  if (const auto number = ParseNumber<std::size_t>(text); number && *number <= kMaxSample) return "";
   return fmt::format("'{}' is not a sample; allowed: 0 to {}, or '{}'", text, kMaxSample, kWholeSample);
 }
 

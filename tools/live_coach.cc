@@ -1,12 +1,12 @@
 #include "tools/live_coach.h"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "engine/base/text.h"
 #include "engine/coaching/policy.h"
 #include "io/files/json.h"
 #include "io/process/clock.h"
@@ -91,13 +91,12 @@ Result<void> MusicPosition::Take(std::string_view line, int number) {
   constexpr std::string_view kWord = "#music";
   if (!line.starts_with(kWord)) return {};
   line.remove_prefix(std::min(line.find_first_not_of(" \t", kWord.size()), line.size()));
-  double seconds = 0;
-  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), seconds);
-  if (error != std::errc() || !(seconds >= 0 && seconds < 1e6)) {
+  const auto seconds = TakeNumber(line);
+  if (!seconds || !(*seconds >= 0 && *seconds < 1e6)) {
     return Fail({"the stream", number, 1},
                 "'#music' is followed by the seconds from the song's beginning, such as '#music 12.34'");
   }
-  if (now_s_) now_s_ = seconds;
+  if (now_s_) now_s_ = *seconds;
   return {};
 }
 

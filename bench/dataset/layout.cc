@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <string_view>
 
+#include "engine/base/text.h"
 #include "sim/random/stream.h"
 
 namespace etude {
@@ -30,11 +30,9 @@ std::optional<std::string> WorldOf(const fs::path& name) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   const std::string stem = name.stem().string();
-  int trial = 0;
-  const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), trial);
-  const bool is_number = error == std::errc() && end == stem.data() + stem.size() && trial >= 0;
   if (extension != ".json") return std::nullopt;
-  return is_number ? TrialName(trial) : stem;
+  const auto trial = ParseNumber<int>(stem);
+  return trial && *trial >= 0 ? TrialName(*trial) : stem;
 }
 
 /// Lists all files below `folder`, sorted by name, relative to it. Entries that are neither folders nor files of one

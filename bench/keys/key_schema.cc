@@ -3,8 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <nlohmann/json.hpp>
+
+#include "engine/base/text.h"
 
 namespace etude {
 namespace {
@@ -14,10 +15,7 @@ Json ScalarToJson(const Node& node) {
   if (text == "true" || text == "false") return text == "true";
   const auto number = AsNumber(node);
   if (!number) return text;
-  std::int64_t whole = 0;  // so that 5 stays 5 and does not become 5.0
-  const char* end = text.data() + text.size();
-  const auto [stop, status] = std::from_chars(text.data(), end, whole);
-  if (status == std::errc() && stop == end) return whole;
+  if (const auto whole = ParseNumber<std::int64_t>(text)) return *whole;  // 5 stays 5 and does not become 5.0
   return *number;
 }
 

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
@@ -19,6 +18,7 @@
 
 #include "bench/peers/ik_peers.h"
 #include "bench/tasks/ik/world.h"
+#include "engine/base/text.h"
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/gauss_newton.h"
 #include "engine/kinematics/solvers/gauss_newton_plain.h"
@@ -274,8 +274,8 @@ void Compare(const Condition& condition, const std::vector<Method>& methods, int
 bool Read(std::string_view argument, std::string_view key, int& number) {
   if (!argument.starts_with(key)) return false;
   argument.remove_prefix(key.size());
-  const auto [end, error] = std::from_chars(argument.data(), argument.data() + argument.size(), number);
-  return error == std::errc() && end == argument.data() + argument.size() && number > 0;
+  number = ParseNumber<int>(argument).value_or(0);
+  return number > 0;
 }
 
 int Run(std::span<char* const> arguments) {

@@ -1,12 +1,12 @@
 #include "bench/results/row_json.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "bench/metrics/catalogue.h"
 #include "bench/model/recording.h"
+#include "engine/base/text.h"
 
 namespace etude {
 namespace {
@@ -15,10 +15,7 @@ constexpr std::string_view kDigestPrefix = "digest_";
 
 /// Returns a swept value as a number, if it is one, so that tables can plot it; else as text.
 Json ValueAsJson(const std::string& text) {
-  double number = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, status] = std::from_chars(text.data(), end, number);
-  if (status == std::errc() && stop == end && std::isfinite(number)) return number;
+  if (const auto number = ParseFinite(text)) return *number;
   return text;
 }
 

@@ -3,8 +3,9 @@
 #include <dlfcn.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
+
+#include "engine/base/text.h"
 
 namespace etude {
 namespace {
@@ -43,20 +44,17 @@ std::optional<Result<PrintedBoard>> ReadPrintedBoard(std::string_view text) {
   }
   // Three numbers, separated by x.
   std::array<double, 3> numbers{};
-  bool is_read = true;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), numbers[i]);
-    is_read = is_read && error == std::errc{};
-    rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
-    if (i + 1 == numbers.size()) break;
-    is_read = is_read && rest.starts_with('x');
-    if (!rest.empty()) rest.remove_prefix(1);
+  const std::vector<std::string_view> words = SplitAt(rest, 'x');
+  bool is_read = words.size() == numbers.size();
+  for (std::size_t i = 0; i < numbers.size() && is_read; ++i) {
+    const auto number = ParseNumber<double>(words[i]);
+    is_read = number.has_value();
+    numbers[i] = number.value_or(0);
   }
   constexpr double kMaxPerSide = 64;
   const double min_squares = board.is_charuco ? 3 : 4;  // OpenCV does not find chessboards with two corners per side
   const auto is_side = [&](double n) { return n == std::floor(n) && n >= min_squares && n <= kMaxPerSide; };
-  if (!is_read || !rest.empty() || !is_side(numbers[0]) || !is_side(numbers[1]) || !(numbers[2] >= 0.001) ||
-      !(numbers[2] <= 10)) {
+  if (!is_read || !is_side(numbers[0]) || !is_side(numbers[1]) || !(numbers[2] >= 0.001) || !(numbers[2] <= 10)) {
     return Result<PrintedBoard>(
         Fail({}, "--board {}: not a board; allowed: {} to 64 squares a side and their metres, as chess:9x6x0.025", text,
              min_squares));

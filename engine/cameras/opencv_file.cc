@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <vector>
@@ -132,77 +131,19 @@ Result<glm::dmat3> RotationOf(std::span<const double> n, std::string_view what) 
   return glm::transpose(glm::dmat3(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8]));
 }
 
-std::optional<std::vector<double>> NumbersOf(std::string_view text) {
-  constexpr std::string_view kBetween = " \t\r\n,[]";
-  std::vector<double> numbers;
-  while (true) {
-    const std::size_t start = text.find_first_not_of(kBetween);
-    if (start == std::string_view::npos) return numbers;
-    text.remove_prefix(start);
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{}) return std::nullopt;
-    numbers.push_back(value);
-    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-    if (!text.empty() && kBetween.find(text.front()) == std::string_view::npos) return std::nullopt;
-  }
-}
-
-std::string RealText(double value) {
+std::string RealText(double value, std::string_view point) {
   std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".en") == std::string::npos) text += ".0";
+  if (text.find_first_of(".en") == std::string::npos) text += point;
   return text;
 }
 
 namespace {
 
-/// Formats a number for FileStorage, which recognises a real number by its decimal point.
-std::string Real(double value) {
-  std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".en") == std::string::npos) text += ".";
-  return text;
-}
-
-/// Formats a matrix; `values` are row by row.
 std::string Matrix(std::string_view name, int rows, int columns, const std::vector<double>& values) {
   std::vector<std::string> texts;
-  for (const double value : values) texts.push_back(Real(value));
+  for (const double value : values) texts.push_back(RealText(value, "."));
   return fmt::format("{}: !!opencv-matrix\n   rows: {}\n   cols: {}\n   dt: d\n   data: [ {} ]\n", name, rows, columns,
                      fmt::join(texts, ", "));
-}
-
-/// Returns the text after "name:" at the beginning of a line, up to the end of `text`.
-std::optional<std::string_view> Behind(std::string_view text, std::string_view name) {
-  const std::string wanted = "\n" + std::string(name) + ":";
-  const std::size_t at = text.find(wanted);
-  if (at == std::string_view::npos) return std::nullopt;
-  return text.substr(at + wanted.size());
-}
-
-/// Returns the numbers of a matrix; empty if there is none of that name or it cannot be read.
-std::vector<double> MatrixNamed(std::string_view text, std::string_view name) {
-  const auto behind = Behind(text, name);
-  if (!behind) return {};
-  const std::size_t from = behind->find("data:"), to = behind->find(']', from);
-  if (from == std::string_view::npos || to == std::string_view::npos) return {};
-  return NumbersOf(behind->substr(from + 5, to - from - 5)).value_or(std::vector<double>{});
-}
-
-/// Returns true if a matrix exists and holds no number.
-bool IsEmptyMatrix(std::string_view text, std::string_view name) {
-  const auto behind = Behind(text, name);
-  const std::size_t from = behind ? behind->find("data:") : std::string_view::npos;
-  if (from == std::string_view::npos) return false;
-  const std::size_t open = behind->find('[', from), close = behind->find(']', from);
-  return open < close && close != std::string_view::npos &&
-         behind->substr(open + 1, close - open - 1).find_first_not_of(" \t\r\n") == std::string_view::npos;
-}
-
-double NumberNamed(std::string_view text, std::string_view name) {
-  const auto behind = Behind(text, name);
-  if (!behind) return 0;
-  const auto numbers = NumbersOf(behind->substr(0, behind->find('\n')));
-  return numbers && numbers->size() == 1 ? numbers->front() : 0;
 }
 
 }  // namespace
@@ -216,33 +157,6 @@ std::string WriteOpenCvCamera(const Camera& camera) {
          (p.is_fisheye ? "fisheye: 1\n" : "") +
          Matrix("R", 3, 3, {R[0][0], R[1][0], R[2][0], R[0][1], R[1][1], R[2][1], R[0][2], R[1][2], R[2][2]}) +
          Matrix("T", 3, 1, {p.T.x, p.T.y, p.T.z});
-}
-
-Result<Camera> ReadOpenCvCamera(std::string_view text) {
-  OpenCvParameters p{.width = NumberNamed(text, "image_width"),
-                     .height = NumberNamed(text, "image_height"),
-                     .camera_matrix = MatrixNamed(text, "camera_matrix"),
-                     .distortion = MatrixNamed(text, "distortion_coefficients"),
-                     .is_fisheye = NumberNamed(text, "fisheye") != 0};
-  // If a lens is given but cannot be read, fail, because it must not be ignored.
-  const bool has_lens = Behind(text, "distortion_coefficients").has_value();
-  if (has_lens && p.distortion.empty() && !IsEmptyMatrix(text, "distortion_coefficients")) {
-    return Fail({}, "distortion_coefficients cannot be read; allowed: a matrix of OpenCV");
-  }
-  if (const auto flag = Behind(text, "fisheye")) {
-    const auto numbers = NumbersOf(flag->substr(0, flag->find('\n')));
-    if (!numbers || numbers->size() != 1) return Fail({}, "fisheye cannot be read; allowed: 0 or 1");
-  }
-  for (const char* name : {"R", "T"}) {
-    if (!Behind(text, name)) continue;
-    const std::vector<double> values = MatrixNamed(text, name);
-    const std::size_t wanted = *name == 'R' ? 9 : 3;
-    if (values.size() != wanted) return Fail({}, "{} has {} numbers; allowed: {}", name, values.size(), wanted);
-    for (int i = 0; i < static_cast<int>(wanted); ++i) {
-      (*name == 'R' ? p.R[i % 3][i / 3] : p.T[i]) = values[static_cast<std::size_t>(i)];
-    }
-  }
-  return CameraOf(p);
 }
 
 }  // namespace etude

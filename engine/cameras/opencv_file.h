@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,22 +33,14 @@ glm::dmat3 MatrixOfRodrigues(const glm::dvec3& vector);
 /// Reads a rotation from 3 numbers (Rodrigues' vector) or 9 (row by row). Fails, naming `what`, for other counts.
 Result<glm::dmat3> RotationOf(std::span<const double> numbers, std::string_view what);
 
-/// Reads all numbers of a text such as "[ [1., 0], [2e-3]]"; returns nullopt if it contains anything else.
-std::optional<std::vector<double>> NumbersOf(std::string_view text);
-
-/// Formats a number so that readers parse it as a real number, not as an integer: "600.0".
-std::string RealText(double value);
+/// Formats a number so that readers parse it as a real number, not as an integer: "600" and then `point`.
+std::string RealText(double value, std::string_view point);
 
 /// Writes a camera as OpenCV's cv::FileStorage does (YAML 1.0): `image_width`, `image_height`, `camera_matrix` (3 × 3),
 /// `distortion_coefficients` (k1, k2, p1, p2, k3, more if there are more; for a fisheye four, and `fisheye: 1`), and
 /// the extrinsics `R` (3 × 3) and `T` (3 × 1, metres): a point X of the world is at R X + T in the camera's frame, x
 /// right, y down, z forward. In OpenCV the centre of the top left pixel is (0, 0), here it is (0.5, 0.5); the principal
-/// point is written in OpenCV's coordinates.
+/// point is written in OpenCV's coordinates. ReadRigFile reads such a file.
 std::string WriteOpenCvCamera(const Camera& camera);
-
-/// Reads what WriteOpenCvCamera or cv::FileStorage has written: those keys, with matrices of any number type. Without
-/// `R` and `T` the world is the camera's frame. Fails, naming what is missing or wrong: an invalid picture size, a
-/// focal length that is not positive, an R that is not a rotation (tolerance 1e-6).
-Result<Camera> ReadOpenCvCamera(std::string_view text);
 
 }  // namespace etude

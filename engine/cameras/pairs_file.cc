@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
+#include "engine/base/text.h"
 #include "engine/document/fields.h"
 
 namespace etude {
@@ -26,29 +26,15 @@ Result<PointPair> ToPair(const Five& v, const Place& place) {
   return PointPair{{v[0], v[1], v[2]}, {v[3] + kFromOpenCv, v[4] + kFromOpenCv}};
 }
 
-std::vector<std::string_view> Split(std::string_view line) {
-  std::vector<std::string_view> words;
-  while (true) {
-    const std::size_t comma = line.find(',');
-    std::string_view word = line.substr(0, comma);
-    while (!word.empty() && (word.front() == ' ' || word.front() == '\t')) word.remove_prefix(1);
-    while (!word.empty() && (word.back() == ' ' || word.back() == '\t' || word.back() == '\r')) word.remove_suffix(1);
-    words.push_back(word);
-    if (comma == std::string_view::npos) return words;
-    line.remove_prefix(comma + 1);
-  }
-}
-
 Result<std::vector<CameraPairs>> ReadCsv(std::string_view text, const std::string& file) {
   std::vector<CameraPairs> cameras;
   int line = 0;
   while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view here = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
+    const std::string_view here = TakeLine(text);
     // Skip the heading, blank lines and comments.
     const Place place{file, ++line, 0};
-    const std::vector<std::string_view> words = Split(here);
+    std::vector<std::string_view> words = SplitAt(here, ',');
+    for (std::string_view& word : words) word = Trimmed(word);
     if (line == 1) continue;  // the heading
     if (words.size() == 1 && (words[0].empty() || words[0].front() == '#')) continue;
     if (words.size() != 6 || words[0].empty()) {
@@ -57,9 +43,9 @@ Result<std::vector<CameraPairs>> ReadCsv(std::string_view text, const std::strin
     // Parse the five numbers and add the pair to its camera.
     Five values;
     for (std::size_t i = 0; i < 5; ++i) {
-      const std::string_view word = words[i + 1];
-      const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), values[i]);
-      if (error != std::errc{} || stop != word.data() + word.size()) return Fail(place, "'{}' is not a number", word);
+      const auto value = ParseNumber<double>(words[i + 1]);
+      if (!value) return Fail(place, "'{}' is not a number", words[i + 1]);
+      values[i] = *value;
     }
     ASSIGN_OR_RETURN(const PointPair pair, ToPair(values, place));
     auto of = std::ranges::find(cameras, words[0], &CameraPairs::name);

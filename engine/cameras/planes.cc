@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 namespace etude {
@@ -170,13 +171,17 @@ CalibrationTargetPose PoseOfPlane(const Intrinsics& in, const glm::dmat3& homogr
   return {NearestRotation(m), t};
 }
 
+std::size_t NumberTargets(std::span<TargetView> views) {
+  std::map<std::size_t, std::size_t> numbers;
+  for (TargetView& view : views) view.target = numbers.try_emplace(view.target, numbers.size()).first->second;
+  return numbers.size();
+}
+
 Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::span<const TargetView> views,
                                        // Keep the views that have a homography.
                                        const RefineOptions& options) {
-  std::size_t targets = 0;
   std::vector<PlaneView> usable;
   for (const TargetView& view : views) {
-    targets = std::max(targets, view.target + 1);
     if (auto homography = HomographyOf(view.pairs)) usable.push_back({&view, *homography});
   }
   // Intrinsics of each camera.
@@ -195,14 +200,9 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
     view.pose_CT = PoseOfPlane(guess.cameras[view.view->camera].intrinsics, view.homography);
   }
   // Renumber the boards without those that have no view left.
-  std::vector<std::optional<std::size_t>> number(targets);
   std::vector<TargetView> kept;
-  std::size_t boards = 0;
-  for (const PlaneView& view : usable) {
-    auto& as = number[view.view->target];
-    if (!as) as = boards++;
-    kept.push_back({view.view->camera, *as, view.view->pairs});
-  }
+  for (const PlaneView& view : usable) kept.push_back(*view.view);
+  const std::size_t boards = NumberTargets(kept);
   for (std::size_t i = 0; i < usable.size(); ++i) usable[i].view = &kept[i];
   // Find all poses, starting from the first board.
   Places places(sizes.size(), boards);

@@ -29,6 +29,9 @@ struct PictureSize {
   int height = 0;
 };
 
+/// Numbers the targets of the views from 0 without gaps, in order of appearance; returns how many there are.
+std::size_t NumberTargets(std::span<TargetView> views);
+
 /// Calibrates cameras from flat boards in their pictures. Each camera's intrinsics follow from its homographies; poses
 /// follow from boards that two cameras see at the same time; then `RefineRig` adjusts everything together. A target is
 /// a board in one pose; the frame of the first target in `views` is the world. Points must have z = 0. Views with fewer

@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <map>
 
+#include "engine/base/text.h"
 #include "engine/cameras/opencv_file.h"
 
 namespace etude {
@@ -17,7 +18,7 @@ const glm::dmat3 kZUpOfYUp = glm::transpose(glm::dmat3(0, 0, 1, 1, 0, 0, 0, 1, 0
 
 std::string Vector(std::span<const double> values) {
   std::string text;
-  for (const double value : values) text += (text.empty() ? "[ " : ", ") + RealText(value);
+  for (const double value : values) text += (text.empty() ? "[ " : ", ") + RealText(value, ".0");
   return text + "]";
 }
 
@@ -44,11 +45,6 @@ std::string Table(const NamedCamera& named) {
                      p.is_fisheye);
 }
 
-std::string_view Trimmed(std::string_view text) {
-  const std::size_t from = text.find_first_not_of(" \t\r"), to = text.find_last_not_of(" \t\r");
-  return from == std::string_view::npos ? std::string_view{} : text.substr(from, to - from + 1);
-}
-
 /// Returns the rotation nearest to a matrix that was rounded to six digits, by Newton's iteration. A matrix that is
 /// farther from a rotation is returned unchanged.
 glm::dmat3 Orthonormal(const glm::dmat3& R) {
@@ -70,6 +66,19 @@ std::string_view WithoutComment(std::string_view line) {
     if (line[i] == '#' && !in_string) return line.substr(0, i);
   }
   return line;
+}
+
+/// Reads all numbers of a text such as "[ [1., 0], [2e-3]]"; returns nullopt if it contains anything else.
+std::optional<std::vector<double>> NumbersOf(std::string_view text) {
+  constexpr std::string_view kBetween = " \t\r\n,[]";
+  std::vector<double> numbers;
+  while (true) {
+    text.remove_prefix(std::min(text.find_first_not_of(kBetween), text.size()));
+    if (text.empty()) return numbers;
+    const auto value = TakeNumber(text);
+    if (!value || !(text.empty() || kBetween.find(text.front()) != std::string_view::npos)) return std::nullopt;
+    numbers.push_back(*value);
+  }
 }
 
 using Keys = std::map<std::string, std::string, std::less<>>;
@@ -138,13 +147,7 @@ Result<std::vector<NamedCamera>> ReadPose2SimCalibration(std::string_view text) 
     keys.clear();
     return {};
   };
-  const auto next_line = [&] {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view here = Trimmed(WithoutComment(text.substr(0, end)));
-    text.remove_prefix(std::min(end + 1, text.size()));
-    ++line;
-    return here;
-  };
+  const auto next_line = [&] { return Trimmed(WithoutComment(TakeLine(text, line))); };
   while (!text.empty()) {
     const std::string_view here = next_line();
     if (here.empty()) continue;

@@ -2,7 +2,6 @@
 
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/crs_matrix.h>
-#include <ceres/jet.h>
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
@@ -16,12 +15,11 @@
 
 #include "engine/cameras/angle_axis.h"
 #include "engine/cameras/camera_parameters.h"
+#include "engine/cameras/reprojection_error.h"
 
 namespace etude {
 namespace {
 
-/// The intrinsics of a camera, in the order of the parameter block.
-enum Intrinsic { kFx, kFy, kCx, kCy, kSkew, kK1, kK2, kP1, kP2, kK3, kIntrinsicsCount };
 constexpr std::array<const char*, kIntrinsicsCount> kIntrinsicsNames = {
     "focal length", "focal length", "principal point", "principal point", "skew",
     "distortion",   "distortion",   "distortion",      "distortion",      "distortion"};
@@ -34,60 +32,6 @@ bool IsBeyondBrown(const Distortion& d) {
   const Distortion brown{.k1 = d.k1, .k2 = d.k2, .p1 = d.p1, .p2 = d.p2, .k3 = d.k3};
   return d != brown;
 }
-
-/// Distorts a ray by any lens, for Ceres: the derivatives are those of `Distort` by central differences.
-std::array<double, 2> DistortByAny(const Distortion& lens, double x, double y) {
-  const glm::dvec2 shown = Distort(lens, {x, y});
-  return {shown.x, shown.y};
-}
-template <int kCount>
-std::array<ceres::Jet<double, kCount>, 2> DistortByAny(const Distortion& lens, const ceres::Jet<double, kCount>& x,
-                                                       const ceres::Jet<double, kCount>& y) {
-  constexpr double kStep = 1e-6;
-  const glm::dvec2 ray(x.a, y.a), shown = Distort(lens, ray);
-  const auto slope = [&](const glm::dvec2& step) {
-    return (Distort(lens, ray + step) - Distort(lens, ray - step)) / (2 * kStep);
-  };
-  const glm::dvec2 by_x = slope({kStep, 0}), by_y = slope({0, kStep});
-  std::array<ceres::Jet<double, kCount>, 2> distorted;
-  for (int i = 0; i < 2; ++i) {
-    distorted[i].a = shown[i];
-    distorted[i].v = by_x[i] * x.v + by_y[i] * y.v;
-  }
-  return distorted;
-}
-
-/// The reprojection error of a point. It repeats the five-coefficient distortion of camera.h because Ceres
-/// differentiates it; any other lens is held fixed.
-struct ReprojectionError {
-  glm::dvec3 p_TQ;
-  glm::dvec2 pixel;
-  std::optional<Distortion> fixed_lens;
-
-  template <typename T>
-  bool operator()(const T* intrinsics, const T* camera, const T* target, T* residual) const {
-    // From the target to the world to the camera.
-    std::array<T, 3> in_world = RotateByAngleAxis(target, std::array<T, 3>{T(p_TQ.x), T(p_TQ.y), T(p_TQ.z)});
-    for (int i = 0; i < 3; ++i) in_world[i] += target[3 + i];
-    std::array<T, 3> in_camera = RotateByAngleAxis(camera, in_world);
-    for (int i = 0; i < 3; ++i) in_camera[i] += camera[3 + i];
-    if (!(in_camera[2] > T(1e-9))) return false;
-    // Perspective division, distortion, intrinsics.
-    const T x = in_camera[0] / in_camera[2], y = in_camera[1] / in_camera[2];
-    const T r2 = x * x + y * y;
-    const T gain = 1.0 + r2 * (intrinsics[kK1] + r2 * (intrinsics[kK2] + r2 * intrinsics[kK3]));
-    T xd = x * gain + 2.0 * intrinsics[kP1] * x * y + intrinsics[kP2] * (r2 + 2.0 * x * x);
-    T yd = y * gain + intrinsics[kP1] * (r2 + 2.0 * y * y) + 2.0 * intrinsics[kP2] * x * y;
-    if (fixed_lens) {
-      const auto distorted = DistortByAny(*fixed_lens, x, y);
-      xd = distorted[0];
-      yd = distorted[1];
-    }
-    residual[0] = intrinsics[kFx] * xd + intrinsics[kSkew] * yd + intrinsics[kCx] - pixel.x;
-    residual[1] = intrinsics[kFy] * yd + intrinsics[kCy] - pixel.y;
-    return true;
-  }
-};
 
 using IntrinsicsBlock = std::array<double, kIntrinsicsCount>;
 using PoseBlock = std::array<double, kPoseCount>;

@@ -5,11 +5,12 @@
 #include <libxml/tree.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
 #include <memory>
 #include <string>
 
+#include "engine/base/text.h"
 #include "engine/cameras/opencv_file.h"
 #include "engine/cameras/rig_pairs.h"
 #include "engine/document/fields.h"
@@ -44,11 +45,9 @@ class Numbers {
 
   double operator[](const char* attribute) {
     const std::string text = Text(node_, attribute);
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool is_number = error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
-    if (!is_number && complaint_.empty()) complaint_ = fmt::format("{}=\"{}\" is not a number", attribute, text);
-    return value;
+    const auto value = ParseFinite(text);
+    if (!value && complaint_.empty()) complaint_ = fmt::format("{}=\"{}\" is not a number", attribute, text);
+    return value.value_or(0);
   }
   Result<void> Finish() const {
     if (!complaint_.empty()) return Fail(PlaceOfNode(node_), "{}", complaint_);
@@ -149,14 +148,10 @@ constexpr std::size_t kMaxRigCameras = 64;
 constexpr std::string_view kYamlDirective = "%YAML:1.0\n---\n";
 
 /// Returns the text of a camera's own file without its first two lines, indented.
-std::string Indented(std::string text) {
-  text.erase(0, kYamlDirective.size());
+std::string Indented(std::string_view text) {
+  text.remove_prefix(kYamlDirective.size());
   std::string out;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = text.find('\n', at);
-    out += "   " + text.substr(at, end - at) + "\n";
-    at = end + 1;
-  }
+  while (!text.empty()) out.append("   ").append(TakeLine(text)).append("\n");
   return out;
 }
 
@@ -176,17 +171,23 @@ Result<double> NumberAt(const Node& camera, std::string_view key) {
   return AsNumber(*number);
 }
 
-Result<Camera> ReadCamera(const Node& node) {
+/// Reads one camera. In a file of its own it may lack its distortion, and R and T if the world is the camera's frame.
+Result<Camera> ReadCamera(const Node& node, bool is_alone) {
   OpenCvParameters p;
+  const auto is_given = [&](const char* key) { return !is_alone || node.Find(key) != nullptr; };
   ASSIGN_OR_RETURN(p.width, NumberAt(node, "image_width"));
   ASSIGN_OR_RETURN(p.height, NumberAt(node, "image_height"));
   ASSIGN_OR_RETURN(p.camera_matrix, MatrixAt(node, "camera_matrix", 3, 3));
-  ASSIGN_OR_RETURN(p.distortion, MatrixAt(node, "distortion_coefficients", 0, 0));
-  ASSIGN_OR_RETURN(const auto R, MatrixAt(node, "R", 3, 3));
-  ASSIGN_OR_RETURN(const auto T, MatrixAt(node, "T", 3, 1));
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) p.R[column][row] = R[static_cast<std::size_t>(3 * row + column)];
-    p.T[row] = T[static_cast<std::size_t>(row)];
+  if (is_given("distortion_coefficients")) {
+    ASSIGN_OR_RETURN(p.distortion, MatrixAt(node, "distortion_coefficients", 0, 0));
+  }
+  if (is_given("R")) {
+    ASSIGN_OR_RETURN(const auto R, MatrixAt(node, "R", 3, 3));
+    p.R = glm::transpose(glm::make_mat3(R.data()));
+  }
+  if (is_given("T")) {
+    ASSIGN_OR_RETURN(const auto T, MatrixAt(node, "T", 3, 1));
+    p.T = glm::make_vec3(T.data());
   }
   if (const Node* fisheye = node.Find("fisheye")) {
     ASSIGN_OR_RETURN(const double flag, AsNumber(*fisheye));
@@ -207,7 +208,7 @@ Result<std::vector<NamedCamera>> ReadOwnRig(const Node& root) {
   for (const std::string& name : cameras) {
     const Node* node = root.Find(name);
     if (node == nullptr) return Fail(names->place, "camera {} is listed, but not described below", name);
-    const auto camera = ReadCamera(*node);
+    const auto camera = ReadCamera(*node, false);
     if (!camera) return Fail(camera.error().place, "camera {}: {}", name, camera.error().message);
     rig.push_back({name, *camera});
   }
@@ -245,7 +246,7 @@ Result<RigFile> Read(std::string_view text, const std::string& file) {
                   "half of a calibration; also needed: EasyMocap's intri.yml and extri.yml, or OpenCV's "
                   "intrinsics.yml and extrinsics.yml");
     }
-    ASSIGN_OR_RETURN(const Camera camera, ReadOpenCvCamera(text));
+    ASSIGN_OR_RETURN(const Camera camera, ReadCamera(root, true));
     return RigFile{{{"camera", camera}}, "OpenCV's YAML"};
     // TOML.
   }

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <map>
 #include <string>
 
+#include "engine/base/text.h"
 #include "engine/cameras/opencv_file.h"
 #include "engine/document/fields.h"
 
@@ -107,9 +107,7 @@ struct ColmapLine {
 std::vector<ColmapLine> LinesOf(std::string_view text) {
   std::vector<ColmapLine> lines;
   for (int number = 1; !text.empty(); ++number) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string_view here = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
+    std::string_view here = TakeLine(text);
     if (here.starts_with('#')) continue;
     ColmapLine line{number, {}};
     while (true) {
@@ -128,13 +126,9 @@ std::vector<ColmapLine> LinesOf(std::string_view text) {
 Result<std::vector<double>> NumbersFrom(const ColmapLine& line, std::size_t first, std::size_t last) {
   std::vector<double> numbers;
   for (std::size_t i = first; i < last; ++i) {
-    double value = 0;
-    const std::string& word = line.words[i];
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) {
-      return Fail({{}, line.number, 0}, "'{}' is not a number", word);
-    }
-    numbers.push_back(value);
+    const auto value = ParseFinite(line.words[i]);
+    if (!value) return Fail({{}, line.number, 0}, "'{}' is not a number", line.words[i]);
+    numbers.push_back(*value);
   }
   return numbers;
 }

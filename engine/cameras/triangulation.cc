@@ -123,6 +123,14 @@ std::optional<EpipolarGeometry> EpipolarGeometry::Of(const ProjectionMatrix& fir
   return geometry;
 }
 
+PairGeometry::PairGeometry(std::span<const ProjectionMatrix> cameras) : cameras_(cameras.size()) {
+  for (std::size_t a = 0; a < cameras_; ++a) {
+    for (std::size_t b = 0; b < cameras_; ++b) {
+      of_.push_back(a == b ? std::nullopt : EpipolarGeometry::Of(cameras[a], cameras[b]));
+    }
+  }
+}
+
 double EpipolarGeometry::DistancePx(const glm::dvec2& first, const glm::dvec2& second) const {
   const glm::dvec3 a(first, 1), b(second, 1), line_b = f_ * a, line_a = glm::transpose(f_) * b;
   const double gain = line_b.x * line_b.x + line_b.y * line_b.y + line_a.x * line_a.x + line_a.y * line_a.y;

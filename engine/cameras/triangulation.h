@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "engine/cameras/camera.h"
 
@@ -63,6 +65,20 @@ class EpipolarGeometry {
 
  private:
   glm::dmat3 f_{0};
+};
+
+/// The epipolar geometry of every ordered pair of cameras.
+class PairGeometry {
+ public:
+  explicit PairGeometry(std::span<const ProjectionMatrix> cameras);
+  /// nullopt for a camera and itself, and where EpipolarGeometry::Of has none.
+  const std::optional<EpipolarGeometry>& operator()(std::size_t first, std::size_t second) const {
+    return of_[first * cameras_ + second];
+  }
+
+ private:
+  std::size_t cameras_;
+  std::vector<std::optional<EpipolarGeometry>> of_;
 };
 
 }  // namespace etude

@@ -10,12 +10,6 @@
 namespace etude {
 namespace {
 
-constexpr std::array<double LimbLengths::*, 10> kLengths = {
-    &LimbLengths::foot,    &LimbLengths::shank, &LimbLengths::thigh,          &LimbLengths::hip_width,
-    &LimbLengths::trunk,   &LimbLengths::neck,  &LimbLengths::shoulder_width, &LimbLengths::upper_arm,
-    &LimbLengths::forearm, &LimbLengths::hand};
-static_assert(sizeof(LimbLengths) == kLengths.size() * sizeof(double), "every length stands in the list");
-
 // All offsets are linear in the lengths, so their derivatives with respect to one length are the offsets of a body with
 // that length 1 and all others 0.
 void AddLengths(const LimbLengths& lengths, TakeBody& made) {
@@ -41,15 +35,15 @@ void AddLengths(const LimbLengths& lengths, TakeBody& made) {
 }  // namespace
 
 LimbLengths LimbLengthsOf(std::span<const double> lengths) {
-  assert(lengths.size() == kLengths.size());
+  assert(lengths.size() == kLimbLengths.size());
   LimbLengths limbs;
-  for (std::size_t i = 0; i < kLengths.size(); ++i) limbs.*kLengths[i] = lengths[i];
+  for (std::size_t i = 0; i < kLimbLengths.size(); ++i) limbs.*kLimbLengths[i].length = lengths[i];
   return limbs;
 }
 
 std::array<double, 10> ListOf(const LimbLengths& lengths) {
   std::array<double, 10> list{};
-  for (std::size_t i = 0; i < kLengths.size(); ++i) list[i] = lengths.*kLengths[i];
+  for (std::size_t i = 0; i < list.size(); ++i) list[i] = lengths.*kLimbLengths[i].length;
   return list;
 }
 

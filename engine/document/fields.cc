@@ -1,10 +1,10 @@
 #include "engine/document/fields.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 
 namespace etude {
 namespace {
@@ -30,13 +30,9 @@ Result<double> NumberIn(const Node& node, Range range) {
 
 Result<double> AsNumber(const Node& node) {
   if (node.kind != Node::Kind::kScalar) return Fail(node.place, "expected a number, found {}", Describe(node));
-  double value = 0;
-  const char* end = node.scalar.data() + node.scalar.size();
-  const auto [stop, status] = std::from_chars(node.scalar.data(), end, value);
-  if (status != std::errc() || stop != end || !std::isfinite(value)) {
-    return Fail(node.place, "expected a number, found {}", Describe(node));
-  }
-  return value;
+  const auto value = ParseFinite(node.scalar);
+  if (!value) return Fail(node.place, "expected a number, found {}", Describe(node));
+  return *value;
 }
 
 Result<std::vector<std::string>> AsTexts(const Node& node) {

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/formats/length_units.h"
 #include "engine/formats/number_rows.h"
 
@@ -22,17 +23,6 @@ std::string LabelOf(std::string_view name) {
     if (std::isalnum(static_cast<unsigned char>(c))) label += c;
   }
   return label.empty() ? "motion" : label;
-}
-
-std::vector<std::string_view> CellsOf(std::string_view line) {
-  std::vector<std::string_view> cells;
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  while (true) {
-    const std::size_t tab = line.find('\t');
-    cells.push_back(line.substr(0, tab));
-    if (tab == std::string_view::npos) return cells;
-    line.remove_prefix(tab + 1);
-  }
 }
 
 /// The coordinate of a point that each column of a recording holds.
@@ -55,9 +45,7 @@ Result<BidsChannels> ReadChannels(std::string_view text, const std::string& file
   std::vector<std::array<bool, 3>> has;
   std::size_t heads = 0;
   for (int line = 1; !text.empty(); ++line) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const auto cells = CellsOf(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
+    const auto cells = SplitAt(TakeLine(text), '\t');
     if (cells.size() == 1 && cells[0].empty()) continue;
     if (heads == 0) {
       heads = cells.size();

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/base/utf8.h"
 #include "engine/formats/length_units.h"
 #include "engine/formats/row_clock.h"
@@ -19,24 +19,10 @@ namespace {
 constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20;
 constexpr std::size_t kMaxColumns = 20'000;
 
-std::string_view NextLine(std::string_view& text, int& line) {
-  const std::size_t end = std::min(text.find('\n'), text.size());
-  std::string_view here = text.substr(0, end);
-  text.remove_prefix(std::min(end + 1, text.size()));
-  ++line;
-  if (here.ends_with('\r')) here.remove_suffix(1);
-  return here;
-}
-
 std::vector<std::string_view> CommaCells(std::string_view line) {
-  std::vector<std::string_view> cells;
-  while (cells.size() <= kMaxColumns) {
-    const std::size_t comma = line.find(',');
-    std::string_view cell = line.substr(0, comma);
+  std::vector<std::string_view> cells = SplitAt(line, ',');
+  for (std::string_view& cell : cells) {
     if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
-    cells.push_back(cell);
-    if (comma == std::string_view::npos) break;
-    line.remove_prefix(comma + 1);
   }
   return cells;
 }
@@ -49,13 +35,6 @@ std::string_view CellAt(const std::vector<std::string_view>& cells, std::size_t 
 std::string_view ValueBehind(const std::vector<std::string_view>& cells, std::string_view key) {
   const auto at = static_cast<std::size_t>(std::ranges::find(cells, key) - cells.begin());
   return CellAt(cells, at + 1);
-}
-
-std::optional<double> MotiveNumber(std::string_view cell) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
 }
 
 /// The columns X, Y, Z of one position.
@@ -86,14 +65,14 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
   if (text.size() > kMaxFileBytes) return Fail({file}, "{} bytes; allowed: {}", text.size(), kMaxFileBytes);
   // Read the properties in the first line.
   int line = 0;
-  const auto facts = CommaCells(NextLine(text, line));
+  const auto facts = CommaCells(TakeLine(text, line));
   const Place first{file, line, 0};
   const std::string_view unit = ValueBehind(facts, "Length Units"), space = ValueBehind(facts, "Coordinate Space");
   const auto metres = MetresOfUnit(unit);
   if (!metres) return Fail(first, "Length Units {}; allowed: Meters, Centimeters, Millimeters", Quote(unit));
   if (!space.empty() && space != "Global") return Fail(first, "Coordinate Space {}; allowed: Global", Quote(space));
-  auto rate = MotiveNumber(ValueBehind(facts, "Export Frame Rate"));
-  if (!rate) rate = MotiveNumber(ValueBehind(facts, "Capture Frame Rate"));
+  auto rate = ParseFinite(ValueBehind(facts, "Export Frame Rate"));
+  if (!rate) rate = ParseFinite(ValueBehind(facts, "Capture Frame Rate"));
   constexpr double kMaxRateHz = 10'000;
   if (!rate || *rate <= 0 || *rate > kMaxRateHz)
     return Fail(first, "no Export Frame Rate above 0 and up to {:g}", kMaxRateHz);
@@ -102,7 +81,7 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
   std::vector<std::string_view> types, names, kinds, axes;
   while (!text.empty() && CellAt(axes, 0) != "Frame") {
     kinds = axes;
-    axes = CommaCells(NextLine(text, line));
+    axes = CommaCells(TakeLine(text, line));
     if (CellAt(axes, 1) == "Type") types = axes;
     if (CellAt(axes, 1) == "Name") names = axes;
   }
@@ -125,19 +104,19 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
   const bool has_times = CellAt(axes, 1).starts_with("Time");
   for (const PlaceColumns& place : places) motion.names.push_back(place.name);
   while (!text.empty()) {
-    const std::string_view here = NextLine(text, line);
+    const std::string_view here = TakeLine(text, line);
     if (here.find_first_not_of(", ") == std::string_view::npos) continue;
     const auto cells = CommaCells(here);
     auto& frame = motion.frames.emplace_back();
-    numbers.push_back(MotiveNumber(CellAt(cells, 0)).value_or(kNone));
-    rows.times_s.push_back(has_times ? MotiveNumber(CellAt(cells, 1)).value_or(kNone) : kNone);
+    numbers.push_back(ParseFinite(CellAt(cells, 0)).value_or(kNone));
+    rows.times_s.push_back(has_times ? ParseFinite(CellAt(cells, 1)).value_or(kNone) : kNone);
     rows.lines.push_back(line);
     for (const PlaceColumns& place : places) {
       glm::dvec3 at(0);
       bool is_seen = true;
       for (int axis = 0; axis < 3; ++axis) {
         const std::string_view cell = CellAt(cells, place.at[static_cast<std::size_t>(axis)]);
-        const auto value = MotiveNumber(cell);
+        const auto value = ParseFinite(cell);
         if (!cell.empty() && !value) return Fail({file, line, 0}, "{} is not a number", Quote(cell));
         is_seen = is_seen && value;
         if (is_seen) at[axis] = *metres * *value;
@@ -145,7 +124,7 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
       frame.push_back(is_seen ? std::optional(at) : std::nullopt);
     }
   }
-  const auto announced = MotiveNumber(ValueBehind(facts, "Total Exported Frames"));
+  const auto announced = ParseFinite(ValueBehind(facts, "Total Exported Frames"));
   if (announced && *announced > static_cast<double>(motion.frames.size())) {
     motion.remark = fmt::format("{} rows where {:g} frames are announced", motion.frames.size(), *announced);
   }

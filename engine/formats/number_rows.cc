@@ -1,12 +1,12 @@
 #include "engine/formats/number_rows.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
 
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/base/utf8.h"
 
 namespace etude {
@@ -16,12 +16,6 @@ constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 bool IsRowBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 bool IsComma(char c) { return c == ',' || c == ';'; }
-
-std::string_view Trimmed(std::string_view text) {
-  while (!text.empty() && IsRowBlank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && IsRowBlank(text.back())) text.remove_suffix(1);
-  return text;
-}
 
 /// Returns the words of one line; between commas they may be empty.
 std::vector<std::string_view> WordsOf(std::string_view line) {
@@ -48,10 +42,7 @@ bool MeansMissing(std::string_view word) {
 std::optional<double> NumberOf(std::string_view word) {
   if (MeansMissing(word)) return kMissing;
   if (word.front() == '+') word.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return value;
+  return ParseNumber<double>(word);
 }
 
 bool IsRemark(std::string_view line) { return line.empty() || line.starts_with('#') || line.starts_with("//"); }
@@ -66,10 +57,8 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
   text = WithoutByteOrderMark(text);
   NumberRows table;
   for (int line_number = 1; !text.empty(); ++line_number) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
     const char* const line_start = text.data();
-    const std::string_view line = Trimmed(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
+    const std::string_view line = Trimmed(TakeLine(text));
     if (IsRemark(line)) continue;
     const std::vector<std::string_view> words = WordsOf(line);
     // The first line may be a heading.

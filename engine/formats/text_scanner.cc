@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/base/utf8.h"
 
 namespace etude {
@@ -78,13 +79,11 @@ std::optional<double> TextScanner::TakeNumberInLine() {
 Result<double> TextScanner::Number(const Token& token, std::string_view what) const {
   // Hand-written files often have a leading plus, which from_chars does not accept.
   const std::string_view digits = token.text.starts_with('+') ? token.text.substr(1) : token.text;
-  double value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  const bool is_number = error == std::errc() && end == digits.data() + digits.size();
-  if (!is_number || !IsAllowed(value)) {
+  const auto value = ParseNumber<double>(digits);
+  if (!value || !IsAllowed(*value)) {
     return Fail(At(token), "found {} as {}; allowed: a number within ±{:g}", Quote(token.text), what, kMaxNumber);
   }
-  return value;
+  return *value;
 }
 
 }  // namespace etude

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <span>
 
+#include "engine/base/text.h"
 #include "engine/formats/length_units.h"
 #include "engine/formats/row_clock.h"
 
@@ -45,35 +45,19 @@ void AddPlace(const std::optional<glm::dvec3>& place, std::string& text) {
   }
 }
 
-std::string_view TakeLine(std::string_view& text, int& line) {
-  const std::size_t end = std::min(text.find('\n'), text.size());
-  std::string_view here = text.substr(0, end);
-  text.remove_prefix(std::min(end + 1, text.size()));
-  ++line;
-  if (!here.empty() && here.back() == '\r') here.remove_suffix(1);
-  return here;
-}
-
 /// Splits a line at its tabs; a tab at the end gives an empty last cell.
 std::vector<std::string_view> Cells(std::string_view line) {
-  std::vector<std::string_view> cells;
-  while (true) {
-    const std::size_t tab = line.find('\t');
-    std::string_view cell = line.substr(0, tab);
-    while (!cell.empty() && cell.front() == ' ') cell.remove_prefix(1);
-    while (!cell.empty() && cell.back() == ' ') cell.remove_suffix(1);
-    cells.push_back(cell);
-    if (tab == std::string_view::npos) return cells;
-    line.remove_prefix(tab + 1);
+  std::vector<std::string_view> cells = SplitAt(line, '\t');
+  for (std::string_view& cell : cells) {
+    while (cell.starts_with(' ')) cell.remove_prefix(1);
+    while (cell.ends_with(' ')) cell.remove_suffix(1);
   }
+  return cells;
 }
 
 std::optional<double> NumberIn(std::string_view cell) {
   if (cell.starts_with('+') && !cell.starts_with("+-")) cell.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc{} || end != cell.data() + cell.size()) return std::nullopt;
-  return value;
+  return ParseNumber<double>(cell);
 }
 
 /// The values in the header's third line.

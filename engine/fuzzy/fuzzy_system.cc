@@ -8,6 +8,7 @@
 #include "engine/base/named.h"
 #include "engine/base/names.h"
 #include "engine/base/result.h"
+#include "engine/base/text.h"
 #include "engine/document/fields.h"
 #include "engine/document/node.h"
 #include "engine/fuzzy/distance.h"
@@ -37,12 +38,8 @@ std::vector<std::string> TermNames(Feature feature) {
 /// Returns the features that a key such as "RH, LH" names; they share the settings under it.
 Result<std::vector<Feature>> ReadGroup(const Node::Entry& entry) {
   std::vector<Feature> group;
-  std::string_view rest = entry.key;
-  while (true) {
-    const std::size_t comma = rest.find(',');
-    std::string_view name = rest.substr(0, comma);
-    while (name.starts_with(' ')) name.remove_prefix(1);
-    while (name.ends_with(' ')) name.remove_suffix(1);
+  for (const std::string_view word : SplitAt(entry.key, ',')) {
+    const std::string_view name = Trimmed(word);
     const Feature* feature = FindFeature(name);
     if (feature == nullptr) return Fail(entry.place, "{}", UnknownName("feature", name, FeatureNames()));
     group.push_back(*feature);
@@ -50,9 +47,8 @@ Result<std::vector<Feature>> ReadGroup(const Node::Entry& entry) {
       return Fail(entry.place, "{} and {} have different terms ({}; {}), so they cannot be in one list",
                   FeatureName(group.front()), name, Join(TermNames(group.front())), Join(TermNames(*feature)));
     }
-    if (comma == std::string_view::npos) return group;
-    rest.remove_prefix(comma + 1);
   }
+  return group;
 }
 
 Result<Universe> ReadUniverse(Fields& fields) {
@@ -197,13 +193,8 @@ bool IsPoseName(const std::string& name) {
 /// Returns the index in `AllTerms` of an entry such as "RH: up".
 Result<std::size_t> ReadTerm(const Node::Entry& entry) {
   const Feature* feature = FindFeature(entry.key);
-  if (feature == nullptr) {
-    std::vector<std::string> names;
-    for (Feature known : AllFeatures()) names.emplace_back(FeatureName(known));
-    return Fail(entry.place, "{}", UnknownName("feature", entry.key, names));
-  }
-  std::vector<std::string> names;
-  for (const Term& term : TermsOf(*feature)) names.emplace_back(term.name);
+  if (feature == nullptr) return Fail(entry.place, "{}", UnknownName("feature", entry.key, FeatureNames()));
+  const std::vector<std::string> names = TermNames(*feature);
   const std::string wanted = entry.value.kind == Node::Kind::kScalar ? entry.value.scalar : Describe(entry.value);
   const auto found = std::ranges::find(names, wanted);
   if (found == names.end()) return Fail(entry.value.place, "{}", UnknownName("term of " + entry.key, wanted, names));

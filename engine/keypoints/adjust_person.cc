@@ -44,24 +44,8 @@ Keypoint MiddleOf(const ProjectionMatrix& camera, const SeenPerson& seen, const 
 
 /// Returns the joints that the landmarks show directly, by the rules of `JointsOf`.
 std::vector<SeenAt> JointsIn(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPositions& places) {
-  constexpr std::array<std::pair<Landmark, Role>, 16> kSame = {{{kLeftShoulder, Role::kLeftShoulder},
-                                                                {kRightShoulder, Role::kRightShoulder},
-                                                                {kLeftElbow, Role::kLeftElbow},
-                                                                {kRightElbow, Role::kRightElbow},
-                                                                {kLeftWrist, Role::kLeftWrist},
-                                                                {kRightWrist, Role::kRightWrist},
-                                                                {kLeftHand, Role::kLeftHand},
-                                                                {kRightHand, Role::kRightHand},
-                                                                {kLeftHip, Role::kLeftHip},
-                                                                {kRightHip, Role::kRightHip},
-                                                                {kLeftKnee, Role::kLeftKnee},
-                                                                {kRightKnee, Role::kRightKnee},
-                                                                {kLeftAnkle, Role::kLeftAnkle},
-                                                                {kRightAnkle, Role::kRightAnkle},
-                                                                {kLeftBigToe, Role::kLeftFoot},
-                                                                {kRightBigToe, Role::kRightFoot}}};
   std::vector<SeenAt> joints;
-  for (const auto& [landmark, role] : kSame) joints.push_back({role, seen[landmark]});
+  for (const auto& [landmark, role] : kJointLandmarks) joints.push_back({role, seen[landmark]});
   const bool has_ears = places[Index(kLeftEar)] && places[Index(kRightEar)];
   joints.push_back({Role::kHead, places[Index(kHead)] ? seen[kHead]
                                  : has_ears           ? MiddleOf(camera, seen, places, kLeftEar, kRightEar)
@@ -308,20 +292,10 @@ class Adjuster {
 double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen, double min_confidence,
                        double outlier_px) {
   std::vector<double> squares;  // each element is an estimate of the variance whose median is unbiased
-  const std::size_t frames = seen.seen.empty() ? 0 : seen.seen.front().size();
-  for (std::size_t frame = 0; frame < frames; ++frame) {
-    for (std::size_t i = 0; i < kLandmarkCount; ++i) {
-      std::vector<WeightedSighting> sightings;
-      for (std::size_t c = 0; c < cameras.size(); ++c) {
-        const auto& person = seen.seen[c][frame];
-        if (!person || person->keypoints[i].confidence < min_confidence) continue;
-        sightings.push_back({{cameras[c], person->keypoints[i].pixel}, person->keypoints[i].confidence});
-      }
-      const auto point = TriangulateRobustly(sightings, {outlier_px});
-      if (!point) continue;
-      const auto views = static_cast<double>(std::ranges::count(point->agrees, true));
-      squares.push_back(views * point->residual_px * point->residual_px / MedianOfChiSquare(2 * views - 3));
-    }
+  for (const auto& [frame, landmark, by, point] :
+       TriangulateLandmarks(cameras, seen, {.min_confidence = min_confidence, .robust = {outlier_px}})) {
+    const auto views = static_cast<double>(std::ranges::count(point.agrees, true));
+    squares.push_back(views * point.residual_px * point.residual_px / MedianOfChiSquare(2 * views - 3));
   }
   if (squares.empty()) return kMinErrorPx;
   return std::max(kMinErrorPx, std::sqrt(UpperMedian(std::move(squares))));

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/keypoints/least_loss.h"
+
 namespace etude {
 namespace {
 
@@ -153,31 +155,14 @@ std::optional<ReferenceClock> MeasureClock(const MarkerMotion& motion, const Mar
   };
   const auto before = loss_of({});
   if (!before) return std::nullopt;
-  double shift = 0, turn = 0, least = *before;
-  // Keep the clock of the lowest loss so far.
-  const auto try_clock = [&](double s, double t) {
-    const auto loss = loss_of(clock_of(s, t));
-    if (!loss || !(*loss < least)) return false;
-    shift = s;
-    turn = t;
-    least = *loss;
-    return true;
-  };
-  // Grid search.
+  LeastLoss2 least([&](double shift, double turn) { return loss_of(clock_of(shift, turn)); }, *before);
   for (double t = -3; t <= 3; t += 1) {
-    for (double s = -2; s <= 2; s += 1) try_clock(s, t);
+    for (double s = -2; s <= 2; s += 1) least.Try(s, t);
   }
-  // Local search along both axes with a shrinking step.
-  constexpr double kFirstStep = 0.5, kLastStep = 0.002;
-  for (double step = kFirstStep; step > kLastStep;) {
-    const double s = shift, t = turn;
-    const bool is_better =
-        try_clock(s + step, t) || try_clock(s - step, t) || try_clock(s, t + step) || try_clock(s, t - step);
-    if (!is_better) step *= 0.5;
-  }
-  ReferenceClock clock = clock_of(shift, turn);
+  least.Refine();
+  ReferenceClock clock = clock_of(least.x(), least.y());
   clock.before = *before;
-  clock.after = least;
+  clock.after = least.loss();
   return clock;
 }
 

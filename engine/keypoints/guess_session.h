@@ -1,48 +1,14 @@
 #pragma once
 
-#include <cstddef>
 #include <glm/glm.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "engine/cameras/camera.h"
-#include "engine/keypoints/match_people.h"
-#include "engine/keypoints/pixel_fit.h"
+#include "engine/keypoints/guess_pictures.h"
 
 namespace etude {
-
-/// One film's keypoints as they are in the file, and the declared relation between its pictures and the rig's.
-struct PictureOfFilm {
-  Camera camera;
-  PixelFit fit;           ///< as declared
-  glm::dvec2 film_px{0};  ///< the size of the film's pictures
-  SeenPeople people;      ///< in the file's pixels
-  bool is_sized = false;  ///< true if the file states the size of the film's pictures, so its pixels are the film's
-};
-
-/// The map that converts the keypoints of a film to pixels of the rig.
-struct PictureGuess {
-  PixelFit fit;
-  std::string told;  ///< explanation for people; "" if the map is as declared
-};
-
-/// Finds how keypoints map to the rig's pictures *(ours)*: as `fit` declares, or also rotated by quarter turns or
-/// mirrored. Cameras are corrected one after the other, the one with the largest gain first. A correction is tried only
-/// if the keypoints are more than 0.3 % of the height off the other cameras' epipolar lines, and it must reduce this
-/// distance to less than half and to less than 5 % of the height (median over frames, over the best-fitting people and
-/// labelling of sides). A wrong correction cannot halve random errors. If pictures were fitted, the keypoints of all
-/// films may instead be in the rig's own pixels (if the estimator ran on the original pictures). The interpretation
-/// with the smaller distance is taken, unless a file states the film's size. `told` says if a second guess is nearly as
-/// good, as with two cameras.
-std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, double min_confidence);
-
-/// Returns the distance of keypoints, read as declared, from the other cameras' epipolar lines, as a share of the
-/// height: the mean, over pairs of cameras, of the median distance. 1 if it cannot be computed.
-double MissOfPictures(std::span<const PictureOfFilm> films, double min_confidence);
-
-/// A distance above this share of the height indicates a mistake, not only imprecision.
-constexpr double kMaxPlausibleMiss = 0.05;
 
 /// The correction of a mistake that concerns a whole session.
 struct SessionGuess {

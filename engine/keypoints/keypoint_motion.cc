@@ -17,21 +17,13 @@ std::optional<glm::dvec3> Middle(const std::optional<glm::dvec3>& a, const std::
   return 0.5 * (*a + *b);
 }
 
-/// The landmarks of one side.
-struct SideMarks {
-  Landmark shoulder, elbow, wrist, hand, hip, knee, ankle, toe;
-};
-constexpr SideMarks kSides[] = {
-    {kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand, kLeftHip, kLeftKnee, kLeftAnkle, kLeftBigToe},
-    {kRightShoulder, kRightElbow, kRightWrist, kRightHand, kRightHip, kRightKnee, kRightAnkle, kRightBigToe}};
-
+/// The joints of one side whose positions may have to be guessed, and those that they are guessed from.
 struct SideRoles {
-  Role shoulder, elbow, wrist, hand, hip, knee, ankle, foot;
+  Role elbow, wrist, hand, ankle, foot;
 };
-constexpr SideRoles kSideRoles[] = {{Role::kLeftShoulder, Role::kLeftElbow, Role::kLeftWrist, Role::kLeftHand,
-                                     Role::kLeftHip, Role::kLeftKnee, Role::kLeftAnkle, Role::kLeftFoot},
-                                    {Role::kRightShoulder, Role::kRightElbow, Role::kRightWrist, Role::kRightHand,
-                                     Role::kRightHip, Role::kRightKnee, Role::kRightAnkle, Role::kRightFoot}};
+constexpr SideRoles kSides[] = {
+    {Role::kLeftElbow, Role::kLeftWrist, Role::kLeftHand, Role::kLeftAnkle, Role::kLeftFoot},
+    {Role::kRightElbow, Role::kRightWrist, Role::kRightHand, Role::kRightAnkle, Role::kRightFoot}};
 
 constexpr double kHandOfForearm = 0.72;
 constexpr double kFootLength = 0.18;
@@ -46,29 +38,14 @@ std::optional<glm::dvec3> FacingOf(const RoleVectors& joints) {
   return facing / length;
 }
 
-void AddSide(const LandmarkPositions& marks, const SideMarks& m, const SideRoles& r, RoleVectors& joints) {
-  const auto at = [&](Landmark landmark) { return marks[Index(landmark)]; };
-  const std::pair<Role, Landmark> same[] = {{r.shoulder, m.shoulder}, {r.elbow, m.elbow}, {r.wrist, m.wrist},
-                                            {r.hip, m.hip},           {r.knee, m.knee},   {r.ankle, m.ankle}};
-  for (const auto& [role, landmark] : same) joints[Index(role)] = at(landmark);
-  joints[Index(r.hand)] = at(m.hand);
-  if (!at(m.hand) && at(m.elbow) && at(m.wrist)) {
-    joints[Index(r.hand)] = *at(m.wrist) + kHandOfForearm * (*at(m.wrist) - *at(m.elbow));
-  }
-  joints[Index(r.foot)] = at(m.toe);
-}
-
 }  // namespace
 
-std::vector<LandmarkPositions> TriangulatePerson(std::span<const ProjectionMatrix> cameras, const MatchedPerson& person,
-                                              const TriangulateOptions& options, TriangulationReport* report) {
+std::vector<TriangulatedLandmark> TriangulateLandmarks(std::span<const ProjectionMatrix> cameras,
+                                                       const MatchedPerson& person, const TriangulateOptions& options) {
   assert(person.seen.size() == cameras.size());
+  std::vector<TriangulatedLandmark> all;
   const std::size_t frames = person.seen.empty() ? 0 : person.seen.front().size();
-  std::vector<LandmarkPositions> places(frames);
-  std::vector<double> residuals, used(cameras.size()), rejected(cameras.size());
-  std::array<std::size_t, kLandmarkCount> found{};
   for (std::size_t frame = 0; frame < frames; ++frame) {
-    // Triangulate the landmark from the cameras that see it with enough confidence.
     for (std::size_t i = 0; i < kLandmarkCount; ++i) {
       std::vector<WeightedSighting> sightings;
       std::vector<std::size_t> by;
@@ -78,16 +55,28 @@ std::vector<LandmarkPositions> TriangulatePerson(std::span<const ProjectionMatri
         sightings.push_back({{cameras[camera], seen->keypoints[i].pixel}, seen->keypoints[i].confidence});
         by.push_back(camera);
       }
-      const auto point = TriangulateRobustly(sightings, options.robust);
-      // Count the point, and the outliers of each camera.
-      if (!point) continue;
-      places[frame][i] = point->position;
-      residuals.push_back(point->residual_px);
-      ++found[i];
-      for (std::size_t k = 0; k < by.size(); ++k) {
-        used[by[k]] += 1;
-        if (!point->agrees[k]) rejected[by[k]] += 1;
+      if (auto point = TriangulateRobustly(sightings, options.robust)) {
+        all.push_back({frame, i, std::move(by), std::move(*point)});
       }
+    }
+  }
+  return all;
+}
+
+std::vector<LandmarkPositions> TriangulatePerson(std::span<const ProjectionMatrix> cameras, const MatchedPerson& person,
+                                                 const TriangulateOptions& options, TriangulationReport* report) {
+  const std::size_t frames = person.seen.empty() ? 0 : person.seen.front().size();
+  std::vector<LandmarkPositions> places(frames);
+  std::vector<double> residuals, used(cameras.size()), rejected(cameras.size());
+  std::array<std::size_t, kLandmarkCount> found{};
+  // Count the points, and the outliers of each camera.
+  for (const auto& [frame, landmark, by, point] : TriangulateLandmarks(cameras, person, options)) {
+    places[frame][landmark] = point.position;
+    residuals.push_back(point.residual_px);
+    ++found[landmark];
+    for (std::size_t k = 0; k < by.size(); ++k) {
+      used[by[k]] += 1;
+      if (!point.agrees[k]) rejected[by[k]] += 1;
     }
   }
   // Summarise over all points.
@@ -147,7 +136,12 @@ void SmoothPoints(std::span<LandmarkPositions> frames, double rate_hz, double cu
 RoleVectors JointsOf(const LandmarkPositions& marks) {
   const auto at = [&](Landmark landmark) { return marks[Index(landmark)]; };
   RoleVectors joints;
-  for (std::size_t side = 0; side < 2; ++side) AddSide(marks, kSides[side], kSideRoles[side], joints);
+  for (const auto& [landmark, role] : kJointLandmarks) joints[Index(role)] = at(landmark);
+  for (const SideRoles& side : kSides) {
+    const auto &elbow = joints[Index(side.elbow)], &wrist = joints[Index(side.wrist)];
+    auto& hand = joints[Index(side.hand)];
+    if (!hand && elbow && wrist) hand = *wrist + kHandOfForearm * (*wrist - *elbow);
+  }
   joints[Index(Role::kHipCentre)] = Middle(at(kLeftHip), at(kRightHip));
   joints[Index(Role::kShoulderCentre)] = Middle(at(kLeftShoulder), at(kRightShoulder));
   auto& head = joints[Index(Role::kHead)];
@@ -159,7 +153,7 @@ RoleVectors JointsOf(const LandmarkPositions& marks) {
   constexpr double kNeckOfTrunk = 0.5;
   if (!head && hips && shoulders) head = *shoulders + kNeckOfTrunk * (*shoulders - *hips);
   if (const auto facing = FacingOf(joints)) {
-    for (const SideRoles& side : kSideRoles) {
+    for (const SideRoles& side : kSides) {
       auto& foot = joints[Index(side.foot)];
       const auto& ankle = joints[Index(side.ankle)];
       constexpr double kAhead = 0.95, kDown = 0.31;

@@ -28,6 +28,18 @@ struct TriangulationReport {
   double found = 0;              ///< share of frames × landmarks (those seen at least once) that were triangulated
 };
 
+/// A landmark in one frame.
+struct TriangulatedLandmark {
+  std::size_t frame = 0, landmark = 0;
+  std::vector<std::size_t> cameras;  ///< those that see it with enough confidence
+  RobustPoint point;
+};
+
+/// Triangulates each landmark in each frame from the cameras that see it with enough confidence, weighted by it; those
+/// that cannot be triangulated are left out.
+std::vector<TriangulatedLandmark> TriangulateLandmarks(std::span<const ProjectionMatrix> cameras,
+                                                       const MatchedPerson& person, const TriangulateOptions& options);
+
 /// Triangulates the person's landmarks in every frame, each from the cameras that agree on it, weighted by confidence.
 /// @param cameras of the rig without distortion; the pixels are undistorted, too
 std::vector<LandmarkPositions> TriangulatePerson(std::span<const ProjectionMatrix> cameras, const MatchedPerson& person,

@@ -10,6 +10,7 @@
 #include "engine/base/order_statistics.h"
 #include "engine/cameras/robust_triangulation.h"
 #include "engine/cameras/triangulation.h"
+#include "engine/keypoints/keypoint_motion.h"
 
 namespace etude {
 
@@ -63,13 +64,11 @@ class Mender {
  public:
   Mender(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people, double min_confidence,
          MatchedPerson& person)
-      : cameras_(cameras), people_(people), least_confidence_(min_confidence), person_(person) {
-    geometry_.resize(cameras.size());
-    for (std::size_t a = 0; a < cameras.size(); ++a) {
-      for (std::size_t b = 0; b < cameras.size(); ++b) {
-        geometry_[a].push_back(a == b ? std::nullopt : EpipolarGeometry::Of(cameras[a], cameras[b]));
-      }
-    }
+      : cameras_(cameras),
+        people_(people),
+        least_confidence_(min_confidence),
+        person_(person),
+        geometry_(PairGeometry(cameras)) {
     frames_ = person.seen.empty() ? 0 : person.seen.front().size();
     for (auto& group : flips_) group.assign(cameras.size(), std::vector<bool>(frames_));
   }
@@ -85,8 +84,8 @@ class Mender {
 
  private:
   std::optional<double> DistancePx(std::size_t a, const Keypoint& p, std::size_t b, const Keypoint& q) const {
-    if (p.confidence < least_confidence_ || q.confidence < least_confidence_ || !geometry_[a][b]) return std::nullopt;
-    return std::abs(geometry_[a][b]->DistancePx(p.pixel, q.pixel));
+    if (p.confidence < least_confidence_ || q.confidence < least_confidence_ || !geometry_(a, b)) return std::nullopt;
+    return std::abs(geometry_(a, b)->DistancePx(p.pixel, q.pixel));
   }
 
   /// Returns the median epipolar distance of a person in camera `c` to the person in camera `o`, as a share of the
@@ -376,7 +375,7 @@ class Mender {
   std::span<const SeenPeople> people_;
   double least_confidence_;
   MatchedPerson& person_;
-  std::vector<std::vector<std::optional<EpipolarGeometry>>> geometry_;
+  PairGeometry geometry_;
   std::size_t frames_ = 0;
   double scale_px_ = 1;
   std::array<std::vector<std::vector<bool>>, kGroups> flips_;  ///< [group][camera][frame]
@@ -393,18 +392,9 @@ std::vector<Mend> MendPerson(std::span<const ProjectionMatrix> cameras, std::spa
 double OutlierLimit(std::span<const ProjectionMatrix> cameras, const MatchedPerson& person, double min_confidence,
                     double min_px, double max_px) {
   std::vector<double> residuals;
-  const std::size_t frames = person.seen.empty() ? 0 : person.seen.front().size();
-  for (std::size_t frame = 0; frame < frames; ++frame) {
-    for (std::size_t i = 0; i < kLandmarkCount; ++i) {
-      std::vector<WeightedSighting> sightings;
-      for (std::size_t c = 0; c < cameras.size(); ++c) {
-        const auto& seen = person.seen[c][frame];
-        if (!seen || seen->keypoints[i].confidence < min_confidence) continue;
-        sightings.push_back({{cameras[c], seen->keypoints[i].pixel}, seen->keypoints[i].confidence});
-      }
-      const auto point = TriangulateRobustly(sightings, {max_px});
-      if (point) residuals.push_back(point->residual_px);
-    }
+  for (const TriangulatedLandmark& one :
+       TriangulateLandmarks(cameras, person, {.min_confidence = min_confidence, .robust = {max_px}})) {
+    residuals.push_back(one.point.residual_px);
   }
   constexpr double kDeviations = 8, kDeviationOfMedian = 1.4826;
   if (residuals.empty()) return max_px;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/base/text.h"
 #include "engine/vision/strokes.h"
 
 namespace etude {
@@ -19,10 +20,8 @@ constexpr std::array<std::string_view, kLandmarkCount> kNames = {
 /// Parses a list of landmark names, separated by blanks; "-" stands for no landmark.
 std::vector<Landmark> Listed(std::string_view names) {
   std::vector<Landmark> landmarks;
-  while (!names.empty()) {
-    const std::size_t end = std::min(names.find(' '), names.size());
-    landmarks.push_back(FindLandmark(names.substr(0, end)).value_or(Landmark::kNoLandmark));
-    names.remove_prefix(std::min(end + 1, names.size()));
+  for (const std::string_view name : SplitAt(names, ' ')) {
+    landmarks.push_back(FindLandmark(name).value_or(Landmark::kNoLandmark));
   }
   return landmarks;
 }
@@ -123,17 +122,9 @@ double HeightPx(const SeenPerson& person) {
 }
 
 std::optional<Landmark> LandmarkAt(Role role) {
-  constexpr std::pair<Role, Landmark> kSame[] = {
-      {Role::kLeftShoulder, Landmark::kLeftShoulder}, {Role::kRightShoulder, Landmark::kRightShoulder},
-      {Role::kLeftElbow, Landmark::kLeftElbow},       {Role::kRightElbow, Landmark::kRightElbow},
-      {Role::kLeftWrist, Landmark::kLeftWrist},       {Role::kRightWrist, Landmark::kRightWrist},
-      {Role::kLeftHand, Landmark::kLeftHand},         {Role::kRightHand, Landmark::kRightHand},
-      {Role::kLeftHip, Landmark::kLeftHip},           {Role::kRightHip, Landmark::kRightHip},
-      {Role::kLeftKnee, Landmark::kLeftKnee},         {Role::kRightKnee, Landmark::kRightKnee},
-      {Role::kLeftAnkle, Landmark::kLeftAnkle},       {Role::kRightAnkle, Landmark::kRightAnkle},
-      {Role::kLeftFoot, Landmark::kLeftBigToe},       {Role::kRightFoot, Landmark::kRightBigToe},
-      {Role::kShoulderCentre, Landmark::kNeck},       {Role::kHead, Landmark::kHead}};
-  for (const auto& [at, landmark] : kSame) {
+  if (role == Role::kShoulderCentre) return Landmark::kNeck;
+  if (role == Role::kHead) return Landmark::kHead;
+  for (const auto& [landmark, at] : kJointLandmarks) {
     if (at == role) return landmark;
   }
   return std::nullopt;

@@ -7,7 +7,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include "engine/motion/body.h"
 
 namespace [[gnu::visibility("default")]] etude {
 
@@ -50,6 +53,25 @@ enum class Landmark {
 constexpr std::size_t kLandmarkCount = 28;
 
 constexpr std::size_t Index(Landmark landmark) { return static_cast<std::size_t>(landmark); }
+
+/// The joints that are landmarks; shoulder centre, hip centre, spine and head are composed of others.
+inline constexpr std::array<std::pair<Landmark, Role>, 16> kJointLandmarks = {
+    {{Landmark::kLeftShoulder, Role::kLeftShoulder},
+     {Landmark::kRightShoulder, Role::kRightShoulder},
+     {Landmark::kLeftElbow, Role::kLeftElbow},
+     {Landmark::kRightElbow, Role::kRightElbow},
+     {Landmark::kLeftWrist, Role::kLeftWrist},
+     {Landmark::kRightWrist, Role::kRightWrist},
+     {Landmark::kLeftHand, Role::kLeftHand},
+     {Landmark::kRightHand, Role::kRightHand},
+     {Landmark::kLeftHip, Role::kLeftHip},
+     {Landmark::kRightHip, Role::kRightHip},
+     {Landmark::kLeftKnee, Role::kLeftKnee},
+     {Landmark::kRightKnee, Role::kRightKnee},
+     {Landmark::kLeftAnkle, Role::kLeftAnkle},
+     {Landmark::kRightAnkle, Role::kRightAnkle},
+     {Landmark::kLeftBigToe, Role::kLeftFoot},
+     {Landmark::kRightBigToe, Role::kRightFoot}}};
 
 /// Returns the landmark's name in OpenPose and Pose2Sim: "RHip", "LBigToe", …
 std::string_view LandmarkName(Landmark landmark);

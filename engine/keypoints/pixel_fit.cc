@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/base/named.h"
+
 namespace etude {
 
 glm::dvec2 PixelFit::ToFilm(const glm::dvec2& rig) const {
@@ -29,11 +31,11 @@ glm::dvec2 PixelFit::ToRig(const glm::dvec2& film) const {
 }
 
 std::optional<FitMode> FindFitMode(std::string_view name) {
-  if (name == "none") return FitMode::kNone;
-  if (name == "letterbox") return FitMode::kLetterbox;
-  if (name == "stretch") return FitMode::kStretch;
-  if (name == "crop") return FitMode::kCrop;
-  return std::nullopt;
+  constexpr Named<FitMode> kModes[] = {{"none", FitMode::kNone},
+                                       {"letterbox", FitMode::kLetterbox},
+                                       {"stretch", FitMode::kStretch},
+                                       {"crop", FitMode::kCrop}};
+  return FindValue(kModes, name);
 }
 
 Result<PixelFit> FitPictures(FitMode mode, const glm::dvec2& rig, const glm::dvec2& film) {

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/base/angles.h"
 #include "engine/base/directions.h"
 #include "engine/base/order_statistics.h"
+#include "engine/base/text.h"
 #include "engine/keypoints/find_up.h"
 #include "engine/keypoints/resting_feet.h"
 
@@ -36,18 +36,11 @@ struct FileAxis {
 constexpr std::array kAxes = {FileAxis{"x", {1, 0, 0}},   FileAxis{"y", {0, 1, 0}},   FileAxis{"z", {0, 0, 1}},
                               FileAxis{"-x", {-1, 0, 0}}, FileAxis{"-y", {0, -1, 0}}, FileAxis{"-z", {0, 0, -1}}};
 
-std::optional<double> WholeNumber(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 std::optional<double> MetresOf(std::string_view unit) {
   for (const LengthUnit& one : kUnits) {
     if (one.name == unit) return one.metres;
   }
-  const auto number = WholeNumber(unit);
+  const auto number = ParseFinite(unit);
   return number && *number > 0 ? number : std::nullopt;
 }
 
@@ -244,7 +237,7 @@ Result<void> CheckPlace(const PlacementOptions& options) {
   if (options.up != "auto" && options.up != "floor" && AxisOf(options.up) == nullptr) {
     return Fail({}, "--rig-up {}; allowed: auto, floor, x, y, z, -x, -y, -z", options.up);
   }
-  if (options.floor != "auto" && options.floor != "keep" && options.floor != "feet" && !WholeNumber(options.floor)) {
+  if (options.floor != "auto" && options.floor != "keep" && options.floor != "feet" && !ParseFinite(options.floor)) {
     return Fail({}, "--floor {}; allowed: auto, keep, feet, or its height in metres", options.floor);
   }
   return {};
@@ -269,7 +262,7 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, std::span<const LandmarkPositi
   // The floor.
   std::string floor_told = ", the floor as in the file";
   const bool at_feet = options.floor == "feet" || (options.floor == "auto" && chosen.from_the_take);
-  if (const auto height = WholeNumber(options.floor)) {
+  if (const auto height = ParseFinite(options.floor)) {
     place.shift.y = -*height;
     floor_told = fmt::format(", the floor at {:g} m of it", *height);
   } else if (at_feet) {
@@ -294,7 +287,7 @@ Result<RigPlacement> PlaceRig(const RigFile& rig, const PlacementOptions& option
     return Fail({}, "the rig does not show which direction is up{}; give the file's axis by --rig-up",
                 camera.empty() ? "" : fmt::format(" in {}'s own frame", camera));
   }
-  if (const auto height = WholeNumber(options.floor)) place.shift.y = -*height;
+  if (const auto height = ParseFinite(options.floor)) place.shift.y = -*height;
   return place;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "engine/cameras/triangulation.h"
+#include "engine/keypoints/least_loss.h"
 
 namespace etude {
 namespace {
@@ -153,13 +154,7 @@ class ClockFinder {
  public:
   ClockFinder(std::span<const ProjectionMatrix> cameras, std::vector<ClockedFilm> films, std::size_t frames,
               double min_confidence)
-      : films_(std::move(films)), geometry_(cameras.size()), frames_(frames), least_confidence_(min_confidence) {
-    for (std::size_t a = 0; a < cameras.size(); ++a) {
-      for (std::size_t b = 0; b < cameras.size(); ++b) {
-        geometry_[a].push_back(a == b ? std::nullopt : EpipolarGeometry::Of(cameras[a], cameras[b]));
-      }
-    }
-  }
+      : films_(std::move(films)), geometry_(cameras), frames_(frames), least_confidence_(min_confidence) {}
 
   std::vector<FoundClock> Find(int max_frames) {
     std::vector<FoundClock> found(films_.size());
@@ -198,12 +193,12 @@ class ClockFinder {
       const auto time = static_cast<double>(frame);
       const std::vector<SeenPerson> here = PeopleAt(films_[c], clock, time);
       for (std::size_t o = 0; !here.empty() && o < others; ++o) {
-        if (o == c || !geometry_[o][c]) continue;
+        if (o == c || !geometry_(o, c)) continue;
         const std::vector<SeenPerson> there = PeopleAt(films_[o], films_[o].clock, time);
         for (const SeenPerson& person : here) {
           std::pair<double, std::size_t> best{0, 0};
           for (const SeenPerson& somebody : there) {
-            const auto pair = PairLoss(*geometry_[o][c], somebody, person);
+            const auto pair = PairLoss(*geometry_(o, c), somebody, person);
             if (pair.second > 0 && (best.second == 0 || pair.first * static_cast<double>(best.second) <
                                                             best.first * static_cast<double>(pair.second))) {
               best = pair;
@@ -249,36 +244,20 @@ class ClockFinder {
       const double drift = stretch / std::max(1.0, middle);
       return FilmClock{given.offset + shift - stretch, given.drift + drift};
     };
-    // Keep the clock of the lowest loss so far.
-    double shift = 0, stretch = 0, least = before;
-    const auto try_clock = [&](double s, double t) {
-      const auto loss = LossOf(c, moved(s, t), others);
-      if (!loss || !(*loss < least)) return false;
-      shift = s;
-      stretch = t;
-      least = *loss;
-      return true;
-    };
+    LeastLoss2 least([&](double shift, double stretch) { return LossOf(c, moved(shift, stretch), others); }, before);
     // Grid search: offsets first, then drifts near the best offset.
-    for (int s = -max_frames; s <= max_frames; ++s) try_clock(s, 0);
-    const double coarse = shift;
+    for (int s = -max_frames; s <= max_frames; ++s) least.Try(s, 0);
+    const double coarse = least.x();
     constexpr double kMaxStretch = 3;
     for (double t = -kMaxStretch; max_frames > 0 && t <= kMaxStretch; t += 1) {
-      for (double s = -2; s <= 2; s += 1) try_clock(coarse + s, t);
+      for (double s = -2; s <= 2; s += 1) least.Try(coarse + s, t);
     }
-    // Local search along both axes with a shrinking step.
-    constexpr double kFirstStep = 0.5, kLastStep = 0.002;
-    for (double step = kFirstStep; step > kLastStep;) {
-      const double s = shift, t = stretch;
-      const bool is_better =
-          try_clock(s + step, t) || try_clock(s - step, t) || try_clock(s, t + step) || try_clock(s, t - step);
-      if (!is_better) step *= 0.5;
-    }
-    return {moved(shift, stretch), least};
+    least.Refine();
+    return {moved(least.x(), least.y()), least.loss()};
   }
 
   std::vector<ClockedFilm> films_;
-  std::vector<std::vector<std::optional<EpipolarGeometry>>> geometry_;
+  PairGeometry geometry_;
   std::size_t frames_;
   double least_confidence_;
 };

@@ -1,5 +1,6 @@
 #include "engine/kinematics/body_tree.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -52,11 +53,9 @@ struct JointRow {
 }  // namespace
 
 bool IsValid(const LimbLengths& lengths) {
-  for (double length : {lengths.foot, lengths.shank, lengths.thigh, lengths.hip_width, lengths.trunk, lengths.neck,
-                        lengths.shoulder_width, lengths.upper_arm, lengths.forearm, lengths.hand}) {
-    if (!std::isfinite(length) || length <= 0) return false;
-  }
-  return true;
+  return std::ranges::all_of(kLimbLengths, [&](const NamedLength& one) {
+    return std::isfinite(lengths.*one.length) && lengths.*one.length > 0;
+  });
 }
 
 KinematicTree MakeBodyTree(const LimbLengths& lengths) {

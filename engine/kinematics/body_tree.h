@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 
@@ -22,6 +23,23 @@ struct LimbLengths {
   double forearm = 0.25;
   double hand = 0.18;  ///< wrist to finger tips
 };
+
+/// A length and its name in files.
+struct NamedLength {
+  const char* name;
+  double LimbLengths::*length;
+};
+inline constexpr std::array<NamedLength, 10> kLimbLengths = {{{"foot", &LimbLengths::foot},
+                                                              {"shank", &LimbLengths::shank},
+                                                              {"thigh", &LimbLengths::thigh},
+                                                              {"hip_width", &LimbLengths::hip_width},
+                                                              {"trunk", &LimbLengths::trunk},
+                                                              {"neck", &LimbLengths::neck},
+                                                              {"shoulder_width", &LimbLengths::shoulder_width},
+                                                              {"upper_arm", &LimbLengths::upper_arm},
+                                                              {"forearm", &LimbLengths::forearm},
+                                                              {"hand", &LimbLengths::hand}}};
+static_assert(sizeof(LimbLengths) == kLimbLengths.size() * sizeof(double), "every length is in the list");
 
 /// Returns true if every length is finite and greater than zero.
 bool IsValid(const LimbLengths& lengths);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/order_statistics.h"
+#include "engine/motion/statistics.h"
 
 namespace etude {
 namespace {
@@ -36,15 +37,6 @@ bool IsUprightPose(const BodyPose& pose) {
   }
   const double ankles = std::min(pose[kLeftAnkle].y, pose[kRightAnkle].y);
   return trunk.y > kSteep * glm::length(trunk) && pose[kHipCentre].y - ankles > kSteep * leg;
-}
-
-/// Returns the height of the lowest joint. Finger tips are ignored, because rigs place them carelessly.
-double LowestHeight(const BodyPose& pose) {
-  double lowest = pose[kHipCentre].y;
-  for (const Role role : AllRoles()) {
-    if (role != kLeftHand && role != kRightHand) lowest = std::min(lowest, pose[role].y);
-  }
-  return lowest;
 }
 
 }  // namespace

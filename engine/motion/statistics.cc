@@ -48,6 +48,14 @@ void MeasureSpeeds(const BodyMotion& motion, MotionStatistics& found) {
 
 }  // namespace
 
+double LowestHeight(const BodyPose& pose) {
+  double lowest = pose[kHipCentre].y;
+  for (const Role role : AllRoles()) {
+    if (role != kLeftHand && role != kRightHand) lowest = std::min(lowest, pose[role].y);
+  }
+  return lowest;
+}
+
 double Stature(const BodyPose& pose) {
   const auto way = [&](std::initializer_list<Role> roles) {
     double length = 0;

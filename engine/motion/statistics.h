@@ -11,6 +11,10 @@ namespace etude {
 /// and neck to the head (mean of both legs), divided by 0.92, the share of the stature that it covers.
 double Stature(const BodyPose& pose);
 
+/// Returns the height of a pose's lowest joint, because people also lie and sit. Finger tips are left out, because rigs
+/// place them inaccurately.
+double LowestHeight(const BodyPose& pose);
+
 /// The horizontal speeds of feet in stance, metres per second; nullopt if no foot ever stands.
 struct FootSlide {
   std::optional<double> mean;                    ///< over all frames and feet in stance

@@ -56,21 +56,6 @@ class DtwFollower final : public StepFollower {
   std::vector<SubsequenceAligner> in_window_;
 };
 
-class DtwRecogniser final : public Recogniser {
- public:
-  DtwRecogniser(std::vector<Examples> moves, const TrackingWeights& weights, const DtwOptions& options)
-      : moves_(std::move(moves)), weights_(weights), options_(options) {}
-
-  std::unique_ptr<MoveFollower> Follow(double rate_hz) const override {
-    return std::make_unique<DtwFollower>(moves_, weights_, options_, rate_hz);
-  }
-
- private:
-  std::vector<Examples> moves_;
-  TrackingWeights weights_;
-  DtwOptions options_;
-};
-
 }  // namespace
 
 std::unique_ptr<Recogniser> MakeDtwRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
@@ -84,7 +69,9 @@ std::unique_ptr<Recogniser> MakeDtwRecogniser(std::span<const TaughtMove> taught
       if (!pattern.empty()) examples.patterns.push_back(std::move(pattern));
     }
   }
-  return std::make_unique<DtwRecogniser>(std::move(moves), weights, options);
+  return MakeRecogniser([moves = std::move(moves), weights, options](double rate_hz) {
+    return std::make_unique<DtwFollower>(moves, weights, options, rate_hz);
+  });
 }
 
 namespace {
@@ -255,21 +242,6 @@ class NearestFollower final : public StepFollower {
   std::vector<PoseVector> seen_;  // the last `longest_` steps
 };
 
-class NearestRecogniser final : public Recogniser {
- public:
-  NearestRecogniser(std::vector<Example> examples, std::size_t moves, const TrackingWeights& weights)
-      : examples_(std::move(examples)), moves_(moves), weights_(weights) {}
-
-  std::unique_ptr<MoveFollower> Follow(double rate_hz) const override {
-    return std::make_unique<NearestFollower>(examples_, moves_, weights_, rate_hz);
-  }
-
- private:
-  std::vector<Example> examples_;
-  std::size_t moves_;
-  TrackingWeights weights_;
-};
-
 }  // namespace
 
 std::unique_ptr<Recogniser> MakeNearestRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights) {
@@ -280,7 +252,9 @@ std::unique_ptr<Recogniser> MakeNearestRecogniser(std::span<const TaughtMove> ta
       if (!right.empty()) examples.push_back(ExampleOf(move, std::move(right)));
     }
   }
-  return std::make_unique<NearestRecogniser>(std::move(examples), taught.size(), weights);
+  return MakeRecogniser([examples = std::move(examples), moves = taught.size(), weights](double rate_hz) {
+    return std::make_unique<NearestFollower>(examples, moves, weights, rate_hz);
+  });
 }
 
 }  // namespace etude

@@ -63,25 +63,14 @@ class Follower final : public MoveFollower {
   std::optional<std::size_t> asked_;
 };
 
-class PoseSequenceRecogniser final : public Recogniser {
- public:
-  explicit PoseSequenceRecogniser(Taught taught) : taught_(std::move(taught)) {}
-
-  std::unique_ptr<MoveFollower> Follow(double rate_hz) const override {
-    return std::make_unique<Follower>(taught_, rate_hz);
-  }
-
- private:
-  Taught taught_;
-};
-
 /// Makes a recogniser that detects a move when its key poses are reached in order (PoseSequence); `match` compares one
 /// frame with one key pose.
 std::unique_ptr<Recogniser> MakePoseSequenceRecogniser(std::span<const TaughtMove> taught, int hold_frames,
                                                        PoseMatcher match) {
   Taught sequences{.moves = {}, .hold_frames = hold_frames, .match = std::move(match)};
   for (const TaughtMove& move : taught) sequences.moves.push_back({move.poses, move.span_s});
-  return std::make_unique<PoseSequenceRecogniser>(std::move(sequences));
+  return MakeRecogniser(
+      [sequences = std::move(sequences)](double rate_hz) { return std::make_unique<Follower>(sequences, rate_hz); });
 }
 
 }  // namespace

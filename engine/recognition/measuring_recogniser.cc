@@ -185,23 +185,6 @@ class MeasuringFollower final : public StepFollower {
   double nearest_cost_ = kUnaligned;
 };
 
-class MeasuringRecogniser final : public Recogniser {
- public:
-  MeasuringRecogniser(std::vector<TaughtExample> examples, std::size_t moves, const TrackingWeights& weights,
-                      PerformanceJudge judge)
-      : examples_(std::move(examples)), moves_(moves), weights_(weights), judge_(std::move(judge)) {}
-
-  std::unique_ptr<MoveFollower> Follow(double rate_hz) const override {
-    return std::make_unique<MeasuringFollower>(examples_, moves_, weights_, judge_, rate_hz);
-  }
-
- private:
-  std::vector<TaughtExample> examples_;
-  std::size_t moves_;
-  TrackingWeights weights_;
-  PerformanceJudge judge_;
-};
-
 }  // namespace
 
 std::unique_ptr<Recogniser> MakeMeasuringRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
@@ -216,7 +199,10 @@ std::unique_ptr<Recogniser> MakeMeasuringRecogniser(std::span<const TaughtMove> 
       examples.push_back({move, std::move(pattern), longest, middle});
     }
   }
-  return std::make_unique<MeasuringRecogniser>(std::move(examples), taught.size(), weights, std::move(judge));
+  return MakeRecogniser(
+      [examples = std::move(examples), moves = taught.size(), weights, judge = std::move(judge)](double rate_hz) {
+        return std::make_unique<MeasuringFollower>(examples, moves, weights, judge, rate_hz);
+      });
 }
 
 }  // namespace etude

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "engine/recognition/skeleton_stream.h"
 
@@ -69,5 +70,20 @@ class Recogniser {
   /// Creates a follower for a stream at `rate_hz` > 0. The recogniser must outlive the follower.
   virtual std::unique_ptr<MoveFollower> Follow(double rate_hz) const = 0;
 };
+
+/// A recogniser whose followers a function object makes from their rate. What the object holds is the recogniser's.
+template <typename Make>
+class RecogniserOf final : public Recogniser {
+ public:
+  explicit RecogniserOf(Make make) : make_(std::move(make)) {}
+  std::unique_ptr<MoveFollower> Follow(double rate_hz) const override { return make_(rate_hz); }
+
+ private:
+  Make make_;
+};
+template <typename Make>
+std::unique_ptr<Recogniser> MakeRecogniser(Make make) {
+  return std::make_unique<RecogniserOf<Make>>(std::move(make));
+}
 
 }  // namespace etude

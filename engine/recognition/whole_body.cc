@@ -305,32 +305,17 @@ class WholeBodyFollower final : public MoveFollower {
   std::vector<double> spotted_;
 };
 
-class WholeBodyRecogniser final : public Recogniser {
- public:
-  WholeBodyRecogniser(std::vector<WholeMove> moves, const TrackingWeights& weights, std::unique_ptr<Recogniser> judge)
-      : moves_(std::move(moves)), weights_(weights), judge_(std::move(judge)) {
-    judge_spots_ =
-        std::ranges::any_of(moves_, [](const WholeMove& move) { return move.examples.size() < kNearestExamples; });
-  }
-
-  std::unique_ptr<MoveFollower> Follow(double rate_hz) const override {
-    return std::make_unique<WholeBodyFollower>(moves_, weights_, *judge_, judge_spots_, rate_hz);
-  }
-
- private:
-  std::vector<WholeMove> moves_;
-  TrackingWeights weights_;
-  std::unique_ptr<Recogniser> judge_;
-  bool judge_spots_;
-};
-
 }  // namespace
 
 std::unique_ptr<Recogniser> MakeWholeBodyRecogniser(std::span<const TaughtMove> taught, const TrackingWeights& weights,
                                                     std::unique_ptr<Recogniser> judge) {
   std::vector<WholeMove> moves;
   for (const TaughtMove& move : taught) moves.push_back(WholeMoveOf(move));
-  return std::make_unique<WholeBodyRecogniser>(std::move(moves), weights, std::move(judge));
+  const bool judge_spots =
+      std::ranges::any_of(moves, [](const WholeMove& move) { return move.examples.size() < kNearestExamples; });
+  return MakeRecogniser([moves = std::move(moves), weights, judge = std::move(judge), judge_spots](double rate_hz) {
+    return std::make_unique<WholeBodyFollower>(moves, weights, *judge, judge_spots, rate_hz);
+  });
 }
 
 }  // namespace etude

@@ -9,6 +9,7 @@
 
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
+#include "engine/base/text.h"
 #include "engine/retargeting/rig.h"
 
 namespace etude {
@@ -52,16 +53,6 @@ constexpr std::string_view kMhrJoints =
     "c_neck_twist1_proc c_neck_twist0_proc c_head c_jaw c_teeth c_jaw_null c_tongue0 c_tongue1 c_tongue2 "
     "c_tongue3 c_tongue4 r_eye r_eye_null l_eye l_eye_null head";
 
-std::vector<std::string_view> SplitAtSpaces(std::string_view text) {
-  std::vector<std::string_view> words;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find(' '), text.size());
-    words.push_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return words;
-}
-
 const std::vector<JointLayout>& Layouts() {
   static const std::vector<JointLayout> layouts = [] {
     std::vector<JointLayout> made;
@@ -92,8 +83,8 @@ const std::vector<JointLayout>& Layouts() {
                                  "LElbow",  "RElbow",    "LWrist",    "RWrist", "LHip", "RHip",      "LKnee",
                                  "RKnee",   "LAnkle",    "RAnkle",    "Head",   "Neck", "Hip",       "LBigToe",
                                  "RBigToe", "LSmallToe", "RSmallToe", "LHeel",  "RHeel"}});
-    made.push_back({"mhr70", SplitAtSpaces(kMhrKeypoints)});
-    made.push_back({"mhr", SplitAtSpaces(kMhrJoints)});
+    made.push_back({"mhr70", SplitAt(kMhrKeypoints, ' ')});
+    made.push_back({"mhr", SplitAt(kMhrJoints, ' ')});
     return made;
   }();
   return layouts;

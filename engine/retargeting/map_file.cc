@@ -1,10 +1,10 @@
 #include "engine/retargeting/map_file.h"
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/document/fields.h"
 #include "engine/document/node.h"
 #include "engine/retargeting/marker_sets.h"
@@ -40,12 +40,9 @@ Result<double> ReadUnit(std::string_view text, const Place& place) {
   for (const auto& [name, metres] : kNames) {
     if (text == name) return metres;
   }
-  double metres = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), metres);
   constexpr double kMin_m = 1e-6, kMax_m = 1e3;
-  if (error == std::errc() && end == text.data() + text.size() && metres >= kMin_m && metres <= kMax_m) {
-    return metres;
-  }
+  const auto metres = ParseNumber<double>(text);
+  if (metres && *metres >= kMin_m && *metres <= kMax_m) return *metres;
   return Fail(place, "{} is not a unit; allowed: m, cm, mm, in, ft, cmu (5.64 cm), or the metres in one unit",
               Quote(text));
 }

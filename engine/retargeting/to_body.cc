@@ -103,16 +103,6 @@ std::vector<double> OverFrames(const std::vector<BodyPose>& poses, Measure measu
   return values;
 }
 
-/// Returns the height of the lowest joint, because people also lie and sit. Finger tips are left out because rigs place
-/// them inaccurately.
-double LowestPoint(const BodyPose& pose) {
-  double lowest = pose[kHipCentre].y;
-  for (const Role role : AllRoles()) {
-    if (role != kLeftHand && role != kRightHand) lowest = std::min(lowest, pose[role].y);
-  }
-  return lowest;
-}
-
 bool IsFinite(const BodyPose& pose) {
   return std::ranges::all_of(pose.joints,
                              [](const glm::dvec3& joint) { return std::isfinite(glm::dot(joint, joint)); });
@@ -215,7 +205,7 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
 double FindFloor(const std::vector<BodyPose>& poses) {
   // A percentile, not the minimum: a single frame with a lost marker must not raise the whole clip.
   constexpr double kLow = 0.05;
-  return LowerPercentile(OverFrames(poses, LowestPoint), kLow);
+  return LowerPercentile(OverFrames(poses, LowestHeight), kLow);
 }
 
 double LeftLegLength(const BodyPose& pose) {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/base/utf8.h"
 #include "engine/recognition/skeleton_stream.h"
 
@@ -22,19 +22,11 @@ struct Cell {
   int column = 1;
 };
 
-std::string_view Trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r')) text.remove_suffix(1);
-  return text;
-}
-
 std::vector<Cell> CellsOf(std::string_view line, char separator) {
   std::vector<Cell> cells;
-  for (std::size_t at = 0; at <= line.size();) {
-    const std::size_t end = std::min(line.find(separator, at), line.size());
-    const std::string_view word = Trimmed(line.substr(at, end - at));
-    cells.push_back({word, static_cast<int>(word.empty() ? at : word.data() - line.data()) + 1});
-    at = end + 1;
+  for (const std::string_view part : SplitAt(line, separator)) {
+    const std::string_view word = Trimmed(part);
+    cells.push_back({word, static_cast<int>((word.empty() ? part : word).data() - line.data()) + 1});
   }
   return cells;
 }
@@ -46,9 +38,7 @@ class Lines {
   /// Returns the next line; nullopt at the end.
   std::optional<std::string_view> Next() {
     while (!text_.empty()) {
-      const std::size_t end = std::min(text_.find('\n'), text_.size());
-      const std::string_view line = text_.substr(0, end);
-      text_.remove_prefix(std::min(end + 1, text_.size()));
+      const std::string_view line = TakeLine(text_);
       ++number_;
       if (const std::string_view words = Trimmed(line); !words.empty() && words.front() != '#') return line;
     }
@@ -62,13 +52,9 @@ class Lines {
 };
 
 Result<double> NumberIn(const Cell& cell, const std::string& file, int line, double largest) {
-  double value = 0;
-  const char* const end = cell.text.data() + cell.text.size();
-  const auto [rest, error] = std::from_chars(cell.text.data(), end, value);
-  if (error != std::errc() || rest != end || !std::isfinite(value) || std::abs(value) > largest) {
-    return Fail({file, line, cell.column}, "found {}; allowed: a number", Quote(cell.text));
-  }
-  return value;
+  const auto value = ParseFinite(cell.text);
+  if (value && std::abs(*value) <= largest) return *value;
+  return Fail({file, line, cell.column}, "found {}; allowed: a number", Quote(cell.text));
 }
 
 Result<std::string> NameIn(const Cell& cell, const std::string& file, int line, std::string_view what) {

@@ -9,6 +9,7 @@
 #include "engine/base/named.h"
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
+#include "engine/base/text.h"
 #include "engine/base/utf8.h"
 #include "engine/formats/joint_csv.h"
 #include "engine/formats/number_rows.h"
@@ -25,15 +26,6 @@ constexpr Named<StreamFormat> kFormats[] = {
     {"etude-csv", StreamFormat::kEtudeCsv}, {"trc", StreamFormat::kTrc}, {"kinect-v2", StreamFormat::kKinectV2},
     {"kinect-v1", StreamFormat::kKinectV1}, {"ntu", StreamFormat::kNtu}, {"azure-kinect", StreamFormat::kAzureKinect}};
 
-std::string_view TakeLine(std::string_view& text) {
-  const std::size_t end = std::min(text.find('\n'), text.size());
-  std::string_view line = text.substr(0, end);
-  text.remove_prefix(std::min(end + 1, text.size()));
-  while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
-  while (!line.empty() && line.front() == ' ') line.remove_prefix(1);
-  return line;
-}
-
 bool IsWholeNumber(std::string_view line) {
   return !line.empty() && line.size() <= 9 && line.find_first_not_of("0123456789") == std::string_view::npos;
 }
@@ -41,7 +33,7 @@ bool IsWholeNumber(std::string_view line) {
 /// Returns the number of columns of the first row of numbers; 0 if there is none.
 std::size_t FirstRowColumns(std::string_view text) {
   while (!text.empty()) {
-    const std::string_view line = TakeLine(text);
+    const std::string_view line = Trimmed(TakeLine(text));
     if (line.empty()) continue;
     const auto row = ReadNumberRows(line, "", 1e18);
     if (row) return row->columns;
@@ -142,7 +134,7 @@ std::optional<StreamFormat> DetectStreamFormat(std::string_view text) {
   if (start == std::string_view::npos) return std::nullopt;
   if (text[start] == '{') return StreamFormat::kAzureKinect;
   std::string_view rest = text.substr(start);
-  const std::string_view first = TakeLine(rest), second = TakeLine(rest);
+  const std::string_view first = Trimmed(TakeLine(rest)), second = Trimmed(TakeLine(rest));
   if (first.starts_with("PathFileType")) return StreamFormat::kTrc;
   if (first.find("_x_m") != std::string_view::npos) return StreamFormat::kEtudeCsv;
   if (IsWholeNumber(first) && IsWholeNumber(second)) return StreamFormat::kNtu;

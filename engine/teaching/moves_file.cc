@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "engine/base/named.h"
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/document/fields.h"
 
 namespace etude {
@@ -129,14 +129,14 @@ Result<SensedFrame> ReadFrame(std::string_view line, const Place& place) {
                                       : TrackingState::kNotTracked;
     for (int axis = 0; axis < 3; ++axis) {
       while (line.starts_with(' ')) line.remove_prefix(1);
-      double value = 0;
-      const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), value);
-      if (error != std::errc() || !(std::abs(value) <= kMaxCoordinateMm)) {
-        return Fail(place, "found {} as number {} of {}; allowed: millimetres within ±{:g}", Quote(line.substr(0, 12)),
-                    3 * i + static_cast<std::size_t>(axis) + 1, 3 * kRoleCount, kMaxCoordinateMm);
+      const std::string_view from_here = line;
+      const auto value = TakeNumber(line);
+      if (!value || !(std::abs(*value) <= kMaxCoordinateMm)) {
+        return Fail(place, "found {} as number {} of {}; allowed: millimetres within ±{:g}",
+                    Quote(from_here.substr(0, 12)), 3 * i + static_cast<std::size_t>(axis) + 1, 3 * kRoleCount,
+                    kMaxCoordinateMm);
       }
-      joint.position[axis] = value / kMillimetres;
-      line.remove_prefix(static_cast<std::size_t>(end - line.data()));
+      joint.position[axis] = *value / kMillimetres;
     }
   }
   if (line.find_first_not_of(" \r") == std::string_view::npos) return frame;
@@ -152,10 +152,8 @@ Result<SkeletonStream> ReadStream(const Node& node) {
   Place place = fields.Raw("frames")->place;
   std::string_view rest = frames;
   while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
     ++place.line;  // the block begins in the line after its key
-    ASSIGN_OR_RETURN(stream.frames.emplace_back(), ReadFrame(rest.substr(0, end), {place.file, place.line, 0}));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
+    ASSIGN_OR_RETURN(stream.frames.emplace_back(), ReadFrame(TakeLine(rest), {place.file, place.line, 0}));
   }
   return stream;
 }

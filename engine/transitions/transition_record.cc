@@ -1,44 +1,30 @@
 #include "engine/transitions/transition_record.h"
 
+#include "engine/base/named.h"
+
 namespace etude {
 
-std::string_view BranchName(Branch branch) {
-  switch (branch) {
-    case Branch::kNone:
-      return "none";
-    case Branch::kNow:
-      return "now";
-    case Branch::kEnd:
-      return "end";
-    case Branch::kStandingPose:
-      return "standing pose";
-    case Branch::kFrontHalf:
-      return "front half";
-    case Branch::kRearHalf:
-      return "rear half";
-    case Branch::kInBetween:
-      return "in-between";
-    case Branch::kForced:
-      return "forced";
-    case Branch::kUnbroken:
-      return "unbroken";
-  }
-  return "";
-}
+namespace {
 
-std::string_view OutcomeName(CandidateOutcome outcome) {
-  switch (outcome) {
-    case CandidateOutcome::kTaken:
-      return "taken";
-    case CandidateOutcome::kTooFar:
-      return "too far";
-    case CandidateOutcome::kLater:
-      return "later";
-    case CandidateOutcome::kWorse:
-      return "worse";
-  }
-  return "";
-}
+constexpr Named<Branch> kBranches[] = {{"none", Branch::kNone},
+                                       {"now", Branch::kNow},
+                                       {"end", Branch::kEnd},
+                                       {"standing pose", Branch::kStandingPose},
+                                       {"front half", Branch::kFrontHalf},
+                                       {"rear half", Branch::kRearHalf},
+                                       {"in-between", Branch::kInBetween},
+                                       {"forced", Branch::kForced},
+                                       {"unbroken", Branch::kUnbroken}};
+constexpr Named<CandidateOutcome> kOutcomes[] = {{"taken", CandidateOutcome::kTaken},
+                                                 {"too far", CandidateOutcome::kTooFar},
+                                                 {"later", CandidateOutcome::kLater},
+                                                 {"worse", CandidateOutcome::kWorse}};
+
+}  // namespace
+
+std::string_view BranchName(Branch branch) { return NameOfValue(kBranches, branch); }
+
+std::string_view OutcomeName(CandidateOutcome outcome) { return NameOfValue(kOutcomes, outcome); }
 
 double WaitOf(const std::vector<Segment>& segments, double rate_hz) {
   double frames = 0;

@@ -29,12 +29,9 @@ SilhouetteBody WithThicknessOf(SilhouetteBody adult, const SilhouetteBody& body,
 
 LimbLengths AdultLengths(double stature_m) {
   constexpr double kStature = 1.74;
-  LimbLengths l;
-  for (double* length : {&l.foot, &l.shank, &l.thigh, &l.hip_width, &l.trunk, &l.neck, &l.shoulder_width, &l.upper_arm,
-                         &l.forearm, &l.hand}) {
-    *length *= stature_m / kStature;
-  }
-  return l;
+  LimbLengths lengths;
+  for (const auto& [name, length] : kLimbLengths) lengths.*length *= stature_m / kStature;
+  return lengths;
 }
 
 double FitStature(const SilhouetteBody& body, double stature_m, std::span<const PosedViews> moments,
@@ -61,28 +58,15 @@ double FitStature(const SilhouetteBody& body, double stature_m, std::span<const 
 }
 
 std::vector<SeenJoint> SeenJointsOf(const SeenPerson& person, double sigma_px) {
-  constexpr std::array<std::pair<Landmark, Role>, 16> kJoints = {{{Landmark::kLeftShoulder, Role::kLeftShoulder},
-                                                                  {Landmark::kRightShoulder, Role::kRightShoulder},
-                                                                  {Landmark::kLeftElbow, Role::kLeftElbow},
-                                                                  {Landmark::kRightElbow, Role::kRightElbow},
-                                                                  {Landmark::kLeftWrist, Role::kLeftWrist},
-                                                                  {Landmark::kRightWrist, Role::kRightWrist},
-                                                                  {Landmark::kLeftHip, Role::kLeftHip},
-                                                                  {Landmark::kRightHip, Role::kRightHip},
-                                                                  {Landmark::kLeftKnee, Role::kLeftKnee},
-                                                                  {Landmark::kRightKnee, Role::kRightKnee},
-                                                                  {Landmark::kLeftAnkle, Role::kLeftAnkle},
-                                                                  {Landmark::kRightAnkle, Role::kRightAnkle},
-                                                                  {Landmark::kLeftBigToe, Role::kLeftFoot},
-                                                                  {Landmark::kRightBigToe, Role::kRightFoot},
-                                                                  {Landmark::kLeftHand, Role::kLeftHand},
-                                                                  {Landmark::kRightHand, Role::kRightHand}}};
   std::vector<SeenJoint> joints;
-  for (const auto& [landmark, role] : kJoints) {
+  for (const auto& [landmark, role] : kJointLandmarks) {
     const Keypoint& keypoint = person[landmark];
     if (!(keypoint.confidence > 0)) continue;
     joints.push_back({role, keypoint.pixel, sigma_px / std::sqrt(std::min(1.0, keypoint.confidence))});
   }
+  std::ranges::stable_partition(joints, [](const SeenJoint& joint) {  // the fit adds up the hands last
+    return joint.role != Role::kLeftHand && joint.role != Role::kRightHand;
+  });
   return joints;
 }
 

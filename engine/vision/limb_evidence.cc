@@ -5,6 +5,7 @@
 
 #include "engine/base/angles.h"
 #include "engine/vision/limb_regions.h"
+#include "engine/vision/scatter.h"
 
 namespace etude {
 namespace {
@@ -55,19 +56,12 @@ Border MeasureBorder(const std::vector<glm::dvec2>& points, const glm::dvec2& li
   Border border;
   for (const glm::dvec2& p : points) border.middle += p / static_cast<double>(points.size());
   // Find the border's direction by its principal axis.
-  double xx = 0, xy = 0, yy = 0;
-  for (const glm::dvec2& p : points) {
-    const glm::dvec2 d = p - border.middle;
-    xx += d.x * d.x;
-    xy += d.x * d.y;
-    yy += d.y * d.y;
-  }
-  const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
-  const glm::dvec2 along(std::cos(angle), std::sin(angle));
+  Scatter scatter;
+  for (const glm::dvec2& p : points) scatter.Add(p - border.middle);
+  const glm::dvec2 along = scatter.Axis();
   glm::dvec2 to_limb(-along.y, along.x);
   if (glm::dot(limb_middle - border.middle, to_limb) < 0) to_limb = -to_limb;
-  const double mean_square =
-      (0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy)) / static_cast<double>(points.size());  // along the border
+  const double mean_square = scatter.AlongAxis() / static_cast<double>(points.size());
   // Sum the bend: how far points at the ends lie on the limb's side, relative to those in the middle.
   double bend = 0, low = 0, high = 0;
   for (const glm::dvec2& p : points) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/order_statistics.h"
+#include "engine/vision/scatter.h"
 
 namespace etude {
 namespace {
@@ -19,15 +20,9 @@ void ForEachPixel(const Region& region, Use use) {
 
 // Returns the principal axis of the region's pixels.
 glm::dvec2 ScatterAxis(const Region& region) {
-  double xx = 0, xy = 0, yy = 0;
-  ForEachPixel(region, [&](const glm::dvec2& p) {
-    const glm::dvec2 d = p - region.middle;
-    xx += d.x * d.x;
-    xy += d.x * d.y;
-    yy += d.y * d.y;
-  });
-  const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
-  return {std::cos(angle), std::sin(angle)};
+  Scatter scatter;
+  ForEachPixel(region, [&](const glm::dvec2& p) { scatter.Add(p - region.middle); });
+  return scatter.Axis();
 }
 
 // The slice of a region between two lines across its axis, one pixel apart.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/angles.h"
+#include "engine/vision/scatter.h"
 
 namespace etude {
 namespace {
@@ -47,15 +48,9 @@ glm::dvec2 Mean(const Pixels& pixels) {
 
 // Returns the direction in which the pixels vary most.
 glm::dvec2 PrincipalAxis(const Pixels& pixels, const glm::dvec2& mean) {
-  double xx = 0, xy = 0, yy = 0;
-  for (const glm::dvec2& p : pixels) {
-    const glm::dvec2 d = p - mean;
-    xx += d.x * d.x;
-    xy += d.x * d.y;
-    yy += d.y * d.y;
-  }
-  const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
-  return {std::cos(angle), std::sin(angle)};
+  Scatter scatter;
+  for (const glm::dvec2& p : pixels) scatter.Add(p - mean);
+  return scatter.Axis();
 }
 
 std::optional<PixelSegment> ReadStroke(const Pixels& first, const Pixels& second) {

@@ -1,13 +1,13 @@
 #include "io/clips/convert.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <string_view>
 
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/formats/bvh.h"
 #include "engine/formats/c3d.h"
 #include "engine/formats/gltf/gltf.h"
@@ -26,8 +26,9 @@ namespace {
 
 bool ParseSeconds(std::string_view text, double& seconds) {
   if (text.empty()) return true;  // an open end
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
-  return error == std::errc() && end == text.data() + text.size() && std::isfinite(seconds) && seconds >= 0;
+  const auto value = ParseFinite(text);
+  seconds = value.value_or(-1);
+  return seconds >= 0;
 }
 
 // The same limit as for BVH files that are read, bytes.

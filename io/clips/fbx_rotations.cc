@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/text.h"
+
 namespace etude {
 namespace {
 
@@ -151,14 +153,9 @@ std::size_t LeaveOutOfBinary(std::string_view bytes, std::string& changed) {
 
 // --- Text files
 
-std::string_view TrimmedLine(std::string_view line) {
-  const std::size_t first = line.find_first_not_of(" \t\r"), last = line.find_last_not_of(" \t\r");
-  return first == std::string_view::npos ? std::string_view{} : line.substr(first, last - first + 1);
-}
-
 /// Splits 'P: "NAME", "type", "label", "flags",1,2,3' into the name and the range of the numbers in the file.
 std::optional<std::pair<std::string_view, FbxRange>> PropertyInLine(std::string_view text, FbxRange line) {
-  const std::string_view here = TrimmedLine(text.substr(line.begin, line.end - line.begin));
+  const std::string_view here = Trimmed(text.substr(line.begin, line.end - line.begin));
   constexpr std::string_view kBegin = "P: \"";
   if (!here.starts_with(kBegin)) return std::nullopt;
   const std::string_view name = here.substr(kBegin.size(), here.find('"', kBegin.size()) - kBegin.size());
@@ -179,7 +176,7 @@ std::size_t LeaveOutOfText(std::string_view text, std::string& changed) {
   for (std::size_t begin = 0; begin < text.size();) {
     const FbxRange line{begin, std::min(text.find('\n', begin), text.size())};
     begin = line.end + 1;
-    const std::string_view here = TrimmedLine(text.substr(line.begin, line.end - line.begin));
+    const std::string_view here = Trimmed(text.substr(line.begin, line.end - line.begin));
     if (here.starts_with("Model:")) in_model = true;
     if (here.starts_with("PropertyTemplate:")) in_template = here.find(kTemplate) != std::string_view::npos;
     if ((in_model || in_template) && here.starts_with("Properties70:")) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -13,6 +12,7 @@
 #include "engine/base/named.h"
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
+#include "engine/base/text.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/slow_demonstration.h"
 
@@ -112,16 +112,9 @@ std::vector<double> BeatsOf(const Song& song) {
 constexpr double kMinBeatSeconds = 0.2, kMaxBeatSeconds = 3;
 constexpr std::size_t kMinBeats = 8, kMaxBeats = 10000;
 
-std::string_view WithoutBlanks(std::string_view line) {
-  const auto first = line.find_first_not_of(" \t\r");
-  return first == std::string_view::npos ? std::string_view() : line.substr(first);
-}
-
+/// Returns the number that is a line's first word.
 std::optional<double> NumberAtFront(std::string_view line) {
-  double number = 0;
-  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), number);
-  const bool is_whole = end == line.data() + line.size() || std::string_view(" \t\r,;").find(*end) != std::string::npos;
-  return error == std::errc() && is_whole && std::isfinite(number) ? std::optional(number) : std::nullopt;
+  return ParseFinite(line.substr(0, line.find_first_of(" \t\r,;")));
 }
 
 /// Returns the time of a beat, interpolated linearly between two whole beats.
@@ -194,8 +187,7 @@ Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& 
   int number = 0;
   while (!text.empty()) {
     // Take the next line.
-    const std::string_view line = WithoutBlanks(text.substr(0, text.find('\n')));
-    text.remove_prefix(std::min(text.size(), std::min(text.find('\n'), text.size() - 1) + 1));
+    const std::string_view line = Trimmed(TakeLine(text));
     ++number;
     if (line.empty() || line.front() == '#') continue;
     // Read its time, and check it against the beat before.

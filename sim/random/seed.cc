@@ -4,6 +4,8 @@
 
 #include <charconv>
 
+#include "engine/base/text.h"
+
 namespace etude {
 namespace {
 
@@ -49,9 +51,7 @@ Result<Seed> ParseSeed(std::string_view text) {
     ASSIGN_OR_RETURN(const Words256 digest, ParseWords256(text.substr(kSecret.size())));
     return Seed(Seed::Kind::kDigest, digest);
   }
-  std::uint64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc() && end == text.data() + text.size()) return Seed(number);
+  if (const auto number = ParseNumber<std::uint64_t>(text)) return Seed(*number);
   return Fail({}, "'{}' is not a seed; allowed: a whole number, or 'secret' and a digest", text);
 }
 

@@ -14,6 +14,15 @@ extern "C" const char* __lsan_default_suppressions() {
 namespace etude {
 namespace {
 
+/// Returns the log of a shader or a program.
+std::string LogOf(PFNGLGETSHADERINFOLOGPROC get, GLuint object) {
+  std::string log(4096, '\0');
+  GLsizei length = 0;
+  get(object, static_cast<GLsizei>(log.size()), &length, log.data());
+  log.resize(static_cast<std::size_t>(length));
+  return log;
+}
+
 Result<GLuint> CompileShader(const GlFunctions& gl, GLenum stage, const std::string& source) {
   const GLuint shader = gl.CreateShader(stage);
   const char* text = source.c_str();
@@ -22,10 +31,7 @@ Result<GLuint> CompileShader(const GlFunctions& gl, GLenum stage, const std::str
   GLint compiled = 0;
   gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
   if (compiled) return shader;
-  std::string log(4096, '\0');
-  GLsizei length = 0;
-  gl.GetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
-  log.resize(static_cast<std::size_t>(length));
+  const std::string log = LogOf(gl.GetShaderInfoLog, shader);
   gl.DeleteShader(shader);
   return Fail({}, "this GL does not compile one of Etude's shaders: {}", log);
 }
@@ -77,11 +83,7 @@ Result<GLuint> GlContext::LinkProgram(const std::string& vertex_source, const st
   GLint linked = 0;
   gl.GetProgramiv(program, GL_LINK_STATUS, &linked);
   if (linked) return program;
-  std::string log(4096, '\0');
-  GLsizei length = 0;
-  gl.GetProgramInfoLog(program, static_cast<GLsizei>(log.size()), &length, log.data());
-  log.resize(static_cast<std::size_t>(length));
-  return Fail({}, "this GL does not link one of Etude's shader programs: {}", log);
+  return Fail({}, "this GL does not link one of Etude's shader programs: {}", LogOf(gl.GetProgramInfoLog, program));
 }
 
 void CheckMemory(const GlFunctions& gl) {

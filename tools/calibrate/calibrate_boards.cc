@@ -4,7 +4,6 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <filesystem>
 
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
@@ -13,132 +12,11 @@
 #include "engine/cameras/rig_file.h"
 #include "io/drawing/look.h"
 #include "io/files/files.h"
-#include "io/films/decoder.h"
-#include "io/images/image_files.h"
-#include "sim/camera/jpeg.h"
 #include "tools/calibrate/calibrate_rig.h"
+#include "tools/calibrate/search_boards.h"
 
 namespace etude {
 namespace {
-
-namespace fs = std::filesystem;
-
-Result<std::vector<Board>> ReadBoards(const std::vector<std::string>& texts) {
-  std::vector<Board> boards;
-  for (const std::string& text : texts) {
-    ASSIGN_OR_RETURN(const Board board, ReadCodedBoard(text));
-    for (const Board& other : boards) {
-      if (board.first_code < other.first_code + CountCodes(other) &&
-          other.first_code < board.first_code + CountCodes(board)) {
-        return Fail({}, "--board {}: another board uses the same codes; allowed: @{} and more", text,
-                    other.first_code + CountCodes(other));
-      }
-    }
-    boards.push_back(board);
-  }
-  return boards;
-}
-
-/// Lists the pictures of a folder, sorted by name.
-Result<std::vector<fs::path>> PicturesIn(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    std::string ending = entry.path().extension().string();
-    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (ending == ".png" || ending == ".jpg" || ending == ".jpeg") files.push_back(entry.path());
-  }
-  if (error) return Fail({folder.string()}, "{}", error.message());
-  if (files.empty()) return Fail({folder.string()}, "no picture in it; allowed: PNG and JPG");
-  std::ranges::sort(files);
-  return files;
-}
-
-Result<ColourImage> ReadPicture(const fs::path& path) {
-  constexpr std::size_t kMaxPixels = 100'000'000;
-  ASSIGN_OR_RETURN(const std::string bytes, ReadWholeFile(path));
-  if (bytes.starts_with("\x89PNG")) return LoadColourPng(path.string());
-  auto picture = ReadJpeg(bytes, kMaxPixels);
-  if (!picture) return Fail({path.string()}, "{}", picture.error().message);
-  return picture;
-}
-
-/// The boards found in the pictures of one camera.
-struct CameraBoards {
-  std::string name;
-  std::size_t looked = 0, with_board = 0, corners = 0;
-  double period_s = 0;  ///< time between two searched frames of a film; 0 for a folder of pictures
-  int every = 1;
-  ColourImage best;  ///< the picture with the most corners
-  std::size_t most_corners = 0;
-};
-
-Result<void> AddPicture(std::size_t camera, const std::string& moment, const ColourImage& picture, int look,
-                        const std::string& file, BoardViews& views, CameraBoards& seen) {
-  const auto corners = views.Add(camera, moment, picture, look);
-  if (!corners) return Fail({file}, "{}", corners.error().message);
-  ++seen.looked;
-  seen.with_board += *corners > 0 ? 1 : 0;
-  seen.corners += *corners;
-  if (seen.best.pixels.empty() || *corners > seen.most_corners) {
-    seen.best = picture;
-    seen.most_corners = *corners;
-  }
-  return {};
-}
-
-Result<void> AddFolder(std::size_t camera, const fs::path& folder, const CalibrateOptions& options, BoardViews& views, CameraBoards& seen) {
-  ASSIGN_OR_RETURN(const auto files, PicturesIn(folder));
-  const OnProgress progress = options.listener.progress(fmt::format("pictures of {}", seen.name));
-  for (const fs::path& file : files) {
-    ASSIGN_OR_RETURN(const ColourImage picture, ReadPicture(file));
-    RETURN_IF_ERROR(AddPicture(camera, file.stem().string(), picture, -1, file.string(), views, seen));
-    progress(seen.looked, files.size());
-  }
-  return {};
-}
-
-/// Searches every n-th frame of a film; the frame's number identifies its moment.
-Result<void> AddFilm(std::size_t camera, const fs::path& film, const CalibrateOptions& options, BoardViews& views,
-                     CameraBoards& seen) {
-  ASSIGN_OR_RETURN(const FilmFacts facts, ProbeFilm(film));
-  constexpr int kUsual = 30, kPictures = 200;
-  const bool is_printed = ReadPrintedBoard(options.boards.front()).has_value();
-  seen.every = options.every > 0 ? options.every
-               : is_printed      ? std::max(1, (static_cast<int>(facts.frames) + kPictures - 1) / kPictures)
-                                 : kUsual;
-  seen.period_s = seen.every / (facts.rate_hz > 0 ? facts.rate_hz : 1.0);
-  const OnProgress progress = options.listener.progress(fmt::format("frames of {}", seen.name));
-  ASSIGN_OR_RETURN(Decoder decoder, Decoder::Start(film, facts));
-  ColourImage frame;
-  for (int i = 0;; ++i) {
-    ASSIGN_OR_RETURN(const bool is_there, decoder.Next(frame));
-    if (!is_there) return {};
-    progress(static_cast<std::size_t>(i), static_cast<std::size_t>(facts.frames));
-    if (i % seen.every != 0) continue;
-    RETURN_IF_ERROR(AddPicture(camera, fmt::format("{:08}", i), frame, i / seen.every, film.string(), views, seen));
-  }
-}
-
-/// Makes the search for the board of the options: a board as OpenCV defines it, or our own.
-Result<BoardViews> SearchFor(const CalibrateOptions& options) {
-  const auto printed = ReadPrintedBoard(options.boards.front());
-  if (!printed) {
-    ASSIGN_OR_RETURN(const auto boards, ReadBoards(options.boards));
-    return BoardViews(boards);
-  }
-  ASSIGN_OR_RETURN(const PrintedBoard board, *printed);
-  if (options.boards.size() > 1)
-    return Fail({}, "--board: one chessboard or ChArUco board; there are {}", options.boards.size());
-  if (!board.is_charuco && (board.columns + board.rows) % 2 == 0 && options.inputs.size() > 1) {
-    return Fail({},
-                "--board {}: it looks the same when turned by 180°, so two cameras cannot be related; allowed: an odd "
-                "sum of columns and rows",
-                options.boards.front());
-  }
-  ASSIGN_OR_RETURN(auto finder, MakePrintedBoardFinder(board));
-  return BoardViews(board, std::move(finder));
-}
 
 /// Returns the RMS residual of each view, pixels.
 std::vector<double> ResidualsOf(const RefinedRig& rig, std::span<const TargetView> views) {
@@ -149,26 +27,12 @@ std::vector<double> ResidualsOf(const RefinedRig& rig, std::span<const TargetVie
   return rms;
 }
 
-/// Numbers the boards of the views without gaps, in order of appearance, as `CalibrateFromPlanes` does. Views without a
-/// homography are dropped.
-std::vector<TargetView> Numbered(std::vector<TargetView> views) {
-  std::vector<std::optional<std::size_t>> number;
-  std::size_t count = 0;
-  std::erase_if(views, [](const TargetView& view) { return !HomographyOf(view.pairs); });
-  for (TargetView& view : views) {
-    if (view.target >= number.size()) number.resize(view.target + 1);
-    auto& as = number[view.target];
-    if (!as) as = count++;
-    view.target = *as;
-  }
-  return views;
-}
-
 /// Calibrates, then repeats the calibration without the pictures whose residual exceeds three times the median: they
 /// are blurred, or the board moved.
 Result<RefinedRig> CalibrateWithoutOutliers(const BoardViews& search, const CalibrateOptions& options,
                                            std::vector<TargetView>& views) {
-  views = Numbered(std::move(views));
+  std::erase_if(views, [](const TargetView& view) { return !HomographyOf(view.pairs); });
+  NumberTargets(views);
   const std::size_t all = views.size();
   constexpr int kMaxRounds = 3;
   for (int round = 0;; ++round) {
@@ -188,7 +52,8 @@ Result<RefinedRig> CalibrateWithoutOutliers(const BoardViews& search, const Cali
       }
       return rig;
     }
-    views = Numbered(std::move(kept));
+    views = std::move(kept);
+    NumberTargets(views);
   }
 }
 
@@ -378,15 +243,10 @@ std::string PictureOfBoards(const RefinedRig& rig, std::span<const TargetView> v
 
 Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options) {
   ASSIGN_OR_RETURN(BoardViews search, SearchFor(options));
-  std::vector<CameraBoards> seen(options.inputs.size());
-  // Find the boards in each camera's folder or film.
+  std::vector<CameraBoards> seen;
   for (std::size_t camera = 0; camera < options.inputs.size(); ++camera) {
-    fs::path input = options.inputs[camera];
-    CameraBoards& own = seen[camera];
-    if (!input.has_filename()) input = input.parent_path();
-    own.name = input.stem().string();
-    RETURN_IF_ERROR(fs::is_directory(input) ? AddFolder(camera, input, options, search, own)
-                                            : AddFilm(camera, input, options, search, own));
+    ASSIGN_OR_RETURN(seen.emplace_back(), SearchInput(camera, options, search));
+    const CameraBoards& own = seen.back();
     options.listener.print(fmt::format("{}: {} pictures, {} of them with a board, {} corners\n", options.inputs[camera], own.looked,
                own.with_board, own.corners));
   }

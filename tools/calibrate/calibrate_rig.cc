@@ -3,11 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 
 #include "engine/base/angles.h"
+#include "engine/base/text.h"
 #include "engine/cameras/camera_parameters.h"
 #include "engine/cameras/dlt.h"
 #include "engine/cameras/pairs_file.h"
@@ -23,16 +23,12 @@ namespace fs = std::filesystem;
 /// Parses numbers joined by 'x', as "8x8x0.2"; returns nullopt for any other text.
 std::optional<std::vector<double>> NumbersByX(std::string_view text) {
   std::vector<double> numbers;
-  while (true) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{}) return std::nullopt;
-    numbers.push_back(value);
-    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-    if (text.empty()) return numbers;
-    if (text.front() != 'x') return std::nullopt;
-    text.remove_prefix(1);
+  for (const std::string_view word : SplitAt(text, 'x')) {
+    const auto value = ParseNumber<double>(word);
+    if (!value) return std::nullopt;
+    numbers.push_back(*value);
   }
+  return numbers;
 }
 
 bool IsWholeWithin(double value, double low, double high) {

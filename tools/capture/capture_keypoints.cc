@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "engine/base/names.h"
 #include "engine/formats/trc.h"
 #include "engine/keypoints/adjust_person.h"
 #include "engine/keypoints/agreement.h"
@@ -59,18 +60,17 @@ std::string PeopleText(const RecoveredPerson& person, const std::vector<FilmedVi
 
 std::string ReportText(const RecoveredPerson& person, const std::vector<FilmedView>& views) {
   std::string text;
-  const LimbLengths& l = person.body.lengths;
-  constexpr double kCmPerMetre = 100;
   text += fmt::format("points: {:.1f} % found, {:.1f} px off the keypoints (median), outliers beyond {:.1f} px",
              100 * person.report.found, person.report.residual_px, person.outlier_px);
   for (std::size_t i = 0; i < views.size(); ++i) {
     text += fmt::format("{} {} {:.1f} %", i == 0 ? "; left out:" : ",", views[i].camera.name, 100 * person.report.rejected[i]);
   }
-  text += fmt::format(
-      "\nlengths, cm: shank {:.1f}, thigh {:.1f}, trunk {:.1f}, upper arm {:.1f}, forearm {:.1f}, hips {:.1f}, "
-      "shoulders {:.1f}\n",
-      kCmPerMetre * l.shank, kCmPerMetre * l.thigh, kCmPerMetre * l.trunk, kCmPerMetre * l.upper_arm,
-      kCmPerMetre * l.forearm, kCmPerMetre * l.hip_width, kCmPerMetre * l.shoulder_width);
+  std::vector<std::string> lengths;
+  constexpr double kCmPerMetre = 100;
+  for (const auto& [name, metres] : ShownLengths(person.body.lengths)) {
+    lengths.push_back(fmt::format("{} {:.1f}", name, kCmPerMetre * metres));
+  }
+  text += fmt::format("\nlengths, cm: {}\n", Join(lengths));
   const auto held = std::ranges::count(person.is_held, true);
   if (held > 0) text += fmt::format("{} frames show too little and hold the last pose\n", held);
   return text;
@@ -87,21 +87,18 @@ Json FactsOf(const RecoveredPerson& person, const std::vector<FilmedView>& views
   for (const MarkerAgreement& row : CompareMarkers(JointMarkers(person.motion), points)) {
     if (row.frames > 0) fit.push_back({{"joint", row.name}, {"median_mm", row.median_mm}, {"p95_mm", row.p95_mm}});
   }
-  const LimbLengths& l = person.body.lengths;
+  Json lengths;
+  for (auto [name, metres] : ShownLengths(person.body.lengths)) {
+    std::ranges::replace(name, ' ', '_');
+    lengths[name] = metres;
+  }
   return {{"people", std::ranges::count_if(person.people, [](const auto& one) { return one.cameras >= 2; })},
           {"found_share", person.report.found},
           {"residual_px", person.report.residual_px},
           {"outlier_px", person.outlier_px},
           {"held_frames", std::ranges::count(person.is_held, true)},
           {"cameras", std::move(cameras)},
-          {"lengths_m",
-           {{"shank", l.shank},
-            {"thigh", l.thigh},
-            {"trunk", l.trunk},
-            {"upper_arm", l.upper_arm},
-            {"forearm", l.forearm},
-            {"hips", l.hip_width},
-            {"shoulders", l.shoulder_width}}},
+          {"lengths_m", std::move(lengths)},
           {"fit", std::move(fit)},
           {"told", told}};
 }

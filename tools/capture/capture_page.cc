@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "engine/base/base64.h"
 #include "io/drawing/escape.h"
@@ -42,9 +43,7 @@ std::string CurvesHtml(const std::vector<TakeCurve>& curves, double rate_hz, std
   std::size_t frames = 1;
   for (const TakeCurve& curve : curves) {
     frames = std::max(frames, curve.values.size());
-    for (const auto& value : curve.values) {
-      if (value) all.push_back(*value);
-    }
+    std::ranges::copy(KnownOf(curve.values), std::back_inserter(all));
   }
   if (all.empty()) return "";
   Axis up = AxisAroundZero(all);
@@ -109,10 +108,7 @@ std::string ResidualsHtml(const CameraResiduals& residuals, double rate_hz) {
   if (has_keypoints) heads.emplace_back("Keypoints left out");
   for (const CapturedCamera& camera : residuals.cameras) {
     curves.push_back(camera.residual);
-    std::vector<double> values;
-    for (const auto& value : camera.residual.values) {
-      if (value) values.push_back(*value);
-    }
+    std::vector<double> values = KnownOf(camera.residual.values);
     std::ranges::sort(values);
     const auto rank = [&](double share) {
       if (values.empty()) return std::string("—");
@@ -148,6 +144,14 @@ std::string BodyHtml(const CapturePage& page) {
 }
 
 }  // namespace
+
+std::vector<double> KnownOf(const std::vector<std::optional<double>>& values) {
+  std::vector<double> known;
+  for (const auto& value : values) {
+    if (value) known.push_back(*value);
+  }
+  return known;
+}
 
 std::string WriteCapturePage(const CapturePage& page) {
   return WriteToolPage({.kind = "capture", .title = page.title, .verdict = page.verdict, .version = page.version,

@@ -16,6 +16,9 @@ struct TakeCurve {
   std::vector<std::optional<double>> values;
 };
 
+/// Returns the values of the frames that have one.
+std::vector<double> KnownOf(const std::vector<std::optional<double>>& values);
+
 /// One camera of a captured take.
 struct CapturedCamera {
   std::string name;

@@ -63,6 +63,9 @@ Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPers
 void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vector<FilmedView>& views,
                MessageLog& told);
 
+/// Returns the lengths that reports show, with their names, metres.
+std::vector<std::pair<std::string, double>> ShownLengths(const LimbLengths& lengths);
+
 /// Begins the page of `--report` with the parts that every capture has: title, messages, feet, limb lengths and
 /// command.
 CapturePage BeginPage(const CaptureFilmsOptions& options, const BodyMotion& motion, const LimbLengths& lengths,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include "engine/base/order_statistics.h"
 #include "io/files/files.h"
@@ -90,6 +91,16 @@ CapturePage PageOf(const CaptureFilmsOptions& options, const std::vector<FilmedV
 
 }  // namespace
 
+std::vector<std::pair<std::string, double>> ShownLengths(const LimbLengths& lengths) {
+  return {{"shank", lengths.shank},
+          {"thigh", lengths.thigh},
+          {"trunk", lengths.trunk},
+          {"upper arm", lengths.upper_arm},
+          {"forearm", lengths.forearm},
+          {"hips", lengths.hip_width},
+          {"shoulders", lengths.shoulder_width}};
+}
+
 CapturePage BeginPage(const CaptureFilmsOptions& options, const BodyMotion& motion, const LimbLengths& lengths,
                       const std::vector<std::string>& told) {
   constexpr double kCm = 100;
@@ -99,16 +110,7 @@ CapturePage BeginPage(const CaptureFilmsOptions& options, const BodyMotion& moti
   page.film = options.film;
   page.told = told;
   page.feet_cm = FeetOf(motion);
-  const LimbLengths& l = lengths;
-  for (const auto& [name, metres] : {std::pair("shank", l.shank),
-                                     {"thigh", l.thigh},
-                                     {"trunk", l.trunk},
-                                     {"upper arm", l.upper_arm},
-                                     {"forearm", l.forearm},
-                                     {"hips", l.hip_width},
-                                     {"shoulders", l.shoulder_width}}) {
-    page.lengths_cm.emplace_back(name, kCm * metres);
-  }
+  for (const auto& [name, metres] : ShownLengths(lengths)) page.lengths_cm.emplace_back(name, kCm * metres);
   page.version = options.version;
   page.command = options.command_line;
   return page;
@@ -134,9 +136,7 @@ CameraResiduals ResidualsOfOutlines(const std::vector<FilmedView>& views, const 
 double MedianOf(const CameraResiduals& residuals) {
   std::vector<double> all;
   for (const CapturedCamera& camera : residuals.cameras) {
-    for (const auto& value : camera.residual.values) {
-      if (value) all.push_back(*value);
-    }
+    std::ranges::copy(KnownOf(camera.residual.values), std::back_inserter(all));
   }
   constexpr double kNothingAlike = 100;
   return all.empty() ? kNothingAlike : UpperMedian(std::move(all));

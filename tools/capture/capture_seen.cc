@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "engine/base/named.h"
 #include "engine/keypoints/guess_session.h"
 #include "io/keypoints/read_people.h"
 #include "tools/capture/capture_parts.h"
@@ -230,6 +231,13 @@ Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPers
   return films;
 }
 
+constexpr Named<Mend::Kind> kMends[] = {
+    {"left and right exchanged", Mend::Kind::kSwappedSides},
+    {"left and right of face and arms exchanged", Mend::Kind::kSwappedArms},
+    {"left and right of hips and legs exchanged", Mend::Kind::kSwappedLegs},
+    {"keypoints of another person were replaced by the person's own", Mend::Kind::kOtherPerson},
+    {"keypoints that are not this person's were left out", Mend::Kind::kNobody}};
+
 void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vector<FilmedView>& views,
                MessageLog& told) {
   // Films in which nobody matches the person.
@@ -243,26 +251,8 @@ void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vec
   }
   // Repairs: exchanged sides and exchanged people.
   for (const Mend& mend : person.mends) {
-    const char* what = "";
-    switch (mend.kind) {
-      case Mend::Kind::kSwappedSides:
-        what = "left and right exchanged";
-        break;
-      case Mend::Kind::kSwappedArms:
-        what = "left and right of face and arms exchanged";
-        break;
-      case Mend::Kind::kSwappedLegs:
-        what = "left and right of hips and legs exchanged";
-        break;
-      case Mend::Kind::kOtherPerson:
-        what = "keypoints of another person were replaced by the person's own";
-        break;
-      case Mend::Kind::kNobody:
-        what = "keypoints that are not this person's were left out";
-        break;
-    }
-    told.Tell(
-        fmt::format("corrected: {}: {}, frames {}", views[mend.camera].camera.name, what, FramesText(mend.frames)));
+    told.Tell(fmt::format("corrected: {}: {}, frames {}", views[mend.camera].camera.name,
+                          NameOfValue(kMends, mend.kind), FramesText(mend.frames)));
   }
   // Cameras that disagree with the others, and large triangulation errors.
   constexpr double kDoubtful = 0.1;

@@ -190,14 +190,6 @@ std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const 
   return overlays;
 }
 
-std::vector<double> KnownOf(const std::vector<std::optional<double>>& values) {
-  std::vector<double> known;
-  for (const auto& value : values) {
-    if (value) known.push_back(*value);
-  }
-  return known;
-}
-
 constexpr double kPercent = 100;
 
 /// Reports the findings and the doubts, one line each. Returns why the motion is probably wrong, or "". It is if, in

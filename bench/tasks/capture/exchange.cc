@@ -26,16 +26,9 @@ Json ToJson(const glm::dvec2& v) { return {v.x, v.y}; }
 Json ToJson(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 Json ToJson(const LimbLengths& lengths) {
-  return {{"foot", lengths.foot},
-          {"shank", lengths.shank},
-          {"thigh", lengths.thigh},
-          {"hip_width", lengths.hip_width},
-          {"trunk", lengths.trunk},
-          {"neck", lengths.neck},
-          {"shoulder_width", lengths.shoulder_width},
-          {"upper_arm", lengths.upper_arm},
-          {"forearm", lengths.forearm},
-          {"hand", lengths.hand}};
+  Json json;
+  for (const auto& [name, length] : kLimbLengths) json[name] = lengths.*length;
+  return json;
 }
 
 /// Returns the pairs as the YAML file that `ReadPointPairs` reads.

@@ -146,11 +146,7 @@ PersonalLimbs Measured(const PersonalLimbs& person, double error_mm, const World
   if (error_mm == 0) return person;
   Tape tape(error_mm, key);
   PersonalLimbs measured = person;
-  LimbLengths& l = measured.lengths;
-  for (double* length : {&l.foot, &l.shank, &l.thigh, &l.hip_width, &l.trunk, &l.neck, &l.shoulder_width, &l.upper_arm,
-                         &l.forearm, &l.hand}) {
-    *length = tape.Measure(*length);
-  }
+  for (const auto& [name, length] : kLimbLengths) measured.lengths.*length = tape.Measure(person.lengths.*length);
   for (std::size_t i = 1; i < measured.body.joints.size(); ++i) {
     const RestBody::Joint& joint = person.body.joints[i];
     const glm::dvec3& above = measured.body.joints[joint.parent].position;

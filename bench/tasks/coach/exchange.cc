@@ -69,18 +69,6 @@ class SeatedFollower final : public MoveFollower {
   std::vector<double> spotted_;
 };
 
-class SeatedRecogniser final : public Recogniser {
- public:
-  explicit SeatedRecogniser(SeatedCoachProgram& program) : program_(program) {}
-
-  std::unique_ptr<MoveFollower> Follow(double /*rate_hz*/) const override {
-    return std::make_unique<SeatedFollower>(program_);
-  }
-
- private:
-  SeatedCoachProgram& program_;
-};
-
 class SeatedPolicy final : public MomentSource {
  public:
   explicit SeatedPolicy(SeatedCoachProgram& program) : program_(program) {}
@@ -207,7 +195,7 @@ JsonPtr SeatedCoachProgram::Step(Json step) {
 }
 
 std::unique_ptr<Recogniser> MakeSeatedRecogniser(SeatedCoachProgram& program) {
-  return std::make_unique<SeatedRecogniser>(program);
+  return MakeRecogniser([&program](double /*rate_hz*/) { return std::make_unique<SeatedFollower>(program); });
 }
 
 std::unique_ptr<MomentSource> MakeSeatedPolicy(SeatedCoachProgram& program) {

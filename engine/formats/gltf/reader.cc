@@ -14,6 +14,7 @@
 
 #include "engine/base/names.h"
 #include "engine/base/result.h"
+#include "engine/base/text.h"
 #include "engine/formats/gltf/animation.h"
 #include "engine/formats/gltf/container.h"
 #include "engine/formats/gltf/file.h"
@@ -130,10 +131,8 @@ std::string Complaint(std::string_view text) {
       "`node` field is missing in animation.channels.target",
   };
   while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = text.substr(0, end);
+    const std::string_view line = TakeLine(text);
     if (!line.empty() && std::ranges::find(kHarmless, line) == kHarmless.end()) return std::string(line);
-    text.remove_prefix(std::min(end + 1, text.size()));
   }
   return "";
 }

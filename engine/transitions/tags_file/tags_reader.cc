@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -15,6 +14,7 @@
 
 #include "engine/base/names.h"
 #include "engine/base/result.h"
+#include "engine/base/text.h"
 #include "engine/transitions/tags_file/tags_file.h"
 
 namespace etude {
@@ -222,12 +222,9 @@ class TagsReader {
 
   template <typename T>
   T Parse(std::string_view name, std::string_view text) {
-    T value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) {
-      Complain("{} is {}; allowed: a plain number", name, Quote(text));
-    }
-    return value;
+    const auto value = ParseNumber<T>(text);
+    if (!value) Complain("{} is {}; allowed: a plain number", name, Quote(text));
+    return value.value_or(T{});
   }
   double Number(std::string_view name) { return Parse<double>(name, xml_.Attribute(name)); }
   int Whole(std::string_view name) { return Parse<int>(name, xml_.Attribute(name)); }

@@ -11,20 +11,13 @@
 #include "engine/silhouettes/track_silhouettes.h"
 #include "engine/transitions/choices/choice.h"
 #include "tests/engine/silhouettes/swinging_take.h"
+#include "tests/support/refusal.h"
 
 namespace etude::engine {
 namespace {
 
+using etude::testing::RefusalOf;
 using ::testing::HasSubstr;
-
-std::string RefusalOf(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "";
-}
 
 /// A body that was ray cast into two cameras of 160 × 120 pixels.
 struct SmallTake {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/support/replaced.h"
 #include "tests/support/results.h"
 
 namespace etude {
@@ -96,11 +97,8 @@ TEST(Pose2SimFile, WritesWhatTomlReadersTakeForRealNumbers) {
 }
 
 std::string Broken(const std::string& from, const std::string& to) {
-  std::string text = WritePose2SimCalibration(std::vector{Crooked()});
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  text.replace(at, from.size(), to);
-  const auto read = ReadPose2SimCalibration(text);
+  const std::string text = WritePose2SimCalibration(std::vector{Crooked()});
+  const auto read = ReadPose2SimCalibration(testing::Replaced(text, from, to));
   EXPECT_FALSE(read) << to;
   return read ? "" : ToString(read.error());
 }

@@ -8,6 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/cameras/opencv_file.h"
+#include "tests/support/replaced.h"
 #include "tests/support/results.h"
 
 namespace etude {
@@ -96,12 +97,6 @@ TEST(RigFile, ReadsQualisys) {
   EXPECT_LT(above->y, middle->y);
 }
 
-std::string Changed(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
 TEST(RigFile, RefusedWithPlaceAndReason) {
   const auto reason = [](const std::string& text) {
     const auto rig = ReadRig(text, "rig");
@@ -112,14 +107,15 @@ TEST(RigFile, RefusedWithPlaceAndReason) {
   const std::string good = WriteRig(cameras);
   EXPECT_EQ(reason(good), "no complaint");
   EXPECT_THAT(reason("hello"), HasSubstr("not a calibration; allowed: a rig of etude calibrate"));
-  EXPECT_THAT(reason(Changed(good, "\nright:", "\nwrong:")), HasSubstr("right is listed, but not described"));
-  EXPECT_THAT(reason(Changed(good, "\"right\"", "\"left\"")), HasSubstr("two cameras of the name left"));
-  EXPECT_THAT(reason(Changed(good, "   T:", "   S:")), HasSubstr("camera left: no T"));
+  EXPECT_THAT(reason(testing::Replaced(good, "\nright:", "\nwrong:")), HasSubstr("right is listed, but not described"));
+  EXPECT_THAT(reason(testing::Replaced(good, "\"right\"", "\"left\"")), HasSubstr("two cameras of the name left"));
+  EXPECT_THAT(reason(testing::Replaced(good, "   T:", "   S:")), HasSubstr("camera left: no T"));
   EXPECT_THAT(reason(kQualisys), "no complaint");
-  EXPECT_EQ(reason(Changed(kQualisys, "viewrotation=\"0\"", "viewrotation=\"90\"")), "no complaint");
+  EXPECT_EQ(reason(testing::Replaced(kQualisys, "viewrotation=\"0\"", "viewrotation=\"90\"")), "no complaint");
   EXPECT_THAT(reason("%YAML:1.0\n---\nnames:\n  - \"1\"\n"), HasSubstr("intri.yml and extri.yml"));
-  EXPECT_THAT(reason(Changed(kQualisys, "x=\"3000\"", "x=\"3m\"")), HasSubstr("rig:6: x=\"3m\" is not a number"));
-  EXPECT_THAT(reason(Changed(kQualisys, "</cameras>", "")), HasSubstr("no XML"));
+  EXPECT_THAT(reason(testing::Replaced(kQualisys, "x=\"3000\"", "x=\"3m\"")),
+              HasSubstr("rig:6: x=\"3m\" is not a number"));
+  EXPECT_THAT(reason(testing::Replaced(kQualisys, "</cameras>", "")), HasSubstr("no XML"));
   EXPECT_THAT(reason("<html/>"), HasSubstr("allowed: <calibration>"));
 }
 
@@ -157,7 +153,7 @@ TEST(RigFile, RefusesWhateverNumberIsNotFinite) {
 
 TEST(RigFile, RefusesALensThatItCannotRead) {
   const std::string toml = WritePose2SimCalibration(TwoCameras());
-  EXPECT_THAT(testing::Message(ReadRig(Changed(toml, "fisheye = false", "fisheye = yes"), "rig")),
+  EXPECT_THAT(testing::Message(ReadRig(testing::Replaced(toml, "fisheye = false", "fisheye = yes"), "rig")),
               HasSubstr("fisheye is yes; allowed: true, false"));
 }
 
@@ -216,7 +212,7 @@ TEST(RigPair, ReadsEasyMocapsFiles) {
         EXPECT_EQ(rig->cameras[i].camera.intrinsics.height, has_size ? cameras[i].camera.intrinsics.height : 0);
         ExpectSamePictures(rig->cameras[i].camera, cameras[i].camera, 1e-6);
       }
-      EXPECT_THAT(ToString(ReadRigPair(Changed(inside, "K_b:", "L_b:"), outside, "intri.yml").error()),
+      EXPECT_THAT(ToString(ReadRigPair(testing::Replaced(inside, "K_b:", "L_b:"), outside, "intri.yml").error()),
                   HasSubstr("no K_b"));
     }
   }

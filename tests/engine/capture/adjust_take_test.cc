@@ -22,17 +22,7 @@ const LimbLengths kTall{.foot = 0.2,
 
 std::vector<BodyPose> Poses(int count, double step, const CaptureBody& body) {
   std::vector<BodyPose> poses;
-  for (int k = 0; k < count; ++k) {
-    TreeState state = StandingState(body.tree);
-    const double phase = step * k;
-    state.root_position = {0.1 * std::sin(phase), 0, 0.1 * std::cos(phase)};
-    for (std::size_t i = 0; i < state.angles.size(); ++i) {
-      const AngleRange& range = body.tree.limits[i];
-      const double swing = 0.2 * std::sin(2.0 * static_cast<double>(i) + 1 + phase);
-      state.angles[i] = 0.5 * (range.lower + range.upper) + swing * (range.upper - range.lower);
-    }
-    poses.push_back(ToBodyPose(body, state));
-  }
+  for (int k = 0; k < count; ++k) poses.push_back(ToBodyPose(body, ModelState(body.tree, step * k)));
   return poses;
 }
 

@@ -10,18 +10,22 @@
 
 namespace etude {
 
-/// The tree's body in poses without straight limbs, one for each `phase`, near each other for near ones.
-inline BodyPose ModelPose(double phase = 0) {
-  const KinematicTree body = MakeBodyTree({});
-  TreeState state = StandingState(body);
-  state.root_frame = body.standing_root;
+/// A state without straight limbs, one for each `phase`, near each other for near ones.
+inline TreeState ModelState(const KinematicTree& tree, double phase) {
+  TreeState state = StandingState(tree);
   state.root_position = {0.1 * std::sin(phase), 0, 0.1 * std::cos(phase)};
   for (std::size_t i = 0; i < state.angles.size(); ++i) {
-    const AngleRange& range = body.limits[i];
+    const AngleRange& range = tree.limits[i];
     const double swing = 0.2 * std::sin(2.0 * static_cast<double>(i) + 1 + phase);
     state.angles[i] = 0.5 * (range.lower + range.upper) + swing * (range.upper - range.lower);
   }
-  return ToBodyPose(body, state);
+  return state;
+}
+
+/// The tree's body in such a state.
+inline BodyPose ModelPose(double phase = 0) {
+  const KinematicTree body = MakeBodyTree({});
+  return ToBodyPose(body, ModelState(body, phase));
 }
 
 /// A camera around the stage: 0° = in front of the body, 90° = at its left hand.

@@ -11,6 +11,7 @@
 #include "tests/support/person.h"
 #include "tests/support/random_clip.h"
 #include "tests/support/read_body.h"
+#include "tests/support/replaced.h"
 #include "tests/support/results.h"
 
 namespace etude {

@@ -6,6 +6,7 @@
 
 #include "engine/formats/bvh.h"
 #include "tests/engine/formats/small_bvh.h"
+#include "tests/support/replaced.h"
 #include "tests/support/results.h"
 
 namespace etude {

@@ -8,6 +8,7 @@
 #include "engine/base/angles.h"
 #include "tests/engine/formats/small_bvh.h"
 #include "tests/support/person.h"
+#include "tests/support/replaced.h"
 #include "tests/support/results.h"
 
 namespace etude {

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "sim/choreography/move.h"
+#include "tests/support/replaced.h"
 
 namespace etude {
 namespace {
@@ -60,10 +61,7 @@ TEST(MotionBids, SaysWhatIsWrong) {
     const auto read = ReadMotionBids(rows, channels, 50, kFiles);
     return read ? "read" : ToString(read.error());
   };
-  const auto with = [](const std::string& from, const std::string& to) {
-    std::string text = kChannels;
-    return text.replace(text.find(from), from.size(), to);
-  };
+  const auto with = [](const char* from, const char* to) { return testing::Replaced(kChannels, from, to); };
   const std::string row = "1\t2\t3\t4\n";
   EXPECT_EQ(reason(row, kChannels), "read") << "the control";
   EXPECT_THAT(reason("1\t2\n", kChannels), HasSubstr("m.tsv:1: 2 columns, but 4 channels in c.tsv"));

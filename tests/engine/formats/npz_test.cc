@@ -10,6 +10,7 @@
 #include "engine/base/angles.h"
 #include "engine/formats/amass.h"
 #include "engine/formats/motive_csv.h"
+#include "tests/support/replaced.h"
 #include "tests/support/results.h"
 
 namespace etude {
@@ -213,9 +214,7 @@ TEST(MotiveCsv, ReadsBonesInMetresAndLeavesGaps) {
 
 TEST(MotiveCsv, TakesTheRateThatIsTold) {
   const auto reason = [](const std::string& from, const std::string& to) {
-    std::string text = MotiveTake();
-    text.replace(text.find(from), from.size(), to);
-    const auto read = ReadMotiveCsv(text, "a.csv");
+    const auto read = ReadMotiveCsv(testing::Replaced(MotiveTake(), from, to), "a.csv");
     return read ? std::string("(read)") : ToString(read.error());
   };
   EXPECT_EQ(reason("Export Frame Rate,60.0", "Export Frame Rate,"), "(read)") << "Capture Frame Rate counts";

@@ -1,17 +1,14 @@
 #include <gtest/gtest.h>
 
 #include "engine/fuzzy/fuzzy_system.h"
+#include "tests/support/replaced.h"
 
 namespace etude {
 namespace {
 
 // The system of paper A with something else in it, and what is said of that.
 std::string ComplaintOf(const std::string& found, const std::string& replacement) {
-  std::string text = WriteFuzzySystem({});
-  const std::size_t at = text.find(found);
-  EXPECT_NE(at, std::string::npos) << found;
-  if (at != std::string::npos) text.replace(at, found.size(), replacement);
-  const auto read = ReadFuzzySystem(text, "f.yaml");
+  const auto read = ReadFuzzySystem(testing::Replaced(WriteFuzzySystem({}), found, replacement), "f.yaml");
   return read ? "none" : ToString(read.error());
 }
 

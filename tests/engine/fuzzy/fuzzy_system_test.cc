@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "tests/support/replaced.h"
 #include "tests/support/results.h"
 
 namespace etude {
@@ -23,10 +24,7 @@ std::string PaperText() {
 
 /// The paper's file with one text replaced, which must be there.
 std::string With(const std::string& found, const std::string& replacement) {
-  std::string text = PaperText();
-  const std::size_t at = text.find(found);
-  EXPECT_NE(at, std::string::npos) << found;
-  return text.replace(at, found.size(), replacement);
+  return testing::Replaced(PaperText(), found, replacement);
 }
 
 std::string Complaint(const std::string& text) {

@@ -17,6 +17,7 @@
 #include "tests/engine/retargeting/turned_bodies.h"
 #include "tests/support/gaps.h"
 #include "tests/support/kept_lines.h"
+#include "tests/support/replaced.h"
 #include "tests/support/results.h"
 
 namespace etude {
@@ -39,12 +40,6 @@ std::vector<std::map<std::string, double>> RowsOf(const std::string& mot) {
     for (const std::string& name : names) words >> row[name];
   }
   return rows;
-}
-
-std::string OneReplaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
 }
 
 TEST(OpenSimMotion, ReadsBackWhereTheJointsWere) {
@@ -135,7 +130,7 @@ TEST(OpenSimMotion, ReadsRadiansAndClocksWithGaps) {
   const BodyPose rest = StandingPose();
   const std::string good = WriteOpenSimMotion({.rate_hz = 25, .poses = {rest, rest, rest}}, rest, "");
   const auto rate = [&](const std::string& from, const std::string& to) {
-    return ReadOpenSimMotion(OneReplaced(good, from, to), "a.mot").value().rate_hz;
+    return ReadOpenSimMotion(testing::Replaced(good, from, to), "a.mot").value().rate_hz;
   };
   EXPECT_EQ(rate("inDegrees=yes", "inDegrees=no"), 25);
   EXPECT_EQ(rate("\n0.040000", "\n0.060000"), 50) << "two rows are missing";
@@ -209,7 +204,7 @@ TEST(OpenSimMotion, ComplaintsAreAsTheyWere) {
   testing::ComplaintLines complaints;
   for (const std::string& change : testing::Parts(changes)) {
     const std::vector<std::string> both = testing::Parts(change, '>');
-    complaints.Add(Quote(change), std::vector{OneReplaced(text, both[0], both[1])}, read);
+    complaints.Add(Quote(change), std::vector{testing::Replaced(text, both[0], both[1])}, read);
   }
   for (const double rate : {0.05, 0.1, 30.0, 29.97, 10000.0, 20000.0}) {
     motion.rate_hz = rate;

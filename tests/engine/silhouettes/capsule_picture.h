@@ -6,12 +6,29 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "engine/base/angles.h"
 #include "engine/base/image.h"
 #include "engine/cameras/camera.h"
 #include "engine/kinematics/tree.h"
 #include "engine/silhouettes/silhouette_body.h"
 
 namespace etude {
+
+/// An angle of a body's joint.
+struct Bend {
+  int joint, axis;
+  double degrees;
+};
+
+/// The body as it stands, but for these bends.
+inline TreeState Bent(const SilhouetteBody& body, const std::vector<Bend>& bends) {
+  TreeState state = StandingState(body.tree);
+  for (std::size_t i = 0; i < state.angles.size(); ++i) state.angles[i] = body.habits[i].angle;
+  for (const auto& [joint, axis, degrees] : bends) {
+    state.angles[body.tree.joints[joint].first_dof + axis] = Radians(degrees);
+  }
+  return state;
+}
 
 /// A ball as a camera sees it.
 struct SeenBall {

@@ -17,16 +17,11 @@ namespace {
 
 // Standing with one arm raised sideways, the other bent, one knee bent.
 TreeState Posed(const SilhouetteBody& body, double phase = 0) {
-  TreeState state = StandingState(body.tree);
-  for (std::size_t i = 0; i < state.angles.size(); ++i) state.angles[i] = body.habits[i].angle;
-  const auto set = [&](int joint, int axis, double degrees) {
-    state.angles[body.tree.joints[joint].first_dof + axis] = Radians(degrees);
-  };
-  set(body.limbs[0].upper, 1, -60 + 10 * std::sin(phase));
-  set(body.limbs[1].upper, 0, 40 + 25 * std::sin(phase));
-  set(body.limbs[1].lower, 0, 70 + 20 * std::cos(phase));
-  set(body.limbs[3].upper, 0, 40 + 20 * std::cos(phase));
-  set(body.limbs[3].lower, 0, -60);
+  TreeState state = Bent(body, {{body.limbs[0].upper, 1, -60 + 10 * std::sin(phase)},
+                                {body.limbs[1].upper, 0, 40 + 25 * std::sin(phase)},
+                                {body.limbs[1].lower, 0, 70 + 20 * std::cos(phase)},
+                                {body.limbs[3].upper, 0, 40 + 20 * std::cos(phase)},
+                                {body.limbs[3].lower, 0, -60}});
   state.root_position = {0.05 * std::sin(phase), 0.95, 0};
   return state;
 }

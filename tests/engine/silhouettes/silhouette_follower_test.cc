@@ -23,9 +23,7 @@ std::vector<std::optional<SilhouetteFit>> Follow(const SwingingTake& take, Silho
 }
 
 double MeanErrorOf(const SwingingTake& take, const std::vector<std::optional<SilhouetteFit>>& told) {
-  double sum = 0;
-  for (std::size_t k = 0; k < told.size(); ++k) sum += take.MeanErrorOf(k, told[k]->state);
-  return sum / static_cast<double>(told.size());
+  return MeanErrorOver(take, [&](std::size_t k) { return told[k]->state; });
 }
 
 TEST(SilhouetteFollower, FollowsABodyFromAKnownStartAndFindsOneFromNone) {
@@ -46,19 +44,14 @@ TEST(SilhouetteFollower, IsLostWhereCamerasAreConfused) {
 
 TEST(SilhouetteFollower, FindsOutHowThickThePersonIs) {
   const SwingingTake take(22, 1.15);
-  const auto mean_radius = [](const SilhouetteBody& body) {
-    double sum = 0;
-    for (const FleshCapsule& flesh : body.flesh) sum += flesh.radius_a;
-    return sum;
-  };
   TrackOptions options = TrackInSmallPictures();
   SilhouetteFollower fitted(take.body, take.matrices, take.truth[0], options);
   Follow(take, fitted);
-  EXPECT_NEAR(mean_radius(fitted.body()) / mean_radius(take.body), 1.15, 0.06);
+  EXPECT_NEAR(SumOfRadii(fitted.body()) / SumOfRadii(take.body), 1.15, 0.06);
   options.thickness_passes = 0;
   SilhouetteFollower average(take.body, take.matrices, take.truth[0], options);
   Follow(take, average);
-  EXPECT_EQ(mean_radius(average.body()), mean_radius(take.body));
+  EXPECT_EQ(SumOfRadii(average.body()), SumOfRadii(take.body));
 }
 
 TEST(SilhouetteFollower, TellsNothingWhereNobodyIsShownAndGoesOnAfterwards) {

@@ -14,16 +14,11 @@ namespace etude {
 
 // An arm that swings, facing half to the left.
 inline TreeState Swinging(const SilhouetteBody& body, double phase) {
-  TreeState state = StandingState(body.tree);
-  for (std::size_t i = 0; i < state.angles.size(); ++i) state.angles[i] = body.habits[i].angle;
-  const auto set = [&](int joint, int axis, double degrees) {
-    state.angles[body.tree.joints[joint].first_dof + axis] = Radians(degrees);
-  };
-  set(body.limbs[0].upper, 1, -60);
-  set(body.limbs[1].upper, 0, 60 + 40 * std::sin(phase));
-  set(body.limbs[1].lower, 0, 60);
-  set(body.limbs[2].upper, 0, 35);
-  set(body.limbs[2].lower, 0, -50);
+  TreeState state = Bent(body, {{body.limbs[0].upper, 1, -60},
+                                {body.limbs[1].upper, 0, 60 + 40 * std::sin(phase)},
+                                {body.limbs[1].lower, 0, 60},
+                                {body.limbs[2].upper, 0, 35},
+                                {body.limbs[2].lower, 0, -50}});
   state.root_position = {0, 0.95, 0};
   state.root_frame = RotationBy({0, 0.6, 0}) * state.root_frame;
   return state;
@@ -54,6 +49,20 @@ struct SwingingTake {
     return sum / static_cast<double>(kRoleCount);
   }
 };
+
+/// The mean error over frames that are all found; `state_of(k)` is the k-th found state.
+template <typename StateOf>
+double MeanErrorOver(const SwingingTake& take, const StateOf& state_of) {
+  double sum = 0;
+  for (std::size_t k = 0; k < take.truth.size(); ++k) sum += take.MeanErrorOf(k, state_of(k));
+  return sum / static_cast<double>(take.truth.size());
+}
+
+inline double SumOfRadii(const SilhouetteBody& body) {
+  double sum = 0;
+  for (const FleshCapsule& flesh : body.flesh) sum += flesh.radius_a;
+  return sum;
+}
 
 inline TrackOptions TrackInSmallPictures() {
   TrackOptions options;

@@ -12,9 +12,7 @@ namespace etude {
 namespace {
 
 double MeanErrorOf(const SwingingTake& take, const SilhouetteTrack& track) {
-  double sum = 0;
-  for (std::size_t k = 0; k < take.truth.size(); ++k) sum += take.MeanErrorOf(k, track.frames[k]->state);
-  return sum / static_cast<double>(take.truth.size());
+  return MeanErrorOver(take, [&](std::size_t k) { return track.frames[k]->state; });
 }
 
 TEST(TrackSilhouettes, FindsAndFollowsABodyThatNobodyHasShownIt) {
@@ -60,13 +58,8 @@ TEST(TrackSilhouettes, FindsOutHowThickThePersonIs) {
   const SilhouetteTrack fitted = TrackSilhouettes(take.body, seen, options);
   options.thickness_passes = 0;
   const SilhouetteTrack average = TrackSilhouettes(take.body, seen, options);
-  const auto mean_radius = [](const SilhouetteBody& body) {
-    double sum = 0;
-    for (const FleshCapsule& flesh : body.flesh) sum += flesh.radius_a;
-    return sum;
-  };
-  EXPECT_NEAR(mean_radius(fitted.body) / mean_radius(take.body), 1.15, 0.05);
-  EXPECT_EQ(mean_radius(average.body), mean_radius(take.body));
+  EXPECT_NEAR(SumOfRadii(fitted.body) / SumOfRadii(take.body), 1.15, 0.05);
+  EXPECT_EQ(SumOfRadii(average.body), SumOfRadii(take.body));
   EXPECT_LT(MeanErrorOf(take, fitted), MeanErrorOf(take, average) + 0.002);
 }
 

@@ -82,6 +82,17 @@ inline std::vector<glm::dvec3> KinectV2Joints(const BodyPose& pose) {
   return joints;
 }
 
+/// A Kinect v2's rows, `unit` to a metre; `rest` is put after each place.
+inline std::string KinectV2Text(const BodyMotion& motion, const std::string& rest, double unit = 1) {
+  std::string text;
+  for (const BodyPose& pose : motion.poses) {
+    for (const glm::dvec3& p : KinectV2Joints(pose))
+      text += fmt::format("{} {} {}{} ", unit * p.x, unit * p.y, unit * p.z, rest);
+    text += '\n';
+  }
+  return text;
+}
+
 /// NTU's text with one body, or none in the frame `without`; every joint in `state`.
 inline std::string NtuText(const BodyMotion& motion, int state = 2, std::size_t without = 1000000) {
   std::string text = fmt::format("{}\n", motion.poses.size());

@@ -139,18 +139,6 @@ TEST(Streams, RowsOfNumbersAreUnderstoodAsTheyWere) {
   EXPECT_TRUE(testing::AreKept(told, "tests/engine/streams/rows.txt"));
 }
 
-/// A Kinect v2's rows; `rest` is put after each place.
-std::string KinectV2Rows(const BodyMotion& motion, const std::string& rest, double unit) {
-  std::string text;
-  for (const BodyPose& pose : motion.poses) {
-    for (const glm::dvec3& p : testing::KinectV2Joints(pose)) {
-      text += fmt::format("{} {} {}{} ", unit * p.x, unit * p.y, unit * p.z, rest);
-    }
-    text += '\n';
-  }
-  return text;
-}
-
 TEST(Streams, FilesThatSayMoreAreUnderstoodAsTheyWere) {
   BodyMotion motion = RestlessMotion("boxing", 0.5);
   motion.poses.resize(80);
@@ -167,10 +155,10 @@ TEST(Streams, FilesThatSayMoreAreUnderstoodAsTheyWere) {
         trc,
         AllReplaced(trc, "left_foot", "leftest"),
         AllReplaced(trc, "\thead\t", "\tskull\t"),
-        KinectV2Rows(wave, "", 100),
-        KinectV2Rows(wave, " 0 0 0 1", 1),
-        KinectV2Rows(wave, " 2", 1000),
-        KinectV2Rows(wave, " 1", 40),
+        testing::KinectV2Text(wave, "", 100),
+        testing::KinectV2Text(wave, " 0 0 0 1", 1),
+        testing::KinectV2Text(wave, " 2", 1000),
+        testing::KinectV2Text(wave, " 1", 40),
         ntu,
         testing::NtuText(wave, 1),
         testing::NtuText(wave, 0),

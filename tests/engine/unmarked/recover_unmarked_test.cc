@@ -18,17 +18,12 @@ constexpr int kUnmarkedFrames = 16;
 
 /// Steps sideways while an arm and a leg swing.
 TreeState Moving(const SilhouetteBody& body, int frame) {
-  TreeState state = StandingState(body.tree);
-  for (std::size_t i = 0; i < state.angles.size(); ++i) state.angles[i] = body.habits[i].angle;
-  const auto set = [&](int joint, int axis, double degrees) {
-    state.angles[body.tree.joints[joint].first_dof + axis] = Radians(degrees);
-  };
   const double phase = 0.3 * frame;
-  set(body.limbs[0].upper, 1, -70 + 15 * std::sin(phase));
-  set(body.limbs[1].upper, 0, 50 + 30 * std::sin(phase));
-  set(body.limbs[1].lower, 0, 60);
-  set(body.limbs[2].upper, 0, 30 + 15 * std::cos(phase));
-  set(body.limbs[2].lower, 0, -40);
+  TreeState state = Bent(body, {{body.limbs[0].upper, 1, -70 + 15 * std::sin(phase)},
+                                {body.limbs[1].upper, 0, 50 + 30 * std::sin(phase)},
+                                {body.limbs[1].lower, 0, 60},
+                                {body.limbs[2].upper, 0, 30 + 15 * std::cos(phase)},
+                                {body.limbs[2].lower, 0, -40}});
   state.root_position = {-0.6 + 0.08 * frame, 0.97, 0};
   return state;
 }

@@ -7,6 +7,7 @@
 
 #include "engine/vision/limb_colours.h"
 #include "engine/vision/person_finder.h"
+#include "tests/engine/vision/pen.h"
 #include "tests/support/fingerprint.h"
 
 namespace etude {
@@ -35,20 +36,6 @@ void AddEvidence(Fingerprint& print, const PictureEvidence& seen) {
     print.Add(limb->line.a).Add(limb->line.b).Add(limb->seen_share).Add(limb->contrast).Add(limb->half_width);
   }
   print.Add(seen.joints);
-}
-
-/// Every pixel centre of the picture within `radius` of the segment; with flat ends none before a or behind b.
-template <typename Put>
-void Draw(int width, int height, const glm::dvec2& a, const glm::dvec2& b, double radius, bool is_flat, Put put) {
-  const glm::dvec2 along = b - a, low = glm::min(a, b) - radius - 1.0, high = glm::max(a, b) + radius + 1.0;
-  for (int y = std::max(0, static_cast<int>(low.y)); y < std::min<double>(height, high.y); ++y) {
-    for (int x = std::max(0, static_cast<int>(low.x)); x < std::min<double>(width, high.x); ++x) {
-      const glm::dvec2 p(x + 0.5, y + 0.5);
-      const double share = glm::dot(p - a, along) / glm::dot(along, along);
-      if (is_flat && (share < 0 || share > 1)) continue;
-      if (glm::distance(p, a + std::clamp(share, 0.0, 1.0) * along) < radius) put(x, y, share);
-    }
-  }
 }
 
 /// Colours of a circle of hues a fourteenth apart.
@@ -98,7 +85,7 @@ SuitPicture AnyoneInSuit(testing::Dice& dice, bool is_flat) {
   }
   for (std::size_t i = parts.size(); i-- > 1;) std::swap(parts[i], parts[dice.Below(i + 1)]);
   for (const Part& part : parts) {
-    Draw(made.picture.width, made.picture.height, part.a, part.b, part.radius, is_flat, [&](int x, int y, double) {
+    DrawPen(made.picture.width, made.picture.height, part.a, part.b, part.radius, is_flat, [&](int x, int y, double) {
       made.picture.At(x, y) = Noisy(dice, part.colour, 0.7 + 0.003 * x, 9);
       made.person.At(x, y) = dice.Below(9) != 0;
     });

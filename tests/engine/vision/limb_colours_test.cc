@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/angles.h"
+#include "tests/engine/vision/pen.h"
 
 namespace etude {
 namespace {
@@ -35,15 +36,8 @@ struct Canvas {
 
   /// Every pixel centre within `radius` of the segment; with flat ends none before a or behind b.
   void Draw(const glm::dvec2& a, const glm::dvec2& b, double radius, Rgb8 colour, bool has_flat_ends = false) {
-    const glm::dvec2 along = b - a;
-    for (int y = 0; y < picture.height; ++y) {
-      for (int x = 0; x < picture.width; ++x) {
-        const glm::dvec2 p(x + 0.5, y + 0.5);
-        const double share = glm::dot(p - a, along) / glm::dot(along, along);
-        if (has_flat_ends && (share < 0 || share > 1)) continue;
-        if (glm::distance(p, a + std::clamp(share, 0.0, 1.0) * along) < radius) picture.At(x, y) = colour;
-      }
-    }
+    DrawPen(picture.width, picture.height, a, b, radius, has_flat_ends,
+            [&](int x, int y, double) { picture.At(x, y) = colour; });
   }
   Marks Read() const { return ReadLimbColours(picture, person, Suit()); }
 };

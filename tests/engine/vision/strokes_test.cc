@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "engine/base/angles.h"
+#include "tests/engine/vision/pen.h"
 #include "tests/support/results.h"
 
 namespace etude {
@@ -13,15 +13,8 @@ namespace {
 
 // A straight stroke of a round pen, its halves in the mark's two shades: every pixel whose centre the pen covers.
 void DrawStroke(ColourImage& picture, const StrokeMark& mark, const glm::dvec2& from, const glm::dvec2& to) {
-  const glm::dvec2 along = to - from;
-  for (int y = 0; y < picture.height; ++y) {
-    for (int x = 0; x < picture.width; ++x) {
-      const glm::dvec2 pixel(x + 0.5, y + 0.5);
-      const double share = glm::dot(pixel - from, along) / glm::dot(along, along);
-      const double distance = glm::distance(pixel, from + std::clamp(share, 0.0, 1.0) * along);
-      if (distance < kStrokeWidth / 2) picture.At(x, y) = share < 0.5 ? mark.first_half : mark.second_half;
-    }
-  }
+  DrawPen(picture.width, picture.height, from, to, kStrokeWidth / 2, /*has_flat_ends=*/false,
+          [&](int x, int y, double share) { picture.At(x, y) = share < 0.5 ? mark.first_half : mark.second_half; });
 }
 
 TEST(Strokes, HaveNoTwoEqualColoursAndNoBlackOne) {

@@ -18,10 +18,6 @@ void Rig(std::string_view bytes) {
   const auto rig = ReadRig(bytes, kFile);
   if (rig) Required(ReadRig(WriteRig(*rig), kFile), "a rig that was written is not read");
 }
-void OpenCv(std::string_view bytes) {
-  const auto camera = ReadOpenCvCamera(bytes);
-  if (camera) Required(ReadOpenCvCamera(WriteOpenCvCamera(*camera)), "a camera that was written is not read");
-}
 void Pose2Sim(std::string_view bytes) {
   const auto rig = ReadPose2SimCalibration(bytes);
   if (rig) Required(ReadPose2SimCalibration(WritePose2SimCalibration(*rig)), "a rig that was written is not read");
@@ -50,8 +46,10 @@ std::vector<std::string> RigSeeds() {
 
 std::vector<Target> CameraTargets() {
   return {
-      {"rig", Rig, RigSeeds, {"!!opencv-matrix", "%YAML:1.0", "dt: d", "<!DOCTYPE", "&amp;"}},
-      {"camera-opencv", OpenCv, OpenCvSeeds, {"!!opencv-matrix", "%YAML:1.0", "rows:", "cols:", ".Nan", ".Inf"}},
+      {"rig",
+       Rig,
+       RigSeeds,
+       {"!!opencv-matrix", "%YAML:1.0", "dt: d", "rows:", "cols:", ".Nan", ".Inf", "<!DOCTYPE", "&amp;"}},
       {"camera-pose2sim", Pose2Sim, Pose2SimSeeds, {"[metadata]", "fisheye = true", "nan", "inf", "#"}},
       {"camera-qualisys",
        Qualisys,

@@ -25,19 +25,12 @@ void Recording(std::string_view bytes) {
 
 void AnyRecording(std::string_view bytes) { MakeEven(ReadStreamRecording(bytes, kFile)); }
 
-std::string KinectV2Text(const std::string& fourth) {
-  std::string text;
-  for (const BodyPose& pose : WavingMotion(3).poses) {
-    for (const glm::dvec3& p : testing::KinectV2Joints(pose))
-      text += fmt::format("{} {} {} {} ", p.x, p.y, p.z, fourth);
-    text += '\n';
-  }
-  return text;
-}
-
 std::vector<std::string> CsvSeeds() { return {WriteJointCsv(WavingMotion(3))}; }
 std::vector<std::string> TrcSeeds() { return {WriteTrc(WavingMotion(3), "seed")}; }
-std::vector<std::string> KinectV2Seeds() { return {KinectV2Text(""), KinectV2Text("2"), KinectV2Text("0 0 0 1")}; }
+std::vector<std::string> KinectV2Seeds() {
+  const BodyMotion wave = WavingMotion(3);
+  return {testing::KinectV2Text(wave, " "), testing::KinectV2Text(wave, " 2"), testing::KinectV2Text(wave, " 0 0 0 1")};
+}
 std::vector<std::string> KinectV1Seeds() {
   const std::string rows = testing::KinectV1Text(WavingMotion(3));
   return {rows, testing::KinectV1Text(WavingMotion(3), "2"), testing::WithClock(rows, 1e9, 333333)};

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/replaced.h"
 #include "tests/support/results.h"
 
 namespace etude {
@@ -26,10 +27,7 @@ std::string Complaint(std::string text) {
 }
 
 std::string Spoilt(const std::string& what, const std::string& with) {
-  std::string text = WriteRealTake(SomeTake());
-  const std::size_t at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << what;
-  return text.replace(at, what.size(), with);
+  return testing::Replaced(WriteRealTake(SomeTake()), what, with);
 }
 
 TEST(RealTake, IsReadAsItWasWritten) {

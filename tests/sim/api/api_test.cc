@@ -10,21 +10,13 @@
 #include "sim/choreography/canonical_body.h"
 #include "sim/rig/rig.h"
 #include "sim/skeleton_sensor/skeleton_sensor.h"
+#include "tests/support/refusal.h"
 
 namespace etude::sim {
 namespace {
 
-using testing::HasSubstr;
-
-template <typename Act>
-std::string RefusalOf(const Act& act) {
-  try {
-    act();
-  } catch (const engine::BadInput& error) {
-    return error.what();
-  }
-  return "";
-}
+using etude::testing::RefusalOf;
+using ::testing::HasSubstr;
 
 /// A person who glides sideways, 3 m from the origin.
 BodyMotion Gliding() {

@@ -6,20 +6,13 @@
 #include "engine/coaching/session.h"
 #include "engine/recognition/recognisers.h"
 #include "sim/choreography/dance_of.h"
+#include "tests/support/refusal.h"
 
 namespace etude::sim {
 namespace {
 
-using testing::HasSubstr;
-
-std::string WhyNot(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const engine::BadInput& error) {
-    return error.what();
-  }
-  return "";
-}
+using etude::testing::RefusalOf;
+using ::testing::HasSubstr;
 
 /// A player who dances along, and stands still from the 600th frame on.
 SensedFrame PlayerAt(const BodyMotion& motion, std::size_t frame) {
@@ -62,24 +55,25 @@ TEST(BuiltinDance, TheCoachOfASongStepsAsTheEnginesDoesToTheLastBit) {
     }
     modes.insert(ModeName(shown.mode));
   }
-  EXPECT_THAT(events, testing::IsSupersetOf({"right", "wrong", "corrects", "transition"}));
-  EXPECT_THAT(modes, testing::IsSupersetOf({"dance", "correct"}));
+  EXPECT_THAT(events, ::testing::IsSupersetOf({"right", "wrong", "corrects", "transition"}));
+  EXPECT_THAT(modes, ::testing::IsSupersetOf({"dance", "correct"}));
 }
 
 TEST(BuiltinDance, ACoachRefusesADanceThatIsNone) {
   const BuiltinDance builtin = DanceOfSong(SongNames().front());
-  EXPECT_THAT(WhyNot([] { DanceOfSong("hymn"); }), HasSubstr("song 'hymn'; allowed: "));
-  EXPECT_THAT(WhyNot([] { engine::Coach({}, {}); }), HasSubstr("has 0 frames; at least 2"));
-  EXPECT_THAT(WhyNot([&] { engine::Coach(builtin.dance, {}); }), HasSubstr("0 moves; allowed: the "));
-  EXPECT_THAT(WhyNot([&] { engine::Coach(builtin.dance, builtin.moves, {.policy = "oracle"}); }),
+  EXPECT_THAT(RefusalOf([] { DanceOfSong("hymn"); }), HasSubstr("song 'hymn'; allowed: "));
+  EXPECT_THAT(RefusalOf([] { engine::Coach({}, {}); }), HasSubstr("has 0 frames; at least 2"));
+  EXPECT_THAT(RefusalOf([&] { engine::Coach(builtin.dance, {}); }), HasSubstr("0 moves; allowed: the "));
+  EXPECT_THAT(RefusalOf([&] { engine::Coach(builtin.dance, builtin.moves, {.policy = "oracle"}); }),
               HasSubstr("policy 'oracle'; allowed: at-first-mistake"));
-  EXPECT_THAT(WhyNot([&] { engine::Coach(builtin.dance, builtin.moves, {.recogniser = "key-pose"}); }),
+  EXPECT_THAT(RefusalOf([&] { engine::Coach(builtin.dance, builtin.moves, {.recogniser = "key-pose"}); }),
               HasSubstr("allowed: whole-body, dtw, nearest"));
-  EXPECT_THAT(WhyNot([&] { engine::Coach(builtin.dance, builtin.moves, {.right_from = 0.0}); }),
+  EXPECT_THAT(RefusalOf([&] { engine::Coach(builtin.dance, builtin.moves, {.right_from = 0.0}); }),
               HasSubstr("right_from 0; allowed: above 0"));
   auto renamed = builtin.moves;
   renamed.front().name = "jig";
-  EXPECT_THAT(WhyNot([&] { engine::Coach(builtin.dance, renamed); }), HasSubstr("move 0: 'jig'; allowed: the dance's"));
+  EXPECT_THAT(RefusalOf([&] { engine::Coach(builtin.dance, renamed); }),
+              HasSubstr("move 0: 'jig'; allowed: the dance's"));
 }
 
 }  // namespace

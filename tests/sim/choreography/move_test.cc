@@ -9,25 +9,14 @@
 #include "sim/choreography/canonical_body.h"
 #include "tests/sim/choreography/key_poses_shown.h"
 #include "tests/sim/choreography/measures.h"
+#include "tests/sim/performer/all_moves.h"
+#include "tests/support/replaced.h"
 #include "tests/support/results.h"
 
 namespace etude {
 namespace {
 
 using ::testing::HasSubstr;
-
-const std::vector<Move>& AllMoves() {
-  static const std::vector<Move> moves = [] {
-    std::vector<Move> loaded;
-    for (const std::string& name : BuiltinMoveNames()) {
-      auto move = LoadBuiltinMove(name);
-      EXPECT_TRUE(move) << ToString(move.error());
-      if (move) loaded.push_back(std::move(*move));
-    }
-    return loaded;
-  }();
-  return moves;
-}
 
 const BodyPose& FrameAt(const Move& move, double beat) {
   const std::size_t frames = move.motion.poses.size();
@@ -121,11 +110,7 @@ key_poses:
 )";
 
 std::string ComplaintAbout(const std::string& from, const std::string& to) {
-  std::string yaml(kSmallMove);
-  const std::size_t at = yaml.find(from);
-  EXPECT_NE(at, std::string::npos);
-  yaml.replace(at, from.size(), to);
-  const auto move = ParseMove(yaml, "nod.yaml");
+  const auto move = ParseMove(testing::Replaced(kSmallMove, from, to), "nod.yaml");
   EXPECT_FALSE(move);
   return move ? "" : ToString(move.error());
 }
@@ -171,9 +156,7 @@ TEST(ParseMove, SuitsItsOwnTempoUnlessARangeIsGiven) {
 
 TEST(ParseMove, ReachesAPoseAsItsEaseSays) {
   const auto bend_before = [](const std::string& ease) {
-    std::string yaml(kSmallMove);
-    yaml.replace(yaml.find("neck:"), 5, "ease: " + ease + ", neck:");
-    const auto move = ParseMove(yaml, "nod.yaml");
+    const auto move = ParseMove(testing::Replaced(kSmallMove, "neck:", "ease: " + ease + ", neck:"), "nod.yaml");
     EXPECT_TRUE(move) << ToString(move.error());
     return move->curves.At(0.5)[MiddleControl::kNeckBend];
   };
@@ -183,8 +166,7 @@ TEST(ParseMove, ReachesAPoseAsItsEaseSays) {
 }
 
 TEST(ParseMove, MirrorsTheFirstHalf) {
-  std::string yaml(kSmallMove);
-  yaml.replace(yaml.find("beats: 2"), 8, "beats: 4\nsecond_half_mirrored: true");
+  const std::string yaml = testing::Replaced(kSmallMove, "beats: 2", "beats: 4\nsecond_half_mirrored: true");
   ASSERT_OK(move, ParseMove(yaml, "nod.yaml"));
   EXPECT_NEAR(move->curves.At(1.04).Of(Side::kLeft, SideControl::kArmForward),
               move->curves.At(3.04).Of(Side::kRight, SideControl::kArmForward), 1e-12);

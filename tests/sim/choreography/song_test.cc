@@ -11,6 +11,7 @@
 #include "sim/choreography/canonical_body.h"
 #include "tests/sim/choreography/key_poses_shown.h"
 #include "tests/sim/choreography/measures.h"
+#include "tests/support/replaced.h"
 #include "tests/support/results.h"
 
 namespace etude {
@@ -213,12 +214,7 @@ parts:
   - {move: jump}
 )";
 
-std::string With(const std::string& from, const std::string& to) {
-  std::string yaml(kSmallSong);
-  const std::size_t at = yaml.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return yaml.replace(at, from.size(), to);
-}
+std::string With(const std::string& from, const std::string& to) { return testing::Replaced(kSmallSong, from, to); }
 
 std::string ComplaintOfSong(const std::string& from, const std::string& to) {
   const auto song = ParseSong(With(from, to), "small.yaml");

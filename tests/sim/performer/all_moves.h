@@ -19,4 +19,14 @@ inline const std::vector<Move>& AllMoves() {
   return moves;
 }
 
+/// Returns the built-in moves of those names as one motion.
+inline BodyMotion AfterEachOther(const std::vector<std::string>& names) {
+  BodyMotion motion;
+  for (const std::string& name : names) {
+    const BodyMotion next = LoadBuiltinMove(name).value().motion;
+    motion.poses.insert(motion.poses.end(), next.poses.begin(), next.poses.end());
+  }
+  return motion;
+}
+
 }  // namespace etude

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "sim/choreography/move.h"
 #include "sim/skeleton_sensor/skeleton_sensor.h"
+#include "tests/sim/performer/all_moves.h"
 #include "tests/sim/skeleton_sensor/whole_motion.h"
 
 // The model against its own closed forms: what each option is said to do is measured.
@@ -19,16 +19,7 @@ constexpr int kWorlds = 60;
 
 WorldKey ModelWorld(int trial) { return {.suite_seed = 1, .scenario = "joint-errors", .trial = trial}; }
 
-BodyMotion Dancing(int repeats = 1) {
-  BodyMotion motion;
-  for (int i = 0; i < repeats; ++i) {
-    for (const char* name : {"boxing", "clap"}) {
-      const Move move = *LoadBuiltinMove(name);
-      motion.poses.insert(motion.poses.end(), move.motion.poses.begin(), move.motion.poses.end());
-    }
-  }
-  return motion;
-}
+BodyMotion Dancing() { return AfterEachOther({"boxing", "clap"}); }
 
 /// Isotropic, uncorrelated, nothing but what depends on the pose; tests switch on what they are about.
 SkeletonSensorOptions Plain() {

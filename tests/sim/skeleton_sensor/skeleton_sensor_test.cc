@@ -7,6 +7,7 @@
 
 #include "engine/base/angles.h"
 #include "sim/choreography/move.h"
+#include "tests/sim/performer/all_moves.h"
 #include "tests/sim/skeleton_sensor/whole_motion.h"
 
 // The simulated Kinect v1 against the figures it is to have (algorithms A7, first paragraph). Every band is the
@@ -24,13 +25,8 @@ constexpr std::array kArmBones = {kLeftElbow, kLeftWrist, kRightElbow, kRightWri
 
 WorldKey World(int trial) { return {.suite_seed = 1, .scenario = "sensor-statistics", .trial = trial}; }
 
-BodyMotion Dance(const char* name, int repeats) {
-  const Move move = *LoadBuiltinMove(name);
-  BodyMotion motion;
-  for (int i = 0; i < repeats; ++i) {
-    motion.poses.insert(motion.poses.end(), move.motion.poses.begin(), move.motion.poses.end());
-  }
-  return motion;
+BodyMotion Dance(const char* name, std::size_t repeats) {
+  return AfterEachOther(std::vector<std::string>(repeats, name));
 }
 
 Camera Sensor() { return SkeletonSensorAt({}, SensorV1().view); }

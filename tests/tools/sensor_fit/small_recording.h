@@ -2,8 +2,8 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-#include "sim/choreography/move.h"
 #include "sim/random/stream.h"
+#include "tests/sim/performer/all_moves.h"
 #include "tools/sensor_fit/fit.h"
 
 namespace etude {
@@ -17,12 +17,8 @@ struct MadeUp {
 
 /// A dance seen by an optical system at 60 Hz: the joints' carriers turn with time, each in its own way.
 inline TwinMotion DancingTwin(double seconds, double tempo = 1,
-                              std::initializer_list<const char*> moves = {"boxing", "side_kick", "clap"}) {
-  BodyMotion motion;
-  for (const char* name : moves) {
-    const Move move = *LoadBuiltinMove(name);
-    motion.poses.insert(motion.poses.end(), move.motion.poses.begin(), move.motion.poses.end());
-  }
+                              const std::vector<std::string>& moves = {"boxing", "side_kick", "clap"}) {
+  const BodyMotion motion = AfterEachOther(moves);
   TwinMotion twin{.rate_hz = 60, .frames = {}};
   for (double t = 0; t < seconds; t += 1.0 / 60) {
     const double frame = std::fmod(tempo * t * motion.rate_hz, static_cast<double>(motion.poses.size() - 1));

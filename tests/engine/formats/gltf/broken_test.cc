@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "tests/engine/formats/gltf/small_glb.h"
-#include "tests/engine/formats/small_bvh.h"
+#include "tests/support/replaced.h"
 #include "tests/support/results.h"
 
 namespace etude {

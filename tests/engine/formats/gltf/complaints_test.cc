@@ -7,6 +7,7 @@
 #include "tests/engine/formats/gltf/small_glb.h"
 #include "tests/engine/formats/spoilt.h"
 #include "tests/support/kept_lines.h"
+#include "tests/support/replaced.h"
 #include "tests/support/results.h"
 
 namespace etude {
@@ -166,10 +167,8 @@ TEST(Gltf, IndexListsOfAnotherShapeAreRefusedWithAReason) {
                                                          {"\"accessors\":[", "\"accessors\":{},\"others\":["},
                                                          {"\"meshes\":[", "\"meshes\":\"x\",\"others\":["}};
   for (const auto& [from, to] : kShapes) {
-    std::string json(testing::kSmallGltf);
-    json.replace(json.find(from), from.size(), to);
-    const auto read = ReadGlb(testing::Glb(json, testing::SmallBinary()));
-    EXPECT_FALSE(read) << to;
+    const std::string json = testing::Replaced(testing::kSmallGltf, from, to);
+    EXPECT_FALSE(ReadGlb(testing::Glb(json, testing::SmallBinary()))) << to;
   }
 }
 

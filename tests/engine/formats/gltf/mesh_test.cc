@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/engine/formats/gltf/small_glb.h"
-#include "tests/engine/formats/small_bvh.h"
+#include "tests/support/replaced.h"
 
 namespace etude {
 namespace {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "tests/engine/formats/gltf/small_glb.h"
+#include "tests/support/replaced.h"
 
 namespace etude {
 namespace {
@@ -53,8 +54,7 @@ TEST(GltfNodes, OutsideTheDefaultSceneAreLeftOut) {
 }
 
 TEST(GltfNodes, OutsideTheSceneAreKeptWhenTheyAreAnimatedOrBones) {
-  std::string json(testing::kSmallGltf);
-  json.replace(json.find(R"("nodes":[0,2])"), 13, R"("nodes":[2])");
+  const std::string json = testing::Replaced(testing::kSmallGltf, R"("nodes":[0,2])", R"("nodes":[2])");
   const GltfContent content = Read(Glb(json, testing::SmallBinary()));
   EXPECT_THAT(Names(content.character.skeleton), ElementsAre("Hips", "Spine"));
   EXPECT_EQ(content.character.meshes.size(), 1u);

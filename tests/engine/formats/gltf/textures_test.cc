@@ -3,7 +3,7 @@
 
 #include "engine/base/image.h"
 #include "tests/engine/formats/gltf/small_glb.h"
-#include "tests/engine/formats/small_bvh.h"
+#include "tests/support/replaced.h"
 #include "tests/support/results.h"
 
 namespace etude {

@@ -10,12 +10,14 @@
 #include "engine/transitions/library/in_betweens.h"
 #include "tests/engine/transitions/prints.h"
 #include "tests/support/kept_lines.h"
+#include "tests/support/replaced.h"
 
 namespace etude {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using testing::Replaced;
 
 BridgeTags SomeTags() {
   const BodyMotion clips[] = {WavingClip(40), WavingClip(30, 1.1)};
@@ -31,13 +33,6 @@ BridgeTags SomeTags() {
 }
 
 std::string SomeText() { return WriteTagsFile(SomeTags()).value(); }
-
-/// The text with its first `from` replaced.
-std::string With(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
 
 Error Complaint(const std::string& text) {
   const auto tags = ReadTagsFile(text, "tags.xml");
@@ -57,7 +52,7 @@ TEST(TagsFile, ComesBackToTheLastBit) {
 
 TEST(TagsFile, SaysWhereWhatWasFoundAndWhatIsAllowed) {
   const std::string text = SomeText();
-  const Error error = Complaint(With(text, "RH=\"mid\"", "RH=\"middle\""));
+  const Error error = Complaint(Replaced(text, "RH=\"mid\"", "RH=\"middle\""));
   EXPECT_EQ(error.place.file, "tags.xml");
   const std::size_t at = text.find("RH=\"mid\"");
   EXPECT_EQ(error.place.line, 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
@@ -67,13 +62,13 @@ TEST(TagsFile, SaysWhereWhatWasFoundAndWhatIsAllowed) {
 
 TEST(TagsFile, RefusesWhatContradictsItself) {
   const std::string text = SomeText();
-  EXPECT_THAT(Complaint(With(text, "RH=\"mid\"", "RH=\"up\"")).message, HasSubstr("but its grades give mid"));
-  EXPECT_THAT(Complaint(With(text, "frames=\"40\"", "frames=\"4\"")).message, HasSubstr("of a clip that has 4"));
-  EXPECT_THAT(Complaint(With(text, "name=\"wave\"", "name=\"Ärm &amp; &lt;leg&gt; &quot;2&quot;\"")).message,
+  EXPECT_THAT(Complaint(Replaced(text, "RH=\"mid\"", "RH=\"up\"")).message, HasSubstr("but its grades give mid"));
+  EXPECT_THAT(Complaint(Replaced(text, "frames=\"40\"", "frames=\"4\"")).message, HasSubstr("of a clip that has 4"));
+  EXPECT_THAT(Complaint(Replaced(text, "name=\"wave\"", "name=\"Ärm &amp; &lt;leg&gt; &quot;2&quot;\"")).message,
               HasSubstr("a second clip"));
-  EXPECT_THAT(Complaint(With(text, "key clip=\"wave\"", "key clip=\"wink\"")).message, HasSubstr("wink"));
-  EXPECT_THAT(Complaint(With(text, "rate-hz=\"30\"", "rate-hz=\"60\"")).message, HasSubstr("time-s"));
-  EXPECT_THAT(Complaint(With(text, "feature=\"RH\"", "feature=\"LH\"")).message, HasSubstr("the weight of RH"));
+  EXPECT_THAT(Complaint(Replaced(text, "key clip=\"wave\"", "key clip=\"wink\"")).message, HasSubstr("wink"));
+  EXPECT_THAT(Complaint(Replaced(text, "rate-hz=\"30\"", "rate-hz=\"60\"")).message, HasSubstr("time-s"));
+  EXPECT_THAT(Complaint(Replaced(text, "feature=\"RH\"", "feature=\"LH\"")).message, HasSubstr("the weight of RH"));
 }
 
 TEST(TagsFile, RefusesHostileInput) {
@@ -98,19 +93,19 @@ TEST(TagsFile, RefusesHostileInput) {
       deep,
       text.substr(0, text.size() / 2),
       text + "<more/>",
-      With(text, "<rules", "<rulers"),
-      With(text, "threshold=\"0.4\"", "threshold=\"NaN\""),
-      With(text, "threshold=\"0.4\"", "threshold=\"INF\""),
-      With(text, "threshold=\"0.4\"", "threshold=\"-1\""),
-      With(text, "threshold=\"0.4\"", "threshold=\"0.4\" threshold=\"0.5\""),
-      With(text, "frames=\"40\"", "frames=\"99999999999999999999\""),
-      With(text, "grades=\"", "grades=\"NaN "),
-      With(text, "grades=\"", "grades=\"0 "),
-      With(text, "grades=\"0", "grades=\"2"),
-      With(text, "min-clips=\"2\"", ""),
-      With(text, "<rules", "<rules extra=\"1\""),
-      With(text, "version=\"1.0\"", "version=\"1.1\""),  // libxml2 only warns of it, and of the next
-      With(text, "<bridge-tags", "<bridge-tags xmlns=\"relative\""),
+      Replaced(text, "<rules", "<rulers"),
+      Replaced(text, "threshold=\"0.4\"", "threshold=\"NaN\""),
+      Replaced(text, "threshold=\"0.4\"", "threshold=\"INF\""),
+      Replaced(text, "threshold=\"0.4\"", "threshold=\"-1\""),
+      Replaced(text, "threshold=\"0.4\"", "threshold=\"0.4\" threshold=\"0.5\""),
+      Replaced(text, "frames=\"40\"", "frames=\"99999999999999999999\""),
+      Replaced(text, "grades=\"", "grades=\"NaN "),
+      Replaced(text, "grades=\"", "grades=\"0 "),
+      Replaced(text, "grades=\"0", "grades=\"2"),
+      Replaced(text, "min-clips=\"2\"", ""),
+      Replaced(text, "<rules", "<rules extra=\"1\""),
+      Replaced(text, "version=\"1.0\"", "version=\"1.1\""),  // libxml2 only warns of it, and of the next
+      Replaced(text, "<bridge-tags", "<bridge-tags xmlns=\"relative\""),
   };
   for (const std::string& input : inputs) {
     const Error error = Complaint(input);
@@ -134,7 +129,7 @@ TEST(TagsFile, GivesLibxml2sWordsUpTo500Bytes) {
   // The value found is part of the complaint: a letter more makes it longer by one.
   const std::string text = SomeText();
   const auto complaint = [&](std::size_t letters) {
-    return Complaint(With(text, "RH=\"mid\"", "RH=\"" + std::string(letters, 'x') + "\"")).message;
+    return Complaint(Replaced(text, "RH=\"mid\"", "RH=\"" + std::string(letters, 'x') + "\"")).message;
   };
   const std::size_t others = complaint(100).size() - 100;
   ASSERT_LT(others, 400u);
@@ -237,7 +232,7 @@ TEST(TagsFile, ComplaintsAreAsTheyWere) {
       {"difference=\"0", "difference=\"+0"},
       {"grades=\"0", "grades=\"+0"}};
   std::vector<std::string> complaints;
-  for (const auto& [from, to] : changes) complaints.push_back(ToString(Complaint(With(text, from, to))));
+  for (const auto& [from, to] : changes) complaints.push_back(ToString(Complaint(Replaced(text, from, to))));
   for (const std::string& other : {"\n\n<bridge-tags a=\"" + std::string(65536, 'x') + "\"/>",
                                    std::string("\n<a/><!DOCTYPE x>"), std::string(" \t\r\n")}) {
     complaints.push_back(ToString(Complaint(other)));
@@ -288,7 +283,7 @@ TEST(TagsFile, IsReadWithTagsOfUpTo65536Bytes) {
   const std::string text = SomeText();
   const auto complaint = [&](std::size_t bytes) {
     const std::string tag = "<fuzzy-system";
-    return Complaint(With(text, tag, tag + std::string(bytes, ' ')) + "<").message;
+    return Complaint(Replaced(text, tag, tag + std::string(bytes, ' ')) + "<").message;
   };
   const std::size_t from = text.find("<fuzzy-system"), others = text.find('<', from + 1) - from;
   EXPECT_THAT(complaint(65536 - others), ::testing::Not(HasSubstr("without a new tag")));

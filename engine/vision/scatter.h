@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cmath>
+#include <glm/glm.hpp>
+
+namespace etude {
+
+/// The sums of squares and products of pixels' offsets from their mean.
+struct Scatter {
+  double xx = 0, xy = 0, yy = 0;
+
+  void Add(const glm::dvec2& offset) {
+    xx += offset.x * offset.x;
+    xy += offset.x * offset.y;
+    yy += offset.y * offset.y;
+  }
+  /// Returns the unit direction in which the pixels vary most.
+  glm::dvec2 Axis() const {
+    const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
+    return {std::cos(angle), std::sin(angle)};
+  }
+  /// Returns the sum of squares along it.
+  double AlongAxis() const { return 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy); }
+};
+
+}  // namespace etude

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <etude/base.h>
+
+#include <functional>
+#include <string>
+
+namespace etude::testing {
+
+/// What the library says of bad input to `act`; "" if it takes it.
+inline std::string RefusalOf(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const engine::BadInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace etude::testing
