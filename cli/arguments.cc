@@ -75,6 +75,9 @@ const std::map<std::string_view, std::vector<std::string_view>>& ExamplesByComma
       {"list scenarios", {"etude list scenarios", "etude list scenarios quick", "etude list scenarios mine/"}},
       {"list metrics",
        {"etude list metrics", "etude list metrics --json > metrics.json", "etude list metrics --markdown"}},
+      {"list faults",
+       {"etude list faults", "etude evaluate --alone walk.bvh",
+        "etude evaluate --alone 'mocap/*.bvh' --limits recorded"}},
       {"list keys",
        {"etude list keys", "etude list keys --schema > scenario.schema.json", "etude list keys --markdown"}},
       {"clip info",
@@ -100,7 +103,8 @@ const std::map<std::string_view, std::vector<std::string_view>>& ExamplesByComma
         "etude bridge 'mocap/*.bvh' --check tags.xml"}},
       {"transition",
        {"etude transition walk.bvh kick.bvh --at 2.5 -o out.bvh",
-        "etude transition builtin:groove builtin:clap --at 1 -o out.bvh --choice motion-matching --join inertialised-spring",
+        "etude transition builtin:groove builtin:clap --at 1 -o out.bvh --choice motion-matching --join "
+        "inertialised-spring",
         "etude transition lie.bvh run.bvh --at 3 -o out.glb --library 'mocap/*.bvh' --wait 2"}},
       {"train",
        {"etude train 'mocap/*.bvh' -o fuzzy.yaml", "etude train 'builtin:*' -o fuzzy.yaml --method adaptive",
@@ -270,7 +274,7 @@ void AddUnsealed(CLI::App& command, Sealing& sealing) {
 }
 
 void AddOutsideRules(CLI::App& command, OutsideRules& rules) {
-  command.add_flag("!--no-fence", rules.is_fenced, "Run methods outside without a fence, to debug them");
+  command.add_flag("!--no-fence", rules.is_fenced, "Run outside methods without a fence, to debug them");
   command.add_flag("--allow-exec", rules.allow_exec, "Allow programs that a manifest, a run or a pack names to be run");
 }
 
@@ -290,13 +294,13 @@ void GroupCommands(CLI::App& app) {
     const char* name;
     std::vector<std::string> commands;
   };
-  const CommandGroup groups[] = {
-      {"Run and judge",
-       {"run", "evaluate", "scenario", "list", "report", "rows", "compare", "gate", "replay", "verify", "merge", "check-method"}},
-      {"Your motions", {"clip", "bridge", "transition", "train", "crowd"}},
-      {"Your recordings of people", {"teach", "recognise", "coach", "sensor"}},
-      {"Your cameras", {"calibrate", "forecast", "capture"}},
-      {"Share", {"cite", "export", "score", "completion"}}};
+  const CommandGroup groups[] = {{"Run and judge",
+                                  {"run", "evaluate", "scenario", "list", "report", "rows", "compare", "gate", "replay",
+                                   "verify", "merge", "check-method"}},
+                                 {"Your motions", {"clip", "bridge", "transition", "train", "crowd"}},
+                                 {"Your recordings of people", {"teach", "recognise", "coach", "sensor"}},
+                                 {"Your cameras", {"calibrate", "forecast", "capture"}},
+                                 {"Share", {"cite", "export", "score", "completion"}}};
   for (const CommandGroup& group : groups) {
     for (const std::string& command : group.commands) app.get_subcommand(command)->group(group.name);
   }

@@ -90,7 +90,8 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
   command
       ->add_option("films", options->films, "One film per camera, all begun at the same moment (otherwise use --sync)")
       ->required();
-  command->add_option("--rig", options->rig, "The calibrated cameras")->required();
+  command->add_option("--rig", options->rig, "A file of the calibrated cameras (etude calibrate writes one)")
+      ->required();
   command
       ->add_option("--rig-unit", options->place.unit,
                    fmt::format("The rig's unit of length: {}, metres in one unit, or auto (a person has 0.5 to 2.2 m)",
@@ -112,17 +113,21 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
   auto* keypoints = command->add_option("--keypoints", options->keypoints, "A folder with keypoints for each film");
   auto* marks = command->add_option("--marks", options->marks, "A folder with annotation pictures for each film")
                     ->excludes(keypoints);
-  auto* silhouettes = command
-                          ->add_flag("--silhouettes", options->silhouettes,
-                                     "Use the outlines of the only person, who moves in front of stationary cameras; "
-                                     "with --keypoints, these then determine front and back and the limbs' lengths")
-                          ->excludes(marks);
-  auto* masks = command
-                    ->add_option("--masks", options->masks,
-                                 "A folder with the person's masks for each film, of any segmenter: a folder of PNG files "
-                                 "or a film; then the outlines are theirs")
-                    ->needs(silhouettes);
-  command->add_option("--mask-id", options->mask_id, "The number of the person's pixels in masks of several people")
+  auto* silhouettes =
+      command
+          ->add_flag("--silhouettes", options->silhouettes,
+                     "Fit the body to the person's outlines in the films: one person, who moves, and cameras that "
+                     "do not. With --keypoints, too, these determine the limbs' lengths, and front and back")
+          ->excludes(marks);
+  auto* masks =
+      command
+          ->add_option("--masks", options->masks,
+                       "A folder with masks of the person for each film, by any segmenter: a folder of PNG files "
+                       "or a film of masks. The outlines are then taken from the masks")
+          ->needs(silhouettes);
+  command
+      ->add_option("--mask-id", options->mask_id,
+                   "The value of the person's pixels in masks that number several people")
       ->needs(masks)
       ->check(CLI::Range(1, 255));
   command->add_option("--rooms", options->rooms, "A folder with a picture of the empty room for each film")

@@ -72,7 +72,7 @@ void DefineCompare(CLI::App& app, Action& action) {
   auto a = std::make_shared<std::string>(), b = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("compare", "Compare two runs of the same worlds");
   command->add_option("a", *a, "A result folder")->required();
-  command->add_option("b", *b, "Another")->required();
+  command->add_option("b", *b, "Another result folder")->required();
   auto sealing = std::make_shared<Sealing>();
   AddUnsealed(*command, *sealing);
   auto as_json = std::make_shared<bool>(false);

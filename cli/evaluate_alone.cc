@@ -25,8 +25,18 @@ namespace fs = std::filesystem;
 /// Reads limits from a file, or from the shipped file of that name: "recorded".
 Result<std::map<std::string, double>> ReadLimitsFile(const std::string& name) {
   std::error_code none;
-  const fs::path shipped = ShippedFolder() / "scenarios" / "limits" / (name + ".yaml");
-  const fs::path file = !fs::exists(name, none) && fs::exists(shipped, none) ? shipped : fs::path(name);
+  const fs::path folder = ShippedFolder() / "scenarios" / "limits", shipped = folder / (name + ".yaml");
+  fs::path file = name;
+  if (!fs::exists(name, none)) {
+    std::vector<std::string> known;
+    for (const auto& entry : fs::directory_iterator(folder, none)) known.push_back(entry.path().stem().string());
+    std::ranges::sort(known);
+    if (std::ranges::find(known, name) == known.end()) {
+      return Fail({"--limits"}, "no such file, and {}, or a file of limits",
+                  UnknownName("name of limits", name, known));
+    }
+    file = shipped;
+  }
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
   ASSIGN_OR_RETURN(const auto node, ParseYaml(text, file.string()));
   Fields fields(node, "a file of limits");
@@ -44,9 +54,10 @@ constexpr std::pair<std::string_view, std::string_view> kTelling[] = {
     {"bends_share", "bends"},    {"passes_share", "passes"}, {"stretches_max_percent", "stretches"},
     {"wrong_rate", "wrong rate"}};
 
-/// Prints at most twenty lines.
-void PrintLines(const std::vector<std::string>& lines) {
+/// Prints "2 not judged:" and at most twenty lines.
+void PrintLines(std::string_view heading, const std::vector<std::string>& lines) {
   constexpr std::size_t kMaxLines = 20;
+  fmt::print("{} {}{}\n", lines.size(), heading, lines.empty() ? "" : ":");
   for (const std::string& line : std::span(lines).first(std::min(lines.size(), kMaxLines))) fmt::print("  {}\n", line);
   if (lines.size() > kMaxLines) fmt::print("  and {} more: etude rows\n", lines.size() - kMaxLines);
 }
@@ -80,24 +91,27 @@ Triage TriageOf(const RunData& run) {
     for (const auto& [id, word] : kTelling) {
       if (ValueOf(row, id).value_or(0) > 0) ++triage.kinds[std::string(word)];
     }
-    if (ValueOf(row, "faults").value_or(0) > 0) triage.faulty.push_back(line);
     const auto is_within = ValueOf(row, "within_limits");
     triage.has_limits |= is_within.has_value();
-    if (is_within == 0.0) triage.beyond_limits.push_back(line);
+    const bool is_faulty = ValueOf(row, "faults").value_or(0) > 0;
+    triage.fault_free += is_faulty ? 0 : 1;
+    if (is_within == 0.0) {
+      triage.beyond_limits.push_back(line);
+    } else if (is_faulty) {
+      triage.faulty.push_back(line);
+    }
   });
   return triage;
 }
 
 void PrintTriage(const Triage& triage) {
-  fmt::print("{} of {} clips without a fault\n", triage.clips - triage.faulty.size(), triage.clips);
+  fmt::print("{} of {} clips without a fault\n", triage.fault_free, triage.clips);
   for (const auto& [kind, clips] : triage.kinds) fmt::print("  {:<10}  {:>6}\n", kind, clips);
-  if (triage.has_limits) {
-    fmt::print("{} beyond the limits{}\n", triage.beyond_limits.size(), triage.beyond_limits.empty() ? "" : ":");
-  }
-  PrintLines(triage.has_limits ? triage.beyond_limits : triage.faulty);
-  if (triage.not_judged.empty()) return;
-  fmt::print("{} not judged:\n", triage.not_judged.size());
-  PrintLines(triage.not_judged);
+  if (!triage.kinds.empty()) fmt::print("  etude list faults: what each of them is\n");
+  if (triage.has_limits) PrintLines("beyond the limits", triage.beyond_limits);
+  if (!triage.faulty.empty())
+    PrintLines(triage.has_limits ? "with faults, within the limits" : "with faults", triage.faulty);
+  if (!triage.not_judged.empty()) PrintLines("not judged", triage.not_judged);
 }
 
 }  // namespace etude

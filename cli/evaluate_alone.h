@@ -24,16 +24,16 @@ Result<std::string> ScenarioOfMotions(const std::vector<std::string>& files, con
 
 /// The clips of a run of motions without a truth.
 struct Triage {
-  std::size_t clips = 0;                     ///< judged
+  std::size_t clips = 0, fault_free = 0;     ///< judged; those without a fault
   std::map<std::string, std::size_t> kinds;  ///< by the word for a kind of fault, the clips that show it
   bool has_limits = false;
-  // Lines: "METHOD, CLIP: why".
+  // Lines: "METHOD, CLIP: why". A clip is either beyond its limits or, with faults, in `faulty`.
   std::vector<std::string> faulty, beyond_limits, not_judged;
 };
 Triage TriageOf(const RunData& run);
 
-/// Prints how many clips show which faults, and names the clips with limits: those that exceed them; without: all that
-/// show a fault.
+/// Prints how many clips show which faults, and names the clips that exceed their limits, those with other faults, and
+/// those that could not be judged.
 void PrintTriage(const Triage& triage);
 
 }  // namespace etude

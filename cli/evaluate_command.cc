@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "bench/metrics/catalogue.h"
 #include "bench/results/folder.h"
@@ -58,7 +59,8 @@ Result<std::vector<NamedResult>> ReadColumns(const std::string& file) {
 Result<std::string> ScenarioOfPairs(const EvaluateOptions& options) {
   const bool has_pairs = !options.pairs.empty();
   if (has_pairs != options.files.empty() || options.files.size() == 1) {
-    return Fail({}, "etude evaluate needs a truth and results, or --pairs FILE.csv (one of the two)");
+    return Fail({},
+                "etude evaluate needs a truth and results, or --pairs FILE.csv; without a truth, --alone and motions");
   }
   ASSIGN_OR_RETURN(const auto results,
                    has_pairs ? ReadColumns(options.pairs) : ReadResults(std::span(options.files).subspan(1)));
@@ -120,9 +122,8 @@ Json FactsOf(const std::vector<AngleAgreement>& angles) {
 bool HasAngles(const ScenarioSummary& summary) {
   for (const ConditionSummary& condition : summary.conditions) {
     for (const MethodSummary& method : condition.methods) {
-      if (std::ranges::any_of(method.metrics, [](const MetricSummary& one) {
-            return one.id == "angle_rmse_deg" && one.present > 0;
-          })) {
+      if (std::ranges::any_of(method.metrics,
+                              [](const MetricSummary& one) { return one.id == "angle_rmse_deg" && one.present > 0; })) {
         return true;
       }
     }
@@ -136,7 +137,10 @@ void PrintAngles(const ScenarioSummary& summary, const std::vector<AngleAgreemen
   if (angles.empty() || std::ranges::none_of(summary.headline_metrics, is_of_angles)) return;
   fmt::print("  {:<26}  {:>8}  {:>22}  {:>20}  {:>7}  units\n", "angle, degrees", "RMSE", "bias (95 %)",
              "limits of agreement", "ICC");
-  const auto shown = [](double value) { return fmt::format("{:.2f}", std::abs(value) < 0.005 ? 0 : value); };
+  const auto shown = [](double value) -> std::string {  // a small value keeps its sign
+    if (std::abs(value) < 1e-9) return "0.00";
+    return std::abs(value) < 0.005 ? fmt::format("{:.1g}", value) : fmt::format("{:.2f}", value);
+  };
   const auto range = [&](const std::optional<double>& low, const std::optional<double>& high) {
     return low && high ? shown(*low) + " to " + shown(*high) : std::string("-");
   };
@@ -227,9 +231,31 @@ Result<void> PrintNotes(const std::filesystem::path& folder) {
   return {};
 }
 
+constexpr const char* kScenarioFile = "evaluate.yaml";
+
+/// Names the argument that made a line of the scenario `text`, instead of the line, which the user never wrote.
+Error AboutArguments(Error error, const std::string& text) {
+  constexpr std::pair<std::string_view, std::string_view> kArguments[] = {
+      {"truth", "the truth"},  {"pairs", "--pairs"},      {"joints", "--joints"},
+      {"people", "--people"},  {"sweep", "--lag"},        {"statistics", "--statistics"},
+      {"floor_m", "--floor"},  {"at_most", "--limits"},   {"music_beats", "--music-beats"},
+      {"metrics", "--metric"}, {"methods", "the results"}};
+  if (error.place.file != kScenarioFile) return error;
+  // Find the line's key; an indented line belongs to the key above it.
+  std::istringstream lines(text);
+  std::string line;
+  std::string found;
+  for (int i = 0; i < error.place.line && std::getline(lines, line); ++i) {
+    if (!line.starts_with(' ')) found = line.substr(0, line.find(':'));
+  }
+  const auto argument = std::ranges::find(kArguments, found, &std::pair<std::string_view, std::string_view>::first);
+  error.place = {argument == std::end(kArguments) ? "" : std::string(argument->second)};
+  return error;
+}
+
 Result<int> EvaluateCommand(const EvaluateOptions& options) {
   RunOptions run;
-  run.scenarios = {"evaluate.yaml"};
+  run.scenarios = {kScenarioFile};
   ASSIGN_OR_RETURN(run.text, ScenarioOf(options));
   run.joint_map = options.joint_map;
   run.output = options.output;
@@ -239,7 +265,9 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   run.command_line = options.command_line;
   run.program_version = ETUDE_VERSION;
   StdoutToStderr redirected(options.as_json);
-  ASSIGN_OR_RETURN(const auto outcome, RunWithProgress(run));
+  const auto ran = RunWithProgress(run);
+  if (!ran) return tl::unexpected(AboutArguments(ran.error(), run.text));
+  const auto& outcome = *ran;
   redirected.End();
   if (!outcome) return kInterrupted;
   // Hours of pairs have many rows: they are loaded only for what the summary does not hold.
@@ -279,26 +307,38 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
 void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& action) {
   auto options = std::make_shared<EvaluateOptions>();
   options->command_line = command_line;
-  CLI::App* command = app.add_subcommand("evaluate", "Compare the motions of files with their truths, or judge them alone");
+  CLI::App* command = app.add_subcommand(
+      "evaluate", "Compare motion files with their truths, or find faults in motions without a truth");
+  command->add_option("files", options->files,
+                      "The truth, then results: each a file, a folder or a pattern in quotes; several results need "
+                      "names: NAME=PATTERN");
+  command->add_flag(
+      "--alone", options->alone.is_alone,
+      "Judge motions without a truth: find what no person does (arguments: FILE, FILE#CLIP, folders, patterns)");
   command->add_option(
-      "files", options->files,
-      "The truth, then results, each a file, a folder or a pattern in quotes; NAME=PATTERN for several");
-  command->add_flag("--alone", options->alone.is_alone,
-                    "There is no truth: find what no person does in each motion (FILE, FILE#CLIP, folder, pattern)");
-  command->add_option("--floor", options->alone.floor_m, "Alone: height of the floor, metres (default: 0, or found)");
+      "--floor", options->alone.floor_m,
+      "With --alone: height of the floor, metres (default: 0; found from the feet if the motion is far from 0)");
   command->add_option("--limits", options->alone.limits,
-                      "Alone: a file of limits, or 'recorded'; exit code 1 if a clip exceeds them");
+                      "With --alone: the largest allowed values, a file or 'recorded'; exit code 1 if a clip exceeds "
+                      "one or cannot be judged");
   command->add_option("--pairs", options->pairs,
-                      "A CSV file instead: a column truth, one column per method, and possibly a column name");
+                      "Instead of files: a CSV table of pairs with a column truth, a column for each method and, "
+                      "optionally, a column name");
   command->add_option("--joints", options->joints,
-                      "The joints that are compared: a set (etude list keys), same, or roles (default)");
+                      "Which joints are compared: roles (those with the same role; the default), same (the same name), "
+                      "or a set (etude list keys)");
   command->add_option("--people", options->people,
-                      "The part of a file's name that is the person, such as '{person}_*'");
-  command->add_option("--lag", options->lag, "find: also judge with a time shift found and taken out")
+                      "A pattern of file names that shows which part is the person, such as '{person}_*'");
+  command
+      ->add_option("--lag", options->lag,
+                   "find: judge a second time, after the time shift between truth and result was found and removed")
       ->check(CLI::IsMember({"none", "find"}));
-  command->add_option("--statistics", options->statistics, "A CSV with means and deviations of joints, for L2P");
-  command->add_option("--music-beats", options->music_beats, "Seconds, one a line, for beat alignment");
-  command->add_option("--metric", options->metrics, "A metric to show; all are measured (etude list metrics)");
+  command->add_option("--statistics", options->statistics,
+                      "A CSV of means and standard deviations of joints, for the metric L2P");
+  command->add_option("--music-beats", options->music_beats,
+                      "A file of the times of the music's beats, in seconds, one per line, for beat alignment");
+  command->add_option("--metric", options->metrics,
+                      "A metric to show in the table; all are measured (etude list metrics)");
   command->add_option(kJointMapOption, options->joint_map,
                       "A file that states which joints play which roles, the unit and the up axis");
   command->add_option("-o,--output", options->output, "Result folder (default: out/evaluate-1)");
@@ -306,7 +346,7 @@ void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& acti
   command
       ->add_option_function<std::string>(
           "--keep", [options](const std::string&) { options->keeps_motions = true; },
-          "motions: record both motions of every pair, for the page's pictures and its viewer")
+          "motions: record the motions, for the page's pictures and its viewer")
       ->check(CLI::IsMember({"motions"}));
   AddJobs(*command, options->jobs);
   AddJson(*command, options->as_json);

@@ -16,19 +16,28 @@ namespace etude {
 namespace {
 
 constexpr const char* kForecastNotes =
-    "\nBefore you film: the error to be expected of triangulated points and of a fitted body, from the rig alone. "
-    "Errors "
-    "are\nroot mean squares, computed in closed form to first order: the covariance of the pixels, through the "
-    "triangulation, "
-    "and\nfor the body through the fit of its angles (bone lengths count as known). A person who hides a joint from a "
-    "camera "
-    "is a\ndropout. An estimator whose keypoints err the same way in all pictures errs by more.\n"
-    "--films and --keypoints measure the pixels' deviation by how well the cameras agree on the person's points.\n\n"
-    "The volume stands around the point that the cameras look at (--middle, --size). Its colours on the picture are "
-    "those of\n"
-    "20 x 20 places at ten heights. `etude calibrate --json` has the deviation of focal lengths. One more camera gets "
-    "the lens "
-    "of\nthe rig's first one; 324 places around the volume are tried.";
+    "\nBefore you film: how far triangulated joints will be from the truth, computed from the rig alone. Errors are "
+    "root mean\n"
+    "squares, to first order: the errors of keypoints (--noise-px) and cameras (--calibration) are propagated through "
+    "the\n"
+    "triangulation, and, for a body, through the fit of its joint angles (bone lengths count as known). Enter a person "
+    "who\n"
+    "hides joints from a camera as --dropout. If keypoints err in the same way in all pictures, the true errors are "
+    "larger.\n\n"
+    "Triangulated: each joint by itself. Fitted: the same joint of a body that is fitted to all joints at once. Limb: "
+    "the\n"
+    "direction of the limb that ends in the joint, in degrees. \"What would help\" compares changed rigs with this "
+    "one, at the\n"
+    "places that this one sees. --table has a row for each place: x_m, height_m, z_m; cameras: how many have it in "
+    "their\n"
+    "pictures; lost_share: how likely it is that fewer than two of them give a keypoint; error_mm: empty if it is "
+    "never seen\n"
+    "by two.\n\n"
+    "The volume is a box on the floor around the point that the cameras look at (--middle, --size); errors are "
+    "computed at\n"
+    "20 x 20 places at each of ten heights. `etude calibrate --json` has the deviation of focal lengths. The camera "
+    "that is\n"
+    "added has the lens of the rig's first one, and the best of 324 positions.";
 
 struct ForecastCommandOptions {
   ForecastOptions forecast;
@@ -103,8 +112,8 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
   options->command_line = command_line;
   options->version = ETUDE_VERSION;
   options->listener = TerminalListener();
-  CLI::App* command = app.add_subcommand("forecast", "The error to be expected of a rig, before it films");
-  command->add_option("rig", options->rig, "The calibrated cameras, as for `etude capture`")->required();
+  CLI::App* command = app.add_subcommand("forecast", "Forecast the errors of a rig of cameras before you film");
+  command->add_option("rig", options->rig, "A file of the calibrated cameras, as for `etude capture`")->required();
   command
       ->add_option(
           "--rig-unit", options->place.unit,
@@ -159,8 +168,9 @@ void DefineForecast(CLI::App& app, const std::string& command_line, Action& acti
       ->check(NumberWithin(0, 1000, "deviation"))
       ->capture_default_str();
   // The outputs.
-  command->add_option("--picture", options->picture, "Also draw a heat map for each height, and the cameras (.png)");
-  command->add_option("--table", options->table, "Also write the error at every place (.csv)");
+  command->add_option("--picture", options->picture,
+                      "Also draw the errors at each height as a heat map, and the cameras from above (.png)");
+  command->add_option("--table", options->table, "Also write the error at every place (.csv; its columns: below)");
   command->add_option("--report", options->report, "Also write a page with the picture and all tables (.html)");
   AddOverwrite(*command, asked->overwrite, "Replace existing files");
   AddJson(*command, asked->as_json);

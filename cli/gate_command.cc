@@ -79,7 +79,8 @@ void PrintReport(const GateReport& report) {
   PrintList("Methods without an answer:", report.silent);
   PrintList("Incomplete:", report.incomplete);
   for (const std::string& sentence : GateSentences(report)) fmt::print("{}\n", sentence);
-  fmt::print("Gate: {}\n", GateVerdictWords(GateVerdictOf(report)));
+  fmt::print("Gate: {}{}\n", GateVerdictWords(GateVerdictOf(report)),
+             report.baseline_file.empty() ? ", without a baseline (--baseline FILE --update makes one)" : "");
 }
 
 Json FactsOf(const GateReport& report) {
@@ -213,14 +214,16 @@ void DefineGate(CLI::App& app, Action& action) {
   auto options = std::make_shared<GateOptions>();
   CLI::App* command = app.add_subcommand("gate", "Compare a run with a baseline: pass or fail, for a CI server");
   command->add_option("folder", options->target, "A result folder (with --self-test: a scenario file, or nothing)");
-  CLI::Option* baseline =
-      command->add_option("--baseline", options->baseline, "The baseline that the run is compared with");
+  CLI::Option* baseline = command->add_option("--baseline", options->baseline,
+                                              "The baseline that the run is compared with (without one, only the run's "
+                                              "own expectations and time rules are judged)");
   CLI::Option* update =
       command->add_flag("--update", options->update, "Write the baseline from this run, and show what changed");
   update->needs(baseline);
-  CLI::Option* self_test =
-      command->add_flag("--self-test", options->self_test, "Measure the gate's own false alarms and power")
-          ->excludes(baseline);
+  CLI::Option* self_test = command
+                               ->add_flag("--self-test", options->self_test,
+                                          "Measure how often the gate raises false alarms and misses differences")
+                               ->excludes(baseline);
   command->add_option("--repetitions", options->repetitions, "Self-test: pairs of seeds")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str()

@@ -17,6 +17,7 @@
 #include "cli/facts.h"
 #include "engine/base/names.h"
 #include "engine/kinematics/solvers/ik_solver.h"
+#include "engine/motion/motion_faults.h"
 #include "sim/choreography/move.h"
 #include "sim/choreography/song.h"
 
@@ -95,8 +96,12 @@ Result<int> ListClips() {
                static_cast<double>(song.CountFrames()) / kJudgedRateHz);
   }
   fmt::print(
-      "Your own: BVH, glTF and DeepMimic files, 'dance.glb#Jump', patterns such as '~/mocap/*.bvh' (docs/clips.md).\n");
+      "Your own: motion files (docs/clips.md has the formats), 'dance.glb#Jump', patterns such as '~/mocap/*.bvh'.\n");
   return kSuccess;
+}
+
+std::string CountOf(int count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
 /// Returns the scenarios of files, or, without a folder, those that come with the program, by name.
@@ -149,14 +154,16 @@ Result<int> ListScenarios(const std::string& folder) {
     ASSIGN_OR_RETURN(const auto scenarios, ReadScenarios(file, texts));
     fmt::print("{}\n", file);
     for (const Scenario& scenario : scenarios) {
-      fmt::print("  {} ({}): {}\n  {} trials × {} conditions × methods {}\n", scenario.name, scenario.task,
-                 scenario.question, scenario.trials, scenario.conditions.size(), Join(MethodNames(scenario)));
+      const bool is_of_files = FindTaskKind(scenario.task)->find_files != nullptr;
+      fmt::print("  {} ({}): {}\n  {} × {} × methods {}\n", scenario.name, scenario.task, scenario.question,
+                 is_of_files ? "a trial for each file" : CountOf(scenario.trials, "trial"),
+                 CountOf(static_cast<int>(scenario.conditions.size()), "condition"), Join(MethodNames(scenario)));
     }
   }
   return kSuccess;
 }
 
-enum class Listing { kMethods, kScenarios, kClips, kRecordings };
+enum class Listing { kMethods, kScenarios, kClips, kRecordings, kFaults };
 
 Result<int> ListAsJson(Listing what, const std::string& scenario_folder) {
   if (what == Listing::kMethods) {
@@ -178,6 +185,9 @@ Result<int> ListCommand(Listing what, const std::string& scenario_folder) {
       return ListClips();
     case Listing::kRecordings:
       fmt::print("{}", RecordingsAsMarkdown());
+      return kSuccess;
+    case Listing::kFaults:
+      for (const FaultRule& rule : FaultRules()) fmt::print("{:<10} {}\n", rule.name, rule.rule);
       return kSuccess;
     case Listing::kScenarios:
       break;
@@ -241,7 +251,7 @@ void DefineList(CLI::App& app, Action& action) {
   const auto list = [&](const char* name, const char* help, Listing what) {
     CLI::App* listing = command->add_subcommand(name, help);
     auto as_json = std::make_shared<bool>(false);
-    if (what != Listing::kRecordings) AddJson(*listing, *as_json);
+    if (what == Listing::kMethods || what == Listing::kClips) AddJson(*listing, *as_json);
     listing->callback(
         [=, &action] { action = [=] { return Finish(*as_json ? ListAsJson(what, "") : ListCommand(what, "")); }; });
   };
@@ -249,6 +259,7 @@ void DefineList(CLI::App& app, Action& action) {
   list("clips", "Built-in clips", Listing::kClips);
   list("recordings", "Print docs/reference/recordings.md: what recordings contain besides motions",
        Listing::kRecordings);
+  list("faults", "The faults that `etude evaluate --alone` finds, with their thresholds", Listing::kFaults);
   // Metrics: text, JSON or Markdown.
   auto json = std::make_shared<bool>(false), markdown = std::make_shared<bool>(false);
   CLI::App* metrics = command->add_subcommand("metrics", "Metrics with their definitions");

@@ -76,7 +76,9 @@ int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
     words += command->get_name() + " ";
   }
   // Report an unknown word first: it explains the failure better than the missing argument that it causes.
-  const std::vector<std::string> extras = app.remaining(true);
+  // Words after "--" belong to another program.
+  std::vector<std::string> extras = app.remaining(true);
+  extras.erase(std::ranges::find(extras, "--"), extras.end());
   std::string message = error.what();
   if (!extras.empty()) {
     message =

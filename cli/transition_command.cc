@@ -16,13 +16,15 @@ namespace etude {
 namespace {
 
 constexpr const char* kTransitionNotes =
-    "\nThe file plays FROM from its start, leaves it after --at (the frame shown when TO is wanted), and plays TO to "
-    "its "
-    "end, where\nFROM was left. The default method is the recommended one; `etude list methods` describes all. Its "
-    "frames "
-    "are compared and\njoined as twenty joints, so the file has these joints in FROM's proportions, at 30 Hz, not "
-    "FROM's "
-    "own skeleton. A body that\nlies, sits or kneels needs a clip that stands up: name some by --library.";
+    "\nThe file shows FROM from its start until a frame at or after --at, then the join, then TO until its end, moved "
+    "to the\n"
+    "place where FROM was left. The default method is the recommended one; `etude list methods` describes all of them. "
+    "The\n"
+    "clips are joined as a body of twenty joints, so the file has these joints, with FROM's proportions, at 30 Hz, and "
+    "not\n"
+    "FROM's own skeleton. From a body that lies, sits or kneels, a transition needs a clip that stands up: name such "
+    "clips by\n"
+    "--library.";
 
 struct TransitionCommandOptions {
   TransitionFileOptions transition;
@@ -57,9 +59,10 @@ Result<int> TransitionCommand(TransitionCommandOptions asked) {
                                               {"why", made.why},
                                               {"output", options.output}}));
   } else {
-    fmt::print("{} is left at {:.2f} s{}, {} entered at {:.2f} s; {:.2f} s after it was wanted ({})\n", options.from,
-               made.left_s, made.through.empty() ? "" : fmt::format(" for {}", made.through), options.to,
-               made.entered_s, made.wait_s, BranchName(made.branch));
+    fmt::print("{} plays until {:.2f} s, {:.2f} s after the request{}; then {} plays from its {:.2f} s on\n",
+               options.from, made.left_s, made.wait_s,
+               made.through.empty() ? "" : fmt::format(", and {} in between", made.through), options.to,
+               made.entered_s);
     fmt::print("  {}\n  as a body: twenty joints, 30 Hz, {:.2f} s, the change at", made.why, made.duration_s);
     for (const double point : made.points_s) fmt::print(" {:.2f} s", point);
     fmt::print("\n");
@@ -73,24 +76,27 @@ Result<int> TransitionCommand(TransitionCommandOptions asked) {
 void DefineTransition(CLI::App& app, Action& action) {
   auto asked = std::make_shared<TransitionCommandOptions>();
   TransitionFileOptions* options = &asked->transition;
-  CLI::App* command = app.add_subcommand("transition", "Lead from one clip into another, as one motion file");
-  command->add_option("from", options->from, "The clip that plays")->required();
-  command->add_option("to", options->to, "The clip that is wanted")->required();
-  command->add_option("--at", options->at_s, "When it is wanted: seconds of the first clip")
+  CLI::App* command =
+      app.add_subcommand("transition", "Write a transition from one clip into another as a motion file");
+  command->add_option("from", options->from, "The clip that plays first")->required();
+  command->add_option("to", options->to, "The clip that plays afterwards")->required();
+  command->add_option("--at", options->at_s, "When the second clip is requested: seconds of the first")
       ->check(NumberWithin(0, 36000, "time in s"))
       ->required();
   command->add_option("-o,--output", options->output, "The motion to write: .bvh, .glb, .trc, .csv, .c3d, .npz or .mot")
       ->required();
-  command->add_option("--wait", options->budget_s, "Longest time until the wanted clip plays, s")
+  command->add_option("--wait", options->budget_s, "Longest time from the request until the second clip plays, s")
       ->check(NumberWithin(0, 3600, "time in s"))
       ->capture_default_str();
-  command->add_option("--choice", options->choice, "Which frames are left and entered")
+  command
+      ->add_option("--choice", options->choice,
+                   "How the frames are chosen at which the first clip is left and the second entered")
       ->check(CLI::IsMember(ChoiceNames()))
       ->capture_default_str();
-  command->add_option("--join", options->join, "How the clips are joined there")
+  command->add_option("--join", options->join, "How the two clips are joined at these frames")
       ->check(CLI::IsMember(JoinNames()))
       ->capture_default_str();
-  command->add_option("--library", options->library, "Further clips, one of which may lead from the one to the other");
+  command->add_option("--library", options->library, "Further clips; one of them may be played in between");
   AddOverwrite(*command, asked->overwrite);
   AddJson(*command, asked->as_json);
   AddClipReading(*command, asked->reading);

@@ -91,7 +91,14 @@ TableRow RowOf(const ScenarioSummary& scenario, const Shown& shown, bool swept) 
 }
 
 std::string Legend(const ScenarioSummary& scenario) {
-  return fmt::format("p is corrected over this scenario’s {} (Holm).", Plural(scenario.family, "comparison"));
+  std::size_t rivals = 0;
+  for (const ConditionSummary& condition : scenario.conditions) rivals += condition.rivals.size();
+  const std::string with_baselines = Plural(scenario.family, "comparison") + " with baselines";
+  if (rivals == 0) return fmt::format("p is corrected over the {} (Holm).", with_baselines);
+  return fmt::format(
+      "p is corrected (Holm) over the {}, and apart from these over the {} with the strongest other method. A pair of "
+      "methods that is in both is listed once.",
+      with_baselines, FormatCount(static_cast<long long>(rivals)));
 }
 
 /// For every condition, visits its comparisons with baselines, then those with the strongest other method.

@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
+#include "io/drawing/escape.h"
 #include "io/drawing/numbers.h"
 #include "io/drawing/table.h"
 #include "reports/words/figures.h"
@@ -13,15 +12,26 @@ namespace {
 
 constexpr std::string_view kTask = "plausibility", kWithin = "within_limits";
 
-}  // namespace
+/// The clips that show faults.
+struct FaultyClips {
+  Table table;             ///< those beyond their limits first
+  std::string sentence;    ///< how many there are
+  std::size_t judged = 0;  ///< clips of the run that were judged
+  std::size_t faulty = 0;  ///< rows that the table would have without `most`
+};
 
-std::string FaultyClipsSection(const RunData& run) {
-  // Collect the clips with faults.
+/// Collects the clips that show faults; the table has at most `most` of them.
+FaultyClips FaultyClipsOf(const RunData& run, std::size_t most) {
+  FaultyClips found;
   std::vector<TableRow> beyond, others;
-  std::size_t judged = 0;
+  std::size_t unjudged = 0;
   ForEachRow(run, [&](const Row& row, std::size_t) {
-    if (row.task != kTask || row.result.status != Status::kOk) return;
-    ++judged;
+    if (row.task != kTask || row.result.status == Status::kSkipped) return;
+    if (row.result.status != Status::kOk) {
+      ++unjudged;
+      return;
+    }
+    ++found.judged;
     const auto faults = ValueOf(row, "faults").value_or(0);
     const bool is_beyond = ValueOf(row, kWithin) == 0.0;
     if (faults == 0 && !is_beyond) return;
@@ -30,36 +40,58 @@ std::string FaultyClipsSection(const RunData& run) {
             row.clip, row.method, {fmt::format("{:g}", faults), faults}, is_beyond ? "beyond" : "", row.result.reason}};
     (is_beyond ? beyond : others).push_back(std::move(line));
   });
-  if (judged == 0) return "";
-  // Write the table.
-  const std::size_t all = beyond.size() + others.size();
-  std::string html = fmt::format(
-      "<section class=\"card\" id=\"faults\"><h2>Clips with faults</h2><p>{} of {} show what no person does{}.</p>",
-      all, Plural(static_cast<long long>(judged), "clip"),
-      beyond.empty() ? "" : fmt::format("; {} exceed their limits", beyond.size()));
-  Table table{.label = "Clips with faults",
-              .columns = {{.head = "Clip", .is_row_head = true},
-                          {"Method"},
-                          {.head = "Faults", .is_number = true, .is_sortable = true},
-                          {"Limits"},
-                          {"What, when, and in which file"}}};
+  found.faulty = beyond.size() + others.size();
+  found.sentence = fmt::format("{} of {} show what no person does{}.", found.faulty,
+                               Plural(static_cast<long long>(found.judged), "clip"),
+                               beyond.empty() ? "" : fmt::format("; {} exceed their limits", beyond.size()));
+  if (unjudged > 0) {
+    found.sentence += fmt::format(" {} could not be judged.", Plural(static_cast<long long>(unjudged), "further clip"));
+  }
+  found.sentence += " etude list faults states what each fault is.";
+  found.table = {.label = "Clips with faults",
+                 .columns = {{.head = "Clip", .is_row_head = true},
+                             {"Method"},
+                             {.head = "Faults", .is_number = true, .is_sortable = true},
+                             {"Limits"},
+                             {"What, when, and in which file"}}};
   for (std::vector<TableRow>* rows : {&beyond, &others}) {
     for (TableRow& row : *rows) {
-      if (table.rows.size() < kMaxTableRows) table.rows.push_back(std::move(row));
+      if (found.table.rows.size() < most) found.table.rows.push_back(std::move(row));
     }
   }
-  if (all > 0) html += TableHtml(table) + LeftOutHtml(all, kMaxTableRows, "clips", "cells.jsonl");
+  return found;
+}
+
+}  // namespace
+
+std::string FaultyClipsSection(const RunData& run) {
+  const FaultyClips found = FaultyClipsOf(run, kMaxTableRows);
+  if (found.judged == 0) return "";
+  std::string html =
+      fmt::format("<section class=\"card\" id=\"faults\"><h2>Clips with faults</h2><p>{}</p>", found.sentence);
+  if (found.faulty > 0)
+    html += TableHtml(found.table) + LeftOutHtml(found.faulty, kMaxTableRows, "clips", "cells.jsonl");
   return html + "</section>\n";
 }
 
-std::vector<JunitCase> LimitCases(const RunData& run, const std::string& scenario) {
+std::string FaultyClipsMarkdown(const RunData& run) {
+  const FaultyClips found = FaultyClipsOf(run, kMaxListed);
+  if (found.judged == 0) return "";
+  std::string text = fmt::format("\n## Clips with faults\n\n{}\n", found.sentence);
+  if (found.faulty > 0) text += "\n" + TableMarkdown(found.table);
+  const std::string rest = LeftOutWords(found.faulty, kMaxListed, "clips", "cells.jsonl");
+  return rest.empty() ? text : text + fmt::format("\n{}\n", EscapeMarkdown(rest));
+}
+
+std::vector<JunitCase> ClipCases(const RunData& run, const std::string& scenario) {
   std::vector<JunitCase> cases;
-  for (const Row& row : run.rows) {
-    const auto is_within = row.scenario == scenario ? ValueOf(row, kWithin) : std::nullopt;
-    if (!is_within || row.task != kTask) continue;
-    cases.push_back({fmt::format("{}, {}", row.method, row.clip),
-                     *is_within > 0 ? ClaimOutcome::kMet : ClaimOutcome::kUnmet, row.result.reason});
-  }
+  ForEachRow(run, [&](const Row& row, std::size_t) {
+    if (row.scenario != scenario || row.task != kTask || row.result.status == Status::kSkipped) return;
+    const bool is_met = row.result.status == Status::kOk && ValueOf(row, kWithin) != 0.0;
+    const bool has_faults = ValueOf(row, "faults").value_or(0) > 0;
+    cases.push_back({fmt::format("{}, {}", row.method, row.clip), is_met ? ClaimOutcome::kMet : ClaimOutcome::kUnmet,
+                     row.result.reason, is_met && has_faults ? row.result.reason : ""});
+  });
   return cases;
 }
 

@@ -12,7 +12,11 @@ namespace etude {
 /// with each fault in words; "" for other runs.
 std::string FaultyClipsSection(const RunData& run);
 
-/// Returns a case for every clip of a scenario with limits: it fails if the clip exceeds them.
-std::vector<JunitCase> LimitCases(const RunData& run, const std::string& scenario);
+/// Returns the same table for Markdown, under a heading; "" for other runs.
+std::string FaultyClipsMarkdown(const RunData& run);
+
+/// Returns a case for every clip of a scenario of motions without a truth: it fails if the clip exceeds its limits or
+/// cannot be judged; otherwise it says what faults the clip shows.
+std::vector<JunitCase> ClipCases(const RunData& run, const std::string& scenario);
 
 }  // namespace etude

@@ -150,7 +150,12 @@ std::vector<std::string> GateSentences(const GateReport& report) {
       OutcomeCounts(report.expectations, "expectation", [](const GateExpectation& e) { return e.result.outcome; }),
       OutcomeCounts(report.ratios, "time rule", [](const RatioResult& ratio) { return ratio.outcome; })};
   if (report.baseline_file.empty()) {
-    sentences.push_back("nothing was compared: no baseline was given");
+    const bool has_own = !report.expectations.empty() || !report.ratios.empty();
+    sentences.push_back(fmt::format(
+        "no baseline was given, so nothing was compared: {}",
+        has_own ? "only the run’s own expectations and time rules were judged"
+                : "the scenarios have no expectations either, so only this was judged: every cell has a row, and every "
+                  "method an answer"));
   } else if (!report.comparison.moves.empty()) {
     sentences.push_back("against the baseline, " + CompareSentence(report.comparison));
   }
@@ -321,7 +326,8 @@ JunitCase CaseOf(const MetricMove& move, const GateReport& report) {
 
 std::string WriteGateMarkdown(const GateReport& report) {
   std::string text =
-      fmt::format("## Etude gate of {}: {}\n\n", EscapeMarkdown(report.suite), GateVerdictWords(GateVerdictOf(report)));
+      fmt::format("## Etude gate of {}: {}{}\n\n", EscapeMarkdown(report.suite),
+                  GateVerdictWords(GateVerdictOf(report)), report.baseline_file.empty() ? ", without a baseline" : "");
   // What was judged, and what failed.
   for (const std::string& sentence : GateSentences(report)) text += "- " + EscapeMarkdown(sentence) + "\n";
   text += List("**Incomplete**, so there is no overall verdict:", report.incomplete);

@@ -46,7 +46,7 @@ JunitCase NoCellBroke(const ScenarioFindings& findings) {
     // Unsolved and skipped cells fail no test; a scenario can forbid them in `expect`.
     if (reason.status == Status::kUnsolved || reason.status == Status::kSkipped) continue;
     broken += reason.cells;
-    detail += fmt::format("{} x {} in {}: {}\n", reason.cells, StatusName(reason.status), reason.method, reason.reason);
+    detail += fmt::format("{} x {} in {}: {}\n", reason.cells, StatusName(reason.status), reason.method, reason.Words());
   }
   return {"no cell broke", MetWhen(broken == 0), std::move(detail)};
 }
@@ -64,12 +64,14 @@ JunitCase TheAnswer(const ScenarioFindings& findings) {
 
 std::vector<JunitCase> CasesOf(const RunData& run, const ScenarioSummary& scenario) {
   const ScenarioFindings findings = FindingsOf(run, scenario);
-  std::vector<JunitCase> cases{EveryCellHasARow(run, scenario), NoCellBroke(findings)};
+  std::vector<JunitCase> clips = ClipCases(run, scenario.name);
+  std::vector<JunitCase> cases{EveryCellHasARow(run, scenario)};
+  if (clips.empty()) cases.push_back(NoCellBroke(findings));  // else each clip that cannot be judged is a case
   if (findings.answer.is_compared) cases.push_back(TheAnswer(findings));
   for (const ExpectationResult& e : scenario.expectations) {
     cases.push_back({e.text, e.outcome, e.detail, fmt::format("judged on {}", TheseUnits(scenario.unit))});
   }
-  for (JunitCase& clip : LimitCases(run, scenario.name)) cases.push_back(std::move(clip));
+  for (JunitCase& clip : clips) cases.push_back(std::move(clip));
   return cases;
 }
 

@@ -27,7 +27,7 @@ std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>
 
 /// Returns the run as JUnit XML, one suite per scenario. Its cases are: one per expectation (failed if unmet, skipped
 /// if undecided), one that holds if every cell has a row, one that holds if no cell crashed, failed, timed out or gave
-/// an invalid answer, and one per clip that has limits.
+/// an invalid answer, and instead of that one per clip of motions without a truth (ClipCases).
 std::string WriteJunit(const RunData& run);
 
 }  // namespace etude

@@ -6,6 +6,7 @@
 #include "io/drawing/escape.h"
 #include "io/drawing/table.h"
 #include "reports/comparison_table.h"
+#include "reports/faulty_clips.h"
 #include "reports/overview_table.h"
 #include "reports/page.h"
 #include "reports/paper/paper_a.h"
@@ -20,6 +21,7 @@ namespace etude {
 namespace {
 
 std::string FindingText(const MethodFinding& finding) {
+  if (!finding.is_compared) return EscapeMarkdown(finding.sentence);
   return fmt::format("**{}**: {}{}", finding.BothVerdicts(), EscapeMarkdown(finding.sentence),
                      finding.why_open.empty() ? "" : EscapeMarkdown(fmt::format(" Open: {}.", finding.why_open)));
 }
@@ -63,7 +65,7 @@ std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
   }
   for (const ReasonCount& reason : std::span(findings.reasons).first(std::min(findings.reasons.size(), kMaxListed))) {
     text += fmt::format("  - {} × {} in {}: {}\n", FormatCount(reason.cells), EscapeMarkdown(StatusName(reason.status)),
-                        EscapeMarkdown(reason.method), EscapeMarkdown(reason.reason));
+                        EscapeMarkdown(reason.method), EscapeMarkdown(reason.Words()));
   }
   const std::string rest = LeftOutWords(findings.reasons.size(), kMaxListed, "reasons", "cells.jsonl");
   if (!rest.empty()) text += fmt::format("  - {}\n", EscapeMarkdown(rest));
@@ -81,6 +83,7 @@ std::string WriteMarkdown(const RunData& run) {
     if (!headline.empty())
       text += fmt::format("- **{}** {}\n", EscapeMarkdown(scenario.name), EscapeMarkdown(headline));
   }
+  text += FaultyClipsMarkdown(run);
   for (const ScenarioSummary& scenario : run.scenarios) text += ScenarioText(run, scenario);
   text += fmt::format("\n{}\n\n{}\n", EscapeMarkdown(kSigns), EscapeMarkdown(kComparisonLegend));
   text += fmt::format("\nEtude {}, {}.\n", EscapeMarkdown(run.program_version), DescribeWorlds(run));

@@ -258,7 +258,7 @@ std::string Failures(const RunData& run, const ScenarioSummary& scenario, const 
     for (const ReasonCount& reason : std::span(findings.reasons).first(std::min(findings.reasons.size(), kMaxListed))) {
       html += fmt::format("<li data-ids=\"{}\"><b>{} × {}</b> in {}: {}</li>",
                           EscapeMarkup(FirstCellOf(run, scenario, reason)), FormatCount(reason.cells),
-                          StatusName(reason.status), EscapeMarkup(reason.method), EscapeMarkup(reason.reason));
+                          StatusName(reason.status), EscapeMarkup(reason.method), EscapeMarkup(reason.Words()));
     }
     html += "</ul>" + LeftOutHtml(findings.reasons.size(), kMaxListed, "reasons", "cells.jsonl");
   }

@@ -1,10 +1,10 @@
 #include "bench/gate/gate.h"
 
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <utility>
 
+#include "bench/model/reasons.h"
 #include "bench/statistics/bootstrap.h"
 #include "engine/base/order_statistics.h"
 
@@ -113,7 +113,7 @@ std::vector<std::string> DescribeSilentMethods(const FinishedRun& run) {
     int attempted = 0;
     bool has_answer = false;
     std::string first;
-    std::map<std::string, int> causes;
+    ReasonCounts causes;
   };
   constexpr std::size_t kMaxKeptCauses = 1000, kMaxShownCauses = 3;
   // Collect the causes, by scenario and method.
@@ -125,18 +125,17 @@ std::vector<std::string> DescribeSilentMethods(const FinishedRun& run) {
     cells.has_answer |= result.status == Status::kOk || result.status == Status::kUnsolved;
     if (cells.attempted++ == 0) cells.first = row.Id();
     if (cells.has_answer || cells.causes.size() == kMaxKeptCauses) return;
-    ++cells.causes[fmt::format("{}: {}", StatusName(result.status), result.reason)];
+    cells.causes.Add(result.reason, fmt::format("{}: ", StatusName(result.status)));
   });
   // Describe each method without an answer by its most frequent causes.
   std::vector<std::string> sentences;
   for (const auto& [name, cells] : methods) {
     if (cells.has_answer) continue;
-    std::vector<std::pair<std::string, int>> causes(cells.causes.begin(), cells.causes.end());
-    std::ranges::stable_sort(causes, std::greater(), &std::pair<std::string, int>::second);
+    const std::vector<CountedReason> causes = cells.causes.MostFrequentFirst();
     std::string text = fmt::format("{}: none of the {} cells of {} is ok or unsolved; the first has {}", name.first,
                                    cells.attempted, name.second, cells.first);
     for (std::size_t i = 0; i < std::min(causes.size(), kMaxShownCauses); ++i) {
-      text += fmt::format("; {} × {}", causes[i].second, causes[i].first);
+      text += fmt::format("; {} × {}", causes[i].cells, causes[i].Words());
     }
     if (causes.size() > kMaxShownCauses) text += "; and others";
     sentences.push_back(std::move(text));

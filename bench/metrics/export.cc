@@ -7,6 +7,7 @@
 
 #include "bench/metrics/catalogue.h"
 #include "engine/motion/body.h"
+#include "engine/motion/motion_faults.h"
 #include "io/files/json.h"
 
 namespace etude {
@@ -150,12 +151,19 @@ Json MetricsJson() {
   return json;
 }
 
+std::string FaultsTable() {
+  std::string text = "| fault | unit of its size | shown when |\n|---|---|---|\n";
+  for (const FaultRule& rule : FaultRules()) text += fmt::format("| {} | {} | {} |\n", rule.name, rule.unit, rule.rule);
+  return text;
+}
+
 std::string MetricsPage() {
   std::string page(kIntroduction);
   std::string domain;
   for (const MetricInfo& metric : AllMetrics()) {
     if (metric.domain != domain) page += fmt::format("\n## {}\n", metric.domain);
     domain = metric.domain;
+    if (metric.id == "faults") page += "\n" + FaultsTable();
     page += Section(metric);
   }
   return page;

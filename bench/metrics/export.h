@@ -14,6 +14,9 @@ Json MetricsJson();
 /// Returns the text of docs/reference/metrics.md.
 std::string MetricsPage();
 
+/// Returns the rules by which faults of a motion are found (FaultRules), as a table of Markdown.
+std::string FaultsTable();
+
 /// Returns the definitions of AddedMetrics by id, as a manifest keeps them: the catalogue's JSON without test vectors
 /// and with `reads`.
 Json AddedMetricsJson();

@@ -119,7 +119,7 @@ const FieldTable<Limits>& LimitFields() {
   using Key = Field<Limits>;
   static const FieldTable<Limits> table{
       {Key::Number("time_s", &Limits::time_s, {0.001, 86'400},
-                   "Processor time of a world and of each method, in seconds; for a program outside, wall-clock time."),
+                   "Processor time of a world and of each method, in seconds; for an outside program, wall-clock time."),
        Key::Number("memory_mb", &Limits::memory_mb, {16, 1'048'576},
                    "Resident memory of the worker, and of each program that it has started.")}};
   return table;

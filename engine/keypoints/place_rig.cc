@@ -133,7 +133,7 @@ Result<double> UnitOf(const RigFile& rig, double file_units, const PlacementOpti
           {}, "in {} the person would be {:.3g} m tall; allowed: {:g} to {:g} m; for one of {:g} m: --rig-unit {:.4g}",
           UnitText(metres), stature, kMinStature, kMaxStature, kUsualStature, factor);
     }
-    told = fmt::format("lengths in {} (as given; a person of {:.2f} m)", UnitText(metres), stature);
+    told = fmt::format("lengths in {} (as given; by the legs, a person of about {:.2f} m)", UnitText(metres), stature);
     return metres;
   }
   if (!rig.has_unit) {
@@ -143,7 +143,7 @@ Result<double> UnitOf(const RigFile& rig, double file_units, const PlacementOpti
   // Keep the format's unit if it gives a plausible stature.
   const double usual = rig.unit_m * file_units;
   if (usual >= kMinStature && usual <= kMaxStature) {
-    told = fmt::format("lengths in {} (a person of {:.2f} m)", UnitText(rig.unit_m), usual);
+    told = fmt::format("lengths in {} (by the legs, a person of about {:.2f} m)", UnitText(rig.unit_m), usual);
     return rig.unit_m;
   }
   // Otherwise look for another unit.
@@ -154,7 +154,7 @@ Result<double> UnitOf(const RigFile& rig, double file_units, const PlacementOpti
                 "{:g} m use --rig-unit {:.4g}",
                 file_units, kUsualStature, factor);
   }
-  told = fmt::format("lengths in {} (found: a person of {:.2f} m; in {} it would be {:.4g} m)", likely->name,
+  told = fmt::format("lengths in {} (found: by the legs, a person of about {:.2f} m; in {} it would be {:.4g} m)", likely->name,
                      likely->metres * file_units, UnitText(rig.unit_m), usual);
   return likely->metres;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/base/order_statistics.h"
+#include "engine/motion/fault_limits.h"
 
 namespace etude {
 namespace {
@@ -48,12 +49,11 @@ glm::dvec3 MedianOfJoints(const PoseSteps& vectors) {
 /// Returns the length of `median` if enough vectors agree with it, those of one foot among them, else 0. Fast arms and
 /// legs need not agree.
 double AgreedLength(const PoseSteps& vectors, const glm::dvec3& median, double relative, double absolute) {
-  constexpr double kAgreeing = 0.7;
   const double length = glm::length(median), tolerance = relative * length + absolute;
   const auto agrees = [&](const glm::dvec3& v) { return glm::distance(v, median) < tolerance; };
   if (!agrees(vectors[Index(Role::kLeftAnkle)]) && !agrees(vectors[Index(Role::kRightAnkle)])) return 0;
   const auto count = static_cast<double>(std::ranges::count_if(vectors, agrees));
-  return count >= kAgreeing * kRoleCount ? length : 0;
+  return count >= fault_limits::kAgreeingShare * kRoleCount ? length : 0;
 }
 
 /// Joins the marked frames that are at most two frames apart.
@@ -71,8 +71,8 @@ std::vector<FrameRange> GroupsOf(const std::vector<int>& frames) {
 }
 
 std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
-  constexpr double kStill = 0.002, kMinSeconds = 0.9, kAbrupt = 0.03, kNeverAsStill = 0.003;  // metres per second
-  constexpr double kGentle = 0.6;  // speed of the last step before rest, as a share of the step before
+  constexpr double kNeverAsStill = 0.003;  // metres per second
+  constexpr double kGentle = 0.6;          // speed of the last step before rest, as a share of the step before
   // Compute the mean speed of the joints at each step, and mark the steps without motion.
   const int steps = static_cast<int>(motion.poses.size()) - 1;
   std::vector<double> mean(steps);
@@ -84,19 +84,19 @@ std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
       fastest = std::max(fastest, speed);
       mean[f] += speed / kRoleCount;
     }
-    is_still[f] = fastest < kStill;
+    is_still[f] = fastest < fault_limits::kStill_m_s;
   }
   // A held pose is not a fault if the body comes to rest gently before it and moves gently after it.
   std::vector<FrameRange> frozen;
   for (const FrameRange& range : RangesOf(is_still)) {
-    if ((range.last - range.first + 1) / motion.rate_hz < kMinSeconds) continue;
+    if ((range.last - range.first + 1) / motion.rate_hz < fault_limits::kFreeze_s) continue;
     std::vector<double> elsewhere(mean.begin(), mean.begin() + range.first);
     elsewhere.insert(elsewhere.end(), mean.begin() + range.last + 1, mean.end());
     if (elsewhere.empty()) continue;
     // If the body is never so still elsewhere, judge more strictly.
     constexpr std::size_t kMinElsewhere = 20;
     const bool is_never_as_still = elsewhere.size() > kMinElsewhere && Quantile(elsewhere, 0.02) > kNeverAsStill;
-    const double limit = is_never_as_still ? kNeverAsStill : kAbrupt;
+    const double limit = is_never_as_still ? kNeverAsStill : fault_limits::kAbrupt_m_s;
     const auto is_abrupt = [&](int near, int farther) {
       if (near < 0 || near >= steps || mean[near] <= limit) return false;
       return farther < 0 || farther >= steps || mean[near] > kGentle * mean[farther];
@@ -165,7 +165,6 @@ struct Hot {
 
 std::vector<Hot> FindHot(const std::vector<PoseSteps>& differences, const std::vector<glm::dvec3>& common,
                          std::span<const JointSet> unseen) {
-  constexpr double kMin = 0.25, kMax = 0.45, kTimesUsual = 6, kUsual = 0.95;
   std::vector<Hot> hot;
   std::vector<double> sizes(common.size());
   for (const Role joint : AllRoles()) {
@@ -180,7 +179,8 @@ std::vector<Hot> FindHot(const std::vector<PoseSteps>& differences, const std::v
       const bool counts = unseen.empty() || is_seen(f);
       sizes[f] = counts ? glm::distance(differences[f][j], common[f]) : 0;
     }
-    const double limit = std::clamp(kTimesUsual * Quantile(sizes, kUsual), kMin, kMax);
+    const double limit = std::clamp(fault_limits::kPopTimesUsual * Quantile(sizes, fault_limits::kUsualPop),
+                                    fault_limits::kPop_m, fault_limits::kSurePop_m);
     for (std::size_t f = 0; f < sizes.size(); ++f) {
       if (sizes[f] > limit) hot.push_back({static_cast<int>(f), joint, sizes[f]});
     }
@@ -238,7 +238,7 @@ glm::dvec2 WeightedMean(const std::vector<PoseSteps>& excesses, int f) {
 
 /// Finds steps of the velocity along the floor: second differences that their neighbours do not share.
 std::vector<VelocityStep> FindVelocitySteps(const BodyMotion& motion, const Displacements& found) {
-  constexpr double kMin_m_s = 0.12, kTolerance = 0.4;
+  constexpr double kTolerance = 0.4;
   constexpr int kNear = 3;
   // Compute the second differences along the floor beyond the mean of those before and after.
   const int frames = static_cast<int>(motion.poses.size());
@@ -259,7 +259,7 @@ std::vector<VelocityStep> FindVelocitySteps(const BodyMotion& motion, const Disp
   std::vector<VelocityStep> steps;
   for (int f = 2; f + 2 < frames; ++f) {
     const double length = AgreedLength(excesses[f], MedianOfJoints(excesses[f]), kTolerance, 0);
-    if (length * motion.rate_hz < kMin_m_s || IsAtFrozenEnd({f, f}, found.frozen)) continue;
+    if (length * motion.rate_hz < fault_limits::kStep_m_s || IsAtFrozenEnd({f, f}, found.frozen)) continue;
     const bool is_displaced = std::ranges::any_of(
         found.common, [f](const Displacement& d) { return d.before - kNear <= f && f <= d.after + kNear; });
     if (!is_displaced) steps.push_back({f, motion.rate_hz * WeightedMean(excesses, f)});

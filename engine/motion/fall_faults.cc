@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "engine/motion/fault_limits.h"
 #include "engine/motion/ground_faults.h"
 #include "engine/motion/parabola.h"
 #include "engine/motion/support.h"
@@ -46,7 +47,7 @@ std::vector<Flight> FindFlights(const GroundView& ground) {
 }  // namespace
 
 void FindFalls(const GroundView& ground, std::vector<MotionFault>& faults) {
-  constexpr double kGravity = 9.81, kMaxFactor = 2.2, kHalf = 0.5;
+  constexpr double kHalf = 0.5;
   std::vector<Flight> flights = FindFlights(ground);
   if (flights.empty()) return;
   // Take the median of the falls, each weighted by its sag, because long flights are measured best.
@@ -57,7 +58,9 @@ void FindFalls(const GroundView& ground, std::vector<MotionFault>& faults) {
     sum += flight.sag;
     return sum >= kHalf * whole;
   });
-  if (middle->fall < kGravity * kMaxFactor && middle->fall > kGravity / kMaxFactor) return;
+  if (middle->fall < fault_limits::kGravity * fault_limits::kGravityFactor &&
+      middle->fall > fault_limits::kGravity / fault_limits::kGravityFactor)
+    return;
   faults.push_back(ground.FaultOf(FaultKind::kRate, middle->frames, middle->fall));
 }
 

@@ -4,15 +4,17 @@
 #include <vector>
 
 #include "engine/base/order_statistics.h"
+#include "engine/motion/fault_limits.h"
 #include "engine/motion/ground_faults.h"
 
 namespace etude {
 namespace {
 
 void FindJumps(const GroundView& ground, std::vector<MotionFault>& faults) {
-  constexpr double kAlongFloor = 0.10, kAny = 0.25;
   for (const Displacement& d : ground.displacements()) {
-    if (std::hypot(d.largest.x, d.largest.z) <= kAlongFloor && glm::length(d.largest) <= kAny) continue;
+    if (std::hypot(d.largest.x, d.largest.z) <= fault_limits::kJumpAlongFloor_m &&
+        glm::length(d.largest) <= fault_limits::kJump_m)
+      continue;
     faults.push_back(ground.FaultOf(FaultKind::kJumps, {d.before, d.after}, glm::length(d.largest)));
   }
 }
@@ -56,7 +58,7 @@ struct Told {
 };
 
 Told FindDisplacedLevels(const GroundView& ground, std::vector<MotionFault>& faults) {
-  constexpr double kStep = 0.02, kMin = 0.04, kMinSeconds = 0.1;
+  constexpr double kStep = 0.02, kMinSeconds = 0.1;
   // Split the motion at its vertical displacements.
   std::vector<Level> levels = {{{0, ground.frames() - 1}, 0}};
   double offset = 0;
@@ -70,7 +72,7 @@ Told FindDisplacedLevels(const GroundView& ground, std::vector<MotionFault>& fau
             .reference = levels.size() > 1 ? ReferenceOffset(ground, levels) : 0};
   for (const Level& level : levels) {
     const double height = level.offset - told.reference;
-    if (std::abs(height) <= kMin || ground.Seconds(level.frames) <= kMinSeconds) continue;
+    if (std::abs(height) <= fault_limits::kLevel_m || ground.Seconds(level.frames) <= kMinSeconds) continue;
     const FaultKind kind = height > 0 ? FaultKind::kFloats : FaultKind::kSinks;
     faults.push_back(ground.FaultOf(kind, level.frames, std::abs(height)));
     for (int f = level.frames.first; f <= level.frames.last; ++f) told.frames[f] = true;
@@ -91,25 +93,27 @@ bool FindsRest(const GroundView& ground, const FrameRange& span) {
 
 /// Returns the float or the sink of a body that is too high or too low in the whole clip.
 std::optional<MotionFault> FindWrongHeight(const GroundView& ground, const Told& told) {
-  constexpr double kHighRest = 0.10, kHighAtAll = 0.08, kDeepRest = -0.06, kEnoughUpright = 0.3, kMinUprightShare = 0.5;
+  constexpr double kHighAtAll = 0.08, kEnoughUpright = 0.3, kMinUprightShare = 0.5;
   const FrameRange all{0, ground.frames() - 1};
   const double rest = ground.LowestRest() + told.reference - ground.floor();
-  const bool is_high = rest > kHighRest && Quantile(ground.lowest(), 0.1) - ground.floor() > kHighAtAll;
+  const bool is_high =
+      rest > fault_limits::kFloatInAll_m && Quantile(ground.lowest(), 0.1) - ground.floor() > kHighAtAll;
   if (is_high && ground.UprightShare() > kMinUprightShare) return ground.FaultOf(FaultKind::kFloats, all, rest);
-  if (rest < kDeepRest && ground.UprightShare() > kEnoughUpright) return ground.FaultOf(FaultKind::kSinks, all, -rest);
+  if (rest < -fault_limits::kSink_m && ground.UprightShare() > kEnoughUpright)
+    return ground.FaultOf(FaultKind::kSinks, all, -rest);
   return std::nullopt;
 }
 
 /// Appends the times in which the feet are below the floor, in frames without a displacement.
 void FindLow(const GroundView& ground, const Told& told, std::vector<MotionFault>& faults) {
-  constexpr double kDeep = 0.06, kMinSunk_s = 0.15;
   std::vector<bool> is_deep(ground.frames());
   for (int f = 0; f < ground.frames(); ++f) {
     const double feet = ground.FootHeight(f) + ground.Offset(f).y - told.reference;
-    is_deep[f] = !told.frames[f] && ground.Lowest(f) - ground.floor() < -kDeep && feet < -kDeep;
+    is_deep[f] =
+        !told.frames[f] && ground.Lowest(f) - ground.floor() < -fault_limits::kSink_m && feet < -fault_limits::kSink_m;
   }
   for (const FrameRange& span : RangesOf(is_deep)) {
-    if (ground.Seconds(span) < kMinSunk_s) continue;
+    if (ground.Seconds(span) < fault_limits::kSink_s) continue;
     const double low = *std::min_element(ground.lowest().begin() + span.first, ground.lowest().begin() + span.last + 1);
     faults.push_back(ground.FaultOf(FaultKind::kSinks, span, ground.floor() - low));
   }
@@ -119,12 +123,7 @@ void FindLow(const GroundView& ground, const Told& told, std::vector<MotionFault
 /// Nobody jumps for a second, but some people sit on high chairs or stand on steps. In recorded dance, toes stay up to
 /// 5 cm above their lowest twentieth for two seconds, 9 cm for one.
 void FindHigh(const GroundView& ground, const Told& told, std::vector<MotionFault>& faults) {
-  struct Hovering {
-    double height_m, longest_s;
-    bool is_upright;
-  };
-  constexpr double kStep = 0.15;
-  for (const Hovering& kind : {Hovering{0.5, 1, false}, Hovering{0.25, 1, true}, Hovering{0.09, 2, true}}) {
+  for (const fault_limits::Hovering& kind : fault_limits::kHoverings) {
     std::vector<bool> hovers(ground.frames());
     for (int f = 0; f < ground.frames(); ++f) {
       hovers[f] = !told.frames[f] && ground.Lowest(f) - ground.floor() > kind.height_m &&
@@ -135,7 +134,7 @@ void FindHigh(const GroundView& ground, const Told& told, std::vector<MotionFaul
       if (ground.Seconds(span) <= kind.longest_s) continue;
       const double height =
           Median({ground.lowest().begin() + span.first, ground.lowest().begin() + span.last + 1}) - ground.floor();
-      if (height > kStep && FindsRest(ground, span)) continue;
+      if (height > fault_limits::kStand_m && FindsRest(ground, span)) continue;
       faults.push_back(ground.FaultOf(FaultKind::kFloats, span, height));
       is_found = true;
     }

@@ -9,6 +9,7 @@
 #include "engine/base/angles.h"
 #include "engine/base/directions.h"
 #include "engine/base/order_statistics.h"
+#include "engine/motion/fault_limits.h"
 
 namespace etude {
 namespace {
@@ -99,7 +100,6 @@ std::vector<LengthChanges> FindLengthChanges(const BodyMotion& motion, std::span
 /// all of these frames. Between markers, which skin moves over bones, it must differ by fifteen times the usual.
 void FindStretches(const BodyMotion& motion, const FaultOptions& options, const std::vector<Pop>& pops,
                    std::vector<MotionFault>& faults) {
-  constexpr double kLimit = 0.03, kTimesUsual = 15, kMinSeconds = 0.05;
   constexpr int kMinFrames = 3;
   const std::vector<LengthChanges> limbs = FindLengthChanges(motion, options.unseen, pops);
   if (limbs.empty()) return;
@@ -108,7 +108,7 @@ void FindStretches(const BodyMotion& motion, const FaultOptions& options, const 
   const double usual_of_all = Median(usual);
   for (const LengthChanges& limb : limbs) {
     const double softness = options.is_of_markers ? std::max(limb.usual, usual_of_all) : 0;
-    const double limit = std::max(kLimit, kTimesUsual * softness);
+    const double limit = std::max(fault_limits::kStretch, fault_limits::kStretchTimesUsual * softness);
     FrameRange all{static_cast<int>(limb.share.size()), -1};
     double largest = 0;
     int count = 0;
@@ -118,7 +118,7 @@ void FindStretches(const BodyMotion& motion, const FaultOptions& options, const 
       largest = std::max(largest, limb.share[f]);
       ++count;
     }
-    if (count < kMinFrames || count < kMinSeconds * motion.rate_hz) continue;
+    if (count < kMinFrames || count < fault_limits::kStretch_s * motion.rate_hz) continue;
     faults.push_back({FaultKind::kStretches, all.first / motion.rate_hz, all.last / motion.rate_hz, limb.end, largest});
   }
 }
@@ -131,7 +131,6 @@ double OverextensionByHips(const BodyPose& pose, Role hip, Role knee, Role ankle
 }
 
 void FindBends(const BodyMotion& motion, std::span<const JointSet> unseen, std::vector<MotionFault>& faults) {
-  constexpr double kLimit = 25, kMinSeconds = 0.1;
   for (const Side side : {Side::kLeft, Side::kRight}) {
     const auto [hip, knee, ankle, foot] = kLegs[side == Side::kLeft ? 0 : 1];
     std::vector<double> angles;
@@ -145,12 +144,12 @@ void FindBends(const BodyMotion& motion, std::span<const JointSet> unseen, std::
         angles.push_back(OverextensionByHips(pose, hip, knee, ankle));
       }
     }
-    AppendRanges(motion, angles, kLimit, kMinSeconds, {.kind = FaultKind::kBends, .joint = knee}, faults);
+    AppendRanges(motion, angles, fault_limits::kBend_deg, fault_limits::kBend_s,
+                 {.kind = FaultKind::kBends, .joint = knee}, faults);
   }
 }
 
 void FindPasses(const BodyMotion& motion, std::span<const JointSet> unseen, std::vector<MotionFault>& faults) {
-  constexpr double kThin = 0.035, kMinSeconds = 0.05;
   for (const Side side : {Side::kLeft, Side::kRight}) {
     const auto [elbow, wrist, hand] = kArms[side == Side::kLeft ? 0 : 1];
     std::vector<double> depth;
@@ -159,7 +158,8 @@ void FindPasses(const BodyMotion& motion, std::span<const JointSet> unseen, std:
       depth.push_back(is_seen ? -ArmFromSpine(motion.poses[f], side, sees_hand) : -1);
     }
     const std::size_t first = faults.size();
-    AppendRanges(motion, depth, -kThin, kMinSeconds, {.kind = FaultKind::kPasses, .joint = wrist}, faults);
+    AppendRanges(motion, depth, -fault_limits::kPass_m, fault_limits::kPass_s,
+                 {.kind = FaultKind::kPasses, .joint = wrist}, faults);
     for (std::size_t i = first; i < faults.size(); ++i) faults[i].size *= -1;
   }
 }

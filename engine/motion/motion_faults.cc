@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 
 #include "engine/motion/displacements.h"
+#include "engine/motion/fault_limits.h"
 #include "engine/motion/ground_faults.h"
 #include "engine/motion/ground_view.h"
 #include "engine/motion/limb_faults.h"
@@ -17,15 +17,6 @@ namespace etude {
 namespace {
 
 using enum FaultKind;
-
-struct FaultWords {
-  std::string_view name, unit;
-};
-/// In the order of FaultKind.
-constexpr std::array kFaultWords = {
-    FaultWords{"floats", "m"}, FaultWords{"sinks", "m"},   FaultWords{"skates", "m/s"},      FaultWords{"jumps", "m"},
-    FaultWords{"pops", "m"},   FaultWords{"freezes", "s"}, FaultWords{"stretches", "share"}, FaultWords{"bends", "deg"},
-    FaultWords{"passes", "m"}, FaultWords{"rate", "m/s2"}, FaultWords{"speed", "m/s"}};
 
 void AppendDisplacements(const BodyMotion& motion, const Displacements& displacements,
                          std::vector<MotionFault>& faults) {
@@ -40,15 +31,14 @@ void AppendDisplacements(const BodyMotion& motion, const Displacements& displace
 
 /// Appends the speed if most frames show a joint that is faster than the feet of sprinters.
 void AppendSpeed(const BodyMotion& motion, std::vector<MotionFault>& faults) {
-  constexpr double kFast_m_s = 10;
   const double speed = ComputeStatistics(motion).speed_median_m_s;
-  if (speed <= kFast_m_s) return;
+  if (speed <= fault_limits::kFast_m_s) return;
   const double end = static_cast<double>(motion.poses.size() - 1) / motion.rate_hz;
   faults.push_back({kSpeed, 0, end, std::nullopt, speed});
 }
 
 std::string GravitySentence(const MotionFault& fault) {
-  constexpr double kGravity = 9.81;
+  using fault_limits::kGravity;
   const bool is_fast = fault.size > kGravity;
   const double factor = is_fast ? fault.size / kGravity : kGravity / fault.size;
   return fmt::format(
@@ -92,11 +82,81 @@ std::string SentenceOf(const MotionFault& fault, bool is_always) {
   return "";
 }
 
+std::vector<FaultRule> MakeFaultRules() {
+  using namespace fault_limits;
+  // Words that several rules use.
+  const auto cm = [](double metres) { return fmt::format("{:g} cm", 100 * metres); };
+  const auto percent = [](double share) { return fmt::format("{:g} %", 100 * share); };
+  const std::string whole_body = fmt::format("{} of the joints, one ankle among them,", percent(kAgreeingShare));
+  std::string hovers;
+  for (const Hovering& rule : kHoverings) {
+    hovers += fmt::format("{}{} for {:g} s{}", hovers.empty() ? "" : ", ", cm(rule.height_m), rule.longest_s,
+                          rule.is_upright ? " while upright" : "");
+  }
+  // One rule for each kind, in the order of FaultKind.
+  return {
+      {"floats", "m",
+       fmt::format(
+           "The feet rest more than {} above the floor in the whole clip; or all joints stay higher than a limit "
+           "({}; above {} only if no foot rests); or {} are displaced upwards by more than {} from one frame to "
+           "the next, until they come back.",
+           cm(kFloatInAll_m), hovers, cm(kStand_m), whole_body, cm(kLevel_m))},
+      {"sinks", "m",
+       fmt::format("The feet are more than {} below the floor for {:g} s or in the whole clip; or {} are displaced "
+                   "downwards by more than {}, until they come back.",
+                   cm(kSink_m), kSink_s, whole_body, cm(kLevel_m))},
+      {"skates", "m/s",
+       fmt::format(
+           "Feet that should stand share a velocity along the floor of {}/s or more for {:g} s, and few of them "
+           "rest; or {} change their velocity by {}/s from one frame to the next and back after {:g} to {:g} s, "
+           "while low feet move with them.",
+           cm(kGlide_m_s), kGlide_s, whole_body, cm(kStep_m_s), kMinCarried_s, kMaxCarried_s)},
+      {"jumps", "m",
+       fmt::format(
+           "{} are displaced alike from one frame to the next (by third differences of positions): by more than "
+           "{} along the floor, or {} in any direction.",
+           whole_body, cm(kJumpAlongFloor_m), cm(kJump_m))},
+      {"pops", "m",
+       fmt::format("One joint alone is displaced from one frame to the next: its third difference is above {} and {:g} "
+                   "times its {}th percentile in the clip; above {} it always counts.",
+                   cm(kPop_m), kPopTimesUsual, 100 * kUsualPop, cm(kSurePop_m))},
+      {"freezes", "s",
+       fmt::format("No joint is faster than {:g} mm/s for {:g} s, and the body stops or starts abruptly (from or to a "
+                   "mean speed of its joints above {}/s).",
+                   1000 * kStill_m_s, kFreeze_s, cm(kAbrupt_m_s))},
+      {"stretches", "share",
+       fmt::format("The length of an upper arm, forearm, thigh or shank differs from its median by more than {}, for "
+                   "{:g} s; between markers on the skin, by more than {:g} times the median deviation.",
+                   percent(kStretch), kStretch_s, kStretchTimesUsual)},
+      {"bends", "deg",
+       fmt::format(
+           "A knee bends backwards by more than {:g}° for {:g} s. The toes show where the front is, or, without "
+           "toes, the line of the hips.",
+           kBend_deg, kBend_s)},
+      {"passes", "m",
+       fmt::format("For {:g} s, a forearm or a hand is within {} of the line of the spine, or a forearm within that of "
+                   "the line from neck to head.",
+                   kPass_s, cm(kPass_m))},
+      {"rate", "m/s2",
+       fmt::format("In flight (all feet off the floor), the mass centre falls by less than {:.1f} or more than {:.1f} "
+                   "m/s²: the frame rate or the unit of length is wrong.",
+                   kGravity / kGravityFactor, kGravity * kGravityFactor)},
+      {"speed", "m/s",
+       fmt::format(
+           "In the median frame the fastest joint is faster than {:g} m/s, and no flight shows how bodies fall.",
+           kFast_m_s)}};
+}
+
 }  // namespace
 
-std::string_view FaultName(FaultKind kind) { return kFaultWords[static_cast<std::size_t>(kind)].name; }
+const std::vector<FaultRule>& FaultRules() {
+  static const std::vector<FaultRule> rules = MakeFaultRules();
+  return rules;
+}
 
-std::string_view FaultUnit(FaultKind kind) { return kFaultWords[static_cast<std::size_t>(kind)].unit; }
+std::string_view FaultName(FaultKind kind) { return FaultRules()[static_cast<std::size_t>(kind)].name; }
+
+std::string_view FaultUnit(FaultKind kind) { return FaultRules()[static_cast<std::size_t>(kind)].unit; }
 
 MotionFaults FindMotionFaults(const BodyMotion& motion, const FaultOptions& options) {
   MotionFaults found{.floor_m = options.floor_m.value_or(0)};

@@ -26,10 +26,15 @@ enum class FaultKind {
   kSpeed,      ///< most frames show a joint faster than people are; size: metres per second
 };
 
-/// Returns "floats", "sinks", "skates", "jumps", "pops", "freezes", "stretches", "bends", "passes", "rate"
-/// or "speed".
+/// What is said of a kind of fault, in the order of FaultKind.
+struct FaultRule {
+  std::string_view
+      name;  ///< "floats", "sinks", "skates", "jumps", "pops", "freezes", "stretches", "bends", "passes", …
+  std::string_view unit;  ///< of its size: "m", "m/s", "s", "share", "deg" or "m/s2"
+  std::string rule;       ///< when a motion shows it, with the thresholds (fault_limits.h)
+};
+const std::vector<FaultRule>& FaultRules();
 std::string_view FaultName(FaultKind kind);
-/// Returns the unit of its size: "m", "m/s", "s", "share", "deg" or "m/s2".
 std::string_view FaultUnit(FaultKind kind);
 
 /// A fault, the time that it takes, and what it looks like.
@@ -62,20 +67,7 @@ constexpr std::size_t kMinFramesForFaults = 8;
 
 /// Finds the faults of a motion without a truth, in metres, Y up, at its own rate (resampling hides frames that are
 /// displaced or repeated). *(Ours.)* The floor is `floor_m`, else height 0; a motion whose lowest joint stays more than
-/// 60 cm from 0 has no floor at 0, and the height at which its feet rest is used. Rules:
-/// - Jumps, floats, sinks: third differences of positions in which 70 % of the joints agree, an ankle among them, are
-///   displacements of the whole body. Those along the floor (10 cm) or longer than 25 cm are jumps; vertical ones (4 cm) start or end times
-///   in which the body floats or sinks. Without such an edge, a body floats that rests 10 cm high in the whole clip or
-///   stays high without rest, and sinks where it is 6 cm below the floor.
-/// - Skates: the velocity of 70 % of the joints changes by 12 cm/s or more from one frame to the next, and back later,
-///   while low feet move with it; or the most frequent velocity of the low joints of the feet within 0.6 s is not near 0.
-/// - Rate: in flights, the mass centre falls with less than 4.5 or more than 21.6 m/s² (2.2 times less or more).
-/// - Speed: the fastest joint moves at more than 10 m/s in the median frame, and no flight shows the gravity.
-/// - Pops: third differences above 25 cm and six times the joint's usual (95th percentile); 45 cm at any noise.
-/// - Stretches: upper arms, forearms, thighs and shanks, by 3 %; between markers by fifteen times the
-///   usual (median). Bends: 25° for 0.1 s, by the direction of the toes,
-///   or, without toes, about the line of the hips.
-/// - Passes: a forearm or a hand within 3.5 cm of the spine's line, or a forearm within that of neck and head.
+/// 60 cm from 0 has no floor at 0, and the height at which its feet rest is used. FaultRules states the rules.
 /// Fewer than kMinFramesForFaults frames show no fault. All positions must be finite.
 MotionFaults FindMotionFaults(const BodyMotion& motion, const FaultOptions& options = {});
 

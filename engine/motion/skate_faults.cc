@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/base/order_statistics.h"
+#include "engine/motion/fault_limits.h"
 #include "engine/motion/ground_faults.h"
 
 namespace etude {
@@ -86,12 +87,12 @@ std::optional<Glide> GlideAround(const GroundView& ground, int frame, const Glid
 
 /// Appends the skating that these glides show, if it lasts.
 void AppendSkate(const GroundView& ground, const std::vector<Glide>& glides, std::vector<MotionFault>& faults) {
-  constexpr double kMargin_s = 0.15, kMinSeconds = 0.5, kMinSpeed = 0.14, kMinShare = 0.25, kShare = 0.1;
+  constexpr double kMargin_s = 0.15, kMinShare = 0.25, kShare = 0.1;
   // The window of the first glide reaches beyond the skating.
   const int margin = FramesIn(ground, kMargin_s, 0), step = FramesIn(ground, kStep_s, 1), end = ground.frames() - 1;
   const int first = glides.front().frame <= step ? 0 : std::max(glides.front().frame - margin, 0);
   const int last = glides.back().frame >= end - step ? end : std::min(glides.back().frame + margin, end);
-  if ((last - first) / ground.motion().rate_hz < kMinSeconds) return;
+  if ((last - first) / ground.motion().rate_hz < fault_limits::kGlide_s) return;
   // Start from the median glide, and narrow down to the feet's most frequent velocity.
   std::vector<double> x, z;
   for (const Glide& glide : glides) {
@@ -115,7 +116,7 @@ void AppendSkate(const GroundView& ground, const std::vector<Glide>& glides, std
     share = count / static_cast<double>(all.size());
     velocity = sum / static_cast<double>(count);
   }
-  if (glm::length(velocity) < kMinSpeed || share < kMinShare) return;
+  if (glm::length(velocity) < fault_limits::kGlide_m_s || share < kMinShare) return;
   faults.push_back(ground.FaultOf(FaultKind::kSkates, {first, last}, glm::length(velocity)));
 }
 
@@ -134,7 +135,6 @@ bool Carries(const GroundView& ground, const FrameRange& span, const glm::dvec2&
 
 /// Appends the skates that begin and end with a step of the body's velocity, and returns their frames.
 std::vector<bool> FindCarried(const GroundView& ground, std::vector<MotionFault>& faults) {
-  constexpr double kMinSeconds = 0.25, kMaxSeconds = 20, kMinSpeed = 0.12;
   constexpr double kAlike = 0.3, kAlike_m_s = 0.03;
   std::vector<bool> is_carried(ground.frames());
   const std::vector<VelocityStep>& steps = ground.velocity_steps();
@@ -142,11 +142,11 @@ std::vector<bool> FindCarried(const GroundView& ground, std::vector<MotionFault>
     for (std::size_t k = i + 1; k < steps.size(); ++k) {
       const FrameRange span{steps[i].frame, steps[k].frame};
       const double seconds = ground.Seconds(span), size = glm::length(steps[i].change);
-      if (seconds < kMinSeconds || is_carried[span.first]) continue;
-      if (seconds > kMaxSeconds) break;
+      if (seconds < fault_limits::kMinCarried_s || is_carried[span.first]) continue;
+      if (seconds > fault_limits::kMaxCarried_s) break;
       if (glm::distance(steps[i].change, -steps[k].change) > kAlike * size + kAlike_m_s) continue;
       const glm::dvec2 velocity = 0.5 * (steps[i].change - steps[k].change);
-      if (glm::length(velocity) < kMinSpeed || !Carries(ground, span, velocity)) continue;
+      if (glm::length(velocity) < fault_limits::kStep_m_s || !Carries(ground, span, velocity)) continue;
       faults.push_back(ground.FaultOf(FaultKind::kSkates, span, glm::length(velocity)));
       for (int f = span.first; f <= span.last; ++f) is_carried[f] = true;
     }

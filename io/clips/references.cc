@@ -100,7 +100,7 @@ Result<std::vector<std::string>> ExpandReference(const std::string& reference, c
   }
   if (found.empty()) {
     return Fail(place,
-                "no clip matches '{}'; allowed: builtin:NAME, assimp:NAME, a BVH or glTF file, file.glb#ANIMATION, or "
+                "no clip matches '{}'; allowed: builtin:NAME, assimp:NAME, a motion file, file.glb#ANIMATION, or "
                 "a pattern such "
                 "as 'mocap/*.bvh'",
                 reference);

@@ -48,7 +48,7 @@ class IkEffector(Message):
     """The free end of a limb.
 
     name: The effector's name.
-    joint: The joint it hangs on.
+    joint: The joint that it is attached to.
     offset_m: Its position in that joint's frame, in metres.
     """
     name: str
@@ -102,7 +102,7 @@ class IkSetting(Message):
     max_steps: The step limit of built-in solvers; like the goals, for information.
     position_goal_cm: How near an effector has to come to its target, in centimetres.
     orientation_goal_deg: How far each of an effector's axes may be from its target's, in degrees.
-    asked: What effectors are to meet of their targets.
+    asked: Which parts of its target each effector must reach: position, orientation, or both.
     """
     HOLDS: ClassVar[dict] = {"joints": [IkJoint], "angles": [IkAngle], "effectors": [IkEffector]}
     joints: List[IkJoint]
@@ -220,9 +220,9 @@ class TransitionSetting(Message):
 class TransitionProblem(Message):
     """A request for a transition into another clip.
 
-    from: The index of the clip that is shown.
-    to: The index of the clip wanted.
-    request_frame: The frame of the clip shown at which it is asked for.
+    from: The index of the current clip.
+    to: The index of the wanted clip.
+    request_frame: The frame of the current clip at which the transition is requested.
     max_wait_s: The longest wait that the caller would like.
     """
     from_: int
@@ -233,7 +233,7 @@ class TransitionProblem(Message):
 
 @dataclass
 class TransitionStop(Message):
-    """A clip played on the way.
+    """A clip that is played between the two.
 
     clip: Its index in the library.
     enter_frame: The frame at which it is entered, in place of the previous clip's last frame.
@@ -246,22 +246,24 @@ class TransitionStop(Message):
 
 @dataclass
 class TransitionAnswer(Message):
-    """Where the one clip is left and the other entered; or why there is no way.
+    """At which frames one clip is left and the other entered, or why no transition was found.
 
-    leave_frame: The last frame shown of the clip shown, request_frame at the earliest.
-    enter_frame: The frame of the clip wanted that takes the place of leave_frame, any but its last; its next frame
-        is shown next, and so on to the end.
-    through: Clips played on the way, 16 at most.
+    leave_frame: The last frame that is shown of the current clip: request_frame or a later one.
+    enter_frame: The frame of the wanted clip that corresponds to leave_frame, any but the clip's last. The frame
+        after it is shown next, then the rest of the clip.
+    through: Clips that are played between the two, 16 at most.
     join: Any built-in join (etude list methods); cut by default.
     join_s: Blend length of minimum-jerk or planted-feet, 0 to 5 seconds; other joins have lengths of their own.
-    fades: Only with join_s: the old clip goes on while it fades out, else its offset from the new clip decays.
-    direct: Only with join_s: each limb moves with least jerk to its place in the new clip at the end of the join.
-    between: Up to 300 poses of the method's own making, shown after leave_frame in its place and heading, the last
-        of them in place of enter_frame; limbs may differ from the clips' by 2 cm. Not with through.
-    between_start: Only with between: the method's version of leave_frame. It is not shown; the gaps of the first
-        transition point are measured to it. Without it, between begins at a steady speed.
+    fades: Only with join_s. True: the old clip continues and fades out; false: its offset from the new clip decays.
+    direct: Only with join_s: each limb moves with minimum jerk to its pose in the new clip at the end of the join.
+    between: Up to 300 poses that the method makes itself. They are shown after leave_frame, at its position and
+        heading; the last one is shown instead of enter_frame. Limb lengths may differ from the clips' by 2 cm. Not
+        allowed together with through.
+    between_start: Only with between: the pose that the method computed for leave_frame. It is not shown, but the
+        gaps at the first transition point are measured to it. Without it, the first poses of between are taken to
+        move at a constant speed.
     matched: Whether the two frames were chosen because they are alike; false_smooth is measured only then.
-    unsolved: Why there is no way.
+    unsolved: Why no transition was found.
     """
     HOLDS: ClassVar[dict] = {"through": [TransitionStop]}
     leave_frame: Optional[int] = None
@@ -282,7 +284,7 @@ class PoseDistancePair(Message):
     """Two poses.
 
     a: The first pose.
-    b: The second pose; heading and place on the floor do not count.
+    b: The second pose; its heading and its position on the floor do not matter.
     """
     a: Pose
     b: Pose
@@ -311,9 +313,9 @@ class PoseDistanceProblem(Message):
 
 @dataclass
 class PoseDistanceAnswer(Message):
-    """How unlike each pair is.
+    """The distance of each pair.
 
-    distances: One per pair, 0 or more, on any scale; larger: more unlike.
+    distances: One per pair, 0 or more, on any scale; larger means less similar.
     alike: Per pair, whether a transition would go unnoticed.
     """
     distances: List[float]
@@ -322,11 +324,11 @@ class PoseDistanceAnswer(Message):
 
 @dataclass
 class InbetweenSetting(Message):
-    """The protocol.
+    """The numbers of frames in each problem.
 
-    past: How many frames before the gap are given.
+    past: How many frames before the gap are given (past).
     gap: How many frames are hidden.
-    given: How many frames behind the gap are given.
+    given: How many frames after the gap are given (future).
     """
     past: int
     gap: int
@@ -340,7 +342,7 @@ class InbetweenProblem(Message):
     rate_hz: Frames per second.
     joints: The names of the joints, parents first.
     parents: The index of each joint's parent; -1 for the first.
-    offsets_m: Each joint's place in its parent's frame, metres.
+    offsets_m: Each joint's position in its parent's frame, in metres.
     gap: How many frames are missing.
     past: The frames before the gap: of each, 3 + 4 numbers per joint. First the position of the first joint,
         metres, Y up; then each joint's rotation in its parent's frame, a unit quaternion w, x, y, z.
@@ -384,9 +386,9 @@ class SearchSetting(Message):
     file: Frames times 24 numbers, little-endian IEEE 754 of 64 bits, frame by frame.
     frames: How many frames the library has.
     terms: Per grade, in the order of the file and of queries: 24.
-    query: What is asked for: the earliest frame below the threshold, all of them, the most alike, or the ten most
-        alike.
-    threshold: The distance below which two frames are alike.
+    query: Which frames are searched: the first one whose distance is below the threshold, all of them, the nearest,
+        or the ten nearest.
+    threshold: The distance below which two frames match.
     """
     HOLDS: ClassVar[dict] = {"terms": [SearchTerm]}
     file: str
@@ -447,7 +449,7 @@ class DetectionFrame(Message):
 
     pose: The sensed positions of the joints.
     states: Per joint a letter: tracked, inferred, not tracked.
-    body_seen: False if nobody was seen; the pose is then an old one.
+    body_seen: False if nobody was seen; the pose is then the last one that was seen.
     """
     pose: Pose
     states: str
@@ -501,7 +503,7 @@ class Move(Message):
 
 @dataclass
 class DetectionSetting(Message):
-    """The moves. Each recorded person has a setting: what all others taught.
+    """The moves. Each recorded person has a setting of its own, with what all other people taught.
 
     joints: The twenty joints, in the order of poses.
     parents: The name of each joint's parent; null for the first.
@@ -723,7 +725,7 @@ class CoachDance(Message):
     title: The song's title.
     tempo_bpm: Beats a minute.
     rate_hz: Steps a second.
-    repetitions: The performances of the song, in order.
+    repetitions: The moves of the song, in the order in which they are danced.
     """
     HOLDS: ClassVar[dict] = {"repetitions": [CoachRepetition]}
     title: str
@@ -770,9 +772,9 @@ class CoachAsk(Message):
 class CoachRecogniserStep(Message):
     """What the sensor reports.
 
-    pose: Where the sensor takes the learner's joints to be.
+    pose: The learner's joints as the sensor sees them.
     states: Per joint a letter: tracked, inferred, not tracked.
-    body_seen: False if nobody was seen; the pose is then an old one.
+    body_seen: False if nobody was seen; the pose is then the last one that was seen.
     ask: What is asked for from this frame on; left out if it does not change.
     """
     HOLDS: ClassVar[dict] = {"ask": CoachAsk}
@@ -784,9 +786,9 @@ class CoachRecogniserStep(Message):
 
 @dataclass
 class CoachRecogniserAnswer(Message):
-    """How right it looks.
+    """The evidence that performances are right.
 
-    asked: How right the performance asked for looks so far, 0 to 1.
+    asked: The evidence so far that the requested performance is right, 0 to 1.
     spotted: The same for every move, asked for or not.
     """
     asked: float
@@ -801,7 +803,7 @@ class CoachVerdict(Message):
     repetition: Which performance of the dance it was, from 0.
     verdict: The coach's verdict; unjudged: it saw too little.
     mistake: What was wrong: none, not reached, stood still or wrong side.
-    evidence: How right it looked, 0 to 1.
+    evidence: The evidence that it was right, 0 to 1.
     """
     move: Optional[str]
     repetition: int
@@ -840,7 +842,7 @@ class CoachTest(Message):
     """After the session: whether a move is danced right.
 
     move: The name of the move to be danced.
-    after: How much later, in performances.
+    after: How many performances later.
     """
     move: str
     after: int
@@ -848,7 +850,7 @@ class CoachTest(Message):
 
 @dataclass
 class CoachLearnerStep(Message):
-    """What the coach shows; after the session, only a test.
+    """What the coach shows. After the session, a step holds only a test.
 
     pose: The coach's pose, as the learner sees it.
     mode: What the coach does, such as dance, correct, demonstrate, praise.
@@ -859,7 +861,8 @@ class CoachLearnerStep(Message):
     say: A short word to the learner.
     hint: What to do better.
     events: What the coach has just decided.
-    test: After the session, instead of all else: a move to be danced without a coach.
+    test: Only after the session, when all other fields are left out: a move that the learner dances without a
+        coach.
     """
     HOLDS: ClassVar[dict] = {"test": CoachTest}
     pose: Optional[Pose] = None

@@ -171,6 +171,13 @@ class Run:
     def scenarios(self):
         return list(self._scenarios)
 
+    def __iter__(self):
+        """Iterates over the names of the scenarios, as a dictionary of tables does."""
+        return iter(self._scenarios)
+
+    def __len__(self):
+        return len(self._scenarios)
+
     def __getitem__(self, scenario):
         return self.tables[self._named(scenario)]
 

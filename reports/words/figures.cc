@@ -66,8 +66,13 @@ std::string FormatInterval(std::optional<double> low, std::optional<double> high
   const double size = std::max(std::abs(from), std::abs(to));
   const std::string_view dash = from < 0 || to < 0 ? " to " : "–";
   if (size != 0 && size < 0.001) return FormatNumber(from) + std::string(dash) + FormatNumber(to);
-  const int decimals = DecimalsFor(size);
-  return FormatFixed(from, decimals) + std::string(dash) + FormatFixed(to, decimals);
+  // An end that would round to 0 keeps its own digits: its sign says whether the interval contains 0.
+  const auto end = [decimals = DecimalsFor(size)](double value) {
+    std::string text = FormatFixed(value, decimals);
+    const std::string own = FormatNumber(value);
+    return text.find_first_of("123456789") == std::string::npos && own != "0" ? own : text;
+  };
+  return end(from) + std::string(dash) + end(to);
 }
 
 }  // namespace etude

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
+#include <utility>
 
 #include "engine/base/order_statistics.h"
 #include "reports/words/answer.h"
@@ -230,14 +230,14 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
 
   // One pass over all rows.
   std::map<Status, int> statuses;
-  std::map<std::tuple<Status, std::string, std::string>, int> reasons;
+  std::map<std::pair<Status, std::string>, ReasonCounts> reasons;
   Successes successes;
   Times times;
   ForEachRow(run, [&](const Row& row, std::size_t place) {
     if (row.scenario != scenario.name) return;
     ++findings.cells;
     ++statuses[row.result.status];
-    if (row.result.status != Status::kOk) ++reasons[{row.result.status, row.method, row.result.reason}];
+    if (row.result.status != Status::kOk) reasons[{row.result.status, row.method}].Add(row.result.reason);
     successes.Add(row);
     times.Add(run, row, place);
   });
@@ -245,8 +245,10 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
   if (!asked.empty()) findings.figures = KeyFiguresOf(scenario, asked, times, findings);
   findings.statuses.assign(statuses.begin(), statuses.end());
   // Reasons, the most frequent first.
-  for (const auto& [key, cells] : reasons) {
-    findings.reasons.push_back({std::get<0>(key), std::get<1>(key), std::get<2>(key), cells});
+  for (const auto& [key, counts] : reasons) {
+    for (CountedReason& one : counts.MostFrequentFirst()) {
+      findings.reasons.push_back({std::move(one), key.first, key.second});
+    }
   }
   std::ranges::stable_sort(findings.reasons, std::ranges::greater{}, &ReasonCount::cells);
   return findings;
@@ -307,18 +309,20 @@ std::string StatusSentence(const ScenarioFindings& findings) {
 
 std::string MissingReasons(const RunData& run, const std::string& scenario, const std::vector<SweptValue>& condition,
                            const std::string& method, const std::string& metric) {
-  std::map<std::string, int> counts;
+  ReasonCounts counts;
   for (const Row* row : RowsUnder(run, scenario, condition)) {
     if (row->method != method) continue;
     const auto found = std::ranges::find(row->result.metrics, metric, &MetricValue::id);
     if (found == row->result.metrics.end()) {
-      ++counts[fmt::format("{}: {}", StatusName(row->result.status), row->result.reason)];
+      counts.Add(row->result.reason, fmt::format("{}: ", StatusName(row->result.status)));
     } else if (!found->value) {
-      ++counts[found->null_reason];
+      counts.Add(found->null_reason);
     }
   }
   std::string text;
-  for (const auto& [reason, count] : counts) text += fmt::format("{}{} × {}", text.empty() ? "" : "; ", count, reason);
+  for (const CountedReason& one : counts.MostFrequentFirst()) {
+    text += fmt::format("{}{} × {}", text.empty() ? "" : "; ", one.cells, one.Words());
+  }
   return text;
 }
 

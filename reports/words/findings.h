@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/model/reasons.h"
 #include "bench/model/run_data.h"
 #include "io/drawing/table.h"
 #include "reports/words/judged.h"
@@ -51,12 +52,10 @@ struct KeyFigures {
 /// Returns the figures as a table. Its columns are aligned as numbers if `has_number_columns`.
 Table FiguresTable(const KeyFigures& figures, bool has_number_columns);
 
-/// The number of cells that ended with one status for one reason.
-struct ReasonCount {
-  Status status;
-  std::string method;
-  std::string reason;
-  int cells = 0;
+/// Cells of a method that ended with one status, for reasons that count as one.
+struct ReasonCount : CountedReason {
+  Status status = Status::kFailed;
+  std::string method = {};
 };
 
 /// The shares of cells, by method, that reached the task's goal according to one metric. Status `ok` only means that a

@@ -285,7 +285,10 @@ class Evaluate(EtudeCase):
         for arguments, words in [
                 (["evaluate", a], "needs a truth and results"),
                 (["evaluate", a, a, a], "several results need names"),
-                (["evaluate", self.folder / "none*", a], "no clip matches"),
+                (["evaluate", self.folder / "none*", a], "the truth: no clip matches"),
+                (["evaluate", a, self.folder / "none*"], "the results: no clip matches"),
+                (["evaluate", a, a, "--people", "x"], "--people: 'x' does not fit"),
+                (["check-method", "--", "python3", "x.py"], "--task is required"),
                 (["evaluate", a, a, "--joints", "all"], "'all'"),
                 (["evaluate", a, a, "--statistics", self.write("s.csv", "x\n1\n2\n"), "-o", self.out], "s.csv:1"),
                 (["evaluate", a, a, "--music-beats", self.write("b.txt", "2\n1\n"), "-o", self.out], "b.txt:2"),

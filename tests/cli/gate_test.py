@@ -201,7 +201,9 @@ class Gate(EtudeCase):
 
     def test_an_unmet_expectation_fails_without_a_baseline(self):
         self.make_baseline()
-        self.assertIn("no baseline was given", self.gate(self.out, expect=0))
+        said = self.gate(self.out, expect=0)
+        self.assertIn("no baseline was given, so nothing was compared: the scenarios have no expectations either", said)
+        self.assertIn("Gate: pass, without a baseline (--baseline FILE --update makes one)", said)
         self.run_now(SCENARIO + "expect: [{metric: iterations, of: fixed, at_most: 0}]\n")
         self.assertIn("unmet: ik: ", self.gate(self.now, expect=1))
 

@@ -43,6 +43,13 @@ class Triage(EtudeCase):
         return {row["clip"]: row for row in
                 map(json.loads, ((out or self.out) / "cells.jsonl").read_text().splitlines())}
 
+    def failed(self, out):
+        """The failed cases of a run's JUnit file; its count must agree."""
+        root = xml.etree.ElementTree.parse(out / "report" / "junit.xml").getroot()
+        failed = [case.get("name") for case in root.iter("testcase") if case.find("failure") is not None]
+        self.assertEqual(root.get("failures"), str(len(failed)))
+        return failed
+
     def test_each_fault_is_a_metric_and_a_sentence_with_joint_and_time(self):
         self.floating("m/floating.csv")
         self.popping("m/popping.csv")
@@ -69,9 +76,7 @@ class Triage(EtudeCase):
         self.assertEqual({name: row["within_limits"] for name, row in self.rows().items()},
                          {"clap": 1, "floating": 0, "sway": 1})
         self.ends(0, "report", self.out, "--no-video")
-        failed = [case.get("name") for case in xml.etree.ElementTree.parse(self.out / "report" / "junit.xml").iter("testcase")
-                  if case.find("failure") is not None]
-        self.assertEqual(failed, ["motions, floating"])
+        self.assertEqual(self.failed(self.out), ["motions, floating"])
         page = (self.out / "report" / "index.html").read_text()
         self.assertIn("<h2>Clips with faults</h2>", page)
         self.assertIn("the feet never touch the floor", page)
@@ -80,9 +85,20 @@ class Triage(EtudeCase):
         self.triage(self.folder / "m", "--limits", limits, out=self.folder / "own")
         facts = self.facts("evaluate", "--alone", self.folder / "m", "--limits", limits, "-o", self.folder / "facts")
         self.assertEqual(facts["beyond_limits"], [])
-        # A clip that cannot be read keeps no limits.
+        # A clip that cannot be read keeps no limits: exit code, terminal, JUnit and summary say so.
         self.write("m/torn.bvh", "HIERARCHY\n")
-        self.triage(self.folder / "m", "--limits", limits, code=1, out=self.folder / "torn")
+        self.popping("m/popping.csv")
+        torn = self.folder / "torn"
+        said = self.triage(self.folder / "m", "--limits", "recorded", code=1, out=torn)
+        for words in ("1 beyond the limits:", "1 with faults, within the limits:\n  m, popping: left_hand pops", "1 not judged:"):
+            self.assertIn(words, said)
+        self.ends(0, "report", torn, "--no-video")
+        self.assertEqual(self.failed(torn), ["m, floating", "m, torn"])
+        summary = (torn / "report" / "summary.md").read_text()
+        for words in ("2 of 2 clips show what no person does; 1 exceed their limits. 1 further clip could not be judged.",
+                      "| popping | m | 1 |  | left\\_hand pops by 50 cm", "| floating | m | 1 | beyond |", "nothing to compare"):
+            self.assertIn(words, summary)
+        self.assertNotIn("inconclusive", summary)
 
     def test_motions_that_are_kept_are_shown_with_the_time_of_each_fault(self):
         self.triage(self.popping("m/popping.csv"), "--keep", "motions")
@@ -142,6 +158,9 @@ class Triage(EtudeCase):
                 ([clap, f"a={clap}"], "several results need names"),
                 ([clap, "--joints", "same"], "no use with --alone"),
                 ([clap, "--limits", "none.yaml"], "none.yaml"),
+                ([clap, "--limits", "recoded"], "did you mean 'recorded'"),
+                ([clap, "--metric", "jumpz"], "--metric: unknown metric"),
+                ([clap, "--floor", "1e9"], "--floor: "),
                 ([clap, "--limits", self.write("l.yaml", "popps: 1\n")], "did you mean 'pops'"),
                 ([clap, "--limits", self.write("m.yaml", "{}\n")], "sets no limit"),
                 ([clap, "--metric", "mpjpe_root_mm"], "unknown metric of task plausibility")]:

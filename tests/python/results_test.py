@@ -31,6 +31,7 @@ class Results(PythonCase):
         cls.rows = rows_of(cls.out)
 
     def test_a_table_has_the_values_of_the_rows_and_no_null_column(self):
+        self.assertEqual((list(self.run_), len(self.run_), "ik" in self.run_), (["ik"], 1, True))
         table = self.run_["ik"]
         self.assertEqual((len(table), table.task), (48, "ik"))
         for name in table.columns:

@@ -29,7 +29,14 @@ TEST(ComparisonTable, ShowsPairsDifferencePEffectVerdictAndWhatToMind) {
   EXPECT_THAT(html, HasSubstr("<tr data-ids=\"transition/-/000/fuzzy-bridge\ntransition/-/000/now\">"));
   EXPECT_THAT(html, HasSubstr("2 of 12 worlds have no pair &lt;script&gt;"));
   EXPECT_THAT(html, Not(HasSubstr("<script>")));
-  EXPECT_THAT(html, HasSubstr("over this scenario’s 2 comparisons (Holm)"));
+  EXPECT_THAT(html, HasSubstr("over the 2 comparisons with baselines (Holm)"));
+}
+
+TEST(ComparisonTable, CountsTheComparisonsOfEachCorrection) {
+  ScenarioSummary scenario = ExampleRun().scenarios[0];
+  scenario.conditions[0].rivals.assign(3, scenario.conditions[0].comparisons[0]);
+  EXPECT_THAT(ComparisonTableHtml(scenario),
+              HasSubstr("(Holm) over the 2 comparisons with baselines, and apart from these over the 3 with the strongest"));
 }
 
 TEST(ComparisonTable, SaysWhyAVerdictIsOpenAndMarksAnIntervalThatIsNoBca) {

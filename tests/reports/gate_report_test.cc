@@ -148,12 +148,18 @@ TEST(GateMarkdown, FoldsAwayWhatIsUndecidedAndShowsTheAnswersOfTheRun) {
   const std::string text = WriteGateMarkdown(report);
   EXPECT_THAT(text, HasSubstr("Could not be decided (1)</summary>\n\nThese pass:\n\n- ik: a below b (few)\n"));
   EXPECT_THAT(text, HasSubstr("| ik | noise=5 | a | b | worse | success |\n"));
-  EXPECT_THAT(text, HasSubstr("quick: pass\n")) << "answers decide nothing here";
+  EXPECT_THAT(text,
+              HasSubstr("quick: pass, without a baseline\n\n- 1 expectation: 1 undecided\n- no baseline was given, so "
+                        "nothing was compared: only the run’s own"))
+      << "answers decide nothing here";
 }
 
 TEST(GateMarkdown, SaysThatNothingWasComparedWithoutABaseline) {
-  EXPECT_THAT(WriteGateMarkdown(Nothing()),
-              HasSubstr("quick: pass\n\n- nothing was compared: no baseline was given\n"));
+  EXPECT_THAT(
+      WriteGateMarkdown(Nothing()),
+      HasSubstr(
+          "quick: pass, without a baseline\n\n- no baseline was given, so nothing was compared: the scenarios have "
+          "no expectations either"));
 }
 
 TEST(GateMarkdown, SaysWhyThereIsNoVerdict) {
@@ -175,7 +181,8 @@ TEST(GateMarkdown, IsCutBeforeAPullRequestRefusesIt) {
 TEST(GateJunit, HasACaseForAllThatWasJudged) {
   const std::string xml = WriteGateJunit(Example());
   EXPECT_THAT(xml, HasSubstr("<property name=\"etude\" value=\"1.1\"/>"));
-  EXPECT_THAT(xml, HasSubstr("<testsuites name=\"quick gate\" tests=\"10\" failures=\"2\" errors=\"0\" skipped=\"1\">"));
+  EXPECT_THAT(xml,
+              HasSubstr("<testsuites name=\"quick gate\" tests=\"10\" failures=\"2\" errors=\"0\" skipped=\"1\">"));
   EXPECT_THAT(xml, HasSubstr("name=\"every cell can be judged\"/>"));
   EXPECT_THAT(xml, HasSubstr("name=\"joint_noise_deg=5, adaptive: effector orientation error\"><failure"));
   EXPECT_THAT(xml, HasSubstr("name=\"processor time of adaptive over fixed at most 1.5\"/>"));

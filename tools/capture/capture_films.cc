@@ -34,7 +34,7 @@ Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
   // Check the options that exclude each other, and read the reference.
   RETURN_IF_ERROR(FormatOfName(options.output));
   if (options.keypoints.empty() && options.marks.empty() && !options.silhouettes) {
-    return Fail({}, "what shows where the person is? allowed: --keypoints DIR, --marks DIR or --silhouettes");
+    return Fail({}, "nothing shows where the person is; allowed: --keypoints DIR, --marks DIR or --silhouettes");
   }
   std::optional<MarkerMotion> reference;
   if (!options.reference.empty()) {

@@ -64,7 +64,7 @@ Result<RigPaths> RigPathsOf(const fs::path& path) {
     const bool is_named = path.filename() == inside || path.filename() == outside;
     if (!is_named && !(is_folder && fs::exists(folder / inside))) continue;
     if (!fs::exists(folder / inside) || !fs::exists(folder / outside)) {
-      return Fail({path.string()}, "needed beside each other: {} and {}", inside, outside);
+      return Fail({path.string()}, "{} and {} are both needed, in one folder", inside, outside);
     }
     return RigPaths{folder / inside, folder / outside};
   }

@@ -215,7 +215,7 @@ std::string BodyLines(const BodyFacts& body) {
   // The unit or the marker set is printed beside the stature; every change gets a line.
   std::string changes;
   for (std::size_t i = 1; i < body.changes.size(); ++i) changes += Line("changed", body.changes[i]);
-  return Line("body", fmt::format("{:.2f} m tall; {}; {} up ({})", motion.stature_m, body.changes.front(),
+  return Line("body", fmt::format("{:.2f} m tall along its joints; {}; {} up ({})", motion.stature_m, body.changes.front(),
                                   AxisName(body.up.axis), DescribeEvidence(body.up))) +
          changes +
          Line("motion",

@@ -9,6 +9,7 @@
 #include "io/drawing/canvas.h"
 #include "io/drawing/escape.h"
 #include "io/drawing/look.h"
+#include "io/drawing/numbers.h"
 #include "io/drawing/table.h"
 #include "io/drawing/tool_page.h"
 #include "tools/forecast/forecast_rig.h"
@@ -123,18 +124,23 @@ void DrawScale(Canvas& canvas, const Scale& scale) {
 std::string JointsHtml(const RigForecast& forecast) {
   if (forecast.joints.empty()) return "<p>No place shows all joints of a standing body to two cameras.</p>";
   Table table{.label = "Joints", .columns = {{.head = "Joint", .is_row_head = true}}};
-  for (const char* head : {"Keypoints, px", "By points, mm", "In the fitted body, mm", "Limb by points, degrees",
-                           "Limb in the body, degrees"})
+  for (const char* head :
+       {"Keypoints, px", "Triangulated, mm", "Fitted, mm", "Limb triangulated, degrees", "Limb fitted, degrees"})
     table.columns.push_back({.head = head, .is_number = true});
   for (const ForecastJoint& joint : forecast.joints) {
-    table.rows.push_back({{RoleName(joint.role), joint.noise_px ? fmt::format("{:.1f}", *joint.noise_px) : "–",
-                           fmt::format("{:.1f}", joint.point_mm), fmt::format("{:.1f}", joint.body_mm),
-                           fmt::format("{:.1f}", joint.point_deg), fmt::format("{:.1f}", joint.body_deg)}});
+    const auto degrees = [&](double value) {
+      return joint.role == Role::kHipCentre ? std::string(kNoValue) : fmt::format("{:.1f}", value);
+    };
+    table.rows.push_back(
+        {{RoleName(joint.role), joint.noise_px ? fmt::format("{:.1f}", *joint.noise_px) : std::string(kNoValue),
+          fmt::format("{:.1f}", joint.point_mm), fmt::format("{:.1f}", joint.body_mm), degrees(joint.point_deg),
+          degrees(joint.body_deg)}});
   }
   return fmt::format(
-             "<p>Means over the {:.0f} % of places of the floor where two cameras see all joints of a standing person. "
-             "A "
-             "limb is the one that ends in the joint.</p>",
+             "<p>Errors of a standing person, root mean square, mean over the {:.0f} % of the floor where two cameras "
+             "see "
+             "every joint. Triangulated: each joint by itself. Fitted: the same joint of a body that is fitted to all "
+             "joints at once. Limb: the direction of the limb that ends in the joint.</p>",
              100 * forecast.bodies) +
          TableHtml(table);
 }
@@ -148,7 +154,9 @@ std::string WorthsHtml(const RigForecast& forecast) {
     table.rows.push_back(
         {{worth.change, fmt::format("{:.1f}", worth.median_mm), fmt::format("{:.0f} %", 100 * worth.seen)}});
   }
-  return "<p>Medians are over the places that the rig sees as it is.</p>" + TableHtml(table);
+  return "<p>The median error of a triangulated point at the places that two cameras see today, and the share of all "
+         "places that two cameras then see.</p>" +
+         TableHtml(table);
 }
 
 }  // namespace

@@ -227,19 +227,28 @@ std::string PlacesCsv(const RigForecast& forecast) {
 std::string JointsText(const RigForecast& forecast) {
   if (forecast.joints.empty()) return "No place shows all joints of a standing body to two cameras.\n";
   std::string text = fmt::format(
-      "\nA standing body, at the {:.0f} % of places that show all of it, root mean "
-      "square:\n{:<18}{:>14}{:>12}{:>12}{:>14}{:>14}\n",
-      100 * forecast.bodies, "", "keypoints, px", "points, mm", "body, mm", "limb, deg", "in body, deg");
+      "\nErrors of a standing body, root mean square, mean over the {:.0f} % of the floor where two cameras see every "
+      "joint: of the joint as\n"
+      "triangulated, and in a body fitted to all of them; then of the direction of the limb that ends in the joint\n"
+      "{:<16}{:>15}{:>18}{:>12}{:>24}{:>18}\n",
+      100 * forecast.bodies, "joint", "keypoints, px", "triangulated, mm", "fitted, mm", "limb triangulated, deg",
+      "limb fitted, deg");
   for (const ForecastJoint& joint : forecast.joints) {
+    const bool has_limb = joint.role != Role::kHipCentre;
+    const auto degrees = [&](double value) { return has_limb ? fmt::format("{:.1f}", value) : std::string("-"); };
     const std::string noise = joint.noise_px ? fmt::format("{:.1f}", *joint.noise_px) : "-";
-    text += fmt::format("{:<18}{:>14}{:>12.1f}{:>12.1f}{:>14.1f}{:>14.1f}\n", RoleName(joint.role), noise,
-                        joint.point_mm, joint.body_mm, joint.point_deg, joint.body_deg);
+    text += fmt::format("{:<16}{:>15}{:>18.1f}{:>12.1f}{:>24}{:>18}\n", RoleName(joint.role), noise, joint.point_mm,
+                        joint.body_mm, degrees(joint.point_deg), degrees(joint.body_deg));
   }
   return text;
 }
 
 std::string WorthsText(const RigForecast& forecast) {
-  std::string text = fmt::format("\n{:<52}{:>12}{:>13}\n", "What would help", "median, mm", "places seen");
+  std::string text = fmt::format(
+      "\nWhat would help: the median error of a point at the places that two cameras see today, and the share of all "
+      "places\n"
+      "that two cameras then see\n{:<52}{:>12}{:>13}\n",
+      "", "median, mm", "places seen");
   for (const RigWorth& worth : forecast.worths)
     text += fmt::format("{:<52}{:>12.1f}{:>11.0f} %\n", worth.change, worth.median_mm, 100 * worth.seen);
   return text;

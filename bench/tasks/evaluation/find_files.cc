@@ -118,7 +118,8 @@ Result<std::map<std::string, std::string>> ByName(const std::vector<std::string>
   for (const std::string& reference : references) {
     const auto [known, is_new] = named.emplace(NameOfReference(reference), reference);
     if (is_new) continue;
-    return Fail(place, "'{}' and '{}' have one name; 'pairs' tells which belong together", known->second, reference);
+    return Fail(place, "'{}' and '{}' have the same name; 'pairs' states which belong together", known->second,
+                reference);
   }
   return named;
 }
@@ -205,28 +206,30 @@ Result<void> RefuseTruths(const JudgedFiles& files, const Place& place) {
   return {};
 }
 
-/// Makes the pairs of files of one name.
+/// Makes the pairs of files of one name. `nodes` are those of the methods.
 Result<FoundFiles> PairByName(const EvaluationOptions& options, std::span<const EvaluationMethod> methods,
-                              const Place& place) {
+                              std::span<const Node> nodes, const Place& place) {
   ASSIGN_OR_RETURN(const auto truth_files, ExpandFiles(options.truth, Links::kAllowed, place));
   ASSIGN_OR_RETURN(const auto truths, ByName(truth_files, place));
   FoundFiles found;
   for (const auto& [name, truth] : truths) {
     found.worlds.push_back({.name = name, .unit = "", .truth = truth, .answers = {}});
   }
-  for (const EvaluationMethod& method : methods) {
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    const EvaluationMethod& method = methods[m];
     if (method.is_control) {
       for (JudgedFiles& world : found.worlds) world.answers.push_back(world.truth);
       continue;
     }
-    if (method.answers.empty()) return Fail(place, "method {} has no 'answers'", Quote(method.name));
-    ASSIGN_OR_RETURN(const auto files, ExpandFiles(method.answers, Links::kRefused, place));
+    if (method.answers.empty()) return Fail(nodes[m].place, "method {} has no 'answers'", Quote(method.name));
+    const Place& of_answers = nodes[m].Find("answers")->place;
+    ASSIGN_OR_RETURN(const auto files, ExpandFiles(method.answers, Links::kRefused, of_answers));
     // One truth and one answer belong together whatever their names.
     if (truths.size() == 1 && files.size() == 1) {
       found.worlds.front().answers.push_back(files.front());
       continue;
     }
-    ASSIGN_OR_RETURN(auto answers, ByName(files, place));
+    ASSIGN_OR_RETURN(auto answers, ByName(files, of_answers));
     std::size_t with_answer = 0;
     for (JudgedFiles& world : found.worlds) {
       const auto answer = answers.find(world.name);
@@ -237,8 +240,8 @@ Result<FoundFiles> PairByName(const EvaluationOptions& options, std::span<const 
     }
     if (with_answer == 0) {
       return Fail(
-          place,
-          "none of the {} answers of method {} is named like a truth: '{}' and '{}'; 'pairs' tells which belong "
+          of_answers,
+          "none of the {} answers of method {} is named like a truth: '{}' and '{}'; 'pairs' states which belong "
           "together",
           files.size(), Quote(method.name), files.front(), truth_files.front());
     }
@@ -311,13 +314,14 @@ Result<FoundFiles> FindEvaluatedFiles(const Node& condition, std::span<const Nod
     EvaluationMethodFields().ReadKeys(method, one);
     RETURN_IF_ERROR(method.Finish());
     const Node* answers = node.Find("answers");
-    if (answers != nullptr && !options.pairs.empty()) return Fail(answers->place, "'answers' stands beside 'pairs'");
+    if (answers != nullptr && !options.pairs.empty())
+      return Fail(answers->place, "'answers' and 'pairs' exclude each other");
   }
   // Make the pairs.
   FoundFiles found;
   if (options.pairs.empty()) {
     const Node* truth = condition.Find("truth");
-    ASSIGN_OR_RETURN(found, PairByName(options, read, truth->place));
+    ASSIGN_OR_RETURN(found, PairByName(options, read, methods, truth->place));
   } else {
     ASSIGN_OR_RETURN(found.worlds, ReadPairs(texts.at("pairs"), options.pairs, read));
   }

@@ -45,28 +45,31 @@ const FieldTable<EvaluationOptions>& EvaluationConditionFields() {
   using Key = Field<EvaluationOptions>;
   static const FieldTable<EvaluationOptions> table{
       {Key::Texts("truth", &EvaluationOptions::truth, "a list of motion files, patterns, folders",
-                  "The truths; each goes with the answers of its name.")
+                  "The truths; a truth and the answers of the same name are a pair.")
            .WhenAbsent("(`pairs` names them)"),
        {{"pairs", FileKind("a CSV file"), "(files of one name are a pair)",
-         "Its columns `truth`, one of each method's name, and perhaps `name` list the files of each pair."},
+         "A table of pairs: a column `truth`, a column named after each method and, optionally, a column `name`."},
         [](Fields& fields, EvaluationOptions& options) { options.pairs = fields.Text("pairs", ""); }},
        {{"joints", NameKind(JointSetNames()), "roles",
-         "What is judged: the roles that both play, the joints of equal names, or what both have of a set."},
+         "Which joints are judged: those with the same role, those with the same name, or those of a set that both "
+         "files have."},
         [](Fields& fields, EvaluationOptions& options) {
           options.joints = fields.Choice("joints", JointSetNames(), options.joints);
         }},
-       Key::Number("noise_mm", &EvaluationOptions::noise_mm, {0, 1000},
-                   "White noise, each axis, that every control's answer has before it is spoilt."),
+       Key::Number(
+           "noise_mm", &EvaluationOptions::noise_mm, {0, 1000},
+           "Standard deviation of white noise, along each axis, that is added to every control's answer first."),
        Key::Text("people", &EvaluationOptions::people, "a pattern such as '{person}_*'",
-                 "Which part of a pair's name is the person: what claims beyond these files count.")
+                 "Which part of a pair's name is the person; verdicts beyond these files count each person once.")
            .WhenAbsent("(each pair counts for itself)"),
        Key::Name("lag", &EvaluationOptions::lag, {{"none", Lag::kNone}, {"find", Lag::kFind}},
-                 "Whether the answer's first frame belongs to the truth's, or a shift is found and taken out."),
+                 "none: the first frames of answer and truth belong together; find: the time shift between them is "
+                 "found and removed."),
        {{"statistics", FileKind("a CSV file"), "(L2P has no value)",
-         "Means and deviations of joints over a training set: a heading `JOINT_x_m,…` and two rows."},
+         "Means and standard deviations of joints over a training set: a heading `JOINT_x_m,…` and two rows."},
         [](Fields& fields, EvaluationOptions& options) { options.statistics = fields.Text("statistics", ""); }},
        {{"music_beats", FileKind("a text file"), "(beat alignment has no value)",
-         "The beats of the music, one a line, seconds from the truth's first frame."},
+         "The times of the music's beats, one per line, in seconds from the truth's first frame."},
         [](Fields& fields, EvaluationOptions& options) { options.music_beats = fields.Text("music_beats", ""); }}}};
   return table;
 }
@@ -86,7 +89,7 @@ namespace {
 void CheckControl(Fields& fields, EvaluationMethod& method) {
   if (method.is_control && !method.answers.empty()) fields.Complain(fields.node().place, "a control has no 'answers'");
   if (!method.is_control && method.spoiler != Spoiler{})
-    fields.Complain(fields.node().place, "only 'control: true' is spoilt");
+    fields.Complain(fields.node().place, "keys that add errors to the truth need 'control: true'");
 }
 
 }  // namespace
@@ -97,25 +100,25 @@ const FieldTable<EvaluationMethod>& EvaluationMethodFields() {
   const auto part = [](auto member) { return Path(&Method::spoiler, member); };
   static const FieldTable<Method> table{
       {Key::Texts("answers", &Method::answers, "a list of motion files, patterns, folders",
-                  "The answers, named like their truths.")
+                  "The answers; they have the same names as their truths.")
            .WhenAbsent("(`pairs` names them)"),
        Key::Flag("control", &Method::is_control,
-                 "The answer is the truth, spoilt as the other keys say, in their order."),
+                 "The answer is the truth with the errors that the other keys add, in this order."),
        Key::Number("noisy_mm", part(&Spoiler::noisy_mm), {0, 1000},
-                   "Standard deviation of white noise, each axis, each joint for itself."),
+                   "Standard deviation of white noise, independent for each joint and axis."),
        Key::Number("smoothed_ms", part(&Spoiler::smoothed_ms), {0, 10'000}, "Length of a centred moving mean."),
        Key::Number("faded_percent", part(&Spoiler::faded_percent), {0, 100},
-                   "How much of its way from its mean each joint loses."),
-       Key::Number("scaled_percent", part(&Spoiler::scaled_percent), {-90, 1000}, "Growth about the world's origin."),
+                   "Each joint's distance from its mean position is reduced by this much."),
+       Key::Number("scaled_percent", part(&Spoiler::scaled_percent), {-90, 1000}, "Scaling about the world's origin."),
        Key::Number("moved_cm", part(&Spoiler::moved_cm), {-1e5, 1e5}, "Shift along X."),
        Key::Number("lifted_cm", part(&Spoiler::lifted_cm), {-1e5, 1e5}, "Shift upwards."),
        Key::Number("gliding_cm_s", part(&Spoiler::gliding_cm_s), {-1000, 1000}, "Speed of a shift along X."),
        Key::Number("feet_locked_cm", part(&Spoiler::feet_locked_cm), {0, 100},
-                   "While its toes are lower than this, a foot's ankle and toes rest where they were."),
+                   "While its toes are lower than this, a foot does not move."),
        Key::Number("mirrored_share", part(&Spoiler::mirrored_share), {0, 1},
-                   "Share of the take, at its end, in which each side moves like the other, reflected."),
+                   "Share of the take, at its end, in which left and right are exchanged."),
        Key::Number("kept_frames", part(&Spoiler::kept_frames), {1, 1000},
-                   "Keeps one of so many frames, with straight lines in between."),
+                   "Keeps every n-th frame; the others are interpolated linearly."),
        Key::Number("late_ms", part(&Spoiler::late_ms), {0, 60'000}, "Delay; the first pose stands until then."),
        Key::Number("frozen_share", part(&Spoiler::frozen_share), {0, 1},
                    "Share of the take, at its end, that stands still.")},

@@ -32,7 +32,8 @@ Result<StatisticsByJoint> ReadJointStatistics(std::string_view text, const std::
                   deviation);
     }
     if (axes[joint]++ != index)
-      return Fail(heading, "{} is not where x, y, z of a joint follow each other", Quote(name));
+      return Fail(heading, "{} is out of order; allowed: _x_m, _y_m, _z_m of each joint, one after the other",
+                  Quote(name));
     statistics[joint].mean[index] = mean;
     statistics[joint].deviation[index] = deviation;
   }

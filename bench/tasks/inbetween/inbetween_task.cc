@@ -34,7 +34,7 @@ struct InbetweenStudy {
     if (!whole) return whole;
     JointTree& tree = whole->motion.tree;
     const auto known = std::ranges::find_if(training, [&](const TrainingTree& one) { return one.tree.IsLike(tree); });
-    if (known == training.end()) return whole = Fail({wanted}, "no training clip has its joints");
+    if (known == training.end()) return whole = Fail({wanted}, "no training clip has the same joints");
     if (!options.own_offsets) tree.offsets = known->tree.offsets;
     whole->deviations = known->Deviations();
     whole->file = JudgeFile(*whole);

@@ -13,28 +13,30 @@ const FieldTable<InbetweenOptions>& InbetweenConditionFields() {
   static const FieldTable<Options> table{
       {Key::Texts("truth", &Options::truth, "a list of motion files, patterns, folders",
                   "The motions of which frames are hidden; they need rotations of joints.")
-           .WhenAbsent("(none: it must stand)"),
-       Key::Texts(
-           "training", &Options::training, "a list of motion files, patterns, folders",
-           "The motions that give L2P's deviations, the joints' offsets and what `nearest-gap` takes; none of `truth`.")
-           .WhenAbsent("(none: it must stand)"),
+           .WhenAbsent("(required)"),
+       Key::Texts("training", &Options::training, "a list of motion files, patterns, folders",
+                  "The motions for L2P's standard deviations, for the joints' offsets and for the filler "
+                  "`nearest-gap`; none of `truth`.")
+           .WhenAbsent("(required)"),
        Key::Text("people", &Options::people, "a pattern such as '*_{person}'",
-                 "Which part of a file's name is the person: what claims beyond these files count.")
+                 "Which part of a file's name is the person; verdicts beyond these files count each person once.")
            .WhenAbsent("(each file counts for itself)"),
-       Key::Number("window", &Options::window, kFrames, "Frames of a window that is judged."),
-       Key::Number("offset", &Options::offset, kFrames, "Frames from one window's first to the next one's."),
-       Key::Number("training_window", &Options::training_window, kFrames, "Frames of a training window."),
-       Key::Number("training_offset", &Options::training_offset, kFrames, "The same from one to the next."),
-       Key::Number("past", &Options::past, {3, 10'000}, "Frames before the gap, all given."),
-       Key::Number("gap", &Options::gap, kFrames, "Hidden frames."),
-       Key::Number("future", &Options::future, {3, 10'000}, "Frames that a window must have behind the gap."),
-       Key::Number("given", &Options::given, {1, 10'000}, "How many of them are given."),
-       Key::Number("rate_hz", &Options::rate_hz, {1, 1000}, "The rate to which motions are sampled.")
+       Key::Number("window", &Options::window, kFrames, "Length of a window, in frames."),
+       Key::Number("offset", &Options::offset, kFrames, "Frames from the beginning of one window to that of the next."),
+       Key::Number("training_window", &Options::training_window, kFrames, "Length of a training window, in frames."),
+       Key::Number("training_offset", &Options::training_offset, kFrames,
+                   "Frames from the beginning of one training window to that of the next."),
+       Key::Number("past", &Options::past, {3, 10'000}, "Frames before the gap; methods get all of them."),
+       Key::Number("gap", &Options::gap, kFrames, "Number of hidden frames."),
+       Key::Number("future", &Options::future, {3, 10'000}, "Frames that a window must have after the gap."),
+       Key::Number("given", &Options::given, {1, 10'000}, "How many of the frames after the gap methods get."),
+       Key::Number("rate_hz", &Options::rate_hz, {1, 1000}, "The rate to which motions are resampled, Hz.")
            .WhenAbsent("(each file's own)"),
        Key::Name("facing", &Options::facing, {{"x", {1, 0, 0}}, {"y", {0, 1, 0}}, {"z", {0, 0, 1}}},
-                 "The root's own axis that each window turns to the world's X, in the last past frame."),
+                 "The axis of the root joint that points forward: each window is turned so that it points to the "
+                 "world's X in the last frame before the gap."),
        Key::Name("offsets", &Options::own_offsets, {{"training", false}, {"own", true}},
-                 "Whose offsets from joint to joint are used: the first training file's, or each file's own.")},
+                 "Whose bone offsets are used: those of the first training file, or each file's own.")},
       [](Fields& fields, Options& options) {
         const auto& [past, gap, future, given] = std::tie(options.past, options.gap, options.future, options.given);
         if (past + gap + future <= options.window && past <= options.training_window && given <= future) return;

@@ -80,7 +80,7 @@ Result<FoundFiles> FindWindows(const Node& condition, std::span<const Node> meth
   for (const std::string& file : files) {
     const std::string name = NameOfReference(file);
     const auto [known, is_new] = named.emplace(name, file);
-    if (!is_new) return Fail(place, "'{}' and '{}' have one name", known->second, file);
+    if (!is_new) return Fail(place, "'{}' and '{}' have the same name", known->second, file);
     for (const std::string& other : training) {
       if (IsSame(file, other)) return Fail(training_place, "'{}' is judged, so it must not be in 'training'", other);
     }

@@ -68,7 +68,7 @@ Result<std::map<std::string, std::string>> ByName(const std::vector<LoneClip>& c
     if (count[name] > 1) name = clip.folders + fs::path(clip.reference).filename().string();
     const auto [known, is_new] = named.emplace(std::move(name), clip.reference);
     if (is_new) continue;
-    return Fail(place, "'{}' and '{}' have one name; a pattern such as '*/*.bvh' puts folders into names",
+    return Fail(place, "'{}' and '{}' have the same name; a pattern such as '*/*.bvh' puts folders into names",
                 known->second, clip.reference);
   }
   return named;

@@ -35,7 +35,7 @@ const FieldTable<TransitionCondition>& TransitionConditionFields() {
                    "Fuzzy distance below which two bridge frames match; for all methods."),
        Key::Number(
            "wait_s", &Options::wait_s, kWaits_s,
-           "Maximum time from the request to the transition; for all methods (methods outside get it as max_wait_s).")
+           "Maximum time from the request to the transition; for all methods (outside methods get it as max_wait_s).")
            .Unit("seconds"),
        Key::Flag("explain", &Options::explain,
                  "Whether every cell keeps the ten partial distances of its transition points and candidates as "

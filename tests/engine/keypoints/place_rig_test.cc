@@ -65,7 +65,7 @@ TEST(PlaceRig, LeavesARigAsItIsWhoseUnitAndAxesFitThePerson) {
   EXPECT_TRUE(place->IsNone());
   EXPECT_NEAR(place->stature_m, 1.7, 1e-9);
   EXPECT_EQ(place->told,
-            "lengths in m (a person of 1.70 m); up is y (the person leans 5° from it), the floor as in "
+            "lengths in m (by the legs, a person of about 1.70 m); up is y (the person leans 5° from it), the floor as in "
             "the file");
 }
 
@@ -75,7 +75,7 @@ TEST(PlaceRig, FindsTheUnitThatMakesItAPerson) {
     ASSERT_TRUE(place) << name;
     EXPECT_DOUBLE_EQ(place->scale, metres) << name;
     EXPECT_NEAR(place->stature_m, 1.7, 1e-9) << name;
-    EXPECT_THAT(place->told, HasSubstr(std::string("lengths in ") + name + " (found: a person of 1.70 m"));
+    EXPECT_THAT(place->told, HasSubstr(std::string("lengths in ") + name + " (found: by the legs, a person of about 1.70 m"));
   }
   const auto child = PlaceRig(SomeRig(), Stander([](glm::dvec3 p) { return p * 350.0; }), kPlaceRate, {});
   EXPECT_DOUBLE_EQ(child.value().scale, 0.001) << "0.6 m tall: nobody else's unit makes that";
@@ -91,7 +91,7 @@ TEST(PlaceRig, TakesTheUnitThatIsToldAndNoOtherPersonThanOne) {
   EXPECT_THAT(testing::Message(PlaceRig(rig, points, kPlaceRate, {})), HasSubstr("for a person of 1.7 m it is 0.25 m"));
   ASSERT_OK(told, PlaceRig(rig, points, kPlaceRate, {.unit = "0.3"}));
   EXPECT_DOUBLE_EQ(told->scale, 0.3);
-  EXPECT_THAT(told->told, HasSubstr("lengths in units of 0.3 m (as given; a person of 2.04 m)"));
+  EXPECT_THAT(told->told, HasSubstr("lengths in units of 0.3 m (as given; by the legs, a person of about 2.04 m)"));
   for (const char* unit : {"mm", "0.4"}) {
     const auto wrong = PlaceRig(rig, points, kPlaceRate, {.unit = unit});
     ASSERT_FALSE(wrong) << unit;

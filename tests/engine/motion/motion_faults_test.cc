@@ -15,6 +15,7 @@ namespace etude {
 namespace {
 
 using enum Role;
+using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -107,6 +108,17 @@ TEST(MotionFaults, AreNoneOfPeopleWhoSwayOrHopAtAnyRate) {
       EXPECT_FALSE(found.is_floor_found);
     }
   }
+}
+
+TEST(FaultRules, StateEveryKindWithItsThresholds) {
+  const std::vector<FaultRule>& rules = FaultRules();
+  ASSERT_EQ(rules.size(), static_cast<std::size_t>(FaultKind::kSpeed) + 1);
+  for (std::size_t i = 0; i < rules.size(); ++i) {
+    EXPECT_EQ(FaultName(static_cast<FaultKind>(i)), rules[i].name);
+    EXPECT_THAT(rules[i].rule, ContainsRegex("[0-9]")) << rules[i].name;
+  }
+  EXPECT_EQ(rules.back().name, "speed");
+  EXPECT_THAT(rules[static_cast<std::size_t>(FaultKind::kBends)].rule, HasSubstr("25° for 0.1 s"));
 }
 
 TEST(MotionFaults, AreNotSoughtInLessThanEightFrames) {

@@ -1,5 +1,6 @@
 #include "reports/words/figures.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +8,9 @@
 
 namespace etude {
 namespace {
+
+using ::testing::ContainsRegex;
+using ::testing::StartsWith;
 
 TEST(Figures, ShowAboutThreeSignificantDigits) {
   EXPECT_EQ(FormatNumber(12.345), "12.3");
@@ -46,6 +50,21 @@ TEST(Figures, IntervalsHaveTheSameDigitsAtBothEnds) {
   EXPECT_EQ(FormatInterval(10.06, 14, plain), "10.1–14.0");
   EXPECT_EQ(FormatInterval(-1.25, 0.4, plain), "−1.25 to 0.40");
   EXPECT_EQ(FormatInterval(std::nullopt, 2, plain), kNoValue);
+}
+
+TEST(Figures, AnEndOfAnIntervalNeverLosesItsSign) {
+  const MetricWords plain{};
+  EXPECT_EQ(FormatInterval(-0.0031, 30.4, plain), "−0.0031 to 30.4");
+  EXPECT_EQ(FormatInterval(-30.4, 2e-5, plain), "−30.4 to 2.0e-05");
+  EXPECT_EQ(FormatInterval(0.04, 30.4, plain), "0.0400–30.4");
+  EXPECT_EQ(FormatInterval(0, 30.4, plain), "0.0–30.4");
+  // Whatever the ends, the text shows on which side of 0 each lies.
+  for (const double high : {0.02, 1.5, 30.4, 1234.0}) {
+    for (double low = 1e-7; low < high; low *= 1.7) {
+      EXPECT_THAT(FormatInterval(-low, high, plain), StartsWith("−")) << low << " " << high;
+      EXPECT_THAT(FormatInterval(-high, low, plain), ContainsRegex("to .*[1-9]")) << low << " " << high;
+    }
+  }
 }
 
 TEST(Figures, ReadAsTheCatalogueSays) {

@@ -127,6 +127,29 @@ TEST(Findings, KeepEveryFailureWithItsReason) {
   EXPECT_EQ(explained, others);
 }
 
+TEST(Findings, GroupReasonsThatDifferInNumbersOrFilesAlone) {
+  RunData run = ExampleRun();
+  const ScenarioFindings before = FindingsOf(run, run.scenarios[0]);
+  Row row = run.rows.front();
+  row.scenario = run.scenarios[0].name;
+  row.result = CellResult::Ended(Status::kUnsolved, "");
+  for (const char* reason : {"3 of 4 effectors missed by 1.25 cm", "2 of 4 effectors missed by 0.5 cm", "never began",
+                             "t/a.bvh:1:1: no motion", "t/b-2.bvh:7:12: no motion"}) {
+    row.result.reason = reason;
+    run.rows.push_back(row);
+  }
+  const ScenarioFindings findings = FindingsOf(run, run.scenarios[0]);
+  EXPECT_EQ(findings.reasons.size(), before.reasons.size() + 3);
+  const auto count_of = [&](const std::string& words) {
+    const auto found =
+        std::ranges::find_if(findings.reasons, [&](const ReasonCount& one) { return one.Words() == words; });
+    return found == findings.reasons.end() ? 0 : found->cells;
+  };
+  EXPECT_EQ(count_of("for example: 3 of 4 effectors missed by 1.25 cm"), 2);
+  EXPECT_EQ(count_of("never began"), 1);
+  EXPECT_EQ(count_of("for example: t/a.bvh:1:1: no motion"), 2);
+}
+
 TEST(Findings, OfTheRunCountExpectationsAndCells) {
   const RunFindings findings = FindingsOf(ExampleRun());
   EXPECT_EQ(findings.met, 3);

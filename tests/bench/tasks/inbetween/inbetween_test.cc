@@ -224,7 +224,7 @@ TEST(Inbetween, RefusesWhatCannotBeJudged) {
   // Another skeleton has no training clip.
   const auto study = StudyOf("truth: [assimp:Boxing_Toes], training: [assimp:01_01], rate_hz: 30", "interpolation");
   ASSERT_TRUE(study);
-  EXPECT_THAT(WorldOf(*study, 0)->WhySkipped().value_or(""), HasSubstr("no training clip has its joints"));
+  EXPECT_THAT(WorldOf(*study, 0)->WhySkipped().value_or(""), HasSubstr("no training clip has the same joints"));
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ TEST_F(FindLoneClipsTest, NamesHoldTheFoldersOfWildcardsAndExtensionsIfNeeded) {
   EXPECT_EQ(found->worlds, expected);
   const auto twice = Find({"{name: m, answers: ['@/x', '@/y/walk.bvh']}"});
   ASSERT_FALSE(twice);
-  EXPECT_THAT(ToString(twice.error()), HasSubstr("have one name"));
+  EXPECT_THAT(ToString(twice.error()), HasSubstr("have the same name"));
 }
 
 TEST_F(FindLoneClipsTest, PeopleAreUnitsAndTrialsAreRefused) {

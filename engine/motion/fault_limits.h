@@ -1,0 +1,40 @@
+#pragma once
+
+/// The thresholds of FindMotionFaults; FaultRules puts them into words. Metres, seconds, degrees.
+namespace etude::fault_limits {
+
+inline constexpr double kAgreeingShare = 0.7;  ///< share of the joints that move alike if the whole body is displaced
+
+// Floats and sinks.
+inline constexpr double kFloatInAll_m = 0.10, kSink_m = 0.06, kSink_s = 0.15;
+inline constexpr double kLevel_m = 0.04;  ///< a vertical displacement
+inline constexpr double kStand_m = 0.15;  ///< above this height, feet that rest stand on something
+
+/// A body is too high if its lowest joint stays above a height for longer than people do.
+struct Hovering {
+  double height_m, longest_s;
+  bool is_upright;  ///< counts only frames in which the body is upright
+};
+inline constexpr Hovering kHoverings[] = {{0.5, 1, false}, {0.25, 1, true}, {0.09, 2, true}};
+
+// Skates: a step of the velocity, and a velocity that the standing feet share.
+inline constexpr double kStep_m_s = 0.12, kMinCarried_s = 0.25, kMaxCarried_s = 20;
+inline constexpr double kGlide_m_s = 0.14, kGlide_s = 0.5;
+
+// Jumps and pops.
+inline constexpr double kJumpAlongFloor_m = 0.10, kJump_m = 0.25;
+inline constexpr double kPop_m = 0.25, kSurePop_m = 0.45, kPopTimesUsual = 6, kUsualPop = 0.95;
+
+// Freezes.
+inline constexpr double kStill_m_s = 0.002, kFreeze_s = 0.9, kAbrupt_m_s = 0.03;
+
+// Limbs.
+inline constexpr double kStretch = 0.03, kStretchTimesUsual = 15, kStretch_s = 0.05;
+inline constexpr double kBend_deg = 25, kBend_s = 0.1;
+inline constexpr double kPass_m = 0.035, kPass_s = 0.05;
+
+// Gravity and speed.
+inline constexpr double kGravity = 9.81, kGravityFactor = 2.2;
+inline constexpr double kFast_m_s = 10;
+
+}  // namespace etude::fault_limits
