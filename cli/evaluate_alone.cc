@@ -42,6 +42,7 @@ constexpr std::pair<std::string_view, std::string_view> kTelling[] = {
     {"floats_share", "floats"},  {"sinks_share", "sinks"},   {"skates_share", "skates"},
     {"jumps", "jumps"},          {"pops", "pops"},           {"freezes_share", "freezes"},
     {"bends_share", "bends"},    {"passes_share", "passes"}, {"stretches_max_percent", "stretches"},
+    {"torn_max_cm", "torn"},     {"gaps_share", "gaps"},
     {"wrong_rate", "wrong rate"}};
 
 /// Prints at most twenty lines.

@@ -248,8 +248,10 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
     ASSIGN_OR_RETURN(data, LoadRun(outcome->folder));
   }
   const ScenarioSummary& summary = data.scenarios.front();
-  const bool has_silent = std::ranges::any_of(summary.conditions.front().methods,
-                                              [](const MethodSummary& method) { return method.ok == 0; });
+  // A pair that is not judged must not pass unnoticed; of motions alone, limits ask that every clip is.
+  const bool lacks_some = !options.alone.is_alone && outcome->cells_ok < outcome->cells;
+  const bool has_silent = lacks_some || std::ranges::any_of(summary.conditions.front().methods,
+                                                            [](const MethodSummary& method) { return method.ok == 0; });
   const Triage triage = options.alone.is_alone ? TriageOf(data) : Triage{};
   // A clip that cannot be judged keeps no limits.
   const bool exceeds = !triage.beyond_limits.empty() || (!options.alone.limits.empty() && !triage.not_judged.empty());
@@ -279,7 +281,7 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
 void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& action) {
   auto options = std::make_shared<EvaluateOptions>();
   options->command_line = command_line;
-  CLI::App* command = app.add_subcommand("evaluate", "Compare the motions of files with their truths, or judge them alone");
+  CLI::App* command = app.add_subcommand("evaluate", "Compare the motions of files with their truths, or judge them alone; exit code 1: a pair is not judged");
   command->add_option(
       "files", options->files,
       "The truth, then results, each a file, a folder or a pattern in quotes; NAME=PATTERN for several");

@@ -25,7 +25,7 @@ struct FaultWords {
 constexpr std::array kFaultWords = {
     FaultWords{"floats", "m"}, FaultWords{"sinks", "m"},   FaultWords{"skates", "m/s"},      FaultWords{"jumps", "m"},
     FaultWords{"pops", "m"},   FaultWords{"freezes", "s"}, FaultWords{"stretches", "share"}, FaultWords{"bends", "deg"},
-    FaultWords{"passes", "m"}, FaultWords{"rate", "m/s2"}, FaultWords{"speed", "m/s"}};
+    FaultWords{"torn", "m"},   FaultWords{"gaps", "s"},    FaultWords{"passes", "m"}, FaultWords{"rate", "m/s2"}, FaultWords{"speed", "m/s"}};
 
 void AppendDisplacements(const BodyMotion& motion, const Displacements& displacements,
                          std::vector<MotionFault>& faults) {
@@ -35,6 +35,32 @@ void AppendDisplacements(const BodyMotion& motion, const Displacements& displace
   for (const FrameRange& frozen : displacements.frozen) {
     const double from = frozen.first / motion.rate_hz, to = frozen.last / motion.rate_hz;
     faults.push_back({kFreezes, from, to, std::nullopt, to - from});
+  }
+}
+
+/// Appends the times in which joints are not shown that other frames show.
+void AppendGaps(const BodyMotion& motion, const FaultOptions& options, std::vector<MotionFault>& faults) {
+  constexpr double kMinSeconds = 0.5;
+  JointSet always;
+  always.set();
+  for (const JointSet& unseen : options.unseen) always &= unseen;
+  std::vector<bool> is_lost;
+  for (const JointSet& unseen : options.unseen) is_lost.push_back((unseen & ~always).any());
+  for (const FrameRange& range : RangesOf(is_lost)) {
+    const double seconds = (range.last - range.first + 1) / motion.rate_hz;
+    if (seconds < kMinSeconds) continue;
+    JointSet lost;
+    for (int f = range.first; f <= range.last; ++f) lost |= options.unseen[f] & ~always;
+    const Role first = *std::ranges::find_if(AllRoles(), [&](Role role) { return lost[Index(role)]; });
+    faults.push_back({kGaps, range.first / motion.rate_hz, range.last / motion.rate_hz,
+                      lost.count() == 1 ? std::optional(first) : std::nullopt, seconds});
+  }
+  const double end = static_cast<double>(motion.poses.size() - 1) / motion.rate_hz;
+  if (options.lost_before_s >= kMinSeconds) {
+    faults.push_back({kGaps, -options.lost_before_s, 0, std::nullopt, options.lost_before_s});
+  }
+  if (options.lost_after_s >= kMinSeconds) {
+    faults.push_back({kGaps, end, end + options.lost_after_s, std::nullopt, options.lost_after_s});
   }
 }
 
@@ -70,6 +96,7 @@ std::string SentenceOf(const MotionFault& fault, bool is_always) {
     case kSinks:
       return fmt::format("sinks {:.0f} cm into the floor {}", cm, when);
     case kSkates:
+      if (fault.joint) return fmt::format("{} skates at {:.0f} cm/s {}, alone", joint, cm, when);
       return fmt::format("skates at {:.0f} cm/s {}: the standing feet move along the floor", cm, when);
     case kJumps:
       return fmt::format("the whole body jumps by {:.0f} cm at {:.2f} s", cm, fault.to_s);
@@ -81,6 +108,11 @@ std::string SentenceOf(const MotionFault& fault, bool is_always) {
       return fmt::format("the limb that ends at {} changes its length by {:.0f} % {}", joint, cm, when);
     case kBends:
       return fmt::format("{} bends backwards by {:.0f}° {}", joint, fault.size, when);
+    case kTorn:
+      if (!fault.joint) return fmt::format("left and right are exchanged, or lie on one side, {}", when);
+      return fmt::format("{} is torn off {}: {:.0f} cm from where its neighbours have it", joint, when, cm);
+    case kGaps:
+      return fmt::format("{} not shown for {:.2f} s {}", fault.joint ? joint + " is" : "joints are", fault.size, when);
     case kPasses:
       return fmt::format("{} passes through trunk or head {}, {:.0f} cm from their middle", joint, when, cm);
     case kRate:
@@ -107,9 +139,10 @@ MotionFaults FindMotionFaults(const BodyMotion& motion, const FaultOptions& opti
   found.floor_m = ground.floor();
   found.is_floor_found = ground.is_floor_found();
   FindLevelFaults(ground, found.faults);
-  FindSkates(ground, found.faults);
+  FindSkates(ground, options.unseen, found.faults);
   AppendDisplacements(motion, displacements, found.faults);
   FindLimbFaults(motion, options, displacements.pops, found.faults);
+  AppendGaps(motion, options, found.faults);
   const std::size_t count = found.faults.size();
   FindFalls(ground, found.faults);
   if (found.faults.size() == count) AppendSpeed(motion, found.faults);

@@ -119,7 +119,10 @@ Result<HiddenWindow> OpenJudged(const std::string& reference, const InbetweenOpt
   for (const Joint& joint : clip.clip.skeleton.joints) {
     if (joint.is_end_site) points.insert(joint.name);
   }
+  const bool is_body = clip.format == ClipFormat::kBuiltin || clip.made.has_value();
   ASSIGN_OR_RETURN(auto raw, RawMotionOf(std::move(clip), opening, reference.starts_with(kBuiltinPrefix)));
+  // A body's hip centre is midway between its hips.
+  if (!is_body && HasOwnRoot(raw)) AddMidwayHips(raw);
   if (options.rate_hz) {
     raw.rate_hz = OwnRate(raw.rate_hz, options);
     raw = Sampled(raw, *options.rate_hz, 0, SampledFrames(raw.FrameCount(), raw.rate_hz, options));

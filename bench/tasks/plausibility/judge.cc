@@ -37,6 +37,8 @@ constexpr FaultMetric kMetrics[] = {{"floats_share", kFloats, FaultMetric::What:
                                     {"pops_max_cm", kPops, FaultMetric::What::kLargest, kPercent},
                                     {"freezes_share", kFreezes, FaultMetric::What::kShare},
                                     {"stretches_max_percent", kStretches, FaultMetric::What::kLargest, kPercent},
+                                    {"torn_max_cm", kTorn, FaultMetric::What::kLargest, kPercent},
+                                    {"gaps_share", kGaps, FaultMetric::What::kShare},
                                     {"bends_share", kBends, FaultMetric::What::kShare},
                                     {"bends_max_deg", kBends, FaultMetric::What::kLargest},
                                     {"passes_share", kPasses, FaultMetric::What::kShare}};
