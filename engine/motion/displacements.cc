@@ -165,7 +165,8 @@ struct Hot {
 
 std::vector<Hot> FindHot(const std::vector<PoseSteps>& differences, const std::vector<glm::dvec3>& common,
                          std::span<const JointSet> unseen) {
-  constexpr double kMin = 0.25, kMax = 0.45, kTimesUsual = 6, kUsual = 0.95;
+  constexpr double kMin = 0.25, kMax = 0.45, kTimesUsual = 6, kUsual = 0.95, kPopFrames = 9, kFewFrames = 45;
+  constexpr double kLarge = 0.36;
   std::vector<Hot> hot;
   std::vector<double> sizes(common.size());
   for (const Role joint : AllRoles()) {
@@ -180,7 +181,11 @@ std::vector<Hot> FindHot(const std::vector<PoseSteps>& differences, const std::v
       const bool counts = unseen.empty() || is_seen(f);
       sizes[f] = counts ? glm::distance(differences[f][j], common[f]) : 0;
     }
-    const double limit = std::clamp(kTimesUsual * Quantile(sizes, kUsual), kMin, kMax);
+    // Two large pops of a short clip, each in three or four frames, are not what is usual there.
+    const auto count = static_cast<double>(sizes.size());
+    const double share = count < kFewFrames ? kUsual : std::min(1 - kPopFrames / count, kUsual);
+    const double large = std::max(kTimesUsual * Quantile(sizes, share), kLarge);
+    const double limit = std::min(std::clamp(kTimesUsual * Quantile(sizes, kUsual), kMin, kMax), large);
     for (std::size_t f = 0; f < sizes.size(); ++f) {
       if (sizes[f] > limit) hot.push_back({static_cast<int>(f), joint, sizes[f]});
     }

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "engine/base/order_statistics.h"
 #include "engine/motion/limb_faults.h"
@@ -29,12 +30,12 @@ constexpr double kAny = std::numeric_limits<double>::infinity();
 constexpr std::array kLinks = {Link{kHipCentre, kSpine, 0.10, 0.17, 0.35},
                                Link{kSpine, kShoulderCentre, 0.10, 0.17, 0.56},
                                Link{kShoulderCentre, kHead, 0.10, 0.17, 0.32},
-                               Link{kShoulderCentre, kLeftShoulder, 0.10, 0.13, 0.33},
-                               Link{kShoulderCentre, kRightShoulder, 0.10, 0.13, 0.33},
+                               Link{kShoulderCentre, kLeftShoulder, 0.13, 0.13, 0.33},
+                               Link{kShoulderCentre, kRightShoulder, 0.13, 0.13, 0.33},
                                Link{kSpine, kLeftHip, 0.10, 0, kAny},
                                Link{kSpine, kRightHip, 0.10, 0, kAny},
                                Link{kRightHip, kLeftHip, 0.10, 0.16, 0.55},
-                               Link{kRightShoulder, kLeftShoulder, 0.12, 0.26, 0.60},
+                               Link{kRightShoulder, kLeftShoulder, 0.14, 0.26, 0.60},
                                Link{kLeftAnkle, kLeftFoot, 0.08, 0.14, 0.23},
                                Link{kRightAnkle, kRightFoot, 0.08, 0.14, 0.23},
                                Link{kLeftWrist, kLeftHand, 0.12, 0.16, 0.30},
@@ -53,7 +54,7 @@ constexpr std::array kMirrored = {MirroredLink{kHipCentre, kLeftHip, 0.10},
                                   MirroredLink{kLeftAnkle, kLeftFoot, 0.10},
                                   MirroredLink{kShoulderCentre, kLeftShoulder, 0.10},
                                   MirroredLink{kSpine, kLeftShoulder, 0.10},
-                                  MirroredLink{kLeftShoulder, kHead, 0.10},
+                                  MirroredLink{kLeftShoulder, kHead, 0.14},
                                   MirroredLink{kLeftShoulder, kLeftElbow, 0.08},
                                   MirroredLink{kLeftElbow, kLeftWrist, 0.12},
                                   MirroredLink{kLeftWrist, kLeftHand, 0.26}};
@@ -74,7 +75,12 @@ struct Tear {
 class TornFinder {
  public:
   TornFinder(const BodyMotion& motion, std::span<const JointSet> unseen) : motion_(motion), unseen_(unseen) {
-    const auto part = [&](Role a, Role b) { return MedianOf(Distances(a, b)).value_or(0); };
+    // Joints that are not seen have a usual place, which is enough for the size.
+    const auto part = [&](Role a, Role b) {
+      std::vector<double> lengths;
+      for (const BodyPose& pose : motion.poses) lengths.push_back(glm::distance(pose[a], pose[b]));
+      return Median(std::move(lengths));
+    };
     size_ = 0.5 * (part(kLeftHip, kLeftKnee) + part(kLeftKnee, kLeftAnkle) + part(kRightHip, kRightKnee) +
                    part(kRightKnee, kRightAnkle)) +
             part(kHipCentre, kSpine) + part(kSpine, kShoulderCentre);
@@ -136,6 +142,17 @@ class TornFinder {
     wrong_.push_back({inner, outer, std::vector<bool>(motion_.poses.size(), true), size});
   }
 
+  /// Returns the largest change of a joint's distance from the spine in these frames.
+  double ChangeIn(const std::vector<bool>& wrong, Role joint) const {
+    const std::vector<double> distances = Distances(kSpine, joint);
+    const double median = MedianOf(distances).value_or(0);
+    double largest = 0;
+    for (int f = 0; f < frames(); ++f) {
+      if (wrong[f]) largest = std::max(largest, std::abs(distances[f] - median));  // NaN: not seen, which is never larger
+    }
+    return largest;
+  }
+
   /// Distances that change.
   void FindChanges() {
     for (const Link& link : kLinks) {
@@ -146,6 +163,10 @@ class TornFinder {
                   Lasting([&](int f) { return std::abs(distances[f] - *median) > link.max_change * size_; }), 0};
       for (int f = 0; f < frames(); ++f) {
         if (wrong.frames[f]) wrong.size = std::max(wrong.size, std::abs(distances[f] - *median));
+      }
+      // Of both hips or shoulders, that one is torn whose distance from the spine changes more.
+      if (link.inner == Mirrored(link.outer) && ChangeIn(wrong.frames, link.inner) > ChangeIn(wrong.frames, link.outer)) {
+        std::swap(wrong.inner, wrong.outer);
       }
       if (wrong.size > 0) wrong_.push_back(std::move(wrong));
     }

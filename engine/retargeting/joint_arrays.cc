@@ -126,22 +126,29 @@ std::optional<double> UnitOfSpread(double spread) {
 
 constexpr const char* kFromCamera = "the body stands along −Y, as in a camera's frame: turned to Y up";
 
-/// Returns true if the knees are above the shoulders in three of four frames that show them.
-bool StandsOnHead(std::span<const glm::dvec3> positions, const std::vector<std::string>& names) {
+/// The axis along which a body stands, which is not Y.
+enum class Standing { kNotTold, kAlongMinusY, kAlongZ };
+
+/// Returns how the shoulders lie over the knees in three of four frames that show them.
+Standing HowItStands(std::span<const glm::dvec3> positions, const std::vector<std::string>& names) {
   const auto column_of = [&](Role role) {
     return static_cast<std::size_t>(std::ranges::find(names, RoleName(role)) - names.begin());
   };
   const std::array<std::size_t, 4> columns = {column_of(Role::kLeftShoulder), column_of(Role::kRightShoulder),
                                               column_of(Role::kLeftKnee), column_of(Role::kRightKnee)};
-  if (std::ranges::count(columns, names.size()) > 0) return false;
-  int seen = 0, upside_down = 0;
+  if (std::ranges::count(columns, names.size()) > 0) return Standing::kNotTold;
+  constexpr double kUpright = 0.8;  // cosine
+  int seen = 0, upside_down = 0, along_z = 0;
   for (std::size_t begin = 0; begin < positions.size(); begin += names.size()) {
-    const auto height = [&](std::size_t i) { return positions[begin + columns[i]].y; };
-    const double trunk = height(0) + height(1) - height(2) - height(3);
-    seen += std::isnan(trunk) ? 0 : 1;
-    upside_down += trunk < 0 ? 1 : 0;
+    const auto place = [&](std::size_t i) { return positions[begin + columns[i]]; };
+    const glm::dvec3 body = place(0) + place(1) - place(2) - place(3);
+    const double length = glm::length(body);
+    seen += std::isnan(length) ? 0 : 1;
+    upside_down += body.y < -kUpright * length ? 1 : 0;
+    along_z += std::abs(body.z) > kUpright * length ? 1 : 0;
   }
-  return upside_down > 0 && 4 * upside_down >= 3 * seen;
+  if (upside_down > 0 && 4 * upside_down >= 3 * seen) return Standing::kAlongMinusY;
+  return along_z > 0 && 4 * along_z >= 3 * seen ? Standing::kAlongZ : Standing::kNotTold;
 }
 
 /// Reads a place of an array; NaN: not seen. Returns nothing beyond ±10⁹.
@@ -263,7 +270,7 @@ Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional
   }
   // Convert to metres.
   const double unit = motion.metres_per_unit = UnitOfSpread(SpreadOf(places, joints)).value_or(1);
-  const bool is_turned = !told && StandsOnHead(places, motion.names);
+  const bool is_turned = !told && HowItStands(places, motion.names) == Standing::kAlongMinusY;
   const glm::dvec3 scale = unit * (is_turned ? glm::dvec3(1, -1, -1) : glm::dvec3(1));
   for (auto& frame : motion.frames) {
     for (auto& place : frame) {
@@ -325,9 +332,14 @@ std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest) {
                   {{"names", std::move(names)}, {"unit", {"m"}}, {"up", {"y"}}});
 }
 
-bool IsBodyNpz(const Npz& arrays) { return arrays.arrays.contains("positions"); }
+bool IsBodyNpz(const Npz& arrays) {
+  return arrays.arrays.contains("positions") || std::ranges::count(arrays.skipped, "positions") > 0;
+}
 
 Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const ArrayOptions& told) {
+  if (!arrays.arrays.contains("positions")) {
+    return Fail({file}, "positions: allowed: floats of 4 or 8 bytes, or whole numbers, little-endian");
+  }
   const NumberArray& positions = arrays.arrays.at("positions");
   const auto& shape = positions.shape;
   if (shape.size() != 3 || shape[0] == 0 || shape[1] == 0 || shape[2] != 3) {
@@ -351,6 +363,10 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
   const std::size_t joints = motion.joints.size();
   if (joints != shape[1]) return Fail({file}, "{} joints and {} names; allowed: one name for each", shape[1], joints);
   for (std::size_t j = 0; j < joints; ++j) {
+    if (std::find(motion.joints.begin(), motion.joints.begin() + static_cast<std::ptrdiff_t>(j), motion.joints[j]) !=
+        motion.joints.begin() + static_cast<std::ptrdiff_t>(j)) {
+      return Fail({file}, "names: {} twice; allowed: one name for each joint", Quote(motion.joints[j]));
+    }
     if (const auto role = FindRole(motion.joints[j])) motion.roles[Index(*role)] = static_cast<int>(j);
   }
   for (std::size_t j = 0; j < joints && motion.roles[Index(Role::kHipCentre)] < 0; ++j) {
@@ -381,11 +397,18 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
   const std::string axis = TextOf(arrays, "up");
   if (!axis.empty() && axis != "y" && axis != "z") return Fail({file}, "up is {}; allowed: y, z", Quote(axis));
   const UpAxis up = told.up.value_or(axis == "z" ? UpAxis::kZ : UpAxis::kY);
-  if (up == UpAxis::kZ) motion.notes.emplace_back("turned upright from Z up");
+  if (up == UpAxis::kZ) {
+    motion.notes.push_back(fmt::format("turned upright from Z up ({})", told.up ? "given" : "the file's `up`"));
+  }
   for (glm::dvec3& place : motion.positions) place = Upright(unit * place, up);
-  if (told.up || !axis.empty() || !StandsOnHead(motion.positions, motion.joints)) return motion;
-  motion.notes.emplace_back(kFromCamera);
-  for (glm::dvec3& place : motion.positions) place *= glm::dvec3(1, -1, -1);
+  const Standing standing =
+      told.up || !axis.empty() ? Standing::kNotTold : HowItStands(motion.positions, motion.joints);
+  if (standing == Standing::kAlongMinusY) {
+    motion.notes.emplace_back(kFromCamera);
+    for (glm::dvec3& place : motion.positions) place *= glm::dvec3(1, -1, -1);
+  } else if (standing == Standing::kAlongZ) {
+    motion.notes.emplace_back("the body lies along Z, with Y up: if it stands, `up: z` in the file or a joint map says so");
+  }
   return motion;
 }
 

@@ -301,7 +301,9 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   StandOnFloor(options.keep_floor, IsOwn(set), body);
   if (!options.keeps_shown) return body;
   body.shown = AsShown(scale, markers, set, columns, seen, body.up.axis);
-  if (!centres.empty()) body.shown.remark += "; " + centres;
+  for (const std::string& said : {centres, DescribeTurn(body.up), body.up.doubt}) {
+    if (!said.empty()) body.shown.remark += "; " + said;
+  }
   return body;
 }
 

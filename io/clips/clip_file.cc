@@ -146,12 +146,12 @@ Result<double> BidsRate(const std::string& file, CappedReader& reader) {
   return Fail({file}, "SamplingFrequency: allowed: a number from {:g} to {:g} Hz", kMinRate_hz, kMaxRate_hz);
 }
 
-/// Reads an array of joints, whose rate the file does not tell.
+/// Reads an array of joints, whose rate the file does not tell; `said` ends the note on it.
 Result<ClipFile> FileOfArray(const NumberArray& array, const std::optional<std::string>& layout, const std::string& path,
-                             const OpenOptions& options) {
+                             const OpenOptions& options, const std::string& said = "") {
   std::string note;
   ASSIGN_OR_RETURN(auto joints, JointsOfArray(array, layout, path, note, ToldUp(options)));
-  joints.remark = note;
+  joints.remark = said.empty() ? note : note + "; " + said;
   ASSIGN_OR_RETURN(auto file, FileOfMarkers(ClipFormat::kNpy, std::move(joints), path, options, ArrayUp()));
   file.has_rate = false;
   return file;
@@ -182,7 +182,9 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
       if (const auto motion = BodyOf(raw)) {
         std::vector<std::string> notes = {"Etude's own arrays"};
         notes.insert(notes.end(), raw.notes.begin(), raw.notes.end());
-        return FileOfBody(ClipFormat::kNpz, *motion, path, std::move(notes));
+        file = FileOfBody(ClipFormat::kNpz, *motion, path, std::move(notes));
+        if (const auto up = ToldUp(options)) file.bodies[0].up = {.axis = AxisOf(*up), .evidence = UpEvidence::kTold};
+        return file;
       }
       // Other joints, or gaps: the body is found by the joints' names.
       return FileOfJoints(ClipFormat::kNpz, raw, path, options);
@@ -195,10 +197,8 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
       return file;
     }
     if (const auto joints = JointsOfSam(arrays)) {
-      ASSIGN_OR_RETURN(file, FileOfArray(*joints, layout, path, options));
-      for (MadeBody& body : file.bodies)
-        body.changes.emplace_back("SAM 3D Body's arrays: the camera's frame, turned to Y up as if it was level");
-      return file;
+      return FileOfArray(*joints, layout, path, options,
+                         "SAM 3D Body's arrays: the camera's frame, turned to Y up as if it was level");
     }
     ASSIGN_OR_RETURN(auto clip, ReadAmass(arrays, path));
     return FileOfOne(ClipFormat::kAmass, std::move(clip));

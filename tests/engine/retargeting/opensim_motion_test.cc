@@ -343,6 +343,8 @@ TEST(BodyNpz, IsInTheUnitAndOnTheAxisThatTheFileOrTheUserTells) {
   EXPECT_LT(off(seen), 1e-12);
   EXPECT_THAT(ReadRawNpz(seen, "a.npz")->notes, ::testing::ElementsAre(HasSubstr("as in a camera's frame")));
   EXPECT_THAT(ReadRawNpz(seen, "a.npz", {.up = UpAxis::kY})->notes, ::testing::IsEmpty());
+  // Z up, which nobody tells: it may lie.
+  EXPECT_THAT(ReadRawNpz(written(1, true, "", ""), "a.npz")->notes, ::testing::ElementsAre(HasSubstr("lies along Z")));
 }
 
 TEST(BodyNpz, IsRefusedBeyondItsLimits) {
@@ -362,6 +364,9 @@ TEST(BodyNpz, IsRefusedBeyondItsLimits) {
   EXPECT_NE(complaint({30, 30}, 0, 20), "none");
   EXPECT_NE(complaint({30}, 2e9, 20), "none");
   EXPECT_NE(complaint({30}, 0, 19), "none");
+  Npz twice = arrays;
+  twice.texts["names"][3] = twice.texts["names"][2];
+  EXPECT_THAT(testing::Refusal(ReadRawNpz(twice, "a.npz")), HasSubstr("twice"));
   // Names that cannot be read are not the twenty.
   Npz pickled = arrays;
   pickled.texts.erase("names");

@@ -321,7 +321,10 @@ const std::vector<Kind>& Kinds() {
 
 /// Returns true if `fault` is the one that was inserted.
 bool Tells(const MotionFault& fault, FaultKind kind, const Inserted& inserted) {
-  if (fault.kind != kind || (inserted.joint && fault.joint != inserted.joint)) return false;
+  // A torn part also pops where it leaves its place and comes back.
+  const bool is_kind = fault.kind == kind || (kind == kTorn && fault.kind == kPops);
+  if (!is_kind || (inserted.joint && fault.joint != inserted.joint)) return false;
+  if (fault.kind == kPops && kind == kTorn) return std::abs(fault.from_s - inserted.from_s) < 0.5;
   if (kind == kRate) return true;  // dated by the flight that shows it
   if (kind == kSkates && inserted.joint) return fault.to_s > inserted.from_s && fault.from_s < inserted.to_s;  // it steps
   // It covers at least half of the time, and is at most half a second off at either end.
