@@ -281,7 +281,9 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
 void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& action) {
   auto options = std::make_shared<EvaluateOptions>();
   options->command_line = command_line;
-  CLI::App* command = app.add_subcommand("evaluate", "Compare the motions of files with their truths, or judge them alone; exit code 1: a pair is not judged");
+  CLI::App* command = app.add_subcommand(
+      "evaluate",
+      "Compare the motions of files with their truths, or judge them alone; exit code 1: a pair is not judged");
   command->add_option(
       "files", options->files,
       "The truth, then results, each a file, a folder or a pattern in quotes; NAME=PATTERN for several");

@@ -25,7 +25,8 @@ struct FaultWords {
 constexpr std::array kFaultWords = {
     FaultWords{"floats", "m"}, FaultWords{"sinks", "m"},   FaultWords{"skates", "m/s"},      FaultWords{"jumps", "m"},
     FaultWords{"pops", "m"},   FaultWords{"freezes", "s"}, FaultWords{"stretches", "share"}, FaultWords{"bends", "deg"},
-    FaultWords{"torn", "m"},   FaultWords{"gaps", "s"},    FaultWords{"passes", "m"}, FaultWords{"rate", "m/s2"}, FaultWords{"speed", "m/s"}};
+    FaultWords{"torn", "m"},   FaultWords{"gaps", "s"},    FaultWords{"passes", "m"},        FaultWords{"rate", "m/s2"},
+    FaultWords{"speed", "m/s"}};
 
 void AppendDisplacements(const BodyMotion& motion, const Displacements& displacements,
                          std::vector<MotionFault>& faults) {

@@ -68,12 +68,12 @@ constexpr std::size_t kMinFramesForFaults = 8;
 /// displaced or repeated). *(Ours.)* The floor is `floor_m`, else height 0; a motion whose lowest joint stays more than
 /// 60 cm from 0 has no floor at 0, and the height at which its feet rest is used. Rules:
 /// - Jumps, floats, sinks: third differences of positions in which 70 % of the joints agree, an ankle among them, are
-///   displacements of the whole body. Those along the floor (10 cm) or longer than 25 cm are jumps; vertical ones (4 cm) start or end times
-///   in which the body floats or sinks. Without such an edge, a body floats that rests 10 cm high in the whole clip or
-///   stays high without rest, and sinks where it is 6 cm below the floor.
+///   displacements of the whole body. Those along the floor (10 cm) or longer than 25 cm are jumps; vertical ones (4
+///   cm) start or end times in which the body floats or sinks. Without such an edge, a body floats that rests 10 cm
+///   high in the whole clip or stays high without rest, and sinks where it is 6 cm below the floor.
 /// - Skates: the velocity of 70 % of the joints changes by 12 cm/s or more from one frame to the next, and back later,
-///   while low feet move with it; or the most frequent velocity of the low joints of the feet within 0.6 s is not near 0. One foot
-///   skates if its ankle and toes rest, and move alike along the floor for 0.4 s (0.25 s at one velocity).
+///   while low feet move with it; or the most frequent velocity of the low joints of the feet within 0.6 s is not near
+///   0. One foot skates if its ankle and toes rest, and move alike along the floor for 0.4 s (0.25 s at one velocity).
 /// - Rate: in flights, the mass centre falls with less than 4.5 or more than 21.6 m/s² (2.2 times less or more).
 /// - Speed: the fastest joint moves at more than 10 m/s in the median frame, and no flight shows the gravity.
 /// - Pops: third differences above 25 cm and six times the joint's usual (95th percentile); 45 cm at any noise.

@@ -183,9 +183,11 @@ void FindFootSkates(const GroundView& ground, std::span<const JointSet> unseen, 
       double farthest = 0;
       for (int f = span.first; f <= span.last; ++f) farthest = std::max(farthest, glm::distance(velocities[f], mean));
       const bool is_constant = farthest < kConstant * glm::length(mean);
-      const bool is_known = std::any_of(faults.begin(), faults.begin() + static_cast<std::ptrdiff_t>(known), [&](const MotionFault& fault) {
-        return fault.kind == FaultKind::kSkates && fault.from_s * rate <= span.last && fault.to_s * rate >= span.first;
-      });
+      const bool is_known = std::any_of(faults.begin(), faults.begin() + static_cast<std::ptrdiff_t>(known),
+                                        [&](const MotionFault& fault) {
+                                          return fault.kind == FaultKind::kSkates && fault.from_s * rate <= span.last &&
+                                                 fault.to_s * rate >= span.first;
+                                        });
       if (is_known || seconds < (is_constant ? kShort_s : kLong_s) || glm::length(mean) < kMinSpeed) continue;
       faults.push_back(ground.FaultOf(FaultKind::kSkates, span, glm::length(mean)));
       faults.back().joint = toes;

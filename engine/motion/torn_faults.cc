@@ -46,18 +46,13 @@ struct MirroredLink {
   Role inner, outer;
   double max_difference;
 };
-constexpr std::array kMirrored = {MirroredLink{kHipCentre, kLeftHip, 0.10},
-                                  MirroredLink{kSpine, kLeftHip, 0.14},
-                                  MirroredLink{kShoulderCentre, kLeftHip, 0.09},
-                                  MirroredLink{kLeftHip, kLeftKnee, 0.08},
-                                  MirroredLink{kLeftKnee, kLeftAnkle, 0.10},
-                                  MirroredLink{kLeftAnkle, kLeftFoot, 0.10},
-                                  MirroredLink{kShoulderCentre, kLeftShoulder, 0.10},
-                                  MirroredLink{kSpine, kLeftShoulder, 0.10},
-                                  MirroredLink{kLeftShoulder, kHead, 0.14},
-                                  MirroredLink{kLeftShoulder, kLeftElbow, 0.08},
-                                  MirroredLink{kLeftElbow, kLeftWrist, 0.12},
-                                  MirroredLink{kLeftWrist, kLeftHand, 0.26}};
+constexpr std::array kMirrored = {
+    MirroredLink{kHipCentre, kLeftHip, 0.10},           MirroredLink{kSpine, kLeftHip, 0.14},
+    MirroredLink{kShoulderCentre, kLeftHip, 0.09},      MirroredLink{kLeftHip, kLeftKnee, 0.08},
+    MirroredLink{kLeftKnee, kLeftAnkle, 0.10},          MirroredLink{kLeftAnkle, kLeftFoot, 0.10},
+    MirroredLink{kShoulderCentre, kLeftShoulder, 0.10}, MirroredLink{kSpine, kLeftShoulder, 0.10},
+    MirroredLink{kLeftShoulder, kHead, 0.14},           MirroredLink{kLeftShoulder, kLeftElbow, 0.08},
+    MirroredLink{kLeftElbow, kLeftWrist, 0.12},         MirroredLink{kLeftWrist, kLeftHand, 0.26}};
 
 /// Two joints whose distance is wrong: when, and by how much.
 struct Wrong {
@@ -148,7 +143,8 @@ class TornFinder {
     const double median = MedianOf(distances).value_or(0);
     double largest = 0;
     for (int f = 0; f < frames(); ++f) {
-      if (wrong[f]) largest = std::max(largest, std::abs(distances[f] - median));  // NaN: not seen, which is never larger
+      if (wrong[f])
+        largest = std::max(largest, std::abs(distances[f] - median));  // NaN: not seen, which is never larger
     }
     return largest;
   }
@@ -165,7 +161,8 @@ class TornFinder {
         if (wrong.frames[f]) wrong.size = std::max(wrong.size, std::abs(distances[f] - *median));
       }
       // Of both hips or shoulders, that one is torn whose distance from the spine changes more.
-      if (link.inner == Mirrored(link.outer) && ChangeIn(wrong.frames, link.inner) > ChangeIn(wrong.frames, link.outer)) {
+      if (link.inner == Mirrored(link.outer) &&
+          ChangeIn(wrong.frames, link.inner) > ChangeIn(wrong.frames, link.outer)) {
         std::swap(wrong.inner, wrong.outer);
       }
       if (wrong.size > 0) wrong_.push_back(std::move(wrong));
@@ -225,7 +222,8 @@ class TornFinder {
     };
     const auto median = [&](Role a, Role b) { return MedianOf(Distances(a, b)).value_or(0); };
     Add(tears_[kHead], Lasting([&](int f) {
-          return shows(f, {kHead}) && is_against(between(f, kShoulderCentre, kHead), between(f, kHipCentre, kShoulderCentre));
+          return shows(f, {kHead}) &&
+                 is_against(between(f, kShoulderCentre, kHead), between(f, kHipCentre, kShoulderCentre));
         }),
         2 * median(kShoulderCentre, kHead));
     const auto points_back = [&](int f, Role knee, Role ankle, Role foot) {

@@ -176,13 +176,14 @@ Result<double> RateOf(const Npz& arrays, const std::string& file) {
   const bool is_right =
       rate != nullptr && rate->values.size() == 1 && rate->values[0] >= kMinRate_hz && rate->values[0] <= kMaxRate_hz;
   if (is_right) return rate->values[0];
-  return Fail({file},
-              "{}; allowed: one number from {:g} to {:g}, as numpy.savez(…, positions=p, rate_hz=30) writes it, or `rate: "
-              "30` in a joint map",
-              rate != nullptr || std::ranges::find(arrays.skipped, "rate_hz") != arrays.skipped.end()
-                  ? "rate_hz is no such number"
-                  : "positions without rate_hz, the frames a second",
-              kMinRate_hz, kMaxRate_hz);
+  return Fail(
+      {file},
+      "{}; allowed: one number from {:g} to {:g}, as numpy.savez(…, positions=p, rate_hz=30) writes it, or `rate: "
+      "30` in a joint map",
+      rate != nullptr || std::ranges::find(arrays.skipped, "rate_hz") != arrays.skipped.end()
+          ? "rate_hz is no such number"
+          : "positions without rate_hz, the frames a second",
+      kMinRate_hz, kMaxRate_hz);
 }
 
 /// Returns the metres of the arrays' unit, and says in `notes` what was assumed.
@@ -202,10 +203,11 @@ Result<double> UnitOf(const Npz& arrays, const RawMotion& motion, const std::str
   }
   const auto likely = UnitOfSpread(spread);
   if (!likely) {
-    return Fail({file},
-                "the joints extend {:.3g} m in the median frame, in a unit of {:g} m; allowed: at most {:g}; `unit` in the "
-                "file or in a joint map says what unit it is",
-                unit * spread, unit, kMaxExtent_m);
+    return Fail(
+        {file},
+        "the joints extend {:.3g} m in the median frame, in a unit of {:g} m; allowed: at most {:g}; `unit` in the "
+        "file or in a joint map says what unit it is",
+        unit * spread, unit, kMaxExtent_m);
   }
   notes.push_back(fmt::format("1 unit = {:g} cm: in units of {:g} m the joints extend {:.3g} m", 100 * *likely, unit,
                               unit * spread));
@@ -407,7 +409,8 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
     motion.notes.emplace_back(kFromCamera);
     for (glm::dvec3& place : motion.positions) place *= glm::dvec3(1, -1, -1);
   } else if (standing == Standing::kAlongZ) {
-    motion.notes.emplace_back("the body lies along Z, with Y up: if it stands, `up: z` in the file or a joint map says so");
+    motion.notes.emplace_back(
+        "the body lies along Z, with Y up: if it stands, `up: z` in the file or a joint map says so");
   }
   return motion;
 }

@@ -24,10 +24,10 @@ std::vector<std::string> JointsOfLayout(std::string_view layout, std::size_t joi
 
 /// Converts an array T × J × 3 (frames, joints, X Y Z; NaN: not seen) to trajectories. Their rate is the judged rate,
 /// because such a file contains none. Unless the up axis is `told`, a body that stands on its head in three of four
-/// frames is in a camera's frame (Y down, Z forwards), and is turned by half a turn about X. `layout` is one of JointLayoutNames(); without it, the layout is the one with J
-/// joints. The unit is the metre, unless the joints extend as far as a person's in centimetres or millimetres. `note`
-/// states layout and unit. Fails for other shapes, a layout with another number of joints, 17 joints without a layout,
-/// and positions beyond ±10⁹.
+/// frames is in a camera's frame (Y down, Z forwards), and is turned by half a turn about X. `layout` is one of
+/// JointLayoutNames(); without it, the layout is the one with J joints. The unit is the metre, unless the joints extend
+/// as far as a person's in centimetres or millimetres. `note` states layout and unit. Fails for other shapes, a layout
+/// with another number of joints, 17 joints without a layout, and positions beyond ±10⁹.
 Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional<std::string>& layout,
                                    const std::string& file, std::string& note, std::optional<UpAxis> told = {});
 

@@ -147,8 +147,8 @@ Result<double> BidsRate(const std::string& file, CappedReader& reader) {
 }
 
 /// Reads an array of joints, whose rate the file does not tell; `said` ends the note on it.
-Result<ClipFile> FileOfArray(const NumberArray& array, const std::optional<std::string>& layout, const std::string& path,
-                             const OpenOptions& options, const std::string& said = "") {
+Result<ClipFile> FileOfArray(const NumberArray& array, const std::optional<std::string>& layout,
+                             const std::string& path, const OpenOptions& options, const std::string& said = "") {
   std::string note;
   ASSIGN_OR_RETURN(auto joints, JointsOfArray(array, layout, path, note, ToldUp(options)));
   joints.remark = said.empty() ? note : note + "; " + said;

@@ -30,8 +30,8 @@ bool IsOfMarkers(ClipFormat format);
 Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const std::string& path,
                                const OpenOptions& options, UpRule rule);
 
-/// Makes a clip of the body that joints of any names show. They are in metres on their own floor, with Y up, whatever the
-/// options say of these: the arrays' reader has heeded them. Its note includes the motion's.
+/// Makes a clip of the body that joints of any names show. They are in metres on their own floor, with Y up, whatever
+/// the options say of these: the arrays' reader has heeded them. Its note includes the motion's.
 Result<ClipFile> FileOfJoints(ClipFormat format, const RawMotion& motion, const std::string& path, OpenOptions options);
 
 /// Reads a file of markers (C3D, TRC, Motive's CSV, joint CSV); returns nullopt if the file is of another kind.

@@ -215,7 +215,8 @@ std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const Matche
 
 }  // namespace
 
-Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& given_answer, std::string_view set, Lag lag) {
+Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& given_answer, std::string_view set,
+                             Lag lag) {
   RawMotion changed_truth, changed_answer;
   const RawMotion& truth = WithCommonRoot(given_truth, given_answer, changed_truth);
   const RawMotion& answer = WithCommonRoot(given_answer, given_truth, changed_answer);

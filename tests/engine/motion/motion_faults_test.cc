@@ -266,9 +266,11 @@ TEST(MotionFaults, OfABodyThatIsTornNameTheJoint) {
     }
   }
   // A head that lies on the neck for a second.
-  const auto headless = WithChange(Swaying(30), 2, 3, [](BodyPose& pose, double) { pose[kHead] = pose[kShoulderCentre]; });
+  const auto headless =
+      WithChange(Swaying(30), 2, 3, [](BodyPose& pose, double) { pose[kHead] = pose[kShoulderCentre]; });
   const auto faults = FindMotionFaults(headless).faults;
-  EXPECT_TRUE(std::ranges::any_of(faults, [](const MotionFault& f) { return f.kind == FaultKind::kTorn && f.joint == kHead; }));
+  EXPECT_TRUE(
+      std::ranges::any_of(faults, [](const MotionFault& f) { return f.kind == FaultKind::kTorn && f.joint == kHead; }));
 }
 
 TEST(MotionFaults, TellExchangedSides) {
@@ -277,11 +279,13 @@ TEST(MotionFaults, TellExchangedSides) {
       for (const Role left : lefts) std::swap(pose[left], pose[Mirrored(left)]);
     });
   };
-  for (const auto& lefts : {std::vector{kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand},
-                            std::vector{kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot},
-                            std::vector{kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand, kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot}}) {
+  for (const auto& lefts :
+       {std::vector{kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand},
+        std::vector{kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot},
+        std::vector{kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand, kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot}}) {
     const auto faults = FindMotionFaults(exchange(lefts)).faults;
-    const auto told = std::ranges::find_if(faults, [](const MotionFault& f) { return f.kind == FaultKind::kTorn && !f.joint; });
+    const auto told =
+        std::ranges::find_if(faults, [](const MotionFault& f) { return f.kind == FaultKind::kTorn && !f.joint; });
     ASSERT_NE(told, faults.end()) << lefts.size();
     ExpectTime(*told, 2, 4);
   }

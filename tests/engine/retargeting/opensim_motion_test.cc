@@ -323,7 +323,8 @@ TEST(BodyNpz, IsInTheUnitAndOnTheAxisThatTheFileOrTheUserTells) {
     for (const char* said : {"", "m"}) {
       const Npz arrays = written(unit, false, said, "");
       EXPECT_LT(off(arrays), 1e-9) << unit;
-      EXPECT_THAT(ReadRawNpz(arrays, "a.npz")->notes, ::testing::ElementsAre(HasSubstr(fmt::format("1 unit = {:g} cm", 100 * unit))));
+      EXPECT_THAT(ReadRawNpz(arrays, "a.npz")->notes,
+                  ::testing::ElementsAre(HasSubstr(fmt::format("1 unit = {:g} cm", 100 * unit))));
     }
   }
   EXPECT_THAT(testing::Refusal(ReadRawNpz(written(0.1, false, "", ""), "a.npz")), HasSubstr("allowed: at most 4"));

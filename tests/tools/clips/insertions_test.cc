@@ -294,28 +294,29 @@ struct Kind {
   Insert insert;
 };
 const std::vector<Kind>& Kinds() {
-  static const std::vector<Kind> kinds = {{"sinks 12 cm, 0.67 s", kSinks, Lifted(-0.12, 0.67)},
-                                          {"sinks 12 cm, 0.4 s", kSinks, Lifted(-0.12, 0.4)},
-                                          {"sinks 8 cm, half", kSinks, Lifted(-0.08, 0)},
-                                          {"floats 6 cm, 2 s", kFloats, Lifted(0.06, 2)},
-                                          {"floats 15 cm, always", kFloats, Lifted(0.15, -1)},
-                                          {"skates 20 cm/s", kSkates, Skating(0.2)},
-                                          {"skates 40 cm/s", kSkates, Skating(0.4)},
-                                          {"skates 100 cm/s", kSkates, Skating(1)},
-                                          {"jumps 50 cm", kJumps, Jump},
-                                          {"hand pops 50 cm", kPops, Pop},
-                                          {"rate x 2", kRate, OtherRate(2)},
-                                          {"rate x 4", kRate, OtherRate(4)},
-                                          {"rate x 1/2", kRate, OtherRate(0.5)},
-                                          {"frozen 1 s", kFreezes, Frozen},
-                                          {"limb stretches 5 %", kStretches, Stretched},
-                                          {"torn hip", kTorn, Torn({kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot})},
-                                          {"torn shoulder", kTorn, Torn({kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand})},
-                                          {"torn neck", kTorn, Torn({kShoulderCentre, kHead})},
-                                          {"torn toes", kTorn, Torn({kLeftFoot})},
-                                          {"one foot skates", kSkates, FootSkating(0.3)},
-                                          {"knee backwards 30°", kBends, BentKnee},
-                                          {"hand through chest", kPasses, HandThroughChest}};
+  static const std::vector<Kind> kinds = {
+      {"sinks 12 cm, 0.67 s", kSinks, Lifted(-0.12, 0.67)},
+      {"sinks 12 cm, 0.4 s", kSinks, Lifted(-0.12, 0.4)},
+      {"sinks 8 cm, half", kSinks, Lifted(-0.08, 0)},
+      {"floats 6 cm, 2 s", kFloats, Lifted(0.06, 2)},
+      {"floats 15 cm, always", kFloats, Lifted(0.15, -1)},
+      {"skates 20 cm/s", kSkates, Skating(0.2)},
+      {"skates 40 cm/s", kSkates, Skating(0.4)},
+      {"skates 100 cm/s", kSkates, Skating(1)},
+      {"jumps 50 cm", kJumps, Jump},
+      {"hand pops 50 cm", kPops, Pop},
+      {"rate x 2", kRate, OtherRate(2)},
+      {"rate x 4", kRate, OtherRate(4)},
+      {"rate x 1/2", kRate, OtherRate(0.5)},
+      {"frozen 1 s", kFreezes, Frozen},
+      {"limb stretches 5 %", kStretches, Stretched},
+      {"torn hip", kTorn, Torn({kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot})},
+      {"torn shoulder", kTorn, Torn({kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand})},
+      {"torn neck", kTorn, Torn({kShoulderCentre, kHead})},
+      {"torn toes", kTorn, Torn({kLeftFoot})},
+      {"one foot skates", kSkates, FootSkating(0.3)},
+      {"knee backwards 30°", kBends, BentKnee},
+      {"hand through chest", kPasses, HandThroughChest}};
   return kinds;
 }
 
@@ -326,7 +327,8 @@ bool Tells(const MotionFault& fault, FaultKind kind, const Inserted& inserted) {
   if (!is_kind || (inserted.joint && fault.joint != inserted.joint)) return false;
   if (fault.kind == kPops && kind == kTorn) return std::abs(fault.from_s - inserted.from_s) < 0.5;
   if (kind == kRate) return true;  // dated by the flight that shows it
-  if (kind == kSkates && inserted.joint) return fault.to_s > inserted.from_s && fault.from_s < inserted.to_s;  // it steps
+  if (kind == kSkates && inserted.joint)
+    return fault.to_s > inserted.from_s && fault.from_s < inserted.to_s;  // it steps
   // It covers at least half of the time, and is at most half a second off at either end.
   constexpr double kOff_s = 0.5;
   return std::abs(fault.from_s - inserted.from_s) < kOff_s && std::abs(fault.to_s - inserted.to_s) < kOff_s;
