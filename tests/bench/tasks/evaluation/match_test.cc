@@ -52,7 +52,7 @@ TEST(Match, AShiftIsAllThatIsLeftOfAnAnswerAtAnotherRate) {
   EXPECT_NEAR(ValueIn(result, "mpjpe_take_mm"), 0, 1e-9);
   EXPECT_NEAR(ValueIn(result, "accel_error_mps2"), 0, 1e-9);
   EXPECT_EQ(ValueIn(result, "seen_share"), 1);
-  EXPECT_THAT(result.reason, HasSubstr("20 joints, 60 frames at 30 Hz, the answer's 12.5 Hz interpolated linearly"));
+  EXPECT_THAT(result.reason, HasSubstr("20 joints, root hip_centre, 60 frames at 30 Hz, the answer's 12.5 Hz interpolated linearly"));
 }
 
 TEST(Match, AnAnswerThatEndsEarlyIsJudgedWhereItIs) {
