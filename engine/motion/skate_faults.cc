@@ -178,18 +178,22 @@ void FindFootSkates(const GroundView& ground, std::span<const JointSet> unseen, 
     }
     for (const FrameRange& span : RangesOf(glides)) {
       const double seconds = ground.Seconds(span);
-      glm::dvec2 mean{0};
-      for (int f = span.first; f <= span.last; ++f) mean += velocities[f] / (seconds * rate);
+      std::vector<double> x, z;
+      for (int f = span.first; f <= span.last; ++f) {
+        x.push_back(velocities[f].x);
+        z.push_back(velocities[f].y);
+      }
+      const glm::dvec2 middle(Median(x), Median(z));
       double farthest = 0;
-      for (int f = span.first; f <= span.last; ++f) farthest = std::max(farthest, glm::distance(velocities[f], mean));
-      const bool is_constant = farthest < kConstant * glm::length(mean);
+      for (int f = span.first; f <= span.last; ++f) farthest = std::max(farthest, glm::distance(velocities[f], middle));
+      const bool is_constant = farthest < kConstant * glm::length(middle);
       const bool is_known = std::any_of(faults.begin(), faults.begin() + static_cast<std::ptrdiff_t>(known),
                                         [&](const MotionFault& fault) {
                                           return fault.kind == FaultKind::kSkates && fault.from_s * rate <= span.last &&
                                                  fault.to_s * rate >= span.first;
                                         });
-      if (is_known || seconds < (is_constant ? kShort_s : kLong_s) || glm::length(mean) < kMinSpeed) continue;
-      faults.push_back(ground.FaultOf(FaultKind::kSkates, span, glm::length(mean)));
+      if (is_known || seconds < (is_constant ? kShort_s : kLong_s) || glm::length(middle) < kMinSpeed) continue;
+      faults.push_back(ground.FaultOf(FaultKind::kSkates, span, glm::length(middle)));
       faults.back().joint = toes;
     }
   }

@@ -15,7 +15,7 @@ HEIGHTS = [1, 1.5, 1.7, *(1.45, 1.2, 0.95, 0.98, 0.5, 0.1, 0.05) * 2]
 def standing(frames, across=0.0):
     """A body that stands; `across` metres to the side."""
     sides = [0, 0, 0, *[0.2] * 7, *[-0.2] * 7]
-    return [[[x + across, y, 0.1 if "foot" in name else 0.01 * f] for name, x, y in zip(NAMES, sides, HEIGHTS)]
+    return [[[x + across, y, 0.1 if "foot" in name else 0.001 * f] for name, x, y in zip(NAMES, sides, HEIGHTS)]
             for f in range(frames)]
 
 

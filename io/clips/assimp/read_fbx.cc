@@ -142,10 +142,12 @@ class MotionGlb {
       for (unsigned k = 0; k < moved.mNumRotationKeys; ++k) times.insert(moved.mRotationKeys[k].mTime);
       for (unsigned k = 0; k < moved.mNumScalingKeys; ++k) times.insert(moved.mScalingKeys[k].mTime);
     }
+    // Keys of the joint itself, without any of a part, are of the whole transform: assimp includes pre-rotations.
+    const bool is_whole = moved_parts.size() == 1 && moved_parts.begin()->first == parts.back();
     JoinedKeys joined;
     for (const double time : times) {
       aiMatrix4x4 whole;
-      for (const aiNode* part : parts) {
+      for (const aiNode* part : is_whole ? std::vector{parts.back()} : parts) {
         const auto moved = moved_parts.find(part);
         whole *= moved == moved_parts.end() ? part->mTransformation : MatrixAt(*moved->second, time);
       }
