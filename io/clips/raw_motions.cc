@@ -68,9 +68,13 @@ RawMotion OfSkeleton(const Clip& clip, double unit, UpAxis up) {
   return raw;
 }
 
-/// Returns true if the joint that carries both hips is a pelvis, or was told to play the hip centre.
+/// Returns true if the joint that carries both hips is a pelvis by its name or its place, or was told to play the hip
+/// centre.
 bool CarriesAsPelvis(const RawMotion& raw, const JointMap& map, const JointMapOverrides* told) {
   if (told != nullptr && told->joints.contains(Role::kHipCentre)) return true;
+  std::string name = raw.joints[map[Role::kHipCentre].joint];
+  std::ranges::transform(name, name.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+  if (name.ends_with("hips") || name.ends_with("pelvis")) return true;
   constexpr double kMaxThighs = 0.4;  // pelvises of 4 libraries: up to 0.33; OpenNI's torso: 0.44 to 0.50
   const auto at_rest = [&](Role role) { return raw.rest_positions[map[role].joint]; };
   const glm::dvec3 left = at_rest(Role::kLeftHip), right = at_rest(Role::kRightHip);
