@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "bench/metrics/plausibility.h"
@@ -75,8 +76,10 @@ std::string DigestOf(const BodyMotion& motion) {
 
 Recording RecordingOf(BodyInPlace body, const MotionFaults& found) {
   PlausibilityExtras extras{.floor_m = found.floor_m, .faults = {}};
+  // A gap may begin before the body and end behind it.
   const auto frame_at = [&](double time_s) {
-    return static_cast<int>(std::lround((time_s - body.begin_s) * body.motion.rate_hz));
+    const auto frame = static_cast<int>(std::lround((time_s - body.begin_s) * body.motion.rate_hz));
+    return std::clamp(frame, 0, static_cast<int>(body.motion.poses.size()) - 1);
   };
   for (const MotionFault& fault : found.faults) {
     extras.faults.push_back(
