@@ -49,10 +49,10 @@ Result<std::map<std::string, double>> ReadLimitsFile(const std::string& name) {
 
 /// The metrics that tell, by being above 0, that a clip shows faults of a kind, and the word for it.
 constexpr std::pair<std::string_view, std::string_view> kTelling[] = {
-    {"floats_share", "floats"},  {"sinks_share", "sinks"},   {"skates_share", "skates"},
-    {"jumps", "jumps"},          {"pops", "pops"},           {"freezes_share", "freezes"},
-    {"bends_share", "bends"},    {"passes_share", "passes"}, {"stretches_max_percent", "stretches"},
-    {"wrong_rate", "wrong rate"}};
+    {"floats_share", "floats"}, {"sinks_share", "sinks"},   {"skates_share", "skates"},
+    {"jumps", "jumps"},         {"pops", "pops"},           {"freezes_share", "freezes"},
+    {"bends_share", "bends"},   {"passes_share", "passes"}, {"stretches_max_percent", "stretches"},
+    {"torn_max_cm", "torn"},    {"gaps_share", "gaps"},     {"wrong_rate", "wrong rate"}};
 
 /// Prints "2 not judged:" and at most twenty lines.
 void PrintLines(std::string_view heading, const std::vector<std::string>& lines) {

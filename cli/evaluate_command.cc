@@ -276,8 +276,10 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
     ASSIGN_OR_RETURN(data, LoadRun(outcome->folder));
   }
   const ScenarioSummary& summary = data.scenarios.front();
-  const bool has_silent = std::ranges::any_of(summary.conditions.front().methods,
-                                              [](const MethodSummary& method) { return method.ok == 0; });
+  // A pair that is not judged must not pass unnoticed; of motions alone, limits ask that every clip is.
+  const bool lacks_some = !options.alone.is_alone && outcome->cells_ok < outcome->cells;
+  const bool has_silent = lacks_some || std::ranges::any_of(summary.conditions.front().methods,
+                                                            [](const MethodSummary& method) { return method.ok == 0; });
   const Triage triage = options.alone.is_alone ? TriageOf(data) : Triage{};
   // A clip that cannot be judged keeps no limits.
   const bool exceeds = !triage.beyond_limits.empty() || (!options.alone.limits.empty() && !triage.not_judged.empty());
@@ -308,7 +310,9 @@ void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& acti
   auto options = std::make_shared<EvaluateOptions>();
   options->command_line = command_line;
   CLI::App* command = app.add_subcommand(
-      "evaluate", "Compare motion files with their truths, or find faults in motions without a truth");
+      "evaluate",
+      "Compare motion files with their truths, or find faults in motions without a truth; exit code 1: a pair or a "
+      "clip is not judged");
   command->add_option("files", options->files,
                       "The truth, then results: each a file, a folder or a pattern in quotes; several results need "
                       "names: NAME=PATTERN");

@@ -128,6 +128,26 @@ int CountDiffering(const SnapshotCells& before, const SnapshotCells& after, cons
   return differing;
 }
 
+/// Multiplies the values of each world by its weight (MetricInfo::weight) over the mean weight of those with both
+/// values, so that their plain mean is the weighted one. Leaves metrics without kept weights alone.
+void Weigh(const SnapshotCells& cells, const MetricInfo& metric, MoveColumns& columns) {
+  const SnapshotValues* weights = metric.weight.empty() ? nullptr : FindValues(cells, metric.weight);
+  if (weights == nullptr) return;
+  double sum = 0;
+  int count = 0;
+  for (std::size_t t = 0; t < columns.compared.size(); ++t) {
+    if (!columns.compared[t] || !columns.before[t] || !columns.after[t]) continue;
+    sum += weights->values[t].value_or(0);
+    ++count;
+  }
+  if (sum <= 0) return;
+  for (std::size_t t = 0; t < columns.compared.size(); ++t) {
+    const double factor = weights->values[t].value_or(0) * count / sum;
+    if (columns.before[t]) *columns.before[t] *= factor;
+    if (columns.after[t]) *columns.after[t] *= factor;
+  }
+}
+
 std::vector<std::optional<double>> OkIn(const std::string& statuses) {
   std::vector<std::optional<double>> ok;
   for (char letter : statuses) ok.emplace_back(letter == 'o' ? 1.0 : 0.0);
@@ -211,8 +231,10 @@ SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& afte
       // Measure the share of ok cells and every metric, world by world.
       const auto add = [&](const std::string& metric, const auto& values, const auto& other_values) {
         const MoveColumns columns{values, other_values, compared, cells.statuses, others->statuses};
+        MoveColumns weighed = columns;
+        Weigh(cells, *FindGateMetric(metric), weighed);
         MetricMove& move = comparison.moves.emplace_back(
-            MeasureMove({scenario.name, cells.condition, cells.method, metric}, columns, scenario.seed));
+            MeasureMove({scenario.name, cells.condition, cells.method, metric}, weighed, scenario.seed));
         move.tail = FindTail(columns, *FindGateMetric(metric), RuleOf(scenario.name, tails));
         for (TailWorld& world : move.tail) world.trial = static_cast<int>(shared.after[world.trial]);
       };

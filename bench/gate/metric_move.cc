@@ -107,6 +107,7 @@ const MetricInfo* FindGateMetric(std::string_view id) {
     metric.label = "cells that ended ok";
     metric.direction = Direction::kHigherIsBetter;
     metric.aggregate = Aggregate::kMean;
+    metric.reading = Reading::kYesNo;
     metric.practical = 0.02;  // as for the catalogue's shares of solved problems
     return metric;
   }();

@@ -25,7 +25,7 @@ struct PointTracks {
 struct EvaluatedPair {
   double rate_hz = 30;
   PointTracks found, truth;
-  /// The point by which a pose is moved to its root (the middle of the hips), one a frame; empty: neither has it.
+  /// The point by which a pose is moved to its root (`Match` says which), one a frame; empty: one of both lacks it.
   std::vector<glm::dvec3> found_root, true_root;
   /// Global rotations of the same joints, frames × joints; empty: one of both has none.
   std::vector<glm::dquat> found_turns, true_turns;

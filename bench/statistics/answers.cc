@@ -85,7 +85,7 @@ class Measurer {
  private:
   Comparison Compare(const PairedWorlds& worlds, const MetricInfo& metric, const std::string& purpose) const {
     Comparison found = ComparePaired(worlds.pairs, metric, seed_, purpose);
-    if (!worlds.pairs.empty() && metric.aggregate == Aggregate::kMean && AreShares(worlds.pairs)) {
+    if (!worlds.pairs.empty() && metric.aggregate == Aggregate::kMean && AreShares(worlds.pairs, metric)) {
       const auto count = [&](double sign) {
         return static_cast<int>(std::ranges::count_if(
             worlds.pairs, [&](const Pair& pair) { return sign * (pair.method - pair.baseline) > 0; }));
@@ -109,7 +109,7 @@ class Measurer {
     }
     if (value.empty()) return answer;
     // The value where both succeed.
-    if (!successes.pairs.empty() && AreShares(successes.pairs)) {
+    if (!successes.pairs.empty() && AreShares(successes.pairs, ShareMetric(study_, study_.success))) {
       PairedWorlds both;
       for (std::size_t i = 0; i < values.pairs.size(); ++i) {
         const auto at = std::ranges::lower_bound(successes.trials, values.trials[i]);

@@ -33,7 +33,7 @@ MedianAndMean IntervalsOf(std::span<const Pair> pairs, std::span<const double> d
   if (metric.aggregate == Aggregate::kMedian) {
     return *BootstrapMedianAndMean(differences, seed, purpose, confidence);
   }
-  if (AreShares(pairs)) return {{}, ShareInterval(differences, confidence)};
+  if (AreShares(pairs, metric)) return {{}, ShareInterval(differences, confidence)};
   return {{}, *BootstrapInterval(differences, Aggregate::kMean, seed, purpose, confidence)};
 }
 
@@ -44,10 +44,10 @@ double DifferenceOf(const Pair& pair, const MetricInfo& metric) {
   return std::abs(difference) <= 1e-9 * metric.practical ? 0 : KeepThirtyBits(difference);
 }
 
-bool AreShares(std::span<const Pair> pairs) {
+bool AreShares(std::span<const Pair> pairs, const MetricInfo& metric) {
   const auto is_share = [](double value) { return value == 0 || value == 1; };
-  return std::all_of(pairs.begin(), pairs.end(),
-                     [&](const Pair& pair) { return is_share(pair.baseline) && is_share(pair.method); });
+  return metric.reading != Reading::kAmount &&
+         std::ranges::all_of(pairs, [&](const Pair& pair) { return is_share(pair.baseline) && is_share(pair.method); });
 }
 
 Comparison ComparePaired(std::span<const Pair> pairs, const MetricInfo& metric, std::uint64_t seed,

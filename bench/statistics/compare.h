@@ -15,8 +15,8 @@ struct Pair {
   double method = 0;
 };
 
-/// Returns true if all values are 0 or 1, so that their means are shares.
-bool AreShares(std::span<const Pair> pairs);
+/// Returns true if all values are 0 or 1, so that their means are shares; amounts never are.
+bool AreShares(std::span<const Pair> pairs, const MetricInfo& metric);
 
 /// Returns method − baseline, free of rounding: differences below a billionth of the practical threshold become zero,
 /// and others are rounded to 30 bits. Values that differ only in their last bits are therefore ties, also in ranks.

@@ -215,7 +215,7 @@ PairedWorlds PairsOf(const ConditionTable& table, const std::string& baseline, c
 std::optional<PairedWorlds> WithFailures(const PairedWorlds& paired, const MetricInfo& metric) {
   const bool all_answered = paired.baseline_failed.empty() && paired.method_failed.empty();
   if (all_answered || paired.pairs.empty() || metric.direction == Direction::kNeither) return std::nullopt;
-  double largest = AreShares(paired.pairs) ? 1 : metric.practical;
+  double largest = AreShares(paired.pairs, metric) ? 1 : metric.practical;
   for (const Pair& pair : paired.pairs) largest = std::max(largest, std::abs(pair.method - pair.baseline));
   const bool lower = metric.direction == Direction::kLowerIsBetter;
   const Pair loss = lower ? Pair{0, largest} : Pair{largest, 0}, win{loss.method, loss.baseline};

@@ -29,13 +29,13 @@ std::vector<const MetricInfo*> MetricsIn(const ConditionTable& table) {
   return present;
 }
 
-/// Returns the interval of the values' aggregate. A share of worlds gets Wilson's: the bootstrap of 0 in 60 has no
-/// width.
-std::optional<Interval> IntervalOf(std::span<const double> values, Aggregate aggregate, std::uint64_t seed,
+/// Returns the interval of the values' aggregate. If all values of a metric from 0 to 1 are 0 or 1, it is Wilson's: the
+/// bootstrap of 0 in 60 has no width. An amount is never a share, even if all its values are 0.
+std::optional<Interval> IntervalOf(std::span<const double> values, const MetricInfo& metric, std::uint64_t seed,
                                    const std::string& purpose) {
-  const bool is_share =
-      std::all_of(values.begin(), values.end(), [](double value) { return value == 0 || value == 1; });
-  if (aggregate == Aggregate::kMedian || !is_share) return BootstrapInterval(values, aggregate, seed, purpose);
+  const bool is_share = metric.reading != Reading::kAmount && metric.aggregate == Aggregate::kMean &&
+                        std::ranges::all_of(values, [](double value) { return value == 0 || value == 1; });
+  if (!is_share) return BootstrapInterval(values, metric.aggregate, seed, purpose);
   const auto count = std::count(values.begin(), values.end(), 1.0);
   return WilsonInterval(static_cast<int>(count), static_cast<int>(values.size()));
 }
@@ -57,7 +57,7 @@ MetricSummary SummariseMetric(const MetricInfo& metric, const MethodColumns& met
     for (std::size_t i = 0; i < values.size(); ++i) linear[i] = mean + weights[i] * (values[i] - mean);
   }
   summary.mean = Mean(linear);
-  if (const auto interval = IntervalOf(linear, metric.aggregate, seed, purpose)) {
+  if (const auto interval = IntervalOf(linear, metric, seed, purpose)) {
     summary.ci_low = interval->low;
     summary.ci_high = interval->high;
     summary.interval = interval->kind;

@@ -13,6 +13,7 @@
 #include "engine/formats/joint_csv.h"
 #include "engine/formats/motive_csv.h"
 #include "engine/formats/npz.h"
+#include "engine/formats/row_clock.h"
 #include "engine/formats/trc.h"
 #include "engine/fuzzy/features.h"
 #include "engine/motion/clip.h"
@@ -107,27 +108,20 @@ ReadBody BodyOfClip(const Clip& clip, const std::string& file, double rate_hz, s
   return {std::move(body.motion), std::move(body.changes)};
 }
 
-/// Reads Etude's own arrays, which are used as they are.
 ReadBody BodyOfArrays(const Npz& arrays, const std::string& file, double rate_hz, const ReadingOptions& options) {
   if (!IsBodyNpz(arrays)) return BodyOfClip(OrThrow(ReadAmass(arrays, file)), file, rate_hz, AmassUp(), options);
-  const RawMotion raw = OrThrow(ReadRawNpz(arrays, file));
-  std::optional<BodyMotion> read = BodyOf(raw);
-  if (!read) return BodyOfMarkers(etude::MarkersOf(raw), file, rate_hz, {.evidence = UpEvidence::kFormat}, options);
-  BodyMotion& body = *read;
-  const UpFinding up{.axis = AxisOf(UpOf(options).value_or(UpAxis::kY)), .evidence = UpEvidence::kTold};
-  for (BodyPose& pose : body.poses) {
-    for (glm::dvec3& joint : pose.joints) joint = TurnedUp(joint, up.axis);
+  const RawMotion raw = OrThrow(ReadRawNpz(arrays, file, {.metres_per_unit = UnitOf(options), .up = UpOf(options)}));
+  ReadBody read;
+  if (const auto body = BodyOf(raw)) {
+    read = ResampledBody(*body, {"Etude's own arrays"}, rate_hz);
+  } else {
+    ReadingOptions others = options;  // unit and axis are told already
+    others.metres_per_unit = 0;
+    others.up = 0;
+    read = BodyOfMarkers(MarkersOf(raw), file, rate_hz, {.evidence = UpEvidence::kFormat}, others);
   }
-  std::vector<std::string> changes = {"Etude's own arrays"};
-  if (std::string turn = DescribeTurn(up); !turn.empty()) changes.push_back(std::move(turn));
-  return ResampledBody(body, std::move(changes), rate_hz);
-}
-
-MarkerMotion MarkersOf(const JointCsv& csv) {
-  MarkerMotion markers{.rate_hz = csv.rate_hz.value_or(kJudgedRateHz), .names = {}, .frames = {}};
-  for (const Role role : AllRoles()) markers.names.emplace_back(RoleName(role));
-  for (const auto& frame : csv.frames) markers.frames.emplace_back(frame.begin(), frame.end());
-  return markers;
+  read.changes.insert(read.changes.end(), raw.notes.begin(), raw.notes.end());
+  return read;
 }
 
 ReadBody BodyOfBytes(std::string_view bytes, const std::string& file, double rate_hz, const ReadingOptions& options) {
@@ -144,7 +138,8 @@ ReadBody BodyOfBytes(std::string_view bytes, const std::string& file, double rat
     return BodyOfMarkers(OrThrow(ReadMotiveCsv(bytes, file)), file, rate_hz, MotiveUp(), options);
   }
   if (bytes.substr(0, bytes.find('\n')).find("_x_m") != std::string_view::npos) {
-    return BodyOfMarkers(MarkersOf(OrThrow(ReadJointCsv(bytes, file))), file, rate_hz, JointCsvUp(), options);
+    const MarkerMotion markers = OrThrow(LayOnClock(OrThrow(ReadJointCsv(bytes, file)), file));
+    return BodyOfMarkers(markers, file, rate_hz, JointCsvUp(), options);
   }
   std::vector<std::string> remarks;
   const Clip clip = OrThrow(ReadBvh(bytes, file, &remarks));

@@ -234,6 +234,14 @@ Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
   return std::move(markers);
 }
 
+Result<MarkerMotion> LayOnClock(const JointCsv& csv, const std::string& file) {
+  MarkerRows rows{.markers = {.names = {}, .frames = {}}, .times_s = csv.times_s, .lines = csv.lines};
+  for (const Role role : AllRoles()) rows.markers.names.emplace_back(RoleName(role));
+  for (const auto& frame : csv.frames) rows.markers.frames.emplace_back(frame.begin(), frame.end());
+  if (!csv.rate_hz) rows.times_s = TimesOfNumbers(csv.numbers, kJudgedRateHz);
+  return LayOnClock(std::move(rows), file);
+}
+
 Result<BodyMotion> LayOnClock(BodyMotion rows, std::span<const double> times_s, const std::string& file,
                               std::string& remark) {
   ASSIGN_OR_RETURN(const auto grid, GridOfRows(times_s, {}, std::nullopt, kRoleCount, file));

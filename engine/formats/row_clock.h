@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/formats/joint_csv.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/body.h"
 
@@ -52,6 +53,9 @@ struct MarkerRows {
 /// Places markers on frames by their times; in a hole, no marker was seen. The remark says what was changed. Fails as
 /// GridOfRows.
 Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file);
+
+/// Places the joints of a CSV on frames by their times; without times, by their frame numbers at kJudgedRateHz.
+Result<MarkerMotion> LayOnClock(const JointCsv& csv, const std::string& file);
 
 /// Places a body's rows on frames by their times. Holes of up to a second are bridged linearly; if there are longer
 /// holes, only the longest stretch without one is kept. `remark` says so. Fails as GridOfRows.

@@ -11,8 +11,8 @@ namespace etude {
 
 /// Appends jumps, floats and sinks.
 void FindLevelFaults(const GroundView& ground, std::vector<MotionFault>& faults);
-/// Appends skates.
-void FindSkates(const GroundView& ground, std::vector<MotionFault>& faults);
+/// Appends skates, of both feet and of one. `unseen`: FaultOptions::unseen.
+void FindSkates(const GroundView& ground, std::span<const JointSet> unseen, std::vector<MotionFault>& faults);
 /// Appends the flight that shows another gravity, if there is one.
 void FindFalls(const GroundView& ground, std::vector<MotionFault>& faults);
 

@@ -208,6 +208,7 @@ void FindLimbFaults(const BodyMotion& motion, const FaultOptions& options, const
   FindStretches(motion, options, pops, faults);
   FindBends(motion, options.unseen, faults);
   FindPasses(motion, options.unseen, faults);
+  FindTorn(motion, options.unseen, faults);
 }
 
 }  // namespace etude

@@ -20,6 +20,10 @@ double SegmentDistance(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec
 /// and of the forearm from neck and head (hands may lie on the nape). A hand that is not seen does not count. Metres.
 double ArmFromSpine(const BodyPose& pose, Side side, bool sees_hand = true);
 
+/// Appends joints that lie where no body has them, by their distances from their neighbours, and left and right sides
+/// that are exchanged (FindMotionFaults states the rules).
+void FindTorn(const BodyMotion& motion, std::span<const JointSet> unseen, std::vector<MotionFault>& faults);
+
 /// Appends limbs that change their lengths, knees that bend backwards and arms that pass through the trunk
 /// (FindMotionFaults states the rules). Frames near `pops` do not count as changes of length. Sentences are left
 /// empty.

@@ -29,6 +29,32 @@ void AppendDisplacements(const BodyMotion& motion, const Displacements& displace
   }
 }
 
+/// Appends the times in which joints are not shown that other frames show.
+void AppendGaps(const BodyMotion& motion, const FaultOptions& options, std::vector<MotionFault>& faults) {
+  using fault_limits::kGap_s;
+  JointSet always;
+  always.set();
+  for (const JointSet& unseen : options.unseen) always &= unseen;
+  std::vector<bool> is_lost;
+  for (const JointSet& unseen : options.unseen) is_lost.push_back((unseen & ~always).any());
+  for (const FrameRange& range : RangesOf(is_lost)) {
+    const double seconds = (range.last - range.first + 1) / motion.rate_hz;
+    if (seconds < kGap_s) continue;
+    JointSet lost;
+    for (int f = range.first; f <= range.last; ++f) lost |= options.unseen[f] & ~always;
+    const Role first = *std::ranges::find_if(AllRoles(), [&](Role role) { return lost[Index(role)]; });
+    faults.push_back({kGaps, range.first / motion.rate_hz, range.last / motion.rate_hz,
+                      lost.count() == 1 ? std::optional(first) : std::nullopt, seconds});
+  }
+  const double end = static_cast<double>(motion.poses.size() - 1) / motion.rate_hz;
+  if (options.lost_before_s >= kGap_s) {
+    faults.push_back({kGaps, -options.lost_before_s, 0, std::nullopt, options.lost_before_s});
+  }
+  if (options.lost_after_s >= kGap_s) {
+    faults.push_back({kGaps, end, end + options.lost_after_s, std::nullopt, options.lost_after_s});
+  }
+}
+
 /// Appends the speed if most frames show a joint that is faster than the feet of sprinters.
 void AppendSpeed(const BodyMotion& motion, std::vector<MotionFault>& faults) {
   const double speed = ComputeStatistics(motion).speed_median_m_s;
@@ -60,6 +86,7 @@ std::string SentenceOf(const MotionFault& fault, bool is_always) {
     case kSinks:
       return fmt::format("sinks {:.0f} cm into the floor {}", cm, when);
     case kSkates:
+      if (fault.joint) return fmt::format("{} skates at {:.0f} cm/s {}, alone", joint, cm, when);
       return fmt::format("skates at {:.0f} cm/s {}: the standing feet move along the floor", cm, when);
     case kJumps:
       return fmt::format("the whole body jumps by {:.0f} cm at {:.2f} s", cm, fault.to_s);
@@ -71,6 +98,11 @@ std::string SentenceOf(const MotionFault& fault, bool is_always) {
       return fmt::format("the limb that ends at {} changes its length by {:.0f} % {}", joint, cm, when);
     case kBends:
       return fmt::format("{} bends backwards by {:.0f}° {}", joint, fault.size, when);
+    case kTorn:
+      if (!fault.joint) return fmt::format("left and right are exchanged, or lie on one side, {}", when);
+      return fmt::format("{} is torn off {}: {:.0f} cm from where its neighbours have it", joint, when, cm);
+    case kGaps:
+      return fmt::format("{} not shown for {:.2f} s {}", fault.joint ? joint + " is" : "joints are", fault.size, when);
     case kPasses:
       return fmt::format("{} passes through trunk or head {}, {:.0f} cm from their middle", joint, when, cm);
     case kRate:
@@ -109,8 +141,11 @@ std::vector<FaultRule> MakeFaultRules() {
        fmt::format(
            "Feet that should stand share a velocity along the floor of {}/s or more for {:g} s, and few of them "
            "rest; or {} change their velocity by {}/s from one frame to the next and back after {:g} to {:g} s, "
-           "while low feet move with them.",
-           cm(kGlide_m_s), kGlide_s, whole_body, cm(kStep_m_s), kMinCarried_s, kMaxCarried_s)},
+           "while low feet move with them; or ankle and toes of one foot rest and move alike along the floor for {:g} "
+           "s ({:g} "
+           "s at one velocity).",
+           cm(kGlide_m_s), kGlide_s, whole_body, cm(kStep_m_s), kMinCarried_s, kMaxCarried_s, kFootSkate_s,
+           kEvenFootSkate_s)},
       {"jumps", "m",
        fmt::format(
            "{} are displaced alike from one frame to the next (by third differences of positions): by more than "
@@ -133,6 +168,14 @@ std::vector<FaultRule> MakeFaultRules() {
            "A knee bends backwards by more than {:g}° for {:g} s. The toes show where the front is, or, without "
            "toes, the line of the hips.",
            kBend_deg, kBend_s)},
+      {"torn", "m",
+       fmt::format(
+           "For {:g} s, a joint of trunk, head, shoulders, hips, toes or hands is not as far from its neighbours "
+           "as usual: by 8 to 14 % of leg and trunk; or in the median frame 1.7 to 3.3 times as far as people "
+           "are, or not as far as on the other side. Also: the head points down the trunk, toes point backwards, "
+           "shoulders or hips are exchanged.",
+           kTorn_s)},
+      {"gaps", "s", fmt::format("A joint that other frames show is not shown for {:g} s.", kGap_s)},
       {"passes", "m",
        fmt::format("For {:g} s, a forearm or a hand is within {} of the line of the spine, or a forearm within that of "
                    "the line from neck to head.",
@@ -167,9 +210,10 @@ MotionFaults FindMotionFaults(const BodyMotion& motion, const FaultOptions& opti
   found.floor_m = ground.floor();
   found.is_floor_found = ground.is_floor_found();
   FindLevelFaults(ground, found.faults);
-  FindSkates(ground, found.faults);
+  FindSkates(ground, options.unseen, found.faults);
   AppendDisplacements(motion, displacements, found.faults);
   FindLimbFaults(motion, options, displacements.pops, found.faults);
+  AppendGaps(motion, options, found.faults);
   const std::size_t count = found.faults.size();
   FindFalls(ground, found.faults);
   if (found.faults.size() == count) AppendSpeed(motion, found.faults);

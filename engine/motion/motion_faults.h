@@ -21,6 +21,9 @@ enum class FaultKind {
   kFreezes,    ///< no joint moves while the body was in motion; size: seconds
   kStretches,  ///< a limb changes its length; size: share of its median length
   kBends,      ///< a knee bends backwards; size: degrees
+  kTorn,       ///< a joint is not where its neighbours have it, or (without a joint) left and right are exchanged;
+               ///< size: how far off, metres
+  kGaps,       ///< joints are not shown; size: seconds
   kPasses,     ///< a forearm or a hand passes through trunk or head; size: its distance from the spine's line, metres
   kRate,       ///< in flight the body falls by another gravity: a wrong rate or unit; size: metres per second²
   kSpeed,      ///< most frames show a joint faster than people are; size: metres per second
@@ -59,6 +62,7 @@ struct FaultOptions {
   /// The joints that a frame does not show, because the file lacks them and a reader placed them; empty: none. Nothing
   /// is said of limbs that end there.
   std::vector<JointSet> unseen = {};
+  double lost_before_s = 0, lost_after_s = 0;  ///< time of the file before and behind the motion, which joints lack
   bool is_of_markers = false;  ///< its joints were found from markers on the skin, so limbs need not keep their lengths
 };
 

@@ -23,6 +23,41 @@ int RawMotion::Find(std::string_view joint) const {
   return found == joints.end() ? -1 : static_cast<int>(found - joints.begin());
 }
 
+void AddMidwayHips(RawMotion& raw) {
+  const int left = raw.roles[Index(Role::kLeftHip)], right = raw.roles[Index(Role::kRightHip)];
+  if (left < 0 || right < 0) return;
+  const std::size_t joints = raw.joints.size(), frames = raw.FrameCount();
+  // Copy each frame with one joint more.
+  std::vector<glm::dvec3> positions;
+  positions.reserve(frames * (joints + 1));
+  std::vector<glm::dquat> rotations;
+  for (std::size_t f = 0; f < frames; ++f) {
+    for (std::size_t j = 0; j < joints; ++j) positions.push_back(raw.At(f, j));
+    positions.push_back(0.5 * (raw.At(f, left) + raw.At(f, right)));
+    if (raw.rotations.empty()) continue;
+    rotations.insert(rotations.end(), raw.rotations.begin() + static_cast<std::ptrdiff_t>(f * joints),
+                     raw.rotations.begin() + static_cast<std::ptrdiff_t>((f + 1) * joints));
+    const int carrier = raw.parents[left];
+    rotations.push_back(carrier < 0 ? glm::dquat(1, 0, 0, 0) : raw.rotations[f * joints + carrier]);
+  }
+  raw.positions = std::move(positions);
+  raw.rotations = std::move(rotations);
+  raw.roles[Index(Role::kHipCentre)] = static_cast<int>(joints);
+  raw.added.push_back(static_cast<int>(joints));
+  raw.joints.emplace_back(kMidwayHips);
+  if (raw.parents.empty()) return;
+  const int carrier = raw.parents[left];
+  raw.parents.push_back(carrier);
+  if (raw.rotations.empty()) return;
+  raw.rest_positions.push_back(0.5 * (raw.rest_positions[left] + raw.rest_positions[right]));
+  raw.rest_rotations.push_back(carrier < 0 ? glm::dquat(1, 0, 0, 0) : raw.rest_rotations[carrier]);
+}
+
+bool HasOwnRoot(const RawMotion& motion) {
+  const int root = motion.roles[Index(Role::kHipCentre)];
+  return root >= 0 && std::ranges::find(motion.added, root) == motion.added.end();
+}
+
 glm::dvec3 NotSeen() { return glm::dvec3(std::numeric_limits<double>::quiet_NaN()); }
 
 RawMotion Sampled(const RawMotion& motion, double rate_hz, double start_s, std::size_t count) {

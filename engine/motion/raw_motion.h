@@ -48,6 +48,15 @@ struct RawMotion {
   }
 };
 
+/// The name of the joint that is added where no joint of a file plays the hip centre.
+constexpr const char* kMidwayHips = "(midway between the hips)";
+
+/// Appends a joint midway between the hips, which then plays the hip centre. It gets the orientation of the joint that
+/// carries the left hip. Does nothing without both hips.
+void AddMidwayHips(RawMotion& motion);
+/// Returns true if a joint of the file itself plays the hip centre.
+bool HasOwnRoot(const RawMotion& motion);
+
 /// A position that was not seen.
 glm::dvec3 NotSeen();
 inline bool IsSeen(const glm::dvec3& position) { return position.x == position.x; }

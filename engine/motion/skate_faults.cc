@@ -154,9 +154,56 @@ std::vector<bool> FindCarried(const GroundView& ground, std::vector<MotionFault>
   return is_carried;
 }
 
+/// Appends the times in which one foot glides while it rests on the floor, and no skate was found. Toes and ankle move
+/// alike, for a long time or at one velocity.
+void FindFootSkates(const GroundView& ground, std::span<const JointSet> unseen, std::vector<MotionFault>& faults) {
+  constexpr double kLow = 0.04, kLevel = 0.3, kMinSpeed = 0.14, kNear = 0.07, kNearShare = 0.2;
+  constexpr double kConstant = 0.15;
+  const std::size_t known = faults.size();
+  const double rate = ground.motion().rate_hz;
+  for (const auto& [ankle, toes] :
+       {std::pair(Role::kLeftAnkle, Role::kLeftFoot), {Role::kRightAnkle, Role::kRightFoot}}) {
+    // Find the frames in which the foot glides, and its velocities.
+    std::vector<bool> glides(ground.frames());
+    std::vector<glm::dvec2> velocities(ground.frames());
+    for (int f = 0; f < ground.frames(); ++f) {
+      const auto is_low = [&, f](Role joint) { return ground.Place(f, joint).y - ground.RestHeight(joint) < kLow; };
+      const bool is_seen = unseen.empty() || !(unseen[f][Index(ankle)] || unseen[f][Index(toes)]);
+      if (!is_seen || !is_low(ankle) || !is_low(toes) || !ground.IsOnFeet(f)) continue;
+      const glm::dvec3 a = ground.Velocity(f, ankle), b = ground.Velocity(f, toes);
+      velocities[f] = 0.5 * glm::dvec2(a.x + b.x, a.z + b.z);
+      const double speed = glm::length(velocities[f]), apart = glm::length(glm::dvec2(a.x - b.x, a.z - b.z));
+      glides[f] = std::abs(a.y) < kLevel && std::abs(b.y) < kLevel && speed > kMinSpeed &&
+                  apart < std::max(kNear, kNearShare * speed);
+    }
+    for (const FrameRange& span : RangesOf(glides)) {
+      const double seconds = ground.Seconds(span);
+      std::vector<double> x, z;
+      for (int f = span.first; f <= span.last; ++f) {
+        x.push_back(velocities[f].x);
+        z.push_back(velocities[f].y);
+      }
+      const glm::dvec2 middle(Median(x), Median(z));
+      double farthest = 0;
+      for (int f = span.first; f <= span.last; ++f) farthest = std::max(farthest, glm::distance(velocities[f], middle));
+      const bool is_constant = farthest < kConstant * glm::length(middle);
+      const bool is_known = std::any_of(faults.begin(), faults.begin() + static_cast<std::ptrdiff_t>(known),
+                                        [&](const MotionFault& fault) {
+                                          return fault.kind == FaultKind::kSkates && fault.from_s * rate <= span.last &&
+                                                 fault.to_s * rate >= span.first;
+                                        });
+      if (is_known || seconds < (is_constant ? fault_limits::kEvenFootSkate_s : fault_limits::kFootSkate_s) ||
+          glm::length(middle) < kMinSpeed)
+        continue;
+      faults.push_back(ground.FaultOf(FaultKind::kSkates, span, glm::length(middle)));
+      faults.back().joint = toes;
+    }
+  }
+}
+
 }  // namespace
 
-void FindSkates(const GroundView& ground, std::vector<MotionFault>& faults) {
+void FindSkates(const GroundView& ground, std::span<const JointSet> unseen, std::vector<MotionFault>& faults) {
   constexpr double kMaxGap_s = 1, kAlike = 0.1, kAlikeShare = 0.3;
   const int step = FramesIn(ground, kStep_s, 1), near = FramesIn(ground, kLong.half_s, 1);
   const std::vector<bool> is_carried = FindCarried(ground, faults);
@@ -182,6 +229,7 @@ void FindSkates(const GroundView& ground, std::vector<MotionFault>& faults) {
     glides.push_back(*glide);
   }
   if (!glides.empty()) AppendSkate(ground, glides, faults);
+  FindFootSkates(ground, unseen, faults);
 }
 
 }  // namespace etude

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
 #include "engine/base/text.h"
+#include "engine/retargeting/map_file.h"
 #include "engine/retargeting/rig.h"
 
 namespace etude {
@@ -20,8 +22,8 @@ struct JointLayout {
   std::vector<std::string_view> joints;  ///< names that FindMarkerBodies recognises or ignores
 };
 
-/// The 70 keypoints of SAM 3D Body and the 127 joints of its body model MHR, in their order; those that play a role have
-/// its name: a foot ends at its big toe (keypoints) or its ball (joints), a hand at its middle finger.
+/// The 70 keypoints of SAM 3D Body and the 127 joints of its body model MHR, in their order; those that play a role
+/// have its name: a foot ends at its big toe (keypoints) or its ball (joints), a hand at its middle finger.
 constexpr std::string_view kMhrKeypoints =
     "nose left_eye right_eye left_ear right_ear left_shoulder right_shoulder left_elbow right_elbow left_hip "
     "right_hip left_knee right_knee left_ankle right_ankle left_foot left_small_toe left_heel right_foot "
@@ -90,24 +92,117 @@ const std::vector<JointLayout>& Layouts() {
   return layouts;
 }
 
-/// Returns the unit in which the median extent of a frame's joints is that of a person, 0.8 to 2.3 m; otherwise metres.
-double UnitOfSpread(const MarkerMotion& motion) {
+/// Returns the median extent of a frame's joints along an axis, in the file's unit. A NaN is a missing joint.
+double SpreadOf(std::span<const glm::dvec3> positions, std::size_t joints) {
   std::vector<double> spreads;
-  for (const auto& frame : motion.frames) {
+  for (std::size_t begin = 0; begin < positions.size(); begin += joints) {
     glm::dvec3 low(1e300), high(-1e300);
-    for (const auto& place : frame) {
-      if (!place) continue;
-      low = glm::min(low, *place);
-      high = glm::max(high, *place);
+    for (const glm::dvec3& place : positions.subspan(begin, joints)) {
+      if (!IsSeen(place)) continue;
+      low = glm::min(low, place);
+      high = glm::max(high, place);
     }
     if (low.x <= high.x) spreads.push_back(std::max({high.x - low.x, high.y - low.y, high.z - low.z}));
   }
-  if (spreads.empty()) return 1;
-  const double spread = UpperMedian(std::move(spreads));
+  return spreads.empty() ? 0 : UpperMedian(std::move(spreads));
+}
+
+/// Returns the unit in which this extent is that of a person, 0.8 to 2.3 m; nothing if there is none.
+std::optional<double> UnitOfSpread(double spread) {
   for (const double unit : {1.0, 0.01, 0.001}) {
     if (spread * unit >= 0.8 && spread * unit <= 2.3) return unit;
   }
-  return 1;
+  return std::nullopt;
+}
+
+constexpr const char* kFromCamera = "the body stands along −Y, as in a camera's frame: turned to Y up";
+
+/// The axis along which a body stands, which is not Y.
+enum class Standing { kNotTold, kAlongMinusY, kAlongZ };
+
+/// Returns how the shoulders lie over the knees in three of four frames that show them.
+Standing HowItStands(std::span<const glm::dvec3> positions, const std::vector<std::string>& names) {
+  const auto column_of = [&](Role role) {
+    return static_cast<std::size_t>(std::ranges::find(names, RoleName(role)) - names.begin());
+  };
+  const std::array<std::size_t, 4> columns = {column_of(Role::kLeftShoulder), column_of(Role::kRightShoulder),
+                                              column_of(Role::kLeftKnee), column_of(Role::kRightKnee)};
+  if (std::ranges::count(columns, names.size()) > 0) return Standing::kNotTold;
+  constexpr double kUpright = 0.8;  // cosine
+  int seen = 0, upside_down = 0, along_z = 0;
+  for (std::size_t begin = 0; begin < positions.size(); begin += names.size()) {
+    const auto place = [&](std::size_t i) { return positions[begin + columns[i]]; };
+    const glm::dvec3 body = place(0) + place(1) - place(2) - place(3);
+    const double length = glm::length(body);
+    seen += std::isnan(length) ? 0 : 1;
+    upside_down += body.y < -kUpright * length ? 1 : 0;
+    along_z += std::abs(body.z) > kUpright * length ? 1 : 0;
+  }
+  if (upside_down > 0 && 4 * upside_down >= 3 * seen) return Standing::kAlongMinusY;
+  return along_z > 0 && 4 * along_z >= 3 * seen ? Standing::kAlongZ : Standing::kNotTold;
+}
+
+/// Reads a place of an array; NaN: not seen. Returns nothing beyond ±10⁹.
+std::optional<glm::dvec3> PlaceIn(const NumberArray& array, std::size_t index) {
+  constexpr double kMaxAbsolute = 1e9;
+  const double* at = &array.values[3 * index];
+  const glm::dvec3 place(at[0], at[1], at[2]);
+  if (std::isnan(place.x + place.y + place.z)) return NotSeen();
+  const glm::dvec3 size = glm::abs(place);
+  return std::max({size.x, size.y, size.z}) > kMaxAbsolute ? std::nullopt : std::optional(place);
+}
+
+/// The one text of an array, in lower case; empty without it.
+std::string TextOf(const Npz& arrays, const std::string& name) {
+  const auto found = arrays.texts.find(name);
+  if (found == arrays.texts.end() || found->second.size() != 1) return "";
+  std::string text = found->second.front();
+  std::ranges::transform(text, text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+  return text;
+}
+
+Result<double> RateOf(const Npz& arrays, const std::string& file) {
+  constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;
+  const NumberArray* rate = arrays.Find("rate_hz");
+  const bool is_right =
+      rate != nullptr && rate->values.size() == 1 && rate->values[0] >= kMinRate_hz && rate->values[0] <= kMaxRate_hz;
+  if (is_right) return rate->values[0];
+  return Fail(
+      {file},
+      "{}; allowed: one number from {:g} to {:g}, as numpy.savez(…, positions=p, rate_hz=30) writes it, or `rate: "
+      "30` in a joint map",
+      rate != nullptr || std::ranges::find(arrays.skipped, "rate_hz") != arrays.skipped.end()
+          ? "rate_hz is no such number"
+          : "positions without rate_hz, the frames a second",
+      kMinRate_hz, kMaxRate_hz);
+}
+
+/// Returns the metres of the arrays' unit, and says in `notes` what was assumed.
+Result<double> UnitOf(const Npz& arrays, const RawMotion& motion, const std::string& file,
+                      std::vector<std::string>& notes) {
+  double unit = 1;
+  if (const NumberArray* number = arrays.Find("unit"); number != nullptr && number->values.size() == 1) {
+    unit = number->values[0];
+  } else if (const std::string text = TextOf(arrays, "unit"); !text.empty()) {
+    ASSIGN_OR_RETURN(unit, ReadUnit(text, {file}));
+  }
+  constexpr double kMaxExtent_m = 4;
+  const double spread = SpreadOf(motion.positions, motion.joints.size());
+  if (unit > 0 && unit * spread <= kMaxExtent_m) {
+    if (unit != 1) notes.push_back(fmt::format("1 unit = {:g} cm", 100 * unit));
+    return unit;
+  }
+  const auto likely = UnitOfSpread(spread);
+  if (!likely) {
+    return Fail(
+        {file},
+        "the joints extend {:.3g} m in the median frame, in a unit of {:g} m; allowed: at most {:g}; `unit` in the "
+        "file or in a joint map says what unit it is",
+        unit * spread, unit, kMaxExtent_m);
+  }
+  notes.push_back(fmt::format("1 unit = {:g} cm: in units of {:g} m the joints extend {:.3g} m", 100 * *likely, unit,
+                              unit * spread));
+  return *likely;
 }
 
 NumberArray ArrayOf(std::vector<std::size_t> shape, std::vector<double> values = {}) {
@@ -136,7 +231,7 @@ std::vector<std::string> JointsOfLayout(std::string_view layout, std::size_t joi
 }
 
 Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional<std::string>& layout,
-                                   const std::string& file, std::string& note) {
+                                   const std::string& file, std::string& note, std::optional<UpAxis> told) {
   constexpr std::size_t kHumanMl3dFeatures = 263;
   if (array.shape.size() == 2 && array.shape[1] == kHumanMl3dFeatures) {
     return Fail({file}, "an array of {}: features of HumanML3D; convert them to joints (docs/clips.md#humanml3d)",
@@ -161,26 +256,27 @@ Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional
   // Copy the positions; a NaN is a missing joint.
   MarkerMotion motion{.rate_hz = kJudgedRateHz, .names = {}, .frames = {}};
   for (const std::string_view joint : found.joints) motion.names.emplace_back(joint);
+  std::vector<glm::dvec3> places;
   for (std::size_t f = 0; f < frames; ++f) {
     auto& frame = motion.frames.emplace_back(joints);
     for (std::size_t j = 0; j < joints; ++j) {
-      const double* at = &array.values[3 * (f * joints + j)];
-      if (std::isnan(at[0]) || std::isnan(at[1]) || std::isnan(at[2])) continue;
-      constexpr double kMaxAbsolute = 1e9;
-      if (std::abs(at[0]) > kMaxAbsolute || std::abs(at[1]) > kMaxAbsolute || std::abs(at[2]) > kMaxAbsolute) {
-        return Fail({file}, "frame {}, joint {} lies beyond ±{:g}", f, j, kMaxAbsolute);
-      }
-      frame[j] = glm::dvec3(at[0], at[1], at[2]);
+      const auto place = PlaceIn(array, f * joints + j);
+      if (!place) return Fail({file}, "frame {}, joint {} lies beyond ±10⁹", f, j);
+      places.push_back(*place);
+      if (IsSeen(*place)) frame[j] = *place;
     }
   }
   // Convert to metres.
-  const double unit = motion.metres_per_unit = UnitOfSpread(motion);
+  const double unit = motion.metres_per_unit = UnitOfSpread(SpreadOf(places, joints)).value_or(1);
+  const bool is_turned = !told && HowItStands(places, motion.names) == Standing::kAlongMinusY;
+  const glm::dvec3 scale = unit * (is_turned ? glm::dvec3(1, -1, -1) : glm::dvec3(1));
   for (auto& frame : motion.frames) {
     for (auto& place : frame) {
-      if (place) *place *= unit;
+      if (place) *place *= scale;
     }
   }
   note = fmt::format("layout {}, 1 unit = {:g} cm", found.name, 100 * unit);
+  if (is_turned) note += std::string("; ") + kFromCamera;
   return motion;
 }
 
@@ -234,42 +330,83 @@ std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest) {
                   {{"names", std::move(names)}, {"unit", {"m"}}, {"up", {"y"}}});
 }
 
-bool IsBodyNpz(const Npz& arrays) { return arrays.arrays.contains("positions") && arrays.arrays.contains("rate_hz"); }
+bool IsBodyNpz(const Npz& arrays) {
+  return arrays.arrays.contains("positions") || std::ranges::count(arrays.skipped, "positions") > 0;
+}
 
-Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file) {
-  const NumberArray &positions = arrays.arrays.at("positions"), &rate = arrays.arrays.at("rate_hz");
+Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const ArrayOptions& told) {
+  if (!arrays.arrays.contains("positions")) {
+    return Fail({file}, "positions: allowed: floats of 4 or 8 bytes, or whole numbers, little-endian");
+  }
+  const NumberArray& positions = arrays.arrays.at("positions");
   const auto& shape = positions.shape;
   if (shape.size() != 3 || shape[0] == 0 || shape[1] == 0 || shape[2] != 3) {
     return Fail({file}, "positions of {}; allowed: frames × joints × 3", ShapeText(positions));
   }
-  constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;
-  if (rate.values.size() != 1 || !(rate.values[0] >= kMinRate_hz && rate.values[0] <= kMaxRate_hz)) {
-    return Fail({file}, "rate_hz: allowed: one number from {:g} to {:g}", kMinRate_hz, kMaxRate_hz);
-  }
   RawMotion motion;
   motion.name = file;
-  motion.rate_hz = rate.values[0];
+  if (told.rate_hz) {
+    motion.rate_hz = *told.rate_hz;
+  } else {
+    ASSIGN_OR_RETURN(motion.rate_hz, RateOf(arrays, file));
+  }
   // Names, and the roles of those that are a role's.
   if (const auto names = arrays.texts.find("names"); names != arrays.texts.end()) {
     motion.joints = names->second;
+  } else if (std::ranges::find(arrays.skipped, "names") != arrays.skipped.end() || arrays.arrays.contains("names")) {
+    return Fail({file}, "names: allowed: a list of texts, as numpy.array([\"hip_centre\", …]) makes it");
   } else if (shape[1] == kRoleCount) {
     for (const Role role : AllRoles()) motion.joints.emplace_back(RoleName(role));
   }
   const std::size_t joints = motion.joints.size();
   if (joints != shape[1]) return Fail({file}, "{} joints and {} names; allowed: one name for each", shape[1], joints);
   for (std::size_t j = 0; j < joints; ++j) {
+    if (std::find(motion.joints.begin(), motion.joints.begin() + static_cast<std::ptrdiff_t>(j), motion.joints[j]) !=
+        motion.joints.begin() + static_cast<std::ptrdiff_t>(j)) {
+      return Fail({file}, "names: {} twice; allowed: one name for each joint", Quote(motion.joints[j]));
+    }
     if (const auto role = FindRole(motion.joints[j])) motion.roles[Index(*role)] = static_cast<int>(j);
   }
-  // Positions; a joint with a NaN is not seen.
-  motion.positions.resize(shape[0] * joints);
-  for (std::size_t i = 0; i < positions.values.size(); i += 3) {
-    const glm::dvec3 at(positions.values[i], positions.values[i + 1], positions.values[i + 2]);
-    constexpr double kMaxAbsolute = 1e9;
-    const double largest = std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)});
-    if (largest > kMaxAbsolute) {
-      return Fail({file}, "positions of frame {}: {:g} is beyond ±{:g}", i / (3 * joints), largest, kMaxAbsolute);
+  for (std::size_t j = 0; j < joints && motion.roles[Index(Role::kHipCentre)] < 0; ++j) {
+    for (const char* pelvis : {"pelvis", "hips"}) {
+      if (motion.Find(pelvis) == static_cast<int>(j)) motion.roles[Index(Role::kHipCentre)] = static_cast<int>(j);
     }
-    motion.positions[i / 3] = std::isnan(at.x + at.y + at.z) ? NotSeen() : at;
+  }
+  // Positions; a joint with a NaN is not seen.
+  motion.positions.reserve(shape[0] * joints);
+  for (std::size_t i = 0; i < shape[0] * joints; ++i) {
+    const auto place = PlaceIn(positions, i);
+    if (!place) return Fail({file}, "positions of frame {}: joint {} lies beyond ±10⁹", i / joints, i % joints);
+    motion.positions.push_back(*place);
+  }
+  // Convert to metres and Y up.
+  double unit = told.metres_per_unit.value_or(1);
+  if (told.metres_per_unit) {
+    constexpr double kMinExtent_m = 0.1, kMaxExtent_m = 4;
+    const double extent = unit * SpreadOf(motion.positions, joints);
+    if (extent > 0 && (extent < kMinExtent_m || extent > kMaxExtent_m)) {
+      return Fail({file}, "in the unit given (1 unit = {:.4g} cm) the joints extend {:.3g} m; allowed: {:g} to {:g} m",
+                  100 * unit, extent, kMinExtent_m, kMaxExtent_m);
+    }
+    motion.notes.push_back(fmt::format("1 unit = {:g} cm (told)", 100 * unit));
+  } else {
+    ASSIGN_OR_RETURN(unit, UnitOf(arrays, motion, file, motion.notes));
+  }
+  const std::string axis = TextOf(arrays, "up");
+  if (!axis.empty() && axis != "y" && axis != "z") return Fail({file}, "up is {}; allowed: y, z", Quote(axis));
+  const UpAxis up = told.up.value_or(axis == "z" ? UpAxis::kZ : UpAxis::kY);
+  if (up == UpAxis::kZ) {
+    motion.notes.push_back(fmt::format("turned upright from Z up ({})", told.up ? "given" : "the file's `up`"));
+  }
+  for (glm::dvec3& place : motion.positions) place = Upright(unit * place, up);
+  const Standing standing =
+      told.up || !axis.empty() ? Standing::kNotTold : HowItStands(motion.positions, motion.joints);
+  if (standing == Standing::kAlongMinusY) {
+    motion.notes.emplace_back(kFromCamera);
+    for (glm::dvec3& place : motion.positions) place *= glm::dvec3(1, -1, -1);
+  } else if (standing == Standing::kAlongZ) {
+    motion.notes.emplace_back(
+        "the body lies along Z, with Y up: if it stands, `up: z` in the file or a joint map says so");
   }
   return motion;
 }

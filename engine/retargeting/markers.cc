@@ -281,6 +281,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   // Keep the longest complete range.
   const auto [begin, end] = LongestStretch(frames);
   if (begin == end) return std::nullopt;
+  body.first_frame = begin;
   for (std::size_t t = begin; t < end; ++t) body.motion.poses.push_back(Complete(frames[t]));
   // Describe the corrections.
   if (filled > 0) body.changes.push_back(fmt::format("{} positions interpolated in gaps", filled));
@@ -300,7 +301,9 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   StandOnFloor(options.keep_floor, IsOwn(set), body);
   if (!options.keeps_shown) return body;
   body.shown = AsShown(scale, markers, set, columns, seen, body.up.axis);
-  if (!centres.empty()) body.shown.remark += "; " + centres;
+  for (const std::string& said : {centres, DescribeTurn(body.up), body.up.doubt}) {
+    if (!said.empty()) body.shown.remark += "; " + said;
+  }
   return body;
 }
 

@@ -27,6 +27,7 @@ struct MarkerBody {
   BodyMotion motion;  ///< at the file's rate; metres, Y up, feet on the floor
   UpFinding up;       ///< the axis of the file that became Y
   double floor = 0;   ///< the height that became 0, metres
+  std::size_t first_frame = 0;  ///< the frame of the file that became the first
   /// The name of the marker set, then every correction of the file's data, each as a text for people.
   std::vector<std::string> changes;
   /// The joints as the markers show them, in all frames of the file: gaps are not filled, no joint is placed by a rule,

@@ -13,12 +13,14 @@ std::vector<JointSet> UnseenIn(const OpenedClip& opened) {
   for (const Role role : opened.map.composed) {
     for (JointSet& joints : unseen) joints.set(Index(role));
   }
-  if (const MarkerMotion* shown = opened.source.shown.get(); shown != nullptr && shown->frames.size() == frames) {
+  const std::size_t first = opened.source.made ? opened.source.made->first_frame : 0;
+  const MarkerMotion* shown = opened.source.shown.get();
+  if (shown != nullptr && shown->frames.size() >= first + frames) {
     for (const Role role : AllRoles()) {
       const auto name = std::ranges::find(shown->names, RoleName(role));
       const auto at = static_cast<std::size_t>(name - shown->names.begin());
       for (std::size_t f = 0; f < frames; ++f) {
-        if (name == shown->names.end() || !shown->frames[f][at]) unseen[f].set(Index(role));
+        if (name == shown->names.end() || !shown->frames[first + f][at]) unseen[f].set(Index(role));
       }
     }
   }
@@ -39,20 +41,33 @@ Result<BodyInPlace> BodyInPlaceOf(SourceClip clip, const OpenOptions& options) {
   for (BodyPose& pose : body.motion.poses) {
     for (glm::dvec3& joint : pose.joints) joint.y += floor_m;
   }
-  const double begin_s = static_cast<double>(body.dropped_frames) / body.motion.rate_hz;
+  const std::size_t before = opened.source.made ? opened.source.made->first_frame : 0;
+  const double begin_s = static_cast<double>(body.dropped_frames + before) / body.motion.rate_hz;
   std::vector<JointSet> unseen = UnseenIn(opened);
   const ClipFormat format = opened.source.format;
   const bool is_of_markers = format == ClipFormat::kC3d || format == ClipFormat::kTrc || format == ClipFormat::kMotive;
-  return BodyInPlace{std::move(body.motion), begin_s, std::move(unseen), is_of_markers, std::move(body.changes)};
+  const MarkerMotion* shown = opened.source.shown.get();
+  const std::size_t frames = body.motion.poses.size() + before;
+  const std::size_t behind = shown == nullptr || shown->frames.size() < frames ? 0 : shown->frames.size() - frames;
+  const double lost_after_s = static_cast<double>(behind) / body.motion.rate_hz;
+  const double lost_before_s = static_cast<double>(before) / body.motion.rate_hz;
+  return BodyInPlace{std::move(body.motion), begin_s,       lost_after_s,           lost_before_s,
+                     std::move(unseen),      is_of_markers, std::move(body.changes)};
 }
 
 FaultOptions FaultOptionsOf(const BodyInPlace& body, std::optional<double> floor_m) {
-  return {.floor_m = floor_m, .begin_s = body.begin_s, .unseen = body.unseen, .is_of_markers = body.is_of_markers};
+  return {.floor_m = floor_m,
+          .begin_s = body.begin_s,
+          .unseen = body.unseen,
+          .lost_before_s = body.lost_before_s,
+          .lost_after_s = body.lost_after_s,
+          .is_of_markers = body.is_of_markers};
 }
 
 Result<BodyInPlace> OpenBodyInPlace(const std::string& reference, const OpenOptions& options) {
   OpenOptions own = options;
   own.body.keep_floor = true;
+  own.keeps_shown = true;
   ASSIGN_OR_RETURN(auto clip, ReadOneClip(reference, own));
   return BodyInPlaceOf(std::move(clip), options);
 }

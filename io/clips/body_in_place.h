@@ -15,7 +15,10 @@ namespace etude {
 /// The body of a clip where its file has it.
 struct BodyInPlace {
   BodyMotion motion;                    ///< the twenty joints at the file's own rate and heights, metres, Y up
-  double begin_s = 0;                   ///< the time of the first frame: a leading T-pose is left out
+  double begin_s = 0;        ///< the time of the first frame: a leading T-pose, and frames of a file before its body is
+                             ///< whole, are left out
+  double lost_after_s = 0;   ///< FaultOptions::lost_after_s
+  double lost_before_s = 0;  ///< FaultOptions::lost_before_s
   std::vector<JointSet> unseen = {};    ///< FaultOptions::unseen
   bool is_of_markers = false;           ///< FaultOptions::is_of_markers
   std::vector<std::string> notes = {};  ///< BodyConversion::changes

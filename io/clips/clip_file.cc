@@ -79,10 +79,11 @@ ClipFile FileOfOne(ClipFormat format, Clip clip) {
   return file;
 }
 
-/// Makes a clip file of a motion that is a body already; `note` says where it comes from.
-ClipFile FileOfBody(ClipFormat format, const BodyMotion& motion, const std::string& path, const std::string& note) {
+/// Makes a clip file of a motion that is a body already; the notes say where it comes from and what was changed.
+ClipFile FileOfBody(ClipFormat format, const BodyMotion& motion, const std::string& path,
+                    std::vector<std::string> notes) {
   ClipFile file = FileOfOne(format, RigClip(motion, StandingPose(), fs::path(path).stem().string()));
-  file.bodies = {{.changes = {note}}};
+  file.bodies = {{.changes = std::move(notes)}};
   return file;
 }
 
@@ -146,13 +147,13 @@ Result<double> BidsRate(const std::string& file, CappedReader& reader) {
   return Fail({file}, "SamplingFrequency: allowed: a number from {:g} to {:g} Hz", kMinRate_hz, kMaxRate_hz);
 }
 
-/// Reads an array of joints, whose rate the file does not tell.
-Result<ClipFile> FileOfArray(const NumberArray& array, const std::optional<std::string>& layout, const std::string& path,
-                             const OpenOptions& options) {
+/// Reads an array of joints, whose rate the file does not tell; `said` ends the note on it.
+Result<ClipFile> FileOfArray(const NumberArray& array, const std::optional<std::string>& layout,
+                             const std::string& path, const OpenOptions& options, const std::string& said = "") {
   std::string note;
-  ASSIGN_OR_RETURN(const auto joints, JointsOfArray(array, layout, path, note));
-  ASSIGN_OR_RETURN(auto file, FileOfMarkers(ClipFormat::kNpy, joints, path, options, ArrayUp()));
-  for (MadeBody& body : file.bodies) body.changes.push_back(note);
+  ASSIGN_OR_RETURN(auto joints, JointsOfArray(array, layout, path, note, ToldUp(options)));
+  joints.remark = said.empty() ? note : note + "; " + said;
+  ASSIGN_OR_RETURN(auto file, FileOfMarkers(ClipFormat::kNpy, std::move(joints), path, options, ArrayUp()));
   file.has_rate = false;
   return file;
 }
@@ -179,8 +180,14 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   if (IsZip(bytes)) {
     ASSIGN_OR_RETURN(const auto arrays, ReadNpz(bytes, path));
     if (IsBodyNpz(arrays)) {
-      ASSIGN_OR_RETURN(const auto raw, ReadRawNpz(arrays, path));
-      if (const auto motion = BodyOf(raw)) return FileOfBody(ClipFormat::kNpz, *motion, path, "Etude's own arrays");
+      ASSIGN_OR_RETURN(const auto raw, ReadRawNpz(arrays, path, ToldOfArrays(options)));
+      if (const auto motion = BodyOf(raw)) {
+        std::vector<std::string> notes = {"Etude's own arrays"};
+        notes.insert(notes.end(), raw.notes.begin(), raw.notes.end());
+        file = FileOfBody(ClipFormat::kNpz, *motion, path, std::move(notes));
+        if (const auto up = ToldUp(options)) file.bodies[0].up = {.axis = AxisOf(*up), .evidence = UpEvidence::kTold};
+        return file;
+      }
       // Other joints, or gaps: the body is found by the joints' names.
       return FileOfJoints(ClipFormat::kNpz, raw, path, options);
     }
@@ -192,10 +199,8 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
       return file;
     }
     if (const auto joints = JointsOfSam(arrays)) {
-      ASSIGN_OR_RETURN(file, FileOfArray(*joints, layout, path, options));
-      for (MadeBody& body : file.bodies)
-        body.changes.emplace_back("SAM 3D Body's arrays: the camera's frame, turned to Y up as if it was level");
-      return file;
+      return FileOfArray(*joints, layout, path, options,
+                         "SAM 3D Body's arrays: the camera's frame, turned to Y up as if it was level");
     }
     ASSIGN_OR_RETURN(auto clip, ReadAmass(arrays, path));
     return FileOfOne(ClipFormat::kAmass, std::move(clip));
@@ -220,7 +225,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   if (first.text == "Coordinates" && HasModelOfAngles(bytes)) {
     std::string note = "angles of the model in the file's header";
     ASSIGN_OR_RETURN(const auto motion, ReadOpenSimMotion(bytes, path, &note));
-    return FileOfBody(ClipFormat::kMot, motion, path, note);
+    return FileOfBody(ClipFormat::kMot, motion, path, {note});
   }
   if (first.text == "{" && IsDeepMimicMotion(bytes)) {
     ASSIGN_OR_RETURN(auto clip, ReadDeepMimicMotion(bytes, path));

@@ -47,6 +47,7 @@ struct MadeBody {
   std::vector<std::string> changes;
   UpFinding up = {};                 ///< the axis of the file that became Y
   double floor_m = 0;                ///< the height that became 0
+  std::size_t first_frame = 0;       ///< the frame of the file that became the first
 };
 
 /// The content of a motion file.

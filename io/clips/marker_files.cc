@@ -25,6 +25,12 @@ bool KeepsFloor(const OpenOptions& options) {
   return options.body.keep_floor || (options.roles && options.roles->keep_floor);
 }
 
+ArrayOptions ToldOfArrays(const OpenOptions& options) {
+  return {.rate_hz = options.roles ? options.roles->rate_hz : std::nullopt,
+          .metres_per_unit = ToldUnit(options),
+          .up = ToldUp(options)};
+}
+
 Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const std::string& path,
                                const OpenOptions& options, UpRule rule) {
   if (const auto up = ToldUp(options)) rule = {.axis = AxisOf(*up), .evidence = UpEvidence::kTold, .source = "told"};
@@ -38,7 +44,7 @@ Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const st
   ClipFile file{.format = format, .figure = {.name = "", .skeleton = {}, .materials = {}, .meshes = {}}, .clips = {}};
   for (MarkerBody& body : bodies) {
     file.clips.push_back(RigClip(body.motion, StandingPose(), body.name));
-    file.bodies.push_back({body.changes, body.up, body.floor});
+    file.bodies.push_back({body.changes, body.up, body.floor, body.first_frame});
     if (options.keeps_shown) file.shown.push_back(std::move(body.shown));
   }
   file.figure.skeleton = file.clips.front().skeleton;
@@ -51,23 +57,21 @@ Result<ClipFile> FileOfJoints(ClipFormat format, const RawMotion& motion, const 
   if (options.roles) options.roles->up.reset();
   options.body.metres_per_unit = 1;
   options.body.keep_floor = true;
-  return FileOfMarkers(format, MarkersOf(motion), path, options,
-                       {.evidence = UpEvidence::kFormat, .source = "the rule of Etude's arrays"});
+  ASSIGN_OR_RETURN(auto file, FileOfMarkers(format, MarkersOf(motion), path, options,
+                                            {.evidence = UpEvidence::kFormat, .source = "the rule of Etude's arrays"}));
+  for (MadeBody& body : file.bodies) {
+    body.changes.insert(body.changes.end(), motion.notes.begin(), motion.notes.end());
+  }
+  return file;
 }
 
 namespace {
 
 Result<ClipFile> ReadJointTable(std::string_view text, const std::string& path, const OpenOptions& options) {
   ASSIGN_OR_RETURN(const auto csv, ReadJointCsv(text, path));
-  MarkerRows rows{.markers = {.names = {}, .frames = {}}, .times_s = csv.times_s, .lines = csv.lines};
-  for (const Role role : AllRoles()) rows.markers.names.emplace_back(RoleName(role));
-  for (const auto& frame : csv.frames) rows.markers.frames.emplace_back(frame.begin(), frame.end());
-  // Without a column of times, frame numbers give the times, at an assumed rate.
-  const bool has_rate = csv.rate_hz.has_value();
-  if (!has_rate) rows.times_s = TimesOfNumbers(csv.numbers, kJudgedRateHz);
-  ASSIGN_OR_RETURN(auto markers, LayOnClock(std::move(rows), path));
+  ASSIGN_OR_RETURN(auto markers, LayOnClock(csv, path));
   ASSIGN_OR_RETURN(auto file, FileOfMarkers(ClipFormat::kCsv, std::move(markers), path, options, JointCsvUp()));
-  file.has_rate = has_rate;
+  file.has_rate = csv.rate_hz.has_value();
   return file;
 }
 
@@ -117,8 +121,8 @@ std::optional<UpRule> UpRuleOf(ClipFormat format) {
 }
 
 bool IsOfMarkers(ClipFormat format) {
-  constexpr std::array kFormats = {ClipFormat::kC3d, ClipFormat::kTrc, ClipFormat::kCsv, ClipFormat::kNpy,
-                                   ClipFormat::kMotive, ClipFormat::kBids};
+  constexpr std::array kFormats = {ClipFormat::kC3d, ClipFormat::kTrc,    ClipFormat::kCsv, ClipFormat::kNpz,
+                                   ClipFormat::kNpy, ClipFormat::kMotive, ClipFormat::kBids};
   return std::ranges::find(kFormats, format) != kFormats.end();
 }
 

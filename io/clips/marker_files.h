@@ -7,6 +7,7 @@
 #include "engine/base/result.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/raw_motion.h"
+#include "engine/retargeting/joint_arrays.h"
 #include "io/clips/clip_file.h"
 
 namespace etude {
@@ -16,6 +17,8 @@ namespace etude {
 std::optional<UpAxis> ToldUp(const OpenOptions& options);
 std::optional<double> ToldUnit(const OpenOptions& options);
 bool KeepsFloor(const OpenOptions& options);
+/// Returns what the user gave of arrays of positions: rate, unit and up axis.
+ArrayOptions ToldOfArrays(const OpenOptions& options);
 
 /// Returns what the format of a clip with a skeleton says about its up axis; nullopt for BVH and Acclaim.
 std::optional<UpRule> UpRuleOf(ClipFormat format);
@@ -27,8 +30,8 @@ bool IsOfMarkers(ClipFormat format);
 Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const std::string& path,
                                const OpenOptions& options, UpRule rule);
 
-/// Makes a clip of the body that joints of any names show. They are in metres on their own floor, with Y up, whatever the
-/// options say of these.
+/// Makes a clip of the body that joints of any names show. They are in metres on their own floor, with Y up, whatever
+/// the options say of these: the arrays' reader has heeded them. Its note includes the motion's.
 Result<ClipFile> FileOfJoints(ClipFormat format, const RawMotion& motion, const std::string& path, OpenOptions options);
 
 /// Reads a file of markers (C3D, TRC, Motive's CSV, joint CSV); returns nullopt if the file is of another kind.

@@ -9,43 +9,12 @@
 #include "engine/formats/npz.h"
 #include "engine/retargeting/joint_arrays.h"
 #include "engine/retargeting/orientation.h"
+#include "io/clips/marker_files.h"
 #include "io/clips/references.h"
 #include "io/files/files.h"
 
 namespace etude {
 namespace {
-
-/// Appends the hip centre, midway between the hips, unless a joint of the file plays it. It gets the orientation of the
-/// joint that carries the left hip.
-void AddHipCentre(RawMotion& raw) {
-  const int left = raw.roles[Index(Role::kLeftHip)], right = raw.roles[Index(Role::kRightHip)];
-  if (raw.roles[Index(Role::kHipCentre)] >= 0 || left < 0 || right < 0) return;
-  const std::size_t joints = raw.joints.size(), frames = raw.FrameCount();
-  // Copy each frame with one joint more.
-  std::vector<glm::dvec3> positions;
-  positions.reserve(frames * (joints + 1));
-  std::vector<glm::dquat> rotations;
-  for (std::size_t f = 0; f < frames; ++f) {
-    for (std::size_t j = 0; j < joints; ++j) positions.push_back(raw.At(f, j));
-    positions.push_back(0.5 * (raw.At(f, left) + raw.At(f, right)));
-    if (raw.rotations.empty()) continue;
-    rotations.insert(rotations.end(), raw.rotations.begin() + static_cast<std::ptrdiff_t>(f * joints),
-                     raw.rotations.begin() + static_cast<std::ptrdiff_t>((f + 1) * joints));
-    const int carrier = raw.parents[left];
-    rotations.push_back(carrier < 0 ? glm::dquat(1, 0, 0, 0) : raw.rotations[f * joints + carrier]);
-  }
-  raw.positions = std::move(positions);
-  raw.rotations = std::move(rotations);
-  raw.roles[Index(Role::kHipCentre)] = static_cast<int>(joints);
-  raw.added.push_back(static_cast<int>(joints));
-  raw.joints.emplace_back(kMidwayHips);
-  if (raw.parents.empty()) return;
-  const int carrier = raw.parents[left];
-  raw.parents.push_back(carrier);
-  if (raw.rotations.empty()) return;
-  raw.rest_positions.push_back(0.5 * (raw.rest_positions[left] + raw.rest_positions[right]));
-  raw.rest_rotations.push_back(carrier < 0 ? glm::dquat(1, 0, 0, 0) : raw.rest_rotations[carrier]);
-}
 
 RawMotion OfMarkers(const MarkerMotion& shown) {
   RawMotion raw;
@@ -99,6 +68,20 @@ RawMotion OfSkeleton(const Clip& clip, double unit, UpAxis up) {
   return raw;
 }
 
+/// Returns true if the joint that carries both hips is a pelvis by its name or its place, or was told to play the hip
+/// centre.
+bool CarriesAsPelvis(const RawMotion& raw, const JointMap& map, const JointMapOverrides* told) {
+  if (told != nullptr && told->joints.contains(Role::kHipCentre)) return true;
+  std::string name = raw.joints[map[Role::kHipCentre].joint];
+  std::ranges::transform(name, name.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+  if (name.ends_with("hips") || name.ends_with("pelvis")) return true;
+  constexpr double kMaxThighs = 0.4;  // pelvises of 4 libraries: up to 0.33; OpenNI's torso: 0.44 to 0.50
+  const auto at_rest = [&](Role role) { return raw.rest_positions[map[role].joint]; };
+  const glm::dvec3 left = at_rest(Role::kLeftHip), right = at_rest(Role::kRightHip);
+  const double thighs = glm::distance(left, at_rest(Role::kLeftKnee)) + glm::distance(right, at_rest(Role::kRightKnee));
+  return glm::distance(at_rest(Role::kHipCentre), 0.5 * (left + right)) <= kMaxThighs * 0.5 * thighs;
+}
+
 std::string NamesOf(const std::vector<Role>& roles) {
   std::vector<std::string> names;
   for (const Role role : roles) names.emplace_back(RoleName(role));
@@ -146,10 +129,10 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, boo
     raw = OfSkeleton(opened.source.clip, opened.body.metres_per_unit, opened.body.up);
     for (const Role role : AllRoles()) {
       const bool is_composed = std::ranges::find(opened.map.composed, role) != opened.map.composed.end();
-      // The joint that carries both hips is not midway between them.
-      const bool is_carrier = role == Role::kHipCentre && !is_body;
-      if (!is_composed && !is_carrier) raw.roles[Index(role)] = opened.map[role].joint;
+      if (!is_composed) raw.roles[Index(role)] = opened.map[role].joint;
     }
+    const JointMapOverrides* told = options.roles ? &*options.roles : nullptr;
+    if (!is_body && !CarriesAsPelvis(raw, opened.map, told)) raw.roles[Index(Role::kHipCentre)] = -1;
     if (is_body && !keeps_rig) {
       raw.rotations.clear();  // made up by RigClip
       raw.rest_rotations.clear();
@@ -159,7 +142,7 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, boo
     }
   }
   raw.name = name;
-  AddHipCentre(raw);
+  if (raw.roles[Index(Role::kHipCentre)] < 0) AddMidwayHips(raw);
   if (format == ClipFormat::kNpz || format == ClipFormat::kAmass) {
     ASSIGN_OR_RETURN(raw.contacts, ContactsIn(name, raw.FrameCount()));
   }
@@ -178,9 +161,8 @@ bool BeginsAsZip(const std::string& reference) {
 
 /// Converts arrays of positions, with no character in between.
 Result<RawMotion> OfArrays(const Npz& arrays, const std::string& reference, const OpenOptions& options) {
-  ASSIGN_OR_RETURN(auto raw, ReadRawNpz(arrays, reference));
-  if (options.roles && options.roles->rate_hz) raw.rate_hz = *options.roles->rate_hz;
-  AddHipCentre(raw);
+  ASSIGN_OR_RETURN(auto raw, ReadRawNpz(arrays, reference, ToldOfArrays(options)));
+  if (raw.roles[Index(Role::kHipCentre)] < 0) AddMidwayHips(raw);
   return raw;
 }
 

@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import re
+import warnings
 import zipfile
 
 from etude.program import EtudeError, call
@@ -13,17 +14,18 @@ from etude.results import load
 
 def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, people=None, lag=None, statistics=None,
              music_beats=None, metrics=(), alone=False, floor=None, limits=None, output=None, overwrite=False, jobs=None,
-             progress=True, program=None, **answers):
+             progress=True, program=None, unit=None, up=None, **answers):
     """Judges answers by their truth, or alone, and returns the Run, as load does.
 
     truth, and each answer by its method's name: a motion file, a folder or a pattern; or an array of positions, frames
     × joints × 3 in metres with Y up, NaN where a joint was not seen. Arrays need `names` of their joints and `rate_hz`;
-    a joint named like a role plays it. They are kept as .npz files in the folder `output` +
+    a joint named like a role plays it. `unit` ("cm") and `up` ("z") say otherwise. They are kept as .npz files in the folder `output` +
     ".motions". pairs: a CSV of pairs instead. joints, people, lag, statistics, music_beats, metrics: as the options of
     `etude evaluate`. alone: there is no truth; floor and limits are then those of `etude evaluate --alone`, and the
     metric within_limits says which clips keep them.
 
-    Raises EtudeError, also if a method has no answer that can be judged; its `run` is then set.
+    Raises EtudeError, also if a method has no answer that can be judged; its `run` is then set. Warns of pairs that are
+    not judged.
     """
     output = pathlib.Path("out/evaluate-1" if output is None else output)
     if alone and (truth is not None or pairs is not None or not answers):
@@ -38,7 +40,7 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
             raise TypeError(f"the array of {name} needs names and rate_hz")
         if not re.fullmatch(r"[A-Za-z0-9_][A-Za-z0-9_.-]*", name):
             raise ValueError(f"{name!r} is no name of a method")  # it names a file
-        content = _npz(motion, list(names), rate_hz, name)
+        content = _npz(motion, list(names), rate_hz, {"unit": unit, "up": up}, name)
         path = pathlib.Path(f"{output}.motions") / f"{name}.npz"
         path.parent.mkdir(parents=True, exist_ok=True)
         with path.open("wb" if overwrite else "xb") as file:  # an earlier run needs its arrays
@@ -60,27 +62,30 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
     found = load(output, program=program)
     if code != 0:
         rows = [json.loads(line) for line in (output / "cells.jsonl").read_text(encoding="utf-8").splitlines()]
-        if limits is not None and {row["method"] for row in rows if row["status"] == "ok"} == {row["method"] for row in rows}:
-            return found
         rows.sort(key=lambda row: row["status"] == "skipped")  # a clip that only another method has is no reason
-        why = next((f": {row['method']}, {row['reason']}" for row in rows if row["status"] != "ok"), "")
-        raise EtudeError("a method has no answer that can be judged" + why, code, printed + said, found)
+        missed = [f"{row['method']}, {row['clip']}: {row['reason']}" for row in rows if row["status"] != "ok"]
+        if {row["method"] for row in rows if row["status"] == "ok"} != {row["method"] for row in rows}:
+            raise EtudeError("a method has no answer that can be judged: " + missed[0], code, printed + said, found)
+        if missed and not alone:
+            warnings.warn(f"{len(missed)} of {len(rows)} pairs are not judged: {missed[0]}", stacklevel=2)
     return found
 
 
-def _npz(positions, names, rate_hz, title):
+def _npz(positions, names, rate_hz, said, title):
     """Returns positions, names and rate as the bytes of an .npz file, with every digit."""
     if not len(positions) or any(len(frame) != len(names) or any(len(point) != 3 for point in frame) for frame in positions):
         raise ValueError(f"the array of {title} must be frames × {len(names)} joints × 3")
     frames = len(positions)
     numbers = array.array("d", (x for frame in positions for point in frame for x in point))
-    width = max(map(len, names))
-    letters = "".join(name.ljust(width, "\0") for name in names)
+    texts = []
+    for key, words in [("names", names), *((key, [str(word)]) for key, word in said.items() if word is not None)]:
+        width = max(map(len, words))
+        letters = "".join(word.ljust(width, "\0") for word in words)
+        texts.append((key, f"<U{width}", (len(words),), letters.encode("utf-32-le")))
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w") as archive:
         for name, kind, shape, data in [("positions", "<f8", (frames, len(names), 3), numbers.tobytes()),
-                                        ("rate_hz", "<f8", (), array.array("d", [rate_hz]).tobytes()),
-                                        ("names", f"<U{width}", (len(names),), letters.encode("utf-32-le"))]:
+                                        ("rate_hz", "<f8", (), array.array("d", [rate_hz]).tobytes()), *texts]:
             head = f"{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}\n".encode()
             archive.writestr(f"{name}.npy", b"\x93NUMPY\1\0" + len(head).to_bytes(2, "little") + head + data)
     return content.getvalue()

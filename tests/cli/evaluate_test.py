@@ -158,7 +158,7 @@ class Evaluate(EtudeCase):
         self.trc_file("m/a.trc", self.frames)
         self.write("m/b.trc", "PathFileType\tno motion\n")
         self.trc_file("m/c.trc", [[None] * 20] * 10)
-        said = self.evaluate(self.folder / "t", f"m={self.folder}/m").stdout
+        said = self.evaluate(self.folder / "t", f"m={self.folder}/m", code=1).stdout
         rows = {row["clip"]: row for row in self.rows()}
         self.assertEqual({name: row["status"] for name, row in rows.items()},
                          {"a": "ok", "b": "failed", "c": "failed", "d": "failed"})
@@ -166,6 +166,38 @@ class Evaluate(EtudeCase):
         self.assertEqual(rows["d"]["reason"], "the method has no answer of this name")
         self.assertIn("3 not judged:", said)
         self.assertEqual(rows["a"]["mpjpe_unaligned_mm"], 0)
+
+    def test_a_pelvis_is_the_root_where_both_files_have_one_and_else_it_is_said(self):
+        joints = {"Hips": (None, (0, 95, 0)), "Spine": ("Hips", (0, 20, 0)), "Neck": ("Spine", (0, 30, 0)), "Head": ("Neck", (0, 12, 0))}
+        for side, sign in ("Left", 1), ("Right", -1):
+            joints |= {f"{side}UpLeg": ("Hips", (9 * sign, -5, 0)), f"{side}Leg": (f"{side}UpLeg", (0, -43, 0)),
+                       f"{side}Foot": (f"{side}Leg", (0, -42, 0)), f"{side}ToeBase": (f"{side}Foot", (0, -5, 14)),
+                       f"{side}Arm": ("Spine", (18 * sign, 26, 0)), f"{side}ForeArm": (f"{side}Arm", (28 * sign, 0, 0)),
+                       f"{side}Hand": (f"{side}ForeArm", (25 * sign, 0, 0))}
+
+        def bvh(name, hips_down):
+            def joint(at, depth):
+                parent, (x, y, z) = joints[at]
+                y -= hips_down if at.endswith("UpLeg") else 0
+                kind, channels = ("ROOT", "6 Xposition Yposition Zposition Zrotation Xrotation Yrotation") if parent is None else \
+                    ("JOINT", "3 Zrotation Xrotation Yrotation")
+                inner = [line for child, (above, _) in joints.items() if above == at for line in joint(child, depth + 1)]
+                return [f"{kind} {at}", "{", f"OFFSET {x} {y} {z}", f"CHANNELS {channels}", *(inner or ["End Site", "{", "OFFSET 0 5 0", "}"]), "}"]
+            row = "0 95 0 " + " ".join(["0"] * 3 * len(joints))
+            return self.write(name, "\n".join(["HIERARCHY", *joint("Hips", 0), "MOTION", "Frames: 9", "Frame Time: 0.033333", *[row] * 9, ""]))
+        truth, lower, torso = bvh("truth.bvh", 0), bvh("lower.bvh", 3.7), bvh("torso.bvh", 20)
+        pathlib.Path(torso).write_text(pathlib.Path(torso).read_text().replace("ROOT Hips", "ROOT Torso"))
+        self.evaluate(truth, lower, "--metric", "mpjpe_root_mm")
+        row, = self.rows()
+        # Hips, knees, ankles and toes lie 37 mm lower below the pelvis; the other joints do not.
+        self.assertIn(", root Hips, ", row["reason"])
+        judged = int(row["reason"].split()[0])
+        self.assertAlmostEqual(row["mpjpe_root_mm"], 37 * 8 / judged, 3)
+        for answer in torso, self.trc_file("markers.trc", self.frames[:9]):
+            out = self.folder / f"{answer}.out"
+            self.evaluate(truth, answer, out=out)
+            self.assertIn(", root midway between the hips" if answer == torso else ", root Hips of the truth, hip_centre of the answer",
+                          self.rows(out)[0]["reason"])
 
     def test_a_lag_is_found_and_both_are_judged(self):
         truth, answer = self.trc_file("truth.trc", self.frames), self.trc_file("late.trc", self.frames[2:])
@@ -212,7 +244,7 @@ class Evaluate(EtudeCase):
         answer = self.trc_file("x.trc", [[[p[0], p[1] + 0.03, p[2]] for p in frame] for frame in self.frames])
         table = self.write("pairs.csv", f"name,truth,mine,none\nfirst,{self.shared}/clap.npz,{answer},\n"
                                         f"second,{self.shared}/clap.csv,{answer},{answer}\n")
-        facts = self.facts("evaluate", "--pairs", table, "-o", self.out)
+        facts = json.loads(self.ends(1, "evaluate", "--pairs", table, "-o", self.out, "--json").stdout)  # one answer is missing
         medians = {(method["method"], metric["metric"]): metric["median"]
                    for method in facts["methods"] for metric in method["metrics"]}
         self.assertAlmostEqual(medians["mine", "mpjpe_unaligned_mm"], 30, 3)

@@ -43,10 +43,12 @@ class Fbx(MotionFileCase):
                ("Leg", "UpLeg", 1, (0, -43, 0), lambda t: (20 * t, 0, 0), (0, 0, 0)),
                ("Foot", "Leg", 1, (0, -42, 0), None, (0, 0, 0)), ("ToeBase", "Foot", 1, (0, -5, 14), None, (0, 0, 0)))}}
 
-    def fbx(self, name, unit_cm, up, frames=31, rate=30, late_ticks=0, inactive=()):
+    def fbx(self, name, unit_cm, up, frames=31, rate=30, late_ticks=0, inactive=(), pivots=None):
         """An FBX file in text, and the places of its joints by frame in metres, Y up, by forward kinematics of our own.
 
-        Keys about Y come late_ticks later. At joints of `inactive` RotationActive is 0, beside a PreRotation and an order."""
+        Keys about Y come late_ticks later. At joints of `inactive` RotationActive is 0, beside a PreRotation and an order.
+        Joints of `pivots` turn about a point, in centimetres from themselves."""
+        pivots = pivots or {}
         def euler(degrees):  # about x first, then y, then z
             x, y, z = (turn(numpy.radians(a) * axis) for a, axis in zip(degrees, numpy.eye(3)))
             return z @ y @ x
@@ -62,6 +64,7 @@ class Fbx(MotionFileCase):
                            + triple("Lcl Translation", "Lcl Translation", numpy.array(place) / unit_cm)
                            + f'P: "RotationActive", "bool", "", "",{int(joint not in inactive)}\n'
                            + ('P: "RotationOrder", "enum", "", "",5\n' if joint in inactive else "")
+                           + triple("RotationPivot", "Vector3D", numpy.array(pivots.get(joint, (0, 0, 0))) / unit_cm)
                            + triple("PreRotation", "Vector3D", (0, 90, 0) if joint in inactive else pre) + "}\n}\n")
             links.append(f'C: "OO",{ids[joint]},{ids.get(parent, 0)}\n')
             if turns is None:
@@ -99,7 +102,9 @@ class Fbx(MotionFileCase):
             for joint, (parent, place, turns, pre) in self.FBX_BODY.items():
                 own = euler((0, 0, 0) if joint in inactive else pre) @ (euler(turns(t / rate)) if turns else numpy.eye(3))
                 turned[joint] = turned[parent] @ own if parent else own
-                placed[joint] = placed[parent] + turned[parent] @ place if parent else numpy.array(place, float)
+                pivot = numpy.array(pivots.get(joint, (0, 0, 0)), float)
+                place = numpy.array(place, float) + pivot - own @ pivot
+                placed[joint] = placed[parent] + turned[parent] @ place if parent else place
             places.append({joint: place / 100 for joint, place in placed.items()})
         return path, places
 
@@ -140,6 +145,12 @@ class Fbx(MotionFileCase):
         self.assertIn("post-rotations and orders are left out, because RotationActive is not set: 2", note)
         path, _ = self.fbx("active.fbx", 1, "y")
         self.assertNotIn("RotationActive", self.etude("clip", "info", path, "--json").stdout)
+
+    def test_fbx_joints_with_pivots_turn_about_them(self):
+        pivots = {"LeftForeArm": (3, 2, -1), "RightForeArm": (0, 4, 0), "LeftLeg": (0, -3, 2), "Spine": (1, 5, 0), "RightArm": (2, 0, 1)}
+        path, places = self.fbx("pivots.fbx", 1, "y", pivots=pivots)
+        self.assertIn("FBX, 31 frames at 30 Hz", self.etude("clip", "info", path).stdout)
+        self.assertLess(self.apart_from_truth(path, places), 1e-4)
 
     def test_fbx_keys_that_are_far_apart_are_told(self):
         for rate, told in ((30, False), (2, True)):

@@ -78,6 +78,33 @@ class Formats(MotionFileCase):
             (self.folder / "bit.npz").write_bytes(whole[:at] + bytes([whole[at] ^ 1]) + whole[at + 1:])
             self.assertIn(self.etude("clip", "info", self.folder / "bit.npz").returncode, (0, 2))
 
+    def test_arrays_of_positions_without_a_rate_are_told_how_to_give_it(self):
+        body = numpy.load(self.shared_body())
+        path = self.folder / "t.npz"
+        numpy.savez(path, positions=body["positions"], names=body["names"])
+        self.refused(path, "positions without rate_hz, the frames a second; allowed: one number from 0.1 to 10000, as numpy.savez(")
+        told = self.write("map.yaml", "rate: 50\n")
+        self.assertIn("at 50 Hz", self.ends(0, "clip", "info", path, "--map", told).stdout)
+        numpy.savez(path, positions=body["positions"], names=body["names"], rate_hz="30")
+        self.refused(path, "rate_hz is no such number")
+        # Of 170 m, or lying on Z: by the options, or by keys.
+        z_up = body["positions"][:, :, [0, 2, 1]] * [1, -1, 1]
+        for unit, name in (1000, "mm"), (100, "cm"):
+            numpy.savez(path, positions=unit * z_up, names=body["names"], rate_hz=30.0)
+            by_options = self.joints(path, "--unit", name, "--up", "z")
+            numpy.savez(path, positions=unit * z_up, names=body["names"], rate_hz=30.0, unit=name, up="z")
+            for joints in by_options, self.joints(path):
+                numpy.testing.assert_allclose(joints[5]["head"], body["positions"][5][list(body["names"]).index("head")], atol=1e-9)
+        self.assertIn("turned upright from Z up", self.info(path)["clips"][0]["body"]["note"])
+        numpy.savez(path, positions=100 * body["positions"], names=body["names"], rate_hz=30.0)
+        self.assertIn("1 unit = 1 cm: in units of 1 m the joints extend", self.info(path)["clips"][0]["body"]["note"])
+        self.refusal("clip", "info", path, "--unit", "m", says="allowed: 0.1 to 4")
+
+    def shared_body(self):
+        path = self.folder / "body.npz"
+        self.ends(0, "clip", "convert", "builtin:clap", path)
+        return path
+
     def test_a_pickled_member_is_never_opened(self):
         path = self.amass("p.npz", 156, "mocap_framerate", True, labels=numpy.array([{"a": 1}], dtype=object))
         self.assertEqual(self.info(path)["clips"][0]["frames"], 60)

@@ -70,6 +70,19 @@ class Triage(EtudeCase):
         self.triage(self.folder / "m/floating.csv", "--floor", "0.3", out=out)
         self.assertEqual(self.rows(out)["floating"]["faults"], 0)
 
+    def test_joints_that_are_not_shown_and_a_torn_body_are_told(self):
+        self.spoilt("m/headless.csv", lambda f, joint, axis: float("nan") if joint == "head" and 20 <= f < 40 else 0)
+        self.spoilt("m/torn.csv", lambda f, joint, axis: 0.4 if joint in ("left_foot", "left_ankle") and axis == "x" else 0)
+        self.spoilt("m/skates.csv", lambda f, joint, axis: 0.01 * min(max(f - 20, 0), 20)
+                    if joint in ("left_foot", "left_ankle") and axis == "z" else 0)
+        self.triage(self.folder / "m")
+        rows = self.rows()
+        self.assertIn("head is not shown for 0.67 s from 0.6", rows["headless"]["reason"])
+        self.assertGreater(rows["headless"]["gaps_share"], 0.2)
+        self.assertIn("left_ankle is torn off in all frames", rows["torn"]["reason"])
+        self.assertGreater(rows["torn"]["torn_max_cm"], 10)
+        self.assertRegex(rows["skates"]["reason"], r"left_foot skates at (2[7-9]|3[0-3]) cm/s from 0\.")
+
     def test_limits_are_an_exit_code_a_test_report_and_a_section_of_the_page(self):
         self.floating("m/floating.csv")
         self.triage(f"{self.folder}/m/*", f"{self.shared}/*", "--limits", "recorded", code=1)

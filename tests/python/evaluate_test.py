@@ -5,6 +5,7 @@ import unittest
 from python_case import PythonCase
 
 import etude
+from etude.evaluation import _npz
 
 NAMES = ["hip_centre", "shoulder_centre", "head", *(f"{side}_{joint}" for side in ("left", "right") for joint in (
     "shoulder", "elbow", "wrist", "hip", "knee", "ankle", "foot"))]
@@ -14,7 +15,7 @@ HEIGHTS = [1, 1.5, 1.7, *(1.45, 1.2, 0.95, 0.98, 0.5, 0.1, 0.05) * 2]
 def standing(frames, across=0.0):
     """A body that stands; `across` metres to the side."""
     sides = [0, 0, 0, *[0.2] * 7, *[-0.2] * 7]
-    return [[[x + across, y, 0.1 if "foot" in name else 0.01 * f] for name, x, y in zip(NAMES, sides, HEIGHTS)]
+    return [[[x + across, y, 0.1 if "foot" in name else 0.001 * f] for name, x, y in zip(NAMES, sides, HEIGHTS)]
             for f in range(frames)]
 
 
@@ -56,6 +57,22 @@ class Evaluate(PythonCase):
         self.assertEqual([rows[name]["floats_share"] for name in ("low", "high")], [0, 1])
         self.assertEqual([rows[name]["within_limits"] for name in ("low", "high")], [1, 0])
         self.assertEqual({file.suffix for file in (self.folder / "run.motions").iterdir()}, {".npz"})
+
+    def test_arrays_have_the_unit_and_the_axis_that_are_told(self):
+        found = [[[100 * x, -100 * z, 100 * y] for x, y, z in frame] for frame in standing(20)]
+        run = etude.evaluate(found, mine=found, names=NAMES, rate_hz=30, unit="cm", up="z", output=self.folder / "cm", progress=False)
+        row, = run["evaluate"].rows()
+        self.assertAlmostEqual(row["floating_mm"], 50, 9, "the toes are 5 cm high")
+        self.assertIn("1 unit = 1 cm; turned upright from Z up", row["reason"])
+
+    def test_pairs_that_are_not_judged_warn(self):
+        for folder, names in ("t", "ab"), ("m", "a"):
+            (self.folder / folder).mkdir()
+            for name in names:
+                (self.folder / folder / f"{name}.npz").write_bytes(_npz(standing(9), NAMES, 30, {}, name))
+        with self.assertWarnsRegex(UserWarning, "1 of 2 pairs are not judged: mine, b: the method has no answer"):
+            run = etude.evaluate(self.folder / "t", mine=self.folder / "m", output=self.folder / "two", progress=False)
+        self.assertEqual([row["status"] for row in run["evaluate"].rows()], ["ok", "failed"])
 
     def test_what_is_missing_is_told(self):
         for wrong, arguments in [(TypeError, {"truth": standing(3), "mine": standing(3)}),

@@ -238,7 +238,9 @@ std::vector<std::string> RoleItems(const BodyFacts& body) {
 }  // namespace
 
 std::vector<ClipFacts> FactsOf(const std::string& reference, const OpenOptions& options) {
-  auto clips = ReadClips(reference, options);
+  OpenOptions with_gaps = options;  // no fault is found in joints that the file does not show
+  with_gaps.keeps_shown = true;
+  auto clips = ReadClips(reference, with_gaps);
   if (!clips) return {FactsWithoutClip(reference, options, clips.error())};
   std::vector<ClipFacts> all;
   for (SourceClip& clip : *clips) {

@@ -78,6 +78,15 @@ PointTracks RoleColumns(const RawMotion& motion, std::initializer_list<Role> rol
   return has_all ? Columns(motion, joints, frames) : PointTracks{};
 }
 
+/// Returns the answer's or the truth's motion with a root that both have: the file's own where both have one, else the
+/// middle of the hips. `changed` keeps the motion if it is not the given one.
+const RawMotion& WithCommonRoot(const RawMotion& motion, const RawMotion& other, RawMotion& changed) {
+  if (!HasOwnRoot(motion) || HasOwnRoot(other)) return motion;
+  changed = motion;
+  AddMidwayHips(changed);
+  return changed;
+}
+
 /// Finds the knees and elbows whose three joints are among those judged.
 std::vector<std::array<std::size_t, 3>> FindBends(const std::vector<CommonJoint>& joints, const RawMotion& truth) {
   using enum Role;
@@ -178,9 +187,20 @@ std::string NoteOn(const TimeShift& lag) {
   return fmt::format("the answer is {:.2f} ms {}{}, taken out", std::abs(ms), ms < 0 ? "early" : "late", range);
 }
 
+/// Returns which joints are the roots; empty without a root in one of both.
+std::string NoteOnRoots(const RawMotion& truth, const RawMotion& answer) {
+  const int of_truth = truth.roles[Index(Role::kHipCentre)], of_answer = answer.roles[Index(Role::kHipCentre)];
+  if (of_truth < 0 || of_answer < 0) return "";
+  if (!HasOwnRoot(truth)) return ", root midway between the hips";
+  const std::string &a = truth.joints[static_cast<std::size_t>(of_truth)],
+                    &b = answer.joints[static_cast<std::size_t>(of_answer)];
+  return a == b ? ", root " + a : fmt::format(", root {} of the truth, {} of the answer", a, b);
+}
+
 std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const MatchedMotions& matched) {
   std::string note = fmt::format("{} joints", matched.joints.size());
   if (!matched.lacking.empty()) note += fmt::format(" (one of both lacks {})", SomeOf(matched.lacking));
+  note += NoteOnRoots(truth, answer);
   const bool is_resampled = !HaveSameRate(truth, answer) || matched.lag;
   note += fmt::format(", {} frames at {:g} Hz", matched.pair.truth.FrameCount(), truth.rate_hz);
   if (is_resampled) note += fmt::format(", the answer's {:g} Hz interpolated linearly", answer.rate_hz);
@@ -195,7 +215,11 @@ std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const Matche
 
 }  // namespace
 
-Result<MatchedMotions> Match(const RawMotion& truth, const RawMotion& answer, std::string_view set, Lag lag) {
+Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& given_answer, std::string_view set,
+                             Lag lag) {
+  RawMotion changed_truth, changed_answer;
+  const RawMotion& truth = WithCommonRoot(given_truth, given_answer, changed_truth);
+  const RawMotion& answer = WithCommonRoot(given_answer, given_truth, changed_answer);
   MatchedMotions matched;
   const std::vector<CommonJoint> common = FindCommon(truth, answer, set, matched.lacking);
   if (common.empty()) {

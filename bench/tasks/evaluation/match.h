@@ -34,8 +34,9 @@ enum class Lag {
 
 /// Matches an answer to a truth. `joints` is a set (JointSetNames). The frames are the truth's, and the answer is
 /// sampled at the truth's times (`Sampled`), later by the lag. Rates that drift apart by less than a hundredth of a
-/// frame over the truth are the same, so frames pair one to one. Nothing else is changed. Fails if no joint is common,
-/// none is ever seen by both, or a lag is sought and not found.
+/// frame over the truth are the same, so frames pair one to one. The root, which also plays hip_centre, is the
+/// files' own if both have one, else midway between the hips in both. Nothing else is changed. Fails if no joint is
+/// common, none is ever seen by both, or a lag is sought and not found.
 Result<MatchedMotions> Match(const RawMotion& truth, const RawMotion& answer, std::string_view joints, Lag lag);
 
 }  // namespace etude

@@ -10,7 +10,7 @@ namespace etude {
 namespace {
 
 constexpr const char* kNoFit = "the alignment is not determined: fewer than three joints are seen by both";
-constexpr const char* kNoRoot = "no root, the middle of the hips, is seen in both";
+constexpr const char* kNoRoot = "no root is seen in both";
 constexpr const char* kNoFeet = "the answer has no ankles and toes, or fewer than two frames";
 
 /// The metrics that are a mean joint error after an alignment.

@@ -114,7 +114,10 @@ Result<FoundFiles> FindWindows(const Node& condition, std::span<const Node> meth
 Result<HiddenWindow> OpenJudged(const std::string& reference, const InbetweenOptions& options,
                                 const OpenOptions& opening) {
   ASSIGN_OR_RETURN(auto clip, ReadOneClip(reference, opening));
+  const bool is_body = clip.format == ClipFormat::kBuiltin || clip.made.has_value();
   ASSIGN_OR_RETURN(auto raw, RawMotionOf(std::move(clip), opening, reference.starts_with(kBuiltinPrefix)));
+  // A body's hip centre is midway between its hips.
+  if (!is_body && HasOwnRoot(raw)) AddMidwayHips(raw);
   if (options.rate_hz) {
     raw.rate_hz = OwnRate(raw.rate_hz, options);
     raw = Sampled(raw, *options.rate_hz, 0, SampledFrames(raw.FrameCount(), raw.rate_hz, options));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "bench/metrics/plausibility.h"
@@ -37,6 +38,8 @@ constexpr FaultMetric kMetrics[] = {{"floats_share", kFloats, FaultMetric::What:
                                     {"pops_max_cm", kPops, FaultMetric::What::kLargest, kPercent},
                                     {"freezes_share", kFreezes, FaultMetric::What::kShare},
                                     {"stretches_max_percent", kStretches, FaultMetric::What::kLargest, kPercent},
+                                    {"torn_max_cm", kTorn, FaultMetric::What::kLargest, kPercent},
+                                    {"gaps_share", kGaps, FaultMetric::What::kShare},
                                     {"bends_share", kBends, FaultMetric::What::kShare},
                                     {"bends_max_deg", kBends, FaultMetric::What::kLargest},
                                     {"passes_share", kPasses, FaultMetric::What::kShare}};
@@ -73,8 +76,10 @@ std::string DigestOf(const BodyMotion& motion) {
 
 Recording RecordingOf(BodyInPlace body, const MotionFaults& found) {
   PlausibilityExtras extras{.floor_m = found.floor_m, .faults = {}};
+  // A gap may begin before the body and end behind it.
   const auto frame_at = [&](double time_s) {
-    return static_cast<int>(std::lround((time_s - body.begin_s) * body.motion.rate_hz));
+    const auto frame = static_cast<int>(std::lround((time_s - body.begin_s) * body.motion.rate_hz));
+    return std::clamp(frame, 0, static_cast<int>(body.motion.poses.size()) - 1);
   };
   for (const MotionFault& fault : found.faults) {
     extras.faults.push_back(

@@ -12,6 +12,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
 #include <vector>
 
 #include "io/clips/fbx.h"
@@ -75,12 +76,23 @@ class MotionGlb {
   }
 
  private:
-  std::size_t AddNode(const aiNode& node) {
+  /// Adds a node and what is below it. A joint with pivots is a chain of nodes in assimp: its parts, which become one.
+  std::size_t AddNode(const aiNode& first) {
     const std::size_t index = nodes_.size();
-    by_name_.emplace(node.mName.C_Str(), index);
+    std::vector<const aiNode*> parts = {&first};
+    while (std::strstr(parts.back()->mName.C_Str(), "_$AssimpFbx$_") != nullptr && parts.back()->mNumChildren == 1) {
+      parts.push_back(parts.back()->mChildren[0]);
+    }
+    const aiNode& node = *parts.back();
+    aiMatrix4x4 whole;
+    for (const aiNode* part : parts) {
+      by_name_.emplace(part->mName.C_Str(), index);
+      whole *= part->mTransformation;
+    }
+    if (parts.size() > 1) parts_[index] = std::move(parts);
     aiVector3D scale, place;
     aiQuaternion turn;
-    node.mTransformation.Decompose(scale, turn, place);
+    whole.Decompose(scale, turn, place);
     nodes_.push_back({{"name", node.mName.C_Str()},
                       {"translation", {place.x, place.y, place.z}},
                       {"rotation", {turn.x, turn.y, turn.z, turn.w}},
@@ -89,6 +101,64 @@ class MotionGlb {
     for (unsigned i = 0; i < node.mNumChildren; ++i) children.push_back(AddNode(*node.mChildren[i]));
     if (!children.empty()) nodes_[index]["children"] = children;
     return index;
+  }
+
+  /// The value of keys at a time; between two of them, `mix(from, to, share)`.
+  template <typename Key, typename Mix>
+  static auto ValueAt(const Key* keys, unsigned count, double time, Mix mix) {
+    unsigned to = 0;
+    while (to < count && keys[to].mTime < time) ++to;
+    if (to == 0 || to == count) return keys[to == 0 ? 0 : count - 1].mValue;
+    const Key &a = keys[to - 1], &b = keys[to];
+    return mix(a.mValue, b.mValue, static_cast<ai_real>((time - a.mTime) / (b.mTime - a.mTime)));
+  }
+
+  static aiMatrix4x4 MatrixAt(const aiNodeAnim& moved, double time) {
+    const auto mix = [](const aiVector3D& a, const aiVector3D& b, ai_real share) { return a + share * (b - a); };
+    const auto turn = [](const aiQuaternion& a, const aiQuaternion& b, ai_real share) {
+      aiQuaternion between;
+      aiQuaternion::Interpolate(between, a, b, share);
+      return between;
+    };
+    const auto place = ValueAt(moved.mPositionKeys, moved.mNumPositionKeys, time, mix);
+    const auto rotation = ValueAt(moved.mRotationKeys, moved.mNumRotationKeys, time, turn);
+    return {ValueAt(moved.mScalingKeys, moved.mNumScalingKeys, time, mix), rotation, place};
+  }
+
+  /// The keys of a joint made of parts, at every time at which one of them has a key.
+  struct JoinedKeys {
+    std::vector<aiVectorKey> places, scales;
+    std::vector<aiQuatKey> turns;
+  };
+  static JoinedKeys Join(const std::vector<const aiNode*>& parts, const aiAnimation& animation) {
+    std::map<const aiNode*, const aiNodeAnim*> moved_parts;
+    std::set<double> times;
+    for (unsigned i = 0; i < animation.mNumChannels; ++i) {
+      const aiNodeAnim& moved = *animation.mChannels[i];
+      const auto part = std::ranges::find(parts, moved.mNodeName, [](const aiNode* one) { return one->mName; });
+      if (part == parts.end() || moved.mNumPositionKeys * moved.mNumRotationKeys * moved.mNumScalingKeys == 0) continue;
+      moved_parts[*part] = &moved;
+      for (unsigned k = 0; k < moved.mNumPositionKeys; ++k) times.insert(moved.mPositionKeys[k].mTime);
+      for (unsigned k = 0; k < moved.mNumRotationKeys; ++k) times.insert(moved.mRotationKeys[k].mTime);
+      for (unsigned k = 0; k < moved.mNumScalingKeys; ++k) times.insert(moved.mScalingKeys[k].mTime);
+    }
+    // Keys of the joint itself, without any of a part, are of the whole transform: assimp includes pre-rotations.
+    const bool is_whole = moved_parts.size() == 1 && moved_parts.begin()->first == parts.back();
+    JoinedKeys joined;
+    for (const double time : times) {
+      aiMatrix4x4 whole;
+      for (const aiNode* part : is_whole ? std::vector{parts.back()} : parts) {
+        const auto moved = moved_parts.find(part);
+        whole *= moved == moved_parts.end() ? part->mTransformation : MatrixAt(*moved->second, time);
+      }
+      aiVector3D scale, place;
+      aiQuaternion turn;
+      whole.Decompose(scale, turn, place);
+      joined.places.emplace_back(time, place);
+      joined.turns.emplace_back(time, turn);
+      joined.scales.emplace_back(time, scale);
+    }
+    return joined;
   }
 
   void AddAnimation(const aiAnimation& animation) {
@@ -113,15 +183,24 @@ class MotionGlb {
       samplers.push_back({{"input", AddNumbers(times, count)}, {"output", AddNumbers(values, count)}});
     };
     const auto vector = [](const aiVector3D& v) { return std::array{v.x, v.y, v.z}; };
+    const auto turn = [](const aiQuaternion& q) { return std::array{q.x, q.y, q.z, q.w}; };
     // One channel for each property that a node's keys move; nodes that are not in the scene are left out.
+    std::set<std::size_t> joined;
     for (unsigned i = 0; i < animation.mNumChannels; ++i) {
       const aiNodeAnim& moved = *animation.mChannels[i];
       const auto node = by_name_.find(moved.mNodeName.C_Str());
       if (node == by_name_.end()) continue;
+      if (const auto parts = parts_.find(node->second); parts != parts_.end()) {
+        if (!joined.insert(node->second).second) continue;
+        const JoinedKeys keys = Join(parts->second, animation);
+        const auto count = static_cast<unsigned>(keys.places.size());
+        add(node->second, "translation", keys.places.data(), count, vector);
+        add(node->second, "rotation", keys.turns.data(), count, turn);
+        add(node->second, "scale", keys.scales.data(), count, vector);
+        continue;
+      }
       add(node->second, "translation", moved.mPositionKeys, moved.mNumPositionKeys, vector);
-      add(node->second, "rotation", moved.mRotationKeys, moved.mNumRotationKeys, [](const aiQuaternion& q) {
-        return std::array{q.x, q.y, q.z, q.w};
-      });
+      add(node->second, "rotation", moved.mRotationKeys, moved.mNumRotationKeys, turn);
       add(node->second, "scale", moved.mScalingKeys, moved.mNumScalingKeys, vector);
     }
     if (channels.empty()) return;
@@ -144,6 +223,7 @@ class MotionGlb {
 
   Json nodes_ = Json::array(), animations_ = Json::array(), accessors_ = Json::array(), views_ = Json::array();
   std::map<std::string, std::size_t> by_name_;  ///< the first node of each name
+  std::map<std::size_t, std::vector<const aiNode*>> parts_;  ///< the chains that became one node
   std::string numbers_;
   double longest_s_ = 0;
 };
@@ -151,8 +231,8 @@ class MotionGlb {
 bool GlbOfFbxByAssimp(std::string_view bytes, std::string& said, double& longest_s) {
   try {
     Assimp::Importer importer;
-    // Fold the pivots into one node for each joint, because other formats do not know pivots.
-    importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+    // Without its pivots, assimp leaves out the keys of joints that have some.
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, true);
     const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_GlobalScale, "fbx");
     if (scene == nullptr || scene->mRootNode == nullptr) {
       said = std::string("a damaged FBX file: ") + importer.GetErrorString();

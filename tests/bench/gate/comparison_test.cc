@@ -56,6 +56,29 @@ TEST(Snapshots, OfTheSameRunDoNotDiffer) {
   }
 }
 
+TEST(Snapshots, WeighCellsAsTheSummaryDoes) {
+  // One window of four holds as much power as the others together.
+  const auto snapshot = [](double more) {
+    SnapshotScenario scenario;
+    scenario.name = "s";
+    scenario.trials = 4;
+    SnapshotCells cells;
+    cells.method = "a";
+    cells.statuses = "oooo";
+    cells.metrics = {{"npss", {0.1, 0.2, 0.3, 1 + more}}, {"npss_power", {1.0, 1.0, 1.0, 3.0}}};
+    scenario.cells = {cells};
+    Snapshot made;
+    made.scenarios = {scenario};
+    return made;
+  };
+  for (const MetricMove& move : CompareSnapshots(snapshot(0), snapshot(0.5), {}).moves) {
+    if (move.identity.metric != "npss") continue;
+    EXPECT_NEAR(*move.before, (0.1 + 0.2 + 0.3 + 3 * 1.0) / 6, 1e-12);
+    EXPECT_NEAR(*move.after, (0.1 + 0.2 + 0.3 + 3 * 1.5) / 6, 1e-12);
+    EXPECT_NEAR(*move.comparison.mean, 3 * 0.5 / 6, 1e-8);
+  }
+}
+
 TEST(Snapshots, TellAClearDifferenceThatMattersFromOneThatDoesNot) {
   const auto wobble = [](int trial) { return 0.001 * (trial % 5); };
   const auto movement = [&](double size) {

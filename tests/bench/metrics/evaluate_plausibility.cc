@@ -58,6 +58,8 @@ std::span<const Evaluator> PlausibilityEvaluators() {
       {"pops_max_cm", Largest<kPops, 100>},
       {"freezes_share", Share<kFreezes>},
       {"stretches_max_percent", Largest<kStretches, 100>},
+      {"torn_max_cm", Largest<kTorn, 100>},
+      {"gaps_share", Share<kGaps>},
       {"bends_share", Share<kBends>},
       {"bends_max_deg", Largest<kBends, 1>},
       {"passes_share", Share<kPasses>},

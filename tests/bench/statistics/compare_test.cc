@@ -70,6 +70,7 @@ TEST(ComparePaired, TakesRoundingForATie) {
 TEST(ComparePaired, GivesSharesAnIntervalThatDoubtsAFewEqualWorlds) {
   MetricInfo share = Metric(Direction::kHigherIsBetter, 0.02);
   share.aggregate = Aggregate::kMean;
+  share.reading = Reading::kYesNo;
   const std::vector<Pair> few(12, Pair{1, 1}), many(400, Pair{1, 1});
   EXPECT_EQ(VerdictOf(few, share), Verdict::kInconclusive);
   EXPECT_EQ(VerdictOf(many, share), Verdict::kNoDifference);
@@ -98,21 +99,29 @@ TEST(ComparePaired, CountsTiesHalf) {
 }
 
 TEST(AreShares, IsSoWhereEveryValueOfBothMethodsIsZeroOrOne) {
-  EXPECT_TRUE(AreShares(std::vector<Pair>{{0, 1}, {1, 1}, {0, 0}, {1, 0}}));
-  EXPECT_FALSE(AreShares(std::vector<Pair>{{0, 1}, {0.5, 1}}));
-  EXPECT_FALSE(AreShares(std::vector<Pair>{{0, 1}, {1, 2}}));
-  EXPECT_FALSE(AreShares(std::vector<Pair>{{0, 1}, {-1, 0}}));
-  EXPECT_FALSE(AreShares(std::vector<Pair>{{0, 1}, {1, std::numeric_limits<double>::quiet_NaN()}}));
+  MetricInfo share = Metric(Direction::kHigherIsBetter, 0.05);
+  share.reading = Reading::kShare;
+  EXPECT_TRUE(AreShares(std::vector<Pair>{{0, 1}, {1, 1}, {0, 0}, {1, 0}}, share));
+  EXPECT_FALSE(AreShares(std::vector<Pair>{{0, 1}, {0.5, 1}}, share));
+  EXPECT_FALSE(AreShares(std::vector<Pair>{{0, 1}, {1, 2}}, share));
+  EXPECT_FALSE(AreShares(std::vector<Pair>{{0, 1}, {-1, 0}}, share));
+  EXPECT_FALSE(AreShares(std::vector<Pair>{{0, 1}, {1, std::numeric_limits<double>::quiet_NaN()}}, share));
+  // A distance of 0 in every world, or of 0 and 1, is no share of worlds.
+  EXPECT_FALSE(AreShares(std::vector<Pair>{{0, 0}, {0, 1}}, Metric(Direction::kLowerIsBetter, 0.05)));
 }
 
 // A mean of shares has an interval of its own, of the counts of worlds gained and lost; any other a bootstrap's.
 TEST(AreShares, DecidesHowTheMeansIntervalIsMade) {
   MetricInfo metric = Metric(Direction::kHigherIsBetter, 0.05);
   metric.aggregate = Aggregate::kMean;
+  metric.reading = Reading::kYesNo;
   std::vector<Pair> pairs(20, Pair{0, 0});
   for (int i = 0; i < 4; ++i) pairs[i].method = 1;
   const Interval of_shares = PairedShareInterval(4, 0, 20, kConfidence);
   EXPECT_EQ(ComparePaired(pairs, metric, 1, "x").ci_low, of_shares.low);
+  MetricInfo amount = metric;
+  amount.reading = Reading::kAmount;
+  EXPECT_NE(ComparePaired(pairs, amount, 1, "x").ci_low, of_shares.low);
   for (Pair& pair : pairs) pair.baseline += 2, pair.method += 2;  // the same differences of what is no share
   EXPECT_NE(ComparePaired(pairs, metric, 1, "x").ci_low, of_shares.low);
 }

@@ -86,6 +86,35 @@ TEST_F(SummaryTest, GivesAShareItsOwnInterval) {
   EXPECT_EQ(summary.conditions[0].comparisons[1].interval, IntervalKind::kAdjustedWald);
 }
 
+TEST(Summary, AnAmountThatIsAlwaysZeroIsNoShare) {
+  Study study = StudyOf(ParseOne(R"(
+scenario: s
+question: which?
+task: evaluation
+truth: [t]
+methods: [{name: a, answers: [a]}]
+metrics: ["l2p@lafan1", "skating_ratio@gmd"]
+)"));
+  study.trials = 10;
+  study.unit = SamplingUnit::kWorld;
+  ScenarioTable table(study);
+  for (int trial = 0; trial < 10; ++trial) {
+    Row row{"s", "evaluation", {}, trial, "", {}, "a", {}};
+    row.result.status = Status::kOk;
+    row.result.Measure("l2p@lafan1", 0);
+    row.result.Measure("skating_ratio@gmd", 0);
+    table.Add(row);
+  }
+  const ScenarioSummary summary = Summarise(study, table, 1);
+  const auto interval_of = [&](const char* id) {
+    const auto& metrics = summary.conditions[0].methods[0].metrics;
+    return *std::ranges::find(metrics, id, &MetricSummary::id);
+  };
+  EXPECT_NE(interval_of("l2p@lafan1").interval, IntervalKind::kWilson);
+  EXPECT_EQ(*interval_of("l2p@lafan1").ci_high, 0);
+  EXPECT_EQ(interval_of("skating_ratio@gmd").interval, IntervalKind::kWilson);
+}
+
 TEST(WeightedSummary, IsTheMeanOverAllThatTheCellsHold) {
   const Study study = StudyOf(ParseOne(R"(
 scenario: s

@@ -132,6 +132,22 @@ TEST(ApiMotion, ReadsWhatTheEngineWrote) {
   EXPECT_THAT(Complaint([&] { ReadMotion(WriteTrc(flap, "flap"), "flap.trc", 0.5); }), HasSubstr("a rate of 0.5 Hz"));
 }
 
+TEST(ApiMotion, LaysTheRowsOfACsvOnItsClock) {
+  // Rows 10 to 19 of 60 are missing; the column of times tells so.
+  const BodyMotion flap = Flap(60, 30);
+  std::istringstream lines(WriteJointCsv(flap));
+  std::string text;
+  int row = -1;
+  for (std::string line; std::getline(lines, line); ++row) {
+    if (row < 10 || row > 19) text += line + "\n";
+  }
+  const Motion read = ReadMotion(text, "a.csv");
+  ASSERT_EQ(read.poses.size(), 60u);
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    EXPECT_LT(glm::distance(read.poses[40].joints[i], flap.poses[40].joints[i]), 1e-9);
+  }
+}
+
 TEST(ApiMotion, ReadsEtudesOwnTablesAsWrittenAndSaysEveryChange) {
   BodyMotion raised = Flap(30, 60);
   for (BodyPose& pose : raised.poses) {

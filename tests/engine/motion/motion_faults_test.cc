@@ -252,6 +252,86 @@ TEST(MotionFaults, OfALimbThatStretchesNameItsFarEnd) {
   ExpectTime(stretches, 2, 4);
 }
 
+TEST(MotionFaults, OfABodyThatIsTornNameTheJoint) {
+  struct Torn {
+    Role joint;
+    std::vector<Role> moved;
+    glm::dvec3 by;
+  };
+  const Torn torn[] = {{kLeftHip, {kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot}, {0.4, 0, 0}},
+                       {kRightShoulder, {kRightShoulder, kRightElbow, kRightWrist, kRightHand}, {0, 0.4, 0}},
+                       {kHead, {kHead}, {0.4, 0, 0}},
+                       {kLeftFoot, {kLeftFoot}, {0, 0, 0.4}},
+                       {kRightHand, {kRightHand}, {-0.4, 0, 0}}};
+  for (const Torn& one : torn) {
+    for (const auto& [from, to] : {std::pair(0.0, 9.0), {2.0, 3.5}}) {
+      const auto moved = WithChange(Swaying(30), from, to, [&](BodyPose& pose, double) {
+        for (const Role joint : one.moved) pose[joint] += one.by;
+      });
+      const auto faults = FindMotionFaults(moved).faults;
+      const auto told = std::ranges::find(faults, FaultKind::kTorn, &MotionFault::kind);
+      ASSERT_NE(told, faults.end()) << RoleName(one.joint) << " " << from;
+      EXPECT_EQ(told->joint, one.joint) << told->text;
+      EXPECT_GT(told->size, 0.15) << told->text;
+      ExpectTime(*told, from, std::min(to, 6.0), 0.07);
+      EXPECT_EQ(std::ranges::count(faults, FaultKind::kTorn, &MotionFault::kind), 1);
+    }
+  }
+  // A head that lies on the neck for a second.
+  const auto headless =
+      WithChange(Swaying(30), 2, 3, [](BodyPose& pose, double) { pose[kHead] = pose[kShoulderCentre]; });
+  const auto faults = FindMotionFaults(headless).faults;
+  EXPECT_TRUE(
+      std::ranges::any_of(faults, [](const MotionFault& f) { return f.kind == FaultKind::kTorn && f.joint == kHead; }));
+}
+
+TEST(MotionFaults, TellExchangedSides) {
+  const auto exchange = [](std::vector<Role> lefts) {
+    return WithChange(Swaying(30), 2, 4, [=](BodyPose& pose, double) {
+      for (const Role left : lefts) std::swap(pose[left], pose[Mirrored(left)]);
+    });
+  };
+  for (const auto& lefts :
+       {std::vector{kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand},
+        std::vector{kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot},
+        std::vector{kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand, kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot}}) {
+    const auto faults = FindMotionFaults(exchange(lefts)).faults;
+    const auto told =
+        std::ranges::find_if(faults, [](const MotionFault& f) { return f.kind == FaultKind::kTorn && !f.joint; });
+    ASSERT_NE(told, faults.end()) << lefts.size();
+    ExpectTime(*told, 2, 4);
+  }
+}
+
+TEST(MotionFaults, OfOneFootThatSkatesNameIt) {
+  for (const double rate : {30, 120}) {
+    const auto motion = WithChange(Swaying(rate), 2, 9, [](BodyPose& pose, double t) {
+      for (const Role joint : {kRightAnkle, kRightFoot}) pose[joint].z += 0.2 * std::min(t, 1.0);
+    });
+    const auto faults = FindMotionFaults(motion).faults;
+    const auto told = std::ranges::find(faults, FaultKind::kSkates, &MotionFault::kind);
+    ASSERT_NE(told, faults.end()) << rate;
+    EXPECT_EQ(told->joint, kRightFoot);
+    EXPECT_NEAR(told->size, 0.2, 0.02);
+    ExpectTime(*told, 2, 3, 0.1);
+  }
+}
+
+TEST(MotionFaults, OfJointsThatAreNotShownHaveTheirTime) {
+  const BodyMotion motion = Swaying(30);
+  FaultOptions options{.unseen = std::vector<JointSet>(motion.poses.size()), .lost_after_s = 2};
+  for (JointSet& joints : options.unseen) joints.set(Index(kSpine));  // never shown, which is no gap
+  for (int f = 60; f < 90; ++f) options.unseen[f].set(Index(kHead));
+  options.unseen[150].set(Index(kHead));
+  const auto faults = FindMotionFaults(motion, options).faults;
+  ASSERT_EQ(faults.size(), 2u) << ::testing::PrintToString(FaultSentences(faults));
+  EXPECT_EQ(faults[0].kind, FaultKind::kGaps);
+  EXPECT_EQ(faults[0].joint, kHead);
+  EXPECT_NEAR(faults[0].size, 1, 1e-9);
+  ExpectTime(faults[0], 2, 3);
+  ExpectTime(faults[1], 6, 8);
+}
+
 TEST(MotionFaults, OfAKneeThatBendsBackwardsHaveItsAngle) {
   // Ramps of half a second, so that no joint pops.
   const auto bent = [](double degrees) {

@@ -170,7 +170,7 @@ TEST(JointsOfArray, TakesTheLayoutOfAsManyJointsAndTheUnitOfAPerson) {
     for (int i = 0; i < 120; ++i) array.values.push_back(i % 3 == 1 ? 0.09 * (i / 3 % 20) / metres : 0.1 / metres);
     array.values[3] = NAN;
     std::string note;
-    ASSERT_OK(read, JointsOfArray(array, std::nullopt, "a.npy", note));
+    ASSERT_OK(read, JointsOfArray(array, std::nullopt, "a.npy", note, UpAxis::kY));
     EXPECT_EQ(note, std::string("layout etude, 1 unit = ") + unit + " cm");
     EXPECT_EQ(read->names[2], "shoulder_centre");
     EXPECT_FALSE(read->frames[0][1]);
@@ -245,6 +245,18 @@ TEST(JointArrays, OfSam3dBodyAreTurnedFromTheCamerasFrame) {
   EXPECT_EQ(moved.values[2], -3);
   EXPECT_EQ(std::vector<double>(&moved.values[213], &moved.values[216]), (std::vector<double>{1.25, -0.5, -4}));
   EXPECT_FALSE(JointsOfSam({}));
+  // The same joints as a bare array: the body stands on its head, unless Y is told to be up.
+  NumberArray bare{.shape = {4, 70, 3}, .values = std::vector<double>(840, 0.0)};
+  for (std::size_t i = 0; i < 280; ++i) {
+    const auto joint = JointsOfLayout("mhr70", 70)[i % 70];
+    bare.values[3 * i + 1] = joint.ends_with("shoulder") ? -1.4 : joint.ends_with("knee") ? -0.5 : 0;
+    bare.values[3 * i + 2] = 3;
+  }
+  std::string note;
+  const auto turned = JointsOfArray(bare, std::nullopt, "a.npy", note);
+  EXPECT_EQ((*turned->frames[2][5]), glm::dvec3(0, 1.4, -3));
+  EXPECT_THAT(note, HasSubstr("as in a camera's frame"));
+  EXPECT_EQ((*JointsOfArray(bare, std::nullopt, "a.npy", note, UpAxis::kY)->frames[2][5]), glm::dvec3(0, -1.4, 3));
   // The layouts' places, as their authors list them.
   const auto keypoints = JointsOfLayout("mhr70", 70), whole = JointsOfLayout("mhr", 127);
   EXPECT_EQ(keypoints[15] + keypoints[50] + keypoints[41] + keypoints[69], "left_footleft_handright_wristshoulder_centre");
@@ -271,6 +283,66 @@ TEST(BodyNpz, TakesJointsByTheirNamesInAnyOrder) {
   EXPECT_FALSE(BodyOf(ReadRawNpz(arrays, "a.npz").value())) << "a gap";
 }
 
+TEST(BodyNpz, IsInTheUnitAndOnTheAxisThatTheFileOrTheUserTells) {
+  const BodyMotion motion = LoadBuiltinMove("clap").value().motion;
+  const Npz metres = ReadNpz(WriteBodyNpz(motion, AtAttention()), "a.npz").value();
+  /// The positions in another unit, turned from Y up to Z up if asked.
+  const auto written = [&](double unit, bool is_z_up, const std::string& unit_text, const std::string& up) {
+    Npz arrays = metres;
+    std::vector<double>& values = arrays.arrays.at("positions").values;
+    for (std::size_t at = 0; at < values.size(); at += 3) {
+      const double y = values[at + 1], z = values[at + 2];
+      if (is_z_up) values[at + 1] = -z, values[at + 2] = y;
+      for (int axis = 0; axis < 3; ++axis) values[at + axis] /= unit;
+    }
+    arrays.texts["unit"] = {unit_text};
+    arrays.texts["up"] = {up};
+    if (unit_text.empty()) arrays.texts.erase("unit");
+    if (up.empty()) arrays.texts.erase("up");
+    return arrays;
+  };
+  const auto off = [&](const Npz& arrays, const ArrayOptions& told = {}) {
+    const auto raw = ReadRawNpz(arrays, "a.npz", told);
+    return raw ? WorstJointDistance(*BodyOf(*raw), motion) : 1e9;
+  };
+  EXPECT_LT(off(metres), 1e-12);
+  EXPECT_THAT(ReadRawNpz(metres, "a.npz")->notes, ::testing::IsEmpty());
+  // The file's keys.
+  for (const auto& [text, unit] : {std::pair("cm", 0.01), {"mm", 0.001}, {"in", 0.0254}, {"0.5", 0.5}}) {
+    EXPECT_LT(off(written(unit, false, text, "")), 1e-9) << text;
+    EXPECT_LT(off(written(unit, true, text, "Z")), 1e-9) << text;
+    EXPECT_LT(off(written(unit, true, "", ""), {.metres_per_unit = unit, .up = UpAxis::kZ}), 1e-9) << text;
+  }
+  // Without them, a body of 170 m is one in centimetres, and that is said; 17 m is refused.
+  for (const double unit : {0.01, 0.001}) {
+    for (const char* said : {"", "m"}) {
+      const Npz arrays = written(unit, false, said, "");
+      EXPECT_LT(off(arrays), 1e-9) << unit;
+      EXPECT_THAT(ReadRawNpz(arrays, "a.npz")->notes,
+                  ::testing::ElementsAre(HasSubstr(fmt::format("1 unit = {:g} cm", 100 * unit))));
+    }
+  }
+  EXPECT_THAT(testing::Refusal(ReadRawNpz(written(0.1, false, "", ""), "a.npz")), HasSubstr("allowed: at most 4"));
+  EXPECT_THAT(testing::Refusal(ReadRawNpz(written(1, false, "ell", ""), "a.npz")), HasSubstr("'ell' is not a unit"));
+  EXPECT_THAT(testing::Refusal(ReadRawNpz(written(1, false, "", "x"), "a.npz")), HasSubstr("allowed: y, z"));
+  // A missing rate.
+  Npz timeless = metres;
+  timeless.arrays.erase("rate_hz");
+  EXPECT_THAT(testing::Refusal(ReadRawNpz(timeless, "a.npz")), HasSubstr("without rate_hz, the frames a second"));
+  EXPECT_EQ(ReadRawNpz(timeless, "a.npz", {.rate_hz = 50})->rate_hz, 50);
+  // A camera's frame: Y down, Z forwards.
+  Npz seen = metres;
+  for (std::size_t i = 0; i < seen.arrays.at("positions").values.size(); ++i) {
+    if (i % 3 != 0) seen.arrays.at("positions").values[i] *= -1;
+  }
+  seen.texts.erase("up");
+  EXPECT_LT(off(seen), 1e-12);
+  EXPECT_THAT(ReadRawNpz(seen, "a.npz")->notes, ::testing::ElementsAre(HasSubstr("as in a camera's frame")));
+  EXPECT_THAT(ReadRawNpz(seen, "a.npz", {.up = UpAxis::kY})->notes, ::testing::IsEmpty());
+  // Z up, which nobody tells: it may lie.
+  EXPECT_THAT(ReadRawNpz(written(1, true, "", ""), "a.npz")->notes, ::testing::ElementsAre(HasSubstr("lies along Z")));
+}
+
 TEST(BodyNpz, IsRefusedBeyondItsLimits) {
   const BodyMotion motion = LoadBuiltinMove("clap").value().motion;
   const Npz arrays = ReadNpz(WriteBodyNpz(motion, AtAttention()), "a.npz").value();
@@ -288,6 +360,16 @@ TEST(BodyNpz, IsRefusedBeyondItsLimits) {
   EXPECT_NE(complaint({30, 30}, 0, 20), "none");
   EXPECT_NE(complaint({30}, 2e9, 20), "none");
   EXPECT_NE(complaint({30}, 0, 19), "none");
+  Npz twice = arrays;
+  twice.texts["names"][3] = twice.texts["names"][2];
+  EXPECT_THAT(testing::Refusal(ReadRawNpz(twice, "a.npz")), HasSubstr("twice"));
+  // Names that cannot be read are not the twenty.
+  Npz pickled = arrays;
+  pickled.texts.erase("names");
+  std::erase(pickled.skipped, "names");
+  EXPECT_TRUE(ReadRawNpz(pickled, "a.npz"));
+  pickled.skipped.emplace_back("names");
+  EXPECT_THAT(testing::Refusal(ReadRawNpz(pickled, "a.npz")), HasSubstr("names: allowed: a list of texts"));
 }
 
 }  // namespace

@@ -57,12 +57,15 @@ TEST_F(RawMotionsTest, EndSitesAreNoneOfTheFilesOwnJoints) {
   const RawMotion raw = Opened(file->front());
   std::size_t ends = 0;
   for (std::size_t j = 0; j < raw.joints.size(); ++j) {
-    const bool is_end = raw.joints[j].ends_with("_End") || raw.joints[j].starts_with("(midway");
+    const bool is_end = raw.joints[j].ends_with("_End");
     const bool is_added = std::ranges::count(raw.added, static_cast<int>(j)) == 1;
     EXPECT_EQ(is_added, is_end) << raw.joints[j];
     ends += is_end;
   }
   EXPECT_GE(ends, 5u);
+  // The joint that carries the hips is the file's own root.
+  EXPECT_TRUE(HasOwnRoot(raw));
+  EXPECT_EQ(raw.joints[raw.roles[Index(Role::kHipCentre)]], "Hips");
 }
 
 TEST_F(RawMotionsTest, ArraysOfAnyJointsAreABodyByTheirNames) {
@@ -91,12 +94,12 @@ TEST_F(RawMotionsTest, ArraysOfAnyJointsAreABodyByTheirNames) {
   EXPECT_EQ(body->motion.rate_hz, 50);
   ASSERT_EQ(body->motion.poses.size(), 30u);
   EXPECT_NEAR(glm::distance(body->motion.poses[7][Role::kLeftKnee], motion.poses[7][Role::kLeftKnee]), 0, 1e-9);
-  // They are metres with Y up, whatever is told.
+  // In the unit that is told.
   OpenOptions told;
-  told.body.metres_per_unit = 0.01;
-  const auto same = OpenBodyInPlace(file, told);
-  ASSERT_TRUE(same) << ToString(same.error());
-  EXPECT_EQ(same->motion.poses[7][Role::kHead], body->motion.poses[7][Role::kHead]);
+  told.body.metres_per_unit = 0.9;
+  const auto smaller = OpenBodyInPlace(file, told);
+  ASSERT_TRUE(smaller) << ToString(smaller.error());
+  EXPECT_NEAR(glm::distance(smaller->motion.poses[7][Role::kHead], 0.9 * body->motion.poses[7][Role::kHead]), 0, 1e-9);
 }
 
 TEST_F(RawMotionsTest, JointsPlacedByRulePlayNoRole) {
@@ -159,7 +162,7 @@ TEST_F(RawMotionsTest, KimodosArraysKeepTheirRotationsAndContacts) {
   ASSERT_EQ(raw.FrameCount(), kFrames);
   EXPECT_EQ(raw.roles[Index(Role::kLeftKnee)], static_cast<int>(kLeftKnee));
   EXPECT_EQ(raw.roles[Index(Role::kLeftFoot)], static_cast<int>(kLeftFoot));
-  const std::size_t joints = raw.joints.size();  // with the middle of the hips
+  const std::size_t joints = raw.joints.size();
   for (std::size_t f = 0; f < kFrames; ++f) {
     for (std::size_t j = 0; j < 30; ++j) {
       EXPECT_NEAR(glm::distance(raw.At(f, j), expected[f * 30 + j]), 0, 1e-6);

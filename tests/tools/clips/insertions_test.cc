@@ -247,36 +247,87 @@ std::optional<Inserted> HandThroughChest(BodyMotion& motion, RandomStream& dice)
   return inserted;
 }
 
+/// A part of the body is 40 cm off for 1.5 s, in any direction.
+Insert Torn(std::vector<Role> parts) {
+  return [=](BodyMotion& motion, RandomStream& dice) -> std::optional<Inserted> {
+    const auto window = Window(motion, 1.5, dice);
+    if (!window) return std::nullopt;
+    const bool is_left = dice.Chance(0.5);
+    const glm::dvec3 by = 0.4 * UnitOr(dice.Normal3(), {0, 1, 0});
+    for (int f = window->first; f <= window->second; ++f) {
+      for (const Role part : parts) motion.poses[f][is_left ? part : Mirrored(part)] += by;
+    }
+    Inserted inserted = Between(motion, window->first, window->second);
+    inserted.joint = is_left ? parts.front() : Mirrored(parts.front());
+    return inserted;
+  };
+}
+
+/// One foot drifts along the floor for two seconds. Only clips in which it then stands for a second show it.
+Insert FootSkating(double speed) {
+  return [=](BodyMotion& motion, RandomStream& dice) -> std::optional<Inserted> {
+    const auto window = Window(motion, 2, dice);
+    if (!window) return std::nullopt;
+    const bool is_left = dice.Chance(0.5);
+    const Role ankle = is_left ? kLeftAnkle : kRightAnkle, toes = is_left ? kLeftFoot : kRightFoot;
+    int standing = 0;
+    for (int f = window->first; f < window->second; ++f) {
+      const double moved = glm::distance(motion.poses[f][ankle], motion.poses[f + 1][ankle]);
+      standing += moved * motion.rate_hz < 0.05 && motion.poses[f][ankle].y < 0.2 ? 1 : 0;
+    }
+    if (standing < motion.rate_hz) return std::nullopt;
+    const glm::dvec3 way = AlongFloor(dice);
+    for (int f = window->first; f < static_cast<int>(motion.poses.size()); ++f) {
+      const glm::dvec3 by = speed * (std::min(f, window->second) - window->first) / motion.rate_hz * way;
+      for (const Role joint : {ankle, toes}) motion.poses[f][joint] += by;
+    }
+    Inserted inserted = Between(motion, window->first, window->second);
+    inserted.joint = toes;
+    return inserted;
+  };
+}
+
 struct Kind {
   const char* name;
   FaultKind fault;
   Insert insert;
 };
 const std::vector<Kind>& Kinds() {
-  static const std::vector<Kind> kinds = {{"sinks 12 cm, 0.67 s", kSinks, Lifted(-0.12, 0.67)},
-                                          {"sinks 12 cm, 0.4 s", kSinks, Lifted(-0.12, 0.4)},
-                                          {"sinks 8 cm, half", kSinks, Lifted(-0.08, 0)},
-                                          {"floats 6 cm, 2 s", kFloats, Lifted(0.06, 2)},
-                                          {"floats 15 cm, always", kFloats, Lifted(0.15, -1)},
-                                          {"skates 20 cm/s", kSkates, Skating(0.2)},
-                                          {"skates 40 cm/s", kSkates, Skating(0.4)},
-                                          {"skates 100 cm/s", kSkates, Skating(1)},
-                                          {"jumps 50 cm", kJumps, Jump},
-                                          {"hand pops 50 cm", kPops, Pop},
-                                          {"rate x 2", kRate, OtherRate(2)},
-                                          {"rate x 4", kRate, OtherRate(4)},
-                                          {"rate x 1/2", kRate, OtherRate(0.5)},
-                                          {"frozen 1 s", kFreezes, Frozen},
-                                          {"limb stretches 5 %", kStretches, Stretched},
-                                          {"knee backwards 30°", kBends, BentKnee},
-                                          {"hand through chest", kPasses, HandThroughChest}};
+  static const std::vector<Kind> kinds = {
+      {"sinks 12 cm, 0.67 s", kSinks, Lifted(-0.12, 0.67)},
+      {"sinks 12 cm, 0.4 s", kSinks, Lifted(-0.12, 0.4)},
+      {"sinks 8 cm, half", kSinks, Lifted(-0.08, 0)},
+      {"floats 6 cm, 2 s", kFloats, Lifted(0.06, 2)},
+      {"floats 15 cm, always", kFloats, Lifted(0.15, -1)},
+      {"skates 20 cm/s", kSkates, Skating(0.2)},
+      {"skates 40 cm/s", kSkates, Skating(0.4)},
+      {"skates 100 cm/s", kSkates, Skating(1)},
+      {"jumps 50 cm", kJumps, Jump},
+      {"hand pops 50 cm", kPops, Pop},
+      {"rate x 2", kRate, OtherRate(2)},
+      {"rate x 4", kRate, OtherRate(4)},
+      {"rate x 1/2", kRate, OtherRate(0.5)},
+      {"frozen 1 s", kFreezes, Frozen},
+      {"limb stretches 5 %", kStretches, Stretched},
+      {"torn hip", kTorn, Torn({kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot})},
+      {"torn shoulder", kTorn, Torn({kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand})},
+      {"torn neck", kTorn, Torn({kShoulderCentre, kHead})},
+      {"torn toes", kTorn, Torn({kLeftFoot})},
+      {"one foot skates", kSkates, FootSkating(0.3)},
+      {"knee backwards 30°", kBends, BentKnee},
+      {"hand through chest", kPasses, HandThroughChest}};
   return kinds;
 }
 
 /// Returns true if `fault` is the one that was inserted.
 bool Tells(const MotionFault& fault, FaultKind kind, const Inserted& inserted) {
-  if (fault.kind != kind || (inserted.joint && fault.joint != inserted.joint)) return false;
+  // A torn part also pops where it leaves its place and comes back.
+  const bool is_kind = fault.kind == kind || (kind == kTorn && fault.kind == kPops);
+  if (!is_kind || (inserted.joint && fault.joint != inserted.joint)) return false;
+  if (fault.kind == kPops && kind == kTorn) return std::abs(fault.from_s - inserted.from_s) < 0.5;
   if (kind == kRate) return true;  // dated by the flight that shows it
+  if (kind == kSkates && inserted.joint)
+    return fault.to_s > inserted.from_s && fault.from_s < inserted.to_s;  // it steps
   // It covers at least half of the time, and is at most half a second off at either end.
   constexpr double kOff_s = 0.5;
   return std::abs(fault.from_s - inserted.from_s) < kOff_s && std::abs(fault.to_s - inserted.to_s) < kOff_s;

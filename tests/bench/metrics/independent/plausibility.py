@@ -32,8 +32,8 @@ def within(given):
 
 METRICS = {
     "faults": lambda given: len(given["faults"]),
-    **{f"{kind}_share": share(kind) for kind in ("floats", "sinks", "skates", "freezes", "bends", "passes")},
-    **{f"{kind}_max_cm": largest(kind, lambda: common.CM) for kind in ("floats", "sinks", "jumps", "pops")},
+    **{f"{kind}_share": share(kind) for kind in ("floats", "sinks", "skates", "freezes", "gaps", "bends", "passes")},
+    **{f"{kind}_max_cm": largest(kind, lambda: common.CM) for kind in ("floats", "sinks", "jumps", "pops", "torn")},
     "skates_max_cmps": largest("skates", lambda: common.CM),
     "stretches_max_percent": largest("stretches", lambda: 100),
     "bends_max_deg": largest("bends", lambda: 1),

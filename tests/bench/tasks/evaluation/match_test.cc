@@ -52,7 +52,7 @@ TEST(Match, AShiftIsAllThatIsLeftOfAnAnswerAtAnotherRate) {
   EXPECT_NEAR(ValueIn(result, "mpjpe_take_mm"), 0, 1e-9);
   EXPECT_NEAR(ValueIn(result, "accel_error_mps2"), 0, 1e-9);
   EXPECT_EQ(ValueIn(result, "seen_share"), 1);
-  EXPECT_THAT(result.reason, HasSubstr("20 joints, 60 frames at 30 Hz, the answer's 12.5 Hz interpolated linearly"));
+  EXPECT_THAT(result.reason, HasSubstr("20 joints, root hip_centre, 60 frames at 30 Hz, the answer's 12.5 Hz interpolated linearly"));
 }
 
 TEST(Match, AnAnswerThatEndsEarlyIsJudgedWhereItIs) {
@@ -110,6 +110,27 @@ TEST(Match, EqualNamesArePairedWhateverTheirRoles) {
   truth.added = {1, static_cast<int>(Index(Role::kHead))};
   EXPECT_EQ(Match(truth, answer, "same", Lag::kNone)->joints.size(), 17u);
   EXPECT_EQ(Match(truth, answer, "roles", Lag::kNone)->joints.size(), 20u);
+}
+
+TEST(Match, TheRootIsTheFilesOwnIfBothHaveOneElseTheMiddleOfTheHips) {
+  // Of the answer, the pelvis alone lies 37 mm too high.
+  const auto pelvis = static_cast<std::size_t>(Index(Role::kHipCentre));
+  RawMotion truth = Gliding(30, 5), answer = truth;
+  for (std::size_t at = pelvis; at < answer.positions.size(); at += kRoleCount) answer.positions[at].y += 0.037;
+  CellResult own = Judged(truth, answer, "lsp-14");
+  EXPECT_NEAR(ValueIn(own, "mpjpe_root_mm"), 37, 1e-9) << "every joint but the pelvis, which is not judged";
+  EXPECT_THAT(own.reason, HasSubstr("14 joints, root hip_centre, 5 frames"));
+  EXPECT_NEAR(ValueIn(Judged(truth, answer), "mpjpe_root_mm"), 37 * 19.0 / 20, 1e-9);
+  // If one of both has no pelvis, it is the middle of the hips in both, in which they agree.
+  truth.joints[pelvis] = "(none)";
+  truth.roles[pelvis] = -1;
+  AddMidwayHips(truth);
+  for (const auto& [a, b] : {std::pair(truth, answer), {answer, truth}}) {
+    own = Judged(a, b);
+    EXPECT_NEAR(ValueIn(own, "mpjpe_root_mm"), 0, 1e-9);
+    EXPECT_NEAR(ValueIn(own, "mpjpe_unaligned_mm"), 0, 1e-9) << "hip_centre is the root";
+    EXPECT_THAT(own.reason, HasSubstr("20 joints, root midway between the hips"));
+  }
 }
 
 TEST(Match, FailsWithoutACommonJointOrAnySeen) {
