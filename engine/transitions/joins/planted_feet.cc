@@ -240,16 +240,18 @@ std::vector<double> Smoothed(const std::vector<double>& needed) {
   return curve;
 }
 
-/// Returns a leg's pole (SolveLeg) turned about the leg so that the knee points forwards, to a share of 0 … 1. A pole
-/// that points forwards already, or to the side, is not changed. (Depth sensors show straight legs as overextended; a
-/// leg that bends more must not bend that way.)
-glm::dvec3 BentForwards(const glm::dvec3& pole, const glm::dvec3& line, const glm::dvec3& forwards, double share) {
-  constexpr double kSide = Radians(60);
-  const glm::dvec3 axis = UnitOr(line, {0, -1, 0});
-  const glm::dvec3 front = forwards - glm::dot(forwards, axis) * axis, side = glm::cross(axis, front);
-  const double angle = std::atan2(glm::dot(pole, side), glm::dot(pole, front) + 0.0);
+/// Returns a leg's pole (SolveLeg), turned about the leg, to a share of 0 … 1, until it points at most 60° to a side.
+/// One that points backwards turns outwards, so that the legs keep apart. (Depth sensors show straight legs as
+/// overextended; a leg that bends more must not bend that way.)
+glm::dvec3 BentForwards(const glm::dvec3& pole, const glm::dvec3& line, const glm::dvec3& forwards, bool is_left,
+                        double share) {
+  constexpr double kSide = Radians(60), kInwards = Radians(-120);
+  const glm::dvec3 axis = is_left ? -UnitOr(line, {0, -1, 0}) : UnitOr(line, {0, -1, 0});
+  const glm::dvec3 front = forwards - glm::dot(forwards, axis) * axis, outwards = glm::cross(axis, front);
+  double angle = std::atan2(glm::dot(pole, outwards), glm::dot(pole, front) + 0.0);
   if (std::abs(angle) <= kSide) return pole;
-  return Turned(pole, -axis * (std::copysign(std::abs(angle) - kSide, angle) * share));
+  if (angle < kInwards) angle += 2 * kPi;
+  return Turned(pole, -axis * ((angle - std::copysign(kSide, angle)) * share));
 }
 
 void PutLeg(const JoinWindow& window, const LegRoles& leg, const LegPath& path, int frame, BodyPose& pose) {
@@ -265,7 +267,8 @@ void PutLeg(const JoinWindow& window, const LegRoles& leg, const LegPath& path, 
   constexpr double kForwards = 1e-3;
   const glm::dvec3 own = glm::mix(carried(old), carried(next), share) + kForwards * Facing(pose);
   const double s = static_cast<double>(frame) / window.Frames();
-  const glm::dvec3 pole = BentForwards(own, line, Facing(pose), Smootherstep(3 * s) * Smootherstep(3 * (1 - s)));
+  const glm::dvec3 pole =
+      BentForwards(own, line, Facing(pose), leg.hip == Role::kLeftHip, Smootherstep(3 * s) * Smootherstep(3 * (1 - s)));
   const Leg solved = SolveLeg(pose[leg.hip], path.ankle, thigh, shin, pole);
   pose[leg.knee] = solved.knee;
   pose[leg.ankle] = solved.ankle;
