@@ -355,11 +355,15 @@ BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support)
   // Measure each frame of the join.
   JointSet feet;
   for (const Side side : kSides) feet.set(Index(OnSide(side, kLeftAnkle))).set(Index(OnSide(side, kLeftFoot)));
-  const Moving moving(view.shown, view.rate_hz);
+  // Velocities and accelerations depend on four frames on either side, or on nine at an end of the motion.
+  constexpr int kReach = 8;
+  const int from = std::max(view.first - kReach, 0);
+  const Moving moving(view.shown.subspan(from, std::min<std::size_t>(end + kReach + 1, view.shown.size()) - from),
+                      view.rate_hz);
   std::vector<BodyFrame> frames;
   for (int f = view.first; f <= end; ++f) {
     const Support& held = support[f - view.first];
-    BodyFrame frame = FrameOf(moving, f, held);
+    BodyFrame frame = FrameOf(moving, f - from, held);
     Excuse(clips, f, frame);
     // Travel of the slowest support, or of the slowest foot joint; also relative to a clip that is supported there.
     if (!held.flight) {

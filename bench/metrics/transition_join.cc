@@ -112,11 +112,11 @@ RealFrames::Row RealFrames::RowOf(const BodyPose& before, const BodyPose& now, d
   static_assert(kOrder.size() == kRoleCount);
   // Joint positions and scaled velocities, relative to the body's place and heading.
   const FloorMove to_origin = ToOrigin(now);
+  const BodyPose places = to_origin.Apply(now), places_before = to_origin.Apply(before);
   Row row{};
   auto next = row.begin();
   for (Role role : kOrder) {
-    const glm::dvec3 place = to_origin.Apply(now[role]);
-    const glm::dvec3 movement = (place - to_origin.Apply(before[role])) * (rate_hz * kVelocitySeconds);
+    const glm::dvec3 &place = places[role], movement = (place - places_before[role]) * (rate_hz * kVelocitySeconds);
     for (const glm::dvec3& v : {place, movement}) {
       for (int axis = 0; axis < 3; ++axis) *next++ = static_cast<float>(v[axis]);
     }

@@ -89,8 +89,12 @@ glm::dvec3 FloorMove::Apply(const glm::dvec3& point) const {
 }
 
 BodyPose FloorMove::Apply(const BodyPose& pose) const {
+  const double c = std::cos(yaw), s = std::sin(yaw);
   BodyPose moved;
-  for (std::size_t i = 0; i < kRoleCount; ++i) moved.joints[i] = Apply(pose.joints[i]);
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    const glm::dvec3& point = pose.joints[i];
+    moved.joints[i] = {c * point.x + s * point.z + x, point.y, -s * point.x + c * point.z + z};
+  }
   return moved;
 }
 

@@ -8,15 +8,25 @@
 
 namespace etude {
 
-std::vector<BodyPose> JointVelocities(std::span<const BodyPose> poses, double rate_hz) {
-  std::vector<BodyPose> velocities(poses.size());
-  const int last = static_cast<int>(poses.size()) - 1;
-  for (int f = 0; f <= last && last > 0; ++f) {
-    const int before = std::max(f - 1, 0), after = std::min(f + 1, last);
-    for (std::size_t j = 0; j < kRoleCount; ++j) {
-      velocities[f].joints[j] = (poses[after].joints[j] - poses[before].joints[j]) * (rate_hz / (after - before));
-    }
+namespace {
+
+/// Returns JointVelocities of one frame.
+BodyPose VelocityAt(std::span<const BodyPose> poses, int frame, double rate_hz) {
+  const int before = std::max(frame - 1, 0), after = std::min(frame + 1, static_cast<int>(poses.size()) - 1);
+  BodyPose velocity;
+  if (after == before) return velocity;
+  for (std::size_t j = 0; j < kRoleCount; ++j) {
+    velocity.joints[j] = (poses[after].joints[j] - poses[before].joints[j]) * (rate_hz / (after - before));
   }
+  return velocity;
+}
+
+}  // namespace
+
+std::vector<BodyPose> JointVelocities(std::span<const BodyPose> poses, double rate_hz) {
+  std::vector<BodyPose> velocities;
+  velocities.reserve(poses.size());
+  for (int f = 0; f < static_cast<int>(poses.size()); ++f) velocities.push_back(VelocityAt(poses, f, rate_hz));
   return velocities;
 }
 
@@ -224,7 +234,6 @@ SupportFinder::~SupportFinder() = default;
 
 std::vector<Support> SupportFinder::Find(std::span<const BodyPose> shown, int first, int last) const {
   assert(0 <= first && last < static_cast<int>(shown.size()));
-  const std::vector<BodyPose> velocities = JointVelocities(shown, rate_hz_);
   std::vector<Support> support;
   // Follow a flight at the end until it lands.
   const auto goes_on = [&](int frame) {
@@ -232,8 +241,9 @@ std::vector<Support> SupportFinder::Find(std::span<const BodyPose> shown, int fi
   };
   for (int frame = first; goes_on(frame); ++frame) {
     Support& here = support.emplace_back();
+    const BodyPose velocity = VelocityAt(shown, frame, rate_hz_);
     for (const ClipSupport& clip_support : clip_supports_) {
-      here.joints |= clip_support.SupportAt(frame, shown[frame], velocities[frame]);
+      here.joints |= clip_support.SupportAt(frame, shown[frame], velocity);
     }
   }
   MarkFlights(shown, first, rate_hz_, rules_, support);

@@ -52,6 +52,9 @@ enum class JoinStyle {
 struct PreferredJoin {
   double blend_s = 0;  ///< time until only the new motion is shown, seconds
   JoinStyle way = JoinStyle::kDecays;
+  /// True: the new motion is placed where the body's momentum carries it (CarriedShift), not by the feet. Only
+  /// `planted-feet` uses it.
+  bool carried = false;
 };
 
 /// A run of frames to show, of a clip or made by the method itself.

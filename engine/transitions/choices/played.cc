@@ -173,7 +173,7 @@ PlayedRates RatesOf(const PlayedOptions& options) {
 }
 
 PreferredJoin PreferredOf(const PlayedJoin& way, double rate_hz) {
-  return {.blend_s = way.frames / rate_hz, .way = way.way};
+  return {.blend_s = way.frames / rate_hz, .way = way.way, .carried = way.carried};
 }
 
 int LastFrameOf(const MotionLibrary& library, int clip) { return library.tagged[clip].FrameCount() - 1; }

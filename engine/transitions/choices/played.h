@@ -23,8 +23,9 @@ const SettingTable<PlayedOptions>& PlayedSettings();
 ///
 /// Candidates: the wait is divided into sixteen parts, and the nearest pair of each part by MotionFeatures is taken
 /// from the pairs that the budget and `most_skipped_s` allow. Each pair is joined at several lengths from 0.3 to 1.2 s,
-/// as far as the wanted clip goes, both direct and by a fade (PlayMinimumJerk), with planted feet (PlantFeet). The
-/// cheapest candidates are played first, and only as long as they may be the best (PlayJoins).
+/// as far as the wanted clip goes, both direct and by a fade (PlayMinimumJerk), with planted feet (PlantFeet), and with
+/// the wanted clip placed both by the feet and where the body's momentum carries it (CarriedShift). The cheapest
+/// candidates are played first, and only as long as they may be the best (PlayJoins).
 ///
 /// The cost in seconds is the sum of
 /// - the wait and the length of the join;
@@ -35,7 +36,10 @@ const SettingTable<PlayedOptions>& PlayedSettings();
 ///   (`invented_per_s`);
 /// - one second for each 10 cm that feet slide;
 /// - 0.1 s for each frame in which no foot bears weight by FootPlan;
-/// - 6 s for each frame beyond two in the longest run of frames in which FindSupport finds no support.
+/// - 6 s for each frame beyond two in the longest run of frames in which FindSupport finds no support;
+/// - while something supports the body, 6 s for each 10 cm of the zero-moment point's distance from the supports
+///   (ZeroMomentOffset) over a second, as far as it is more than 10 cm and more than in either clip at that time;
+/// - one second for each centimetre that the slowest support glides, beyond what a clip's own joint does there.
 ///
 /// Pairs are left out if their join would raise or lower the body without support (NeedsClip). If no other pair is
 /// allowed, the way leads, after the wait, through a clip that stands up or lies down (FindThroughClip); without such a

@@ -17,8 +17,10 @@ struct FramePair {
 struct PlayedJoin {
   FramePair pair;
   std::size_t number = 0;  ///< index of the pair
+  std::size_t length = 0;  ///< index of its length among those tried
   int frames = 0;          ///< length of the join
   JoinStyle way = JoinStyle::kDirect;
+  bool carried = false;  ///< PreferredJoin::carried
   double cost_s = 0;
   int unsupported = 0;  ///< the longest run of frames without support
 };
@@ -28,15 +30,16 @@ struct PlayedRates {
   double excess_per_s = 0, invented_per_s = 0;
 };
 
-/// Plays the joins of a request's clips at the given pairs (at least one), at every length and both direct and by a
-/// fade (PlayMinimumJerk). Returns the joins that were played with planted feet (PlantFeet), the best first. Joins end
-/// by frame `last` of the wanted clip; only the shortest length may exceed it.
+/// Plays the joins of a request's clips at the given pairs (at least one), at every length, both direct and by a fade
+/// (PlayMinimumJerk), placed both by the feet and by momentum (CarriedShift). Returns the joins that were played with
+/// planted feet (PlantFeet), the best first. Joins end by frame `last` of the wanted clip; only the shortest length may
+/// exceed it.
 ///
 /// It uses best-first search (Hart, Nilsson and Raphael 1968): it always continues the join with the lowest cost so
 /// far. That cost at first contains only the time, then the limbs frame by frame, then the feet and the support that
 /// FindSupport reports, so most joins are never played to their end. Planting the feet can raise or lower a cost, so
 /// before it only three fifths of the limbs' cost count.
 std::vector<PlayedJoin> PlayJoins(const MotionLibrary& library, const TransitionRequest& request,
-                                const PlayedRates& rates, const std::vector<FramePair>& pairs, int last);
+                                  const PlayedRates& rates, const std::vector<FramePair>& pairs, int last);
 
 }  // namespace etude

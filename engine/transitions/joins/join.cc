@@ -6,6 +6,7 @@
 #include "engine/transitions/joins/crossfade.h"
 #include "engine/transitions/joins/inertialise.h"
 #include "engine/transitions/joins/minimum_jerk.h"
+#include "engine/transitions/joins/placing.h"
 #include "engine/transitions/joins/planted_feet.h"
 
 namespace etude {

@@ -1,8 +1,8 @@
 #include "engine/transitions/joins/limbs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <glm/gtc/quaternion.hpp>
 
 #include "engine/base/directions.h"
 #include "engine/base/smoothstep.h"
@@ -19,9 +19,46 @@ LimbTurn TurnBetween(const glm::dvec3& from, const glm::dvec3& to) {
   return glm::normalize(glm::cross(from, helper)) * angle;
 }
 
+namespace {
+
+/// sin(a)/a and (1 − cos a)/a² of a squared angle.
+struct TurnFactors {
+  double sine = 1, versine = 0.5;
+};
+
+template <int kTerms>
+TurnFactors SeriesOf(double squared) {
+  static constexpr auto kFractions = [] {
+    std::array<TurnFactors, kTerms> fractions{};
+    for (int k = 1; k <= kTerms; ++k) {
+      fractions[k - 1] = {.sine = 1.0 / (2 * k * (2 * k + 1)), .versine = 1.0 / ((2 * k + 1) * (2 * k + 2))};
+    }
+    return fractions;
+  }();
+  TurnFactors factors{.sine = 1, .versine = 1};
+  for (int k = kTerms - 1; k >= 0; --k) {
+    factors.sine = 1 - factors.sine * squared * kFractions[k].sine;
+    factors.versine = 1 - factors.versine * squared * kFractions[k].versine;
+  }
+  factors.versine *= 0.5;
+  return factors;
+}
+
+TurnFactors FactorsOf(double squared) {
+  // Within one radian the series end below rounding, and are faster than the trigonometric functions.
+  if (squared < 0.06) return SeriesOf<5>(squared);
+  if (squared < 1) return SeriesOf<9>(squared);
+  const double angle = std::sqrt(squared);
+  return {std::sin(angle) / angle, (1 - std::cos(angle)) / squared};
+}
+
+}  // namespace
+
 glm::dvec3 Turned(const glm::dvec3& v, const LimbTurn& turn) {
-  const double angle = glm::length(turn);
-  return angle > 0 ? glm::angleAxis(angle, turn / angle) * v : v;
+  // Rodrigues' formula.
+  const auto [sine, versine] = FactorsOf(glm::dot(turn, turn));
+  const glm::dvec3 across = glm::cross(turn, v);
+  return v + sine * across + versine * glm::cross(turn, across);
 }
 
 namespace {

@@ -8,51 +8,12 @@
 #include <utility>
 
 #include "engine/base/angles.h"
+#include "engine/base/directions.h"
 #include "engine/base/smoothstep.h"
 #include "engine/transitions/joins/limbs.h"
 
 namespace etude {
 namespace {
-
-/// Fits a rotation and a shift on the floor by weighted least squares, which align the second point of each pair with
-/// the first.
-class FloorFit {
- public:
-  void Add(const glm::dvec3& onto, const glm::dvec3& point, double weight) {
-    pairs_.push_back({{onto.x, onto.z}, {point.x, point.z}, weight});
-    weight_ += weight;
-    onto_ += weight * pairs_.back().onto;
-    point_ += weight * pairs_.back().point;
-  }
-
-  /// Returns the best rotation about the vertical.
-  double Yaw() const {
-    const glm::dvec2 onto = onto_ / weight_, point = point_ / weight_;
-    double along = 0, across = 0;
-    for (const Pair& pair : pairs_) {
-      const glm::dvec2 o = pair.onto - onto, p = pair.point - point;
-      along += pair.weight * glm::dot(o, p);
-      across += pair.weight * (o.x * p.y - o.y * p.x);
-    }
-    return std::atan2(across, along);
-  }
-
-  /// Returns the move with rotation `yaw` and the shift that fits best after it.
-  FloorMove Turned(double yaw) const {
-    const glm::dvec2 onto = onto_ / weight_, point = point_ / weight_;
-    const glm::dvec3 moved = FloorMove{.yaw = yaw}.Apply(glm::dvec3(point.x, 0, point.y));
-    return {.yaw = yaw, .x = onto.x - moved.x, .z = onto.y - moved.z};
-  }
-
- private:
-  struct Pair {
-    glm::dvec2 onto, point;
-    double weight;
-  };
-  std::vector<Pair> pairs_;
-  double weight_ = 0;
-  glm::dvec2 onto_{0}, point_{0};
-};
 
 double FloorDistance(const glm::dvec3& a, const glm::dvec3& b) { return std::hypot(a.x - b.x, a.z - b.z); }
 
@@ -237,6 +198,20 @@ double ReachAt(const JoinWindow& window, const LegRoles& leg, int frame) {
   return std::min(std::max(own, kEasy * whole), whole) - kGiven * 64 * rest * rest * rest;
 }
 
+/// Returns a leg's pole (SolveLeg), turned about the leg, to a share of 0 … 1, until it points at most 60° to a side.
+/// One that points backwards turns outwards, so that the legs keep apart. (Depth sensors show straight legs as
+/// overextended; a leg that bends more must not bend that way.)
+glm::dvec3 BentForwards(const glm::dvec3& pole, const glm::dvec3& line, const glm::dvec3& forwards, bool is_left,
+                        double share) {
+  constexpr double kSide = Radians(60), kInwards = Radians(-120);
+  const glm::dvec3 axis = is_left ? -UnitOr(line, {0, -1, 0}) : UnitOr(line, {0, -1, 0});
+  const glm::dvec3 front = forwards - glm::dot(forwards, axis) * axis, outwards = glm::cross(axis, front);
+  double angle = std::atan2(glm::dot(pole, outwards), glm::dot(pole, front) + 0.0);
+  if (std::abs(angle) <= kSide) return pole;
+  if (angle < kInwards) angle += 2 * kPi;
+  return Turned(pole, -axis * ((angle - std::copysign(kSide, angle)) * share));
+}
+
 void PutLeg(const JoinWindow& window, const LegRoles& leg, const LegPath& path, int frame, BodyPose& pose) {
   const BodyPose &old = window.old[frame], &next = window.next[frame];
   const double share = Smootherstep(static_cast<double>(frame) / window.Frames());
@@ -248,7 +223,10 @@ void PutLeg(const JoinWindow& window, const LegRoles& leg, const LegPath& path, 
   };
   // A straight leg does not show where its knee points, so forwards is assumed.
   constexpr double kForwards = 1e-3;
-  const glm::dvec3 pole = glm::mix(carried(old), carried(next), share) + kForwards * Facing(pose);
+  const glm::dvec3 own = glm::mix(carried(old), carried(next), share) + kForwards * Facing(pose);
+  const double s = static_cast<double>(frame) / window.Frames();
+  const glm::dvec3 pole =
+      BentForwards(own, line, Facing(pose), leg.hip == Role::kLeftHip, Smootherstep(3 * s) * Smootherstep(3 * (1 - s)));
   const Leg solved = SolveLeg(pose[leg.hip], path.ankle, thigh, shin, pole);
   pose[leg.knee] = solved.knee;
   pose[leg.ankle] = solved.ankle;
@@ -256,26 +234,6 @@ void PutLeg(const JoinWindow& window, const LegRoles& leg, const LegPath& path, 
 }
 
 }  // namespace
-
-FloorMove AlignOnPlantedFeet(std::span<const BodyPose> old, std::span<const BodyPose> next, double rate_hz) {
-  // Fit hips and shoulders first; their rotation is the reference.
-  FloorFit fit;
-  constexpr double kTrunk = 0.05, kFeet = 0.1, kMaxTurn = Radians(30);
-  for (Role role : {Role::kLeftHip, Role::kRightHip, Role::kLeftShoulder, Role::kRightShoulder}) {
-    fit.Add(old[0][role], next[0][role], kTrunk);
-  }
-  const double facing = fit.Yaw();
-  // Add the feet that stand in both motions at the same frame.
-  const FootContacts stands_old = FindFootContacts(old, rate_hz), stands_next = FindFootContacts(next, rate_hz);
-  for (std::size_t side = 0; side < kLegs.size(); ++side) {
-    for (std::size_t f = 0; f < std::min(old.size(), next.size()); ++f) {
-      if (!stands_old[side][f] || !stands_next[side][f]) continue;
-      for (Role role : {kLegs[side].foot, kLegs[side].ankle}) fit.Add(old[f][role], next[f][role], kFeet);
-    }
-  }
-  // Limit how far the feet may rotate the body.
-  return fit.Turned(facing + std::clamp(std::remainder(fit.Yaw() - facing, 2 * kPi), -kMaxTurn, kMaxTurn));
-}
 
 FootPlan PlanSteps(const JoinWindow& window) {
   // List the possible steps of both feet, cheapest first.

@@ -19,13 +19,6 @@ constexpr std::array<LegRoles, 2> kLegs = {
     LegRoles{Role::kLeftHip, Role::kLeftKnee, Role::kLeftAnkle, Role::kLeftFoot},
     LegRoles{Role::kRightHip, Role::kRightKnee, Role::kRightAnkle, Role::kRightFoot}};
 
-/// Returns the floor move that aligns the new motion with the old one so that feet which stand in both motions at the
-/// same time stand at the same positions. It is a least-squares fit of toe tips and ankles and, with a lower weight, of
-/// the hips and shoulders at the point. If no foot stands in both, only hips and shoulders are used. The feet may
-/// rotate the body by at most 30°, which is 190° per second in the shortest join. `old` and `next` hold at least one
-/// frame each, from the point on.
-FloorMove AlignOnPlantedFeet(std::span<const BodyPose> old, std::span<const BodyPose> next, double rate_hz);
-
 /// The step that takes a foot from the old motion's path to the new one's. Before the step the foot follows the old
 /// motion or keeps the position of its last stance there; after the step it follows the new motion or takes the
 /// position of its next stance there.

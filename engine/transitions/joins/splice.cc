@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "engine/motion/body.h"
+#include "engine/transitions/joins/placing.h"
 
 namespace etude {
 namespace {
@@ -45,6 +47,20 @@ struct PlacedSegment {
     return next;
   }
 };
+
+/// Moves the segment `next`, which follows `old` at its frame `left`, where the body's momentum carries it in a join of
+/// `frames` frames. A clip that has ended stands.
+void Carry(const PlacedSegment& old, int left, int frames, PlacedSegment& next) {
+  if (frames == 0) return;
+  const int last = static_cast<int>(next.frames.size()) - 1, end = std::min(next.first + frames, last);
+  const bool goes_on = left + 1 < static_cast<int>(old.frames.size()), moves = next.first + frames <= last;
+  const PosePair leaving =
+      goes_on ? PosePair{old.At(left), old.At(left + 1)} : PosePair{old.Before(left), old.At(left)};
+  const PosePair arriving{next.At(moves ? end - 1 : end), next.At(end)};
+  const glm::dvec3 shift = CarriedShift(leaving, old.At(left), arriving, frames);
+  next.floor_move.x += shift.x;
+  next.floor_move.z += shift.z;
+}
 
 /// Returns the floor move for the segment `next`, which follows `old` at its frame `left`. Frames that a choice made
 /// are aligned at the first one.
@@ -88,6 +104,10 @@ Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment
                        .floor_move = {},
                        .blend = {}};
     if (!segments[i].in_place) next.floor_move = Lay(join, old, left, next, rate_hz);
+    const auto& preferred = segments[i].preferred;
+    if (join.align != nullptr && preferred && preferred->carried) {
+      Carry(old, left, static_cast<int>(std::lround(preferred->blend_s * rate_hz)), next);
+    }
     // The gap at the point is that of the clips, not of the joined motion, so that it depends only on the choice of
     // frames.
     const PlacedPoint point{.frame = static_cast<int>(shown.size()) - 1,

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/base/order_statistics.h"
+#include "engine/motion/pendulum.h"
 #include "engine/motion/support.h"
 
 namespace etude {
@@ -119,6 +120,18 @@ bool NeedsClip(const Stance& a, const Stance& b) {
   return (a.is_down || b.is_down) && std::abs(a.hips - b.hips) > kMaxRise;
 }
 
+std::vector<double> ZeroMomentOffsets(const BodyMotion& motion) {
+  const int last = static_cast<int>(motion.poses.size()) - 1;
+  std::vector<glm::dvec3> centres;
+  for (const BodyPose& pose : motion.poses) centres.push_back(MassCentre(pose));
+  const std::vector<Bearing> bearing = FindBearing(motion.poses, motion.rate_hz);
+  std::vector<double> offsets(motion.poses.size());
+  for (int f = 0; f <= last; ++f) {
+    offsets[f] = ZeroMomentOffset(centres, f, motion.rate_hz, motion.poses[f], bearing[f].bears).value_or(0);
+  }
+  return offsets;
+}
+
 MotionLibrary MakeLibraryOfOneBody(std::vector<std::string> names, std::vector<BodyMotion> motions,
                                    const BodyProportions& proportions, const TagRules& rules, const TweenRules& tween) {
   MotionLibrary library;
@@ -129,6 +142,7 @@ MotionLibrary MakeLibraryOfOneBody(std::vector<std::string> names, std::vector<B
   library.features = ComputeMotionFeatures(library.motions);
   for (const BodyMotion& motion : library.motions) {
     library.usual_accelerations.push_back(UsualAcceleration(motion));
+    library.beside_feet.push_back(ZeroMomentOffsets(motion));
     std::vector<Stance>& stances = library.stances.emplace_back();
     for (const BodyPose& pose : motion.poses) stances.push_back(StanceOf(pose, proportions.standing_hip_height));
   }

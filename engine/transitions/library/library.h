@@ -42,6 +42,10 @@ Stance StanceOf(const BodyPose& pose, double standing_hip_height);
 /// heights differ by more than 0.2 m. Only a clip can show such a motion.
 bool NeedsClip(const Stance& a, const Stance& b);
 
+/// Returns, for every frame of a clip, how far the zero-moment point lies from the joints that bear the body by
+/// FindBearing, metres; 0 in a frame without such joints.
+std::vector<double> ZeroMomentOffsets(const BodyMotion& motion);
+
 /// Clips performed by one body at 30 Hz and tagged, with in-betweens.
 struct TaggedLibrary {
   BodyProportions proportions;
@@ -56,6 +60,7 @@ struct MotionLibrary : TaggedLibrary {
   std::vector<std::vector<MotionFeatures>> features;
   std::vector<double> usual_accelerations;            ///< UsualAcceleration per clip
   std::vector<std::vector<Stance>> stances;
+  std::vector<std::vector<double>> beside_feet;       ///< ZeroMomentOffsets per clip
 };
 
 /// Makes a library from motions of one body at 30 Hz. `rules` tag the frames, and `tween` sets the speed of the

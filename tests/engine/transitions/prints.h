@@ -23,7 +23,7 @@ inline void AddTo(testing::Fingerprint& print, const FuzzyDistance& distance) {
 
 inline void AddTo(testing::Fingerprint& print, const std::optional<PreferredJoin>& join) {
   print.Add(join.has_value());
-  if (join) print.Add(join->blend_s).Add(join->way);
+  if (join) print.Add(join->blend_s).Add(join->way).Add(join->carried);
 }
 
 /// Adds all that a record says, its words too.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/gtc/quaternion.hpp>
+
 #include "engine/base/angles.h"
 
 namespace etude {
@@ -27,6 +29,15 @@ TEST(LimbTurn, IsNoneForALimbWithoutLength) {
   EXPECT_EQ(TurnBetween(glm::dvec3(0), kUp), LimbTurn(0));
   EXPECT_EQ(TurnBetween(kUp, glm::dvec3(0)), LimbTurn(0));
   EXPECT_EQ(Turned(kUp, LimbTurn(0)), kUp);
+}
+
+TEST(Turned, EqualsAQuaternionAtAnyAngle) {
+  const glm::dvec3 axis = glm::normalize(glm::dvec3(1, -2, 3)), limb(0.3, 0.1, -0.2);
+  for (double angle : {1e-9, 1e-3, 0.2, 0.244, 0.246, 0.7, 0.999, 1.001, 2.0, kPi, 5.0}) {
+    const glm::dvec3 turned = Turned(limb, angle * axis);
+    EXPECT_NEAR(glm::distance(turned, glm::angleAxis(angle, axis) * limb), 0, 1e-15) << angle;
+    EXPECT_NEAR(glm::length(turned), glm::length(limb), 1e-15) << angle;
+  }
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "engine/base/angles.h"
 #include "engine/motion/body.h"
 #include "engine/transitions/joins/limbs.h"
+#include "engine/transitions/joins/placing.h"
 #include "engine/transitions/joins/splice.h"
 #include "tests/engine/transitions/expect_pose.h"
 #include "tests/engine/transitions/joins/join_pictures.h"
@@ -222,6 +223,32 @@ TEST(SolveLeg, KeepsItsLimbsAndItsDirectionWhereItCannotReach) {
 TEST(CarriedOffset, TurnsWithTheLeg) {
   const glm::dvec3 carried = CarriedOffset({0, 0, 0.1}, {0, -1, 0}, {0, 0, 1});  // down to forwards, about x
   EXPECT_LT(glm::distance(carried, glm::dvec3(0, 0.1, 0)), 1e-12);
+}
+
+/// Stride, with both knees as far behind the legs as it has them in front.
+BodyPose Overextended(double ahead) {
+  BodyPose pose = Stride(ahead);
+  for (const LegRoles& leg : kLegs) {
+    pose[leg.knee] -= 2.0 * KneeOffset(pose[leg.hip], pose[leg.knee], pose[leg.ankle]);
+  }
+  return pose;
+}
+
+TEST(PlantFeet, DoesNotBendALegBackwardsThatItsClipsShowOverextended) {
+  const BodyPose from = Overextended(0.1);
+  const BodyPose to = FloorMove{.x = 0.3}.Apply(Overextended(-0.1));
+  const JoinWindow window = Window(from, to, 30);
+  std::vector<BodyPose> played = PlayMinimumJerk(window, JoinStyle::kDirect);
+  PlantFeet(window, played);
+  const auto behind = [](const BodyPose& pose) {
+    double most = -1;
+    for (const LegRoles& leg : kLegs)
+      most = std::max(most, -KneeOffset(pose[leg.hip], pose[leg.knee], pose[leg.ankle]).z);
+    return most;
+  };
+  ASSERT_GT(behind(from), 0.03);
+  for (const BodyPose& pose : played) EXPECT_LE(behind(pose), behind(from) + 0.005) << "while the knees turn";
+  EXPECT_LT(behind(played[15]), 0) << "in the middle both knees are in front";
 }
 
 }  // namespace
