@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-constexpr double kRate = 30, kGravity = 9.81;
+constexpr double kRate = 30, kG = 9.81;
 
 template <typename Place>
 std::vector<glm::dvec3> Centres(int frames, Place place) {
@@ -30,7 +30,7 @@ TEST(ZeroMomentPoint, IsWhereAPendulumStands) {
   // x − p = x₀ cosh(ωt), ω² = g/h, solves the linear inverted pendulum about p.
   constexpr double kHeight = 0.9, kStart = 0.05;
   const glm::dvec2 pivot(0.3, -0.2);
-  const double omega = std::sqrt(kGravity / kHeight);
+  const double omega = std::sqrt(kG / kHeight);
   const auto centres = Centres(12, [&](double t) {
     const double away = kStart * std::cosh(omega * t);
     return glm::dvec3(pivot.x + away, 1 + kHeight, pivot.y - 2 * away);
@@ -56,7 +56,7 @@ TEST(ZeroMomentOffset, LiesAheadOfABodyThatBrakes) {
   JointSet bears;
   EXPECT_FALSE(ZeroMomentOffset(centres, 4, kRate, pose, bears)) << "nothing bears it";
   bears.set(Index(Role::kLeftFoot));
-  EXPECT_NEAR(*ZeroMomentOffset(centres, 4, kRate, pose, bears), 3 / kGravity, 1e-12);
+  EXPECT_NEAR(*ZeroMomentOffset(centres, 4, kRate, pose, bears), 3 / kG, 1e-12);
   const auto still = Centres(9, [&](double) { return foot + glm::dvec3(0, 1, 0); });
   EXPECT_NEAR(*ZeroMomentOffset(still, 4, kRate, pose, bears), 0, 1e-12);
 }
