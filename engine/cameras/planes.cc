@@ -69,8 +69,8 @@ class Places {
  public:
   Places(std::size_t cameras, std::size_t targets) : cameras_(cameras), targets_(targets) {}
 
-  /// Adds one pose: of the views with a known and an unknown side, takes the one with the most corners. Returns false
-  /// if there is none. The first board must be set before.
+  /// Adds the pose of one camera or board. Of the views in which only the camera's or only the board's pose is known,
+  /// it uses the one with the most corners. Returns false if there is none. The first board must be set before.
   bool Join(std::span<const PlaneView> views) {
     const PlaneView* best = nullptr;
     for (const PlaneView& view : views) {
@@ -94,6 +94,7 @@ class Places {
 }  // namespace
 
 Result<glm::dmat3> HomographyOf(std::span<const PointPair> pairs) {
+  // Collect the points, and refuse those that determine no homography.
   if (pairs.size() < 4) return Fail({}, "{} corners; at least 4 are needed", pairs.size());
   const auto count = static_cast<Eigen::Index>(pairs.size());
   Eigen::MatrixX2d plane(count, 2), picture(count, 2);
@@ -115,6 +116,7 @@ Result<glm::dmat3> HomographyOf(std::span<const PointPair> pairs) {
     A.row(2 * i + 1).segment<3>(3) = X;
     A.row(2 * i + 1).segment<3>(6) = -x[1] * X;
   }
+  // H is the right singular vector of the smallest singular value.
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeFullV);
   const Eigen::VectorXd h = svd.matrixV().col(8);
   Matrix3d H;
@@ -171,8 +173,8 @@ CalibrationTargetPose PoseOfPlane(const Intrinsics& in, const glm::dmat3& homogr
 }
 
 Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::span<const TargetView> views,
-                                       // Keep the views that have a homography.
                                        const RefineOptions& options) {
+  // Keep the views that have a homography.
   std::size_t targets = 0;
   std::vector<PlaneView> usable;
   for (const TargetView& view : views) {
@@ -209,6 +211,7 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
   places.targets_.front() = CalibrationTargetPose{};
   while (places.Join(usable)) {
   }
+  // Begin the joint adjustment at these poses.
   for (std::size_t camera = 0; camera < sizes.size(); ++camera) {
     const auto& pose_CW = places.cameras_[camera];
     if (!pose_CW) {

@@ -35,7 +35,7 @@ std::vector<std::string_view> CellsOf(std::string_view line) {
   }
 }
 
-/// The coordinate of a point that each column of a recording holds.
+/// What each column of a recording holds: one coordinate of one point, or another channel.
 struct BidsChannels {
   struct Column {
     int point = -1;  ///< index into `points`; −1 for other channels than positions

@@ -88,7 +88,7 @@ class LanePoses {
         frame.position[k] = parent.position[k] + p_PJ_W[k];
         p_RJ_W[k] = frame.position[k] - root.position[k];
       }
-      // Axes before the joint turns: renamed copies of the parent's axes where possible.
+      // Axes before the joint turns; where R_PJ is a signed permutation, the parent's axes are copied.
       if (joint.renames_axes) {
         for (int c = 0; c < 3; ++c) {
           for (int k = 0; k < 3; ++k) axes[c][k] = parent.axes[joint.from[c]][k] * V(joint.sign[c]);
