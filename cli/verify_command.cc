@@ -48,7 +48,7 @@ std::string CheckSample(const std::string& text) {
   return fmt::format("'{}' is not a sample; allowed: 0 to {}, or '{}'", text, kMaxSample, kWholeSample);
 }
 
-/// Draws an unpredictable seed, with as many bits as every JSON reader keeps.
+/// Draws an unpredictable seed of 53 bits, which JSON readers that use doubles keep exactly.
 Result<std::uint64_t> FreshDice() {
   std::uint64_t dice = 0;
   if (::getrandom(&dice, sizeof dice, 0) != sizeof dice) return FailOfMachine("did not return random numbers");

@@ -16,7 +16,8 @@ struct KeyInfo;
 struct ValueKind {
   std::string allowed;  ///< "ccd, ccd-hinges", "0…180 (degrees)", "a list of texts"
   std::string schema;   ///< JSON
-  /// Returns true if a non-empty value names a file, whose text the key's reader receives. Null: no value names a file.
+  /// Tells whether a non-empty value is the name of a file; if so, the key's reader receives the text of that file.
+  /// Null: no value is a file name.
   bool (*names_file)(std::string_view value) = nullptr;
 };
 ValueKind NumberKind(Range range, bool is_whole = false);

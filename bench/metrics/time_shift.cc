@@ -27,18 +27,18 @@ glm::dvec3 CubicAt(const PointTracks& tracks, double at, std::size_t joint) {
                 u * u * u * (3.0 * p(1) - p(0) - 3.0 * p(2) + p(3)));
 }
 
-/// Distances between two joints: per frame of the truth its rate, and the answer's at the shifted time; all three are
-/// known.
+/// The distance between two joints, per frame of the truth in which all three values are known: the truth's, its rate
+/// of change, and the answer's at the shifted time; metres, metres per second.
 struct Distances {
   std::vector<double> truth, rate, found;
   std::vector<std::size_t> frames;
 };
 
-/// The line through the answer's distances over the truth's.
+/// The least-squares line of the answer's distances as a function of the truth's; its slope is at least 0.
 struct Line {
   double slope = 0, mean_truth = 0, mean_found = 0;
   double square_truth = 0;
-  double explained = 0, all = 0;  ///< of the answer's squares
+  double explained = 0, all = 0;  ///< sums of squares of the answer: explained by the line, and total
 };
 
 Line FitLine(const Distances& pair) {

@@ -114,7 +114,7 @@ constexpr int kMaxEndingMs = 2000;
 struct Attempt {
   Status status = Status::kFailed;
   std::string said;
-  std::string fault;    ///< why this result is not allowed; "" = it is
+  std::string fault;    ///< why this result is not allowed; "" = it is allowed
   bool was_put = true;  ///< false: the program could not be started, so it was not asked
 };
 

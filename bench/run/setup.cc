@@ -60,7 +60,7 @@ Result<std::vector<std::unique_ptr<Task>>> MakeTasks(
   return tasks;
 }
 
-/// Returns the units of a world of these clips, each once, sorted; empty if every world is a unit of its own.
+/// Returns the sampling units of one world's clips, sorted, each once; empty if every world is a unit of its own.
 std::vector<std::string> UnitsOf(const std::vector<std::string>& clips, SamplingUnit unit, const ClipLibrary& library) {
   if (WorldsAreUnits(unit)) return {};
   if (unit == SamplingUnit::kLibrary) {

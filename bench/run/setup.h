@@ -80,7 +80,7 @@ class PreparedScenario {
   /// Returns the clips; if there are libraries, the clips of all of them.
   const ClipLibrary& clips() const { return *clips_; }
   const std::map<std::string, ClipLibrary>& libraries() const { return libraries_; }
-  /// Returns the recordings of people that its worlds are made of; null if they are not made of recordings.
+  /// Returns the recordings of people from which the worlds are made; null if worlds are not made from recordings.
   const LabelledStreams* recordings() const { return recordings_.get(); }
   const Task& task(int condition) const { return *tasks_[condition]; }
   const OpenOptions& opening() const { return *opening_; }

@@ -27,7 +27,8 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options);
 /// Reads the suite from scenario files, or from the manifest `options.from`, which must not be of scored answers.
 Result<SuiteSetup> ReadSuiteToRun(const RunOptions& options);
 
-/// Calls PrepareAll. With `options.from`, fails if clips have changed since, or if programs are not allowed.
+/// Calls PrepareAll. If `options.from` names a manifest, fails if a clip has changed since that run, or if a program
+/// that the manifest names is not allowed to run.
 Result<std::vector<PreparedScenario>> PrepareToRun(const SuiteSetup& suite, const RunOptions& options);
 
 /// Fails if a scenario's task judges files: it has no problems to export, and no predictions to score.

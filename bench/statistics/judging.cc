@@ -16,8 +16,8 @@
 namespace etude {
 namespace {
 
-/// Returns a note on worlds without a pair of values: a method that fails on hard worlds is compared on the easy ones
-/// alone.
+/// Returns a note that counts the worlds in which a method has no value, "" if there are none. Such worlds are not in
+/// the difference, which flatters a method that fails on hard worlds (survivorship).
 std::string NoteOnMissing(const Comparison& c) {
   const int without = c.only_baseline + c.only_method + c.neither;
   if (without == 0) return "";

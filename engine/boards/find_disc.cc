@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMinWidthPx = 3;
 constexpr double kMinDiscContrast = 20;  // counts of 255
-// Relative difference of its area from that of the ellipse with its second moments.
+// The maximum relative difference between a region's area and that of the ellipse with the same second moments.
 constexpr double kMaxShapeError = 0.25;
 
 // A rectangle of pixels, without `right` and `bottom`, clipped to the picture.

@@ -31,6 +31,7 @@ const Result<OpenCvBoards>& BoardModule() {
 }  // namespace
 
 std::optional<Result<PrintedBoard>> ReadPrintedBoard(std::string_view text) {
+  // The prefix names the kind of board.
   PrintedBoard board;
   constexpr std::string_view kChess = "chess:", kCharuco = "charuco:";
   std::string_view rest = text;
@@ -51,6 +52,7 @@ std::optional<Result<PrintedBoard>> ReadPrintedBoard(std::string_view text) {
     is_read = number.has_value();
     numbers[i] = number.value_or(0);
   }
+  // Whole numbers of squares, and the side of a square of 1 mm to 10 m.
   constexpr double kMaxPerSide = 64;
   const double min_squares = board.is_charuco ? 3 : 4;  // OpenCV does not find chessboards with two corners per side
   const auto is_side = [&](double n) { return n == std::floor(n) && n >= min_squares && n <= kMaxPerSide; };

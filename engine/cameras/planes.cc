@@ -70,8 +70,8 @@ class Places {
  public:
   Places(std::size_t cameras, std::size_t targets) : cameras_(cameras), targets_(targets) {}
 
-  /// Adds one pose: of the views with a known and an unknown side, takes the one with the most corners. Returns false
-  /// if there is none. The first board must be set before.
+  /// Adds the pose of one camera or board. Of the views in which only the camera's or only the board's pose is known,
+  /// it uses the one with the most corners. Returns false if there is none. The first board must be set before.
   bool Join(std::span<const PlaneView> views) {
     const PlaneView* best = nullptr;
     for (const PlaneView& view : views) {
@@ -95,6 +95,7 @@ class Places {
 }  // namespace
 
 Result<glm::dmat3> HomographyOf(std::span<const PointPair> pairs) {
+  // Collect the points, and refuse those that determine no homography.
   if (pairs.size() < 4) return Fail({}, "{} corners; at least 4 are needed", pairs.size());
   const auto count = static_cast<Eigen::Index>(pairs.size());
   Eigen::MatrixX2d plane(count, 2), picture(count, 2);
@@ -116,6 +117,7 @@ Result<glm::dmat3> HomographyOf(std::span<const PointPair> pairs) {
     A.row(2 * i + 1).segment<3>(3) = X;
     A.row(2 * i + 1).segment<3>(6) = -x[1] * X;
   }
+  // H is the right singular vector of the smallest singular value.
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeFullV);
   const Eigen::VectorXd h = svd.matrixV().col(8);
   Matrix3d H;
@@ -178,8 +180,8 @@ std::size_t NumberTargets(std::span<TargetView> views) {
 }
 
 Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::span<const TargetView> views,
-                                       // Keep the views that have a homography.
                                        const RefineOptions& options) {
+  // Keep the views that have a homography.
   std::vector<PlaneView> usable;
   for (const TargetView& view : views) {
     if (auto homography = HomographyOf(view.pairs)) usable.push_back({&view, *homography});
@@ -209,6 +211,7 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
   places.targets_.front() = CalibrationTargetPose{};
   while (places.Join(usable)) {
   }
+  // Begin the joint adjustment at these poses.
   for (std::size_t camera = 0; camera < sizes.size(); ++camera) {
     const auto& pose_CW = places.cameras_[camera];
     if (!pose_CW) {

@@ -51,8 +51,8 @@ struct RigGuess {
   std::vector<CalibrationTargetPose> targets;  ///< the first one is held fixed: it defines the world
 };
 
-/// The standard deviations of a camera's intrinsics, pixels: the larger of two estimates: one for independent corner
-/// errors of equal size and, with four views or more, one for errors that the corners of a view share.
+/// The standard deviations of a camera's intrinsics, pixels. Each is the larger of two estimates: one assumes
+/// independent corner errors of equal size; the other, for four views or more, errors that all corners of a view share.
 struct IntrinsicsDeviation {
   double fx = 0, fy = 0, cx = 0, cy = 0;
 };
@@ -64,7 +64,7 @@ struct RefinedRig {
   std::vector<double> camera_rms_px;
   double rms_px = 0;
   std::size_t points = 0;  ///< N
-  /// P, the number of free parameters. If corners have errors of σ per coordinate, rms_px is near σ √2 √((2N−p) / 2N)
+  /// p, the number of free parameters. If corners have errors of σ per coordinate, rms_px is near σ √(2 − p / N).
   std::size_t parameters = 0;
   std::vector<IntrinsicsDeviation> deviations;  ///< 0 for cameras held fixed
 };

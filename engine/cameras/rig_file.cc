@@ -232,8 +232,8 @@ Result<RigFile> Read(std::string_view text, const std::string& file) {
   if (text[first] == '<') {
     ASSIGN_OR_RETURN(auto cameras, ReadQualisysCalibration(text));
     return RigFile{std::move(cameras), "Qualisys", kYUpOfZUp, 0.001};
-    // OpenCV's YAML: a rig, or one camera.
   }
+  // OpenCV's YAML: a rig, or one camera.
   if (text.starts_with("%YAML") || text.find("opencv-matrix") != std::string_view::npos) {
     ASSIGN_OR_RETURN(const Node root, ParseYaml(WithoutDirective(text), file));
     if (root.Find("cameras") != nullptr) {
@@ -248,8 +248,8 @@ Result<RigFile> Read(std::string_view text, const std::string& file) {
     }
     ASSIGN_OR_RETURN(const Camera camera, ReadCamera(root, true));
     return RigFile{{{"camera", camera}}, "OpenCV's YAML"};
-    // TOML.
   }
+  // TOML.
   if (text[first] == '[' || text.find("\n[") != std::string_view::npos) {
     ASSIGN_OR_RETURN(auto cameras, ReadPose2SimCalibration(text));
     return RigFile{

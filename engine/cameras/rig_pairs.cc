@@ -190,6 +190,7 @@ std::string StemOf(std::string path) {
 }  // namespace
 
 Result<RigFile> ReadColmap(std::string_view cameras, std::string_view images) {
+  // Read the intrinsics, by camera.
   std::map<std::string, OpenCvParameters> inside;
   for (const ColmapLine& line : LinesOf(cameras)) {
     if (line.words.empty()) continue;
@@ -211,6 +212,7 @@ Result<RigFile> ReadColmap(std::string_view cameras, std::string_view images) {
           place,
           "not an image; allowed: IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME, and its points on the next line");
     }
+    // Combine the pose of the image with the intrinsics of its camera.
     const auto camera = inside.find(line.words[8]);
     if (camera == inside.end()) return Fail(place, "camera {} is not in cameras.txt", line.words[8]);
     ASSIGN_OR_RETURN(const auto n, NumbersFrom(line, 1, 8));

@@ -25,7 +25,7 @@ std::string LabelOf(std::string_view name) {
   return label.empty() ? "motion" : label;
 }
 
-/// The coordinate of a point that each column of a recording holds.
+/// What each column of a recording holds: one coordinate of one point, or another channel.
 struct BidsChannels {
   struct Column {
     int point = -1;  ///< index into `points`; −1 for other channels than positions

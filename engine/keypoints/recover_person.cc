@@ -60,8 +60,8 @@ PoseTargets TargetsOf(const RoleVectors& joints, const BodyPose& completed) {
   return wanted;
 }
 
-/// Alternates between moving the root by the mean offset of all joints and fitting the angles. The root stands at the
-/// left toe, whose error would otherwise shift the whole body.
+/// Alternates between moving the root by the weighted mean offset of all joints and fitting the angles. The tree's root
+/// is the left toe; without these steps its error would shift the whole body.
 TreeState MoveRoot(const CaptureBody& body, const PoseFitter& fitter, const PoseTargets& wanted, TreeState state) {
   for (int step = 0; step < kRootSteps; ++step) {
     const BodyPose pose = ToBodyPose(body, state);

@@ -46,8 +46,8 @@ class Parts {
     return std::ranges::all_of(AllRoles(), [&](Role role) { return IsBelowPelvis(carrier_[Index(role)]); });
   }
 
-  /// Leaves out parts that are not below the pelvis or have no tips, and attaches parts that turn about one point to
-  /// the same parent.
+  /// Removes parts that are not below the pelvis or have no tips. Parts that turn about the same point get the same
+  /// parent.
   void Simplify() {
     for (std::size_t i = 0; i < all_.size(); ++i) all_[i].is_left_out = !IsBelowPelvis(static_cast<int>(i));
     for (const Role role : AllRoles()) AssignToParent(role);
@@ -87,7 +87,7 @@ class Parts {
     return part == pelvis_;
   }
 
-  // Gives the children and roles of `from` to `to`, and leaves `from` out.
+  // Moves all children and roles of part `from` to part `to`, and removes `from`.
   void MoveAll(int from, int to) {
     for (Part& part : all_) {
       if (part.parent == from) part.parent = to;

@@ -48,6 +48,7 @@ class IkBatch {
 
   /// Stores `problem`, whose lists must fit the tree, as column `problem_index`.
   void Set(int problem_index, const IkProblem& problem);
+  /// Returns the problem in column `problem_index`.
   IkProblem Get(int problem_index) const;
 
   /// Returns the indices of the problems in which `FindFault` finds no fault.

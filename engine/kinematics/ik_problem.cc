@@ -75,13 +75,13 @@ FixedPoint FixedBy(const KinematicTree& tree, const Effector& effector, const Ef
   return point;
 }
 
-// Returns the chain of limbs from `point` up to the first joint in `shared`: their summed length, and the joint at
-// which the chain ends (−1 if it is empty).
+// The chain of limbs from a point up to a joint.
 struct Branch {
-  double length = 0;
-  int top = -1;
+  double length = 0;  // of all its limbs, metres
+  int top = -1;       // the last joint of the chain; −1 if it has none
 };
 
+// Returns the chain from `point` up to the first joint in `shared`, or up to the root.
 Branch BranchOf(const KinematicTree& tree, const FixedPoint& point, std::span<const int> shared) {
   Branch branch{point.last_limb, -1};
   for (const int joint : point.joints) {

@@ -193,6 +193,7 @@ struct WorstError {
   double position = 0;  ///< metres
   double axis = 0;      ///< radians, of a single axis
 
+  /// Returns true if both errors are below the goals; false for NaN.
   bool Within(const IkOptions& options) const { return position < options.position_goal && axis < options.axis_goal; }
 };
 /// Returns the largest errors of all effectors.

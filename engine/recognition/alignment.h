@@ -23,7 +23,9 @@ class SubsequenceAligner {
   /// seen steps is dropped; worse paths that it had replaced are not restored.
   SubsequenceAligner(std::span<const PoseVector> pattern, int longest);
 
+  /// Forgets all steps seen.
   void Reset();
+  /// Takes the next seen step.
   void Update(const PoseVector& seen);
 
   /// Returns the cost of the best path that ends at the step seen last, divided by the number of pattern steps: a mean

@@ -66,7 +66,9 @@ class OneEuroFilter {
  public:
   OneEuroFilter(const OneEuroOptions& options, double rate_hz) : options_(options), rate_hz_(rate_hz) {}
 
+  /// Takes the next raw position and returns the filtered one, metres.
   glm::dvec3 Update(const glm::dvec3& raw);
+  /// Forgets the past; the next position is treated as the first.
   void Reset() { started_ = false; }
 
  private:
@@ -101,6 +103,7 @@ class StreamFilter {
   /// Creates a filter for frames at `rate_hz` > 0.
   StreamFilter(const FilterOptions& options, double rate_hz);
 
+  /// Takes the next frame and returns it with filtered positions.
   SensedFrame Update(const SensedFrame& raw);
 
  private:

@@ -25,6 +25,7 @@ struct DecisionTree {
   std::array<double, kNodes> limits{};
   std::array<double, kLeaves> leaves{};
 
+  /// Returns the value of the leaf that the performance reaches, log-odds.
   double Value(const PerformanceMeasures& of) const;
 };
 
@@ -52,7 +53,7 @@ struct BoostingOptions {
   /// they differ (stochastic boosting, Friedman 2002, but with a fixed rotation instead of random numbers).
   bool takes_turns = false;
   /// The number of multiple-instance rounds. Each round trains on one performance per bag: the first round on the first
-  /// one, later rounds on the one that the previous round's model found most likely, because that one decides.
+  /// one, later rounds on the one that the previous round's model found most likely, which decides about the bag.
   int rounds = 3;
 };
 

@@ -99,7 +99,7 @@ struct Mean {
 /// Measures of one limb, as lengths of differences of unit vectors: 1 corresponds to 60 degrees.
 struct LimbMeasures {
   double error = 0;    ///< root mean square
-  double centred = 0;  ///< root mean square after both means are subtracted
+  double centred = 0;  ///< the same after the means of seen and taught are subtracted
   double missing = 0;  ///< missing share of the taught amplitude; negative if the amplitude is too large
 };
 
@@ -173,6 +173,7 @@ PathClock MeasureClock(std::span<const StepPair> path) {
 }  // namespace
 
 PerformanceMeasures Measure(const AlignedPerformance& performance) {
+  // Sum the errors along the path, for each limb and each third of the example.
   std::array<LimbSums, kPosePartCount> sums;
   std::array<Mean, 3> thirds;
   for (const StepPair& pair : performance.path) {
@@ -185,6 +186,7 @@ PerformanceMeasures Measure(const AlignedPerformance& performance) {
   std::array<LimbMeasures, kPosePartCount> limbs;
   for (std::size_t i = 0; i < kPosePartCount; ++i) limbs[i] = MeasureLimb(sums[i]);
 
+  // Write the measures in the order of the slices: limbs, distances, timing of the path, nearest other move.
   PerformanceMeasures measures{};
   std::size_t next = PutLimbs(limbs, measures);
   double worst = 0, mean = 0;

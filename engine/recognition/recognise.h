@@ -33,6 +33,7 @@ struct EvidenceTrace {
   std::vector<double> asked;    ///< per frame
   std::vector<double> spotted;  ///< per frame and move, frame-major
 
+  /// Returns the evidence of every move in a frame.
   std::span<const double> SpottedAt(std::size_t frame) const {
     return std::span(spotted).subspan(frame * moves, moves);
   }

@@ -16,8 +16,9 @@ enum class Weighting {
 };
 
 struct TrackingWeights {
-  /// The default is fixed, as in paper A. Use adaptive if a miss costs more than praise for a mistake, especially if
-  /// the body hides its far side from the sensor. Adaptive weights also ignore mistakes in joints that are not seen.
+  /// The default is fixed, as in paper A. Use adaptive if missing a right performance costs more than accepting a wrong
+  /// one, especially if the body hides its far side from the sensor. Adaptive weights also ignore mistakes in joints
+  /// that are not seen.
   Weighting weighting = Weighting::kFixed;
   /// The adaptive weight of an angle with an inferred joint, in [0, 1]; a tracked one has weight 1. At 0.3 (ours) three
   /// inferred angles cannot outvote a tracked one. Raise it for a sensor whose inferred joints are accurate; at 1,
@@ -28,6 +29,7 @@ struct TrackingWeights {
   /// tracked.
   double not_tracked_weight = 0.0;
 
+  /// Returns the weight of an angle whose joints have `state` at worst.
   double Of(TrackingState state) const {
     if (weighting == Weighting::kFixed || state == TrackingState::kTracked) return 1.0;
     return state == TrackingState::kInferred ? inferred_weight : not_tracked_weight;
@@ -57,6 +59,7 @@ class MoveFollower {
   /// Opens a window for the taught move of this index from the next frame on; earlier frames do not count. Closes the
   /// window if `move` is empty.
   virtual void Ask(std::optional<std::size_t> move) = 0;
+  /// Takes the next frame and returns its evidence.
   virtual Evidence Update(const SeenFrame& frame) = 0;
   /// Returns the taught move that is most similar to the whole stream so far, seen as one performance. It is meant for
   /// callers who know where performances begin and end. Empty if this follower can only judge passages.

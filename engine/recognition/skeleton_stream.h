@@ -37,6 +37,7 @@ struct SkeletonStream {
 
 /// Returns the joint positions without their states.
 BodyPose PoseOf(const SensedFrame& frame);
+/// Returns the joint positions of all frames, including joints that are not tracked.
 BodyMotion MotionOf(const SkeletonStream& stream);
 
 /// Returns the stream of a sensor without errors: every joint is tracked at its true position.
@@ -48,6 +49,7 @@ struct FeatureFrame {
   std::array<TrackingState, kFeatureCount> states{};  ///< the worst state among the feature's joints
   bool body_seen = false;                             ///< if false, the other fields are meaningless
 
+  /// Returns the worst tracking state among the joints of a feature.
   TrackingState StateOf(Feature feature) const { return states[static_cast<std::size_t>(feature)]; }
 };
 

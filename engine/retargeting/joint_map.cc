@@ -168,7 +168,7 @@ class MapFinder {
     constexpr double kMinHeight = 0.15, kMaxHeight = 0.8, kAside = Radians(30);
     double highest = kMinHeight;
     int head = -1;
-    // Find the highest such joint.
+    // Keep the highest joint that passes the tests of height, direction and limbs.
     for (int joint = std::max(carrier, 0) + 1; carrier >= 0 && joint < tree_.size(); ++joint) {
       const glm::dvec3 on = tree_.RestOf(joint) - neck;
       const double height = glm::dot(on, trunk) / glm::dot(trunk, trunk);

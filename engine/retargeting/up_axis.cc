@@ -16,7 +16,7 @@ namespace {
 
 using enum Role;
 
-/// Measurements of a motion under the assumption that one axis points up. Lengths are in statures.
+/// Measurements of a motion under the assumption that one axis points up. Lengths are multiples of the stature.
 struct Stance {
   double upright = 0;   ///< share of the frames with the trunk upright, the hips above the feet, and the head on top
   double balanced = 0;  ///< share of the frames with the weight over the feet

@@ -19,8 +19,7 @@ struct PosePrior {
 struct FitOptions {
   SilhouetteCostOptions cost;
   int max_iterations = 20;
-  /// The smallest relative decrease of the cost with which the iteration goes on; a step that lowers the cost by less
-  /// than this share is the last.
+  /// The iteration ends after a step that lowers the cost by less than this share of it.
   double enough = 1e-3;
 };
 

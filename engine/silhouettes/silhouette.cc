@@ -199,7 +199,7 @@ void SampleOutline(const Mask& mask, const SilhouetteOptions& options, Silhouett
 OutlineColumns MakeColumns(const std::vector<OutlinePoint>& outline) {
   OutlineColumns columns;
   if (outline.empty()) return columns;
-  // Sort the points by squares of the picture in Morton order, which keeps neighbours together.
+  // Sort the points by squares of 8 pixels in Morton order, so that neighbours in the picture are neighbours in memory.
   constexpr double kSquare = 8;  // pixels
   const auto key = [&](int point) {
     const glm::dvec2 square = glm::max(outline[static_cast<std::size_t>(point)].pixel / kSquare, glm::dvec2(0));

@@ -12,7 +12,7 @@ namespace etude {
 using Activity = Image<float>;
 
 struct MotionOptions {
-  std::size_t lag = 1;  ///< how many pictures before and after each is compared with
+  std::size_t lag = 1;  ///< picture n is compared with pictures n − lag and n + lag
   /// Half the side of the square around a pixel in which motion counts, pixels. A trunk shows motion only at its rim,
   /// and its middle must not count as background: choose a quarter of a trunk's width.
   int reach = 12;

@@ -107,11 +107,13 @@ Mask DetectChange(const ColourImage& background, const ColourImage& picture, Seg
   assert(background.width == picture.width && background.height == picture.height);
   assert(options.hue_threshold >= 0 && options.hue_threshold < kPi / 2);
   Mask mask(picture.width, picture.height);
+  // Each segmenter is a test of two colours: the background's and the picture's.
   const auto compare = [&](auto differ) {
     for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
       mask.pixels[i] = differ(background.pixels[i], picture.pixels[i]);
     }
   };
+  // Apply it to every pixel.
   switch (segmenter) {
     case Segmenter::kRgb:
       compare([&](Rgb8 b, Rgb8 p) { return MaxDifference(b, p) > options.rgb_threshold; });

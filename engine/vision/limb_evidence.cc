@@ -42,7 +42,7 @@ constexpr const Body& BodyOf(FigureKind kind) { return kind == FigureKind::kDres
 constexpr std::size_t kHeadStroke = kStrokeCount - 1;
 constexpr std::size_t kMinPixels = 6;   // fewer are noise
 constexpr std::size_t kMinBorder = 3;   // pixel sides
-constexpr double kMinSeenShare = 0.25;  // for a limb without both ends
+constexpr double kMinSeenShare = 0.25;  // of a limb if one of its ends was not found
 
 /// The common border of a limb and its parent part.
 struct Border {
@@ -216,8 +216,8 @@ class EvidenceFinder {
     return line.At(std::max(0.5 * (line.low + line.high), line.high - inset));
   }
 
-  // Returns the visible distance from the joint to the limb's round end if a thinner limb continues at an angle: the
-  // distance to which a disc of radius R is visible beside the other limb's strip of half width r.
+  // Returns how far the limb's round end is visible beyond the joint if a thinner limb continues from there at an angle
+  // and covers part of it: a disc with the limb's half width, minus a strip with the next limb's half width.
   static double ReachBeyondJoint(const MiddleLine& limb, const MiddleLine& next) {
     if (!next.IsLong()) return limb.half_width;
     const double between = std::acos(std::clamp(glm::dot(limb.along, next.along), -1.0, 1.0));
@@ -296,7 +296,7 @@ class EvidenceFinder {
     seen.seen_share = std::min(1.0, limb.region->pixels / whole);
     const bool is_long = limb.line.high - limb.line.low > 3 * half_width;
     if (!(inner && outer) && (seen.seen_share < kMinSeenShare || !is_long)) return std::nullopt;
-    // Use a joint only if this limb itself has a border there: the joint may come from the other limb.
+    // A joint may have been found from the neighbouring limb; it ends this stroke only if this limb has a border there.
     seen.line.a = inner && limb.inner ? *inner : limb.line.At(limb.line.low);
     seen.line.b = outer && (limb.outer || !HasOuterLimb(i)) ? *outer : limb.line.At(limb.line.high);
     return seen;

@@ -29,7 +29,8 @@ struct PictureEvidence {
 /// The kind of figure, which determines where joints lie in the visible part of a limb. An observer recognises it at
 /// first sight, so methods may know it.
 enum class FigureKind {
-  /// Paper B's studio: round limbs, the thicker of which ends near the joint; trunk joints lie outside it.
+  /// Paper B's studio: capsules. Where two limbs meet, the thicker one ends near the joint; hips, shoulders and the
+  /// neck lie inside the trunk, beyond the visible part of their limb.
   kCapsules,
   kDressed,  ///< limbs are cut across at their joints (sim/character)
 };
@@ -51,9 +52,9 @@ struct FigureLook {
 ///   inner end; a shoulder half an arm's width inside the arm, a hip above the crotch.
 /// - A tip lies about half a width inside the limb's outer end; the head's point at a given distance below the crown.
 /// All these shares are *ours*, measured on each kind of figure at rest, from the side. A limb that another limb or the
-/// picture's edge cuts off ends there. A limb is left out if it does not show both ends or a quarter of itself in a
-/// clearly long piece, and if it touches nothing known, because its ends cannot be distinguished. docs/annotator.md
-/// states, by joint, the error that these rules cause in exact joint centres.
+/// picture's edge cuts off ends there. A limb with a hidden end is left out unless a clearly long piece shows a quarter
+/// of it. A limb that touches nothing known is also left out, because its ends cannot be distinguished.
+/// docs/annotator.md states, by joint, the error that these rules cause in exact joint centres.
 PictureEvidence FindLimbEvidence(const LimbRegions& regions, const FigureLook& look = {});
 
 }  // namespace etude

@@ -61,7 +61,9 @@ struct MiddleLine {
   double low = 0, high = 0;  ///< positions along it where the region begins and ends, pixels from the origin
   double half_width = 0;     ///< 90th percentile of the half widths of its cross sections, pixels
   bool IsLong() const;       ///< true if clearly longer than wide, so its direction is defined
+  /// Returns the point of the line at the position `s`.
   glm::dvec2 At(double s) const { return origin + s * along; }
+  /// Returns the position along the line of the point on it that is nearest to `p`, pixels from the origin.
   double Where(const glm::dvec2& p) const { return glm::dot(p - origin, along); }
 };
 

@@ -9,10 +9,10 @@
 
 namespace [[gnu::visibility("default")]] etude {
 
-/// Classifies one camera's pictures pixel by pixel *(ours)*: is the room more likely, as it is or in a shadow or more
-/// light, or one of the colours that the person wears? Those are learnt from picture to picture, as a histogram with
-/// exponential forgetting; the first pictures are judged by hues alone. The log-likelihood ratio is smoothed over
-/// neighbours and is lowered far from the person's last position. Drift of the lamp is corrected first.
+/// Classifies one camera's pictures pixel by pixel *(ours)*, by the likelihood ratio of the person's colours and the
+/// room, which may be unchanged, in shadow or in more light. The person's colours are learnt from picture to picture
+/// as a histogram with exponential forgetting; the first pictures are judged by hues alone. The log-likelihood ratio
+/// is smoothed over neighbours and lowered far from the person's last position. Drift of the lamp is corrected first.
 class ColourLikelihood {
  public:
   /// @param background the empty room

@@ -47,8 +47,8 @@ constexpr double kSwapFrames = 5;                  ///< mean number of marked fr
 
 /// The random numbers of one picture; their count depends neither on the picture nor on the errors' strength.
 struct PictureDice {
-  std::array<glm::dvec2, kRoleCount> lasting;      ///< unit variance in u and v: one value per joint
-  std::array<glm::dvec2, kRoleCount> independent;  ///< unit variance in u and v: one value per joint
+  std::array<glm::dvec2, kRoleCount> lasting;      ///< errors correlated over frames: standard normal in u and in v
+  std::array<glm::dvec2, kRoleCount> independent;  ///< errors of this picture alone: standard normal in u and in v
   std::array<glm::dvec2, kStrokeCount> shortness;  ///< at both ends, standard normal
   std::array<double, kStrokeCount> miss;           ///< uniform in [0, 1)
   std::array<double, 2> swap_begins;               ///< uniform in [0, 1); arms, legs

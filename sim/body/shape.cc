@@ -57,6 +57,7 @@ struct OwnParts {
 };
 
 OwnParts OwnPartsOf(Role role) {
+  // An inner joint lies in the parts before and beyond it; a tip lies in one part.
   switch (role) {
     case kHipCentre:
     case kSpine:

@@ -50,7 +50,7 @@ class Shutter {
 /// A camera's identity within its world; it is the key of the camera's random numbers.
 struct CameraIdentity {
   WorldKey world;
-  std::string name;          ///< "capture/camera-0": the prefix of its purposes
+  std::string name;          ///< "capture/camera-0": begins the purposes of its random streams
   bool is_reference = true;  ///< true if its clock is that of the truth
 };
 

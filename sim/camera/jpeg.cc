@@ -20,7 +20,7 @@ JSAMPROW RowOf(const ColourImage& picture, JDIMENSION y) {
   return const_cast<JSAMPROW>(reinterpret_cast<const JSAMPLE*>(row));  // libjpeg does not write to its input
 }
 
-// libjpeg reports a damaged file only through this callback, so it is left by longjmp.
+// libjpeg reports a damaged file only through a callback that must not return; ours leaves by longjmp.
 struct JpegError {
   jpeg_error_mgr errors;  // must be first: libjpeg knows only this part
   std::jmp_buf way_out;

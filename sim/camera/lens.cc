@@ -173,6 +173,7 @@ void LensWarp::Warp(const DepthImage& source, const RowRange& rows, DepthImage& 
 
 View LensWarp::Warp(const View& pinhole) const {
   if (is_none()) return pinhole;
+  // Cut out the rows that the warp reads.
   const RowRange all{0, height_}, rows = SourceRows(all);
   const auto rows_of = [&](const auto& picture) {
     std::remove_cvref_t<decltype(picture)> part(picture.width, rows.end - rows.first);

@@ -64,6 +64,7 @@ class LensWarp {
 class Defocus {
  public:
   explicit Defocus(double sigma_px);
+  /// Blurs a picture in place.
   void Apply(LightImage& light);
 
  private:

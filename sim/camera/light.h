@@ -40,7 +40,7 @@ class CodeTable {
   std::array<std::uint8_t, kSteps> codes_;
 };
 
-/// Convert a row of `pixels` pixels.
+/// Convert a row of `pixels` pixels: from sRGB codes to linear light, and back.
 void DecodeRow(const Rgb8* codes, int pixels, Light* out);
 void EncodeRow(const Light* light, int pixels, Rgb8* out);
 /// Adds share · light of a row to `out`.

@@ -81,10 +81,11 @@ inline float Disturbed(const SensorNoise& noise, float light, float normal) {
 }
 
 /// Noise for pictures without any other effect. For every code, one table holds the 1024 outcomes of decoding it to
-/// light, adding noise and encoding the sum. The bytes are those of doing so for each pixel, but come faster.
+/// light, adding noise and encoding the sum. The bytes equal those of computing each pixel, at a lower cost.
 class CodeNoise {
  public:
   explicit CodeNoise(const SensorNoise& noise);
+  /// Adds noise to a picture in place.
   void Apply(RandomStream& random, ColourImage& picture) const;
 
  private:
@@ -112,8 +113,8 @@ struct Sensor {
 
   /// Reads the light with one chip per colour. Each row draws numbers for three colours a pixel.
   void ReadColours(RandomStream& random, LightImage& light) const;
-  /// Reads the light with one chip under a Bayer filter. It draws the same numbers as ReadColours and uses those of the
-  /// existing colours.
+  /// Reads the light with one chip under a Bayer filter. It draws the same numbers as ReadColours; each pixel
+  /// uses the one of its colour.
   void ReadMosaic(const LightImage& light, RandomStream& random, Mosaic& out) const;
 };
 

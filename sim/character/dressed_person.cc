@@ -149,6 +149,7 @@ void AddHead(const Girth& girth, bool long_hair, const BodyPose& rest, DressedPi
                                        .last_cap_cm = 3,
                                        .around = 16},
                                   rest));
+  // Long hair: a flat tube behind the neck.
   if (!long_hair) return;
   pieces.hair.push_back(MakePiece(Tube{.name = "long hair",
                                        .chain = {kHead},

@@ -87,6 +87,7 @@ class CharacterBuilder {
 
   /// Adds a material with a colour in sRGB; returns its index for `Add`.
   int AddMaterial(std::string name, Rgb8 colour);
+  /// Adds a piece of the material with that index.
   void Add(int material, const Piece& piece);
   /// Adds a piece and its mirror image on the other side.
   void AddOnBothSides(int material, const Piece& piece);

@@ -49,6 +49,7 @@ struct BodyDimensions {
   double hand = CanonicalBody::kHand;
   double home_half_width = CanonicalBody::kHomeHalfWidth;
 
+  /// Returns the height of the hip centre above the floor on straight legs, metres.
   double HipHeight() const { return thigh + shank + ankle_height; }
 };
 

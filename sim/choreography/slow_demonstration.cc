@@ -19,7 +19,7 @@ class Pauses {
     double before = 0;
     for (std::size_t i = 0; i <= stops_.size(); ++i) {
       const double next = i < stops_.size() ? stops_[i] : beats;
-      // Two ramps fit between neighbouring stops; each covers half its length of the move.
+      // Two ramps must fit between neighbouring stops. The mean speed in a ramp is ½, so it covers half its length.
       ramp_ = std::min(ramp_, next - before);
       before = next;
     }
@@ -33,6 +33,7 @@ class Pauses {
     return stops_[stop] + PerStop() * static_cast<double>(stop) + 0.5 * ramp_;
   }
 
+  /// Returns the beat of the move at a beat of the demonstration, which may lie in a stop.
   double MoveBeat(double beat) const {
     for (std::size_t i = stops_.size(); i-- > 0;) {
       const double since = beat - HoldStart(i);

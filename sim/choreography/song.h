@@ -27,8 +27,9 @@ struct Turn {
 constexpr double kBlendBeatsBefore = 1, kBlendBeatsAfter = 0.5;
 
 /// Returns the body at a beat of the music. In the blend between two turns both are danced, the first beyond its last
-/// beat and the second before its first, and the second one's weight grows. Feet are not blended: every move has them
-/// at home at its beat 0, where they change from one turn to the next at once, so a standing foot does not move.
+/// beat and the second before its first, and the second one's weight grows. Feet are not blended: at beat 0 of a turn
+/// they change from the turn before to this one at once. Every move has its feet at home at its beat 0, so a standing
+/// foot does not move.
 /// `turns` (at least one) follow each other without gaps; the body is at rest before the first and after the last.
 Controls SequenceAt(std::span<const Turn> turns, double beat);
 
@@ -57,7 +58,9 @@ struct Song {
 
 /// Reads a song of built-in moves; it may last at most ten minutes. `tempo_bpm` overrides the file's tempo.
 Result<Song> ParseSong(std::string_view yaml, const std::string& file, std::optional<double> tempo_bpm = {});
+/// Returns the names of the built-in songs, sorted.
 std::vector<std::string> BuiltinSongNames();
+/// Loads the built-in song of that name. The error lists the known names. `tempo_bpm` overrides the file's tempo.
 Result<Song> LoadBuiltinSong(const std::string& name, std::optional<double> tempo_bpm = {});
 /// Loads the built-in song without its tags and its motion, which is the slowest part to compute.
 Result<Song> LoadBuiltinSongOutline(const std::string& name);

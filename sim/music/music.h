@@ -21,7 +21,9 @@ class MusicClock {
  public:
   MusicClock(const MusicClockOptions& options, const WorldKey& world);
 
+  /// Jumps to a position in the song, seconds, and plays from there. A running stutter continues.
   void PlayFrom(double music_s);
+  /// Stops at the present position.
   void Pause();
   /// Advances the clock by one frame.
   void Tick();

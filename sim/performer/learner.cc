@@ -33,7 +33,7 @@ constexpr double kWrongPraiseCost = 0.06;
 constexpr double kCorrectionCost = 0.02;
 constexpr double kPraiseGain = 0.03;
 
-/// The minimum severity of a fault that happens (ours), so that few faults are too mild to be wrong.
+/// The minimum severity of a fault that happens (ours), so that few faults are too mild to make a performance wrong.
 constexpr double kMinSeverity = 0.35;
 
 /// The probability of each fault of a person without any skill, in the order of Fault (ours).

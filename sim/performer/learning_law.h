@@ -37,6 +37,7 @@ class Skill {
   /// The error starts at `error` in [0, 1] and never falls below `floor` in [0, error].
   Skill(LearningLaw law, double error, double floor = 0, const LearningRates& rates = {});
 
+  /// Returns the present probability of the fault, in [floor, error].
   double Error() const;
   /// Records one performance, which teaches `units` in [0, 1]; one unit is what a trial with knowledge of results
   /// teaches. Under the two-rate law it also causes forgetting.

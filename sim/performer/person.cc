@@ -13,7 +13,7 @@ namespace {
 /// years). Every spread is a standard deviation.
 struct Preset {
   double min_m, max_m;         // stature, drawn uniformly
-  double lag_s, lag_spread_s;  // spread between people, and between one person's performances
+  double lag_s, lag_spread_s;  // mean of the people, and spread between one person's performances
   double tempo, tempo_spread;  // spread between people, of the logarithm
   double own_tempo_spread, drift;
   double amplitude, amplitude_spread;
@@ -73,7 +73,7 @@ Controls DrawPosture(RandomStream& random, double looseness) {
 bool IsOfTheArm(SideControl control) { return control <= SideControl::kWrist; }
 
 std::array<double, kControlCount> DrawGains(RandomStream& random, const Preset& preset) {
-  // Hips, trunk and legs share one factor, and every control has its own.
+  // Hips, trunk and legs share one factor; every control also has a factor of its own.
   constexpr double kMinLower = 0.25;
   const double lower = std::max(kMinLower, preset.lower + preset.lower_spread * Bounded(random));
   constexpr double kMin = 0.65, kMax = 1.5;
@@ -156,6 +156,7 @@ BodyDimensions DimensionsOf(double stature_m, double childhood) {
                                      .forearm = 0.140,
                                      .hand = 0.108,
                                      .home_half_width = 0.075};
+  // Interpolate every size, as a share of stature, between the adult's and the child's.
   const BodyDimensions adult;
   BodyDimensions body;
   for (double BodyDimensions::*size :

@@ -34,6 +34,7 @@ struct Chance {
   std::uint64_t ways = 0;  ///< the random key of its offsets
 };
 
+/// Draws the variation of one performance by this person.
 Chance DrawChance(RandomStream& random, const Person& person);
 
 /// One performance of a move: the body at each share of the performance, and its timing, both with its faults and as it

@@ -24,6 +24,7 @@ constexpr ControlSpan InDegrees(double spread, double lower, double upper) {
 }
 
 ControlSpan SpanOf(MiddleControl control) {
+  // Deviation, lower and upper end: metres, or degrees where said.
   switch (control) {
     case kHipsSide:
       return {0.015, -0.2, 0.2};
@@ -54,6 +55,7 @@ ControlSpan SpanOf(MiddleControl control) {
 }
 
 ControlSpan SpanOf(SideControl control) {
+  // Deviation, lower and upper end: metres, or degrees where said.
   switch (control) {
     case kArmForward:
       return InDegrees(15, -40, 170);

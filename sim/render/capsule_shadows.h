@@ -10,8 +10,8 @@ namespace etude {
 /// Draws the shadows that the capsules of figures cast on the empty room. The depth to which the line from the lamp to
 /// a pixel runs inside a capsule determines the lamp's remaining light; shadows are softer the farther they fall, and
 /// where shadows overlap the darkest counts. In interiors, capsules close to a surface also darken it by contact
-/// shadows. `view` shows those rows of the empty room. Shadows of the lamp are labelled kShadow, except on furniture,
-/// which keeps its label.
+/// shadows. Before the call, `view` shows `rows` of the empty room. Shadows of the lamp are labelled kShadow,
+/// except on furniture, which keeps its label.
 void CastCapsuleShadows(const KeptRoom& kept, const Room& room, const std::vector<Figure>& figures, Targets targets,
                         const RowRange& rows, View& view);
 

@@ -95,8 +95,8 @@ class KeptRooms {
   std::deque<Kept> kept_;  // most recently used first
 };
 
-/// Fills `view` with those rows of the empty room at `brightness`, `width` pixels each. The bytes are exactly those
-/// that GL would draw (round to nearest even). Pictures of another size are reallocated.
+/// Fills `view` with `rows` of the empty room at `brightness`, `width` pixels each. The bytes are exactly those that GL
+/// would draw (round to nearest even). Pictures of another size are reallocated.
 void FillBackdrop(const KeptRoom& room, int width, double brightness, Targets targets, const RowRange& rows,
                   View& view);
 

@@ -99,6 +99,7 @@ class GlContext {
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
 
+  /// Directs all following GL calls to this context.
   void MakeCurrent();
   const GlFunctions& functions() const { return functions_; }
   /// Returns the name of its library: "OSMesa", "EGL".

@@ -88,8 +88,8 @@ class FrameTargets {
   /// Directs drawing to the top left `width` × `height` pixels of the requested attachments; fewer attachments are
   /// faster.
   void Begin(int width, int height, Targets asked);
-  /// Clears rectangles (at least one) of the attachments selected by WriteOnly: nothing is drawn there, nothing is
-  /// hidden. Drawing is then limited to the rectangle around all of them.
+  /// Clears rectangles (at least one) of the attachments selected by WriteOnly: they then hold no drawn pixels and no
+  /// depths. From then on drawing is limited to the rectangle around all of them.
   void Clear(const std::vector<PixelRect>& rects);
   /// Selects the attachments that the next draws write. It uses masks, because a change of attachments would make Mesa
   /// finish all pending drawing.

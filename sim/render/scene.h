@@ -67,7 +67,7 @@ struct Figure {
   std::vector<Surface> surfaces{};
   /// Invisible capsules that cast the shadow of the surfaces in furnished rooms, where surfaces cast none.
   std::vector<Capsule> shadow{};
-  /// The label of all its pixels instead of its parts: kBystander or kClutter.
+  /// If set, the label of all its pixels, kBystander or kClutter, instead of those of its parts.
   std::optional<Part> seen_as{};
   bool is_hooded = false;  ///< true: neither hair nor a face is drawn on the head's capsules
 };

@@ -36,6 +36,7 @@ class MotionWindow {
     const BodyPose& pose;  ///< valid until the next Push
     FrameMotion motion;
   };
+  /// Returns that frame and advances; nullopt if more poses are needed first.
   std::optional<Known> Next();
 
  private:

@@ -33,6 +33,7 @@ struct NumberKey {
 };
 const std::vector<NumberKey>& NumberKeys() {
   using Options = SkeletonSensorOptions;
+  // Key in the file, the option that it sets, and its allowed range.
   static const std::vector<NumberKey> keys = {
       {"reference_distance_m", &Options::reference_distance_m, {0.5, 10}},
       {"arm_stretch", &Options::arm_stretch, {0, 5}},
@@ -113,6 +114,7 @@ void ReadCorrelations(Fields& fields, SkeletonSensorOptions& options) {
 }  // namespace
 
 JointGroup GroupOf(Role role) {
+  // Left and right share a group; all joints of the trunk and the head are the torso.
   switch (role) {
     case kLeftShoulder:
     case kRightShoulder:
@@ -146,6 +148,7 @@ std::string_view GroupName(JointGroup group) { return kGroupNames[Index(group)];
 std::span<const JointGroup, kJointGroupCount> AllJointGroups() { return kGroups; }
 
 BoneKind BoneKindOf(Role child) {
+  // Left and right bones share a kind.
   switch (child) {
     case kHipCentre:
     case kSpine:

@@ -123,7 +123,7 @@ struct SkeletonSensorOptions {
   int longest_episode = 40;
   double nearest_guess_m = 0.2;  ///< range of the error of a hidden hand or foot
   double farthest_guess_m = 1.1;
-  double wrong_guess_chance = 0.6;  ///< probability; otherwise the guess is as accurate as a seen joint (ours)
+  double wrong_guess_chance = 0.6;  ///< probability; a right guess is as accurate as a seen joint (ours)
 
   double dropout_share = 0.02;    ///< share of all frames in which the whole body is lost
   double swaps_per_minute = 1.0;  ///< of arms or legs, in profile, a third of a second each (ours)

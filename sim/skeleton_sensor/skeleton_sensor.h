@@ -42,6 +42,8 @@ using FrameGuesses = std::array<Guess, kRoleCount>;
 class OcclusionGuesses {
  public:
   OcclusionGuesses(const SkeletonSensorOptions& options, const WorldKey& world);
+  /// Returns the guesses of the next frame. Inferred are the joints that are hidden now, and those of a limb that have
+  /// been hidden since its episode began.
   FrameGuesses Next(const BodyPose& pose, const HiddenJoints& hidden);
 
  private:
@@ -69,6 +71,7 @@ class OcclusionGuesses {
 class Outliers {
  public:
   Outliers(const SkeletonSensorOptions& options, const WorldKey& world);
+  /// Returns the errors of the next frame, metres in the world.
   FrameErrors Next();
 
  private:
@@ -100,6 +103,7 @@ class Swaps {
 class Dropouts {
  public:
   Dropouts(const SkeletonSensorOptions& options, const WorldKey& world);
+  /// Returns true if the body is lost in the next frame.
   bool Next();
 
  private:
@@ -114,6 +118,7 @@ struct SensorPlacement {
   double turn = 0;         ///< radians: the performer appears turned by this angle
   double height = 1.0;     ///< metres above the floor; the sensor looks at a point one metre above the floor
 };
+/// Returns the pose of the sensor as a camera with the intrinsics `view`.
 Camera SkeletonSensorAt(const SensorPlacement& place, const Intrinsics& view);
 
 /// A skeleton sensor, frame by frame. A joint's error depends on the body's motion around the frame, so a frame's

@@ -192,7 +192,7 @@ Result<SessionVerdict> ReadSessionAnswer(const Json& answer, const DetectionWorl
     const std::string move = alarm.RequiredChoice("move", moves);
     const int frame = alarm.Integer("frame", 0, frames - 1);
     if (auto done = alarm.Finish(); !done) fields.Note(done.error());
-    // An unknown move was complained of above.
+    // RequiredChoice has reported an unknown move already.
     if (const auto taught = repertoire.TaughtIndexOf(move)) calls.emplace(*taught, frame);
   }
   // False alarms are detections outside every performance of their move.

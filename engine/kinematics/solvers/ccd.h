@@ -32,6 +32,7 @@ struct HingeGain {
     k3 += weight * glm::dot(axis, glm::cross(current, desired));
   }
 
+  /// Returns g(φ), φ in radians.
   double At(double phi) const;
 
   /// Returns the φ in (−π, π] that maximises g; 0 if g is constant.

@@ -18,8 +18,8 @@ namespace {
 constexpr double kMaxRadius = 1e8;
 // The solver stops if a step lowers the sum by less than this share.
 constexpr double kMinCostChange = 1e-9;
-// How many successive steps may raise the sum. At limits the way to the solution often leads uphill at first, so
-// Ceres's default of 5 is too small.
+// The maximum number of successive steps that raise the sum. At limits the sum often rises before it falls, so Ceres's
+// default of 5 is too small.
 constexpr int kMaxStepsUphill = 20;
 
 // Returns the rotation, in the world, that turns an effector's axes E into the desired axes D, by less than half a

@@ -115,7 +115,7 @@ HWY_INLINE void TurnAxes(const V& s, const V& c, V (&axes)[3][3]) {
   }
 }
 
-/// Sets `screw` to `axis` and to the translation, per radian of a turn about it at J, of the limb's point at the root
+/// Sets `screw` for a hinge at J: first its unit axis, then the translation per radian of the limb's point at the root
 /// R.
 template <class V>
 HWY_INLINE void SetScrew(const V (&axis)[3], const V (&p_RJ_W)[3], V (&screw)[6]) {
@@ -300,7 +300,7 @@ HWY_INLINE V Clamped(const V& x, const V& lower, const V& upper) {
   return Select(Below(x, lower), lower, Select(Below(upper, x), upper, x));
 }
 
-/// From the movement of the limb before, computes the hinge's change and side, and updates `movement` to that of the
+/// Computes the hinge's change and side. `movement` is that of the limb before the hinge, and afterwards that of the
 /// limb beyond.
 template <class V>
 HWY_INLINE void SubstituteHinge(const V& lower, const V& upper, const HingeLanes<V>& hinge, V& change, V& side,
@@ -395,7 +395,7 @@ HWY_INLINE void EliminateHinge(const Four& damping, double to_start, double to_l
   hinge.best = FirstOf(best);
 }
 
-/// From the movement of the limb before, computes the hinge's change, and updates `movement` to that of the limb
+/// Computes the hinge's change. `movement` is that of the limb before the hinge, and afterwards that of the limb
 /// beyond. Returns true if the hinge has changed sides.
 HWY_INLINE bool SubstituteHinge(double to_lower, double to_upper, TrunkHinge& hinge, double& change, SixRow& movement) {
   const Four best = Four(hinge.best) - Four(hinge.scale) * DotRows(LoadRow(hinge.matrix_s), movement);

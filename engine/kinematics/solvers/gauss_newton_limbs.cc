@@ -52,6 +52,7 @@ class LimbLanes final : public GaussNewtonLimbs {
 
   void Solve(const GaussNewtonRules& rules, GaussNewtonCourse& course, GaussNewtonHelp& help) override {
     using enum GaussNewtonCourse::Act;
+    // Free all hinges, and begin at the start angles.
     for (HingeLanes<Four>& hinge : hinges_) hinge.side = Four(0.0);
     for (TrunkHinge& hinge : trunk_hinges_) hinge.side = 0;
     Copy(start_, now_);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kMaxDofs = 3;  // of a joint
 
-// Sets the axes of a joint, and finds if they are only a permutation of its parent's axes with changed signs.
+// Sets the axes of a joint, and finds whether every one of them is ± an axis of its parent.
 void DescribeAxes(const glm::dmat3& R_PJ, GaussNewtonTree::Joint& joint) {
   joint.renames_axes = true;
   for (int c = 0; c < 3; ++c) {

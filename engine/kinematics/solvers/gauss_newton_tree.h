@@ -38,7 +38,7 @@ struct GaussNewtonTree {
   std::vector<Effector> effectors;
   std::vector<int> inwards;  ///< joints sorted by height, so each comes after all beyond it (`JointsInwards`)
   std::vector<Step> steps;   ///< in that order; joints of one height alternate, so that a CPU can overlap them
-  std::vector<int> unasked;  ///< joints without an effector beyond
+  std::vector<int> unasked;  ///< joints that move no effector
   int quadratic_count = 0;
   int dof_count = 0;
 

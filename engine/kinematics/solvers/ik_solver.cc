@@ -101,6 +101,7 @@ IkSolution SolveDampedLeastSquaresActiveSet(const KinematicTree& tree, const IkP
 // A new solver is one row here. Its options, if it has any, are a struct in its own header.
 std::span<const IkSolver> AllIkSolvers() {
   static const std::vector<IkSolver> solvers = {
+      // Cyclic coordinate descent.
       {.name = "ccd",
        .description = "cyclic coordinate descent, joints decomposed as in paper B",
        .uses_weights = true,
@@ -118,6 +119,7 @@ std::span<const IkSolver> AllIkSolvers() {
                   SolveWithOwn<CcdAndersonOptions>(SolveCcdAnderson), &SolverSettings::memory,
                   &CcdAndersonOptions::memory,
                   Between("memory", 1, 20, "Number of previous sweeps that the extrapolation uses.")),
+      // Damped least squares.
       GaussNewton(),
       WithSetting(
           {.name = "levenberg-marquardt",
@@ -145,11 +147,13 @@ std::span<const IkSolver> AllIkSolvers() {
            .step = "steps"},
           SolveWithOwn<DampedLeastSquaresOptions>(SolveDampedLeastSquaresActiveSet), &SolverSettings::damping,
           &DampedLeastSquaresOptions::first_damping, Between("damping", 1e-9, 1e6, "The damping of the first step.")),
+      // Joints as points.
       {.name = "fabrik",
        .description = "forward and backward reaching of joints as points, positions only",
        .uses_axes = false,
        .step = "passes",
        .solve = SolveFabrik},
+      // Steps without a measure of their success.
       WithSetting({.name = "jacobian-pinv",
                    .description =
                        "paper B's Jacobian pseudo-inverse, with the start as preferred posture and limits by clamping",

@@ -129,8 +129,6 @@ void ComputeStep(const LinearTargets& linear, std::span<const double> angles, st
   if (length > 0) step *= gain * residuals.dot(gained) / length;
 }
 
-// Damps steps with the active set if an undamped step within the limits cannot meet the targets.
-
 // The range of λ in damped least squares, and the factor by which it changes.
 constexpr double kMinDamping = 1e-9;
 constexpr double kMaxDamping = 1e6;

@@ -238,6 +238,7 @@ double MomentSweep::State::TurnHinges() {
 void MomentSweep::State::PlaceLimbs() {
   for (std::size_t n = tree.steps.size(); n-- > 0;) {
     const SweepTree::Step& step = tree.steps[n];
+    // A hinge: rotate two axes by its angle.
     if (step.hinge >= 0) {
       const double c = hinges[step.hinge].c, s = hinges[step.hinge].s;
       const Quad from = axes[step.from], towards = axes[step.towards];

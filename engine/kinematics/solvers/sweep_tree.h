@@ -35,7 +35,7 @@ struct SweepTree {
     int hinge = -1;             ///< −1 for the step to the parent
     int i = 0, j = 0;           ///< the hinge turns axis i towards axis j
     int from = 0, towards = 0;  ///< indices of these axes before the turn
-    int turned = 0;             ///< index of axis i after the turn; axis j follows
+    int turned = 0;             ///< index of axis i after the turn; that of axis j is one more
   };
 
   std::vector<Joint> joints;
