@@ -60,6 +60,7 @@ Study StudyOf(const Scenario& scenario) {
               .rival = scenario.rival,
               .expectations = scenario.expectations,
               .gate = scenario.gate};
+  // Each method, with the stages that the truth replaces.
   const TaskKind& kind = *FindTaskKind(scenario.task);
   for (const MethodEntry& method : scenario.methods) {
     const Node* oracle = method.node.Find("oracle");
@@ -69,6 +70,7 @@ Study StudyOf(const Scenario& scenario) {
     study.methods.push_back(
         {method.name, method.against, has_oracle, StagesOf(oracle), SettingsOf(method), DescriptionOf(method)});
   }
+  // Each condition, by its swept values alone.
   for (const Condition& condition : scenario.conditions) study.conditions.push_back(condition.swept);
   return study;
 }

@@ -145,7 +145,8 @@ class Guesser {
     return misses.empty() ? 0 : LowerPercentile(misses, 0.5);
   }
 
-  // Interprets the keypoints of all films as the rig's own pixels if that reduces the distance.
+  // Interprets the keypoints of all films as pixels of the rig's pictures, without the films' fit to the rig, if the
+  // rays then miss each other by less.
   void ChooseStored() {
     bool is_fitted = false;
     for (const PictureOfFilm& film : films_) {

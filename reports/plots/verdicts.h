@@ -17,11 +17,10 @@ struct JudgedPerformance {
   double score = 0;  ///< a higher score means nearer to right
   double truth = 0;  ///< 1 right, ½ grey, 0 wrong
   bool is_called = false;
-  double severity = 0;     ///< of its worst fault; 0 if none
-  std::string fault = {};  ///< that fault's name; "" if none
-  /// The move as which the method named it, "" for none; unset if methods name no moves.
-  std::string danced = {};
-  std::optional<std::string> named = {};  ///< the move it was taken for, "" for none; unset if methods name no moves
+  double severity = 0;                    ///< of its worst fault; 0 if none
+  std::string fault = {};                 ///< that fault's name; "" if none
+  std::string danced = {};                ///< the move that was truly performed; "" for none
+  std::optional<std::string> named = {};  ///< the move that the method named, "" for none; unset if it names no moves
 };
 
 /// The verdicts of one method on all performances under one condition.

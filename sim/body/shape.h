@@ -57,7 +57,7 @@ double HitDistance(const Capsule& capsule, const glm::dvec3& origin, const glm::
 
 /// The distances from an eye at which the ray to a joint hits the body; infinity if it hits nothing.
 struct JointSight {
-  double skin;   ///< of the joint's own skin (the parts that end in it), at most that of the joint
+  double skin;   ///< of the joint's own skin (the parts that end in it); at most the joint's own distance
   double other;  ///< of the nearest other part
 };
 /// Computes the distances along the ray from `eye` to the joint of `role`. `body` is `BodyCapsules(pose)`.

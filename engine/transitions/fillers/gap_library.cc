@@ -92,7 +92,7 @@ std::vector<TreePose> GapLibrary::Fill(const Gap& gap) const {
   std::size_t first = 0;
   const Entry* nearest = FindNearest(gap, first);
   if (nearest == nullptr) return {};
-  // Place the library's frames, from the one before the gap to the one after it: heading and position of the gap.
+  // Move the library's frames, from the one before the gap to the one after it, to the gap's position and heading.
   const std::vector<TreePose>& poses = nearest->motion.poses;
   const TreePose &last = gap.past.back(), &before = gap.past[gap.past.size() - 2], &next = gap.future.front();
   const glm::dquat heading = HeadingOf(last.turns[0] * glm::conjugate(poses[first].turns[0]));
