@@ -178,7 +178,7 @@ std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, con
   const std::string folder = report.run_folder.empty() ? "RUN" : ShellWord(report.run_folder);
   const MoveIdentity& one = moves.front()->identity;
   const std::string about = one.scenario + (one.condition == "-" ? "" : ", " + one.condition);
-  std::vector<std::pair<int, std::string>> worlds;  // trial, and a text on what is far worse in it
+  std::vector<std::pair<int, std::string>> worlds;  // trial, and a text that lists the metrics far worse in it
   std::map<int, std::size_t> places;
   for (const MetricMove* move : moves) {
     const std::string& metric = move->identity.metric;

@@ -9,9 +9,9 @@
 
 namespace etude {
 
-/// Returns the page that shows a run to people: verdicts first, plain words, pictures; tables of numbers are folded
-/// away. The page contains everything it needs, and its policy forbids network access. `real` holds captures of real
-/// films, shown beside the simulated ones.
+/// Returns the HTML report of a run: verdicts first, in plain words with pictures; tables of numbers are folded away.
+/// The page loads nothing: everything is embedded, and its Content-Security-Policy forbids network access. `real` holds
+/// captures of real films, shown beside the simulated ones.
 std::string WritePage(const RunData& run, const Media& media, std::span<const RealTake> real = {});
 
 /// Returns the page's verdicts as a short Markdown text, for a pull request or a release note.

@@ -94,8 +94,8 @@ Result<void> CheckMetricVersions(const Json& manifest, const Place& place) {
   return {};
 }
 
-/// Returns the names of worlds made of files with the digests of their truths, "" without one. `digests` are those of
-/// the manifest: for each world the truth if there is one, then its answers, as many as there are.
+/// Returns, for each world made of files, its name and the digest of its truth; the digest is "" if it has no truth.
+/// `digests` are those of the manifest, world by world: first the truth, if there is one, then all answers.
 Result<NamedDigests> TruthsOf(const ScenarioSetup& setup, std::span<const std::string> digests, const Place& place) {
   NamedDigests truths;
   std::size_t at = 0;

@@ -65,6 +65,7 @@ struct SharedWorlds {
 /// same truth. Files that only one snapshot has are added to the lists.
 SharedWorlds FindShared(const SnapshotScenario& before, const SnapshotScenario& after, SnapshotComparison& comparison) {
   SharedWorlds shared;
+  // Without files, pair the trials of equal number.
   if (before.files.empty() || after.files.empty()) {
     for (int t = 0; t < std::min(before.trials, after.trials); ++t) {
       shared.before.push_back(static_cast<std::size_t>(t));
@@ -72,6 +73,7 @@ SharedWorlds FindShared(const SnapshotScenario& before, const SnapshotScenario& 
     }
     return shared;
   }
+  // With files, pair the same name and truth; list the files of `before` that have no partner, then those of `after`.
   std::map<std::string, std::size_t> trial_of;
   for (std::size_t t = 0; t < after.files.size(); ++t) trial_of[after.files[t].first] = t;
   for (std::size_t t = 0; t < before.files.size(); ++t) {
@@ -165,7 +167,8 @@ std::vector<std::string> WhyNotComparable(const SnapshotScenario& before, const 
     if (a != b) reasons.push_back(fmt::format("{}: {} {} and {}", before.name, what, a, b));
   };
   differ("seed", before.seed, after.seed);
-  const bool are_files = !before.files.empty() && !after.files.empty();  // one file more or less changes no other world
+  // For worlds made of files, the number of trials may differ: a file more or less does not change the other worlds.
+  const bool are_files = !before.files.empty() && !after.files.empty();
   if (!are_files) differ("trials", before.trials, after.trials);
   for (const auto& [condition, digest] : before.worlds) {
     const std::string* other = FindDigest(after.worlds, condition);

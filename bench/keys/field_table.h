@@ -296,7 +296,7 @@ void Append(std::vector<Field<Options>> more, std::vector<Field<Options>>& field
 }
 
 /// One setting of one method of a registry, as a field that depends on the key `chooser`. `set` receives the options
-/// and the value in the file..
+/// and the value in the file.
 template <typename Options, typename Set>
 Field<Options> SettingField(const std::string& chooser, const std::string& method, const NumberSetting& setting,
                             Set set) {

@@ -61,7 +61,7 @@ std::optional<Similarity> AlignByQuaternion(const PointMoments& moments) {
   return similarity;
 }
 
-/// Returns the movement or similarity of a fit with scale.
+/// Returns the fit, which has a scale, or without scale the rigid transformation with the same rotation.
 std::optional<Similarity> WithScale(const std::optional<Similarity>& fit, const PointMoments& moments,
                                     bool with_scale) {
   if (!fit || with_scale) return fit;
@@ -91,6 +91,7 @@ PairFits::PairFits(const EvaluatedPair& pair) : pair_(pair) {
 FrameFits PairFits::Of(Alignment alignment) const {
   using enum Alignment;
   const std::size_t frames = moments_.size();
+  // One fit for all frames, or by roots.
   const auto for_all = [&](std::optional<Similarity> fit) { return FrameFits{{std::move(fit)}, std::max<std::size_t>(frames, 1)}; };
   switch (alignment) {
     case kNone:
@@ -114,6 +115,7 @@ FrameFits PairFits::Of(Alignment alignment) const {
     case kFrameScaled:
       break;
   }
+  // One fit for each frame, with or without its scale.
   FrameFits found{each_frame_};
   if (alignment == kFrameScaled) return found;
   for (std::size_t f = 0; f < frames; ++f) found.fits[f] = WithScale(found.fits[f], moments_[f], false);
@@ -164,7 +166,7 @@ void WriteErrorsMm(const EvaluatedPair& pair, std::size_t frame, const std::opti
   }
   const glm::dmat3 turn = fit->scale * fit->rotation;
   const glm::dvec3 move = fit->translation;
-  // NaN spreads: a joint that either does not show has the error NaN.
+  // NaN propagates: a joint that the answer or the truth does not show gets the error NaN.
   for (std::size_t j = 0; j < found.size(); ++j) {
     errors[j] = kToMillimetres * glm::length(turn * found[j] + move - truth[j]);
   }

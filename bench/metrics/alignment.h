@@ -9,30 +9,30 @@
 
 namespace etude {
 
-/// What is taken out of the answer before it is compared: a movement or, with `_scaled`, a similarity, found from the
-/// joints that both show. Reflections are never taken out.
+/// How the answer is aligned with the truth before the comparison: by a rigid transformation or, with `_scaled`, by a
+/// similarity, fitted to the joints that both show. It is never a reflection.
 enum class Alignment {
   kNone,
-  kRoot,         ///< in each frame, root onto root
-  kRootScaled,   ///< … and the one scale of that frame with the least squared error (N-MPJPE)
-  kFirst,        ///< the movement that fits the first frame best
-  kFirstScaled,  ///< …
-  kTake,         ///< the movement that fits all frames best
-  kTakeScaled,   ///< …
-  kFrame,        ///< in each frame, the movement that fits it best
-  kFrameScaled,  ///< … (PA-MPJPE)
+  kRoot,         ///< in each frame, by the translation of root onto root
+  kRootScaled,   ///< as kRoot, with the scale of least squared error in each frame (N-MPJPE)
+  kFirst,        ///< by the best fit of the first frame with three joints seen by both, in all frames
+  kFirstScaled,  ///< as kFirst, by a similarity
+  kTake,         ///< by the best fit of all frames together
+  kTakeScaled,   ///< as kTake, by a similarity
+  kFrame,        ///< in each frame, by its own best fit
+  kFrameScaled,  ///< as kFrame, by a similarity (PA-MPJPE)
 };
 
-/// What aligns each frame of an answer; nothing in frames in which the alignment is not determined: without root, or
-/// with fewer than three joints seen by both.
+/// The transformation that aligns each frame of an answer; nothing where it is not determined: without a root, or with
+/// fewer than three joints seen by both.
 struct FrameFits {
   std::vector<std::optional<Similarity>> fits;
-  std::size_t length = 1;  ///< frames in a row that share one of them
+  std::size_t length = 1;  ///< number of successive frames that share one fit
 
   const std::optional<Similarity>& At(std::size_t frame) const { return fits[frame / length]; }
 };
 
-/// Finds the alignments of an answer. What they share is computed once.
+/// Finds the alignments of an answer. The sums and fits of single frames, which most alignments use, are computed once.
 class PairFits {
  public:
   /// `pair` must outlive the object.
@@ -51,7 +51,7 @@ class PairFits {
   std::vector<std::optional<Similarity>> each_frame_;
 };
 
-/// Returns the best similarity, or the best movement; nothing for fewer than three points.
+/// Returns the best similarity, or without scale the best rigid transformation; nothing for fewer than three points.
 std::optional<Similarity> Fit(const PointMoments& moments, bool with_scale);
 
 /// Returns the distance of each joint, after the alignment, from its truth, frames × joints, millimetres; NaN where

@@ -45,8 +45,8 @@ std::vector<double> Smoothed(const std::vector<double>& curve, double deviation)
   return smoothed;
 }
 
-/// Returns the places that are strictly lower than all within `order` on either side. Beyond an end, the value at that
-/// end stands, so the ends are never lower.
+/// Returns the indices of the values that are strictly lower than all others within `order` on either side. Beyond its
+/// ends the curve is continued with the value at the end, so an end is never a minimum.
 std::vector<std::ptrdiff_t> Minima(const std::vector<double>& curve, std::ptrdiff_t order) {
   const auto last = static_cast<std::ptrdiff_t>(curve.size()) - 1;
   std::vector<std::ptrdiff_t> minima;

@@ -146,7 +146,7 @@ std::optional<double> Jitter(const PointTracks& found, double rate_hz) {
 std::optional<double> RootTranslationError(const EvaluatedPair& pair) {
   const auto fit = Fit(MomentsOf(pair.found_root, pair.true_root), false);
   if (!fit) return std::nullopt;
-  // The true path leads over the roots that both show.
+  // The true path connects the true roots of the frames in which both are seen.
   double length = 0, error = 0, count = 0;
   const glm::dvec3* before = nullptr;
   for (std::size_t f = 0; f < pair.found_root.size(); ++f) {

@@ -27,12 +27,12 @@ struct EvaluatedPair {
   PointTracks found, truth;
   /// The point by which a pose is moved to its root (`Match` says which), one a frame; empty: one of both lacks it.
   std::vector<glm::dvec3> found_root, true_root;
-  /// Global rotations of the same joints, frames × joints; empty: one of both has none.
+  /// Global rotations of the same joints, frames × joints; each is empty if its file has none.
   std::vector<glm::dquat> found_turns, true_turns;
-  /// The answer's feet: left ankle, left toes, right ankle, right toes; no points: it has no such joints.
+  /// The answer's feet: left ankle, left toes, right ankle, right toes; without points if it lacks these joints.
   PointTracks feet;
-  /// What both files say of contacts with the floor, frames × the four columns of `feet` (heels for ankles); empty: it
-  /// says nothing.
+  /// The contacts with the floor that each file states, frames × the four columns of `feet` (heels for ankles); empty
+  /// if it states none.
   std::vector<bool> found_contacts, true_contacts;
 };
 
@@ -64,10 +64,10 @@ std::optional<double> AccelerationError(const PointTracks& found, const PointTra
 /// Returns the same after the answer is moved root onto root in each frame, without the first and the last frame
 /// (WHAM).
 std::optional<double> RootAccelerationError(const EvaluatedPair& pair);
-/// Returns the answer's third differences' mean length × rate³ ÷ 10 (WHAM).
+/// Returns the mean length of the answer's third differences × rate³ ÷ 10 (WHAM).
 std::optional<double> Jitter(const PointTracks& found, double rate_hz);
-/// Returns the root's mean error after the best movement of its whole path, per cent of the true path's length (WHAM).
-/// Nothing if the true root does not move or fewer than three frames are seen.
+/// Returns the root's mean error after the rigid transformation that fits its whole path best, in per cent of the true
+/// path's length (WHAM). Nothing if the true root does not move, or if fewer than three frames are seen.
 std::optional<double> RootTranslationError(const EvaluatedPair& pair);
 
 /// Returns the share of steps between frames in which a toe skates, as GMD's code computes it.
@@ -87,8 +87,8 @@ struct FloorErrors {
 };
 FloorErrors MeasureFloor(const PointTracks& found);
 
-/// The global rotations of both as channels (QuaternionChannels), the answer's signs like the truth's; NaN where a
-/// joint is not seen by both. Nothing if one of both has no rotations.
+/// The global rotations of answer and truth as channels (QuaternionChannels). The signs of the answer's quaternions are
+/// chosen nearest to the truth's. NaN where a joint is not seen by both; nothing if one of them has no rotations.
 struct RotationChannels {
   ChannelTracks found, truth;
 };

@@ -181,6 +181,7 @@ Result<void> ReadAddedMetrics(const Json& list, const Place& place) {
     if (found == words.end()) throw Json::other_error::create(501, "unknown word " + word.dump(), nullptr);
     return found - words.begin();
   };
+  // The words, in the order of their enumerations.
   constexpr std::array kDirections = {"lower", "higher", "neither"};
   constexpr std::array kAggregates = {"median", "mean"};
   // Read each definition, then add it; AddMetric refuses another definition of a known id.
@@ -197,7 +198,7 @@ Result<void> ReadAddedMetrics(const Json& list, const Place& place) {
       metric.practical = each.at("practical_threshold").get<double>();
       metric.definition = each.at("definition").get<std::string>();
       metric.domain = each.at("domain").get<std::string>();
-    } catch (const Json::exception& error) {
+    } catch (const Json::exception& error) {  // a missing key, a wrong type, or an unknown word
       return Fail(place, "not a metric of a run's own: {}", error.what());
     }
     if (auto added = AddMetric(std::move(metric)); !added) return Fail(place, "{}", added.error().message);

@@ -101,7 +101,7 @@ std::optional<double> PhysicalFootContact(const PointTracks& feet, std::span<con
   double largest = 0;
   for (const double a : accelerations) largest = std::max(largest, std::isnan(a) ? 0 : a);
   if (largest == 0) return std::nullopt;
-  // The steps of the slower part of each foot, one frame later.
+  // Multiply it by the step of each foot, which is that of its slower joint, after the acceleration's middle frame.
   std::vector<double> products;
   for (std::size_t f = 0; f < accelerations.size(); ++f) {
     const double left = std::min(FloorStep(feet, f + 1, kLeftAnkleAt), FloorStep(feet, f + 1, kLeftToesAt));

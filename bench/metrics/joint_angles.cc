@@ -13,7 +13,7 @@ namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr glm::dvec3 kDown(0, -1, 0);
 
-/// A segment: the joint whose rotation is its own, and how the neutral pose turns it.
+/// A body segment: the joint that carries its rotation, and its rotation from rest to the neutral pose.
 struct Segment {
   int joint = -1;
   glm::dquat neutral{1, 0, 0, 0};
@@ -66,7 +66,7 @@ class AngleReader {
  private:
   int Playing(Role role) const { return motion_.roles[Index(role)]; }
 
-  /// Finds the body's axes at rest. Returns false if both hips are not told.
+  /// Finds the body's axes at rest. Returns false if a hip is missing, or if one hip is above the other.
   bool FindAxes() {
     const int left = Playing(Role::kLeftHip), right = Playing(Role::kRightHip);
     if (left < 0 || right < 0) return false;
@@ -95,6 +95,7 @@ class AngleReader {
 
   void FindJoints() {
     using enum Role;
+    // The joints of the trunk.
     const Segment pelvis = AsAtRest(CarrierOf(motion_, Playing(kLeftHip), Playing(kRightHip)));
     const Segment thorax = AsAtRest(CarrierOf(motion_, Playing(kLeftShoulder), Playing(kRightShoulder)));
     Add({"trunk", pelvis, thorax, 1, -1, 1});
@@ -106,11 +107,12 @@ class AngleReader {
     };
     const Side sides[] = {{"left_", 1, kLeftHip, kLeftKnee, kLeftAnkle, kLeftShoulder, kLeftElbow, kLeftWrist},
                           {"right_", -1, kRightHip, kRightKnee, kRightAnkle, kRightShoulder, kRightElbow, kRightWrist}};
+    // The joints of each side, between segments that hang in the neutral pose.
     for (const Side& side : sides) {
       const auto hanging = [&](Role from, Role to) { return Hanging(Playing(from), Playing(to)); };
       const Segment thigh = hanging(side.hip, side.knee), shank = hanging(side.knee, side.ankle);
       const Segment arm = hanging(side.shoulder, side.elbow), forearm = hanging(side.elbow, side.wrist);
-      Segment hand = forearm;  // the hand goes on as the forearm does
+      Segment hand = forearm;  // in the neutral pose, the hand continues the line of the forearm
       hand.joint = Playing(side.wrist);
       const auto add = [&](const char* name, const Segment& above, const Segment& below, double flexion) {
         Add({std::string(side.name) + name, above, below, flexion, side.out, -side.out});

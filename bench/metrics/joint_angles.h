@@ -26,7 +26,7 @@ struct AngleTracks {
 /// a T-pose and an A-pose at rest give the same angles. Axes: X to the left (hip to hip at rest, horizontal), Y up, Z
 /// ahead. Cardan sequence X, Z', Y'': flexion, abduction, rotation. Positive are flexion (of the ankle: dorsiflexion),
 /// abduction away from the middle, and rotation inwards; of trunk and head: forward, to the left, and turning left. At
-/// 90° of abduction, flexion and rotation are not told apart.
+/// 90° of abduction, flexion and rotation cannot be distinguished (gimbal lock).
 AngleTracks AnglesOfRotations(const RawMotion& motion);
 
 /// Sums over the frames of one pair from which the agreement of two curves is computed.
@@ -38,7 +38,8 @@ struct AgreementSums {
 
 /// A cell keeps a series along this axis for each angle: the angle's sums.
 inline constexpr const char* kAgreementAxis = "agreement sums";
-/// Returns the sums as a list in the order of their declaration, and such a list's sums; nothing for another length.
+/// Return the sums as a list in the order of their declaration, and the sums of such a list; nothing for a list of
+/// another length.
 std::vector<double> EncodeSums(const AgreementSums& sums);
 std::optional<AgreementSums> DecodeSums(std::span<const double> values);
 
@@ -46,7 +47,7 @@ std::optional<AgreementSums> DecodeSums(std::span<const double> values);
 /// 180° of their circular mean, and the answer's within 180° of the truth's.
 AgreementSums SumAgreement(const AngleTracks& found, const AngleTracks& truth, std::size_t column);
 
-/// Returns a's sums and b's together.
+/// Returns the sums over the frames of both a and b.
 AgreementSums Together(const AgreementSums& a, const AgreementSums& b);
 
 /// Returns the root of the mean squared difference; nothing without frames.

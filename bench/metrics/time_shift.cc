@@ -116,7 +116,7 @@ class ShiftFinder {
     const int reach = static_cast<int>(std::floor(kMaxTimeShift_s * truth_rate_hz_));
     std::optional<int> best;
     double largest = 0;
-    // From the smallest shift on: of two that fit alike, the smaller is taken.
+    // Try small shifts first, so that of two shifts that fit equally well the smaller one is kept.
     for (int at = 0; at <= 2 * reach; ++at) {
       const int shift = at % 2 == 0 ? -at / 2 : (at + 1) / 2;
       const std::vector<Distances> pairs = DistancesAt(shift / truth_rate_hz_, stride);
@@ -135,10 +135,10 @@ class ShiftFinder {
     return best;
   }
 
-  /// What one Newton step sums up.
+  /// The sums of one Newton step.
   struct Step {
     double square = 0;             ///< Σ w (β v)² over all pairs
-    std::vector<double> products;  ///< by frame: Σ w β v · rest
+    std::vector<double> products;  ///< by frame: Σ w β v · residual
     double motion = 0;             ///< Σ (β v)²
     double count = 0;
   };
@@ -152,7 +152,7 @@ class ShiftFinder {
       constexpr double kExact_m2 = 1e-6;  // 1 mm²
       const double n = static_cast<double>(pair.truth.size());
       const double weight = 1 / (std::max(0.0, line.all - line.explained) / n + kExact_m2);
-      // Take out of the rate what 1 and s explain.
+      // Subtract from the rate its regression on 1 and s.
       double mean = 0, product = 0;
       for (const double rate : pair.rate) mean += rate / n;
       for (std::size_t i = 0; i < pair.rate.size(); ++i) {

@@ -12,26 +12,29 @@ struct TimeShift {
   std::optional<double> half_width_s;  ///< of its 95 % interval; nothing: too few frames
 };
 
-/// The largest shift that is sought, either way.
+/// The largest shift, in either direction, that is searched.
 constexpr double kMaxTimeShift_s = 2;
 
-/// Finds the time shift of an answer, to a fraction of a frame, from the distances between its joints: so neither
-/// another place, turn or size of the answer nor joints that lie a little elsewhere pull it. Of more than twenty
-/// joints, twenty evenly chosen ones count. The answer's first frame belongs to the truth's first. A frame of the truth
-/// is compared with the answer at a shifted time, between frames by the cubic of Catmull and Rom through four of them.
+/// Finds the time shift of an answer, to a fraction of a frame, from the distances between its joints. Position,
+/// heading and size of the answer therefore have no effect, and slightly different joint positions have little. Of more
+/// than twenty joints, twenty evenly chosen ones are used. The first frames of answer and truth have time 0. Each frame
+/// of the truth is compared with the answer at the shifted time, interpolated by a Catmull-Rom cubic through four
+/// frames.
 ///
-/// For each pair of joints the answer's distance f is fitted by α + β s, s: the truth's, β ≥ 0. First the whole number
-/// of the truth's frames within ±kMaxTimeShift_s at which these fits explain most of the variance of f. Then Newton's
-/// steps to the shift at which Σ w β v · (f − α − β s) = 0 over pairs and frames. v is the truth's rate, of s, by
-/// central differences, without what 1 and s explain of it; with the answer's own rate its noise would pull the shift
-/// towards half frames. w = 1 / (the pair's mean squared rest + 1 mm²), so that pairs that fit decide, such as those of
-/// one limb where a spine differs.
+/// For each pair of joints, a line α + β s with β ≥ 0 is fitted to the answer's distance f, where s is the true
+/// distance.
+/// 1. Try every whole number of the truth's frames within ±kMaxTimeShift_s; take the one at which the lines explain
+///    most of the variance of f.
+/// 2. From there, find by Newton's method the shift at which Σ w β v · (f − α − β s) = 0 over all pairs and frames.
+/// v is the rate of s by central differences, minus its regression on 1 and s. It is the truth's rate, because the
+/// noise in the answer's rate would bias the shift towards half frames. w = 1 / (the pair's mean squared residual +
+/// 1 mm²), so pairs with a good fit dominate: if the spines differ, these are the pairs within one limb.
 ///
-/// The interval is the jackknife's over ten equal parts of the motion (Student's t), because errors of one frame and
-/// the next are alike. It knows nothing of what joints that lie elsewhere add.
+/// The interval is that of a jackknife over ten equal parts of the motion (Student's t), because the errors of
+/// successive frames are correlated. It does not include the effect of different joint positions.
 ///
-/// Nothing if fewer than five frames are seen by both, if the best shift lies at the end of the range, or if no
-/// distance changes: the truth stands or glides.
+/// Returns nothing if fewer than five frames are seen by both, if the best shift lies at the end of the range, or if no
+/// distance changes because the truth stands still or moves as a rigid whole.
 std::optional<TimeShift> FindTimeShift(const PointTracks& truth, double truth_rate_hz, const PointTracks& answer,
                                        double answer_rate_hz);
 

@@ -365,7 +365,8 @@ BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support)
     const Support& held = support[f - view.first];
     BodyFrame frame = FrameOf(moving, f - from, held);
     Excuse(clips, f, frame);
-    // Travel of the slowest support, or of the slowest foot joint; also relative to a clip that is supported there.
+    // Glide: the travel of the slowest supporting joint or, without support, of the slowest foot joint. If a clip is
+    // supported by that joint too, travel relative to the clip counts if it is shorter.
     if (!held.flight) {
       frame.glide_cm = SlowestOf(held.joints.any() ? held.joints : feet, [&](std::size_t j) {
         double slowest = TravelOf(view.shown, f, j).value_or(0);

@@ -35,8 +35,8 @@ constexpr std::array kBodyRules = {
 using BodyMeasures = std::array<std::optional<double>, kBodyRules.size()>;
 
 /// Measures the body of a join in the frames of `support`, which JoinSupport returned: one entry per frame from
-/// `view.first` on. What a clip's own body does at that time is not held against the join; docs/reference/metrics.md
-/// says how for each measure.
+/// `view.first` on. Values that a clip itself reaches at that time do not count against the join;
+/// docs/reference/metrics.md gives the rule of each measure.
 BodyMeasures MeasureBody(const JoinView& view, std::span<const Support> support);
 
 /// Returns true if no value exceeds its limit, rounding aside. A missing value exceeds none.

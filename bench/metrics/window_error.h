@@ -39,17 +39,18 @@ enum class PowerOf {
   kRealPart,   ///< its squared real part, as LAFAN1's code computes it
 };
 
-/// NPSS of some windows, and their weight beside others: the truth's total power.
+/// NPSS of some windows, and the weight with which it is averaged with other windows': the truth's total power.
 struct PowerSpectrumError {
   double value = 0;
   double power = 0;
 };
 
 /// Returns NPSS (normalised power spectrum similarity) over successive windows of `length` frames, beginning with the
-/// first frame: by window and channel, the distance of the cumulated shares of power of found and truth, summed over
-/// frequencies; then the mean, weighted by the truth's power. Frames behind the last whole window, and windows with an
-/// unknown value, are left out. A channel without power in the truth has no weight; where found has none its shares are
-/// zero. Nothing if no window is left or the truth has no power. Cost: windows × channels × length².
+/// first frame. For each window and channel, the cumulated shares of power of found and truth are compared: Σ over
+/// frequencies of their absolute difference. The result is the mean of these, weighted by the truth's power. Frames
+/// after the last whole window, and windows with an unknown value, are left out. A channel without power in the truth
+/// has no weight; if it has no power in `found`, found's shares are zero. Nothing if no window is left or the truth has
+/// no power. Cost: windows × channels × length².
 std::optional<PowerSpectrumError> MeasurePowerSpectrum(const ChannelTracks& found, const ChannelTracks& truth,
                                                        std::size_t length, PowerOf kind);
 

@@ -162,7 +162,7 @@ Outcome<Json> OutsideMethod::State::Solve(const std::string& setting_id, const P
   if (!line) return OurFailure(line.error());
   const auto read = [&](const std::string& said) { return ReadAnswer(said, problem_id); };
   RETURN_IF_ERROR(
-      // Must happen before `answered` changes: such lines answer an earlier copy of this problem.
+      // Read these lines before `answered` changes: if they have this id, they answer an earlier copy of the problem.
       ReadPendingLines(read));
   answered.erase(problem_id);
   auto answer = Exchange(*line, options.time_s, read);

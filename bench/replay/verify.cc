@@ -130,7 +130,7 @@ Result<void> CompareLines(const FilePath& file, const std::function<Result<std::
   });
 }
 
-/// Compares the lines of timings.jsonl with those of the rows, but for their numbers, which nothing determines.
+/// Compares the lines of timings.jsonl with those of the rows, except their times and memory, which no run repeats.
 Result<void> CompareTimings(const FilePath& file, const std::vector<Row>& rows, Verified& verified) {
   std::size_t row = 0;
   const auto line_of = [&](std::string_view line) -> Result<std::string> {

@@ -38,7 +38,7 @@ bool IsNamed(const std::string& name, const SuiteSetup& suite) {
          });
 }
 
-/// Adds what no run writes into host.json, or into its part `path` about one shard.
+/// Lists the faults of host.json, or of its part `path` about one shard: missing and unknown keys, and wrong types.
 void CheckHost(const Json& host, const std::string& path, std::vector<std::string>& differences) {
   if (!host.is_object()) return differences.push_back(path + " is " + ShowJson(host));
   Json usual = DescribeHost("", 0, 0);
@@ -78,7 +78,7 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
   Verified verified{"manifest.json: as such a run writes it", {}};
   ASSIGN_OR_RETURN(const auto then, ReadJsonFile(folder / "manifest.json"));
   ASSIGN_OR_RETURN(auto now, MakeManifest(suite, scenarios, run.data.program_version));
-  // Take over what may differ.
+  // Copy the values that may differ from the old manifest.
   const auto keep = [](const Json& from, Json& to, const char* key) {
     if (to.contains(key) && from.contains(key) && IsTextOrTexts(from.at(key)) &&
         from.at(key).is_object() == to.at(key).is_object())
@@ -109,7 +109,7 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
   for (const auto& [name, _] : suite.sources) {
     if (!IsNamed(name, suite)) verified.differences.push_back(fmt::format("sources: nothing names '{}'", name));
   }
-  // `now` lists every metric that was read, also one that stands only in this manifest.
+  // `now` also lists metrics read from this manifest itself, so look for those that no scenario defines.
   ASSIGN_OR_RETURN(const auto parsed, ScenariosOf(folder));
   std::set<std::string> own;
   for (const Scenario& scenario : parsed) {

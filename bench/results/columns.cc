@@ -20,13 +20,14 @@ namespace fs = std::filesystem;
 constexpr int kColumnsVersion = 2;
 
 Json Encode(const ColumnIndex& index) {
-  // The swept values of each condition, then each kind.
+  // The swept values of each condition.
   Json conditions = Json::array(), kinds = Json::array(), statuses = Json::array();
   for (const std::vector<SweptValue>& condition : index.conditions) {
     Json values = Json::object();
     for (const SweptValue& swept : condition) values[swept.key] = swept.value;
     conditions.push_back(std::move(values));
   }
+  // Each kind: its metrics with the reasons of missing values, its stages and its curves.
   for (const ColumnIndex::Kind& kind : index.kinds) {
     Json why = Json::array();
     for (const auto& text : kind.why) why.push_back(text ? Json(*text) : Json(nullptr));

@@ -49,7 +49,7 @@ bool IsAsShipped(const RunOptions& options) {
          options.joint_map.empty() && options.clip_facts.empty() && options.from.empty();
 }
 
-/// Returns true if every reference stands for clips that come with the program or a package, and they exist.
+/// Returns true if every reference names clips that come with the program or a package, and they exist.
 bool AreInstalled(const std::vector<std::string>& references, const Place& place) {
   return std::ranges::all_of(references, [&](const std::string& one) {
     return (one.starts_with("builtin:") || one.starts_with("assimp:")) && ExpandReference(one, place);

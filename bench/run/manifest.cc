@@ -50,7 +50,7 @@ Json DescribeClips(const ClipLibrary& library) {
   return clips;
 }
 
-/// Lists the files of a task that judges files: for each world the truth, then its answers, as many as there are.
+/// Lists the files of a task that judges files: for each world the truth, if there is one, then all its answers.
 Json DescribeFiles(const PreparedScenario& scenario) {
   Json files = Json::array();
   std::map<std::string, Result<std::string>> known;  // several worlds may lie in one file

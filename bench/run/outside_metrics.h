@@ -32,8 +32,8 @@ class OutsideMetrics {
 
 Result<void> CheckMetricVectors(std::span<const PreparedScenario> scenarios, const Fence& fence);
 
-/// Returns the file in `folder` that gets the standard error of a program of a scenario; "" if `folder` is "": the
-/// program then shares ours. Programs of one scenario must have different names.
+/// Returns the file in `folder` that gets the standard error of a program of a scenario. Returns "" if `folder` is "":
+/// the program then writes to our standard error. Programs of one scenario must have different names.
 std::string ErrorFileOf(const std::string& folder, const Scenario& scenario, const std::string& program);
 
 }  // namespace etude

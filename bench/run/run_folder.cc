@@ -177,7 +177,7 @@ void RunFolder::Keep() {
   // After the rename, a kill during the deletion leaves nothing that looks like a run.
   if (aside_) fs::rename(aside_->path() / kOldRun, aside_->path() / kGone, ignored);
   aside_.reset();
-  FindLeft();  // deletes the rest of a killed overwriting whose run was continued
+  FindLeft();  // deletes what is left of a killed `--overwrite` whose run was resumed
 }
 
 Result<void> RunFolder::Lock() {

@@ -99,6 +99,7 @@ Result<Seed> DecodeSeed(const Json& json, const Place& place) {
 }  // namespace
 
 Json EncodeSetup(const SuiteSetup& setup) {
+  // Each scenario: the keys that all have, then those that are not empty.
   Json scenarios = Json::array();
   for (const ScenarioSetup& scenario : setup.scenarios) {
     scenarios.push_back({{"name", scenario.name},

@@ -100,8 +100,8 @@ class Copies {
   std::vector<Copy> copies_;
 };
 
-/// Encodes the findings of a method as two summaries: comparisons without failures, and with failures counted. If a
-/// question has none with failures, a comparison of zero pairs, which no real question has, stands for it.
+/// Encodes the findings of a method as two summaries: comparisons without failures, and with failures counted. For a
+/// question without failures, the second summary has a comparison of zero pairs, which no real question has.
 Result<std::string> EncodeFindings(const ConditionFindings& findings) {
   ScenarioSummary both;
   ConditionSummary& without = both.conditions.emplace_back(findings.summary);

@@ -17,8 +17,8 @@ Result<std::vector<std::string>> RunForked(std::size_t count, int jobs,
                                            const std::function<Result<std::string>(std::size_t)>& work,
                                            const OnProgress& on_progress = {});
 
-/// Does what Summarise does. With many rows, `jobs` processes share the conditions and methods, which `on_progress`
-/// counts; the summary does not depend on their number.
+/// Returns the same summary as Summarise. If there are many rows, `jobs` processes share the work, one pair of
+/// condition and method at a time; the summary does not depend on `jobs`. `on_progress` counts these pairs.
 Result<ScenarioSummary> SumUp(const Study& study, const ScenarioTable& table, std::uint64_t seed, int jobs,
                               const OnProgress& on_progress = {});
 

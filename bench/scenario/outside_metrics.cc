@@ -48,6 +48,7 @@ Result<void> SpellOut(Json& track, const Place& place) {
     return Fail(place, "a track needs 'poses', or 'frames', from 1 to {}, and 'joints_m'; found {}", kMaxExampleFrames,
                 ShowJson(track));
   }
+  // Fill in the positions that it gives.
   const std::size_t roles = AllRoles().size();
   Json poses(frames.get<std::size_t>(), Json(3 * roles, 0.0));
   const Json joints = track.value("joints_m", Json::object());
@@ -161,6 +162,7 @@ const FieldTable<OutsideMetric>& OutsideMetricFields() {
          Key::Text("label", info(&MetricInfo::label), "a text", "Its name for people.").WhenAbsent("(`name`)"),
          Key::Text("definition", info(&MetricInfo::definition), "a text", "What it measures, in one sentence.")
              .WhenAbsent("(none)"),
+         // Its test vectors.
          {{"vectors", ListKind("a list of test vectors", MappingKind("", MetricExampleFields().Describe())), "[]",
            "Cells of known value; the program must reproduce it before the first cell is run."},
           [](Fields& metric, OutsideMetric& own) {

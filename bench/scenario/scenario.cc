@@ -145,6 +145,7 @@ const FieldTable<Scenario>& ScenarioFields() {
   };
   static const Scenario unread;
   static const FieldTable<Scenario> table{
+      // Name, question and task.
       {{{"scenario", PlainNameKind(), "", "The scenario's name, unique in a run."},
         [](Fields& fields, Scenario& s) { s.name = ReadPlainName(fields, "scenario"); }},
        {{"question", TextKind("a text"), "", "The scenario's question, in one sentence."},
@@ -154,6 +155,7 @@ const FieldTable<Scenario>& ScenarioFields() {
            .WhenAbsent("(none)"),
        {{"task", NameKind(NamesOf(AllTaskKinds())), "", "The task that the methods solve."},
         [](Fields& fields, Scenario& s) { s.task = fields.Choice("task", NamesOf(AllTaskKinds()), ""); }},
+       // The motions that its worlds are made from.
        Key::Texts("clips", &Scenario::clips, "a list of `builtin:NAME`, `builtin:*`, motion files, patterns",
                   "The clips from which worlds are made; trials take them in turn."),
        Key::Texts("streams", Path(&Scenario::streams, &StreamSource::files),
@@ -168,6 +170,7 @@ const FieldTable<Scenario>& ScenarioFields() {
        Key::Text("joint_map", &Scenario::joint_map, "a file",
                  "Assigns the clips' joints to roles if their names do not determine the roles.")
            .WhenAbsent("(names tell)"),
+       // The worlds and conditions.
        Key::Number("trials", &Scenario::trials, {1, kTrials.highest}, "Worlds per condition."),
        Key::Number("seed", &Scenario::seed, {0, kMaxSeed}, "Seed of all worlds; `etude run --seed` overrides it.")
            .WhenAbsent("1"),
@@ -188,6 +191,7 @@ const FieldTable<Scenario>& ScenarioFields() {
           AddLibraries(ReadLibraries(fields, kind), s);
           CheckStreams(fields, s, kind);
         })},
+       // The methods, and how they are compared.
        {{"methods",
          {"a list of 1…100 methods", R"({"type":"array","minItems":1,"maxItems":100})"},
          "",
@@ -224,6 +228,7 @@ const FieldTable<Scenario>& ScenarioFields() {
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
           s.expectations = ReadListed(fields, "expect", "an expectation", ExpectationFields(s, MetricsOf(kind, s)));
         })},
+       // What a run keeps and allows, and what the gate checks.
        {{"video", MappingKind("a mapping", VideoFields(unread).Describe()), "(no motion is kept)",
          "Which motions are kept for the report's films."},
         when_right([](Fields& fields, Scenario& s, const TaskKind&) {

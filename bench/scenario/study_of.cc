@@ -66,6 +66,7 @@ Study StudyOf(const Scenario& scenario) {
     study.methods.push_back(
         {method.name, method.against, has_oracle, StagesOf(oracle), SettingsOf(method), DescriptionOf(method)});
   }
+  // Each condition, by its swept values alone.
   for (const Condition& condition : scenario.conditions) study.conditions.push_back(condition.swept);
   return study;
 }

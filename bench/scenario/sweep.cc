@@ -254,6 +254,7 @@ std::vector<Condition> ReadSweep(Fields& fields, const TaskKind& kind) {
                                         values, kMaxFileValues));
       return conditions;
     }
+    // Combine every condition so far with every value of this axis.
     std::vector<Condition> product;
     for (const Condition& condition : conditions) {
       for (const Point& point : axis) product.push_back(At(condition, point));

@@ -17,7 +17,8 @@ constexpr std::size_t kAgreementResamples = 1999;
 
 using Figures = std::array<std::optional<double>, kFigures>;  ///< RMSE, bias, low, high, ICC
 
-/// Returns the standard deviation of one more difference (Bland and Altman 2007); nothing with fewer than two units.
+/// Returns the standard deviation of a single further difference (Bland and Altman 2007); nothing with fewer than two
+/// units.
 std::optional<double> DeviationOf(std::span<const AgreementSums> units, const AgreementSums& all) {
   double within = 0, between = 0, squares = 0;
   const double n = all.count, groups = static_cast<double>(units.size()), bias = *BiasOf(all);
@@ -34,7 +35,7 @@ std::optional<double> DeviationOf(std::span<const AgreementSums> units, const Ag
   return std::sqrt(within + std::max(0.0, (between - within) / replicates));
 }
 
-/// Returns the figures of units, each with a frame.
+/// Returns the figures over all frames of the units, each of which has at least one frame.
 Figures FiguresOf(std::span<const AgreementSums> units) {
   AgreementSums all;
   for (const AgreementSums& unit : units) all = Together(all, unit);
@@ -130,6 +131,7 @@ std::vector<AngleAgreement> AgreementByAngle(const RunData& run) {
       collected[at->second].units.push_back(row.units.empty() ? row.clip : row.units.front());
     }
   });
+  // Measure the agreement of each angle, with a random stream of its own.
   for (const auto& [key, at] : places) {
     found[at].agreement = MeasureAgreement(collected[at].pairs, collected[at].units, run.seed, "agreement/" + key);
   }

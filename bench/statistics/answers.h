@@ -30,8 +30,8 @@ std::optional<Answer> MeasureAnswerAgainstRival(const Study& study, const Condit
                                                 const ComparedMethod& method, std::uint64_t seed);
 
 /// Returns the metric that an answer compares besides success: the first headline metric that is not success. "" if
-/// there is none, or if success is the first headline metric and more than yes or no: then it is all that the answer is
-/// about.
+/// there is none, or if the first headline metric is success and not a yes-or-no value: then the answer compares
+/// success alone.
 std::string ValueMetricOf(const Study& study);
 
 /// Compares the success of two methods under one condition, judged as the only comparison; nothing if no cell says it.

@@ -128,7 +128,7 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons) {
       values[i] = KeepThirtyBits(n * mean - (n - 1) * beyond.left_out[i].difference);
     }
   }
-  // Of an amount that never differs the share's interval would be a number without a unit.
+  // If an amount never differs, its values are 0, too, but the interval of a share would have the wrong unit.
   const bool is_yes_or_no = (sample.yes_or_no || beyond.differing > 0) && std::ranges::all_of(values, [](double value) {
                               return std::abs(value) == 1 || value == 0;
                             });

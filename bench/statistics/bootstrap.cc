@@ -44,7 +44,7 @@ double MedianOfDrawn(std::span<const double> sorted, std::span<const int> counts
 
 /// Fills `means` and `medians` with the aggregates of resamples; either may be empty, else it has kResamples entries.
 /// Each resample draws as many indices as there are values, two from each 64 random bits; no index is favoured by more
-/// than count / 2³². The sums of several resamples grow side by side, because each addition waits for the one before it.
+/// than count / 2³². Four resamples are summed side by side, because each addition to one sum waits for the last.
 void Resample(std::span<const double> sorted, RandomStream& dice, std::span<double> means, std::span<double> medians) {
   constexpr std::size_t kTogether = 4;
   const std::size_t count = sorted.size(), words = (count + 1) / 2, pairs = count / 2;
@@ -56,6 +56,7 @@ void Resample(std::span<const double> sorted, RandomStream& dice, std::span<doub
     const std::size_t together = std::min(kTogether, kResamples - done);
     dice.FillBits(std::span(bits).first(together * words));
     const std::uint64_t* const drawn = bits.data();
+    // The means, several at once.
     if (!means.empty()) {
       std::array<double, kTogether> sums{};
       for (std::size_t i = 0; i < words; ++i) {
@@ -66,6 +67,7 @@ void Resample(std::span<const double> sorted, RandomStream& dice, std::span<doub
       }
       for (std::size_t k = 0; k < together; ++k) means[done + k] = sums[k] / static_cast<double>(count);
     }
+    // The medians, from the number of times that each value was drawn.
     for (std::size_t k = 0; k < together && !medians.empty(); ++k) {
       counts.assign(count, 0);
       for (std::size_t i = 0; i < pairs; ++i) {

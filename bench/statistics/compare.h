@@ -49,8 +49,8 @@ bool SeesTooFewDiffer(const Comparison& comparison, const MetricInfo& metric);
 Verdict VerdictOf(const Comparison& comparison, const MetricInfo& metric, double confidence = kConfidence);
 
 /// Judges with and without failures. If there are failures, the comparison's p becomes the one that counts them, and
-/// its verdict the common one of both ways, or kInconclusive if they differ. Both inputs bring their own `p_holm`.
-/// Returns the verdict that ignores failures.
+/// its verdict the one on which both ways agree, or kInconclusive if they differ. Both inputs must have their own
+/// `p_holm`. Returns the verdict that ignores failures.
 Verdict JudgeBothWays(Comparison& comparison, const std::optional<Comparison>& with_failures, const MetricInfo& metric,
                       double confidence = kConfidence);
 

@@ -260,7 +260,7 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
   return {outcome, detail};
 }
 
-/// Changes "met" into "unmet" if an answer about the same methods would be decided by success, the other way.
+/// Changes "met" into "unmet" if the method is worse by success: an answer would be decided by success first.
 void AskSuccessFirst(const Expectation& expectation, const Study& study, const ConditionTable& table,
                      const std::string& other, bool wants_lower, std::uint64_t seed, Finding& finding) {
   const bool wants_better = wants_lower == (FindMetric(expectation.metric)->direction == Direction::kLowerIsBetter);

@@ -84,8 +84,8 @@ struct PairedWorlds {
 };
 
 /// Multiplies the values of each pair by their cells' weights (MetricInfo::weight) over the mean weight, so that the
-/// plain mean of differences is the weighted one, and so is every test of it. Cells of one world weigh alike: what
-/// weighs is the truth. Leaves metrics without weights alone.
+/// plain mean of differences is the weighted mean, and its tests are weighted, too. All cells of a world have the same
+/// weight, because it depends on the truth alone. Does not change metrics without weights.
 void WeighPairs(const MethodColumns& method, const std::string& metric, PairedWorlds& paired);
 
 /// Returns the pairs of `baseline` and `method` in all worlds of the condition.

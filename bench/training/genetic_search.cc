@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// The module is found by the program's run path, beside it (cli/CMakeLists.txt).
+/// Loads the module, which the dynamic linker finds beside the program by its run path (cli/CMakeLists.txt).
 Result<PagmoEvolve*> OpenModule() {
   void* module = ::dlopen("etude_training_pagmo.so", RTLD_NOW | RTLD_LOCAL);
   if (module == nullptr) return Fail({}, "the genetic algorithm cannot be loaded: {}", ::dlerror());

@@ -148,7 +148,7 @@ SeenPerson PersonOf(const Marks& marks) {
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     if (counts[i] > 0) person.keypoints[i] = {sums[i] / static_cast<double>(counts[i]), 1};
   }
-  // A disc is more accurate than the end of the stroke.
+  // Replace a stroke's end by the end effector's disc, which is more accurate.
   for (std::size_t i = 0; i < kEffectorCount; ++i) {
     const auto landmark = LandmarkAt(EffectorMarks()[i].role);
     if (marks.effectors[i] && landmark) person[*landmark] = {*marks.effectors[i], 1};

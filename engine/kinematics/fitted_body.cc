@@ -27,7 +27,7 @@ bool AreSame(const glm::dvec3& a, const glm::dvec3& b) { return glm::distance(a,
 struct Part {
   std::string name;
   int parent = -1;
-  glm::dvec3 at{0};  ///< the joint about which it turns against its parent
+  glm::dvec3 at{0};  ///< position of the joint about which it turns relative to its parent
   bool is_left_out = false;
 };
 

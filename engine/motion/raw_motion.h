@@ -22,7 +22,7 @@ struct RawMotion {
   std::string name;  ///< the reference it was read from
   double rate_hz = 30;
   std::vector<std::string> joints;  ///< names
-  /// The joints that are none of the file's own: BVH's End Sites, and the hip centre that its reader adds.
+  /// The joints that the file does not name: BVH's End Sites, and the hip centre that its reader adds.
   std::vector<int> added;
   std::vector<int> parents;         ///< of the joints; −1: a root; empty: the file has points, not a skeleton
   std::array<int, kRoleCount> roles = NoRoles();  ///< the joint that plays each role, by Index(role); −1: none

@@ -51,9 +51,9 @@ struct Limbs {
 
 /// The plausible proportions of a limb; the middle of each range decides between two candidates within it.
 struct Proportions {
-  double upper_low, upper_high;  ///< upper bone over lower one
-  double end_low, end_high;      ///< length beyond the lower bone, over the lower bone
-  double skipped_high;           ///< length before the upper bone, over the upper bone
+  double upper_low, upper_high;  ///< length of the upper bone ÷ length of the lower one
+  double end_low, end_high;      ///< length beyond the lower bone ÷ length of the lower bone
+  double skipped_high;           ///< length before the upper bone ÷ length of the upper bone
 };
 constexpr Proportions kLegProportions{0.8, 1.25, 0.15, 0.75, 0.35};
 constexpr Proportions kArmProportions{0.8, 1.45, 0.2, 1.2, 1.0};

@@ -41,7 +41,7 @@ struct BodyConversion {
   std::vector<std::string> changes = {};
   BodyMotion motion;
 
-  /// Returns `changes` as one line, between semicolons.
+  /// Returns `changes` as one line, joined by semicolons.
   std::string Note() const { return Join(changes, "; "); }
 };
 

@@ -135,7 +135,7 @@ class Recovery {
   /// Estimates the rooms from pixels with little motion and, if a body has been tracked in these frames, away from it.
   void EstimateRooms(const Frames& frames, const SilhouetteTrack& track) {
     constexpr double kMotionLag = 0.1;  // seconds
-    // The lag of motion detection in sampled frames.
+    // Convert the lag of motion detection from seconds to sampled frames.
     const double between = static_cast<double>(take_.pictures[0].size()) / (take_.rate_hz * frames.size());
     const MotionOptions motion{.lag = std::max<std::size_t>(1, std::lround(kMotionLag / between))};
     rooms_.clear();

@@ -59,7 +59,7 @@ struct ClipFile {
   std::vector<MadeBody> bodies = {};      ///< one for each clip, if they are bodies already
   std::vector<std::string> remarks = {};  ///< repairs that were made while reading
   std::optional<JointMapOverrides> roles = {};  ///< roles that the bone table of a VRM file assigns
-  std::vector<MarkerMotion> shown = {};  ///< for clips made of markers, if asked for: MarkerBody::shown of each
+  std::vector<MarkerMotion> shown = {};  ///< of each clip made of markers: MarkerBody::shown, if `keeps_shown`
   bool has_rate = true;                  ///< false: the file gives no rate, so a rate was assumed
 };
 

@@ -19,7 +19,7 @@ struct TreeLoad {
   std::size_t processes = 0, threads = 0;
   std::size_t descriptors = 0;  ///< open files of all processes
   std::size_t pipes = 0;        ///< counted only if there are more than 256 descriptors
-  std::size_t sockets = 0;      ///< of its own network namespace, including sockets in flight; 0 without a namespace
+  std::size_t sockets = 0;      ///< in the tree's network namespace, those passed over sockets too; 0 without one
   std::size_t file_locks = 0;
 };
 
@@ -80,7 +80,7 @@ class TreeMeter {
     double Mb() const;
   };
 
-  /// Reads the mappings of all processes, or of so many that these alone exceed the limit.
+  /// Reads the memory mappings of all processes. Stops early once the mappings read exceed the memory limit.
   void SampleMappings();
   /// Gives the tree the lowest priority if it starves us; called again and again during a measurement.
   void ClaimTime();

@@ -28,7 +28,7 @@ constexpr double kMinWallDistance = 1.0;
 // How many frames the change stays marked after the transition point, and how many frames around it show its distances.
 constexpr int kCoachMarkFrames = 15;
 constexpr int kBarsBefore = 15, kBarsAfter = 60;
-// Beside the feet, above the timeline.
+// Width of the distance bars beside the feet, and their height above the timeline, pixels.
 constexpr double kBarsWidth = 320, kBarsLift = 34;
 
 // Moves the motion to the middle of the room, facing the camera at the transition point, and so far forward that it

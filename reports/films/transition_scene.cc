@@ -149,8 +149,8 @@ void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& rendere
   }
   canvas.FillBox(plate, kPlate, kPanelRadius);
   canvas.Put(drawn_->picture, static_cast<int>(box.x), static_cast<int>(box.y), kPanelRadius);
-  // Dim the picture as long as the recording has not begun.
   constexpr double kMarkRoom = 112;
+  // Dim the picture as long as the recording has not begun.
   if (!path_.IsRecordedAt(time)) {
     canvas.FillBox(box, kVeil, kPanelRadius);
     const std::string begin = FormatFixed(path_.TimeOf(0) / path_.motion.rate_hz, 1);

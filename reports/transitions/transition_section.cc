@@ -217,6 +217,7 @@ std::string DistanceTable::Html() const {
   Table table{.label = "Partial distances", .style = "partials", .columns = {{"Partial distances S·Δ²"}}};
   for (const Feature feature : AllFeatures()) table.columns.push_back(NumberColumn(std::string(FeatureName(feature))));
   table.columns.insert(table.columns.end(), {NumberColumn("Sum d²"), NumberColumn("d")});
+  // One row for each set of weights.
   for (const auto& [methods, weights] : weights_) {
     TableRow row{.cells = {weights_.size() == 1 ? "weight S" : "weight S of " + methods},
                  .attributes = " class=\"weights\""};

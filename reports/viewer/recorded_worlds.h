@@ -21,11 +21,11 @@ struct RecordedWorld {
   std::string file;          ///< path of its motions below `report`: "motions/capture-1.js"; only harmless characters
   std::vector<RecordedCell> cells;  ///< in the order of the scenario's methods; never empty
 
-  /// Returns the name of the world: "joint_noise_deg=5, trial 3"; of a pair of files, the pair's.
+  /// Returns the name of the world: "joint_noise_deg=5, trial 3"; for a pair of files, the name of the pair.
   std::string Name() const;
 };
 
-/// Returns true for tasks whose worlds are files, which name them.
+/// Returns true for tasks whose worlds are files; the files then give the worlds their names.
 inline bool JudgesFiles(std::string_view task) { return task == "evaluation" || task == "plausibility"; }
 
 /// Lists the worlds of which a run recorded motions, in the order of its rows. The run must outlive the result.

@@ -32,8 +32,9 @@ QuantisedMotion Quantise(std::span<const glm::dvec3> points);
 ///      "notes": [what could not be read],
 ///      "cells": [{"id", "method", "colour": as the page's, "status", "reason"}],
 ///      "bodies": [{"label", "cell": index into cells or -1 (all of them), "kind": "shown", "ghost" or "partner",
-///                  "begin": frame of the world, "frames": as many, the last one lasts, "against": [bodies, the last
-///                  that is there counts], "low_m": [x, y, z], "step_m", "data": Base64 of the steps, little-endian,
+///                  "begin": frame of the world, "frames": number (the last one is held), "against": [indices of the
+///                  reference bodies; the last visible one is used], "low_m": [x, y, z], "step_m", "data": Base64 of
+///                  the steps, little-endian,
 ///                  "contacts": [[side, begin, end]], "joints": [names], "parents": [indices, −1: none] (both
 ///                  absent for the twenty)}],
 ///      "targets_m": [[x, y, z]], "steps": [{"cell", "iterations", "off_cm", "off_deg"}],

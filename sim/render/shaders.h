@@ -22,7 +22,7 @@ std::string CapsuleVertexShader();
 /// Paints the surface of capsules, with or without hair, eyes and a smile; without is faster.
 std::string CapsuleFragmentShader(bool with_face);
 
-/// The kinds of a surface's colour; the simplest is the fastest.
+/// How a surface is coloured. The fragment shader of kColour is the fastest.
 enum class Skin { kColour, kPaint, kTexture };
 
 /// Draw the triangles of surfaces.

@@ -66,8 +66,8 @@ struct RigForecast {
   std::optional<KeypointNoise> measured;  ///< from the take's keypoints, if there is one
   glm::dvec2 middle_m{0};             ///< of the volume
   std::vector<ForecastPlace> places;  ///< by height, then z, then x, each ascending
-  double seen = 0;                    ///< share of places that two cameras have in their pictures
-  double median_mm = 0, p95_mm = 0;   ///< over these
+  double seen = 0;                    ///< share of places in the pictures of at least two cameras
+  double median_mm = 0, p95_mm = 0;   ///< over these places
   ForecastPlace worst;                ///< the place of the largest error
   double bodies = 0;  ///< share of places on the floor where two cameras see each joint of a standing body
   std::vector<ForecastJoint> joints;  ///< of all roles, means over these places; empty if there are none

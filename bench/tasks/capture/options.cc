@@ -16,6 +16,7 @@ Field<StudioOptions> Effect(const std::string& key, double CameraEffects::*effec
 std::vector<Field<StudioOptions>> CameraFields() {
   using E = CameraEffects;
   return {
+      // Time.
       Effect("sync_offset_ms", &E::sync_offset_ms, {0, 500},
              "Offset of the clocks of all cameras but the first; its sign is random."),
       Effect("clock_drift_ppm", &E::clock_drift_ppm, {0, 50000},
@@ -23,6 +24,7 @@ std::vector<Field<StudioOptions>> CameraFields() {
       Effect("rolling_shutter_ms", &E::rolling_shutter_ms, {0, 66},
              "Time between reading a picture's first row and its last."),
       Effect("motion_blur", &E::motion_blur, {0, 1}, "Exposure time as a share of the time between frames."),
+      // The lens.
       Effect("radial_distortion", &E::radial_distortion, {-0.12, 0.25},
              "Shift of the picture's corner as a share of its distance from the centre; below 0 is barrel distortion."),
       Effect("tangential_distortion", &E::tangential_distortion, {0, 0.05},
@@ -31,6 +33,7 @@ std::vector<Field<StudioOptions>> CameraFields() {
       Effect("vignette", &E::vignette, {0, 4},
              "Darkness of the corners: 1 is natural, the cosine of the angle from the axis to the fourth power."),
       Effect("dust", &E::dust, {0, 1}, "Share of the light that a speck of dust blocks at its centre."),
+      // The sensor and its picture.
       Effect("exposure_ev", &E::exposure_ev, {-4, 4}, "Overexposure of the pictures, in stops."),
       Effect("exposure_drift_ev", &E::exposure_drift_ev, {0, 2}, "Largest drift of an automatic exposure, in stops."),
       Effect("gain_db", &E::gain_db, {0, 36},
@@ -58,6 +61,7 @@ FieldTable<StudioOptions> MakeConditionFields() {
   using Key = Field<Options>;
   FieldTable<Options> made{
       {Key::Number("duration_s", &Options::duration_s, {0.1, 60}, "Length of the filmed window."),
+       // The cameras' places.
        Key::Name("rig", Path(&Options::rig, &RigOptions::shape),
                  {{"angles", RigShape::kAngles},
                   {"stereo", RigShape::kStereo},
@@ -86,6 +90,7 @@ FieldTable<StudioOptions> MakeConditionFields() {
                     "Heights of the cameras: one per angle; in other rigs the cameras take them in turn."),
        Key::Number("camera_distance_m", Path(&Options::rig, &RigOptions::distance_m), {2, 10},
                    "Distance to the middle of the performer's path, as far as the room allows."),
+       // The performer, the room and the light.
        Key::Name("figure", &Options::figure, {{"staged", PerformerFigure::kStaged}, {"own", PerformerFigure::kOwn}},
                  "The figure: the stage's own people, or the meshes and textures in the clips' files (glTF)."),
        Key::Name("clothes", &Options::clothes,
@@ -96,6 +101,7 @@ FieldTable<StudioOptions> MakeConditionFields() {
                    "How much the set resembles a lived-in room: 0 = the studio, 1 = furniture, clutter, a second "
                    "person, similar hues."),
        Key::Number("light_drift", &Options::light_drift, {0, 0.5}, "Largest relative change of the lamp's brightness."),
+       // Calibration, measurements and annotation.
        Key::Name(
            "calibration_target", &Options::calibration_target,
            {{"points", CalibrationTargetKind::kPoints},
@@ -185,6 +191,7 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
   using Key = Field<Method>;
   static const FieldTable<Method> table = [] {
     FieldTable<Method> made{
+        // From pictures to marks and cameras.
         {Key::Name("segmenter", &Method::segmenter, SegmenterNames(), SegmenterNamed,
                    "How the person is cut out of the pictures."),
          Key::Name("pieces", &Method::pieces, {{"largest", PersonPieces::kLargest}, {"large", PersonPieces::kLarge}},
@@ -202,6 +209,7 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
          Key::Name("body", &Method::body, {{"fitted", BodyKind::kFitted}, {"paper", BodyKind::kPaper}},
                    "The performer's own joints, or paper B's 29 degrees of freedom.")
              .With("recovery", {"ik"}),
+         // From marks or silhouettes to poses.
          Key::Name(
              "recovery", &Method::recovery,
              {{"ik", Recovery::kIk},
@@ -244,6 +252,7 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
                      {"ik", Path(&Method::oracle, &Oracle::ik)}},
                     "Stages replaced by the truth.")},
         CheckMethod};
+    // The keys of the solver, for recovery by inverse kinematics alone.
     std::vector<Key> solver = IkSolverFields(&Method::solver, &Method::ik);
     solver.front() = solver.front().With("recovery", {"ik"});
     Append(std::move(solver), made.fields);

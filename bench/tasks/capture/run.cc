@@ -187,7 +187,8 @@ Result<void> RecoverFromSilhouettes(CaptureStages& stages, CaptureRun& run) {
   } else {
     found = FollowSilhouettes(inputs, masks);
   }
-  for (std::size_t k = 0; k < truth.size(); ++k) {  // between pictures the last skeleton is kept
+  // Repeat each skeleton until the next picture.
+  for (std::size_t k = 0; k < truth.size(); ++k) {
     run.frames.push_back(found[k / static_cast<std::size_t>(options.picture_every)]);
   }
   if (run.method.start == SilhouetteStart::kKeypoints && options.picture_every == 1) JoinKeypoints(stages, run);

@@ -28,6 +28,7 @@ struct ShownEffect {
 std::vector<ShownEffect> ShownEffects() {
   using E = CameraEffects;
   return {
+      // Each: caption, effect, three strengths, unit, the part of the picture that is shown.
       {"Sync offset (all cameras but the first); true skeleton over it",
        &E::sync_offset_ms,
        {20, 60, 150},
@@ -45,6 +46,7 @@ std::vector<ShownEffect> ShownEffects() {
       {"Defocus", &E::defocus_px, {0.7, 1.5, 4}, " px", Detail::kDetail},
       {"Vignette, natural = 1", &E::vignette, {0.5, 1, 2.5}, "", Detail::kWhole},
       {"Dust, share of light kept away", &E::dust, {0.15, 0.4, 0.9}, "", Detail::kWhole},
+      // Effects of the sensor and of its picture file.
       {"Exposure", &E::exposure_ev, {-1.5, -0.5, 1}, " EV", Detail::kWhole},
       {"Drift of the exposure, at this moment", &E::exposure_drift_ev, {0.2, 0.6, 1.5}, " EV", Detail::kWhole},
       {"Gain: less light, amplified", &E::gain_db, {6, 15, 30}, " dB", Detail::kDetail},

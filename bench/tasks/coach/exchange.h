@@ -75,7 +75,7 @@ std::unique_ptr<MomentSource> MakeSeatedPolicy(SeatedCoachProgram& program);
 ///
 ///     {"pose": [x, y, z, …], "right": true, "given_up": false}
 ///
-/// After the session the learner is tested on every move. The test is as late as 20 more performances would take:
+/// After the session the learner is tested on every move, after the time that 20 performances would take:
 /// {"test": {"move": "clap", "after": 20}}, answered by {"right": true}.
 std::unique_ptr<Player> MakeSeatedLearner(SeatedCoachProgram& program);
 

@@ -68,6 +68,7 @@ const std::vector<std::string>& SeatNames() {
 const FieldTable<CoachCondition>& CoachConditionFields() {
   using Key = Field<Condition>;
   static const FieldTable<Condition> table = [] {
+    // The song, the learner and the music.
     std::vector<std::pair<std::string, std::string>> songs;
     for (const std::string& song : BuiltinSongNames()) songs.emplace_back(song, song);
     std::vector<Key> fields = {
@@ -91,6 +92,7 @@ const FieldTable<CoachCondition>& CoachConditionFields() {
         Key::Number("stutter_s", Path(&Condition::music, &MusicClockOptions::stutter_s), {0, 5},
                     "Duration of each stop.")
             .Unit("seconds")};
+    // The sensor: keys that task detection declares.
     std::vector<std::string> sight = {"people",     "noise",           "turn_deg", "sensor",
                                       "distance_m", "sensor_height_m", "occluder", "threshold"};
     for (const auto& field : CameraSensingFields().fields) sight.push_back(field.info.key);
@@ -117,6 +119,7 @@ const FieldTable<CoachCondition>& CoachConditionFields() {
 const FieldTable<CoachMethod>& CoachMethodFields() {
   using Key = Field<Method>;
   static const FieldTable<Method> table = [] {
+    // The recogniser, the policy and the transitions, whose keys other tables declare; then the seat.
     std::vector<Key> fields =
         FieldsOf<Method>(DetectionMethodFields(), &Method::sight, Keep::kOthers, {"refractory_s", "oracle"});
     fields.push_back(Key::Flags(

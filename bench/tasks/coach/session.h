@@ -32,9 +32,9 @@ class Player {
   virtual std::optional<PlayedPerformance> PerformanceOf(int repetition) const = 0;
   /// Returns true if the player's patience has run out.
   virtual bool HasGivenUp() const = 0;
-  /// Tests the player without a coach, as late as `performances_later` more performances would take. Returns, for every
-  /// move of the dance, the probability of dancing it without a fault. A player without such a probability performs
-  /// each move once: the value is 1 or 0, and a grey performance has no entry.
+  /// Tests the player without a coach, after the time that `performances_later` performances would take. Returns, for
+  /// every move of the dance, the probability of dancing it without a fault. A player without such a probability
+  /// performs each move once: the value is 1 or 0, and a grey performance has no entry.
   virtual std::vector<double> TakeTest(int performances_later) = 0;
 };
 

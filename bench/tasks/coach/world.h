@@ -43,7 +43,7 @@ struct CoachWorld {
   MusicClockOptions music;
   int frames = 0;  ///< of the session
   LearnerOptions learner;
-  int test_after = 20;  ///< the test of what was retained comes as late as this many more performances would take
+  int test_after = 20;  ///< delay of the retention test, as a number of performances that would fill that time
 };
 
 /// Makes the world of `key`, whose scenario must outlive it.

@@ -15,7 +15,7 @@ std::span<const Fault> MadeFaults();
 /// Wrong move: unchanged, for a person who was asked for another move. `fault` is one of MadeFaults.
 NamedStream WithFault(const NamedStream& right, Fault fault);
 
-/// Returns whether a right performance is still right, grey or wrong with this fault, The limits are those for
+/// Returns whether a right performance is still right, grey or wrong with this fault. The limits are those for
 /// simulated people (StrayLimits), applied to the angles of the limb that deviates most. For a wrong side, dynamic time
 /// warping first aligns the performances in time, so that an additional step of a walk does not count. A wrong move is
 /// always wrong.

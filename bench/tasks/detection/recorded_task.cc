@@ -90,7 +90,7 @@ DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person,
                PartsOf(set, s));
   };
   std::size_t turn = 0;
-  // Each recording, then the same once more with each fault.
+  // Append each recording, then one faulty copy of it per fault.
   for (const std::size_t s : set.people[person].streams) {
     add(set.streams[s], s, "");
     if (std::ranges::none_of(PartsOf(set, s), &LabelledPart::IsRight)) continue;

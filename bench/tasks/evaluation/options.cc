@@ -85,7 +85,7 @@ Result<void> CheckFiles(const Node& condition, const EvaluationOptions& options)
 
 namespace {
 
-/// Refuses what would be ignored.
+/// Complains about keys without effect: `answers` of a control, `spoiler` keys of any other method.
 void CheckControl(Fields& fields, EvaluationMethod& method) {
   if (method.is_control && !method.answers.empty()) fields.Complain(fields.node().place, "a control has no 'answers'");
   if (!method.is_control && method.spoiler != Spoiler{})

@@ -15,8 +15,7 @@ namespace {
 constexpr std::size_t kMaxRecordedSteps = 150;
 constexpr int kEveryUpTo = 60;
 
-/// Lists every iteration up to kEveryUpTo, then iterations whose distance grows by the factor 1 + 1/`share`, and the
-/// last.
+/// Lists every iteration up to kEveryUpTo; then iterations i with steps of i / `share`, at least 1; and the last one.
 std::vector<int> Growing(int last, int share) {
   std::vector<int> iterations;
   for (int i = 0; i < last; i += i < kEveryUpTo ? 1 : std::max(1, i / share)) iterations.push_back(i);
@@ -64,7 +63,7 @@ Result<IkAnswer> ReadIkAnswer(const Json& json, const KinematicTree& tree) {
 std::vector<int> RecordedIterations(int last) {
   for (int share = 2 * kEveryUpTo;; share /= 2) {
     std::vector<int> iterations = Growing(last, share);
-    // With share 1 they double, so there are never too many.
+    // With share 1 each listed iteration is twice the one before, so the list is always short enough.
     if (iterations.size() <= kMaxRecordedSteps || share == 1) return iterations;
   }
 }

@@ -53,6 +53,7 @@ void CheckMethod(Fields& method, IkMethod& options) {
 const FieldTable<IkCondition>& IkConditionFields() {
   using Key = Field<IkCondition>;
   static const FieldTable<IkCondition> table{
+      // The true pose, the start and the targets.
       {Key::Name("limit_set", Path(&IkCondition::trial, &IkTrialOptions::limit_set), LimitSetNames(), FindLimitSet,
                  "The joint limits: Etude's adult, or a source of paper B's table 3.1."),
        Key{PosesKey(), ReadPoses},
@@ -82,6 +83,7 @@ const FieldTable<IkCondition>& IkConditionFields() {
        Key{{"targets", NameKind(std::vector<std::string>{"both", "position", "orientation"}), "both",
             "Which parts of their targets effectors must meet for a world to be solved."},
            ReadTargets},
+       // What a cell keeps, and when solvers stop.
        Key::Flags("record",
                   {{"effector_errors", Path(&IkCondition::records, &IkRecords::effector_errors)},
                    {"angle_changes", Path(&IkCondition::records, &IkRecords::angle_changes)},

@@ -38,7 +38,7 @@ struct TrainingTree {
   std::vector<glm::dvec3> sums, squares;  ///< of each joint's coordinates (m, m²) over all training windows
   double count = 0;                       ///< frames of these windows
 
-  /// Returns the standard deviation of each joint's coordinates, metres; none without windows.
+  /// Returns the standard deviation of each joint's coordinates, metres; empty if there are no windows.
   std::vector<glm::dvec3> Deviations() const;
 };
 

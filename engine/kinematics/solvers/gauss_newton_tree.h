@@ -1,6 +1,7 @@
 #pragma once
 
-// Trees as plain numbers in the order of use. Code that is compiled once per instruction set includes no GLM.
+// Kinematic trees as plain arrays, stored in the order in which the solver reads them. Without GLM, because files that
+// are compiled once per instruction set include this header.
 #include <cstddef>
 #include <span>
 #include <vector>
