@@ -117,6 +117,7 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
                                      "Use the outlines of the only person, who moves in front of stationary cameras; "
                                      "with --keypoints, these then determine front and back and the limbs' lengths")
                           ->excludes(marks);
+  // Where silhouettes come from.
   auto* masks = command
                     ->add_option("--masks", options->masks,
                                  "A folder with the person's masks for each film, of any segmenter: a folder of PNG files "
@@ -169,6 +170,7 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
           "Smooth positions by a low pass of this frequency, Hz, for poses fitted frame by frame (0: no smoothing)")
       ->check(NumberWithin(0, 1000, "frequency in Hz"))
       ->capture_default_str();
+  // The limits of gaps, outliers and clocks.
   command->add_option("--longest-gap", options->max_gap_s, "Longest gap that is bridged, s")
       ->check(NumberWithin(0, 60, "gap in s"))
       ->capture_default_str();

@@ -24,16 +24,16 @@ Result<std::string> ScenarioOfMotions(const std::vector<std::string>& files, con
 
 /// The clips of a run of motions without a truth.
 struct Triage {
-  std::size_t clips = 0;                     ///< judged
-  std::map<std::string, std::size_t> kinds;  ///< by the word for a kind of fault, the clips that show it
+  std::size_t clips = 0;                     ///< number of clips that were judged
+  std::map<std::string, std::size_t> kinds;  ///< number of clips that show each kind of fault, by its word
   bool has_limits = false;
   // Lines: "METHOD, CLIP: why".
   std::vector<std::string> faulty, beyond_limits, not_judged;
 };
 Triage TriageOf(const RunData& run);
 
-/// Prints how many clips show which faults, and names the clips with limits: those that exceed them; without: all that
-/// show a fault.
+/// Prints the number of clips with each kind of fault. With limits it names the clips that exceed them; without, all
+/// clips that show a fault.
 void PrintTriage(const Triage& triage);
 
 }  // namespace etude

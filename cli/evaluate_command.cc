@@ -242,7 +242,7 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   ASSIGN_OR_RETURN(const auto outcome, RunWithProgress(run));
   redirected.End();
   if (!outcome) return kInterrupted;
-  // Hours of pairs have many rows: they are loaded only for what the summary does not hold.
+  // Hours of motion give many rows, so rows are loaded only for what the summary does not hold.
   ASSIGN_OR_RETURN(auto data, LoadRunOutline(outcome->folder));
   if (options.alone.is_alone || HasAngles(data.scenarios.front())) {
     ASSIGN_OR_RETURN(data, LoadRun(outcome->folder));
@@ -251,7 +251,7 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   const bool has_silent = std::ranges::any_of(summary.conditions.front().methods,
                                               [](const MethodSummary& method) { return method.ok == 0; });
   const Triage triage = options.alone.is_alone ? TriageOf(data) : Triage{};
-  // A clip that cannot be judged keeps no limits.
+  // If there are limits, a clip that cannot be judged counts as one that exceeds them.
   const bool exceeds = !triage.beyond_limits.empty() || (!options.alone.limits.empty() && !triage.not_judged.empty());
   const int code = has_silent || exceeds ? kNothingWorked : kSuccess;
   const std::string folder = outcome->folder.string();
@@ -280,6 +280,7 @@ void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& acti
   auto options = std::make_shared<EvaluateOptions>();
   options->command_line = command_line;
   CLI::App* command = app.add_subcommand("evaluate", "Compare the motions of files with their truths, or judge them alone");
+  // The files, or motions without a truth.
   command->add_option(
       "files", options->files,
       "The truth, then results, each a file, a folder or a pattern in quotes; NAME=PATTERN for several");
@@ -288,6 +289,7 @@ void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& acti
   command->add_option("--floor", options->alone.floor_m, "Alone: height of the floor, metres (default: 0, or found)");
   command->add_option("--limits", options->alone.limits,
                       "Alone: a file of limits, or 'recorded'; exit code 1 if a clip exceeds them");
+  // What is compared, and how.
   command->add_option("--pairs", options->pairs,
                       "A CSV file instead: a column truth, one column per method, and possibly a column name");
   command->add_option("--joints", options->joints,
@@ -301,6 +303,7 @@ void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& acti
   command->add_option("--metric", options->metrics, "A metric to show; all are measured (etude list metrics)");
   command->add_option(kJointMapOption, options->joint_map,
                       "A file that states which joints play which roles, the unit and the up axis");
+  // The outputs.
   command->add_option("-o,--output", options->output, "Result folder (default: out/evaluate-1)");
   AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");
   command

@@ -15,7 +15,7 @@ namespace etude {
 /// One film's keypoints as they are in the file, and the declared relation between its pictures and the rig's.
 struct PictureOfFilm {
   Camera camera;
-  PixelFit fit;           ///< as declared
+  PixelFit fit;           ///< the relation as declared
   glm::dvec2 film_px{0};  ///< the size of the film's pictures
   SeenPeople people;      ///< in the file's pixels
   bool is_sized = false;  ///< true if the file states the size of the film's pictures, so its pixels are the film's
@@ -46,8 +46,8 @@ constexpr double kMaxPlausibleMiss = 0.05;
 
 /// The correction of a mistake that concerns a whole session.
 struct SessionGuess {
-  std::vector<Camera> cameras;     ///< of the films
-  std::vector<SeenPeople> people;  ///< of the films, in their pixels
+  std::vector<Camera> cameras;     ///< corrected, one per film
+  std::vector<SeenPeople> people;  ///< corrected, one per film, in the films' pixels
   std::string mended;              ///< description of the correction; "" if everything is as declared
 };
 

@@ -87,7 +87,8 @@ std::optional<Glide> GlideAround(const GroundView& ground, int frame, const Glid
 /// Appends the skating that these glides show, if it lasts.
 void AppendSkate(const GroundView& ground, const std::vector<Glide>& glides, std::vector<MotionFault>& faults) {
   constexpr double kMargin_s = 0.15, kMinSeconds = 0.5, kMinSpeed = 0.14, kMinShare = 0.25, kShare = 0.1;
-  // The window of the first glide reaches beyond the skating.
+  // The skating begins kMargin_s before the first glide and ends kMargin_s after the last; a glide within one step of
+  // the motion's end extends to it.
   const int margin = FramesIn(ground, kMargin_s, 0), step = FramesIn(ground, kStep_s, 1), end = ground.frames() - 1;
   const int first = glides.front().frame <= step ? 0 : std::max(glides.front().frame - margin, 0);
   const int last = glides.back().frame >= end - step ? end : std::min(glides.back().frame + margin, end);

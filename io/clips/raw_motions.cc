@@ -15,8 +15,8 @@
 namespace etude {
 namespace {
 
-/// Appends the hip centre, midway between the hips, unless a joint of the file plays it. It gets the orientation of the
-/// joint that carries the left hip.
+/// Appends the hip centre, midway between the hips, unless a joint of the file has that role. It gets the orientation
+/// of the joint that carries the left hip.
 void AddHipCentre(RawMotion& raw) {
   const int left = raw.roles[Index(Role::kLeftHip)], right = raw.roles[Index(Role::kRightHip)];
   if (raw.roles[Index(Role::kHipCentre)] >= 0 || left < 0 || right < 0) return;
@@ -34,6 +34,7 @@ void AddHipCentre(RawMotion& raw) {
     const int carrier = raw.parents[left];
     rotations.push_back(carrier < 0 ? glm::dquat(1, 0, 0, 0) : raw.rotations[f * joints + carrier]);
   }
+  // Add the joint's role, name, parent and rest pose.
   raw.positions = std::move(positions);
   raw.rotations = std::move(rotations);
   raw.roles[Index(Role::kHipCentre)] = static_cast<int>(joints);
@@ -76,6 +77,7 @@ RawMotion OfSkeleton(const Clip& clip, double unit, UpAxis up) {
       up == UpAxis::kY ? glm::dquat(1, 0, 0, 0) : glm::quat_cast(glm::dmat3(1, 0, 0, 0, 0, -1, 0, 1, 0));
   RawMotion raw;
   raw.rate_hz = clip.rate_hz;
+  // Copy the joints, their rest pose and the frames, in the world with Y up.
   for (const Joint& joint : clip.skeleton.joints) {
     if (joint.is_end_site) raw.added.push_back(static_cast<int>(raw.joints.size()));
     raw.joints.push_back(joint.name);

@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// The name of the joint that is added where no joint of a file plays the hip centre.
+/// The name of the joint that is added if no joint of the file has the role of the hip centre.
 constexpr const char* kMidwayHips = "(midway between the hips)";
 
 /// Converts a clip to what its file holds: every frame at the file's own rate, on the file's own floor, with its gaps,

@@ -10,6 +10,7 @@ const FieldTable<InbetweenOptions>& InbetweenConditionFields() {
   using Options = InbetweenOptions;
   using Key = Field<Options>;
   constexpr Range kFrames{1, 10'000};
+  // The keys, each with its range and its sentence for the reference.
   static const FieldTable<Options> table{
       {Key::Texts("truth", &Options::truth, "a list of motion files, patterns, folders",
                   "The motions of which frames are hidden; they need rotations of joints.")
@@ -35,6 +36,7 @@ const FieldTable<InbetweenOptions>& InbetweenConditionFields() {
                  "The root's own axis that each window turns to the world's X, in the last past frame."),
        Key::Name("offsets", &Options::own_offsets, {{"training", false}, {"own", true}},
                  "Whose offsets from joint to joint are used: the first training file's, or each file's own.")},
+      // Check that past, gap and future fit into the windows.
       [](Fields& fields, Options& options) {
         const auto& [past, gap, future, given] = std::tie(options.past, options.gap, options.future, options.given);
         if (past + gap + future <= options.window && past <= options.training_window && given <= future) return;
