@@ -174,6 +174,7 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
           "Smooth positions by a low pass of this frequency, Hz, for poses fitted frame by frame (0: no smoothing)")
       ->check(NumberWithin(0, 1000, "frequency in Hz"))
       ->capture_default_str();
+  // The limits of gaps, outliers and clocks.
   command->add_option("--longest-gap", options->max_gap_s, "Longest gap that is bridged, s")
       ->check(NumberWithin(0, 60, "gap in s"))
       ->capture_default_str();

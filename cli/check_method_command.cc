@@ -102,6 +102,7 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   }
   command->add_option("--task", options->task, "One of: " + Join(tasks))->required();
   command->add_option("--seat", options->seat, "The program's place in a loop: " + Join(seats, "; "));
+  // Recordings of people, for tasks that can use them.
   CLI::Option* streams = command->add_option("--streams", options->people.streams,
                                              "Recordings of people for the problems, as in `etude run --streams`");
   streams->allow_extra_args(false);
@@ -110,6 +111,7 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
                    "Labels of the recordings (who did what when): a file, or a folder of tag streams")
       ->needs(streams);
   AddStreamReading(*command, options->people.reading);
+  // Limits, and the fence.
   command->add_option("--time", options->time_s, "Time limit per problem, or per step of a session, seconds")
       ->check(NumberWithin(0.001, 1e6, "time in seconds"))
       ->capture_default_str();

@@ -16,6 +16,7 @@ namespace etude {
 namespace {
 
 Result<int> CiteCommand(const std::string& folder, const std::string& address, bool as_json) {
+  // The digest of the manifest identifies the run.
   ASSIGN_OR_RETURN(const auto run, LoadRunOutline(folder));
   ASSIGN_OR_RETURN(const auto manifest, ReadWholeFile(Inside(folder) / "manifest.json"));
   const std::string digest = Digest().Add(std::string_view(manifest)).Hex();
@@ -27,6 +28,7 @@ Result<int> CiteCommand(const std::string& folder, const std::string& address, b
                                         {"address", address.empty() ? Json(nullptr) : Json(address)}}));
     return kSuccess;
   }
+  // Print a BibTeX entry and a sentence for a methods section.
   fmt::print(
       "@software{{etude,\n"
       "  title   = {{Etude: a deterministic benchmark for interactive human motion}},\n"

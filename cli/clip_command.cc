@@ -100,6 +100,7 @@ Result<void> WriteBids(const BidsFiles& files, const std::filesystem::path& fold
 }
 
 Result<int> ClipConvertCommand(const ClipConvertOptions& given) {
+  // Check the output, and read the options and the clip.
   const bool is_bids = given.output.ends_with('/');
   MotionFormat format = MotionFormat::kBids;
   if (!is_bids) {
@@ -114,6 +115,7 @@ Result<int> ClipConvertCommand(const ClipConvertOptions& given) {
   }
   ASSIGN_OR_RETURN(auto clips, ReadClips(references.front(), reading));
 
+  // Convert the clip and write it.
   ConvertOptions options{.trim = trim,
                          .rate_hz = std::nullopt,
                          .mirror = given.mirror,
@@ -129,6 +131,7 @@ Result<int> ClipConvertCommand(const ClipConvertOptions& given) {
   } else {
     RETURN_IF_ERROR(WriteFileAtomically(given.output, converted.bytes));
   }
+  // Report what was done.
   if (given.as_json) {
     RETURN_IF_ERROR(PrintFacts("clip convert", {{"clip", references.front()},
                                                 {"output", given.output},
@@ -152,6 +155,7 @@ void DefineConvert(CLI::App& clip, Action& action) {
           "The file to write: .bvh, .glb, .trc (OpenSim's markers), .mot (its angles), .csv, .c3d, .npz (NumPy); or a "
           "folder, for Motion-BIDS: data/")
       ->required();
+  // The part of the clip, and its changes.
   command->add_option("--trim", options->trim, "Only the part FROM:TO in seconds, such as 1.5:4 or 2:");
   command
       ->add_option("--rate", options->rate_hz,
@@ -164,6 +168,7 @@ void DefineConvert(CLI::App& clip, Action& action) {
       ->add_option("--character", options->character,
                    "Retarget to the bear or the mannequin (GLB only); none leaves out the file's meshes")
       ->check(CLI::IsMember({"bear", "mannequin", "none"}));
+  // How files are written and read.
   AddOverwrite(*command, options->overwrite);
   AddJson(*command, options->as_json);
   AddClipReading(*command, options->reading, "--file-rate");

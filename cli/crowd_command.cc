@@ -44,7 +44,7 @@ double ProcessorTimeMs() { return 1e3 * static_cast<double>(std::clock()) / CLOC
 
 struct Timings {
   std::int64_t met = 0, steps = 0;
-  std::vector<double> times_ms;  ///< of each frame
+  std::vector<double> times_ms;  ///< time of each frame
 };
 
 /// Prints the measured times, and returns them for programs.

@@ -47,7 +47,7 @@ Result<std::map<std::string, double>> ReadLimitsFile(const std::string& name) {
   return limits;
 }
 
-/// The metrics that tell, by being above 0, that a clip shows faults of a kind, and the word for it.
+/// For each kind of fault: the metric that is above 0 if a clip shows it, and the word for it.
 constexpr std::pair<std::string_view, std::string_view> kTelling[] = {
     {"floats_share", "floats"}, {"sinks_share", "sinks"},   {"skates_share", "skates"},
     {"jumps", "jumps"},         {"pops", "pops"},           {"freezes_share", "freezes"},

@@ -270,7 +270,7 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   const auto& outcome = *ran;
   redirected.End();
   if (!outcome) return kInterrupted;
-  // Hours of pairs have many rows: they are loaded only for what the summary does not hold.
+  // Hours of motion give many rows, so rows are loaded only for what the summary does not hold.
   ASSIGN_OR_RETURN(auto data, LoadRunOutline(outcome->folder));
   if (options.alone.is_alone || HasAngles(data.scenarios.front())) {
     ASSIGN_OR_RETURN(data, LoadRun(outcome->folder));
@@ -281,7 +281,7 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   const bool has_silent = lacks_some || std::ranges::any_of(summary.conditions.front().methods,
                                                             [](const MethodSummary& method) { return method.ok == 0; });
   const Triage triage = options.alone.is_alone ? TriageOf(data) : Triage{};
-  // A clip that cannot be judged keeps no limits.
+  // If there are limits, a clip that cannot be judged counts as one that exceeds them.
   const bool exceeds = !triage.beyond_limits.empty() || (!options.alone.limits.empty() && !triage.not_judged.empty());
   const int code = has_silent || exceeds ? kNothingWorked : kSuccess;
   const std::string folder = outcome->folder.string();
@@ -345,6 +345,7 @@ void DefineEvaluate(CLI::App& app, const std::string& command_line, Action& acti
                       "A metric to show in the table; all are measured (etude list metrics)");
   command->add_option(kJointMapOption, options->joint_map,
                       "A file that states which joints play which roles, the unit and the up axis");
+  // The outputs.
   command->add_option("-o,--output", options->output, "Result folder (default: out/evaluate-1)");
   AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");
   command

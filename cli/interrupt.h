@@ -30,8 +30,8 @@ class Interrupt {
 /// unfinished output. Returns the exit code of `work`. Use it for work with long single steps.
 int DoInterruptibly(const std::function<int()>& work, const std::function<void()>& clean_up);
 
-/// Returns the result of writing a film, or false if Ctrl-C was pressed. Ctrl-C also ends the encoder, which may be
-/// noticed first, as an error.
+/// Returns the result of writing a film, or false if Ctrl-C was pressed. Ctrl-C also ends the encoder, so the result
+/// may be the encoder's error; false replaces it.
 Result<bool> UnlessInterrupted(Result<bool> is_whole, const Interrupt& interrupt);
 
 }  // namespace etude

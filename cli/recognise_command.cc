@@ -117,10 +117,12 @@ void PrintSpotting(const Spotting& spotting, const Taught& taught, double rate_h
 
 /// Recognises moves in standard input, line by line, until it ends.
 Result<int> RecogniseLive(const RecogniseCommandOptions& options, const Taught& taught) {
+  // Set up the reader of lines and the watcher of moves.
   const StreamOptions making = options.reading.Options();
   LiveStream live("standard input", options.reading.Reading(), making);
   StreamWatcher watcher(*taught.recogniser, taught.moves.size(), taught.watch, making.rate_hz);
   bool has_begun = false;
+  // Report the reader's remark once, and every move that is spotted.
   const auto take = [&](const std::vector<SensedFrame>& frames) {
     if (!has_begun && !frames.empty()) {
       has_begun = true;
@@ -132,6 +134,7 @@ Result<int> RecogniseLive(const RecogniseCommandOptions& options, const Taught& 
       }
     }
   };
+  // Take line by line, then the frames that the reader still holds.
   for (std::string line; std::getline(std::cin, line);) {
     std::vector<SensedFrame> frames;
     const auto taken = live.Take(line, frames);

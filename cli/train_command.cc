@@ -36,7 +36,7 @@ namespace {
 struct TrainOptions {
   std::vector<std::string> clips;
   std::string output;              ///< a fuzzy system file
-  std::string method = "genetic";  ///< or "adaptive"
+  std::string method = "genetic";  ///< "genetic" or "adaptive"
   bool memberships = false;        ///< tune the membership functions, too
   std::uint64_t seed = 1;
   int population = 40, generations = 60;

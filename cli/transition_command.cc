@@ -34,6 +34,7 @@ struct TransitionCommandOptions {
 
 Result<int> TransitionCommand(TransitionCommandOptions asked) {
   TransitionFileOptions& options = asked.transition;
+  // Make the transition; if there is none, nothing is written.
   RETURN_IF_ERROR(CheckOutput(options.output, asked.overwrite));
   ASSIGN_OR_RETURN(options.reading, ReadOptions(asked.reading));
   ASSIGN_OR_RETURN(const TransitionFile made, WriteTransition(options));

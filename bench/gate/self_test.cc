@@ -171,7 +171,7 @@ void InjectedTails::Try(const Snapshot& first, const std::string& target, std::u
                       kBeyondRule * rule.times),
           needed > 0 && count >= needed, compare(static_cast<std::size_t>(count), worse_by(kBeyondRule)));
   }
-  // The gate must not find worlds that stay just within the rule, but must find a lost value.
+  // The gate must not find worlds that stay just within the rule; it must find a lost value if `rule.lost` is 1.
   if (needed > 0 && needed <= present) {
     Count(fmt::format("{} in {} of {} worlds worse by {} × the difference that matters", target, needed, present,
                       kWithinRule * rule.times),

@@ -72,7 +72,8 @@ std::vector<std::ptrdiff_t> FramesOf(std::span<const double> beats_s, double rat
   return found;
 }
 
-/// Returns the mean over `ours` of exp(−d² / 2σ²), d: to the nearest of `others`; both not empty.
+/// Returns the mean over `ours` of exp(−d² / 2σ²), where d is the distance to the nearest of `others`, in frames;
+/// nothing if either is empty.
 std::optional<double> MeanNearness(std::span<const std::ptrdiff_t> ours, std::span<const std::ptrdiff_t> others) {
   if (ours.empty() || others.empty()) return std::nullopt;
   constexpr double kSigma = 3;  // frames

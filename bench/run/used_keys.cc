@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the path of a key file's list, with links resolved; "" = it has none.
+/// Returns the path of the list of a key file's uses, with links resolved; "" if the key is not in a regular file.
 fs::path ListOf(const SecretKey& key) {
   std::error_code error;
   const fs::path file = key.file.empty() ? fs::path() : fs::canonical(key.file, error);

@@ -108,7 +108,7 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file) {
                   i / array->shape[1], array->values[i]);
     }
   }
-  // Rotations are radians; degrees, read so, wind several times round.
+  // Rotations are in radians; degrees, read as radians, would exceed this angle.
   constexpr double kMaxAngle = 4 * kPi;
   for (std::size_t t = 0; t < frames; ++t) {
     for (std::size_t joint = 0; joint < kJoints; ++joint) {

@@ -30,7 +30,7 @@ struct BidsChannels {
   struct Column {
     int point = -1;  ///< index into `points`; −1 for other channels than positions
     int axis = 0;
-    double metres = 1;  ///< per unit of the column
+    double metres = 1;  ///< metres per unit of the column
   };
   std::vector<Column> columns;
   std::vector<std::string> points;
@@ -47,6 +47,7 @@ Result<BidsChannels> ReadChannels(std::string_view text, const std::string& file
   for (int line = 1; !text.empty(); ++line) {
     const auto cells = SplitAt(TakeLine(text), '\t');
     if (cells.size() == 1 && cells[0].empty()) continue;
+    // The first line names the columns.
     if (heads == 0) {
       heads = cells.size();
       for (std::size_t k = 0; k < kHeads.size(); ++k) {
@@ -58,6 +59,7 @@ Result<BidsChannels> ReadChannels(std::string_view text, const std::string& file
       continue;
     }
     if (cells.size() != heads) return Fail({file, line}, "{} cells under {} headings", cells.size(), heads);
+    // Channels that hold no positions are only counted.
     BidsChannels::Column& column = channels.columns.emplace_back();
     if (cells[at[1]] != "POS") {
       ++channels.others;
@@ -83,6 +85,7 @@ Result<BidsChannels> ReadChannels(std::string_view text, const std::string& file
     if (has_axis) return Fail({file, line}, "{} has its {} twice", Quote(point->first), component);
     has_axis = true;
   }
+  // Every point needs all three coordinates.
   for (std::size_t i = 0; i < has.size(); ++i) {
     if (std::ranges::find(has[i], false) != has[i].end())
       return Fail({file}, "{} lacks some of its x, y, z", Quote(channels.points[i]));

@@ -203,6 +203,7 @@ std::string ShapeText(const NumberArray& array) {
 }
 
 Result<Npz> ReadNpz(std::string_view bytes, const std::string& file) {
+  // Open the archive.
   zip_error_t error;
   zip_error_init(&error);
   zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
@@ -217,6 +218,7 @@ Result<Npz> ReadNpz(std::string_view bytes, const std::string& file) {
   if (members < 0 || static_cast<std::size_t>(members) > kMaxMembers) {
     return Fail({file}, "{} members; allowed: {}", members, kMaxMembers);
   }
+  // Read every .npy member, and remember the first member of another kind for the complaint.
   Npz read;
   std::string others;
   std::uint64_t left = kMaxUnpacked;

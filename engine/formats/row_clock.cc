@@ -32,7 +32,7 @@ double PrintedStep(std::span<const double> times) {
 /// Returns the rate that best fits steps of one to three frames, starting from the rate of the median step. Steps about
 /// half-way between whole numbers of frames are unclear and left out; they occur beside a row at a wrong time.
 double FittedRate(const std::vector<double>& steps, bool only_clear_steps) {
-  constexpr double kUnclear = 0.4;  // of a frame
+  constexpr double kUnclear = 0.4;  // distance from a whole number, in frames
   constexpr int kRounds = 4;
   constexpr double kMaxFrames = 3;
   double rate = 1 / LowerPercentile(steps, 0.5);
@@ -130,7 +130,7 @@ Result<std::optional<RowGrid>> GridOfRows(std::span<const double> times_s, std::
   const double printed = 1.05 * PrintedStep(times_s), fitted = FittedRate(steps, false);
   const auto tolerance = [&](double rate) { return std::clamp(printed * rate, kEven, kMaxEven); };
   const auto fits = [&](double rate, double slack) {
-    constexpr double kMost = 0.9;  // of the rows
+    constexpr double kMost = 0.9;  // share of the rows
     const auto lies_on_frame = [&](std::size_t row) {
       const double place = (times_s[row] - start) * rate;
       return std::abs(place - std::round(place)) <= slack;

@@ -24,7 +24,7 @@ struct MarkerMotion {
   /// The markers' positions in each frame, in metres; empty if a marker was not seen.
   std::vector<std::vector<std::optional<glm::dvec3>>> frames;
   std::string remark = "";     ///< a message of the reader for the user
-  double metres_per_unit = 1;  ///< of the file; the positions here are in metres
+  double metres_per_unit = 1;  ///< metres per unit of the file; the positions here are in metres
   std::map<std::string, double> sizes_m = {};  ///< sizes of the body that the file states: "LKNEEWIDTH"
 };
 

@@ -283,7 +283,7 @@ class Adjuster {
   MeasurableBody measurable_;
   std::array<int, kRoleCount> points_{};
   std::vector<Role> bones_;          ///< the bone of each length
-  std::vector<RoleVectors> joints_;  ///< in each frame, from landmarks
+  std::vector<RoleVectors> joints_;  ///< the joints that landmarks show in each frame
   std::vector<BundleMark> marks_;
 };
 

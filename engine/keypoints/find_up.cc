@@ -345,7 +345,7 @@ FoundUp FindUp(std::span<const NamedCamera> cameras, std::span<const LandmarkPos
                double stature, double metre) {
   const Cues cues(cameras, points, rate_hz, stature, metre);
   // Descend from every beginning.
-  std::vector<std::pair<double, glm::dvec3>> found;  // with its cost
+  std::vector<std::pair<double, glm::dvec3>> found;  // each with its cost
   for (const glm::dvec3& beginning : cues.Beginnings()) {
     glm::dvec3 up = beginning;
     constexpr int kSteps = 20;
@@ -358,7 +358,7 @@ FoundUp FindUp(std::span<const NamedCamera> cameras, std::span<const LandmarkPos
   constexpr double kSolvedFor = 2;
   const double spread = std::max(1.0, sum.squares / std::max(1.0, sum.count - kSolvedFor));
   FoundUp best{up, std::sqrt(spread) * sum.Deviation(), 0, NameCues(sum)};
-  constexpr double kNinetyFive = 2.45, kNearly = 3, kOther = Radians(10);  // radius of 95 % of a plane normal
+  constexpr double kNinetyFive = 2.45, kNearly = 3, kOther = Radians(10);  // 2.45 σ hold 95 % in the plane
   best.within = std::min(kPi, kNinetyFive * best.deviation);
   for (const auto& [rival_cost, rival] : found) {
     const double apart = AngleBetween(up, rival);

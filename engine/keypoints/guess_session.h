@@ -12,8 +12,8 @@ namespace etude {
 
 /// The correction of a mistake that concerns a whole session.
 struct SessionGuess {
-  std::vector<Camera> cameras;     ///< of the films
-  std::vector<SeenPeople> people;  ///< of the films, in their pixels
+  std::vector<Camera> cameras;     ///< corrected, one per film
+  std::vector<SeenPeople> people;  ///< corrected, one per film, in the films' pixels
   std::string mended;              ///< description of the correction; "" if everything is as declared
 };
 

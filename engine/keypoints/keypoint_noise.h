@@ -13,8 +13,8 @@ namespace etude {
 
 /// The random error of one person's keypoints: standard deviations along each axis of the picture, px.
 struct KeypointNoise {
-  double all_px = 0;                                       ///< of all landmarks together
-  std::array<std::optional<double>, kLandmarkCount> px{};  ///< of landmarks with at least 30 points
+  double all_px = 0;                                       ///< the deviation of all landmarks together
+  std::array<std::optional<double>, kLandmarkCount> px{};  ///< the deviation of each landmark with at least 30 points
   std::size_t points = 0;                                  ///< number of triangulated points
 
   /// Returns the deviation of the landmark that shows a joint; of all landmarks if none does.

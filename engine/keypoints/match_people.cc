@@ -222,6 +222,7 @@ class PersonMatcher {
       person.seen.assign(people_.size(), std::vector<std::optional<SeenPerson>>(people_.front().size()));
       std::vector<bool> by(people_.size());
       std::vector<double> errors;
+      // Its detections in all cameras, and the errors of its pairs of tracks.
       for (std::size_t t = 0; t < tracks_.size(); ++t) {
         if (group_[t] != g) continue;
         by[tracks_[t].camera] = true;

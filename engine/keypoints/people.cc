@@ -39,6 +39,7 @@ std::optional<Landmark> FindLandmark(std::string_view name) {
 std::span<const KeypointLayout> KeypointLayouts() {
   constexpr std::size_t kFaceAndHands = 68 + 42;
   static const std::vector<KeypointLayout> layouts = {
+      // The landmark at each place of an estimator's list; "-" is a point that is not used.
       {"coco",
        Listed("Nose LEye REye LEar REar LShoulder RShoulder LElbow RElbow LWrist RWrist LHip RHip LKnee RKnee LAnkle "
               "RAnkle")},
@@ -59,6 +60,7 @@ std::span<const KeypointLayout> KeypointLayouts() {
               "REar LEar")},
       {"mediapipe",
        Listed("Nose - LEye - - REye - LEar REar - - LShoulder RShoulder LElbow RElbow LWrist RWrist - - - - - - LHip "
+              // With face and hands, whose points are not used.
               "RHip LKnee RKnee LAnkle RAnkle LHeel RHeel LBigToe RBigToe")},
       {"coco_wholebody",
        Listed("Nose LEye REye LEar REar LShoulder RShoulder LElbow RElbow LWrist RWrist LHip RHip LKnee RKnee LAnkle "

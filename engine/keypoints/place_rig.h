@@ -35,7 +35,7 @@ struct RigPlacement {
   double scale = 1;
   glm::dmat3 R{1};
   glm::dvec3 shift{0};
-  double stature_m = 0;  ///< of the person, from legs and trunk; 0 if no person was used
+  double stature_m = 0;  ///< the person's stature, from legs and trunk; 0 if no person was used
   std::string told;      ///< explanation for people: "lengths in mm (…), up is -y (…)"
 
   glm::dvec3 operator()(const glm::dvec3& p) const { return scale * (R * p) + shift; }

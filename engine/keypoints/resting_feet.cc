@@ -28,7 +28,8 @@ double AboveSole(std::size_t kind, double stature) {
 std::vector<FootStay> FeetAtRest(std::span<const LandmarkPositions> points, double rate_hz, double stature) {
   constexpr double kMaxSpeed = 0.2, kReach = 0.025, kMaxDrift = 0.006, kShortest_s = 0.2;
   constexpr std::size_t kMaxStays = 200;
-  std::vector<std::pair<std::size_t, FootStay>> found;  // with its frames
+  std::vector<std::pair<std::size_t, FootStay>> found;  // each with its number of frames
+  // Divide the path of each landmark into stays.
   for (std::size_t kind = 0; kind < kFeet.size(); ++kind) {
     for (const Landmark landmark : kFeet[kind].first) {
       std::vector<glm::dvec3> places;  // positions of the present stay so far
@@ -37,6 +38,7 @@ std::vector<FootStay> FeetAtRest(std::span<const LandmarkPositions> points, doub
         for (std::size_t i = from; i < to; ++i) sum += places[i];
         return sum / static_cast<double>(to - from);
       };
+      // Keep a stay that is long enough and whose two halves have nearly the same mean.
       const auto end_stay = [&] {
         const std::size_t count = places.size();
         if (count >= 2 && static_cast<double>(count) >= kShortest_s * rate_hz &&
@@ -47,6 +49,7 @@ std::vector<FootStay> FeetAtRest(std::span<const LandmarkPositions> points, doub
       };
       glm::dvec3 sum(0);
       for (std::size_t i = 1; i < points.size(); ++i) {
+        // A fast frame, or one far from the stay's mean, ends the stay.
         const auto &before = points[i - 1][Index(landmark)], &now = points[i][Index(landmark)];
         if (!before || !now) continue;  // a gap does not end a stay
         const bool is_slow = glm::distance(*before, *now) * rate_hz <= kMaxSpeed * stature;

@@ -28,10 +28,10 @@ struct FootStay {
 /// @param stature in the points' unit
 std::vector<FootStay> FeetAtRest(std::span<const LandmarkPositions> points, double rate_hz, double stature);
 
-/// Returns the height along `up` of the floor under the feet: For each kind of landmark it takes the mean of the stays
-/// within 1/20 of the stature of the lowest tenth, minus the landmark's height above the sole. The result is the median
-/// of these heights, or the lowest if they differ by more than 1/40 of the stature (then the feet do not stand flat). 0
-/// if there is no stay.
+/// Returns the height along `up` of the floor under the feet. Each kind of landmark gives one height: the mean of its
+/// low stays (at most 1/20 of the stature above its 10th percentile), minus the landmark's height above the sole. The
+/// result is the median of these heights, or the lowest if they differ by more than 1/40 of the stature (then the feet
+/// do not stand flat). 0 if there is no stay.
 double FloorUnder(std::span<const FootStay> stays, const glm::dvec3& up, double stature);
 
 }  // namespace etude

@@ -54,7 +54,7 @@ struct OffsetFilm {
 };
 
 struct Misfit {
-  double squares = 0;   ///< of all distances
+  double squares = 0;   ///< sum of all squared distances
   double variance = 0;  ///< sum of squared deviations from the mean of each landmark
   int count = 0;
 
@@ -196,6 +196,7 @@ class ClockFinder {
         if (o == c || !geometry_(o, c)) continue;
         const std::vector<SeenPerson> there = PeopleAt(films_[o], films_[o].clock, time);
         for (const SeenPerson& person : here) {
+          // Of the other camera's people, the one of the lowest mean loss counts.
           std::pair<double, std::size_t> best{0, 0};
           for (const SeenPerson& somebody : there) {
             const auto pair = PairLoss(*geometry_(o, c), somebody, person);

@@ -42,9 +42,9 @@ struct VelocityStep {
 /// The displacements in a motion: changes between frames that are not movements of a body.
 struct Displacements {
   std::vector<FrameRange> frozen;    ///< frames that repeat the pose of the first one, for 0.9 s or more
-  std::vector<Displacement> common;  ///< without those in which a frozen body catches up
-  std::vector<Pop> pops;             ///< also without those
-  std::vector<VelocityStep> steps;   ///< also without those
+  std::vector<Displacement> common;  ///< none at either end of a frozen stretch
+  std::vector<Pop> pops;             ///< none there either
+  std::vector<VelocityStep> steps;   ///< none there either
 };
 
 /// Finds displacements by third differences, as FindMotionFaults states. The motion must have at least eight frames.

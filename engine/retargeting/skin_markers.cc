@@ -92,7 +92,7 @@ SkinDepths DepthsOf(const MarkerSet& set, const std::map<std::string, double>& s
     std::vector<double> lengths;
     bool is_of_file = true;
     for (const bool is_left : {true, false}) {
-      // The file's own width, else a share of the limb.
+      // Take the joint's width from the file if it has one; `share` of the limb's length replaces it below.
       const auto width = size((is_left ? "L" : "R") + std::string(joint.size));
       const bool is_offset = joint.left == kLeftShoulder;
       const double radius = 0.5 * size("MARKERDIAMETER").value_or(kUsualMarker);

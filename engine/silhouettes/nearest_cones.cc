@@ -64,7 +64,8 @@ void FindNearest(const ConeColumns& cones, const PointColumns& points, double* d
       hn::StoreU(SignedDistance(ConesFrom(cones, i), centre_u, centre_v), real, near + i);
     }
     for (size_t i = 0; i < cones.count; ++i) least = near[i] < least ? near[i] : least;
-    // Beyond this reach from the centre, a cone is neither nearest to a point nor nearer than its present distance.
+    // A cone farther from the centre than this is not the nearest to any point of the block, nor nearer than its
+    // present distance.
     double farthest = distance[first_point];
     for (size_t i = 1; i < kBlockPoints; ++i) {
       farthest = distance[first_point + i] > farthest ? distance[first_point + i] : farthest;

@@ -44,10 +44,10 @@ OutlineColumns MakeColumns(const std::vector<OutlinePoint>& outline);
 struct Silhouette {
   Image<float> distances;  ///< `SignedDistances` of the mask, in mask pixels, from (left, top) on
   int left = 0, top = 0;
-  int width = 0, height = 0;  ///< of the whole mask
+  int width = 0, height = 0;  ///< size of the whole mask
   double mask_pixel = 1;
   std::vector<OutlinePoint> outline;
-  OutlineColumns columns;  ///< of `outline`
+  OutlineColumns columns;  ///< the same points as `outline`
   glm::dvec2 centre{0};    ///< mean of the set pixels, in the camera's pixels
   int area = 0;            ///< number of set pixels of the mask; 0 if the picture shows nobody and is not used
 };

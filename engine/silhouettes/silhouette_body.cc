@@ -60,10 +60,12 @@ struct JointRow {
 
 const std::array<JointRow, kJointCount>& JointRows() {
   static const std::array<JointRow, kJointCount> rows = {{
+      // Joint, name, parent, position, axes at rest, limits, usual angles with deviations.
       {kPelvis, "pelvis", -1, kHipCentre, kRising, {}, {}},
       {kLoins, "loins", kPelvis, kHipCentre, kRising, {{-60, 30}, {-35, 35}, {-45, 45}}, {{0, 20}, {0, 12}, {0, 15}}},
       {kChest, "chest", kLoins, kSpine, kRising, {{-45, 25}, {-25, 25}, {-35, 35}}, {{0, 15}, {0, 10}, {0, 12}}},
       {kNeck, "neck", kChest, kShoulderCentre, kRising, {{-60, 60}, {-45, 45}, {-70, 70}}, {{0, 20}, {0, 15}, {0, 25}}},
+      // The arms.
       {kLeftCollar, "left_collar", kChest, kShoulderCentre, kToTheLeft, {{-12, 35}, {-25, 25}}, {{0, 10}, {0, 10}}},
       {kLeftUpperArm,
        "left_upper_arm",
@@ -84,6 +86,7 @@ const std::array<JointRow, kJointCount>& JointRows() {
        {{20, 60}, {0, 45}, {0, 45}}},
       {kRightForearm, "right_forearm", kRightUpperArm, kRightElbow, kHanging, {{0, 150}}, {{40, 45}}},
       {kRightPalm, "right_hand", kRightForearm, kRightWrist, kHanging, {{-60, 60}, {-30, 30}}, {{0, 20}, {0, 12}}},
+      // The legs.
       {kLeftThigh,
        "left_thigh",
        kPelvis,

@@ -162,7 +162,7 @@ void AppendResiduals(const SeenFlesh& flesh, const Silhouette& silhouette, const
 void AddLosses(const SeenFlesh& flesh, const Silhouette& silhouette, const SilhouetteCostOptions& options,
                double& sum) {
   if (silhouette.area == 0) return;
-  double outline = sum;  // a local number, which no option can be
+  double outline = sum;  // a local variable: the compiler knows that no write to it changes an option
   for (const int place : silhouette.columns.places) {
     const auto at = static_cast<std::size_t>(place);
     if (flesh.owners[at] >= 0) outline += LossOf({.value = flesh.distances[at]}, options).loss;

@@ -46,8 +46,8 @@ const RowLayout* FindLayout(StreamFormat format, std::size_t columns) {
 /// the sensor looks along +Z.
 glm::dvec3 FromSensor(const glm::dvec3& p) { return {-p.x, p.y, -p.z}; }
 
-/// Returns true if the fourth numbers are states of the SDK (0 not tracked, 1 inferred, 2 tracked): no other values
-/// occur, and 2 does. In MSRC-12 they are weights, which are always 1.
+/// Returns true if the fourth number of each joint is its tracking state in the SDK (0 not tracked, 1 inferred, 2
+/// tracked): all are 0, 1 or 2, and at least one is 2. In MSRC-12 the fourth number is a weight, always 1.
 bool FourthsAreStates(const NumberRows& table, const RowLayout& layout) {
   if (!layout.has_fourth) return false;
   bool some_tracked = false;

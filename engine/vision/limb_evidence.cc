@@ -19,7 +19,7 @@ enum class Landmark {
 
 /// The typical proportions of each limb *(ours)*; shares are of half the limb's width.
 struct Anatomy {
-  double length;   ///< of its bone, seen from the side
+  double length;   ///< length of its bone if the picture does not foreshorten it
   double joint;    ///< distance of its inner joint from the landmark, outwards
   double tip = 1;  ///< distance of its outer end's point from the visible end, inwards
   Landmark landmark = Landmark::kBorder;
@@ -31,8 +31,8 @@ constexpr Body BodyOf(Anatomy thigh, Anatomy shank, Anatomy foot, Anatomy upper_
   return {thigh, shank, foot, thigh, shank, foot, upper_arm, forearm, hand, upper_arm, forearm, hand, head};
 }
 
-/// The body of capsules. Only joints of the trunk are found from the limb that begins there; the others are found from
-/// the round end of the preceding limb.
+/// The proportions of the person made of capsules. A joint on the trunk (hip, shoulder) is found from the limb that
+/// begins there; every other joint from the round end of the preceding limb.
 constexpr Body kCapsules = BodyOf({6, -0.94}, {8, 0}, {6, 0}, {6.5, -1.04}, {7, 0}, {5.5, 0}, {1, -0.35});
 constexpr Body kDressed =
     BodyOf({6, -1.55, 1, Landmark::kBorderEnd}, {8, -0.5}, {6, 0, 0.62}, {6.5, 0.97, 1, Landmark::kInnerEnd},

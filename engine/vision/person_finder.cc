@@ -259,7 +259,7 @@ void PersonFinder::CompareHues(const ColourImage& picture, Mask& mask) const {
   }
 }
 
-// Compares with the running mean and variance, and updates them.
+// Compares each pixel with its running mean and variance, marks those that changed, and updates both.
 void PersonFinder::Follow(const ColourImage& picture, Mask& mask) {
   const ChangeOptions& o = options_.change;
   const auto least = static_cast<float>(o.min_deviation * o.min_deviation);

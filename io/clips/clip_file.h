@@ -53,9 +53,8 @@ struct MadeBody {
 /// The content of a motion file.
 struct ClipFile {
   ClipFormat format = ClipFormat::kBvh;
-  Character figure;         ///< a skeleton, and meshes if the file has any
-  std::vector<Clip> clips;  ///< on that skeleton; glTF may hold none; a marker file of several people holds one each
-                            ///< people
+  Character figure;                       ///< a skeleton, and meshes if the file has any
+  std::vector<Clip> clips;                ///< on that skeleton; none in some glTF; one per person in a marker file
   std::vector<MadeBody> bodies = {};      ///< one for each clip, if they are bodies already
   std::vector<std::string> remarks = {};  ///< repairs that were made while reading
   std::optional<JointMapOverrides> roles = {};  ///< roles that the bone table of a VRM file assigns
@@ -67,8 +66,8 @@ struct ClipFile {
 struct OpenOptions {
   std::optional<JointMapOverrides> roles;  ///< the user's joint map (--joint-map)
   BodyOptions body;
-  std::string marker_set = "";  ///< of marker files: the set to use (MarkerSetKeys); "" = the best
-  bool keeps_shown = false;     ///< of marker files: also make SourceClip::shown
+  std::string marker_set = "";                ///< of marker files: the set to use (MarkerSetKeys); "" = the best
+  bool keeps_shown = false;                   ///< of marker files: also make SourceClip::shown
   const RecordedMotions* recorded = nullptr;  ///< reads "RUN#CELL@NAME"; null = such a reference is treated as a file
 };
 

@@ -173,6 +173,7 @@ std::size_t LeaveOutOfText(std::string_view text, std::string& changed) {
   std::vector<FbxRange> zeroed, ignored;
   std::size_t models = 0;
   bool in_model = false, in_template = false, in_table = false, active_by_template = false, is_active = false;
+  // Follow the tables of properties of models and of their template; collect the ignored numbers that are not zero.
   for (std::size_t begin = 0; begin < text.size();) {
     const FbxRange line{begin, std::min(text.find('\n', begin), text.size())};
     begin = line.end + 1;

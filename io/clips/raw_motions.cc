@@ -45,6 +45,7 @@ RawMotion OfSkeleton(const Clip& clip, double unit, UpAxis up) {
       up == UpAxis::kY ? glm::dquat(1, 0, 0, 0) : glm::quat_cast(glm::dmat3(1, 0, 0, 0, 0, -1, 0, 1, 0));
   RawMotion raw;
   raw.rate_hz = clip.rate_hz;
+  // Copy the joints, their rest pose and the frames, in the world with Y up.
   for (const Joint& joint : clip.skeleton.joints) {
     if (joint.is_end_site) raw.added.push_back(static_cast<int>(raw.joints.size()));
     raw.joints.push_back(joint.name);

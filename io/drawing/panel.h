@@ -6,7 +6,8 @@
 
 namespace etude {
 
-/// A numeric axis of an SVG panel, in the panel's units. Every picture of the page maps values to positions by one.
+/// A numeric axis of an SVG panel, in the panel's units: it maps values to positions. Every picture of the page uses
+/// it.
 struct Axis {
   double low = 0, high = 1;
   bool is_logarithmic = false;

@@ -117,6 +117,7 @@ std::string TableLatex(const Table& table) {
   const auto append = [](std::string& line, const std::string& cell, bool is_first) {
     line += is_first ? cell : cell.empty() ? " &" : " & " + cell;
   };
+  // Collect the alignments, the heads, and the heads over several columns with their rules.
   std::string places, heads, over, rules;
   for (const TableColumn& column : table.columns) {
     places += column.is_number ? 'r' : 'l';
@@ -129,11 +130,13 @@ std::string TableLatex(const Table& table) {
     if (is_head) rules += fmt::format("\\cmidrule(lr){{{}-{}}}", span.first + 1, span.first + span.columns);
   }
 
+  // Write the caption and the heads.
   std::string text = table.caption.empty() ? "" : EscapeLatex(table.caption) + "\\\\[2pt]\n";
   text += fmt::format("\\begin{{tabular}}{{{}}}\n\\toprule\n", places);
   if (!over.empty()) text += fmt::format("{} \\\\\n{}\n", over, rules);
   text += heads + " \\\\\n";
   if (table.rows.empty() || table.rows.front().group.empty()) text += "\\midrule\n";
+  // Write the rows; each group begins with a rule and its name.
   for (const TableRow& row : table.rows) {
     if (!row.mark.empty()) continue;
     if (!row.group.empty()) {

@@ -54,7 +54,7 @@ class PartialFile {
 
  private:
   FilePath path_ = "";
-  FileSpot spot_;     ///< of `path_`
+  FileSpot spot_;     ///< the folder and name of `path_`
   std::string name_;  ///< the temporary name, in the same folder
   int file_ = -1;
   bool made_folder_ = false;

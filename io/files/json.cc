@@ -15,7 +15,7 @@
 namespace etude {
 namespace {
 
-constexpr int kMaxNesting = 100;  // functions that walk over values recurse
+constexpr int kMaxNesting = 100;  // limits the recursion of functions that walk over values
 
 std::optional<std::string> FindNonFinite(const Json& json) {
   if (json.is_number_float()) return std::isfinite(json.get<double>()) ? std::nullopt : std::optional<std::string>("");

@@ -66,7 +66,7 @@ class Builder : public nlohmann::json_sax<Json> {
 
   JsonText& built_;
   std::vector<Json*> open_;
-  std::vector<std::set<std::string>> keys_;  // of each open object
+  std::vector<std::set<std::string>> keys_;  // the keys seen so far in each open object
   std::string key_;
 };
 

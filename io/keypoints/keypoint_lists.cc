@@ -357,7 +357,7 @@ Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layou
 
 void LayByNames(std::span<const std::string> names, const FilmOfKeypoints& of, PeopleOfFilm& film) {
   if (names.size() < 2 || names.size() != film.frames.size() || of.frames == names.size()) return;
-  // Read the numbers, which must ascend after the same text.
+  // Read the number at the end of each name: the text before it must be the same in all, and the numbers must ascend.
   const auto text_of = [](std::string name) {
     if (const std::size_t dot = name.find_last_of('.'); dot != std::string::npos && dot > 0) name.resize(dot);
     const std::size_t end = name.find_last_of("0123456789");

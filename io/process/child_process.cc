@@ -34,7 +34,7 @@ bool IsProgram(const std::string& path) {
   return ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && ::access(path.c_str(), X_OK) == 0;
 }
 
-constexpr int kChunksPerReceive = 16;  // of 64 KiB, so that Receive returns even if the child writes endlessly
+constexpr int kChunksPerReceive = 16;  // parts of 64 KiB; the limit ends Receive even if the child writes endlessly
 
 std::vector<char*> Pointers(std::vector<std::string>& texts) {
   std::vector<char*> pointers;

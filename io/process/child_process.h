@@ -21,15 +21,15 @@ struct ProgramLimits {
   /// Per process. The same limit holds for the user's descriptors in flight between processes (SCM_RIGHTS): 512 pipes
   /// in flight and 256 open ones leave other programs some of the user's 1024 pipes of full size.
   static constexpr std::uint64_t kOpenFiles = 512;
-  static constexpr std::uint64_t kPendingSignals = 1024;  ///< and POSIX timers
-  static constexpr std::uint64_t kLockedBytes = 1 << 20;  ///< by mlock
+  static constexpr std::uint64_t kPendingSignals = 1024;  ///< POSIX timers count, too
+  static constexpr std::uint64_t kLockedBytes = 1 << 20;  ///< locked by mlock
   static constexpr int kInotifyWatches = 4096;
 
   // For all its processes together, sampled 50 times a second.
   static constexpr std::size_t kProcesses = 256;
   static constexpr std::size_t kThreads = 4096;
   static constexpr std::size_t kDescriptors = 4096;
-  static constexpr std::size_t kSockets = 1024;  ///< in a fence
+  static constexpr std::size_t kSockets = 1024;  ///< only in a fence
   static constexpr std::size_t kFileLocks = 16384;
 
   // Kernel limits per user are divided among `programs`, the programs that run at the same time: half of the 128

@@ -20,7 +20,7 @@ struct FencedCommand {
 
 /// The memory of temporary files in scratch folders (tmpfs).
 struct ScratchUse {
-  double mb = 0;  ///< of their contents
+  double mb = 0;  ///< size of their contents
   /// Estimated kernel memory of their names (which control groups count as reclaimable) and of their inodes.
   double names_mb = 0, inodes_mb = 0;
 

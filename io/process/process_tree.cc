@@ -50,7 +50,7 @@ double OwnCpuSeconds(pid_t process) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-constexpr int kMaxPasses = 100;  // over a tree that grows meanwhile
+constexpr int kMaxPasses = 100;  // passes over a tree that grows meanwhile
 
 bool Signal(const Descriptor& process, int signal) {
   return ::syscall(SYS_pidfd_send_signal, process.number(), signal, nullptr, 0) == 0;

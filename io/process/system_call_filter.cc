@@ -45,7 +45,7 @@ constexpr auto kRefused = std::to_array<Refusal>({
     {SYS_splice, EINVAL},
     {SYS_tee, EINVAL},
     {SYS_sendfile, EINVAL},
-    {SYS_seccomp, EINVAL},  // a megabyte of filters per thread, in a pool of the machine
+    {SYS_seccomp, EINVAL},  // a megabyte of filters per thread, from a pool that the whole machine shares
     {SYS_userfaultfd, ENOSYS},
     {SYS_io_setup, ENOSYS},
     {SYS_landlock_create_ruleset, ENOSYS},
@@ -53,8 +53,8 @@ constexpr auto kRefused = std::to_array<Refusal>({
     {SYS_setxattr, EOPNOTSUPP},  // these three: attributes of files in tmpfs count as no process's memory
     {SYS_lsetxattr, EOPNOTSUPP},
     {SYS_fsetxattr, EOPNOTSUPP},
-    // Threads with their own descriptor tables, and processes that share one: files and locks could not be counted.
-    // A filter cannot read the arguments of clone3; without it, C libraries use clone.
+    // Threads with their own descriptor tables, and processes that share a table, would make open files and locks
+    // impossible to count. clone3 is refused because a filter cannot read its arguments; C libraries then use clone.
     {SYS_unshare, EPERM},
     {SYS_clone3, ENOSYS},
     // io_uring performs the operations above without system calls.
@@ -68,7 +68,7 @@ constexpr auto kRefused = std::to_array<Refusal>({
     {SYS_syslog, EPERM},
 });
 constexpr std::array kFamilies = {AF_UNIX, AF_INET, AF_INET6, AF_NETLINK};
-constexpr std::uint32_t kOtherNumbers = 0x40000000;  // from here on the x32 ABI's on x86-64; unused elsewhere
+constexpr std::uint32_t kOtherNumbers = 0x40000000;  // from here on: the x32 ABI's calls on x86-64; unused elsewhere
 
 using Filter = std::vector<sock_filter>;
 
@@ -104,7 +104,7 @@ std::string SystemCallFilter() {
                    SkipUnless(BPF_JGE, kOtherNumbers, 1),
                    Refuse(ENOSYS)};
   for (const auto& [number, error] : kRefused) AddCall(filter, number, {Refuse(error)});
-  // Families of sockets.
+  // Allow sockets of kFamilies only.
   Filter families = {LoadArgument(0)};
   for (const int family : kFamilies)
     Add(families, {SkipUnless(BPF_JEQ, static_cast<std::uint32_t>(family), 1), kAllow});

@@ -89,17 +89,17 @@ class TreeMeter {
 
   const pid_t root_;
   const double limit_mb_;
-  ElapsedTime started_;  ///< when this measurement began, or when it was last seen whether we starve
-  ElapsedTime of_tree_;  ///< its processor time at the last Count, and when that was
+  ElapsedTime started_;  ///< the start of this measurement, or the time of its last check for starvation
+  ElapsedTime of_tree_;  ///< the tree's processor time at the last Count, and the time of that Count
   Pace mappings_pace_{std::chrono::milliseconds(0)}, kernel_pace_{std::chrono::milliseconds(100)};
   Pace pipes_pace_{std::chrono::milliseconds(0)};
   std::vector<pid_t> processes_;
-  std::vector<double> bounds_mb_;  ///< of each process: its private memory, shared pages included
+  std::vector<double> bounds_mb_;  ///< the private memory of each process, shared pages included
   TreeLoad load_;
   double page_tables_mb_ = 0, tcp_mb_ = 0;
-  /// The largest amount of shared pages that one process maps, now, and its minimum and maximum since SampleMappings.
+  /// The most shared pages that any one process maps, MB: now, and the minimum and maximum since SampleMappings.
   double max_shared_mb_ = 0, min_since_mb_ = 0, max_since_mb_ = 0;
-  std::size_t mappings_ = 0;                      ///< as far as they were read
+  std::size_t mappings_ = 0;                      ///< number of mappings that were read
   std::map<std::uint64_t, SharedMemory> shared_;  ///< by inode
   std::map<pid_t, std::uint64_t> faults_;         ///< page faults of each process in the last sample
   std::uint64_t touched_pages_ = 0;               ///< page faults of all processes since the start

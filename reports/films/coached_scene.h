@@ -65,7 +65,7 @@ class CoachedScene : public Scene {
   CoachedSessionFacts facts_;
   std::string heading_;
   Renderer& renderer_;
-  int first_ = 0, last_ = 0;  ///< [first_, last_) of the session
+  int first_ = 0, last_ = 0;  ///< the film shows the session's frames [first_, last_)
   Character bear_, learner_;
   ColourImage backdrop_;  ///< empty until it is needed
 };

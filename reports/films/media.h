@@ -36,7 +36,7 @@ struct Media {
 /// The folders for files beside the page.
 struct MediaPaths {
   FilePath films;     ///< a folder for the MP4s
-  FilePath pictures;  ///< a folder for colour, depth and labels of the strip's moments, as EXR
+  FilePath pictures;  ///< a folder for EXR files: colour, depth and labels at the moments of Media::strip
 };
 
 struct MediaOptions {

@@ -154,7 +154,7 @@ std::string PrintedHtml(bool with_angles) {
   return html + "</details>";
 }
 
-/// Returns floats of at most `most` tables each, with the note below the first.
+/// Returns LaTeX table environments of at most `most` tables each; the note stands in the first one's caption.
 std::string FloatsLatex(const std::vector<PaperTable>& tables, std::size_t most, const std::string& caption,
                         const std::string& note) {
   std::string text;

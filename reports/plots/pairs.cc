@@ -82,7 +82,7 @@ std::string CurvesSvg(const Pair& pair, const CellSeriesIndex& series, const Sce
   return fmt::format("<figure><figcaption>{}</figcaption>{}</svg></figure>", EscapeMarkup(caption), svg);
 }
 
-/// Draws a truth, faintly, and an answer in one frame, seen from the side from which they are widest.
+/// Draws a frame of a truth (faint) and of an answer, along the horizontal axis that shows them widest.
 std::string FrameSvg(const RawMotion& truth, const RawMotion& answer, std::size_t frame, std::size_t style,
                      const std::string& words) {
   constexpr double kWide = 150, kTall = 190, kMargin = 8;

@@ -126,6 +126,7 @@ std::string TextOf(const Calibrated& rig) {
     text += fmt::format("\n{}: reprojection error {:.3f} px RMS over {} points\n", rig.cameras[i].name, rig.rms_px[i],
                rig.points[i]);
     const auto& s = rig.deviations[i];
+    // Print half of the 95 % interval, too, where the deviations are known.
     const auto with = [&](double value, double deviation) {
       return s ? fmt::format("{:.2f} ± {:.2f}", value, kOfNinetyFive * deviation) : fmt::format("{:.2f}", value);
     };

@@ -17,7 +17,7 @@ namespace etude {
 struct CaptureFilmsOptions {
   std::vector<std::string> films;
   std::string rig;                   ///< a calibration: a file or folder that ReadRigFile or ReadRigPair can read
-  PlacementOptions place;                ///< its unit, up axis and floor
+  PlacementOptions place;                ///< the rig's unit, up axis and floor
   std::string keypoints;             ///< a folder with an entry for each film
   std::string marks;                 ///< a folder of annotation pictures with an entry for each film
   bool silhouettes = false;          ///< use the person's silhouettes, alone or together with keypoints

@@ -76,7 +76,7 @@ std::string ReportText(const RecoveredPerson& person, const std::vector<FilmedVi
   return text;
 }
 
-/// Encodes the findings from keypoints, for programs.
+/// Returns as JSON what the capture found from keypoints.
 Json FactsOf(const RecoveredPerson& person, const std::vector<FilmedView>& views,
              const std::vector<std::string>& told) {
   Json cameras = Json::array(), fit = Json::array();
@@ -242,7 +242,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   ASSIGN_OR_RETURN(SeenFilms films, SeeFilms(options, recover, session));
   ASSIGN_OR_RETURN(RecoveredPerson located, LocatePerson(films.cameras, films.people, recover));
   // Move the rig and the points into the world: metres, Y up, the floor as the options say.
-  for (const FilmedView& view : views) {  // with the repairs of the recovery
+  for (const FilmedView& view : views) {  // their cameras hold the recovery's repairs
     const auto same = std::ranges::find(session.rig.cameras, view.camera.name, &NamedCamera::name);
     if (same != session.rig.cameras.end()) same->camera = view.camera.camera;
   }

@@ -20,8 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxPictures = 4000;  // reduced pictures of all films together; they are held in memory, about 2
-                                             // GB
+constexpr std::size_t kMaxPictures = 4000;  // reduced pictures of all films: about 2 GB of memory
 
 Result<ColourImage> ReadRoom(const std::string& folder, const FilmedView& view) {
   ASSIGN_OR_RETURN(const fs::path entry, EntryOfFilm(folder, view.path.stem().string()));
@@ -73,6 +72,7 @@ std::vector<Picture> NearestInTime(std::vector<Picture> film, const FilmClock& c
 
 Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
                              const std::vector<FilmClock>& clocks, MessageLog& told) {
+  // All pictures are held in memory.
   std::size_t pictures = 0;
   for (const FilmedView& view : views) pictures += view.facts.frames;
   if (pictures > kMaxPictures) {
@@ -81,6 +81,7 @@ Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vect
                 views.size(), pictures, kMaxPictures, kMaxPictures / views.size());
   }
   ReducedTake take;
+  // Read each film's masks, or its pictures and the empty room, at the times of the first film's frames.
   for (const FilmedView& view : views) {
     take.cameras.push_back(ReducedCamera(view.camera.camera, UnmarkedTake::kPictureSide));
     take.reductions.push_back(take.cameras.back().intrinsics.fx / view.camera.camera.intrinsics.fx);
@@ -196,6 +197,7 @@ constexpr double kPercent = 100;
 /// most frames of a camera, body and outline overlap by less than half, or if most frames repeat the last pose.
 std::string TellUnmarked(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
                          const UnmarkedMotion& person, MessageLog& told) {
+  // Report the stature and the frames without a pose of their own.
   told.Tell(fmt::format("stature: {:.2f} m{}; the cost of the outlines is {:.0f} per picture", person.stature_m,
                         options.stature_m > 0 ? "" : ", found from the outlines", person.cost));
   if (person.held > 0) {
@@ -208,6 +210,7 @@ std::string TellUnmarked(const CaptureFilmsOptions& options, const std::vector<F
     wrong = fmt::format("{} of {} frames show the person in fewer than two cameras", person.held,
                         person.motion.poses.size());
   }
+  // Report the cameras in which body and outline disagree.
   for (std::size_t i = 0; i < views.size(); ++i) {
     const std::vector<double> apart = KnownOf(person.apart[i]);
     const auto far = std::ranges::count_if(apart, [](double share) { return share > kMaxApart; });

@@ -154,7 +154,7 @@ std::string BytesOf(Clip clip, const BodyMotion& motion, MotionFormat format, co
     case MotionFormat::kNpz:
       return WriteBodyNpz(motion, StandingPose());
     case MotionFormat::kBids:
-      break;  // no name of a file
+      break;  // a folder, which no file name stands for
     case MotionFormat::kMot:
       return WriteOpenSimMotion(motion, Retarget({.poses = {StandingPose()}}, motion.poses.front()).poses.front(),
                                 name);
@@ -175,6 +175,7 @@ Result<RigFile> OpenRig(const std::string& path) {
 Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options) {
   ASSIGN_OR_RETURN(RigFile rig_file, OpenRig(options.rig));
   const std::vector<NamedCamera>& rig = rig_file.cameras;
+  // Check the numbers of films and cameras.
   constexpr std::size_t kMaxFilms = 64;
   if (options.films.size() < 2 || options.films.size() > kMaxFilms) {
     return Fail({}, "{} film{}; allowed: 2 to {}, one of each camera", options.films.size(),
@@ -194,6 +195,7 @@ Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options) {
       if (other.camera.name == view.camera.name) {
         return Fail({view.path.string()}, "camera {} has {} already", view.camera.name, other.path.string());
       }
+    // Fit the camera's pictures to the film's.
     }
     Intrinsics& in = view.camera.camera.intrinsics;
     if (in.width == 0) FindSize(view, told);

@@ -56,7 +56,7 @@ Result<void> VisitFilm(const fs::path& path, const MaskVisit& visit) {
   }
 }
 
-/// Returns the mask whose set pixels have a patch of which at least half shows the person.
+/// Returns the mask in which a pixel is set if at least half of its patch of the film shows the person.
 template <typename IsPerson>
 Mask Reduced(const Image<std::uint8_t>& values, const Image<FilmPatch>& patches, const IsPerson& is_person) {
   Mask mask(patches.width, patches.height);

@@ -12,8 +12,8 @@ namespace etude {
 constexpr int kMaxClipsWithPairs = 300;
 
 /// Writes the number of bridge frames, the reachability, and the ways into the corrective clips, as text for a
-/// terminal. Without pairs, a clip's figures are about any other clip instead of means over the other clips. For more
-/// than 24 clips the matrix is only in the JSON.
+/// terminal. With pairs, a clip's figures are means over the other clips; without, they are for all other clips
+/// together. For more than 24 clips the matrix is only in the JSON.
 std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s);
 
 /// Writes the same for programs (docs/schemas/bridge-summary.schema.json). Figures that need pairs are null without

@@ -104,11 +104,13 @@ std::string AxisLetter(const glm::dvec3& axis) {
 }
 
 Json JsonOf(const BodyFacts& body) {
+  // The joint of each role.
   Json roles = Json::object();
   for (const Role role : AllRoles()) {
     const bool composed = std::ranges::find(body.composed, role) != body.composed.end();
     roles[std::string(RoleName(role))] = {{"joint", body.joints[Index(role)]}, {"composed", composed}};
   }
+  // The whole body: unit and axes, then the motion.
   const MotionStatistics& motion = body.motion;
   const FootSlide& slide = motion.foot_slide;
   return {{"unit", body.unit},

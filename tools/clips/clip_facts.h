@@ -32,7 +32,7 @@ struct BodyFacts {
   bool dropped_t_pose = false;
   std::vector<std::string> changes;  ///< BodyConversion::changes
   MotionStatistics motion;
-  /// At the file's own rate and heights (FaultsOf); absent if no faults were searched for.
+  /// The motion's faults at the file's own rate and heights (FaultsOf); absent if none were searched for.
   std::optional<MotionFaults> faults = {};
 };
 

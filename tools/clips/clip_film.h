@@ -44,8 +44,8 @@ class ClipActor {
   OpenedClip clip_;
   ActorKind kind_;
   BodyMotion motion_;
-  std::optional<RecordedFigure> own_;           // for kOwn
-  std::shared_ptr<const Character> character_;  // for kMannequin and kBear
+  std::optional<RecordedFigure> own_;           // the file's own figure, for kOwn
+  std::shared_ptr<const Character> character_;  // the drawn figure, for kMannequin and kBear
 };
 
 /// The direction from which a clip is seen, relative to the heading of its first frame: from the front, turned by 40

@@ -12,7 +12,7 @@ namespace etude {
 
 struct SheetOptions {
   Viewpoint from = Viewpoint::kThreeQuarter;
-  int width = 200;  ///< of each picture, pixels
+  int width = 200;  ///< width of each picture, pixels
   int height = 260;
   int frames = 12;   ///< number of pictures of each clip
   int columns = 12;  ///< maximum number of pictures in a row

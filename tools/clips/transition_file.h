@@ -28,7 +28,7 @@ struct TransitionFile {
   double wait_s = 0;                  ///< from the request until `to` plays
   std::string through = {};           ///< the name of the clip in between, "" = none
   std::vector<double> points_s = {};  ///< times of the transition points in the written file
-  double duration_s = 0;              ///< of the written motion
+  double duration_s = 0;              ///< length of the written motion
 };
 
 /// Plays `from` from its start, changes into `to` by a choice of frames and a join, plays `to` to its end, and writes

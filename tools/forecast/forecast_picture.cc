@@ -68,6 +68,7 @@ void DrawHeight(Canvas& canvas, const RigForecast& forecast, const Scale& scale,
 
 /// Draws the cameras and the volume from above, and the best place for one more camera.
 void DrawPlan(Canvas& canvas, const RigForecast& forecast, const ForecastOptions& options) {
+  // Choose the scale so that the volume, all cameras and the added one fit.
   const glm::dvec2 half(options.size_m.x / 2, options.size_m.z / 2);
   glm::dvec2 low = forecast.middle_m - half, high = forecast.middle_m + half;
   const auto include = [&](const glm::dvec3& p) {
@@ -82,9 +83,11 @@ void DrawPlan(Canvas& canvas, const RigForecast& forecast, const ForecastOptions
   const double scale = (kPlanSize - 2 * kRim) / std::max(high.x - low.x, high.y - low.y);
   const glm::dvec2 corner = glm::dvec2(kMargin, kPlanTop) + 0.5 * (glm::dvec2(kPlanSize) - scale * (high - low));
   const auto at = [&](const glm::dvec2& p) { return corner + scale * (p - low); };
+  // Draw the plan's background and the volume.
   canvas.FillBox({kMargin, kPlanTop, kPlanSize, kPlanSize}, {0.13, 0.145, 0.16, 1}, kPanelRadius);
   const glm::dvec2 from = at(forecast.middle_m - half), size = 2.0 * scale * half;
   canvas.FillBox({from.x, from.y, size.x, size.y}, kUnseen);
+  // Draw each camera as a dot with a line along its view.
   const auto draw_camera = [&](const glm::dvec3& place, const glm::dvec2& towards, const std::string& name,
                                const Paint& paint) {
     const glm::dvec2 spot = at({place.x, place.z});

@@ -60,7 +60,8 @@ Result<glm::dvec2> MiddleOf(const std::vector<NamedCamera>& cameras, const std::
     normal += across;
     right += across * camera.p_WC;
   }
-  constexpr double kParallel = 1e-3;  // of the determinant over cameras³: axes within about 2° of each other
+  constexpr double kParallel = 1e-3;  // least determinant / cameras³; below it, all axes are within about 2° of each
+                                      // other
   if (!(glm::determinant(normal) > kParallel * std::pow(static_cast<double>(cameras.size()), 3))) {
     return Fail({file}, "its cameras look in parallel, so they show no common middle; name it: --middle X,Z in m");
   }
@@ -94,7 +95,7 @@ double ShareSeen(const std::vector<ForecastPlace>& places) {
   return static_cast<double>(seen) / static_cast<double>(places.size());
 }
 
-/// Returns the errors at `places`, mm, where both these and `own` have one.
+/// Returns the errors at `places`, mm, but only where `own` has one, too.
 std::vector<double> ErrorsWhere(const std::vector<ForecastPlace>& own, const std::vector<ForecastPlace>& places) {
   std::vector<double> errors;
   for (std::size_t i = 0; i < own.size(); ++i) {
@@ -108,6 +109,7 @@ std::vector<double> ErrorsWhere(const std::vector<ForecastPlace>& own, const std
 /// has the largest sum of 1 / error over a coarse grid of places; a place that fewer than two cameras see counts 0.
 Camera BestAddition(const std::vector<Camera>& cameras, const std::vector<ForecastPlace>& places,
                     const glm::dvec2& middle, const ForecastOptions& options) {
+  // The coarse grid, and the rig's median distance from the middle.
   std::vector<const ForecastPlace*> coarse;
   for (int h = 1; h < kForecastHeights; h += 3) {
     for (int z = 2; z < kForecastRows; z += 4) {
@@ -121,6 +123,7 @@ Camera BestAddition(const std::vector<Camera>& cameras, const std::vector<Foreca
   std::ranges::sort(distances);
   const double usual = distances[distances.size() / 2];
   const glm::dvec3 aim(middle.x, options.size_m.y / 2, middle.y);
+  // Score every candidate.
   std::vector<Camera> more = cameras;
   more.emplace_back();
   Camera best;
@@ -153,9 +156,11 @@ Camera BestAddition(const std::vector<Camera>& cameras, const std::vector<Foreca
 Result<void> AddJoints(const std::vector<Camera>& cameras, const ForecastOptions& options, RigForecast& forecast) {
   std::array<JointErrors, kRoleCount> sums{};
   std::array<double, kRoleCount> noise_px{};
+  // The noise of each joint's keypoint: as measured, else as assumed.
   for (const Role role : AllRoles()) {
     noise_px[Index(role)] = forecast.measured ? forecast.measured->Of(role) : options.errors.noise_px;
   }
+  // Sum the squared errors over both headings and all places.
   int whole = 0, all = 0;
   for (const double yaw : {0.0, kPi / 2}) {
     ASSIGN_OR_RETURN(const auto bodies, PoseErrorForecast::Of(FloorMove{.yaw = yaw}.Apply(PoseOf(ReadyStance()))));
@@ -175,6 +180,7 @@ Result<void> AddJoints(const std::vector<Camera>& cameras, const ForecastOptions
       }
     }
   }
+  // Turn the sums into root mean squares.
   forecast.bodies = static_cast<double>(whole) / all;
   if (whole == 0) return {};
   const auto mm = [&](double sum) { return kMmPerM * std::sqrt(sum / whole); };
@@ -187,7 +193,8 @@ Result<void> AddJoints(const std::vector<Camera>& cameras, const ForecastOptions
   return {};
 }
 
-/// Adds the rig as it is, with more exact pixels, with a better calibration, and with one more camera.
+/// Adds the errors of the rig as it is, then with one change each: more exact pixels, a better calibration, one more
+/// camera.
 void AddWorths(const std::vector<Camera>& cameras, const ForecastOptions& options, RigForecast& forecast) {
   const auto add = [&](const std::string& change, const std::vector<Camera>& changed, const SightingErrors& errors,
                        std::optional<glm::dvec3> added = {}) {

@@ -20,7 +20,7 @@ namespace etude {
 
 struct ForecastOptions {
   std::string rig;         ///< a calibration, as for `CaptureFilms`
-  PlacementOptions place;  ///< its unit, up axis and floor
+  PlacementOptions place;  ///< the rig's unit, up axis and floor
   SightingErrors errors;
   CaptureFilmsOptions take = {};  ///< films and keypoints with the rig, whose noise replaces `errors.noise_px`, or none
   glm::dvec3 size_m{3, 2, 3};  ///< the volume that people move in: width (x), height from the floor, depth (z)
@@ -45,20 +45,21 @@ struct ForecastPlace {
   std::optional<double> error_mm = {};  ///< root mean square distance; absent if two cameras never see it
 };
 
-/// The expected error over the volume of the rig as it is, or with one change.
+/// The expected error over the volume, for the rig as it is or with one change.
 struct RigWorth {
   std::string change;                      ///< the change, in words for users
   std::optional<glm::dvec3> added_m = {};  ///< position of the added camera, if there is one
   double seen = 0;                         ///< share of all places that two cameras have in their pictures
-  double median_mm = 0;                    ///< over the places that the unchanged rig sees, too
+  double median_mm = 0;                    ///< median error over the places that the unchanged rig sees, too
 };
 
 /// The expected root mean square errors of one joint of a person who stands in the volume.
 struct ForecastJoint {
   Role role = Role::kHipCentre;
-  std::optional<double> noise_px;      ///< of its keypoints; absent if it is not triangulated
-  double point_mm = 0, body_mm = 0;    ///< of the triangulated joint; of the joint in the fitted body
-  double point_deg = 0, body_deg = 0;  ///< the same of the direction of the limb that ends there; 0 for the hip centre
+  std::optional<double> noise_px;      ///< standard deviation of its keypoints; absent if it is not triangulated
+  double point_mm = 0, body_mm = 0;    ///< RMS error of the triangulated joint; of the joint in the fitted body
+  double point_deg = 0, body_deg = 0;  ///< RMS errors of the direction of the limb that ends there, likewise; 0 for the
+                                       ///< hip centre
 };
 
 struct RigForecast {
@@ -70,7 +71,7 @@ struct RigForecast {
   double median_mm = 0, p95_mm = 0;   ///< over these places
   ForecastPlace worst;                ///< the place of the largest error
   double bodies = 0;  ///< share of places on the floor where two cameras see each joint of a standing body
-  std::vector<ForecastJoint> joints;  ///< of all roles, means over these places; empty if there are none
+  std::vector<ForecastJoint> joints;  ///< one per role, averaged over these places; empty if there are none
   std::vector<RigWorth> worths;       ///< the rig itself, then each change
 };
 

@@ -26,7 +26,7 @@ struct TwinAlignment {
 /// The twin's joints at the frames of a recording.
 struct TwinMatch {
   TwinAlignment alignment;
-  std::vector<RolePositions> truth;  ///< as many frames as the recording, in the sensor's frame
+  std::vector<RolePositions> truth;  ///< one per frame of the recording, in the sensor's frame
 };
 
 /// Finds time shift, rotation, translation and offsets by least squares over all joints. The shift is first found by

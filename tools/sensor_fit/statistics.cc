@@ -140,7 +140,7 @@ void MeasureCorrelations(const JointRecording& recording, const TwinMatch& match
   // Sum the products of the errors at both ends of each bone, about their means.
   std::array<Sums, kBoneKindCount> all_sums{};
   for (const Bone& bone : AllBones()) {
-    ErrorSeries parent, child;  // over the frames in which both joints were seen
+    ErrorSeries parent, child;  // the errors in the frames in which both joints were seen
     for (std::size_t t = 0; t < recording.frames.size(); ++t) {
       const auto a = ErrorAt(recording, match, t, Index(bone.parent));
       const auto b = ErrorAt(recording, match, t, Index(bone.child));

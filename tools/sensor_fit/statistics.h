@@ -22,8 +22,8 @@ struct SensorStatistics {
   std::optional<double> planted_feet_mm;        ///< ankles and feet whose twin is slower than 0.1 m/s
   ByGroup depth_ratio;                          ///< standard deviation along the line of sight ÷ along an axis across
                                                 ///< it
-  std::array<std::optional<double>, kBoneKindCount> correlation;  ///< between the errors at both ends of a bone
-  std::optional<double> quiet_white_mm;                        ///< per axis, of the torso at rest: see `StatisticsOf`
+  std::array<std::optional<double>, kBoneKindCount> correlation;  ///< correlation of the errors at both ends of a bone
+  std::optional<double> quiet_white_mm;                        ///< white noise per axis, torso at rest (`StatisticsOf`)
   std::optional<double> arm_bones_percent, leg_bones_percent;  ///< standard deviation of lengths ÷ mean, both bones
   std::optional<double> shoulder_width_percent, hand_bones_percent;  ///< the same; hand: wrist to hand
   std::optional<double> hand_jump_cm;  ///< 99th percentile of the hands' second differences

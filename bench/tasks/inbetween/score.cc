@@ -125,8 +125,8 @@ std::string WhyNotClean(const HiddenWindow& hidden) {
   return "";
 }
 
-/// Returns true if the gap is filled as clean as a transition (clean_share version 4): the truth is the only clip, all
-/// frames of its file are real ones, and the gap's length is given, so time to settle does not count.
+/// Returns true if the filled gap passes all tests of a clean transition (clean_share version 4). The truth is the only
+/// clip, and all frames of its file count as real. The gap's length is given, so the time to settle does not count.
 bool IsCleanFilling(const HiddenWindow& hidden, const Globals& found, const Globals& truth) {
   const JudgedFile& file = *hidden.file;
   const std::vector<BodyPose> shown = BodiesOf(found, hidden.roles, file.floor_m, file.scale);
@@ -186,7 +186,7 @@ Recording RecordingOf(const HiddenWindow& hidden, const Globals& found, const Gl
   EvaluationExtras extras;
   extras.truth.rate_hz = hidden.motion.rate_hz;
   extras.truth.joints = hidden.motion.tree.names;
-  // Joints that play a role get its name, by which clips are read.
+  // Name the joints after their roles, because readers of clips find them by these names.
   for (const Role role : AllRoles()) {
     if (hidden.roles[Index(role)] >= 0)
       extras.truth.joints[static_cast<std::size_t>(hidden.roles[Index(role)])] = RoleName(role);

@@ -14,10 +14,11 @@
 
 namespace etude {
 
-/// What the whole file of a window says of its windows. Bodies are scaled so that their hips stand at 0.90 m.
+/// Measurements of a whole file, by which each of its windows is judged. Bodies are scaled so that their hips stand at
+/// 0.90 m.
 struct JudgedFile {
   double floor_m = 0;  ///< the 5th percentile, over the frames, of the lowest joint's height (hands do not count)
-  double scale = 1;    ///< to the judged body
+  double scale = 1;    ///< factor from the file's body to the judged one
   std::vector<double> natural_jumps_cm;
   double own_slide_cmps = 0;
   RealFrames frames;
@@ -28,8 +29,9 @@ struct HiddenWindow {
   TreeMotion motion;
   int first = 0, last = 0;  ///< the hidden frames, both inclusive; three or more frames are on either side
   std::array<int, kRoleCount> roles = RawMotion::NoRoles();  ///< the joint of each role; −1: none
-  std::vector<glm::dvec3> deviations;      ///< of each joint in training, metres, by which L2P divides; empty: unknown
-  std::shared_ptr<const JudgedFile> file;  ///< shared by the file's windows, which outlive its motion
+  std::vector<glm::dvec3> deviations;      ///< L2P's divisors: standard deviations of each joint's position in
+                                           ///< training, metres; empty: unknown
+  std::shared_ptr<const JudgedFile> file;  ///< measured once a file; windows share it, and outlive the file's motion
 };
 
 /// Returns the ids of all metrics, in the order in which they are measured.

@@ -179,7 +179,7 @@ GltfCurve::Value GltfCurve::Spline(std::size_t key, double t, double seconds) co
   return value;
 }
 
-constexpr double kMaxFrameBytes = 200e6;  // of all clips together
+constexpr double kMaxFrameBytes = 200e6;  // limit for all clips together
 constexpr double kMinRateHz = 0.1;
 constexpr double kMaxRateHz = 10'000;
 constexpr double kDefaultRateHz = 60;
@@ -224,7 +224,7 @@ double RoundedRate(double rate) {
 }
 
 bool LiesOnGrid(const std::vector<double>& times, double start, double rate_hz) {
-  constexpr double kSlack = 0.02;  // of a frame
+  constexpr double kSlack = 0.02;  // share of a frame
   return std::ranges::all_of(times, [&](double time) {
     const double frame = (time - start) * rate_hz;
     return std::abs(frame - std::round(frame)) <= kSlack + rate_hz * GltfTimeRounding(time);
@@ -262,7 +262,7 @@ Timing TimingOf(const std::vector<Channel>& channels) {
     end = std::max(end, channel.curve.times().back());
   }
   const double rate = RateOf(channels, start);
-  constexpr double kSlack = 0.02;  // of a frame, as in LiesOnGrid
+  constexpr double kSlack = 0.02;  // share of a frame, as in LiesOnGrid
   return {start, rate, std::floor((end - start) * rate + kSlack) + 1};
 }
 

@@ -68,6 +68,7 @@ class JsonShape {
  public:
   /// Returns the number of buffers.
   Result<std::size_t> CountBuffers(std::string_view json, const Place& place) {
+    // Skip strings, count values and levels; an object at level 2 under the key "buffers" is a buffer.
     for (std::size_t i = 0; i < json.size(); ++i) {
       switch (json[i]) {
         case '"': {

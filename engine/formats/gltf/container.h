@@ -11,7 +11,7 @@ namespace etude {
 struct GltfContainer {
   bool is_binary = false;
   std::string_view json;
-  std::string_view binary;  ///< of a GLB file; may be empty
+  std::string_view binary;  ///< the binary part of a GLB file; may be empty
 };
 
 /// The maximal number of bytes of a file, of its binary part times the number of buffers that copy it, and of all files

@@ -15,7 +15,7 @@ namespace {
 
 /// The elements of an accessor in a buffer, with checked bounds.
 struct Elements {
-  std::span<const unsigned char> bytes;  ///< from the first element on
+  std::span<const unsigned char> bytes;  ///< the bytes from the first element on
   std::size_t stride = 0;
 };
 

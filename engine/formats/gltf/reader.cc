@@ -171,8 +171,8 @@ Result<void> CheckExtensions(const tinygltf::Model& model, const std::string& fi
   return {};
 }
 
-/// Refuses an index or count that is negative or not a number, and a channel whose target has no path: what tinygltf
-/// says to these, if anything, differs between its versions.
+/// Refuses an index or count that is negative or not a number, and a channel whose target has no path, because
+/// tinygltf's versions report these differently or not at all.
 Result<void> CheckCounts(const nlohmann::json& json, const std::string& where, const std::string& file) {
   constexpr std::array<std::string_view, 12> kCounts = {
       "bufferView", "byteOffset", "byteStride", "indices", "inverseBindMatrices", "material", "mesh", "mode",
@@ -181,7 +181,7 @@ Result<void> CheckCounts(const nlohmann::json& json, const std::string& where, c
     for (const auto& [key, value] : json.items()) {
       if (key == "extras" || key == "extensions") continue;
       const std::string name = where.empty() ? key : where + "." + key;
-      const bool may_be_object = key == "indices" && !where.starts_with("meshes");  // of a sparse accessor
+      const bool may_be_object = key == "indices" && !where.starts_with("meshes");  // in a sparse accessor it is one
       if (std::ranges::find(kCounts, key) != kCounts.end() && !value.is_number_unsigned() &&
           !(may_be_object && value.is_object())) {
         return Fail({file}, "{}: found {}; allowed: a whole number from 0", name, value.dump().substr(0, 40));

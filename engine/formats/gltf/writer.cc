@@ -332,7 +332,7 @@ class GlbWriter {
   }
 
   int AddIndices(const SkinnedMesh& mesh) {
-    const bool is_short = mesh.vertices.size() <= 65535;  // 16 bits are too few for 65535, which would mean a restart
+    const bool is_short = mesh.vertices.size() <= 65535;  // in 16 bits, index 65535 would mean a primitive restart
     GltfBytes bytes;
     for (const auto& triangle : mesh.triangles) {
       for (const std::uint32_t corner : triangle) {

@@ -18,7 +18,7 @@ namespace {
 // An error within this share of a goal plus this absolute amount may be decided by rounding, so it is measured exactly.
 constexpr double kDoubtfulShare = 1e-9, kDoubtfulRounding = 1e-14;
 
-// In float, goals are tightened to this share, so no error is in doubt.
+// The float solver aims at this share of each goal, so float's rounding cannot make a missed goal look met.
 constexpr double kFloatShare = 0.9;
 // Stall threshold in float, radians: an angle may move by its last bit after it has converged.
 constexpr double kFloatStall = 2e-7;

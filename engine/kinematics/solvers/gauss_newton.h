@@ -67,15 +67,15 @@ class GaussNewtonSolver {
 /// The floating-point type of a batch.
 enum class Precision { kFloat, kDouble };
 
-/// Solves many problems of one tree at once by `gauss-newton`. Each problem occupies one lane of the CPU's vectors from
-/// its start to its last restart; a lane whose problem is finished takes the next one. Results do not depend on the
-/// width of the vectors or on the other problems. Goals that are met only to within rounding, the poses of restarts and
-/// their sweeps are computed by scalar code, everything else in lanes.
+/// Solves many problems of one tree at once by `gauss-newton`. Each problem keeps one lane of the SIMD vectors from its
+/// start to its last restart; then the lane takes the next problem. Results do not depend on the vectors' width or on
+/// the other problems. Scalar code decides goals that are met only to within rounding, and computes the poses of
+/// restarts with their sweeps; everything else runs in lanes.
 /// - `kDouble`: every solution equals that of `SolveGaussNewton` to the last bit.
-/// - `kFloat`: twice as many lanes. Goals are tightened to nine tenths, so that the requested goals are met in double;
-///   damping is at least 10⁻⁵; steps have no pull to the start once |e|² < 10⁻⁶, where float cannot resolve it. A
-///   problem that float does not solve is solved again in double from its start, and only those iterations are
-///   reported. If several poses meet the targets, the one found may differ from that in double. Not for goals below
+/// - `kFloat`: twice as many lanes. The solver aims at nine tenths of each goal, so that the requested goal is met in
+///   double. Damping is at least 10⁻⁵. Once |e|² < 10⁻⁶, where float cannot resolve the pull to the start, steps do
+///   without it. A problem that float does not solve is solved again in double from its start; only those iterations
+///   are reported. If several poses meet the targets, float may find another one than double. Not for goals below
 ///   2·10⁻⁴ cm or degrees.
 /// A faulty problem gets kBadInput; if the tree or the options have a fault, all problems do. `IkOptions::trace` is
 /// ignored.

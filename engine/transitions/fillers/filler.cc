@@ -143,6 +143,7 @@ glm::dvec3 LeastJerkAt(const Ends& ends, double seconds) {
 std::span<const Filler> AllFillers() {
   using Values = std::span<const double>;
   static const std::vector<Filler> fillers = {
+      // Fillers that need no library.
       {.name = "zero-velocity",
        .description = "the last pose stands",
        .fill = [](const Gap& gap, Values) { return std::vector<TreePose>(gap.frames, gap.past.back()); }},
@@ -158,6 +159,7 @@ std::span<const Filler> AllFillers() {
       {.name = "minimum-jerk",
        .description = "each joint by the movement of minimum jerk",
        .fill = [](const Gap& gap, Values) { return FillEach(gap, LeastJerkAt, LeastJerkAt); }},
+      // Fillers that learn from the training clips.
       {.name = "nearest-gap",
        .description = "dead blending, plus what it misses in the training clips' gap whose ends are nearest",
        .uses_library = true,

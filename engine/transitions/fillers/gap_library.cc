@@ -7,8 +7,8 @@
 namespace etude {
 namespace {
 
-constexpr double kVelocity_s = 0.1;  // a velocity counts like the way that it leads in this time
-constexpr double kReach_m = 0.3;     // a rotation counts like the way of a point this far from its axis
+constexpr double kVelocity_s = 0.1;  // a velocity counts as the distance covered in this time
+constexpr double kReach_m = 0.3;     // a rotation counts as the distance moved by a point this far from its axis
 
 /// Appends the features of a pose, in the root's frame: the joints' positions, the vertical direction, and the root's
 /// height. Direction and height weigh as much as one position of every joint.
@@ -53,6 +53,7 @@ void GapLibrary::Add(TreeMotion motion) {
 
 template <typename Visit>
 void GapLibrary::ForEachNear(const Gap& gap, double& limit, const Visit& visit) const {
+  // Compute the features of the frames around the gap.
   const TreePose &before = gap.past[gap.past.size() - 2], &last = gap.past.back(), &next = gap.future.front();
   std::vector<double> at_before, at_last, at_next;
   AppendSeen(gap.tree, before, at_before);
@@ -86,12 +87,14 @@ void GapLibrary::ForEachNear(const Gap& gap, double& limit, const Visit& visit) 
 void GapLibrary::AddMissed(const Gap& gap, const Near& near, Fill fill, double share, std::vector<TreePose>& filled) {
   const std::span<const TreePose> poses = near.entry->motion.poses;
   const std::size_t after = near.frame + gap.frames + 1;
+  // Fill the library's gap itself, whose truth is known.
   const Gap own{.tree = gap.tree,
                 .past = poses.first(near.frame + 1),
                 .future = poses.subspan(after, std::min(gap.future.size(), poses.size() - after)),
                 .frames = gap.frames,
                 .rate_hz = gap.rate_hz};
   const std::vector<TreePose> guess = fill(own);
+  // Turn the errors to this gap's heading, and add them.
   const glm::dquat heading = HeadingOf(gap.past.back().turns[0] * glm::conjugate(poses[near.frame].turns[0]));
   for (std::size_t f = 0; f < filled.size(); ++f) {
     const TreePose& truth = poses[near.frame + 1 + f];
@@ -127,6 +130,7 @@ std::vector<TreePose> GapLibrary::FillLikeNear(const Gap& gap, Fill fill) const 
     if (!overlaps) return kept.push_back(near);
     if (near.squared < kept.back().squared) kept.back() = near;
   });
+  // Average the errors with Gaussian weights, and an error of zero with weight kNothing.
   const auto weight = [](const Near& near) { return std::exp(-near.squared / (2 * kWidth_m * kWidth_m)); };
   double weights = kNothing;
   for (const Near& near : kept) weights += weight(near);

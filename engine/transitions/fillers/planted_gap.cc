@@ -45,7 +45,7 @@ struct Stance {
 /// The stances of a foot; a step leads from each to the next.
 struct Footfalls {
   std::vector<Stance> stances;
-  double cost = 0;  // square metres: mean squared distance from the filled path, plus prices
+  double cost = 0;  // m²: mean squared distance from the filled path, plus prices for steps, haste and stretch
   Frames stands;
 };
 
@@ -56,10 +56,10 @@ struct FootView {
   glm::dvec3 Lowered(std::size_t end) const { return End(end) - glm::dvec3(0, raised[end], 0); }
 
   TreeLeg leg;
-  std::vector<glm::dvec3> path;    ///< of its tip as filled, from the frame before the gap to the one after it
-  std::vector<glm::dvec3> hips;    ///< of its hip joint likewise
-  glm::dvec3 velocity{0};          ///< of its tip before the gap, metres per second
-  std::array<bool, 2> stands{};    ///< at both ends
+  std::vector<glm::dvec3> path;    ///< its tip's positions as filled, from the frame before the gap to the one after it
+  std::vector<glm::dvec3> hips;    ///< its hip joint's positions likewise
+  glm::dvec3 velocity{0};          ///< its tip's before the gap, metres per second
+  std::array<bool, 2> stands{};    ///< at either end of the gap
   double length = 0;               ///< from hip to tip, the leg stretched, metres
   std::array<double, 2> raised{};  ///< height of a standing tip above the lowest one around the gap, metres
 };
@@ -72,6 +72,7 @@ std::optional<std::array<FootView, 2>> ViewFeet(const Gap& gap, std::span<const 
   std::array<FootView, 2> feet;
   const Globals before(gap.tree, gap.past[gap.past.size() - 2]);
   const bool knows_velocity = gap.future.size() > 1;
+  // Collect the joints of each leg, their paths, and the tip's velocity before the gap.
   for (std::size_t side = 0; side < feet.size(); ++side) {
     const auto joint = [&](Role left) { return gap.roles[Index(side == 0 ? left : Mirrored(left))]; };
     FootView& foot = feet[side];
@@ -88,7 +89,8 @@ std::optional<std::array<FootView, 2>> ViewFeet(const Gap& gap, std::span<const 
                   glm::distance(first[leg.ankle], first[leg.tip]);
     foot.velocity = gap.rate_hz * (first[leg.tip] - before[leg.tip]);
   }
-  // The lowest tips that both feet show around the gap; where a tip is a little higher, its foot is raised.
+  // The floor is the lowest position of both tips around the gap. A tip 2 to 12 cm above it belongs to a raised foot; a
+  // higher tip stands on another surface.
   double floor = std::numeric_limits<double>::infinity();
   const auto look = [&](const TreePose& pose) {
     const Globals frame(gap.tree, pose);
@@ -105,6 +107,7 @@ std::optional<std::array<FootView, 2>> ViewFeet(const Gap& gap, std::span<const 
       const double rise = foot.End(end).y - floor;
       foot.raised[end] = rise <= kSurface_m ? std::max(rise - kRaised_m, 0.0) : 0;
     }
+    // A foot stands at an end if its tip is near the lowest joint there and slow.
     const glm::dvec3 &first = frames.front()[tip], &last = frames.back()[tip];
     foot.stands[0] = first.y <= frames.front().Lowest() + kLowest_m && glm::length(foot.velocity) <= kRest_mps;
     // With one future frame, only the height tells; a body that travels raises a foot only a little.
@@ -141,7 +144,7 @@ class FootPlanner {
     for (const glm::dvec3& tip : foot.path) sums_.push_back(sums_.back() + tip);
   }
 
-  /// Returns the cheapest, the very cheapest first.
+  /// Returns the 300 cheapest sequences of footfalls, in ascending order of cost.
   std::vector<Footfalls> Cheapest() {
     std::vector<Stance> stances = {
         {.bears = foot_.stands[0], .tip = foot_.stands[0] ? foot_.Lowered(0) : foot_.End(0)}};
@@ -155,7 +158,7 @@ class FootPlanner {
  private:
   int Of(double seconds) const { return std::max(static_cast<int>(std::lround(seconds * rate_hz_)), 1); }
 
-  /// Adds all ways to go on after the last of `stances`, whose end is not yet known.
+  /// Adds all ways to continue after the last of `stances`, whose end is not known yet.
   void Extend(std::vector<Stance>& stances) {
     constexpr std::size_t kMaxSteps = 3;
     constexpr double kMinStance_s = 0.15;
@@ -164,7 +167,7 @@ class FootPlanner {
     // The foot stays to the end of the gap.
     if (stance.bears && foot_.stands[1] && stances.size() == 1) End(stances, stance.from);
     if (stances.size() > kMaxSteps) return;
-    // It steps: a foot in the air at once, else after any stance.
+    // Or it steps: at once if it is in the air, else after a stance of any length.
     const int grid = std::max(last_ / 15, 1);
     const int earliest = stance.bears ? stance.from + (stances.size() > 1 ? Of(kMinStance_s) : 0) : stance.from;
     for (int begin = earliest; begin < last_; begin += grid) {
@@ -193,7 +196,7 @@ class FootPlanner {
     }
   }
 
-  /// Lets the last stance go on to the end of the gap, where the foot stands.
+  /// Extends the last stance to the end of the gap, where the foot stands, and keeps the footfalls.
   void End(std::vector<Stance> stances, int from) {
     stances.back() = {.from = from, .to = last_, .bears = true, .tip = foot_.Lowered(1)};
     if (stances.size() == 1) stances.front().tip = foot_.Lowered(0);
@@ -207,19 +210,22 @@ class FootPlanner {
     return mean;
   }
 
-  /// Prices footfalls and keeps them.
+  /// Computes the cost of these footfalls and keeps them.
   void Keep(const std::vector<Stance>& stances) {
     constexpr double kPerStep = 0.02, kPerDrift = 30, kPerHaste = 0.01, kHaste_mps = 4, kPerStretch = 4, kPerLate = 0.2,
                      kLong_s = 0.55;
     Footfalls made;
     made.stances = stances;
     const double share = 1.0 / (last_ + 1);
+    // The cost of a frame: squared distance from the filled path on the floor, and of the leg's stretch beyond its
+    // length.
     const auto far = [&](int frame, const glm::dvec3& tip) {
       const double stretch =
           std::max(glm::distance(foot_.hips[static_cast<std::size_t>(frame)], tip) - foot_.length, 0.0);
       return share *
              (SquareOnFloor(tip, foot_.path[static_cast<std::size_t>(frame)]) + kPerStretch * stretch * stretch);
     };
+    // Add up the stances and the steps between them; fast and late steps cost more.
     for (std::size_t i = 0; i < stances.size(); ++i) {
       const Stance& stance = stances[i];
       for (int f = stance.from; f <= stance.to; ++f) {
@@ -237,6 +243,7 @@ class FootPlanner {
       const double haste = std::max(speed - kHaste_mps, 0.0), late = std::max(frames / rate_hz_ - kLong_s, 0.0);
       made.cost += kPerStep + kPerHaste * haste * haste + kPerLate * late;
     }
+    // A foot that never steps must not drift.
     if (stances.size() == 1) made.cost += kPerDrift * SquareOnFloor(stances[0].tip, foot_.path.back());
     found_.push_back(std::move(made));
   }
@@ -245,13 +252,13 @@ class FootPlanner {
   const std::array<double, 2> floors_;
   const int last_;
   const double rate_hz_;
-  std::vector<glm::dvec3> sums_;  // of the path's first frames
+  std::vector<glm::dvec3> sums_;  // sums_[n]: the sum of the path's first n positions
   std::vector<Footfalls> found_;
 };
 
 /// Returns the cheapest pair of footfalls.
 std::array<Footfalls, 2> PlanFeet(const std::array<std::vector<Footfalls>, 2>& feet, std::size_t frames) {
-  const double per_frame = 0.3 / static_cast<double>(frames);  // a frame in which no foot stands
+  const double per_frame = 0.3 / static_cast<double>(frames);  // price of a frame in which no foot stands
   double least = std::numeric_limits<double>::infinity();
   std::array<const Footfalls*, 2> best{};
   for (const Footfalls& left : feet[0]) {
@@ -304,7 +311,8 @@ std::vector<FootPose> Walk(const FootView& foot, const Footfalls& falls, std::sp
       pose.turn = glm::slerp(turn_of(before), turn_of(stance), Smootherstep(s));
     }
   }
-  // A foot that stays takes up what its places at both ends differ by; a raised one is lowered to its stance.
+  // A foot that never steps moves evenly from its place at one end to that at the other. A raised foot is lowered
+  // within kLower_s.
   constexpr double kLower_s = 0.2;
   for (std::size_t f = 0; f < count; ++f) {
     const double s = static_cast<double>(f) / last;

@@ -172,7 +172,7 @@ class MotionGlb {
         for (const float number : numbers_of(keys[i].mValue)) values.push_back(number);
       }
       if (count == 0) return;
-      constexpr float kSame = 0.01f;  // of a quaternion's number, a metre, or a scale
+      constexpr float kSame = 0.01f;  // keys that differ by less are equal: quaternion numbers, metres, scales
       const std::size_t width = values.size() / count;
       for (std::size_t i = width; i < values.size(); ++i) {
         const std::size_t key = i / width;
