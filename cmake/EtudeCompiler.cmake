@@ -13,18 +13,18 @@ set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -g1")  # the sanitizers' builds: asserti
 # x86-64-v2 is the oldest machine Etude promises identical bytes on. Contracting a*b+c into a
 # fused multiply-add would change the last bit from one CPU to the next.
 add_compile_options(-march=x86-64-v2 -ffp-contract=off)
-# Nobody puts another function in the place of one of the library: its own calls may be inlined.
+# Functions of the library cannot be replaced at load time, so its own calls may be inlined.
 add_compile_options(-fno-semantic-interposition)
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # GCC 12 sees overlapping and endless copies in std::string that are none (GCC bugs 105651, 105329).
+  # GCC 12 warns of overlapping and endless copies in std::string by mistake (GCC bugs 105651, 105329).
   add_compile_options(-Wno-restrict -Wno-stringop-overflow)
 endif()
 if(ETUDE_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  # GCC looks for garbage whenever a file's memory has doubled from 128 MB; files compiled together take some 700 MB.
+  # By default GCC collects garbage at 128 MB and at each doubling; files compiled together need about 700 MB.
   add_compile_options(--param=ggc-min-heapsize=700000)
 endif()
-# A library that nothing is taken from is not loaded; what the loader has put into place cannot be written any more.
+# Libraries without a used symbol are not loaded; relocated data becomes read-only after loading.
 add_link_options(-Wl,--as-needed -Wl,-z,relro -Wl,-z,now)
 include(CheckLinkerFlag)
 check_linker_flag(CXX -fuse-ld=gold ETUDE_HAS_GOLD)  # for the hundred programs of tests: a third of the time
@@ -40,7 +40,7 @@ if(ETUDE_SANITIZE)
   add_link_options(-fsanitize=${ETUDE_SANITIZE})
   add_compile_definitions(_GLIBCXX_ASSERTIONS)  # indices of vectors and spans, empty optionals
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # With sanitizers GCC takes parts of std::regex and std::function for uninitialized (GCC bug 105616).
+    # With sanitizers GCC warns by mistake that parts of std::regex and std::function are uninitialized (GCC bug 105616).
     add_compile_options(-Wno-maybe-uninitialized)
   endif()
 endif()

@@ -1,13 +1,13 @@
 # One folder = one target. The name of the target, its sources and its tests all follow from the
 # folder's path, so that nothing can be listed in one place and forgotten in another.
 
-# How bytes of others are met.
+# Hardening for code that reads files of others.
 if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT ETUDE_SANITIZE)
   set(ETUDE_HARDENING -D_FORTIFY_SOURCE=2 -fstack-protector-strong -fstack-clash-protection)
 endif()
 
-# etude_harness_options(): how the folders below are compiled: bench, reports, cli. What takes time is in engine/ and sim/, so
-# that more than -O1 is not worth the compiler's time; nearly all of them read files, so that all are hardened.
+# etude_harness_options(): how bench, reports and cli are compiled. The work that takes time is in engine/ and sim/, so -O1 is
+# enough here and compiles faster. Nearly all of these folders read files, so all are hardened.
 macro(etude_harness_options)
   if(CMAKE_BUILD_TYPE STREQUAL "Release")
     add_compile_options(-O1 ${ETUDE_HARDENING})
@@ -33,9 +33,9 @@ function(etude_headers TARGET)
 endfunction()
 
 # etude_folder(HARDENED DEPENDS <folder>... LIBRARIES <target>... PRIVATE_LIBRARIES <target>...)
-#   Makes the library etude_<path> of every .cc file of the current folder. HARDENED, for folders of engine/: where bytes of
-#   others come in, a smashed stack and what the C library sees written beyond its end stop the program. Not where numbers
-#   are crunched.
+#   Makes the library etude_<path> of every .cc file of the current folder. HARDENED is for folders of engine/ that read files
+#   of others: an overwritten stack, or a write that the C library detects beyond a buffer's end, stops the program. Folders
+#   that only compute do without, because it costs time.
 function(etude_folder)
   cmake_parse_arguments(ARG "HARDENED" "" "DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
   etude_target_name("${CMAKE_CURRENT_SOURCE_DIR}" target)
@@ -63,7 +63,7 @@ function(etude_folder)
 endfunction()
 
 # etude_shared_library(<target> NAME <file> EXPORT <name>)
-#   Makes lib<file>.so of a library for other programs, etude::<name>: the current folder's symbols.map says what of it can be seen.
+#   Makes lib<file>.so of a library for other programs, etude::<name>. The current folder's symbols.map lists its public symbols.
 function(etude_shared_library TARGET)
   cmake_parse_arguments(ARG "" "NAME;EXPORT" "" ${ARGN})
   target_link_options(${TARGET} PRIVATE "-Wl,--version-script=${CMAKE_CURRENT_SOURCE_DIR}/symbols.map")
@@ -86,7 +86,7 @@ function(etude_unity TARGET)
   endif()
   set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # GCC takes a .cc file that is compiled with others for a header, whose types should not hold unnamed ones.
+    # GCC treats a .cc file that is compiled with others as a header, and warns of its types in unnamed namespaces.
     target_compile_options(${TARGET} PRIVATE -Wno-subobject-linkage)
   endif()
   get_target_property(sources ${TARGET} SOURCES)
@@ -199,7 +199,7 @@ function(etude_target_name FOLDER OUT)
   set(${OUT} ${name} PARENT_SCOPE)
 endfunction()
 
-# What bench/run gives its workers, so that tests see the same bytes.
+# The environment that bench/run gives its workers, so that tests see the same bytes.
 set(ETUDE_PINNED_ENVIRONMENT
   "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4"
   "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1"
@@ -208,6 +208,6 @@ set(ETUDE_PINNED_ENVIRONMENT
   "LC_ALL=C.UTF-8"
   "PATH=/usr/bin:$ENV{PATH}")  # a fence shows no Python of a home
 if(ETUDE_SANITIZE MATCHES "address")
-  # A constant that is made before one that it needs: the order of files is the linker's choice.
+  # Finds constants that are initialised before a constant of another file on which they depend.
   list(APPEND ETUDE_PINNED_ENVIRONMENT "ASAN_OPTIONS=check_initialization_order=1:strict_init_order=1")
 endif()

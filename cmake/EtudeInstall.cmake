@@ -5,8 +5,8 @@ include(CMakePackageConfigHelpers)
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 set(ETUDE_MODULES "${CMAKE_INSTALL_LIBDIR}/etude")
 file(RELATIVE_PATH modules_from_program "/${CMAKE_INSTALL_BINDIR}" "/${ETUDE_MODULES}")
-# Where modules are: beside the program as built, in a folder of theirs as installed. One path for both: CMake fills up a shorter
-# one with empty names, and the loader takes each of those for the working folder.
+# Modules lie beside the built program, and in a folder of their own after installation. Both paths have one length, because CMake
+# would fill up the shorter one with empty names, and the loader takes an empty name as the working folder.
 set_target_properties(etude PROPERTIES INSTALL_RPATH "$ORIGIN/${modules_from_program};$ORIGIN" BUILD_WITH_INSTALL_RPATH ON)
 install(TARGETS etude RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 install(TARGETS etude_training_pagmo etude_clips_assimp LIBRARY DESTINATION "${ETUDE_MODULES}")
@@ -17,14 +17,14 @@ endif()
 install(DIRECTORY scenarios examples DESTINATION share/etude USE_SOURCE_PERMISSIONS PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE)
 install(DIRECTORY ci DESTINATION share/etude USE_SOURCE_PERMISSIONS)
 install(DIRECTORY docs/schemas DESTINATION share/etude)
-# The package, alone in its folder, which methods outside are shown; Debian's Python finds it by a path file.
+# The Python package has a folder of its own, which the fence shows to outside methods; Debian's Python finds it by a path file.
 install(DIRECTORY python/etude DESTINATION share/etude/python PATTERN __pycache__ EXCLUDE)
 file(WRITE "${CMAKE_BINARY_DIR}/etude.pth" "../../../share/etude/python\n")
 install(FILES "${CMAKE_BINARY_DIR}/etude.pth" DESTINATION lib/python3/dist-packages)
 install(DIRECTORY docs/ DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs" PATTERN schemas EXCLUDE)
 install(DIRECTORY findings DESTINATION "${CMAKE_INSTALL_DOCDIR}" USE_SOURCE_PERMISSIONS)
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION "${CMAKE_INSTALL_DOCDIR}")
-# What pages lead to stands where the program finds it; they find it where it stands in the source.
+# Files to which pages link are installed where the program finds them; the links are those of the source tree.
 set(links "${CMAKE_BINARY_DIR}/doc_links")
 file(MAKE_DIRECTORY "${links}/docs")
 foreach(name docs/schemas examples scenarios ci)
@@ -47,7 +47,7 @@ foreach(package component IN ZIP_LISTS packages components)
   install(FILES "${changelog}" DESTINATION share/doc/${package} COMPONENT ${component})
 endforeach()
 
-# Made of the option tree by the program itself.
+# The program makes its manual pages from its options.
 set(made "${CMAKE_BINARY_DIR}/option_tree")
 add_custom_command(OUTPUT "${made}/etude.fish"
   COMMAND "${CMAKE_COMMAND}" -E rm -rf "${made}/man"
@@ -68,7 +68,7 @@ set(config "${CMAKE_INSTALL_LIBDIR}/cmake/Etude")
 install(TARGETS etude_shared etude_sim_shared EXPORT EtudeTargets
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library NAMELINK_COMPONENT development)
 install(DIRECTORY engine/api/etude sim/api/etude DESTINATION include/etude COMPONENT development FILES_MATCHING PATTERN "*.h")
-# And the headers of engine and sim whose namespace is public; what they include is installed, too (tests/guards).
+# The headers of engine and sim with a public namespace, and all that they include (checked by tests/guards).
 file(GLOB_RECURSE headers RELATIVE "${CMAKE_SOURCE_DIR}" CONFIGURE_DEPENDS engine/*.h sim/*.h)
 foreach(header IN LISTS headers)
   file(STRINGS "${header}" public REGEX "^namespace \\[\\[gnu::visibility" LIMIT_COUNT 1)
@@ -117,7 +117,8 @@ set(CPACK_COMPONENTS_ALL program library development)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME etude)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libetude)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libetude-dev)
-# What is linked is found out; what is opened, started or read by name is told. The clips are those of the quick suite.
+# Debian's tools find linked libraries; those that are opened, started or read by name are listed here. The clips are those of
+# the quick suite.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 if(OSMESA_FOUND)
   set(draws libosmesa6)

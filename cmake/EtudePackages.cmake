@@ -17,7 +17,7 @@ find_package(TinyGLTF REQUIRED)
 find_package(OpenEXR REQUIRED)
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
-# One of them draws; both are opened when the first picture is drawn, not linked (sim/render). Debian has no OSMesa after 13.
+# OSMesa or EGL draws. Neither is linked: sim/render opens one when the first picture is drawn. Debian after 13 has no OSMesa.
 pkg_check_modules(OSMESA osmesa)
 pkg_check_modules(EGL egl>=1.5)
 if(NOT OSMESA_FOUND AND NOT EGL_FOUND)
@@ -28,12 +28,12 @@ pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)
 pkg_check_modules(SODIUM REQUIRED IMPORTED_TARGET libsodium)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 
-# Debian's Ceres asks for ATLAS beside LAPACK and BLAS, and needs nothing of it.
+# Debian's Ceres package asks for ATLAS beside LAPACK and BLAS, but does not use it.
 get_target_property(ceres_needs Ceres::ceres INTERFACE_LINK_LIBRARIES)
 list(FILTER ceres_needs EXCLUDE REGEX "lib(f77blas|atlas)[.]")
 set_target_properties(Ceres::ceres PROPERTIES INTERFACE_LINK_LIBRARIES "${ceres_needs}")
 
-# For manifests: what the bytes of a run may depend on.
+# Versions on which the bytes of a run may depend, for manifests.
 string(CONCAT ETUDE_PACKAGES
   "Ceres ${Ceres_VERSION}, Eigen ${Eigen3_VERSION}, Highway ${hwy_VERSION}, "
   "OpenEXR ${OpenEXR_VERSION}, Pagmo ${Pagmo_VERSION}, TinyGLTF ${TinyGLTF_VERSION}, cairo ${CAIRO_VERSION}, "
