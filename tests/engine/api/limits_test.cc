@@ -162,8 +162,8 @@ TEST(Api, RefusesJustBeyondEveryLimit) {
   pinholes[1].camera.intrinsics.fx = NAN;
   told([&] { TrackSilhouettes(pinholes, empty); });
   told([&] { TrackSilhouettes(cameras, std::vector<std::vector<Mask>>(4, empty[0])); });
-  EXPECT_EQ(taken, 53);
-  EXPECT_EQ(refused, 93);
+  EXPECT_EQ(taken, 59);
+  EXPECT_EQ(refused, 97);
   EXPECT_TRUE(::etude::testing::AreKept(refusals, "tests/engine/api/refusals.txt"));
 }
 
