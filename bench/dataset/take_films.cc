@@ -35,7 +35,8 @@ Result<void> SaveTakeFilms(std::span<const Attachment> files, int rate_hz, const
     if (!film || take != filmed) {
       if (film) RETURN_IF_ERROR(film->Finish());
       const FilePath path = folder / (std::string(take) + ".mkv");
-      ASSIGN_OR_RETURN(auto started, Encoder::Start(path, picture.width, picture.height, rate_hz, {}, Encoder::Form::kExactRgb));
+      ASSIGN_OR_RETURN(auto started,
+                       Encoder::Start(path, picture.width, picture.height, rate_hz, {}, Encoder::Form::kExactRgb));
       film.emplace(std::move(started));
       filmed = take;
     }

@@ -92,7 +92,9 @@ FrameFits PairFits::Of(Alignment alignment) const {
   using enum Alignment;
   const std::size_t frames = moments_.size();
   // One fit for all frames, or by roots.
-  const auto for_all = [&](std::optional<Similarity> fit) { return FrameFits{{std::move(fit)}, std::max<std::size_t>(frames, 1)}; };
+  const auto for_all = [&](std::optional<Similarity> fit) {
+    return FrameFits{{std::move(fit)}, std::max<std::size_t>(frames, 1)};
+  };
   switch (alignment) {
     case kNone:
       return for_all(Similarity{});

@@ -3,6 +3,7 @@
 import fs from 'node:fs';
 import path from 'node:path';
 import {spawn, spawnSync} from 'node:child_process';
+import {once} from 'node:events';
 import {parseArgs} from 'node:util';
 
 import {PNG} from 'pngjs';
@@ -19,6 +20,7 @@ async function* picturesOf(film) {
   const size = 3 * width * height;
   const ffmpeg = spawn('ffmpeg', ['-v', 'error', '-i', film, '-map', '0:v:0', '-vsync', 'passthrough', '-f', 'rawvideo',
                                   '-pix_fmt', 'rgb24', '-'], {stdio: ['ignore', 'pipe', 'inherit']});
+  const ended = once(ffmpeg, 'close');
   let waiting = [], bytes = 0;
   for await (const chunk of ffmpeg.stdout) {
     waiting.push(chunk);
@@ -31,6 +33,8 @@ async function* picturesOf(film) {
     waiting = [all];
     bytes = all.length;
   }
+  const [status] = await ended;
+  if (status !== 0) throw new Error(`${film}: ffmpeg ended with ${status} before the film did`);
 }
 
 const {values, positionals: films} = parseArgs({allowPositionals: true, options: {size: {type: 'string'}}});

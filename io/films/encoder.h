@@ -25,8 +25,8 @@ class Encoder {
   /// needs (three planes, BT.601). kExactRgb makes a Matroska file (FFV1) that keeps every bit of RGB pictures.
   enum class Form { kRgb, kI420, kExactRgb };
 
-  /// Starts ffmpeg. Pictures must have this size (even numbers, unless exact) and follow at `rate_hz`. `sound` is a WAV file that is
-  /// stored losslessly (FLAC); empty = silence. Fails with the reason if `program` cannot be started.
+  /// Starts ffmpeg. Pictures must have this size (even numbers, unless exact) and follow at `rate_hz`. `sound` is a WAV
+  /// file that is stored losslessly (FLAC); empty = silence. Fails with the reason if `program` cannot be started.
   static Result<Encoder> Start(const FilePath& path, int width, int height, int rate_hz,
                                const std::filesystem::path& sound = {}, Form form = Form::kRgb,
                                const std::string& program = "ffmpeg");

@@ -367,58 +367,6 @@ class InbetweenAnswer(Message):
 
 
 @dataclass
-class SearchTerm(Message):
-    """The feature and term that a grade belongs to.
-
-    feature: The feature of a pose that is graded, such as RH.
-    term: The fuzzy term of that feature.
-    weight: The weight of a difference of these grades in the distance.
-    """
-    feature: str
-    term: str
-    weight: float
-
-
-@dataclass
-class SearchSetting(Message):
-    """The library, and what is asked for.
-
-    file: Frames times 24 numbers, little-endian IEEE 754 of 64 bits, frame by frame.
-    frames: How many frames the library has.
-    terms: Per grade, in the order of the file and of queries: 24.
-    query: Which frames are searched: the first one whose distance is below the threshold, all of them, the nearest,
-        or the ten nearest.
-    threshold: The distance below which two frames match.
-    """
-    HOLDS: ClassVar[dict] = {"terms": [SearchTerm]}
-    file: str
-    frames: int
-    terms: List[SearchTerm]
-    query: str
-    threshold: float
-
-
-@dataclass
-class SearchProblem(Message):
-    """The frames asked about.
-
-    queries: 24 grades each.
-    """
-    queries: List[List[float]]
-
-
-@dataclass
-class SearchAnswer(Message):
-    """What was found.
-
-    found: Per query, frames of the library, counted from 0. first: the earliest one whose distance is below
-        threshold, or none; within: all of them, by number; nearest, nearest-10: the one, or ten, of smallest
-        distance, by distance, those of equal distance by number.
-    """
-    found: List[List[int]]
-
-
-@dataclass
 class KeyTarget(Message):
     """An angle of a key pose.
 

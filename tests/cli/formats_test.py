@@ -302,7 +302,7 @@ class Formats(MotionFileCase):
         path.write_bytes(path.read_bytes()[:200])
         self.refused(path, "poses.npy")
 
-    def test_the_page_converts_what_humanml3d_wrote(self):
+    def test_the_example_converts_what_humanml3d_wrote(self):
         names, places = self.body("builtin:sway")
         order = ("hip_centre left_hip right_hip spine left_knee right_knee spine left_ankle right_ankle spine left_foot right_foot "
                  "shoulder_centre left_shoulder right_shoulder head left_shoulder right_shoulder left_elbow right_elbow "
@@ -322,9 +322,8 @@ class Formats(MotionFileCase):
         path, converted = self.folder / "features.npy", self.folder / "joints.npy"
         numpy.save(path, features)
         self.refused(path, f"{len(joints)} × 263: features of HumanML3D; convert them to joints (docs/clips.md#humanml3d)")
-        page = (pathlib.Path(__file__).parents[2] / "docs" / "clips.md").read_text()
-        code = page.split("### HumanML3D")[1].split("```python\n")[1].split("```")[0]
-        subprocess.run([sys.executable, "-c", code, path, converted], check=True)
+        program = pathlib.Path(__file__).parents[2] / "examples" / "python" / "humanml3d_joints.py"
+        subprocess.run([sys.executable, program, path, converted], check=True)
         numpy.testing.assert_allclose(numpy.load(converted), joints, atol=1e-9)
         self.assertIn("at 20 Hz", self.etude("clip", "info", f"{converted}#smpl", "--rate", 20).stdout)
 

@@ -53,10 +53,11 @@ constexpr std::size_t kMaxPictures = 1200;
 ///     {"poses": [[sixty numbers], …], "labels": {"background": 0, "shadow": 1, "trunk": 2, …}}
 Result<Payload> MakeCaptureTruth(CaptureStages& stages);
 
-/// Makes the pictures of the truth and passes them to `keep`. Per frame `camera-1-0000.exr` holds `label`, `Z` (depth along the viewing axis,
-/// metres), `N.X`, `N.Y`, `N.Z` (normals in the world), and `R`, `G`, `B`, the linear light of a camera with this lens
-/// and clock but no other faults. `Z_measured.v1` and `.v2` are what the depth cameras of the first and second Kinect
-/// would measure from the same place (sim/depth_camera); infinity where they measure nothing. Fails without a renderer.
+/// Makes the pictures of the truth and passes them to `keep`. Per frame `camera-1-0000.exr` holds `label`, `Z` (depth
+/// along the viewing axis, metres), `N.X`, `N.Y`, `N.Z` (normals in the world), and `R`, `G`, `B`, the linear light of
+/// a camera with this lens and clock but no other faults. `Z_measured.v1` and `.v2` are what the depth cameras of the
+/// first and second Kinect would measure from the same place (sim/depth_camera); infinity where they measure nothing.
+/// Fails without a renderer.
 Result<void> MakeCapturePictures(const StudioOptions& options, const WorldKey& key, CaptureStages& stages,
                                  const AttachmentSink& keep);
 

@@ -16,8 +16,8 @@ const FieldTable<InbetweenOptions>& InbetweenConditionFields() {
                   "The motions of which frames are hidden; they need rotations of joints.")
            .WhenAbsent("(required)"),
        Key::Texts("training", &Options::training, "a list of motion files, patterns, folders",
-                  "The motions for L2P's standard deviations, for the joints' offsets and for the filler "
-                  "`nearest-gap`; none of `truth`.")
+                  "The motions for L2P's standard deviations, for the joints' offsets and for fillers that use a "
+                  "library (`planted-feet`, `near-gaps`, `nearest-gap`); none of `truth`.")
            .WhenAbsent("(required)"),
        Key::Text("people", &Options::people, "a pattern such as '*_{person}'",
                  "Which part of a file's name is the person; verdicts beyond these files count each person once.")

@@ -12,7 +12,7 @@ namespace etude {
 /// A condition of task inbetween. The defaults are LAFAN1's protocol.
 struct InbetweenOptions {
   std::vector<std::string> truth;     ///< files whose windows are judged
-  std::vector<std::string> training;  ///< files that give L2P's deviations, offsets, and nearest-gap's library
+  std::vector<std::string> training;  ///< files that give L2P's deviations, offsets, and the fillers' library
   std::string people;                 ///< the person in a file's name, as *_{person}; "" = each file counts for itself
   int window = 65, offset = 40;       ///< frames of a window, and from one window's first to the next one's
   int training_window = 50, training_offset = 20;

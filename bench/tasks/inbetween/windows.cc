@@ -180,7 +180,8 @@ Result<std::vector<TrainingTree>> Train(const InbetweenOptions& options, const O
     if (library == nullptr) continue;
     frames += motion.poses.size();
     if (frames > kMaxLibraryFrames) {
-      return Fail({file}, "the training clips have more than {} frames, too many for 'nearest-gap'", kMaxLibraryFrames);
+      return Fail({file}, "the training clips have more than {} frames, too many for a filler's library",
+                  kMaxLibraryFrames);
     }
     library->Add(std::move(motion));
   }
