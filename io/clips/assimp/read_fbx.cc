@@ -106,8 +106,8 @@ class MotionGlb {
   /// The value of keys at a time; between two of them, `mix(from, to, share)`.
   template <typename Key, typename Mix>
   static auto ValueAt(const Key* keys, unsigned count, double time, Mix mix) {
-    unsigned to = 0;
-    while (to < count && keys[to].mTime < time) ++to;
+    const auto is_before = [](const Key& key, double at) { return key.mTime < at; };
+    const auto to = static_cast<unsigned>(std::lower_bound(keys, keys + count, time, is_before) - keys);
     if (to == 0 || to == count) return keys[to == 0 ? 0 : count - 1].mValue;
     const Key &a = keys[to - 1], &b = keys[to];
     return mix(a.mValue, b.mValue, static_cast<ai_real>((time - a.mTime) / (b.mTime - a.mTime)));
