@@ -136,7 +136,8 @@ class MotionGlb {
     for (unsigned i = 0; i < animation.mNumChannels; ++i) {
       const aiNodeAnim& moved = *animation.mChannels[i];
       const auto part = std::ranges::find(parts, moved.mNodeName, [](const aiNode* one) { return one->mName; });
-      if (part == parts.end() || moved.mNumPositionKeys * moved.mNumRotationKeys * moved.mNumScalingKeys == 0) continue;
+      const bool has_all = moved.mNumPositionKeys > 0 && moved.mNumRotationKeys > 0 && moved.mNumScalingKeys > 0;
+      if (part == parts.end() || !has_all) continue;
       moved_parts[*part] = &moved;
       for (unsigned k = 0; k < moved.mNumPositionKeys; ++k) times.insert(moved.mPositionKeys[k].mTime);
       for (unsigned k = 0; k < moved.mNumRotationKeys; ++k) times.insert(moved.mRotationKeys[k].mTime);
