@@ -336,7 +336,7 @@ bool IsBodyNpz(const Npz& arrays) {
 
 Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const ArrayOptions& told) {
   if (!arrays.arrays.contains("positions")) {
-    return Fail({file}, "positions: allowed: floats of 4 or 8 bytes, or whole numbers, little-endian");
+    return Fail({file}, "positions: no plain numbers; allowed: floats and whole numbers");
   }
   const NumberArray& positions = arrays.arrays.at("positions");
   const auto& shape = positions.shape;
