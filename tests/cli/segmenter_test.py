@@ -42,11 +42,12 @@ class Segmenter(EtudeCase):
 
     def test_a_film_becomes_masks_of_its_size_one_a_frame(self):
         data = self.folder / "data"
-        self.ends(0, "export", self.write("masks.yaml", SCENARIO), "--films", "-o", data)
-        film = next(data.rglob("camera-1.mp4"))
+        self.ends(0, "export", self.write("masks.yaml", SCENARIO), "-o", data)
+        film = next(data.rglob("camera-1.mkv"))
         subprocess.run(["node", SEGMENTER / "masks.mjs", film, self.folder / "masks"], check=True, capture_output=True)
         masks = sorted((self.folder / "masks/camera-1").glob("*.png"))
-        pictures = sorted(film.parent.glob("camera-1-0*.png"))
+        subprocess.run(["ffmpeg", "-v", "error", "-i", film, self.folder / "camera-1-%04d.png"], check=True)
+        pictures = sorted(self.folder.glob("camera-1-*.png"))
         self.assertEqual(len(masks), len(pictures))
         person, size = grey(masks[0])
         self.assertEqual(size, grey(pictures[0])[1])
