@@ -33,7 +33,7 @@ std::string WriteTrc(const MarkerMotion& motion, std::string name);
 
 struct MarkerRows;
 
-/// Reads a TRC file in metres, millimetres or centimetres (`Units`), without changing its axes. A marker counts as not
+/// Reads a TRC file in m, cm, mm, in or ft (`Units`), without changing its axes. A marker counts as not
 /// seen if a cell is empty, "nan" or beyond ±10⁶ m. The columns Time, else Frame#, give the times of the rows, as in
 /// OpenSim (`LayOnClock`); the remark says what that changed. Returns an error with the line if there is no header, the
 /// number of frames or columns is wrong, a cell is not a number, or there are more than 1,000 markers or 64 MiB; also

@@ -11,6 +11,7 @@
 #include "engine/base/order_statistics.h"
 #include "engine/bundle_adjustment/adjust_bundle.h"
 #include "engine/bundle_adjustment/measurable_body.h"
+#include "engine/keypoints/keypoint_noise.h"
 
 namespace etude {
 namespace {
@@ -18,12 +19,6 @@ namespace {
 using enum Landmark;
 
 constexpr double kMinErrorPx = 0.1;
-
-/// Returns the median of the χ² distribution (Wilson and Hilferty's approximation).
-double MedianOfChiSquare(double freedoms) {
-  const double root = 1 - 2 / (9 * freedoms);
-  return freedoms * root * root * root;
-}
 
 /// A joint and its keypoint in one picture.
 struct SeenAt {
@@ -294,8 +289,7 @@ double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedP
   std::vector<double> squares;  // each element is an estimate of the variance whose median is unbiased
   for (const auto& [frame, landmark, by, point] :
        TriangulateLandmarks(cameras, seen, {.min_confidence = min_confidence, .robust = {outlier_px}})) {
-    const auto views = static_cast<double>(std::ranges::count(point.agrees, true));
-    squares.push_back(views * point.residual_px * point.residual_px / MedianOfChiSquare(2 * views - 3));
+    squares.push_back(KeypointVarianceOf(point));
   }
   if (squares.empty()) return kMinErrorPx;
   return std::max(kMinErrorPx, std::sqrt(UpperMedian(std::move(squares))));

@@ -5,23 +5,14 @@
 #include <vector>
 
 #include "engine/base/order_statistics.h"
-#include "engine/cameras/robust_triangulation.h"
 
 namespace etude {
-namespace {
 
-/// Returns the variance that one point's residuals suggest; nullopt if fewer than two cameras agree on it.
-std::optional<double> VarianceOf(std::span<const WeightedSighting> sightings, double outlier_px) {
-  const auto point = TriangulateRobustly(sightings, {.outlier_px = outlier_px});
-  if (!point) return std::nullopt;
-  const auto views = static_cast<double>(std::ranges::count(point->agrees, true));
-  const double freedom = 2 * views - 3;
-  if (!(freedom > 0)) return std::nullopt;
-  const double median = freedom * std::pow(1 - 2 / (9 * freedom), 3);
-  return views * point->residual_px * point->residual_px / median;
+double KeypointVarianceOf(const RobustPoint& point) {
+  const auto views = static_cast<double>(std::ranges::count(point.agrees, true));
+  const double freedom = 2 * views - 3, root = 1 - 2 / (9 * freedom);
+  return views * point.residual_px * point.residual_px / (freedom * root * root * root);
 }
-
-}  // namespace
 
 double KeypointNoise::Of(Role role) const {
   const auto landmark = LandmarkAt(role);
@@ -34,16 +25,18 @@ std::optional<KeypointNoise> MeasureKeypointNoise(std::span<const ProjectionMatr
   KeypointNoise noise;
   std::vector<double> all;
   constexpr std::size_t kMinPoints = 30;
+  const std::size_t frames = person.seen.empty() ? 0 : person.seen.front().size();
   for (std::size_t landmark = 0; landmark < kLandmarkCount; ++landmark) {
     std::vector<double> variances;
-    for (std::size_t frame = 0; frame < person.seen.front().size(); ++frame) {
+    for (std::size_t frame = 0; frame < frames; ++frame) {
       std::vector<WeightedSighting> sightings;
       for (std::size_t c = 0; c < cameras.size(); ++c) {
         const auto& seen = person.seen[c][frame];
         if (!seen || seen->keypoints[landmark].confidence < min_confidence) continue;
         sightings.push_back({{cameras[c], seen->keypoints[landmark].pixel}});
       }
-      if (const auto variance = VarianceOf(sightings, outlier_px)) variances.push_back(*variance);
+      const auto point = TriangulateRobustly(sightings, {.outlier_px = outlier_px});
+      if (point) variances.push_back(KeypointVarianceOf(*point));
     }
     all.insert(all.end(), variances.begin(), variances.end());
     if (variances.size() >= kMinPoints) noise.px[landmark] = std::sqrt(Quantile(variances, 0.5));

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "engine/cameras/camera.h"
+#include "engine/cameras/robust_triangulation.h"
 #include "engine/keypoints/match_people.h"
 #include "engine/motion/body.h"
 
@@ -21,10 +22,14 @@ struct KeypointNoise {
   double Of(Role role) const;
 };
 
-/// Measures the random error of keypoints by how well the cameras agree. A point from n cameras, triangulated with
-/// equal weights, leaves a sum of squared reprojection errors of σ²χ² with 2n − 3 degrees of freedom. σ² is the median,
-/// over all points, of that sum divided by the median of its χ² (Wilson and Hilferty 1931). Errors that all cameras
-/// share, and a wrong calibration, are not separated. Returns nullopt without a point. *(Ours.)*
+/// Returns the variance of keypoints along each axis, px², that the residuals of one point from them suggest. A point
+/// that n cameras agree on leaves a sum of squared reprojection errors of σ²χ² with 2n − 3 degrees of freedom; the
+/// result is that sum divided by the median of its χ² (Wilson and Hilferty 1931), so its median over points is σ².
+double KeypointVarianceOf(const RobustPoint& point);
+
+/// Measures the random error of keypoints by how well the cameras agree: σ² is the median of KeypointVarianceOf over
+/// all points, triangulated with equal weights. Errors that all cameras share, and a wrong calibration, are not
+/// separated. Returns nullopt without a point. *(Ours.)*
 /// @param cameras of the rig without distortion; the pixels are undistorted, too
 /// @param outlier_px keypoints farther off are left out (`RobustOptions`)
 std::optional<KeypointNoise> MeasureKeypointNoise(std::span<const ProjectionMatrix> cameras,

@@ -166,7 +166,6 @@ struct Hot {
 std::vector<Hot> FindHot(const std::vector<PoseSteps>& differences, const std::vector<glm::dvec3>& common,
                          std::span<const JointSet> unseen) {
   using namespace fault_limits;
-  constexpr double kPopFrames = 9, kFewFrames = 45, kLarge_m = 0.36;
   std::vector<Hot> hot;
   std::vector<double> sizes(common.size());
   for (const Role joint : AllRoles()) {
@@ -183,8 +182,8 @@ std::vector<Hot> FindHot(const std::vector<PoseSteps>& differences, const std::v
     }
     // Two large pops of a short clip, each in three or four frames, are not what is usual there.
     const auto count = static_cast<double>(sizes.size());
-    const double share = count < kFewFrames ? kUsualPop : std::min(1 - kPopFrames / count, kUsualPop);
-    const double large = std::max(kPopTimesUsual * Quantile(sizes, share), kLarge_m);
+    const double share = count < kShortClipFrames ? kUsualPop : std::min(1 - kPopFrames / count, kUsualPop);
+    const double large = std::max(kPopTimesUsual * Quantile(sizes, share), kShortPop_m);
     const double limit = std::min(std::clamp(kPopTimesUsual * Quantile(sizes, kUsualPop), kPop_m, kSurePop_m), large);
     for (std::size_t f = 0; f < sizes.size(); ++f) {
       if (sizes[f] > limit) hot.push_back({static_cast<int>(f), joint, sizes[f]});

@@ -25,6 +25,9 @@ inline constexpr double kFootSkate_s = 0.4, kEvenFootSkate_s = 0.25;  ///< one f
 // Jumps and pops.
 inline constexpr double kJumpAlongFloor_m = 0.10, kJump_m = 0.25;
 inline constexpr double kPop_m = 0.25, kSurePop_m = 0.45, kPopTimesUsual = 6, kUsualPop = 0.95;
+/// In a clip of `kShortClipFrames` or more, the usual leaves out at least `kPopFrames`; by it a pop exceeds
+/// `kShortPop_m`.
+inline constexpr double kShortPop_m = 0.36, kShortClipFrames = 45, kPopFrames = 9;
 
 // Freezes.
 inline constexpr double kStill_m_s = 0.002, kFreeze_s = 0.9, kAbrupt_m_s = 0.03;

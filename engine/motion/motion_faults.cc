@@ -152,9 +152,12 @@ std::vector<FaultRule> MakeFaultRules() {
            "{} along the floor, or {} in any direction.",
            whole_body, cm(kJumpAlongFloor_m), cm(kJump_m))},
       {"pops", "m",
-       fmt::format("One joint alone is displaced from one frame to the next: its third difference is above {} and {:g} "
-                   "times its {}th percentile in the clip; above {} it always counts.",
-                   cm(kPop_m), kPopTimesUsual, 100 * kUsualPop, cm(kSurePop_m))},
+       fmt::format(
+           "One joint alone is displaced from one frame to the next: its third difference is above {} and {:g} times "
+           "its {}th percentile in the clip; above {} it always counts. In clips of {:g} to {:.0f} frames it also "
+           "counts above {} and {:g} times what all but {:g} of its third differences stay below.",
+           cm(kPop_m), kPopTimesUsual, 100 * kUsualPop, cm(kSurePop_m), kShortClipFrames, kPopFrames / (1 - kUsualPop),
+           cm(kShortPop_m), kPopTimesUsual, kPopFrames)},
       {"freezes", "s",
        fmt::format("No joint is faster than {:g} mm/s for {:g} s, and the body stops or starts abruptly (from or to a "
                    "mean speed of its joints above {}/s).",
@@ -171,11 +174,15 @@ std::vector<FaultRule> MakeFaultRules() {
       {"torn", "m",
        fmt::format(
            "For {:g} s, a joint of trunk, head, shoulders, hips, toes or hands is not as far from its neighbours "
-           "as usual: by 8 to 14 % of leg and trunk; or in the median frame 1.7 to 3.3 times as far as people "
-           "are, or not as far as on the other side. Also: the head points down the trunk, toes point backwards, "
-           "shoulders or hips are exchanged.",
+           "as usual: by 8 to 14 % of leg and trunk; or in the median frame 1.6 to 3.5 times as far as people "
+           "are, or not as far as on the other side. Also: the head lies on the neck or points down the trunk, toes "
+           "point backwards, shoulders or hips are exchanged or coincide.",
            kTorn_s)},
-      {"gaps", "s", fmt::format("A joint that other frames show is not shown for {:g} s.", kGap_s)},
+      {"gaps", "s",
+       fmt::format(
+           "For {:g} s, every frame lacks a joint that other frames show; or the file goes on so long before or "
+           "after the frames that show all needed joints.",
+           kGap_s)},
       {"passes", "m",
        fmt::format("For {:g} s, a forearm or a hand is within {} of the line of the spine, or a forearm within that of "
                    "the line from neck to head.",

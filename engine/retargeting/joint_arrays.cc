@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <span>
 #include <string_view>
 
@@ -336,7 +337,7 @@ bool IsBodyNpz(const Npz& arrays) {
 
 Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const ArrayOptions& told) {
   if (!arrays.arrays.contains("positions")) {
-    return Fail({file}, "positions: allowed: floats of 4 or 8 bytes, or whole numbers, little-endian");
+    return Fail({file}, "positions: no plain numbers; allowed: floats and whole numbers");
   }
   const NumberArray& positions = arrays.arrays.at("positions");
   const auto& shape = positions.shape;
@@ -360,17 +361,16 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
   }
   const std::size_t joints = motion.joints.size();
   if (joints != shape[1]) return Fail({file}, "{} joints and {} names; allowed: one name for each", shape[1], joints);
+  std::set<std::string_view> known;
   for (std::size_t j = 0; j < joints; ++j) {
-    if (std::find(motion.joints.begin(), motion.joints.begin() + static_cast<std::ptrdiff_t>(j), motion.joints[j]) !=
-        motion.joints.begin() + static_cast<std::ptrdiff_t>(j)) {
+    if (!known.insert(motion.joints[j]).second) {
       return Fail({file}, "names: {} twice; allowed: one name for each joint", Quote(motion.joints[j]));
     }
     if (const auto role = FindRole(motion.joints[j])) motion.roles[Index(*role)] = static_cast<int>(j);
   }
-  for (std::size_t j = 0; j < joints && motion.roles[Index(Role::kHipCentre)] < 0; ++j) {
-    for (const char* pelvis : {"pelvis", "hips"}) {
-      if (motion.Find(pelvis) == static_cast<int>(j)) motion.roles[Index(Role::kHipCentre)] = static_cast<int>(j);
-    }
+  if (int& root = motion.roles[Index(Role::kHipCentre)]; root < 0) {
+    const int pelvis = motion.Find("pelvis"), hips = motion.Find("hips");
+    root = pelvis >= 0 && (hips < 0 || pelvis < hips) ? pelvis : hips;
   }
   // Positions; a joint with a NaN is not seen.
   motion.positions.reserve(shape[0] * joints);

@@ -147,11 +147,14 @@ Result<double> BidsRate(const std::string& file, CappedReader& reader) {
   return Fail({file}, "SamplingFrequency: allowed: a number from {:g} to {:g} Hz", kMinRate_hz, kMaxRate_hz);
 }
 
-/// Reads an array of joints, whose rate the file does not tell; `said` ends the note on it.
+/// Reads an array of joints, whose rate the file does not tell. `said` describes how the array was turned to Y up; it
+/// ends the note.
 Result<ClipFile> FileOfArray(const NumberArray& array, const std::optional<std::string>& layout,
                              const std::string& path, const OpenOptions& options, const std::string& said = "") {
   std::string note;
-  ASSIGN_OR_RETURN(auto joints, JointsOfArray(array, layout, path, note, ToldUp(options)));
+  // An array that was turned is not turned again, or a handstand would become a stance.
+  const auto up = said.empty() ? ToldUp(options) : std::optional(UpAxis::kY);
+  ASSIGN_OR_RETURN(auto joints, JointsOfArray(array, layout, path, note, up));
   joints.remark = said.empty() ? note : note + "; " + said;
   ASSIGN_OR_RETURN(auto file, FileOfMarkers(ClipFormat::kNpy, std::move(joints), path, options, ArrayUp()));
   file.has_rate = false;

@@ -11,7 +11,8 @@
 
 namespace etude::testing {
 
-inline std::string Replaced(std::string text, const std::string& from, const std::string& to) {
+/// Replaces every `from`; there may be none.
+inline std::string AllReplaced(std::string text, const std::string& from, const std::string& to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
     text.replace(at, from.size(), to);
   }
@@ -44,7 +45,7 @@ inline ::testing::AssertionResult AnswersAreKept(const std::string& path,
     const bool surrounds = line.starts_with("@ ");
     if (surrounds) around = line.substr(2);
     if (surrounds || line.empty() || line.starts_with('#')) continue;
-    lines.push_back("  " + Shortened(answer(Replaced(Replaced(around, "…", line), "\\n", "\n"))));
+    lines.push_back("  " + Shortened(answer(AllReplaced(AllReplaced(around, "…", line), "\\n", "\n"))));
     ++asked;
   }
   if (asked == 0) return ::testing::AssertionFailure() << path << ": asks nothing";

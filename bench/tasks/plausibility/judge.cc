@@ -112,11 +112,13 @@ CellResult JudgeAlone(BodyInPlace body, const PlausibilityOptions& options, bool
   const MotionFaults found = FindMotionFaults(body.motion, FaultOptionsOf(body, options.floor_m));
   // Measure.
   const double duration_s = static_cast<double>(frames - 1) / body.motion.rate_hz;
+  const double file_s = body.lost_before_s + duration_s + body.lost_after_s;
   CellResult result;
   result.status = Status::kOk;
   result.Measure("faults", static_cast<double>(found.faults.size()));
   for (const FaultMetric& metric : kMetrics) {
-    result.Measure(metric.id, ValueOf(metric, found.faults, duration_s));
+    // Gaps also lie in the time of the file that shows no whole body.
+    result.Measure(metric.id, ValueOf(metric, found.faults, metric.kind == kGaps ? file_s : duration_s));
   }
   result.Measure("wrong_rate", FaultCount(found.faults, kRate) + FaultCount(found.faults, kSpeed) > 0 ? 1 : 0);
   // Compare with the limits.

@@ -15,8 +15,8 @@ namespace etude {
 /// a right sequence, the cheapest is taken; each frame in which no foot stands adds to its cost. In a stance within the
 /// gap, the foot stands at the mean of its path over the stance. Steps are movements of minimum jerk, lifted by at most
 /// 5 cm. The pelvis is lowered by at most 10 cm where a leg is too short, then the heel is raised; hips, knees and
-/// ankles follow by two-bone inverse kinematics. Needs the roles of hips, knees and ankles; without them nothing is
-/// changed.
+/// ankles follow by two-bone inverse kinematics. Nothing is changed without the roles of hips, knees and ankles, and in
+/// gaps of more than 254 frames.
 void PlantGap(const Gap& gap, std::vector<TreePose>& filled);
 
 }  // namespace etude

@@ -106,8 +106,8 @@ class MotionGlb {
   /// The value of keys at a time; between two of them, `mix(from, to, share)`.
   template <typename Key, typename Mix>
   static auto ValueAt(const Key* keys, unsigned count, double time, Mix mix) {
-    unsigned to = 0;
-    while (to < count && keys[to].mTime < time) ++to;
+    const auto is_before = [](const Key& key, double at) { return key.mTime < at; };
+    const auto to = static_cast<unsigned>(std::lower_bound(keys, keys + count, time, is_before) - keys);
     if (to == 0 || to == count) return keys[to == 0 ? 0 : count - 1].mValue;
     const Key &a = keys[to - 1], &b = keys[to];
     return mix(a.mValue, b.mValue, static_cast<ai_real>((time - a.mTime) / (b.mTime - a.mTime)));
@@ -136,7 +136,8 @@ class MotionGlb {
     for (unsigned i = 0; i < animation.mNumChannels; ++i) {
       const aiNodeAnim& moved = *animation.mChannels[i];
       const auto part = std::ranges::find(parts, moved.mNodeName, [](const aiNode* one) { return one->mName; });
-      if (part == parts.end() || moved.mNumPositionKeys * moved.mNumRotationKeys * moved.mNumScalingKeys == 0) continue;
+      const bool has_all = moved.mNumPositionKeys > 0 && moved.mNumRotationKeys > 0 && moved.mNumScalingKeys > 0;
+      if (part == parts.end() || !has_all) continue;
       moved_parts[*part] = &moved;
       for (unsigned k = 0; k < moved.mNumPositionKeys; ++k) times.insert(moved.mPositionKeys[k].mTime);
       for (unsigned k = 0; k < moved.mNumRotationKeys; ++k) times.insert(moved.mRotationKeys[k].mTime);

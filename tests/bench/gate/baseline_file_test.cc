@@ -86,7 +86,7 @@ TEST(Baseline, IsRefusedWithThePlaceWhenItIsNoneOrWouldHideSomething) {
     return complaint.empty() ? "accepted" : complaint;
   }));
   const std::string ended = "ooou" + std::string(20, 'o');
-  EXPECT_THAT(ComplaintAbout(testing::Replaced(Text(), ended, std::string(24, 's'))),
+  EXPECT_THAT(ComplaintAbout(testing::AllReplaced(Text(), ended, std::string(24, 's'))),
               HasSubstr("no cell is ok or unsolved"));
 }
 

@@ -330,6 +330,10 @@ TEST(MotionFaults, OfJointsThatAreNotShownHaveTheirTime) {
   EXPECT_NEAR(faults[0].size, 1, 1e-9);
   ExpectTime(faults[0], 2, 3);
   ExpectTime(faults[1], 6, 8);
+  // A gap before the first frame begins with the file.
+  const auto late = FindMotionFaults(motion, {.begin_s = 1.5, .lost_before_s = 1}).faults;
+  ASSERT_EQ(late.size(), 1u) << ::testing::PrintToString(FaultSentences(late));
+  ExpectTime(late[0], 0.5, 1.5);
 }
 
 TEST(MotionFaults, OfAKneeThatBendsBackwardsHaveItsAngle) {
