@@ -12,26 +12,25 @@ namespace {
 
 constexpr std::string_view kTask = "plausibility", kWithin = "within_limits";
 
-/// The clips that show faults.
+/// The clips that show faults, and those that could not be judged.
 struct FaultyClips {
-  Table table;             ///< those beyond their limits first
-  std::string sentence;    ///< how many there are
-  std::size_t judged = 0;  ///< clips of the run that were judged
-  std::size_t faulty = 0;  ///< rows that the table would have without `most`
+  Table table;           ///< those beyond their limits first, those that could not be judged last
+  std::string sentence;  ///< how many there are; empty if the run has no clips
+  std::size_t rows = 0;  ///< rows that the table would have without `most`
 };
 
-/// Collects the clips that show faults; the table has at most `most` of them.
+/// Collects these clips; the table has at most `most` of them.
 FaultyClips FaultyClipsOf(const RunData& run, std::size_t most) {
   FaultyClips found;
-  std::vector<TableRow> beyond, others;
-  std::size_t unjudged = 0;
+  std::vector<TableRow> beyond, others, unjudged;
+  std::size_t judged = 0;
   ForEachRow(run, [&](const Row& row, std::size_t) {
     if (row.task != kTask || row.result.status == Status::kSkipped) return;
     if (row.result.status != Status::kOk) {
-      ++unjudged;
+      unjudged.push_back({.cells = {row.clip, row.method, std::string(kNoValue), "not judged", row.result.reason}});
       return;
     }
-    ++found.judged;
+    ++judged;
     const auto faults = ValueOf(row, "faults").value_or(0);
     const bool is_beyond = ValueOf(row, kWithin) == 0.0;
     if (faults == 0 && !is_beyond) return;
@@ -40,12 +39,14 @@ FaultyClips FaultyClipsOf(const RunData& run, std::size_t most) {
             row.clip, row.method, {fmt::format("{:g}", faults), faults}, is_beyond ? "beyond" : "", row.result.reason}};
     (is_beyond ? beyond : others).push_back(std::move(line));
   });
-  found.faulty = beyond.size() + others.size();
-  found.sentence = fmt::format("{} of {} show what no person does{}.", found.faulty,
-                               Plural(static_cast<long long>(found.judged), "clip"),
+  if (judged + unjudged.size() == 0) return found;
+  found.rows = beyond.size() + others.size() + unjudged.size();
+  found.sentence = fmt::format("{} of {} show what no person does{}.", beyond.size() + others.size(),
+                               Plural(static_cast<long long>(judged), "clip"),
                                beyond.empty() ? "" : fmt::format("; {} exceed their limits", beyond.size()));
-  if (unjudged > 0) {
-    found.sentence += fmt::format(" {} could not be judged.", Plural(static_cast<long long>(unjudged), "further clip"));
+  if (!unjudged.empty()) {
+    found.sentence +=
+        fmt::format(" {} could not be judged.", Plural(static_cast<long long>(unjudged.size()), "further clip"));
   }
   found.sentence += " etude list faults states what each fault is.";
   found.table = {.label = "Clips with faults",
@@ -54,7 +55,7 @@ FaultyClips FaultyClipsOf(const RunData& run, std::size_t most) {
                              {.head = "Faults", .is_number = true, .is_sortable = true},
                              {"Limits"},
                              {"What, when, and in which file"}}};
-  for (std::vector<TableRow>* rows : {&beyond, &others}) {
+  for (std::vector<TableRow>* rows : {&beyond, &others, &unjudged}) {
     for (TableRow& row : *rows) {
       if (found.table.rows.size() < most) found.table.rows.push_back(std::move(row));
     }
@@ -66,20 +67,19 @@ FaultyClips FaultyClipsOf(const RunData& run, std::size_t most) {
 
 std::string FaultyClipsSection(const RunData& run) {
   const FaultyClips found = FaultyClipsOf(run, kMaxTableRows);
-  if (found.judged == 0) return "";
+  if (found.sentence.empty()) return "";
   std::string html =
       fmt::format("<section class=\"card\" id=\"faults\"><h2>Clips with faults</h2><p>{}</p>", found.sentence);
-  if (found.faulty > 0)
-    html += TableHtml(found.table) + LeftOutHtml(found.faulty, kMaxTableRows, "clips", "cells.jsonl");
+  if (found.rows > 0) html += TableHtml(found.table) + LeftOutHtml(found.rows, kMaxTableRows, "clips", "cells.jsonl");
   return html + "</section>\n";
 }
 
 std::string FaultyClipsMarkdown(const RunData& run) {
   const FaultyClips found = FaultyClipsOf(run, kMaxListed);
-  if (found.judged == 0) return "";
+  if (found.sentence.empty()) return "";
   std::string text = fmt::format("\n## Clips with faults\n\n{}\n", found.sentence);
-  if (found.faulty > 0) text += "\n" + TableMarkdown(found.table);
-  const std::string rest = LeftOutWords(found.faulty, kMaxListed, "clips", "cells.jsonl");
+  if (found.rows > 0) text += "\n" + TableMarkdown(found.table);
+  const std::string rest = LeftOutWords(found.rows, kMaxListed, "clips", "cells.jsonl");
   return rest.empty() ? text : text + fmt::format("\n{}\n", EscapeMarkdown(rest));
 }
 
