@@ -72,6 +72,7 @@ Result<JointCsvColumns> FindColumns(const NumberRows& table, const std::string& 
   for (std::size_t i = 0; i < headings.size(); ++i) {
     const auto found = std::ranges::find(known, headings[i]);
     if (found == known.end()) return Fail({file, 1}, "{}", UnknownName("heading", headings[i], known));
+    if (std::ranges::count(headings, headings[i]) > 1) return Fail({file, 1}, "heading '{}' twice", headings[i]);
     const auto number = static_cast<std::size_t>(found - known.begin());
     if (number == 0) columns.number = i;
     if (number == 1) columns.time = i;

@@ -101,14 +101,18 @@ std::string DescribeGrid(const RowGrid& grid, std::size_t twice) {
   return Join(said, "; ");
 }
 
-/// Returns true if times in milliseconds, not seconds, agree with the stated rate.
-bool AreMilliseconds(std::span<const double> times, double rate_hz) {
+/// Returns true if times in milliseconds, not seconds, agree with the stated rate or, without one, if rows would be
+/// more than a second apart.
+bool AreMilliseconds(std::span<const double> times, std::optional<double> rate_hz) {
   constexpr double kTolerance = 0.1, kPerSecond = 1000;
+  constexpr std::size_t kMinSteps = 5;
   std::vector<double> steps;
   for (std::size_t i = 1; i < times.size(); ++i) {
     if (const double step = times[i] - times[i - 1]; !std::isnan(step)) steps.push_back(step);
   }
-  return !steps.empty() && std::abs(Median(std::move(steps)) * rate_hz / kPerSecond - 1) < kTolerance;
+  if (steps.size() < (rate_hz ? 1 : kMinSteps)) return false;
+  const double step = Median(std::move(steps));
+  return rate_hz ? std::abs(step * *rate_hz / kPerSecond - 1) < kTolerance : step > 1;
 }
 
 void AddRemark(std::string& remark, const std::string& text) {
@@ -202,11 +206,13 @@ std::vector<double> TimesOfNumbers(std::span<const double> numbers, double rate_
 Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
   MarkerMotion& markers = rows.markers;
   const std::optional<double> told = rows.rate_name.empty() ? std::nullopt : std::optional(markers.rate_hz);
-  if (told && AreMilliseconds(rows.times_s, *told)) {
+  if (AreMilliseconds(rows.times_s, told)) {
     for (double& time : rows.times_s) time /= 1000;
     AddRemark(markers.remark,
-              fmt::format("the column Time is taken as milliseconds, by which its rows come at the {} of {:g} Hz",
-                          rows.rate_name, *told));
+              told
+                  ? fmt::format("the column Time is taken as milliseconds, by which its rows come at the {} of {:g} Hz",
+                                rows.rate_name, *told)
+                  : "its times are taken as milliseconds: as seconds, rows would be more than a second apart");
   }
   ASSIGN_OR_RETURN(const auto grid, GridOfRows(rows.times_s, rows.lines, told, markers.names.size(), file));
   if (!grid) return std::move(markers);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <string_view>
 
 #include "engine/base/names.h"
@@ -46,6 +47,59 @@ int LeaveZerosOut(MarkerMotion& markers) {
     }
   }
   return zeros;
+}
+
+/// Leaves out positions that are a hundred times as far from the middle of their frame as usual there: numbers such as
+/// -9999 that some programs write for a gap. Returns their number.
+int LeaveFarOut(MarkerMotion& markers) {
+  constexpr double kTimesUsual = 100;
+  constexpr std::size_t kMinMarkers = 5;
+  int far = 0;
+  for (auto& frame : markers.frames) {
+    std::array<std::vector<double>, 3> coordinates;
+    for (const auto& place : frame) {
+      for (int axis = 0; axis < 3 && place; ++axis)
+        coordinates[static_cast<std::size_t>(axis)].push_back((*place)[axis]);
+    }
+    if (coordinates[0].size() < kMinMarkers) continue;
+    const glm::dvec3 middle(Median(coordinates[0]), Median(coordinates[1]), Median(coordinates[2]));
+    std::vector<double> distances;
+    for (const auto& place : frame) {
+      if (place) distances.push_back(glm::distance(*place, middle));
+    }
+    const double limit = kTimesUsual * Median(std::move(distances));
+    for (auto& place : frame) {
+      if (!place || limit == 0 || glm::distance(*place, middle) <= limit) continue;
+      place.reset();
+      ++far;
+    }
+  }
+  return far;
+}
+
+/// Returns true if the toes of both feet point backwards in nearly all frames: left and right are exchanged, or an axis
+/// is mirrored.
+bool AreSidesExchanged(std::span<const BodyPose> poses) {
+  constexpr double kAgainst = 0.2, kNearlyAll = 0.9;
+  const auto points_back = [](const BodyPose& pose, Role knee, Role ankle, Role foot) {
+    const glm::dvec3 front = glm::cross(pose[kLeftHip] - pose[kRightHip], pose[knee] - pose[ankle]);
+    const glm::dvec3 toes = pose[foot] - pose[ankle];
+    return glm::dot(front, toes) < -kAgainst * glm::length(front) * glm::length(toes);
+  };
+  const auto backwards = std::ranges::count_if(poses, [&](const BodyPose& pose) {
+    return points_back(pose, kLeftKnee, kLeftAnkle, kLeftFoot) &&
+           points_back(pose, kRightKnee, kRightAnkle, kRightFoot);
+  });
+  return static_cast<double>(backwards) >= kNearlyAll * static_cast<double>(poses.size());
+}
+
+/// Returns the names that several markers have, of which only the first is used.
+std::vector<std::string> NamesOfSeveral(const MarkerMotion& markers) {
+  std::set<std::string> seen, several;
+  for (const std::string& name : markers.names) {
+    if (!seen.insert(name).second) several.insert(name);
+  }
+  return {several.begin(), several.end()};
 }
 
 std::map<std::string, MarkerColumns> PeopleOf(const MarkerMotion& markers) {
@@ -215,8 +269,9 @@ std::pair<std::size_t, std::size_t> LongestStretch(const std::vector<JointPositi
   std::pair<std::size_t, std::size_t> best{0, 0};
   std::size_t begin = 0;
   for (std::size_t t = 0; t <= frames.size(); ++t) {
-    const bool is_whole = t < frames.size() &&
-                          std::ranges::all_of(kNeededJoints, [&](Role role) { return frames[t][Index(role)].has_value(); });
+    const bool is_whole = t < frames.size() && std::ranges::all_of(kNeededJoints, [&](Role role) {
+                            return frames[t][Index(role)].has_value();
+                          });
     if (is_whole) continue;
     if (t - begin > best.second - best.first) best = {begin, t};
     begin = t + 1;
@@ -298,6 +353,10 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   if (!markers.remark.empty()) body.changes.push_back(markers.remark);
   if (std::string turn = DescribeTurn(body.up); !turn.empty()) body.changes.push_back(std::move(turn));
   if (!body.up.doubt.empty()) body.changes.push_back(body.up.doubt);
+  if (Determines(set, columns, kLeftFoot) && Determines(set, columns, kRightFoot) &&
+      AreSidesExchanged(body.motion.poses)) {
+    body.changes.push_back("the feet point backwards: left and right are exchanged, or an axis is mirrored");
+  }
   StandOnFloor(options.keep_floor, IsOwn(set), body);
   if (!options.keeps_shown) return body;
   body.shown = AsShown(scale, markers, set, columns, seen, body.up.axis);
@@ -315,8 +374,9 @@ double MiddleStature(const BodyMotion& motion) {
 
 /// Makes the body in the file's unit or, if its size is then implausible, in the power of ten of this unit that gives a
 /// person's size, which the note states. Fails if none does.
-Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const MarkerSet& set, const MarkerColumns& columns,
-                                         const MarkerOptions& options, const std::string& file) {
+Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const MarkerSet& set,
+                                         const MarkerColumns& columns, const MarkerOptions& options,
+                                         const std::string& file) {
   constexpr double kMinStature = 0.4, kMaxStature = 4, kMinPerson = 1.2, kMaxPerson = 2.3;
   const double told_scale = options.metres_per_unit.value_or(markers.metres_per_unit) / markers.metres_per_unit;
   auto body = BodyAt(told_scale, markers, set, columns, options);
@@ -349,8 +409,18 @@ Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const Mark
 
 Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std::string& file,
                                                  const MarkerOptions& options) {
-  if (const int zeros = LeaveZerosOut(markers); zeros > 0) {
-    markers.remark += fmt::format("{}{} positions at 0, 0, 0 taken as gaps", markers.remark.empty() ? "" : "; ", zeros);
+  const auto remark = [&](const std::string& text) { markers.remark += (markers.remark.empty() ? "" : "; ") + text; };
+  if (const int zeros = LeaveZerosOut(markers); zeros > 0)
+    remark(fmt::format("{} positions at 0, 0, 0 taken as gaps", zeros));
+  if (const int far = LeaveFarOut(markers); far > 0) {
+    remark(fmt::format("{} positions a hundred times as far away as the others taken as gaps", far));
+  }
+  if (const auto several = NamesOfSeveral(markers); !several.empty()) {
+    constexpr std::size_t kListed = 3;
+    const std::vector<std::string> first(
+        several.begin(), several.begin() + static_cast<std::ptrdiff_t>(std::min(several.size(), kListed)));
+    remark(fmt::format("several markers are called {}{}: the first of each name is used", Join(first),
+                       several.size() > kListed ? ", …" : ""));
   }
   // Choose the marker set of each person, and make the body from it.
   std::vector<MarkerBody> bodies;
@@ -379,11 +449,12 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std
   if (fewest == 0) return Fail({file}, "no frame shows all joints of a body at once");
   std::vector<std::string> names(markers.names.begin(),
                                  markers.names.begin() + std::min<std::size_t>(markers.names.size(), 12));
-  return Fail({file},
-              "its markers ({}{}) are not of a known set (nearest: {}); known: Etude's joints, OpenPose BODY_25, HALPE_26, "
-              "COCO, "
-              "Motive's and HumanIK's bones, OpenCap's augmented markers, Plug-in Gait",
-              Join(names), markers.names.size() > names.size() ? ", …" : "", nearest);
+  return Fail(
+      {file},
+      "its markers ({}{}) are not of a known set (nearest: {}); known: Etude's joints, OpenPose BODY_25, HALPE_26, "
+      "COCO, "
+      "Motive's and HumanIK's bones, OpenCap's augmented markers, Plug-in Gait",
+      Join(names), markers.names.size() > names.size() ? ", …" : "", nearest);
 }
 
 }  // namespace etude

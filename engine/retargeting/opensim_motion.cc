@@ -292,6 +292,17 @@ Result<AngleTable> ReadAngleTable(std::string_view bytes, const std::string& fil
     if (row.size() != columns) return Fail(scanner.At(begin), "{} numbers under {} names", row.size(), columns);
   }
   if (table.rows.empty()) return Fail({file}, "no rows of angles");
+  // Radians beyond two turns are degrees.
+  constexpr double kMaxRadians = 4 * kPi;
+  for (const ReadPart& part : table.parts) {
+    for (std::size_t i = 0; i < 3 && table.radians == 1; ++i) {
+      for (const std::vector<double>& row : table.rows) {
+        if (std::abs(row[part.columns[i]]) <= kMaxRadians) continue;
+        return Fail({file}, "inDegrees=no, but {} is {:.4g}; allowed: at most 12.57 radians (4π)", part.names[i],
+                    row[part.columns[i]]);
+      }
+    }
+  }
   return table;
 }
 

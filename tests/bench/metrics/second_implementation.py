@@ -19,7 +19,10 @@ NEWER = {"natural_share": 3, "solved_practical": 2, "solved_tight": 2, "iteratio
          "unsupported_frames": 3, "supported_share": 3, "balance_cm": 3,
          # the root is the files' own joint
          **dict.fromkeys(["mpjpe_root_mm", "mpjpe_root_scaled_mm", "pck_150mm@mpi_inf_3dhp", "auc_150mm@mpi_inf_3dhp", "rte@wham",
-                          "accel_error_mps2@wham", "pfc@edge"], 2)}  # the others are of version 1
+                          "accel_error_mps2@wham", "pfc@edge"], 2),
+         # joints torn off, one foot that skates and further pops are faults, too
+         **dict.fromkeys(["faults", "skates_share", "skates_max_cmps", "pops", "pops_max_cm", "fault_free", "within_limits"],
+                         2)}  # the others are of version 1
 
 
 def agrees(vector):

@@ -75,6 +75,15 @@ TEST(RowClock, MissingRowsAreGapsOfTheirLength) {
   }
 }
 
+TEST(RowClock, RowsMoreThanASecondApartAreMilliseconds) {
+  std::vector<double> times = TimesAt(30, 60);
+  for (double& time : times) time *= 1000;
+  ASSERT_OK(laid, LayOnClock(RowsAt(times), "a.csv"));
+  EXPECT_NEAR(laid->rate_hz, 30, 1e-9);
+  EXPECT_EQ(laid->frames.size(), 60u);
+  EXPECT_EQ(laid->remark, "its times are taken as milliseconds: as seconds, rows would be more than a second apart");
+}
+
 TEST(RowClock, TimesMayBePrintedWithFewDecimals) {
   for (const double rate : {24.0, 30.0, 50.0, 100.0}) {
     ASSERT_OK(laid, LayOnClock(RowsAt(TimesAt(rate, 60, 20, 35), rate, 0.01), "a"));

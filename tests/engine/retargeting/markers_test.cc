@@ -13,6 +13,7 @@ namespace etude {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr std::size_t kTakeFrames = 40;
 
@@ -87,15 +88,16 @@ TEST(Markers, OfOurOwnNamesAreTheJointsAsTheyWereWritten) {
 }
 
 /// The markers of a pose estimator for a motion; `turn` brings Y up to the file's axis.
-MarkerMotion Keypoints(const std::vector<BodyPose>& poses,
-                       const std::function<glm::dvec3(glm::dvec3)>& turn = [](glm::dvec3 p) { return p; }) {
+MarkerMotion Keypoints(
+    const std::vector<BodyPose>& poses,
+    const std::function<glm::dvec3(glm::dvec3)>& turn = [](glm::dvec3 p) { return p; }) {
   using enum Role;
   const std::vector<std::pair<Role, std::string>> names = {
-      {kHipCentre, "MidHip"},    {kShoulderCentre, "Neck"}, {kHead, "LEar"},          {kHead, "REar"},
-      {kLeftShoulder, "LShoulder"}, {kLeftElbow, "LElbow"},    {kLeftWrist, "LWrist"},   {kRightShoulder, "RShoulder"},
-      {kRightElbow, "RElbow"},   {kRightWrist, "RWrist"},   {kLeftHip, "LHip"},       {kLeftKnee, "LKnee"},
-      {kLeftAnkle, "LAnkle"},    {kLeftFoot, "LBigToe"},    {kRightHip, "RHip"},      {kRightKnee, "RKnee"},
-      {kRightAnkle, "RAnkle"},   {kRightFoot, "RBigToe"}};
+      {kHipCentre, "MidHip"},       {kShoulderCentre, "Neck"}, {kHead, "LEar"},        {kHead, "REar"},
+      {kLeftShoulder, "LShoulder"}, {kLeftElbow, "LElbow"},    {kLeftWrist, "LWrist"}, {kRightShoulder, "RShoulder"},
+      {kRightElbow, "RElbow"},      {kRightWrist, "RWrist"},   {kLeftHip, "LHip"},     {kLeftKnee, "LKnee"},
+      {kLeftAnkle, "LAnkle"},       {kLeftFoot, "LBigToe"},    {kRightHip, "RHip"},    {kRightKnee, "RKnee"},
+      {kRightAnkle, "RAnkle"},      {kRightFoot, "RBigToe"}};
   MarkerMotion take{.rate_hz = 50, .names = {}, .frames = {}};
   for (const auto& [role, name] : names) take.names.push_back(name);
   for (const BodyPose& pose : poses) {
@@ -216,7 +218,8 @@ TEST(MarkersUp, OfPeopleWhoLieCrawlOrStandOnTheirHandsIsTheFormatsAxis) {
       ASSERT_TRUE(trc && c3d);
       EXPECT_LT(OffUp(trc->front(), poses), 1e-9) << trc->front().Note();
       EXPECT_LT(OffUp(c3d->front(), poses), 1e-9) << c3d->front().Note();
-      EXPECT_THAT(trc->front().up.doubt, HasSubstr("Y is the usual axis of TRC files, so it is assumed; --up overrules"));
+      EXPECT_THAT(trc->front().up.doubt,
+                  HasSubstr("Y is the usual axis of TRC files, so it is assumed; --up overrules"));
     }
   }
 }
@@ -237,6 +240,30 @@ TEST(MarkersUp, OfPeopleWithRaisedArmsInAFileWhoseAxesPointDownIsNotThatOfAHands
   ASSERT_TRUE(trc);
   EXPECT_LT(OffUp(trc->front(), poses), 1e-9) << trc->front().Note();
   EXPECT_THAT(trc->front().up.doubt, HasSubstr("−Y is assumed to be up"));
+}
+
+TEST(Markers, WithNumbersForGapsTwiceTheSameNameOrExchangedSidesAreSaid) {
+  const std::vector<BodyPose> poses = Frames(StandingAt);
+  const auto changes = [](MarkerMotion markers) {
+    const auto bodies = FindMarkerBodies(std::move(markers), "a.trc", {.up = TrcUp()});
+    return bodies ? bodies->front().Note() : ToString(bodies.error());
+  };
+  MarkerMotion markers = Keypoints(poses);
+  const std::string control = changes(markers);
+  EXPECT_THAT(control, Not(HasSubstr("as far away")));
+  EXPECT_THAT(control, Not(HasSubstr("several")));
+  EXPECT_THAT(control, Not(HasSubstr("backwards")));
+  // A number that stands for a gap moves no floor.
+  MarkerMotion far = markers;
+  for (std::size_t t = 10; t < 14; ++t) far.frames[t].front() = glm::dvec3(-9999);
+  EXPECT_THAT(changes(far), HasSubstr("4 positions a hundred times as far away as the others taken as gaps"));
+  EXPECT_THAT(changes(far), Not(HasSubstr("floor was at -")));
+  MarkerMotion twice = markers;
+  twice.names.push_back(twice.names.front());
+  for (auto& frame : twice.frames) frame.push_back(frame.front());
+  EXPECT_THAT(changes(twice), HasSubstr("several markers are called " + twice.names.front()));
+  const auto mirrored = [](glm::dvec3 p) { return glm::dvec3(-p.x, p.y, p.z); };
+  EXPECT_THAT(changes(Keypoints(poses, mirrored)), HasSubstr("left and right are exchanged, or an axis is mirrored"));
 }
 
 TEST(MarkersUp, OfPeopleWhoStandOnTheirHeadsIsSaidToBeTheOther) {
@@ -299,21 +326,33 @@ TEST(Markers, OfTwoSetsTheBetterCountAndTheOtherCanBeChosen) {
   const std::vector<BodyPose> poses = Frames(StandingAt);
   MarkerMotion take = Keypoints(poses, [](glm::dvec3 p) { return p + glm::dvec3(0.06, 0, 0); });
   using enum Role;
-  for (const auto& [role, name] : {std::pair(kLeftShoulder, "L_shoulder_study"), {kRightShoulder, "r_shoulder_study"},
-                                   {kLeftElbow, "L_lelbow_study"},   {kLeftElbow, "L_melbow_study"},
-                                   {kRightElbow, "r_lelbow_study"},  {kRightElbow, "r_melbow_study"},
-                                   {kLeftWrist, "L_lwrist_study"},   {kLeftWrist, "L_mwrist_study"},
-                                   {kRightWrist, "r_lwrist_study"},  {kRightWrist, "r_mwrist_study"},
-                                   {kLeftHip, "LHJC_study"},         {kRightHip, "RHJC_study"},
-                                   {kLeftKnee, "L_knee_study"},      {kLeftKnee, "L_mknee_study"},
-                                   {kRightKnee, "r_knee_study"},     {kRightKnee, "r_mknee_study"},
-                                   {kLeftAnkle, "L_ankle_study"},    {kLeftAnkle, "L_mankle_study"},
-                                   {kRightAnkle, "r_ankle_study"},   {kRightAnkle, "r_mankle_study"},
-                                   {kLeftFoot, "L_toe_study"},       {kRightFoot, "r_toe_study"}}) {
+  for (const auto& [role, name] : {std::pair(kLeftShoulder, "L_shoulder_study"),
+                                   {kRightShoulder, "r_shoulder_study"},
+                                   {kLeftElbow, "L_lelbow_study"},
+                                   {kLeftElbow, "L_melbow_study"},
+                                   {kRightElbow, "r_lelbow_study"},
+                                   {kRightElbow, "r_melbow_study"},
+                                   {kLeftWrist, "L_lwrist_study"},
+                                   {kLeftWrist, "L_mwrist_study"},
+                                   {kRightWrist, "r_lwrist_study"},
+                                   {kRightWrist, "r_mwrist_study"},
+                                   {kLeftHip, "LHJC_study"},
+                                   {kRightHip, "RHJC_study"},
+                                   {kLeftKnee, "L_knee_study"},
+                                   {kLeftKnee, "L_mknee_study"},
+                                   {kRightKnee, "r_knee_study"},
+                                   {kRightKnee, "r_mknee_study"},
+                                   {kLeftAnkle, "L_ankle_study"},
+                                   {kLeftAnkle, "L_mankle_study"},
+                                   {kRightAnkle, "r_ankle_study"},
+                                   {kRightAnkle, "r_mankle_study"},
+                                   {kLeftFoot, "L_toe_study"},
+                                   {kRightFoot, "r_toe_study"}}) {
     take.names.emplace_back(name);
     // The shoulders' markers sit above them, by 13.5 % of the length from marker to elbow.
     const double above = role == kLeftShoulder || role == kRightShoulder ? 0.0469 : 0;
-    for (std::size_t t = 0; t < poses.size(); ++t) take.frames[t].emplace_back(poses[t][role] + glm::dvec3(0, above, 0));
+    for (std::size_t t = 0; t < poses.size(); ++t)
+      take.frames[t].emplace_back(poses[t][role] + glm::dvec3(0, above, 0));
   }
   ASSERT_OK(best, FindMarkerBodies(take, "a.trc"));
   EXPECT_THAT(
@@ -365,7 +404,8 @@ TEST(Markers, InAWrongUnitAreTakenForAPersonOrRefused) {
     }
     ASSERT_OK(bodies, FindMarkerBodies(take, "a.trc"));
     EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12);
-    EXPECT_THAT(bodies->front().Note(), HasSubstr(fmt::format("m tall: it is taken to be {:g} times as tall", 1 / factor)));
+    EXPECT_THAT(bodies->front().Note(),
+                HasSubstr(fmt::format("m tall: it is taken to be {:g} times as tall", 1 / factor)));
   }
   MarkerMotion take = OwnJoints();
   for (auto& frame : take.frames) {
