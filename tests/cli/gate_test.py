@@ -278,13 +278,13 @@ class Gate(EtudeCase):
             return int(match.group(1)) / int(match.group(2))
 
         self.assertEqual(share("reruns of the same seed, rule exact"), 0)
-        self.assertEqual(share("worse by 4 × what matters"), 1)
+        self.assertEqual(share("worse by 4 × the difference that matters"), 1)
         self.assertEqual(share("reruns of the same seed, tail rule"), 0)
         self.assertEqual(share("in 5 of 30 worlds worse by 40 × the difference that matters"), 1)
         self.assertEqual(share("lost in 1 of 30 worlds"), 1)
         self.assertGreaterEqual(share("within-30-deg in place of reference"), 0.8)
         self.assertLessEqual(share("gates between two seeds"), 0.05)
-        self.assertGreaterEqual(share("worse by 2 × what matters"), 0.8)
+        self.assertGreaterEqual(share("worse by 2 × the difference that matters"), 0.8)
 
 
 if __name__ == "__main__":

@@ -101,7 +101,7 @@ def set_up(scratch):
 
 def cells(launcher, setup, orders, environment):
     """The cells of every world as a worker wrote them, what they took and the lines' sums left out."""
-    lines = [json.dumps({"setup": setup, "error_folder": "", "fence": {"program": "", "hidden": [], "kept": [], "groups": ""}}), *map(json.dumps, orders)]
+    lines = [json.dumps({"setup": setup, "error_folder": "", "fence": {"program": "", "hidden": [], "kept": [], "groups": "", "programs": 1}}), *map(json.dumps, orders)]
     result = subprocess.run([*launcher, ETUDE, "worker"], input="\n".join(lines) + "\n", env=environment,
                             capture_output=True, text=True)
     worlds = result.stdout.split("built\n")[1:]
