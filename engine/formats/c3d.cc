@@ -125,6 +125,11 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
     read.is_up_negative = screen.front()[0] == '-';
   }
   read.markers.metres_per_unit = *metres;
+  constexpr double kSameRate = 0.01;
+  if (const double header_hz = all.Float(20); header_hz > 0 && std::abs(header_hz / rate - 1) > kSameRate) {
+    read.markers.remark =
+        fmt::format("POINT:RATE states {:g} Hz, which is used; the header states {:g} Hz", rate, header_hz);
+  }
   read.markers.sizes_m = BodySizes(parameters);
 
   // Locate the frames and check that they are all there.
@@ -150,8 +155,10 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   const std::size_t padded = (end + kC3dBlock - 1) / kC3dBlock * kC3dBlock;
   if (data_end >= padded + layout.frame_bytes &&
       bytes.substr(padded, data_end - padded).find_first_not_of('\0') != std::string_view::npos) {
-    read.markers.remark = fmt::format("data of {} more frames follow the {} that its header states; they were not read",
-                                      (data_end - end) / layout.frame_bytes, frames);
+    if (!read.markers.remark.empty()) read.markers.remark += "; ";
+    read.markers.remark +=
+        fmt::format("data of {} more frames follow the {} that its header states; they were not read",
+                    (data_end - end) / layout.frame_bytes, frames);
   }
   return read;
 }

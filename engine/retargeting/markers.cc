@@ -102,9 +102,11 @@ std::vector<std::string> NamesOfSeveral(const MarkerMotion& markers) {
   return {several.begin(), several.end()};
 }
 
+/// Returns each person's markers by name. Markers that no frame shows count as absent.
 std::map<std::string, MarkerColumns> PeopleOf(const MarkerMotion& markers) {
   std::map<std::string, MarkerColumns> people;
   for (std::size_t i = 0; i < markers.names.size(); ++i) {
+    if (std::ranges::none_of(markers.frames, [i](const auto& frame) { return frame[i].has_value(); })) continue;
     const std::string& name = markers.names[i];
     const std::size_t colon = name.rfind(':');
     const std::string prefix = colon == std::string::npos ? "" : name.substr(0, colon);

@@ -266,6 +266,22 @@ TEST(Markers, WithNumbersForGapsTwiceTheSameNameOrExchangedSidesAreSaid) {
   EXPECT_THAT(changes(Keypoints(poses, mirrored)), HasSubstr("left and right are exchanged, or an axis is mirrored"));
 }
 
+TEST(Markers, ThatNoFrameShowsAreAbsent) {
+  MarkerMotion markers = Keypoints(Frames(StandingAt));
+  const auto index_of = [&](std::string_view name) {
+    return static_cast<std::size_t>(std::ranges::find(markers.names, name) - markers.names.begin());
+  };
+  const std::size_t toe = index_of("LBigToe"), knee = index_of("LKnee");
+  ASSERT_LT(std::max(toe, knee), markers.names.size());
+  for (auto& frame : markers.frames) frame[toe].reset();
+  ASSERT_OK(bodies, FindMarkerBodies(markers, "a.trc", {.up = TrcUp()}));
+  EXPECT_THAT(bodies->front().Note(), HasSubstr("left_foot"));
+  for (auto& frame : markers.frames) frame[knee].reset();
+  const auto without = FindMarkerBodies(markers, "a.trc", {.up = TrcUp()});
+  ASSERT_FALSE(without);
+  EXPECT_THAT(ToString(without.error()), HasSubstr("lacks left_knee"));
+}
+
 TEST(MarkersUp, OfPeopleWhoStandOnTheirHeadsIsSaidToBeTheOther) {
   std::vector<BodyPose> poses = Frames(StandingAt);
   const auto down = [](glm::dvec3 p) { return glm::dvec3(p.x, -p.y, -p.z); };
