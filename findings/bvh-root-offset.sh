@@ -16,7 +16,7 @@ cd "$folder"
 for path in a/assimp/assimp-utils_5.2.5~ds0-1+b1 a/assimp/libassimp5_5.2.5~ds0-1+b1 d/draco/libdraco7_1.5.5+dfsg-2 \
   m/minizip/libminizip1_1.1-8+deb12u1; do
   curl -sSfo package.deb "http://deb.debian.org/debian/pool/main/${path}_amd64.deb"
-  dpkg-deb -x package.deb root
+  dpkg-deb -x package.deb unpacked
 done
 npm install --silent --no-audit --no-fund --ignore-scripts three@0.187.0 > /dev/null
 
@@ -42,7 +42,7 @@ Frame Time: 0.5
 0 90 0 0 0 0 0 20 0 0 0 0
 0 90 0 0 0 0 0 20 0 0 0 0
 BVH
-LD_LIBRARY_PATH=$(echo "$folder"/root/usr/lib/*-linux-gnu) root/usr/bin/assimp export stand.bvh stand.glb -fglb2 > /dev/null
+LD_LIBRARY_PATH=$(echo "$folder"/unpacked/usr/lib/*-linux-gnu) unpacked/usr/bin/assimp export stand.bvh stand.glb -fglb2 > /dev/null
 
 cat > heights.mjs <<'CODE'
 import { readFileSync } from 'node:fs';

@@ -15,7 +15,7 @@ cd "$folder"
 for path in a/assimp/assimp-utils_5.2.5~ds0-1+b1 a/assimp/libassimp5_5.2.5~ds0-1+b1 d/draco/libdraco7_1.5.5+dfsg-2 \
   m/minizip/libminizip1_1.1-8+deb12u1; do
   curl -sSfo package.deb "http://deb.debian.org/debian/pool/main/${path}_amd64.deb"
-  dpkg-deb -x package.deb root
+  dpkg-deb -x package.deb unpacked
 done
 npm install --silent --no-audit --no-fund --ignore-scripts three@0.187.0 fbx2gltf@0.9.7 > /dev/null
 chmod +x node_modules/fbx2gltf/bin/Linux/FBX2glTF
@@ -167,7 +167,7 @@ CODE
 try() {  # WHAT FLAGS ANGLES-ABOUT-X ANGLES-ABOUT-Y
   turn "$2" "$3" "$4" > turn.fbx
   node_modules/fbx2gltf/bin/Linux/FBX2glTF --binary --anim-framerate bake60 --input turn.fbx --output sdk > /dev/null
-  LD_LIBRARY_PATH=$(echo "$folder"/root/usr/lib/*-linux-gnu) root/usr/bin/assimp export turn.fbx assimp.glb -fglb2 > /dev/null
+  LD_LIBRARY_PATH=$(echo "$folder"/unpacked/usr/lib/*-linux-gnu) unpacked/usr/bin/assimp export turn.fbx assimp.glb -fglb2 > /dev/null
   echo "$1"
   node apart.mjs
 }

@@ -15,7 +15,7 @@ cd "$folder"
 for path in a/assimp/assimp-utils_5.2.5~ds0-1+b1 a/assimp/libassimp5_5.2.5~ds0-1+b1 d/draco/libdraco7_1.5.5+dfsg-2 \
   m/minizip/libminizip1_1.1-8+deb12u1; do
   curl -sSfo package.deb "http://deb.debian.org/debian/pool/main/${path}_amd64.deb"
-  dpkg-deb -x package.deb root
+  dpkg-deb -x package.deb unpacked
 done
 npm install --silent --no-audit --no-fund --ignore-scripts three@0.187.0 fbx2gltf@0.9.7 > /dev/null
 chmod +x node_modules/fbx2gltf/bin/Linux/FBX2glTF
@@ -164,7 +164,7 @@ CODE
 for keys in '0 160' '0 180' '0 270' '170 179 -172'; do
   turn $keys > turn.fbx
   node_modules/fbx2gltf/bin/Linux/FBX2glTF --binary --anim-framerate bake60 --input turn.fbx --output sdk > /dev/null
-  LD_LIBRARY_PATH=$(echo "$folder"/root/usr/lib/*-linux-gnu) root/usr/bin/assimp export turn.fbx assimp.glb -fglb2 > /dev/null
+  LD_LIBRARY_PATH=$(echo "$folder"/unpacked/usr/lib/*-linux-gnu) unpacked/usr/bin/assimp export turn.fbx assimp.glb -fglb2 > /dev/null
   echo "keys $keys"
   node angles.mjs
 done | tee said

@@ -14,7 +14,7 @@ cd "$folder"
 for path in a/assimp/assimp-utils_5.2.5~ds0-1+b1 a/assimp/libassimp5_5.2.5~ds0-1+b1 d/draco/libdraco7_1.5.5+dfsg-2 \
   m/minizip/libminizip1_1.1-8+deb12u1; do
   curl -sSfo package.deb "http://deb.debian.org/debian/pool/main/${path}_amd64.deb"
-  dpkg-deb -x package.deb root
+  dpkg-deb -x package.deb unpacked
 done
 npm install --silent --no-audit --no-fund --ignore-scripts three@0.187.0 fbx2gltf@0.9.7 > /dev/null
 chmod +x node_modules/fbx2gltf/bin/Linux/FBX2glTF
@@ -104,7 +104,7 @@ CODE
 for active in 0 1; do
   pose "$active" > pose.fbx
   node_modules/fbx2gltf/bin/Linux/FBX2glTF --binary --input pose.fbx --output sdk > /dev/null
-  LD_LIBRARY_PATH=$(echo "$folder"/root/usr/lib/*-linux-gnu) root/usr/bin/assimp export pose.fbx assimp.glb -fglb2 > /dev/null
+  LD_LIBRARY_PATH=$(echo "$folder"/unpacked/usr/lib/*-linux-gnu) unpacked/usr/bin/assimp export pose.fbx assimp.glb -fglb2 > /dev/null
   echo "RotationActive $active"
   node knee.mjs
 done | tee said

@@ -28,11 +28,11 @@ CONF
 export APT_CONFIG="$folder/apt.conf"
 apt-get -qq update
 apt-get -qq -y --download-only install python3-h5py=3.7.0-8 python3-minimal > /dev/null
-for package in apt/var/cache/apt/archives/*.deb; do dpkg-deb -x "$package" root; done
+for package in apt/var/cache/apt/archives/*.deb; do dpkg-deb -x "$package" unpacked; done
 
-libraries=$(echo "$folder"/root/usr/lib/*-linux-gnu)
-LD_LIBRARY_PATH="$libraries:$libraries/blas:$libraries/lapack" PYTHONHOME="$folder/root/usr" PYTHONPATH="$folder/root/usr/lib/python3/dist-packages" \
-  root/usr/bin/python3.11 - <<'PY'
+libraries=$(echo "$folder"/unpacked/usr/lib/*-linux-gnu)
+LD_LIBRARY_PATH="$libraries:$libraries/blas:$libraries/lapack" PYTHONHOME="$folder/unpacked/usr" PYTHONPATH="$folder/unpacked/usr/lib/python3/dist-packages" \
+  unpacked/usr/bin/python3.11 - <<'PY'
 import h5py, numpy
 with h5py.File("tracks.h5", "w") as file:
     for compression in ("gzip", "lzf"):

@@ -13,7 +13,7 @@ cd "$folder"
 
 for path in o/ode/libode-dev_0.16.2-1 o/ode/libode8_0.16.2-1 libc/libccd/libccd2_2.1-2+b1; do
   curl -sSfo package.deb "http://deb.debian.org/debian/pool/main/${path}_amd64.deb"
-  dpkg-deb -x package.deb root
+  dpkg-deb -x package.deb unpacked
 done
 
 cat > turn.c <<'CODE'
@@ -41,9 +41,9 @@ int main(void) {
   return 0;
 }
 CODE
-gcc -O1 -w -DdIDEDOUBLE -isystem root/usr/include turn.c -o turn root/usr/lib/x86_64-linux-gnu/libode.so.8 -lm -Wl,--allow-shlib-undefined
+gcc -O1 -w -DdIDEDOUBLE -isystem unpacked/usr/include turn.c -o turn unpacked/usr/lib/x86_64-linux-gnu/libode.so.8 -lm -Wl,--allow-shlib-undefined
 echo 'ODE 0.16.2 (Debian 12):'
-LD_LIBRARY_PATH=$(echo "$folder"/root/usr/lib/*-linux-gnu) ./turn | tee said
+LD_LIBRARY_PATH=$(echo "$folder"/unpacked/usr/lib/*-linux-gnu) ./turn | tee said
 
 for axis in X Y Z; do echo "0.5 about $axis: Euler -0.500, axis and angle +0.500, quaternion +0.500"; done | diff - said
 echo 'As stated: Euler angles turn backwards.'

@@ -26,7 +26,7 @@ CONF
 export APT_CONFIG="$folder/apt.conf"
 apt-get -qq update
 apt-get -qq -y --download-only install openscenegraph=3.6.5+dfsg1-8+b2 > /dev/null
-for package in apt/var/cache/apt/archives/*.deb; do dpkg-deb -x "$package" root; done
+for package in apt/var/cache/apt/archives/*.deb; do dpkg-deb -x "$package" unpacked; done
 
 read_as() {  # ORDER CHANNEL CHANNEL CHANNEL: the chest's rotation (x y z w) of a file whose channels have these names
   cat > "$1.bvh" <<BVH
@@ -51,8 +51,8 @@ Frame Time: 0.0333333
 0 90 0 0 0 0 40 50 60
 0 90 0 0 0 0 40 50 60
 BVH
-  LD_LIBRARY_PATH=$(echo "$folder"/root/usr/lib/*-linux-gnu) OSG_LIBRARY_PATH=$(echo "$folder"/root/usr/lib/*-linux-gnu/osgPlugins-*) \
-    root/usr/bin/osgconv "$1.bvh" "$1.osgt" > /dev/null
+  LD_LIBRARY_PATH=$(echo "$folder"/unpacked/usr/lib/*-linux-gnu) OSG_LIBRARY_PATH=$(echo "$folder"/unpacked/usr/lib/*-linux-gnu/osgPlugins-*) \
+    unpacked/usr/bin/osgconv "$1.bvh" "$1.osgt" > /dev/null
   grep -A4 QuatSphericalLinearChannel "$1.osgt" | tail -1 | awk '{print $2, $3, $4, $5}'
 }
 
