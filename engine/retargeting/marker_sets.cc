@@ -45,9 +45,10 @@ std::vector<MarkerSet> MakeSets() {
       MakeSet("OpenPose BODY_25", "body_25",
               {{Role::kHipCentre, {"midhip"}}, {Role::kShoulderCentre, {"neck"}}, {Role::kHead, {"lear", "rear"}}},
               with_toes, "l", "r"));
-  sets.push_back(MakeSet(
-      "HALPE_26", "halpe_26", {{Role::kHipCentre, {"hip"}}, {Role::kShoulderCentre, {"neck"}}, {Role::kHead, {"nose", "head"}}},
-      with_toes, "l", "r"));
+  sets.push_back(
+      MakeSet("HALPE_26", "halpe_26",
+              {{Role::kHipCentre, {"hip"}}, {Role::kShoulderCentre, {"neck"}}, {Role::kHead, {"nose", "head"}}},
+              with_toes, "l", "r"));
   sets.push_back(MakeSet("COCO", "coco", {{Role::kHead, {"left_ear", "right_ear"}}}, pose_limbs, "left_", "right_"));
   sets.push_back(MakeSet("Motive's bones", "motive", {{Role::kShoulderCentre, {"neck"}}, {Role::kHead, {"head"}}},
                          {{Role::kLeftShoulder, {"?uarm"}},

@@ -30,7 +30,7 @@ struct Stance {
 /// A share of the frames that is next to none.
 constexpr double kHardlyEver = 0.05;
 
-double LegLength(const BodyPose& pose) {
+double MeanLegLength(const BodyPose& pose) {
   return 0.5 * (glm::distance(pose[kLeftHip], pose[kLeftKnee]) + glm::distance(pose[kLeftKnee], pose[kLeftAnkle]) +
                 glm::distance(pose[kRightHip], pose[kRightKnee]) + glm::distance(pose[kRightKnee], pose[kRightAnkle]));
 }
@@ -41,14 +41,14 @@ bool IsUpright(const BodyPose& pose, const glm::dvec3& up) {
   constexpr double kSteep = 0.7, kAboveFeet = 0.25;
   const glm::dvec3 trunk = pose[kShoulderCentre] - pose[kHipCentre];
   return glm::dot(trunk, up) > kSteep * glm::length(trunk) &&
-         glm::dot(pose[kHipCentre] - MeanAnkle(pose), up) > kAboveFeet * LegLength(pose) &&
+         glm::dot(pose[kHipCentre] - MeanAnkle(pose), up) > kAboveFeet * MeanLegLength(pose) &&
          glm::dot(pose[kHead] - pose[kShoulderCentre], up) > 0;
 }
 
 /// Returns true if the body's weight lies over the box around ankles and toes, which is extended to include the heels.
 bool IsBalanced(const BodyPose& pose, const glm::dvec3& up, double stature) {
   constexpr double kHeel = 0.035, kFootless = 0.09, kAboveFeet = 0.4, kMinFoot = 0.02;
-  if (glm::dot(pose[kHipCentre] - MeanAnkle(pose), up) < kAboveFeet * LegLength(pose)) return false;
+  if (glm::dot(pose[kHipCentre] - MeanAnkle(pose), up) < kAboveFeet * MeanLegLength(pose)) return false;
   const auto flat = [&](const glm::dvec3& v) { return v - glm::dot(v, up) * up; };
   const glm::dvec3 feet = flat(0.5 * (pose[kLeftFoot] + pose[kRightFoot]) - MeanAnkle(pose));
   const double length = glm::length(feet);
@@ -74,8 +74,8 @@ bool IsStraight(const BodyPose& pose, const glm::dvec3& up) {
            glm::length(glm::cross(pose[knee] - pose[ankle], leg)) < kKneeAside * length * length;
   };
   return is_along(pose[kShoulderCentre] - pose[kHipCentre], kAlong) &&
-         is_along(pose[kHead] - pose[kShoulderCentre], kHeadAlong) && is_leg_straight(kLeftHip, kLeftKnee, kLeftAnkle) &&
-         is_leg_straight(kRightHip, kRightKnee, kRightAnkle);
+         is_along(pose[kHead] - pose[kShoulderCentre], kHeadAlong) &&
+         is_leg_straight(kLeftHip, kLeftKnee, kLeftAnkle) && is_leg_straight(kRightHip, kRightKnee, kRightAnkle);
 }
 
 double Lowest(const BodyPose& pose, const glm::dvec3& up) {
@@ -164,8 +164,7 @@ bool Overrules(const Stance& other, const Stance& usual, bool is_opposite, const
   return other.straight > 0.9 && other.balanced > 0.9 && other.floor < 0.02;
 }
 
-constexpr std::array<glm::dvec3, 6> kAxes = {
-    {{0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, -1}}};
+constexpr std::array<glm::dvec3, 6> kAxes = {{{0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, -1}}};
 
 }  // namespace
 
