@@ -25,7 +25,7 @@ struct FallenAnswer {
 /// answer may fall although neither method moved by a practical threshold: one a little down, the other a little up. An
 /// answer that is inconclusive in either snapshot has not fallen.
 ///
-/// Both snapshots are judged by the rules of `run`, from the values that they keep. A scenario is left out if none of
+/// Judges the values that both snapshots keep by the present rules of `run`. A scenario is left out if none of
 /// its `moves` differs, or if a snapshot does not keep success, a headline metric or a metric's weight. Precondition:
 /// WhyNotComparable is empty.
 std::vector<FallenAnswer> FindFallenAnswers(const FinishedRun& run, const Snapshot& before, const Snapshot& after,

@@ -41,9 +41,9 @@ std::optional<double> HipHeading(const BodyPose& pose) {
   return line ? std::optional(*line - 0.5 * kPi) : std::nullopt;
 }
 
-/// Returns the acceleration of the mass centre in every frame, metres per second²: that of the least-squares parabola
-/// through the nine frames (0.3 s) around it. Near an end, the nearest frame with nine frames around it counts. 0 in a
-/// shorter motion.
+/// Returns the acceleration of the mass centre in every frame, metres per second². A least-squares parabola through the
+/// nine frames (0.3 s) around a frame gives it; near an end, the nearest frame that has nine frames around it does. All
+/// are 0 if the motion is shorter.
 std::vector<glm::dvec3> MassAccelerations(std::span<const glm::dvec3> centres, double rate_hz) {
   constexpr int kReach = 4;
   const int last = static_cast<int>(centres.size()) - 1;

@@ -7,7 +7,7 @@
 
 namespace etude::testing {
 
-/// What the library says of bad input to `act`; "" if it takes it.
+/// Returns the complaint that `act` throws; "" if it throws none.
 inline std::string RefusalOf(const std::function<void()>& act) {
   try {
     act();

@@ -42,7 +42,7 @@ class LanePoses {
       from += stride;
       return number;
     };
-    // In float, positions are relative to the root, which keeps more of their digits.
+    // In float, positions are stored relative to the root: smaller numbers keep more digits of a metre.
     constexpr bool kFromRoot = sizeof(T) < sizeof(double);
     double origin[3] = {};
     for (int k = 0; k < 3; ++k) {

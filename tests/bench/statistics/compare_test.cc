@@ -106,7 +106,7 @@ TEST(AreShares, IsSoWhereEveryValueOfBothMethodsIsZeroOrOne) {
   EXPECT_FALSE(AreShares(std::vector<Pair>{{0, 1}, {1, 2}}, share));
   EXPECT_FALSE(AreShares(std::vector<Pair>{{0, 1}, {-1, 0}}, share));
   EXPECT_FALSE(AreShares(std::vector<Pair>{{0, 1}, {1, std::numeric_limits<double>::quiet_NaN()}}, share));
-  // A distance of 0 in every world, or of 0 and 1, is no share of worlds.
+  // Values that are all 0, or all 0 or 1, are a share of worlds only if the metric is of that kind.
   EXPECT_FALSE(AreShares(std::vector<Pair>{{0, 0}, {0, 1}}, Metric(Direction::kLowerIsBetter, 0.05)));
 }
 

@@ -253,7 +253,7 @@ TEST(Markers, WithNumbersForGapsTwiceTheSameNameOrExchangedSidesAreSaid) {
   EXPECT_THAT(control, Not(HasSubstr("as far away")));
   EXPECT_THAT(control, Not(HasSubstr("several")));
   EXPECT_THAT(control, Not(HasSubstr("backwards")));
-  // A number that stands for a gap moves no floor.
+  // A number such as -9999 that stands for a gap must not move the floor.
   MarkerMotion far = markers;
   for (std::size_t t = 10; t < 14; ++t) far.frames[t].front() = glm::dvec3(-9999);
   EXPECT_THAT(changes(far), HasSubstr("4 positions a hundred times as far away as the others taken as gaps"));
