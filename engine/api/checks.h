@@ -17,31 +17,31 @@
 /// Checks of the library's input. Every function throws BadInput if its check fails.
 namespace etude::engine {
 
-/// Returns the value of a result, or throws its error.
+/// Returns the value of a result. Throws BadInput with the text of its error if it has none.
 template <typename T>
 T OrThrow(Result<T> result) {
   if (!result) throw BadInput(ToString(result.error()));
   if constexpr (!std::is_void_v<T>) return *std::move(result);
 }
 
-/// Refuses an invalid rate and positions that are not finite; else returns the motion.
+/// Returns the motion after checking that its rate is valid and its positions are finite.
 const BodyMotion& Checked(const BodyMotion& motion);
-/// Checks every clip as above, and refuses an empty list, clips without frames, and clips of different rates.
+/// Checks every clip like `Checked`. Also refuses an empty list, clips without frames, and clips of different rates.
 void CheckClips(std::span<const BodyMotion> clips);
 /// Returns the standing height of the hips, computed from the limb lengths of `first`, metres. Refuses a body without
 /// legs.
 double StandingHipsOf(const BodyPose& first);
 
-/// The largest possible fuzzy distance: the weights of the features sum to eight, and all grades differ by as much as
-/// they can.
+/// An upper limit for thresholds. No fuzzy distance exceeds √(8 · 4) ≈ 5.7, because the weights of the features sum to
+/// eight and a feature has at most four terms.
 inline constexpr double kFarthestFuzzy = 6;
-/// Refuses a budget (the longest wait) outside of 0 to 3600 s.
+/// Refuses a budget, the maximum wait in seconds, outside 0 to 3600.
 void CheckBudget(double budget_s);
 
-/// Returns the choice and the join of these names. Refuses unknown names.
+/// Returns the choice and the join with these names. Refuses unknown names.
 TransitionWay WayNamed(const std::string& choice, const std::string& join);
 
-/// Returns the recogniser of that name, which must learn from examples alone.
+/// Returns the recogniser with this name. Refuses recognisers that do not learn from examples.
 const RecogniserKind& KindOfExamples(const std::string& name);
 /// Refuses examples without frames or with positions that are not finite.
 void CheckMoves(std::span<const TaughtMove> moves);

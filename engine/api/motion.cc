@@ -68,7 +68,7 @@ std::optional<double> UnitOf(const ReadingOptions& options) {
   throw BadInput(fmt::format("metres_per_unit: {}; allowed: {:g} to {:g}", options.metres_per_unit, kMin_m, kMax_m));
 }
 
-/// A motion, and what was found and changed, as sentences for users.
+/// A motion, and sentences for users about findings and changes.
 struct ReadBody {
   BodyMotion motion;
   std::vector<std::string> changes;
@@ -115,7 +115,7 @@ ReadBody BodyOfArrays(const Npz& arrays, const std::string& file, double rate_hz
   if (const auto body = BodyOf(raw)) {
     read = ResampledBody(*body, {"Etude's own arrays"}, rate_hz);
   } else {
-    ReadingOptions others = options;  // unit and axis are told already
+    ReadingOptions others = options;  // ReadingOptions others = options;  // `raw` already has the user's unit and axis
     others.metres_per_unit = 0;
     others.up = 0;
     read = BodyOfMarkers(MarkersOf(raw), file, rate_hz, {.evidence = UpEvidence::kFormat}, others);

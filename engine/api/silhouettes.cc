@@ -14,7 +14,7 @@ namespace {
 constexpr int kMaxMaskSide = 8192;
 constexpr double kFittedSide = 640;  ///< the longer side of the pictures for which the fit's options were chosen
 
-/// Returns the mask of ones that the fit wants.
+/// Returns the mask with 1 for every pixel other than 0, as the fit expects.
 Mask OnesOf(const Mask& mask) {
   if (std::min(mask.width, mask.height) < 1 || std::max(mask.width, mask.height) > kMaxMaskSide) {
     throw BadInput(
@@ -28,7 +28,7 @@ Mask OnesOf(const Mask& mask) {
   return made;
 }
 
-/// Returns the width of a mask's pixel in pixels of the camera.
+/// Returns the width of one pixel of the mask, in pixels of the camera. Throws BadInput if it is not a whole number.
 int PixelOf(const NamedCamera& camera, const Mask& mask) {
   const Intrinsics& picture = camera.camera.intrinsics;
   const int pixel = mask.width > 0 ? picture.width / mask.width : 0;

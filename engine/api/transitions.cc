@@ -22,7 +22,8 @@ const JoinKind& JoinNamed(const std::string& name) {
   return *join;
 }
 
-/// Puts settings that are given by key into the order of `known`. Throws BadInput, naming `of`, for unknown keys.
+/// Returns the values of settings in the order of `known`; settings without a value in `told` get their defaults.
+/// Throws BadInput, naming `of`, for unknown keys.
 std::vector<double> ValuesOf(const std::map<std::string, double>& told, const std::vector<NumberSetting>& known,
                              const std::string& of) {
   std::vector<double> values;

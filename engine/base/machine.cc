@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-// Errors of the machine, whatever the file's name is.
+// Error numbers that the machine causes, independently of the file's name.
 constexpr std::array kShortages = {EIO,    ENOSPC, EDQUOT, EFBIG,   EROFS,  ENOMEM,
                                    EAGAIN, EMFILE, ENFILE, ENOBUFS, ENOLCK, ESTALE};
 constexpr std::array kFaultsOfName = {ENOENT, ENOTDIR, EISDIR, EEXIST, ENOTEMPTY, EINVAL, ENAMETOOLONG, ELOOP, ETXTBSY};

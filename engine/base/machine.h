@@ -9,7 +9,7 @@
 namespace etude {
 
 /// Makes the failed state of any Result for an error that the machine caused rather than the input or a method: no
-/// process can be started, the disk is full. Such an error is not an answer of the method.
+/// process can be started, the disk is full. Such an error does not count as a result of the method.
 template <typename... Args>
 tl::unexpected<Error> FailOfMachine(fmt::format_string<Args...> format, Args&&... args) {
   Error error;

@@ -7,7 +7,7 @@
 
 namespace etude {
 
-/// What every .npy file begins with (NumPy's format).
+/// The magic string at the beginning of every .npy file (NumPy's format).
 inline constexpr std::string_view kNpyMagic = "\x93NUMPY";
 inline constexpr std::size_t kNpyHead = 192;  ///< bytes; a multiple of 64, large enough for any shape
 

@@ -25,7 +25,7 @@ inline std::string_view TakeLine(std::string_view& text) {
   return line.ends_with('\r') ? line.substr(0, line.size() - 1) : line;
 }
 
-/// The same, and counts the line in `number`.
+/// Takes a line like the function above, and increments `number`.
 inline std::string_view TakeLine(std::string_view& text, int& number) {
   ++number;
   return TakeLine(text);
@@ -40,7 +40,7 @@ inline std::vector<std::string_view> SplitAt(std::string_view text, char separat
   return parts;
 }
 
-/// Returns the number that the whole text is, nullopt for any other text: blanks and a leading plus are not allowed. A
+/// Parses the whole text as a number; returns nullopt for any other text. Blanks and a leading plus are not allowed. A
 /// double may be infinite or NaN.
 template <typename Number>
 std::optional<Number> ParseNumber(std::string_view text) {
@@ -50,13 +50,14 @@ std::optional<Number> ParseNumber(std::string_view text) {
   return error == std::errc() && stop == end ? std::optional(value) : std::nullopt;
 }
 
-/// Returns the finite number that the whole text is, nullopt for any other text.
+/// Parses the whole text as a finite number; returns nullopt for any other text.
 inline std::optional<double> ParseFinite(std::string_view text) {
   const auto value = ParseNumber<double>(text);
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-/// Takes the number off the beginning of the text; nullopt, and the text unchanged, if it does not begin with one.
+/// Takes a number off the beginning of the text. If the text does not begin with a number, returns nullopt and leaves
+/// the text unchanged.
 inline std::optional<double> TakeNumber(std::string_view& text) {
   double value = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);

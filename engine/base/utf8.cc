@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
 
-/// Returns the range of the second byte of a longer character. It is narrower where an overlong form, a surrogate or a
-/// character beyond U+10FFFF would follow (RFC 3629, section 4).
+/// Returns the allowed range of the second byte of a character of several bytes that begins with `first`. The range is
+/// narrower where an overlong form, a surrogate or a character beyond U+10FFFF would follow (RFC 3629, section 4).
 std::pair<std::uint8_t, std::uint8_t> SecondByteAfter(std::uint8_t first) {
   if (first == 0xe0) return {0xa0, 0xbf};
   if (first == 0xed) return {0x80, 0x9f};

@@ -18,7 +18,7 @@ struct Utf8Character {
 /// Decodes the first character of a text, which must not be empty.
 Utf8Character FirstCharacter(std::string_view text);
 
-/// Returns the text without the byte order mark with which programs of Windows begin UTF-8.
+/// Returns the text without the byte order mark, which Windows programs write at the beginning of UTF-8 text.
 std::string_view WithoutByteOrderMark(std::string_view text);
 
 /// Fails for text that is not UTF-8 or contains a zero byte, with the position of the first wrong byte.

@@ -19,13 +19,14 @@ Turns TurnsOf(std::uint16_t code) {
 
 int Difference(std::uint16_t a, std::uint16_t b) { return std::popcount(static_cast<std::uint16_t>(a ^ b)); }
 
-/// Returns true if the code differs enough from its own rotations.
+/// Returns true if the code and each of its rotations by quarter turns differ in at least kCodeDistance modules.
 bool DiffersFromItsTurns(const Turns& turns) {
   return std::all_of(turns.begin() + 1, turns.end(),
                      [&](std::uint16_t turn) { return Difference(turns[0], turn) >= kCodeDistance; });
 }
 
-/// Selects codes greedily from a pseudo-random sequence of all 16-bit words.
+/// Selects codes greedily from a pseudo-random sequence of all 16-bit words: a word is kept if it is far enough from
+/// every rotation of the codes kept before.
 std::vector<std::uint16_t> MakeCodes() {
   std::vector<std::uint16_t> codes;
   std::uint16_t word = 0;
@@ -53,7 +54,7 @@ std::uint16_t Turned(std::uint16_t code) {
   std::uint16_t turned = 0;
   for (int row = 0; row < kCodeSide; ++row) {
     for (int column = 0; column < kCodeSide; ++column) {
-      // (row, column) of the rotated code was at row `last - column`, column `row`.
+      // The module at (row, column) of the rotated code comes from row `last - column`, column `row` of the original.
       const int from = (kCodeSide - 1 - column) * kCodeSide + row, to = row * kCodeSide + column;
       const int bit = code >> (15 - from) & 1;
       turned = static_cast<std::uint16_t>(turned | bit << (15 - to));
@@ -65,8 +66,7 @@ std::uint16_t Turned(std::uint16_t code) {
 int CountCodes(const Board& board) { return board.columns * board.rows / 2; }
 
 int CodeNumberOf(const Board& board, int column, int row) {
-  // The number of white squares before this one: half of all before it, rounded down, because even rows begin with
-  // black.
+  // Half of all squares before this one are white, rounded down, because even rows begin with black.
   return board.first_code + (row * board.columns + column) / 2;
 }
 
@@ -75,7 +75,7 @@ bool IsBlackAt(const Board& board, const glm::dvec2& point) {
   const int row = static_cast<int>(std::floor(point.y / board.square));
   if (column < 0 || row < 0 || column >= board.columns || row >= board.rows) return false;
   if (IsBlackSquare(column, row)) return true;
-  // The module of the code at this point; the margin is white.
+  // Find the module of the code at this point; the margin is white.
   const double module = board.square / kModules;
   const int x = static_cast<int>(std::floor((point.x - column * board.square) / module)) - 1;
   const int y = static_cast<int>(std::floor((point.y - row * board.square) / module)) - 1;

@@ -20,7 +20,8 @@ constexpr int kMaxSquares = 16;
 /// A code is kCodeSide × kCodeSide modules, 1 for black, surrounded by a margin of one white module.
 constexpr int kCodeSide = 4;
 constexpr int kModules = kCodeSide + 2;
-/// The number of codes. Any two codes, and any two rotations of one code, differ in at least kCodeDistance modules.
+/// The number of codes. Two codes differ in at least kCodeDistance modules, however each is rotated, and so do two
+/// rotations of one code.
 constexpr int kCodeCount = 120;
 constexpr int kCodeDistance = 4;
 

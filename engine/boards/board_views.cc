@@ -32,7 +32,7 @@ std::vector<TargetView> BoardViews::views() const {
 }
 
 void AlignToBoard(BoardPlacement stance, std::span<Camera> cameras) {
-  // A board's x points right, its y down, its z away from its front. The columns are these axes in the world.
+  // A board's x points right, its y down, and its z away from its front. The columns are these axes in the world.
   const glm::dmat3 R_WT = stance == BoardPlacement::kOnFloor
                               ? glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0))
                               : glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1));

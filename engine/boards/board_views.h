@@ -45,13 +45,13 @@ class BoardViews {
   std::vector<TargetView> views() const;
   /// The picture size of each camera.
   const std::vector<PictureSize>& sizes() const { return sizes_; }
-  /// Returns what was detected about one of OpenCV's boards; "" for our boards.
+  /// Describes the detected properties of an OpenCV board (PrintedBoardFinder::Told); "" for our boards.
   std::string Told() const { return printed_ ? printed_->Told() : ""; }
 
  private:
   const std::vector<Board> boards_;
   std::unique_ptr<PrintedBoardFinder> printed_;
-  std::map<std::pair<std::string, std::size_t>, std::size_t> targets_;  ///< by moment and board
+  std::map<std::pair<std::string, std::size_t>, std::size_t> targets_;  ///< index of the target by moment and board
   std::vector<BoardSighting> sightings_;
   std::vector<PictureSize> sizes_;
 };

@@ -23,8 +23,8 @@ const glm::dvec2* PixelOf(const SightingMap& map, const SightingKey& key, const 
   return nullptr;
 }
 
-/// Returns the corners of a sighting, interpolated to `share` looks later, −0.5 to 0.5. Corners that no neighbouring
-/// look shows are left out.
+/// Returns the corners of a sighting, interpolated at the time `share` looks later (−0.5 to 0.5). Corners that no
+/// neighbouring look shows are left out.
 std::vector<PointPair> CornersBetween(const SightingMap& map, const SightingKey& key, const BoardSighting& sighting,
                                       double share) {
   constexpr double kNow = 1e-6;
@@ -45,8 +45,8 @@ std::vector<PointPair> CornersBetween(const SightingMap& map, const SightingKey&
   return moved;
 }
 
-/// Reduces the sightings to about kMaxMoments moments, if several films share any, in evenly spaced blocks of
-/// consecutive looks.
+/// Returns all sightings if there are at most kMaxMoments moments, or if no moment is shared by several films.
+/// Otherwise returns the sightings of about kMaxMoments moments, in evenly spaced blocks of consecutive looks.
 std::vector<BoardSighting> Subsampled(std::span<const BoardSighting> sightings) {
   constexpr std::size_t kMaxMoments = 60;
   std::map<std::size_t, std::size_t> cameras;  // number of cameras that see each target
@@ -54,7 +54,7 @@ std::vector<BoardSighting> Subsampled(std::span<const BoardSighting> sightings) 
   std::size_t shared = 0;
   for (const auto& [target, count] : cameras) shared += count > 1 ? 1 : 0;
   if (cameras.size() <= kMaxMoments || shared == 0) return {sightings.begin(), sightings.end()};
-  // Blocks of consecutive looks, because neighbours determine velocities.
+  // Keep blocks of consecutive looks, because velocities are computed from neighbouring looks.
   constexpr int kBlock = 6;
   const std::size_t blocks = std::max<std::size_t>(1, (cameras.size() + kMaxMoments - 1) / kMaxMoments);
   std::vector<BoardSighting> kept;
@@ -81,8 +81,8 @@ std::vector<TargetView> SynchronisedViews(std::span<const BoardSighting> sightin
   for (const BoardSighting& s : sightings) {
     const std::size_t camera = s.view.camera;
     const double period = period_s[camera];
-    // The look of the first film that is nearest in time, and the time from this sighting to it as a fraction of a
-    // look.
+    // Find the look of the first film that is nearest in time, and the time from this sighting to that look, as a
+    // fraction of a look.
     const int look = static_cast<int>(std::lround((s.look * period - delay_s[camera]) / period_s[0]));
     const double share = (look * period_s[0] + delay_s[camera]) / period - s.look;
     constexpr double kHalf = 0.5 + 1e-9;
@@ -110,12 +110,12 @@ Result<FilmDelays> FindFilmDelays(std::span<const PictureSize> sizes, std::span<
     ASSIGN_OR_RETURN(const RefinedRig rig, CalibrateFromPlanes(sizes, SynchronisedViews(tried, period_s, delay_s), quick));
     return rig.rms_px;
   };
-  // If calibration fails without delays, it may succeed with them.
+  // If calibration fails without delays, it may still succeed with delays.
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const auto in_step = residual(steps.delay_s);
   steps.before_px = steps.after_px = in_step ? *in_step : kNever;
   const std::size_t rounds = sizes.size() > 2 ? 2 : 1;
-  // A grid over ±max_delay_s in steps of half a look; two rounds if there are more than two films.
+  // The grid covers ±max_delay_s in steps of half a look. With more than two films, the search runs twice.
   const double step_s = 0.5 * period_s[0];
   const int wide = std::max(1, static_cast<int>(std::floor(max_delay_s / step_s)));
   constexpr int kHalvings = 5;

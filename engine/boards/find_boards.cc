@@ -14,13 +14,13 @@
 namespace etude {
 namespace {
 
-/// Column and row of a corner relative to the seed of its grid: i to the right, j down, as seen in the picture.
+/// Column and row of a corner relative to the seed of its grid: i counts to the right, j downwards, in the picture.
 using GridIndex = std::pair<int, int>;
-/// Corners that form a chessboard, as indices of saddles.
+/// The corners of one chessboard: the index of the saddle at each grid index.
 using CornerGrid = std::map<GridIndex, std::size_t>;
 
 constexpr double kMaxSpacingPx = 150;  // maximum distance of the first neighbour
-// Cosine of 14°: maximum angle between an edge and the way to the next corner.
+// Cosine of 14°: maximum angle between an edge and the direction to the next corner.
 constexpr double kMinAlignment = 0.97;
 constexpr double kMinSimilarity = 0.9;  // cosine of 26°: maximum rotation of edges from a corner to the next
 // Maximum error of a corner predicted from two, as a share of the last step.
@@ -31,8 +31,9 @@ struct Axes {
   glm::dvec2 right, down;
 };
 
-// Returns the saddle's edges as the axes of a corner whose lower right square is bright or dark. Of the two possible
-// signs it returns the one near `expected`; nullopt if neither is near.
+// Returns the saddle's edges as the axes of a grid corner; `is_bright` states whether the corner's lower right square
+// is bright. The edges determine the axes up to sign: the axes near `expected` are returned, or nullopt if neither sign
+// is near.
 std::optional<Axes> AxesLike(const Saddle& saddle, bool is_bright, const Axes& expected) {
   Axes axes = is_bright ? Axes{saddle.edges[0], saddle.edges[1]} : Axes{-saddle.edges[1], saddle.edges[0]};
   if (glm::dot(axes.right, expected.right) < 0) axes = {-axes.right, -axes.down};
@@ -113,7 +114,7 @@ class Grower {
     if (grid_.contains(to)) return;
     const glm::dvec2 pixel = *PixelAt(i, j);
     const Axes axes = axes_.at(place);
-    // If there is a corner behind, extrapolate from it.
+    // If there is a corner in the opposite direction, extrapolate from both.
     if (const auto behind = PixelAt(i - di, j - dj)) {
       const glm::dvec2 predicted = 2.0 * pixel - *behind;
       const double near = kMaxPredictionError * glm::distance(pixel, *behind);
@@ -148,15 +149,15 @@ class Grower {
 };
 
 /// Returns the chessboard around saddle `seed`, grown along the edges; the lower right square of (0, 0) is bright.
-/// Saddles that are `taken` belong to other boards. The grid may be wrong, or hold only the seed; the codes decide that
-/// later.
+/// Saddles that are `taken` belong to other boards. The grid may be wrong, or hold only the seed; Reader checks it
+/// later by its codes.
 CornerGrid GrowGrid(const GreyImage& picture, const std::vector<Saddle>& saddles, std::size_t seed,
                     const std::vector<bool>& taken) {
   return Grower(picture, saddles, taken).Grow(seed);
 }
 
 constexpr int kMinCodes = 3;         // codes that must agree about a board
-constexpr int kMaxMisread = 1;       // misread modules of a code, and of its margin
+constexpr int kMaxMisread = 1;       // maximum number of misread modules in a code, and in its margin
 constexpr double kMinContrast = 20;  // counts between black and white modules
 
 // The position of a point of a grid or board in half squares, so that the centres of squares are whole numbers.
@@ -179,7 +180,7 @@ Halves TurnedBack(Halves v, int quarters) {
   return v;
 }
 
-// Reads the codes in the squares of a grid and lets them vote on its placement.
+// Reads the codes in the squares of a grid; each code votes for the placements of the grid that explain it.
 class Reader {
  public:
   Reader(const GreyImage& picture, const std::vector<Saddle>& saddles, std::span<const Board> boards)
@@ -200,8 +201,8 @@ class Reader {
   }
 
  private:
-  // Returns the code in the lower right square of `place`; nothing if one of its corners is unknown or the margin is
-  // not white.
+  // Returns the code in the lower right square of corner `place`; nothing if the square is black, if one of its corners
+  // is unknown, or if its margin is not white.
   std::optional<std::uint16_t> ReadCode(const CornerGrid& grid, const GridIndex& place) const {
     const auto [i, j] = place;
     if ((i + j) % 2 != 0) return std::nullopt;  // a black square
@@ -238,7 +239,7 @@ class Reader {
     return dark_margin > kMaxMisread ? std::nullopt : std::optional(code);
   }
 
-  // Adds a vote for every placement of the grid on the board that would put this code here.
+  // Adds one vote for every placement of the grid on the board that puts this code into this square.
   void Vote(std::uint16_t read, const GridIndex& place, std::size_t board, std::map<Fit, int>& votes) const {
     const Board& pattern = boards_[board];
     for (int row = 0; row < pattern.rows; ++row) {
@@ -288,7 +289,8 @@ std::vector<SeenCorner> FindBoards(const ColourImage& picture, std::span<const B
     for (const auto& [place, saddle] : grid) taken[saddle] = true;
     Name(grid, saddles, *fit, boards[fit->board], seen);
   }
-  // Sort, and keep only the first of several equal corners; it comes from the grid around the strongest seed.
+  // Sort the corners. If several have the same index, keep the first one, which comes from the grid around the
+  // strongest seed.
   const auto order = [](const SeenCorner& s) { return std::tuple(s.board, s.corner.row, s.corner.column); };
   std::stable_sort(seen.begin(), seen.end(),
                    [&](const SeenCorner& a, const SeenCorner& b) { return order(a) < order(b); });

@@ -17,7 +17,7 @@ constexpr double kMinDiscContrast = 20;  // counts of 255
 // The maximum relative difference between a region's area and that of the ellipse with the same second moments.
 constexpr double kMaxShapeError = 0.25;
 
-// A rectangle of pixels, without `right` and `bottom`, clipped to the picture.
+// A rectangle of pixels, clipped to the picture; column `right` and row `bottom` are outside.
 struct Window {
   int left, top, right, bottom;
 
@@ -97,10 +97,10 @@ Darkness Measure(const GreyImage& picture, const std::vector<glm::ivec2>& piece)
     high = glm::max(high, p);
     inside.push_back(picture.At(p.x, p.y));
   }
-  constexpr int kEdge = 3;  // pixels over which the edge is blurred, and one of the background
+  constexpr int kEdge = 3;  // margin in pixels: the blurred edge, and one pixel of background
   low = glm::max(low - kEdge, glm::ivec2(0));
   high = glm::min(high + kEdge, glm::ivec2(picture.width - 1, picture.height - 1));
-  // Dark and bright levels are medians inside and around.
+  // The dark level is the median inside, the bright level the median around the region.
   for (int y = low.y; y <= high.y; ++y) {
     for (int x = low.x; x <= high.x; ++x) {
       if (x == low.x || x == high.x || y == low.y || y == high.y) around.push_back(picture.At(x, y));
@@ -109,7 +109,7 @@ Darkness Measure(const GreyImage& picture, const std::vector<glm::ivec2>& piece)
   const float dark = UpperMedian(std::move(inside)), bright = UpperMedian(std::move(around));
   Darkness sum;
   if (!(bright > dark)) return sum;
-  // Moments, each pixel weighted by its darkness.
+  // Compute the moments; each pixel is weighted by its darkness.
   glm::dmat2 second(0);
   for (int y = low.y; y <= high.y; ++y) {
     for (int x = low.x; x <= high.x; ++x) {
@@ -134,7 +134,7 @@ std::optional<glm::dvec2> FindDisc(const GreyImage& picture, const glm::dvec2& p
   const bool is_near =
       glm::all(glm::greaterThan(pointer, glm::dvec2(-reach_px))) && glm::all(glm::lessThan(pointer, size + reach_px));
   if (!is_near) return std::nullopt;  // also true if the pointer is NaN
-  // The region around the darkest pixel, at half contrast.
+  // Find the region around the darkest pixel, at half contrast.
   const auto darkest = FindDarkest(picture, pointer, reach_px);
   if (!darkest) return std::nullopt;
   const Window window(picture, MiddleOf(darkest->x, darkest->y), max_width_px);

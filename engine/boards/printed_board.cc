@@ -43,7 +43,7 @@ std::optional<Result<PrintedBoard>> ReadPrintedBoard(std::string_view text) {
   } else {
     return std::nullopt;
   }
-  // Three numbers, separated by x.
+  // Parse three numbers, separated by x.
   std::array<double, 3> numbers{};
   const std::vector<std::string_view> words = SplitAt(rest, 'x');
   bool is_read = words.size() == numbers.size();
@@ -52,7 +52,7 @@ std::optional<Result<PrintedBoard>> ReadPrintedBoard(std::string_view text) {
     is_read = number.has_value();
     numbers[i] = number.value_or(0);
   }
-  // Whole numbers of squares, and the side of a square of 1 mm to 10 m.
+  // Check the ranges: whole numbers of squares, and a side of 1 mm to 10 m.
   constexpr double kMaxPerSide = 64;
   const double min_squares = board.is_charuco ? 3 : 4;  // OpenCV does not find chessboards with two corners per side
   const auto is_side = [&](double n) { return n == std::floor(n) && n >= min_squares && n <= kMaxPerSide; };

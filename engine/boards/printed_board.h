@@ -27,11 +27,12 @@ struct PrintedBoard {
 /// numbers that are not allowed.
 std::optional<Result<PrintedBoard>> ReadPrintedBoard(std::string_view text);
 
-/// Finds the corners of such a board in pictures by OpenCV's `findChessboardCornersSB` and `aruco::detectMarkers`. For
-/// a ChArUco board the dictionary, inverted printing, the position of its first marker (both layouts of even rows) and
-/// the size of markers are determined from the pictures. A corner counts if both adjacent markers are seen; it is
-/// refined by `cornerSubPix`. A chessboard must be seen whole. Its top left square is the black one if columns + rows
-/// is odd; otherwise its orientation is ambiguous by 180°.
+/// Finds the corners of one of OpenCV's boards in pictures by OpenCV's `findChessboardCornersSB` and
+/// `aruco::detectMarkers`. For a ChArUco board, the finder determines from the pictures: the dictionary, inverted
+/// printing, the square of the first marker (OpenCV's old and new layouts differ for an even number of rows), and the
+/// size of markers. A corner of a ChArUco board is found only if both adjacent markers are seen; it is refined by
+/// `cornerSubPix`. A chessboard must be seen whole. Its top left square is the black one if columns + rows is odd;
+/// otherwise its orientation is ambiguous by 180°.
 class PrintedBoardFinder {
  public:
   virtual ~PrintedBoardFinder() = default;
@@ -50,8 +51,7 @@ struct OpenCvCalibration {
   double rms_px = 0;
 };
 
-/// The functions of the module engine/boards/opencv. It is loaded on demand, so that only users of such boards wait for
-/// OpenCV.
+/// The functions of the module engine/boards/opencv. The module is loaded on demand, because loading OpenCV takes time.
 struct OpenCvBoards {
   std::unique_ptr<PrintedBoardFinder> (*make_finder)(const PrintedBoard& board);
   Result<OpenCvCalibration> (*calibrate)(std::span<const TargetView> views, const PictureSize& size, LensModel lens);
@@ -60,8 +60,9 @@ struct OpenCvBoards {
 /// Fails if the module was not built (libopencv-contrib-dev; `scripts/setup --boards`).
 Result<std::unique_ptr<PrintedBoardFinder>> MakePrintedBoardFinder(const PrintedBoard& board);
 
-/// Calibrates one camera by OpenCV from the same views that `CalibrateFromPlanes` gets, for comparison: both minimise
-/// the same sum. Fails like `MakePrintedBoardFinder`, for `LensModel::kAsInCamera`, and if OpenCV fails.
+/// Calibrates one camera by OpenCV's `calibrateCamera`, for comparison with `CalibrateFromPlanes`: both take the same
+/// views and minimise the same sum. Fails like `MakePrintedBoardFinder`, for `LensModel::kAsInCamera`, and if OpenCV
+/// fails.
 Result<OpenCvCalibration> CalibrateByOpenCv(std::span<const TargetView> views, const PictureSize& size, LensModel lens);
 
 }  // namespace etude

@@ -14,7 +14,7 @@ constexpr double kMinStrength = 60;            // squared counts per pixel²: we
 constexpr int kRefineReachPx = 5;
 constexpr int kRefineSteps = 8;
 constexpr double kConvergedPx = 0.01;
-constexpr double kMaxMovePx = 2;  // from where it was found
+constexpr double kMaxMovePx = 2;  // maximum distance of the refined saddle from the found one
 
 // Smooths along one axis with the binomial weights 1 4 6 4 1.
 GreyImage SmoothAlong(const GreyImage& picture, int dx, int dy) {
@@ -58,7 +58,8 @@ bool IsStrongestAround(const GreyImage& strengths, int x, int y) {
 
 // Returns the saddle with the directions of zero curvature, xx cos² + 2 xy cos sin + yy sin² = 0.
 Saddle Describe(const Hessian& hessian, double x, double y) {
-  // In the frame of the principal directions: k1 cos² − k2 sin² = 0 with k1 > 0 > −k2.
+  // In the frame of the principal directions, with curvatures k1 > 0 and −k2 < 0, the condition is k1 cos² − k2 sin² =
+  // 0.
   const double mean = 0.5 * (hessian.xx + hessian.yy), half = std::hypot(0.5 * (hessian.xx - hessian.yy), hessian.xy);
   // Direction of the largest curvature.
   const double bright = 0.5 * std::atan2(2 * hessian.xy, hessian.xx - hessian.yy);
@@ -67,7 +68,8 @@ Saddle Describe(const Hessian& hessian, double x, double y) {
   return {{x, y}, {along(bright - open), along(bright + open)}, hessian.SaddleStrength()};
 }
 
-// Refines a saddle to the point nearest to all edges around it: every gradient g at q demands g · (p − q) = 0.
+// Refines a saddle to the point p nearest to all edges around it: an edge with gradient g at pixel q is the line g · (p
+// − q) = 0.
 std::optional<glm::dvec2> Refine(const GreyImage& picture, const glm::dvec2& found) {
   glm::dvec2 pixel = found;
   for (int step = 0; step < kRefineSteps; ++step) {
@@ -75,7 +77,7 @@ std::optional<glm::dvec2> Refine(const GreyImage& picture, const glm::dvec2& fou
     glm::dvec2 right(0);
     const int x0 = static_cast<int>(std::floor(pixel.x)), y0 = static_cast<int>(std::floor(pixel.y));
     if (x0 < kBorder || y0 < kBorder || x0 >= picture.width - kBorder || y0 >= picture.height - kBorder) return {};
-    // Sum the demands of all gradients nearby, weighted by their distance.
+    // Add up the equations of all gradients nearby, weighted by their distance.
     for (int y = y0 - kRefineReachPx; y <= y0 + kRefineReachPx; ++y) {
       for (int x = x0 - kRefineReachPx; x <= x0 + kRefineReachPx; ++x) {
         const glm::dvec2 q(x + 0.5, y + 0.5);

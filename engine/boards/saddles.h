@@ -13,8 +13,8 @@ using GreyImage = Image<float>;
 /// Converts a picture to brightness, 0…255.
 GreyImage ToGrey(const ColourImage& picture);
 
-/// Returns the brightness at a point by bilinear interpolation, beyond the edge that of the edge. The picture must have
-/// at least 2 × 2 pixels.
+/// Returns the brightness at a point by bilinear interpolation. Points outside the picture get the brightness of its
+/// edge. The picture must have at least 2 × 2 pixels.
 double BrightnessAt(const GreyImage& picture, const glm::dvec2& pixel);
 
 /// A saddle point of brightness, between two dark and two bright quadrants: a corner of a chessboard or of a code.

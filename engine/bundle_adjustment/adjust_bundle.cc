@@ -53,7 +53,8 @@ struct Variables {
   std::vector<FrameVariables> frames;
 };
 
-/// Computes the body's points in every frame before each evaluation; every residual needs some points of one frame.
+/// Computes the body's points in every frame once before each evaluation, because many residuals share the points of a
+/// frame.
 class PlaceEveryFrame final : public ceres::EvaluationCallback {
  public:
   explicit PlaceEveryFrame(Variables& variables) : variables_(variables) {}
@@ -139,8 +140,8 @@ class MarkCost final : public ceres::CostFunction {
 
 constexpr std::array<double, 3> kSecondDifference = {1, -2, 1};
 
-/// The second difference of some points over three frames, in standard deviations. Blocks: position, rotation, angles
-/// of each frame, and the lengths if they are adjusted.
+/// The second difference of each of `points` over three frames, in standard deviations. Blocks: position, rotation,
+/// angles of each frame, and the lengths if they are adjusted.
 class PointAcceleration final : public ceres::CostFunction {
  public:
   PointAcceleration(const FrameVariables* first, std::span<const int> points, std::span<const double> deviation,
@@ -163,7 +164,7 @@ class PointAcceleration final : public ceres::CostFunction {
     for (int row = 0; row < num_residuals(); ++row) residuals[row] = 0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       for (int f = 0; f < 3; ++f) {
-        // Each of the three frames contributes its share of the difference.
+        // Each of the three frames contributes its term of the second difference.
         const double share = kSecondDifference[f] / deviations_[i];
         const glm::dvec3& p = frames_[f]->placed.positions[points_[i]];
         for (int k = 0; k < 3; ++k) residuals[3 * i + k] += share * p[k];
@@ -257,7 +258,7 @@ class BundleProblem {
         loss_(MakeLoss(options)),
         place_(variables),
         problem_(Borrow(place_)) {
-    // Rotations, marks, limits, smoothness.
+    // Add the rotation manifolds, then the terms of the marks, of the angle limits and of the smoothness prior.
     for (FrameVariables& frame : variables_.frames) {
       problem_.AddParameterBlock(frame.turn.data(), kTurnSize, &turn_manifold_);
     }
@@ -355,7 +356,7 @@ BundleSolution AdjustBundle(const BundleInputs& inputs, const BundleOptions& opt
     assert(state.angles.size() == inputs.body.tree.limits.size());
     variables.frames.emplace_back(state);
   }
-  // Without a usable solution the start is returned.
+  // Without a usable solution, the result is the start.
   BundleSolution solution;
   solution.lengths = inputs.body.lengths;
   solution.states.assign(inputs.start.begin(), inputs.start.end());

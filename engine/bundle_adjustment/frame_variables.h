@@ -47,7 +47,7 @@ class PointGains {
   /// Adds to row `row` the derivatives of a residual whose derivative with respect to the point is `along`.
   void Add(int row, const glm::dvec3& along) const {
     const auto gain = [&](int column) { return glm::dot(along, gains_[column]); };
-    // Position, rotation, angles, lengths; a block is null if Ceres does not need it.
+    // Fill the blocks of position, rotation, angles and lengths; a block is null if Ceres does not need it.
     if (double* block = jacobians_[first_]) {
       for (int k = 0; k < kPositionSize; ++k) block[row * kPositionSize + k] += gain(k);
     }

@@ -17,7 +17,8 @@ void AddAngleGains(const KinematicTree& tree, const TreeFrames& frames, const Bo
   }
 }
 
-// Returns true if the joint moves the point: the joint lies on the way from the root to the point's limb.
+// Returns true if the joint lies on the way from the root to the point's limb, so that moving the joint moves the
+// point.
 bool Carries(const KinematicTree& tree, int joint, const BodyPoint& point) {
   int j = point.joint;
   while (j > joint) j = tree.joints[j].parent;
@@ -39,7 +40,7 @@ MeasurableBody WithLengths(const MeasurableBody& body, std::span<const double> l
 }
 
 void PlacePoints(const MeasurableBody& body, const TreeState& state, bool wants_gains, PlacedPoints& out) {
-  // Positions.
+  // Compute the positions of all points.
   const TreeFrames frames = ComputeFrames(body.tree, state);
   const int first_length = kRootColumns + body.tree.dof_count();
   out.columns = first_length + static_cast<int>(body.lengths.size());
@@ -53,7 +54,7 @@ void PlacePoints(const MeasurableBody& body, const TreeState& state, bool wants_
   for (std::size_t i = 0; i < body.points.size(); ++i) {
     const BodyPoint& point = body.points[i];
     glm::dvec3* gains = out.gains.data() + i * out.columns;
-    // Columns of the root, of the angles, and of the lengths of joints between root and point.
+    // Fill the columns of the root, of the angles, and of the lengths of joints between root and point.
     for (int k = 0; k < 3; ++k) {
       glm::dvec3 axis(0);
       axis[k] = 1;
@@ -67,7 +68,7 @@ void PlacePoints(const MeasurableBody& body, const TreeState& state, bool wants_
       gains[first_length + share.length] += frames.joints[parent].axes * share.per_metre;
     }
   }
-  // Lengths of the points' own offsets.
+  // Add the lengths on which the points' own offsets depend.
   for (const LengthShare& share : body.point_shares) {
     const BodyPoint& point = body.points[share.index];
     out.gains[static_cast<std::size_t>(share.index) * out.columns + first_length + share.length] +=

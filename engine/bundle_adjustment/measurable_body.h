@@ -34,9 +34,9 @@ struct MeasurableBody {
 /// Returns the body with other lengths, metres; their number must be the same.
 MeasurableBody WithLengths(const MeasurableBody& body, std::span<const double> lengths);
 
-/// The positions of a body's points in one pose, and their Jacobian: for each point, one vector per column. It is the
-/// derivative of the point's world position with respect to the root's translation along x, y, z (metres), rotations of
-/// the whole body about the root and the world's x, y, z (radians), each angle, and each length (metres).
+/// The positions of a body's points in one pose, and their Jacobian. Each column holds the derivative of a point's
+/// world position with respect to one parameter: the root's translation along x, y, z (metres), the rotations of the
+/// whole body about the root around the world's x, y, z (radians), each angle (radians), and each length (metres).
 struct PlacedPoints {
   std::vector<glm::dvec3> positions;  ///< p_WQ, metres
   int columns = 0;                    ///< 6 + angles + lengths
@@ -45,8 +45,8 @@ struct PlacedPoints {
   const glm::dvec3* gains_of(int point) const { return gains.data() + static_cast<std::size_t>(point) * columns; }
 };
 
-/// Fills `out`, which is reused without allocation; if `wants_gains` is false, only its positions. The offsets of
-/// `body` must match its lengths (`WithLengths`).
+/// Fills `out`, whose memory is reused; if `wants_gains` is false, it fills only the positions. The offsets of `body`
+/// must match its lengths (`WithLengths`).
 void PlacePoints(const MeasurableBody& body, const TreeState& state, bool wants_gains, PlacedPoints& out);
 
 }  // namespace etude

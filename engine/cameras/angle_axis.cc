@@ -32,14 +32,14 @@ glm::dvec3 ToAngleAxis(const glm::dmat3& R) {
   const double square = v.x * v.x + v.y * v.y + v.z * v.z;
   if (!(square > 0)) return 2.0 * v;
   const double sine = std::sqrt(square);
-  // q and −q are the same rotation; take the smaller angle.
+  // q and −q are the same rotation; choose the sign that gives the smaller angle.
   const double half = cosine < 0 ? std::atan2(-sine, -cosine) : std::atan2(sine, cosine);
   return v * (2.0 * half / sine);
 }
 
 glm::dmat3 FromAngleAxis(const glm::dvec3& v) {
   const double square = v.x * v.x + v.y * v.y + v.z * v.z;
-  // The matrix is listed by columns.
+  // The initialiser lists the matrix by columns.
   if (!(square > std::numeric_limits<double>::epsilon())) return {1, v.z, -v.y, -v.z, 1, v.x, v.y, -v.x, 1};
   const double angle = std::sqrt(square);
   const double x = v.x / angle, y = v.y / angle, z = v.z / angle;

@@ -15,7 +15,7 @@ template <typename T>
 std::array<T, 3> RotateByAngleAxis(const T* v, const std::array<T, 3>& p) {
   using std::cos, std::sin, std::sqrt;
   const T square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-  // The square root has no derivative at zero. So close to zero, the first-order form is exact.
+  // Near zero, use the first-order form: it is exact to rounding there, and the square root has no derivative at zero.
   if (!(square > T(std::numeric_limits<double>::epsilon()))) {
     return {p[0] + (v[1] * p[2] - v[2] * p[1]), p[1] + (v[2] * p[0] - v[0] * p[2]), p[2] + (v[0] * p[1] - v[1] * p[0])};
   }

@@ -170,7 +170,7 @@ std::optional<glm::dvec2> DistortPixel(const Camera& camera, const glm::dvec2& p
   if (camera.distortion.IsNone()) return pixel;
   const glm::dvec2 ray = RayOf(camera.intrinsics, pixel);
   const glm::dvec2 distorted = Distort(camera.distortion, ray);
-  // If the model folds back here, undistortion returns another ray.
+  // Where the model folds back, undistortion returns another ray than `ray`.
   constexpr double kSameRay = 1e-6;
   const auto back = Undistort(camera.distortion, distorted);
   if (!back || glm::length(*back - ray) > kSameRay) return std::nullopt;

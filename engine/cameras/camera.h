@@ -34,9 +34,9 @@ struct Distortion {
 /// Returns the distorted point (x', y') of the ray through (x, y, 1).
 glm::dvec2 Distort(const Distortion& distortion, const glm::dvec2& ray);
 
-/// Returns the (x, y) nearest to the axis that `Distort` maps to `distorted`, by Newton's method to 1e-12. Returns
-/// nullopt if there is none: beyond the radius at which the model folds back (it describes no lens there), and, for a
-/// fisheye, outside the half-space in front of the camera.
+/// Inverts `Distort` by Newton's method to 1e-12. If several rays map to `distorted`, returns the (x, y) nearest to the
+/// axis. Returns nullopt if there is none: beyond the radius at which the model folds back (it describes no lens
+/// there), and, for a fisheye, outside the half-space in front of the camera.
 std::optional<glm::dvec2> Undistort(const Distortion& distortion, const glm::dvec2& distorted);
 
 /// The intrinsics of a camera in pixels. Image axes: u right, v down, origin at the top left corner; the centre of
@@ -87,8 +87,8 @@ ProjectionMatrix MatrixOf(const Camera& camera);
 /// must be such that w > 0 in front of the camera (DLT normalises it so).
 std::optional<glm::dvec2> Project(const ProjectionMatrix& matrix, const glm::dvec3& p_WQ);
 
-/// Returns the pixel at which the camera with its lens shows Q. Returns nullopt also far outside the picture, where the
-/// distortion model would fold the world back into it.
+/// Returns the pixel at which the camera with its lens shows Q. Returns nullopt if Q lies on or behind the camera's
+/// plane, and where the distortion model folds back, far outside the picture.
 std::optional<glm::dvec2> Project(const Camera& camera, const glm::dvec3& p_WQ);
 
 /// `DistortPixel` maps a pixel of the pinhole to the pixel of the lens; `UndistortPixel` is its inverse. Both return

@@ -37,7 +37,7 @@ Result<CameraParameters> Decompose(const ProjectionMatrix& matrix) {
   if (!(glm::dot(a1, glm::cross(a2, a3)) > 0)) {
     return Fail({}, "a camera matrix of a mirrored picture; an axis of the world or of the pixels may be reversed");
   }
-  // Intrinsics and rotation from dot and cross products of the rows.
+  // Compute intrinsics and rotation from dot and cross products of the rows.
   CameraParameters p;
   p.principal_u = glm::dot(a1, a3);
   p.principal_v = glm::dot(a2, a3);
@@ -47,7 +47,7 @@ Result<CameraParameters> Decompose(const ProjectionMatrix& matrix) {
   p.delta_u = p.focal_length / (glm::length(n1) * sine);
   const glm::dvec3 r1 = n2 / glm::length(n2), r2 = glm::cross(a3, r1);
   SetAngles(glm::transpose(glm::dmat3(r1, r2, a3)), p);
-  // The last column is K t.
+  // Solve K t = last column for t.
   const double fx = p.focal_length / p.delta_u, fy = p.focal_length / sine;
   p.t.z = matrix.h[2][3] / scale;
   p.t.y = (matrix.h[1][3] / scale - p.principal_v * p.t.z) / fy;

@@ -15,15 +15,15 @@ constexpr Named<Calibration> kCalibrations[] = {
 
 using Matrix34 = Eigen::Matrix<double, 3, 4>;
 
-// A cloud of points counts as flat if its smallest extent is below this share of its largest extent, because
-// measurement errors would then exceed the depth from which H's entries are computed.
+// A cloud of points counts as flat if its smallest extent is below this share of its largest extent: measurement errors
+// would then exceed the depth on which H's entries depend.
 constexpr double kFlat = 1e-4;
 // Below this ratio of singular values (of the normalised system), another H fits the pairs equally well.
 constexpr double kUndetermined = 1e-9;
 
 Eigen::Vector3d ToEigen(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-// Returns why the pairs do not determine a camera; nullopt if they may.
+// Returns the reason why the pairs cannot determine a camera; nullopt if no reason is found.
 std::optional<std::string> ReasonToRefuse(std::span<const PointPair> pairs) {
   constexpr std::size_t kMinPairs = 6;
   if (pairs.size() < kMinPairs) return fmt::format("{} point pairs; at least 6 are needed", pairs.size());
@@ -106,8 +106,8 @@ Result<ProjectionMatrix> Calibrate(std::span<const PointPair> pairs, Calibration
   const auto world = NormalisationOf<3>(pairs.size(), [&](std::size_t i) { return ToEigen(pairs[i].world); });
   const auto pixel = NormalisationOf<2>(
       pairs.size(), [&](std::size_t i) { return Eigen::Vector2d(pairs[i].pixel.x, pairs[i].pixel.y); });
-  // The normalised system decides if the pairs determine a camera, whichever system is then solved. The singular values
-  // of the plain system have no meaning, because it mixes metres with squared pixels.
+  // The normalised system decides whether the pairs determine a camera, for both methods. The singular values of the
+  // plain system have no meaning, because it mixes metres with squared pixels.
   const Solution normalised = SolveDlt(pairs, world, pixel);
   if (!(normalised.determined > kUndetermined)) {
     return Fail({}, "cannot calibrate a camera: more than one camera fits these point pairs; move some of them");

@@ -15,14 +15,14 @@ enum class Calibration {
   kDlt,            ///< "dlt": least squares on H's entries, |H| = 1 (paper B, section 2.2)
   kDltNormalised,  ///< "dlt-normalised": the same after Hartley's shift and scale of both point sets
   /// "refined": starting from "dlt-normalised", minimises the squared reprojection error over the camera and its lens.
-  /// The result is more than a matrix, see `RefineCamera` (refine.h); `Calibrate` returns only the start matrix for
-  /// this method.
+  /// `RefineCamera` (refine.h) computes this result, which includes the lens; `Calibrate` returns only the start matrix
+  /// for this method.
   kRefined,
 };
 
 /// Returns the names used in scenarios: "dlt", "dlt-normalised", "refined".
 std::vector<std::string> CalibrationNames();
-/// Returns the calibration of that name, which must be one of CalibrationNames().
+/// Returns the calibration with the name `name`, which must be one of CalibrationNames().
 Calibration CalibrationNamed(std::string_view name);
 
 /// Computes the projection matrix that maps the pairs' world points to their pixels, by the direct linear transform.

@@ -46,8 +46,8 @@ glm::dvec3 LineAlong(std::span<const StrokePlane> planes, std::span<const double
   return {along_W[0], along_W[1], along_W[2]};
 }
 
-// Returns, for each plane, the inverse of the error of Nᵢ·d that one pixel of error at the stroke's ends causes,
-// relative to the largest.
+// Returns one weight per plane, scaled so that the largest is 1: the inverse of the error of Nᵢ·d that an error of one
+// pixel at the stroke's ends causes.
 std::vector<double> WeightsOf(std::span<const StrokePlane> planes, const glm::dvec3& along_W) {
   std::vector<double> weights;
   constexpr double kEndOn = 0.05;  // sine; limits the weight of a limb seen end-on
@@ -60,9 +60,8 @@ std::vector<double> WeightsOf(std::span<const StrokePlane> planes, const glm::dv
   return weights;
 }
 
-// Returns a value in [−1, 1] that is positive if `direction` leads from ray a towards ray b: within the plane,
-// direction = α·a + β·b; a point on ray a that moves along the direction is seen to move towards b if and only if β >
-// 0.
+// Returns a value in [−1, 1]. It is positive if a point on ray a that moves along `direction` is seen to move towards
+// ray b: with direction = α·a + β·b within the plane, it has the sign of β.
 double Sense(const StrokePlane& plane, const glm::dvec3& direction_W) {
   return glm::dot(glm::cross(plane.ray_a_W, direction_W), plane.normal_W);
 }

@@ -48,7 +48,7 @@ struct LimbDirection {
   DirectionStatus status = DirectionStatus::kIllConditioned;
   glm::dvec3 direction{0};  ///< unit, in the world, from a to b; only when kOk
   /// The angle between the two planes, in [0, π/2]; for more planes, the largest angle between any two. The error of
-  /// two strokes is amplified by 1/sin of it.
+  /// the direction is the error of the strokes times 1/sin(plane_angle).
   double plane_angle = 0;
 };
 
@@ -56,9 +56,9 @@ struct LimbDirection {
 /// unit normal N ~ ray(a) × ray(b) that contains the limb. The intersection of two planes is N₁ × N₂ (paper B, section
 /// 2.3). *Ours*: for more planes, the direction is the unit vector d that minimises Σ (Nᵢ·d)²/εᵢ². Here εᵢ ~ |rayᵢ × d|
 /// / (length of the stroke) is the error of Nᵢ·d caused by an error of one pixel at the stroke's ends; a near camera,
-/// which shows the limb as a long stroke, therefore has more weight. The d in εᵢ is the solution with equal weights.
+/// which shows the limb as a long stroke, therefore has more weight. εᵢ is computed with the d of equal weights.
 /// Strokes without length are left out. The direction points from a to b in the pictures (ours; the paper does not
-/// say); if pictures disagree, those decide in which the limb is less foreshortened.
+/// say). If pictures disagree about the sense, the pictures decide in which the limb is less foreshortened.
 /// @param min_plane_angle the result is ill-conditioned if no two planes differ by at least this angle, radians
 LimbDirection ComputeLimbDirection(std::span<const LimbSighting> sightings, double min_plane_angle = Radians(3));
 

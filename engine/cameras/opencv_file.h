@@ -27,7 +27,7 @@ struct OpenCvParameters {
 /// Returns the camera's parameters, with 5, 8, 12 or 14 distortion coefficients: the fewest that include all that are
 /// not 0. A fisheye has 4.
 OpenCvParameters ParametersOf(const Camera& camera);
-/// Makes a camera from the parameters. Fails, with the reason, if they are not those of a camera.
+/// Makes a camera from the parameters. Fails, with the reason, if the parameters do not describe a camera.
 Result<Camera> CameraOf(const OpenCvParameters& parameters);
 
 /// Converts Rodrigues' vector (the axis times the angle) to a rotation matrix.
@@ -38,11 +38,11 @@ Result<glm::dmat3> RotationOf(std::span<const double> numbers, std::string_view 
 /// Formats a number so that readers parse it as a real number, not as an integer: "600" and then `point`.
 std::string RealText(double value, std::string_view point);
 
-/// Writes a camera as OpenCV's cv::FileStorage does (YAML 1.0): `image_width`, `image_height`, `camera_matrix` (3 × 3),
-/// `distortion_coefficients` (k1, k2, p1, p2, k3, more if there are more; for a fisheye four, and `fisheye: 1`), and
-/// the extrinsics `R` (3 × 3) and `T` (3 × 1, metres): a point X of the world is at R X + T in the camera's frame, x
-/// right, y down, z forward. In OpenCV the centre of the top left pixel is (0, 0), here it is (0.5, 0.5); the principal
-/// point is written in OpenCV's coordinates. ReadRigFile reads such a file.
+/// Writes a camera in the format of OpenCV's cv::FileStorage (YAML 1.0): `image_width`, `image_height`, `camera_matrix`
+/// (3 × 3), `distortion_coefficients` (k1, k2, p1, p2, k3, and the further ones if any is not 0; for a fisheye four,
+/// and `fisheye: 1`), and the extrinsics `R` (3 × 3) and `T` (3 × 1, metres): a point X of the world is at R X + T in
+/// the camera's frame, x right, y down, z forward. In OpenCV the centre of the top left pixel is (0, 0), here it is
+/// (0.5, 0.5); the principal point is written in OpenCV's coordinates. ReadRigFile reads such a file.
 std::string WriteOpenCvCamera(const Camera& camera);
 
 }  // namespace etude

@@ -58,6 +58,7 @@ Result<std::vector<CameraPairs>> ReadCsv(std::string_view text, const std::strin
 
 Result<CameraPairs> ReadCamera(const Node::Entry& entry) {
   CameraPairs camera{.name = entry.key, .pairs = {}};
+  // Read the size of the picture.
   Fields fields(entry.value, "a camera's point pairs");
   const std::vector<double> size = fields.Numbers("size", {1, 65536});
   const Node* pairs = fields.Raw("pairs");
@@ -67,6 +68,7 @@ Result<CameraPairs> ReadCamera(const Node::Entry& entry) {
   }
   camera.width = static_cast<int>(size[0]);
   camera.height = static_cast<int>(size[1]);
+  // Read the pairs, five numbers each.
   if (pairs == nullptr || pairs->kind != Node::Kind::kSequence) {
     return Fail(entry.place, "camera {}: no pairs; allowed: pairs: [[x, y, z, u, v], ...]", entry.key);
   }

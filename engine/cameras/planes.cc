@@ -48,7 +48,7 @@ glm::dmat3 NearestRotation(const glm::dmat3& m) {
   return ToGlm(U * svd.matrixV().transpose());
 }
 
-/// Returns X_AC of X_AB and X_BC.
+/// Returns the composition X_AC = X_AB X_BC of two poses.
 CalibrationTargetPose Product(const CalibrationTargetPose& ab, const CalibrationTargetPose& bc) {
   return {ab.R_WT * bc.R_WT, ab.R_WT * bc.p_WT + ab.p_WT};
 }
@@ -106,7 +106,7 @@ Result<glm::dmat3> HomographyOf(std::span<const PointPair> pairs) {
   }
   if (!plane.allFinite() || !picture.allFinite()) return Fail({}, "a corner that is not finite");
   if (LieOnALine(plane) || LieOnALine(picture)) return Fail({}, "the corners lie on one line");
-  // Two equations for each pair, in normalised coordinates.
+  // Write two equations for each pair, in normalised coordinates.
   const Matrix3d Np = Normaliser(plane), Ni = Normaliser(picture);
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * count, 9);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -186,7 +186,7 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
   for (const TargetView& view : views) {
     if (auto homography = HomographyOf(view.pairs)) usable.push_back({&view, *homography});
   }
-  // Intrinsics of each camera.
+  // Estimate the intrinsics of each camera.
   RigGuess guess;
   for (std::size_t camera = 0; camera < sizes.size(); ++camera) {
     std::vector<glm::dmat3> homographies;
@@ -201,7 +201,7 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
   for (PlaneView& view : usable) {
     view.pose_CT = PoseOfPlane(guess.cameras[view.view->camera].intrinsics, view.homography);
   }
-  // Renumber the boards without those that have no view left.
+  // Drop the boards that have no view left, and renumber the others.
   std::vector<TargetView> kept;
   for (const PlaneView& view : usable) kept.push_back(*view.view);
   const std::size_t boards = NumberTargets(kept);

@@ -42,8 +42,8 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
                                        const RefineOptions& options = {});
 
 /// Finds the poses of flat boards that minimise the reprojection error of known cameras. The cameras, with their
-/// lenses, are not changed; their world may be any. Views are selected as in `CalibrateFromPlanes`. Fails if no camera
-/// shows a board.
+/// lenses, are not changed; they may be given in any world frame. Views are selected as in `CalibrateFromPlanes`. Fails
+/// if no camera shows a board.
 Result<RefinedRig> LocateBoards(std::span<const Camera> cameras, std::span<const TargetView> views);
 
 }  // namespace etude

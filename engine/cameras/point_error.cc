@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// The effect of one camera's errors on a pixel after the lens distortion is removed.
+/// The effect of one camera's errors on a pixel whose lens distortion is removed.
 struct PixelErrors {
   std::size_t camera = 0;
   glm::dmat3x2 by_position{0};                                      ///< derivative of the pixel by the position, px/m
@@ -26,7 +26,7 @@ std::optional<glm::dvec2> PixelInPicture(const Camera& camera, const glm::dvec3&
   return pixel;
 }
 
-/// Returns the covariance of a pixel after the lens distortion is removed, px²; nullopt at the rim of the lens's model.
+/// Returns the covariance of a pixel whose lens distortion is removed, px²; nullopt at the rim of the lens's model.
 std::optional<glm::dmat2> NoiseWithoutLens(const Camera& camera, const glm::dvec2& shown, double noise_px) {
   if (camera.distortion.IsNone()) return glm::dmat2(noise_px * noise_px);
   constexpr double kStep = 0.1;  // pixels
@@ -67,7 +67,7 @@ std::optional<PixelErrors> PixelErrorsOf(const Camera& camera, std::size_t index
   return pixel;
 }
 
-/// Returns (JᵀJ)⁻¹ of the cameras in `subset`; nullopt if their lines of sight are (nearly) parallel.
+/// Returns (JᵀJ)⁻¹ over the cameras in `subset`; nullopt if their lines of sight are (nearly) parallel.
 std::optional<glm::dmat3> InverseNormal(std::span<const PixelErrors> pixels, std::uint64_t subset) {
   glm::dmat3 normal(0);
   for (std::size_t i = 0; i < pixels.size(); ++i) {

@@ -25,7 +25,7 @@ struct SightingErrors {
   CalibrationDeviation calibration = {};
 };
 
-/// The most cameras with a dropout: all 2ⁿ combinations of n cameras are summed up.
+/// The maximum number of cameras if `dropout` is not 0, because all 2ⁿ combinations of n cameras are summed up.
 constexpr std::size_t kMaxDroppingCameras = 10;
 
 /// The numbers of `CalibrationDeviation` for one camera: three turns, three coordinates, one focal length.
@@ -33,12 +33,12 @@ constexpr std::size_t kCalibrationParameters = 7;
 
 /// The expected error of one triangulated point.
 struct PointError {
-  int cameras = 0;           ///< how many have the point in their pictures
+  int cameras = 0;           ///< number of cameras that have the point in their pictures
   double lost = 1;           ///< probability that it cannot be triangulated; the members below hold if it can
   glm::dmat3 covariance{0};  ///< of the position, m²
   glm::dmat3 noise{0};       ///< the part of `covariance` due to the pixels' noise
   /// For each camera, the mean displacement of the position by one standard deviation of each calibration parameter,
-  /// metres. They act on all points of a take, so the errors of different points are correlated.
+  /// metres. A calibration error displaces all points of a take, so the errors of different points are correlated.
   std::vector<std::array<glm::dvec3, kCalibrationParameters>> displacements = {};
 
   /// The root mean square distance from the true position, metres.

@@ -136,7 +136,7 @@ Result<std::vector<NamedCamera>> ReadPose2SimCalibration(std::string_view text) 
   std::string name;
   Keys keys;
   int line = 0, table_line = 0;
-  // Ends a table: adds its camera if it is one.
+  // Ends a table; if the table describes a camera, adds the camera.
   const auto finish = [&]() -> Result<void> {
     const auto ignored = keys.find("ignore");  // Caliscope's
     const bool is_ignored = ignored != keys.end() && ignored->second == "true";

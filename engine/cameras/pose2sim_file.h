@@ -17,11 +17,11 @@ namespace etude {
 /// rotates to Y up are in our world.
 std::string WritePose2SimCalibration(std::span<const NamedCamera> cameras);
 
-/// Reads what WritePose2SimCalibration, Pose2Sim, Anipose, FreeMoCap or Caliscope has written: tables with those keys,
-/// named `[cam_01]` or `[cameras.1]` ("cam_1"), `rotation` as Rodrigues' vector or as a matrix, lists over several
-/// lines. Other tables (`metadata`) and Caliscope's ignored cameras are skipped. The files contain neither unit nor
-/// axes: metres and Pose2Sim's Z up are assumed. Fails, naming line and camera, if a table lacks one of those keys or
-/// its values are not those of a camera.
+/// Reads a file of WritePose2SimCalibration, Pose2Sim, Anipose, FreeMoCap or Caliscope: tables with the keys of
+/// WritePose2SimCalibration, named `[cam_01]` or `[cameras.1]` ("cam_1"), `rotation` as Rodrigues' vector or as a
+/// matrix, lists over several lines. Other tables (`metadata`) and Caliscope's ignored cameras are skipped. The files
+/// contain neither unit nor axes: metres and Pose2Sim's Z up are assumed. Fails, naming line and camera, if a table
+/// lacks one of the keys or its values do not describe a camera.
 Result<std::vector<NamedCamera>> ReadPose2SimCalibration(std::string_view text);
 
 }  // namespace etude

@@ -94,7 +94,7 @@ class Bundle {
     if (targets_.size() > 1) o.linear_solver_ordering = TargetsFirst();
     o.num_threads = 1;
     o.max_num_iterations = options_.most_iterations;
-    // Iterate to the precision of doubles, because the remaining error is compared with that of the corners.
+    // Iterate to the precision of doubles, because the remaining residual is compared with the error of the corners.
     o.function_tolerance = 1e-15;
     o.parameter_tolerance = 1e-14;
     o.gradient_tolerance = 1e-14;
@@ -119,14 +119,14 @@ class Bundle {
     // Scale to a unit diagonal, then test the eigenvalues.
     const Eigen::MatrixXd scaled = scale.cwiseInverse().asDiagonal() * normal * scale.cwiseInverse().asDiagonal();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
-    // Below this ratio, some parameters can change by their whole size without effect.
+    // Below this ratio of the eigenvalues, some combination of parameters hardly affects the residuals.
     constexpr double kSingular = 1e-12;
     if (!(eigen.eigenvalues()[0] > kSingular * eigen.eigenvalues()[scaled.rows() - 1])) {
       Eigen::Index worst = 0;
       eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&worst);
       return Undetermined(static_cast<std::size_t>(worst));
     }
-    // Variances are the diagonal of the inverse, times the variance of the residuals.
+    // The variances are the diagonal of the inverse, times the variance of the residuals.
     const Eigen::MatrixXd inverse =
         eigen.eigenvectors() * eigen.eigenvalues().cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
     const double freedom = 2.0 * static_cast<double>(points_) - static_cast<double>(parameters());
@@ -211,7 +211,7 @@ class Bundle {
   Eigen::MatrixXd NormalMatrix() {
     ceres::Problem::EvaluateOptions evaluate;
     columns_.clear();
-    // List the free parameter blocks in order, with the columns that they have.
+    // List the free parameter blocks in order, with their columns.
     for (std::size_t i = 0; i < intrinsics_.size(); ++i) {
       if (!options_.hold_intrinsics) {
         evaluate.parameter_blocks.push_back(intrinsics_[i].data());

@@ -13,8 +13,8 @@ namespace etude {
 /// The intrinsics of a camera, in the order of the parameter block.
 enum Intrinsic { kFx, kFy, kCx, kCy, kSkew, kK1, kK2, kP1, kP2, kK3, kIntrinsicsCount };
 
-/// Distorts a ray by any lens. T is double or Ceres's Jet, whose derivatives are those of `Distort` by central
-/// differences.
+/// Distorts a ray by any lens. T is double or Ceres's Jet; for a Jet, the derivatives of `Distort` are computed by
+/// central differences.
 template <typename T>
 std::array<T, 2> DistortByAny(const Distortion& lens, const T& x, const T& y) {
   if constexpr (std::is_same_v<T, double>) {
@@ -45,13 +45,13 @@ struct ReprojectionError {
 
   template <typename T>
   bool operator()(const T* intrinsics, const T* camera, const T* target, T* residual) const {
-    // From the target to the world to the camera.
+    // Transform the point from the target to the world, then to the camera.
     std::array<T, 3> in_world = RotateByAngleAxis(target, std::array<T, 3>{T(p_TQ.x), T(p_TQ.y), T(p_TQ.z)});
     for (int i = 0; i < 3; ++i) in_world[i] += target[3 + i];
     std::array<T, 3> in_camera = RotateByAngleAxis(camera, in_world);
     for (int i = 0; i < 3; ++i) in_camera[i] += camera[3 + i];
     if (!(in_camera[2] > T(1e-9))) return false;
-    // Perspective division, distortion, intrinsics.
+    // Apply the perspective division, the distortion and the intrinsics.
     const T x = in_camera[0] / in_camera[2], y = in_camera[1] / in_camera[2];
     const T r2 = x * x + y * y;
     const T gain = 1.0 + r2 * (intrinsics[kK1] + r2 * (intrinsics[kK2] + r2 * intrinsics[kK3]));

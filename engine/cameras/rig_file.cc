@@ -99,7 +99,7 @@ Result<NamedCamera> ReadCamera(const xmlNode* node) {
   if (intrinsic == nullptr) return Fail(place, "camera {} has no intrinsic", name);
   ASSIGN_OR_RETURN(OpenCvParameters p, InsideOf(node, intrinsic));
   Numbers of(transform);
-  // Row by row: the camera's axes (x right, y up, z backwards) in QTM's world, whose z is up.
+  // The rows of the matrix are the camera's axes (x right, y up, z backwards) in QTM's world, which has Z up.
   const glm::dvec3 right(of["r11"], of["r12"], of["r13"]), up(of["r21"], of["r22"], of["r23"]),
       behind(of["r31"], of["r32"], of["r33"]);
   constexpr double kMetresPerMm = 0.001;
@@ -228,7 +228,7 @@ const glm::dmat3 kYUpOfZUp(0, 0, 1, 1, 0, 0, 0, 1, 0);  // (x, y, z) of the file
 Result<RigFile> Read(std::string_view text, const std::string& file) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return Fail({}, "nothing in it");
-  // XML.
+  // XML: Qualisys.
   if (text[first] == '<') {
     ASSIGN_OR_RETURN(auto cameras, ReadQualisysCalibration(text));
     return RigFile{std::move(cameras), "Qualisys", kYUpOfZUp, 0.001};
@@ -249,7 +249,7 @@ Result<RigFile> Read(std::string_view text, const std::string& file) {
     ASSIGN_OR_RETURN(const Camera camera, ReadCamera(root, true));
     return RigFile{{{"camera", camera}}, "OpenCV's YAML"};
   }
-  // TOML.
+  // TOML: Pose2Sim and its relatives.
   if (text[first] == '[' || text.find("\n[") != std::string_view::npos) {
     ASSIGN_OR_RETURN(auto cameras, ReadPose2SimCalibration(text));
     return RigFile{

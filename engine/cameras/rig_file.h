@@ -38,7 +38,7 @@ struct RigFile {
 };
 
 /// Reads a rig from one file. The format is recognised by its content:
-/// - what WriteRig has written, or one camera as written by OpenCV (WriteOpenCvCamera), named "camera";
+/// - a file of WriteRig, or one camera in OpenCV's format (WriteOpenCvCamera), which is named "camera";
 /// - TOML of Pose2Sim, Anipose, FreeMoCap or Caliscope (ReadPose2SimCalibration);
 /// - XML of Qualisys Track Manager (ReadQualisysCalibration).
 /// Fails with the place, what was found and what is allowed; refuses more than 64 cameras or 1 MiB.

@@ -34,7 +34,7 @@ Result<std::vector<double>> MatrixAt(const Node& camera, std::string_view key, s
 
 namespace {
 
-/// Rotates a world with Z up, or one that is a camera's frame, into ours.
+/// Rotates a world with Z up, or a world that is a camera's frame, into ours.
 const glm::dmat3 kOursOfZUp(0, 0, 1, 1, 0, 0, 0, 1, 0);
 
 /// Makes the camera in our world; its picture size is 0 x 0 if the file has none.
@@ -103,7 +103,8 @@ struct ColmapLine {
   std::vector<std::string> words;
 };
 
-/// Returns the lines that are not comments, including empty lines, because an image may have no points.
+/// Returns the lines that are not comments. Empty lines are kept, because the second line of an image without points is
+/// empty.
 std::vector<ColmapLine> LinesOf(std::string_view text) {
   std::vector<ColmapLine> lines;
   for (int number = 1; !text.empty(); ++number) {

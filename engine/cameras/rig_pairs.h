@@ -15,7 +15,7 @@ namespace etude {
 Result<std::vector<double>> MatrixAt(const Node& camera, std::string_view key, std::size_t rows, std::size_t columns);
 
 /// Reads EasyMocap's pair: `names`, `K_<name>`, `dist_<name>` (and `H_`, `W_`) from the intrinsics; `Rot_<name>` or
-/// `R_<name>`, `T_<name>` from the extrinsics. The world is that of its chessboard, Z up, in metres.
+/// `R_<name>`, `T_<name>` from the extrinsics. The world is the frame of EasyMocap's chessboard, Z up, in metres.
 Result<RigFile> ReadEasyMocap(const Node& intrinsics, const Node& extrinsics);
 
 /// Reads OpenCV's stereo pair: M1, D1, M2, D2 from the intrinsics; R and T, which map from the first camera's frame to
@@ -24,7 +24,8 @@ Result<RigFile> ReadEasyMocap(const Node& intrinsics, const Node& extrinsics);
 Result<RigFile> ReadOpenCvStereo(const Node& intrinsics, const Node& extrinsics);
 
 /// Reads COLMAP's text model with one image for each camera; the image's name, without folder and extension, becomes
-/// the camera's name. As ours, COLMAP's first pixel has its centre at (0.5, 0.5). Its lengths have no unit.
+/// the camera's name. The centre of COLMAP's first pixel is (0.5, 0.5), as in our coordinates. COLMAP's lengths have no
+/// unit.
 Result<RigFile> ReadColmap(std::string_view cameras, std::string_view images);
 
 }  // namespace etude

@@ -76,8 +76,9 @@ Consensus ConsensusOf(const DistanceOfView& distances, double tolerance_px, std:
   return consensus;
 }
 
-// Returns the best consensus over all pairs. `distances_by(i, j)` returns the distances of all views from the point of
-// views i and j, or nullopt.
+// Returns the consensus with the largest weight over all pairs of views; all views if there are fewer than three or no
+// pair has a consensus. `distances_by(i, j)` returns the distances of all views from the point of views i and j, or
+// nullopt.
 template <typename DistancesBy>
 std::vector<std::size_t> LargestConsensus(std::size_t count, double tolerance_px, std::span<const double> weights,
                                           const DistancesBy& distances_by) {

@@ -32,15 +32,16 @@ struct LikeliestPoint {
 };
 
 /// Finds the position that minimises Σ rᵀ Λ r, by five Gauss–Newton steps from paper B's linear solution
-/// (`Triangulate`). Returns nullopt if that fails, or if a step leaves the space in front of the cameras.
+/// (`Triangulate`). Returns nullopt if the linear solution fails, or if a step leaves the space in front of the
+/// cameras.
 std::optional<LikeliestPoint> TriangulateLikeliest(std::span<const InformedSighting> sightings);
 
 /// Finds the sightings of one point that agree with each other *(ours)*. Every pair of sightings triangulates a point;
-/// the sightings within `tolerance_px` of its projections agree with it. The set with the largest total weight is
-/// returned; among sets of equal weight, the one with the smallest (weighted) mean square distance from its point. All
-/// pairs are tried, so no random numbers are needed: n views cost n²/2 triangulations (the consensus of Fischler and
-/// Bolles 1981, without sampling). With three sightings, one outlier can be detected only by its distance from the
-/// epipolar lines of the other two.
+/// the sightings within `tolerance_px` of the point's projections agree with the pair. Returns the agreeing set with
+/// the largest total weight; among sets of equal weight, the one with the smallest (weighted) mean square distance from
+/// its point. This is the consensus of Fischler and Bolles (1981) without sampling: all pairs are tried, so no random
+/// numbers are needed, and n views cost n²/2 triangulations. With three sightings, one outlier can be detected only by
+/// its distance from the epipolar lines of the other two.
 /// @param weights the confidence of each sighting, above 0; empty: all equal
 /// @return their indices, ascending; all indices if there are fewer than three, or if no pair gives a point
 std::vector<std::size_t> AgreeingViews(std::span<const Sighting> sightings, double tolerance_px,
@@ -68,9 +69,8 @@ struct RobustPoint {
 
 /// Triangulates a point from sightings of which some may be outliers *(ours)*. The start is the set of agreeing views
 /// (`AgreeingViews`, weighted). The position minimises Σ w · d², where d is the distance in the picture
-/// (`TriangulateLikeliest`); views that enter or leave `outlier_px` around it are then added or removed, and the
-/// position is computed again, at most three times. Returns nullopt if no two sightings agree. If there are only two
-/// sightings, both must agree.
+/// (`TriangulateLikeliest`). Then the set becomes all sightings within `outlier_px` of the position's projections, and
+/// the position is computed again, at most three times. Returns nullopt if fewer than two sightings agree.
 std::optional<RobustPoint> TriangulateRobustly(std::span<const WeightedSighting> sightings,
                                                const RobustOptions& options = {});
 

@@ -25,7 +25,8 @@ double ResidualPx(std::span<const Sighting> sightings, const glm::dvec3& p_WQ) {
   return std::sqrt(squares / static_cast<double>(sightings.size()));
 }
 
-// Returns the distance from the camera's plane in the unit of the world; it does not depend on the scale of H.
+// Returns the distance of a point from the camera's plane in the unit of the world; the distance does not depend on the
+// scale of H.
 double DepthOf(const ProjectionMatrix& matrix, const glm::dvec3& p_WQ) {
   const auto& h3 = matrix.h[2];
   const double scale = std::sqrt(h3[0] * h3[0] + h3[1] * h3[1] + h3[2] * h3[2]);

@@ -64,8 +64,8 @@ TakeBody MakeTakeBody(const LimbLengths& lengths) {
 
 namespace {
 
-/// Returns one state per frame. A frame without a state gets the one before it, a leading frame the first one. Returns
-/// an empty list if no frame has a state.
+/// Returns one state per frame. A frame whose joints give no state takes the state of the frame before it; leading
+/// frames take the first state. Returns an empty list if no frame gives a state.
 std::vector<TreeState> StartOf(const CaptureBody& body, std::span<const OptionalJoints> joints) {
   const BodyPose standing = ToBodyPose(body, StandingState(body.tree));
   std::vector<TreeState> states;
@@ -131,7 +131,7 @@ namespace {
 
 using enum Role;
 
-/// A length of LimbLengths and the two joints whose distance it is; both sides of the body are used.
+/// A length of LimbLengths and the two joints between which it is measured, on both sides of the body.
 struct LengthBetween {
   double LimbLengths::*length;
   Role a, b;
@@ -169,7 +169,7 @@ LimbLengths MedianLengths(std::span<const OptionalJoints> frames) {
   const auto set = [&](double LimbLengths::*length, std::vector<double> found) {
     if (const auto median = MedianOf(std::move(found)); median && *median > 0) lengths.*length = *median;
   };
-  // Lengths between two joints.
+  // Measure the lengths between two joints.
   for (const auto& [length, a, b] : kBetween) {
     std::vector<double> found;
     for (const OptionalJoints& joints : frames) {
@@ -181,7 +181,7 @@ LimbLengths MedianLengths(std::span<const OptionalJoints> frames) {
     }
     set(length, std::move(found));
   }
-  // Trunk and neck, from the midpoints of hips and shoulders.
+  // Measure trunk and neck from the midpoints of hips and shoulders.
   std::vector<double> trunks, necks;
   for (const OptionalJoints& joints : frames) {
     const auto hips = MiddleOf(joints, kLeftHip, kRightHip),

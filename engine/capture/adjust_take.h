@@ -18,15 +18,15 @@ namespace etude {
 /// Paper B's body in the form that bundle adjustment compares with marks.
 struct TakeBody {
   CaptureBody body;  ///< `PaperBody`
-  /// The same body for `AdjustBundle`: every role that a mark can show is a point; its lengths are those of LimbLengths
-  /// in that order, equal on both sides.
+  /// The same body for `AdjustBundle`: every role that a mark can show is a point; its lengths are the members of
+  /// LimbLengths in their order, equal on both sides.
   MeasurableBody measurable;
   std::array<int, kRoleCount> points{};  ///< of each role: its index in `measurable.points`, −1 if no mark shows it
 };
 
 TakeBody MakeTakeBody(const LimbLengths& lengths);
 
-/// Conversions between LimbLengths and the lengths of such a body.
+/// These convert between LimbLengths and the list of lengths in `TakeBody::measurable`.
 LimbLengths LimbLengthsOf(std::span<const double> lengths);
 std::array<double, 10> ListOf(const LimbLengths& lengths);
 
@@ -48,12 +48,12 @@ struct AdjustedTake {
   std::vector<TreeState> states;  ///< of `body`, one per frame
 };
 
-/// Adjusts a whole take at once (`AdjustBundle`): paper B's body in every frame against every mark of every picture.
-/// The search starts at the angles that point the limbs along the joints of `start` (`FindStartState`); a frame without
-/// such angles takes those of a neighbouring frame. `is_solved` is false if no frame shows a body.
+/// Adjusts a whole take at once (`AdjustBundle`): fits paper B's body in all frames to the marks of all pictures. The
+/// search starts at the angles that point the limbs along the joints of `start` (`FindStartState`); a frame without
+/// such angles starts at those of a neighbouring frame. `is_solved` is false if no frame shows a body.
 AdjustedTake AdjustTake(const AdjustTakeInputs& inputs, const AdjustTakeOptions& options = {});
 
-/// Returns the smoothness terms for a motion at this frame rate: they apply to hips, shoulders, wrists, ankles and all
+/// Returns the smoothness prior for a motion at this frame rate; it applies to hips, shoulders, wrists, ankles and all
 /// angles.
 BundleSmoothness SmoothnessOf(const TakeBody& body, double rate_hz);
 
@@ -65,7 +65,7 @@ struct MeasureLengthsOptions {
 };
 
 /// Measures the limb lengths of the person in the pictures (future work in paper B, section 6.2.2): the lengths with
-/// which paper B's body best explains the marks of a few frames; each frame has an independent pose (`AdjustBundle`
+/// which paper B's body best explains the marks of a few frames. Each frame has an independent pose (`AdjustBundle`
 /// over lengths and poses). The search starts at the medians of the distances between triangulated joints. Returns
 /// nothing if no frame shows a body or a length of the solution is not positive.
 /// @param measured the joints of every frame (`MeasureJoints`)

@@ -10,8 +10,8 @@
 namespace etude {
 namespace {
 
-// Interpolates along the great circle between two unit vectors; for nearly equal or opposite vectors it returns the one
-// nearer in time instead.
+// Interpolates along the great circle between two unit vectors. For nearly equal or opposite vectors it returns the
+// vector that is nearer in time.
 glm::dvec3 SlerpDirections(const glm::dvec3& from, const glm::dvec3& to, double share) {
   const double angle = AngleBetween(from, to);
   constexpr double kNearlyEqual = 1e-6;
@@ -54,7 +54,8 @@ std::optional<glm::dvec3> DirectionAcrossSight(std::span<const StrokePlane> plan
   return sum / length;
 }
 
-// Returns the unit vector that minimises the sum of squares in the header.
+// Returns the direction d that minimises the sum of squares given at `BridgeGaps`, normalised after an unconstrained
+// solution.
 glm::dvec3 FuseDirection(std::span<const StrokePlane> planes, const Bridged& bridged, const BridgeOptions& options) {
   const double turn = options.turn_per_frame * bridged.distance;
   glm::dmat3 squares(1 / (turn * turn));

@@ -11,9 +11,9 @@
 namespace etude {
 
 struct BridgeOptions {
-  /// The number of frames before and after a measurement in which it is used. 15 is half a second at 30 Hz; after a
-  /// longer time a limb can be anywhere. Scale it with the frame rate. If only every n-th frame is marked, set it to at
-  /// least n.
+  /// A measurement is used at most this many frames before and after its own frame. 15 is half a second at 30 Hz; after
+  /// a longer time a limb can be anywhere. Scale it with the frame rate. If only every n-th frame is marked, set it to
+  /// at least n.
   int max_gap = 15;
   /// The standard deviation of a stroke's end, pixels. Only its ratio to `turn_per_frame` matters, and only for limbs
   /// whose strokes alone give no direction.

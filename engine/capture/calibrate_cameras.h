@@ -26,13 +26,13 @@ Result<std::vector<ProjectionMatrix>> CalibrateCameras(std::span<const std::vect
                                                        const CalibrationOptions& options = {});
 
 /// Calibrates every camera with its lens distortion by minimising the squared reprojection error (`RefineCamera`).
-/// Fails as above.
+/// Fails like `CalibrateCameras`.
 /// @param sizes the picture size of each camera
 Result<std::vector<Camera>> RefineCameras(std::span<const std::vector<PointPair>> pairs,
                                           std::span<const PictureSize> sizes, const RefineOptions& options = {});
 
-/// Returns the marks as the camera would show them without lens distortion, as `MeasureInputs` expects beside
-/// `MatrixOf`. A mark outside the field of the lens is left out.
+/// Returns the marks as the camera would show them without lens distortion: together with `MatrixOf`, they are the
+/// input of `MeasureInputs`. A mark outside the field of the lens is left out.
 Marks UndistortMarks(const Camera& camera, const Marks& marks);
 
 }  // namespace etude

@@ -92,7 +92,7 @@ PoseFitter::PoseFitter(const CaptureBody& body)
     children_[tree_.joints[i].parent].push_back(static_cast<int>(i));
 }
 
-// Collects the known roles beyond a limb: on every way outwards, the first one.
+// Collects, along every chain of limbs outwards from a limb, the first role that has a target.
 void PoseFitter::AddAims(int limb, const glm::dvec3& p_LJ, const glm::dmat3& R_LJ, int beyond,
                          const PoseTargets& wanted, std::vector<Aim>& aims) const {
   bool is_met = false;
@@ -107,14 +107,14 @@ void PoseFitter::AddAims(int limb, const glm::dvec3& p_LJ, const glm::dmat3& R_L
     const bool is_seen = std::ranges::any_of(aims, [&](const Aim& aim) {
       return aim.is_on_limb && glm::distance(aim.p_LQ, p_LJ + R_LJ * joint.p_PJ) < 1e-6;
     });
-    // Limbs beyond a known joint do not constrain this one.
+    // If the joint at the child's beginning has a target, the limbs behind it do not constrain this limb.
     if (!is_seen) AddAims(limb, p_LJ + R_LJ * joint.p_PJ, R_LJ * joint.R_PJ, child, wanted, aims);
   }
 }
 
-// Returns the axes of a limb if there are joints without targets between it and the next known joint. The limb and the
-// rest of the way are two sides of a triangle; the third side is the distance to the known joint. The chain bends to
-// the same side as at rest; if it is straight at rest, like a back, it bends backwards.
+// Returns the axes of a limb whose chain to the next known joint contains joints without targets. The limb and the rest
+// of the chain are two sides of a triangle; the third side is the distance to the known joint. The chain bends to the
+// same side as at rest; if it is straight at rest, like a back, it bends backwards.
 glm::dmat3 PoseFitter::BendTowards(int limb, const Aim& aim, const glm::dvec3& to_W, const glm::dmat3& R_WL,
                                    const glm::dvec3& back_W, int mirrored) const {
   glm::dvec3 p_LT(0);  // the end of the limb from which the chain leads to the known joint
@@ -124,7 +124,7 @@ glm::dmat3 PoseFitter::BendTowards(int limb, const Aim& aim, const glm::dvec3& t
   }
   const double own = glm::length(p_LT), rest = glm::distance(p_LT, aim.p_LQ), whole = glm::length(to_W);
   if (own < kTinyM || rest < kTinyM || whole < kTinyM) return R_WL;
-  // Law of cosines: the angle between the limb and the line to the known joint.
+  // The law of cosines gives the angle between the limb and the line to the known joint.
   const double cosine = (own * own + whole * whole - rest * rest) / (2 * own * whole);
   const glm::dvec3 along = to_W / whole;
   glm::dvec3 side = R_WL * p_LT;
@@ -160,12 +160,12 @@ glm::dmat3 PoseFitter::TurnTowards(int limb, const glm::dvec3& p_WL, const glm::
     }
     return R_WL;
   }
-  // Joints without targets in between: bend them.
+  // If joints without targets lie between the limb and its target, bend the chain.
   if (!main->is_on_limb) {
     bent.push_back(limb);
     return BendTowards(limb, *main, wanted.places[main->role] - p_WL, R_WL, -Facing(wanted.places), mirrored);
   }
-  // Otherwise turn about the direction to fit all known roles.
+  // Otherwise turn about the direction so that all known roles fit best.
   std::vector<glm::dvec3> now, then;
   for (const Aim& aim : aims) {
     now.push_back(R_WL * aim.p_LQ);
@@ -181,7 +181,7 @@ PoseFitter::Pointed PoseFitter::Point(const PoseTargets& wanted, int mirrored) c
            std::vector<double>(tree_.limits.size(), 0.0)};
   std::vector<LimbFrame> limbs(tree_.joints.size());
   limbs[0] = {state.root_position, state.root_frame};
-  // From the root outwards: axes of each limb, then its angles within the limits.
+  // From the root outwards, compute the axes of each limb, then its angles within the limits.
   for (std::size_t i = 1; i < limbs.size(); ++i) {
     const TreeJoint& joint = tree_.joints[i];
     const LimbFrame& X_WP = limbs[joint.parent];

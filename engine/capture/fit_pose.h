@@ -26,13 +26,14 @@ struct PoseFit {
   double squares = 0;
 };
 
-/// Finds poses of one body from the positions of its joints. *(Ours.)* First, from the root outwards, every limb points
-/// to the next known joints, with its twist given by elbows and knees (`CaptureBody::Twist`). Then Gauss–Newton steps
-/// minimise the distances of all roles to their targets together; angles that no target determines keep their values of
-/// the first step. If the targets are a pose of the body, that pose is found exactly, as far as positions determine it.
+/// Finds poses of one body from the positions of its joints. *(Ours.)* In the first step, from the root outwards, every
+/// limb points to the next known joints; elbows and knees determine the twist of their upper limbs
+/// (`CaptureBody::Twist`). Then Gauss–Newton steps minimise the distances of all roles to their targets together;
+/// angles that no target determines keep their values of the first step. If the targets are a pose of the body, that
+/// pose is found exactly, as far as positions determine it.
 class PoseFitter {
  public:
-  /// `body` must outlive this.
+  /// `body` must outlive this object.
   explicit PoseFitter(const CaptureBody& body);
   PoseFitter(const PoseFitter&) = delete;
   PoseFitter& operator=(const PoseFitter&) = delete;
@@ -47,15 +48,15 @@ class PoseFitter {
   TreeState Improve(const PoseTargets& wanted, const TreeState& state) const;
 
  private:
-  /// The first known role on a way outwards from a limb, and its position relative to the limb when all angles beyond
-  /// the limb are zero.
+  /// The first role with a target on a chain outwards from a limb, and its position relative to the limb when all
+  /// angles beyond the limb are zero.
   struct Aim {
     Role role;
     glm::dvec3 p_LQ{0};
     bool is_on_limb = false;
   };
 
-  /// Result of the first step: the pose, and the limbs that end in a bent joint without a target.
+  /// The result of the first step: the pose, and the limbs whose chain was bent at a joint without a target.
   struct Pointed {
     TreeState state;
     std::vector<int> bent;

@@ -8,8 +8,8 @@
 namespace etude {
 namespace {
 
-/// Removes one mark of one frame from the pictures that disagree about it. `mark_of(camera)` returns a reference to the
-/// mark.
+/// Removes a mark of one frame from every picture in which it disagrees with the other pictures. `mark_of(camera)`
+/// returns a reference to the mark.
 template <typename View, typename MarkOf>
 void KeepAgreeing(std::span<const ProjectionMatrix> cameras, double tolerance_px, const MarkOf& mark_of) {
   std::vector<View> views;

@@ -22,8 +22,7 @@ glm::dmat2 InformationOfEnd(const PixelSegment& stroke, const MarkErrors& errors
   return glm::outerProduct(t, t) / (along * along) + glm::outerProduct(n, n) / (across * across);
 }
 
-// Returns true if the role has a disc. A disc covers the end of its limb's stroke, so the stroke that is read is too
-// short.
+// Returns true if the role has a disc. A disc covers the end of its limb's stroke, so the visible stroke is too short.
 bool HasDisc(const Marks& marks, Role role) {
   for (std::size_t i = 0; i < kEffectorCount; ++i) {
     if (EffectorMarks()[i].role == role) return marks.effectors[i].has_value();
@@ -108,7 +107,7 @@ std::optional<PointMeasurement> OnSightLine(const InformedSighting& seen, const 
   const glm::dvec3 position = NearestOn(*line, near_W);
   const auto sum = PointEquationsAt({&seen, 1}, position);
   if (!sum) return std::nullopt;
-  // Metres *(ours)*: neighbouring frames do not determine the depth more accurately.
+  // Metres *(ours)*: the depth taken from neighbouring frames is not more accurate than this.
   constexpr double kDepthError = 0.15;
   const glm::dmat3 depth = glm::outerProduct(line->direction_W, line->direction_W) / (kDepthError * kDepthError);
   return PointMeasurement{position, sum->information + depth};

@@ -24,8 +24,8 @@ std::optional<Start> PaperStart(const CaptureBody& body, const LimbObservation& 
   return Start{*fixed, FindStartState(body.tree, *fixed, body.tree.limits)};
 }
 
-// Computes the positions of all joints that follow from an end and the limb directions inwards from it (paper B, figure
-// 3.2(a)), and the midpoint of the hips.
+// Computes target positions by following the observed limb directions inwards from every end (paper B, figure 3.2(a)),
+// and the midpoint of the hips.
 PoseTargets TargetsFromEnds(const CaptureBody& body, const LimbObservation& seen) {
   constexpr double kUnseen = 0.01;  // weight of completed positions
   constexpr double kBent = 0.1;     // weight of positions beyond a joint whose bend is not observed
@@ -58,7 +58,7 @@ std::optional<Start> FittedStart(const CaptureBody& body, const PoseFitter& fitt
   return Start{ToBodyPose(body, last->state), last->state};
 }
 
-// Returns the errors of the effectors whose ends were seen.
+// Returns the errors of those effectors whose ends were seen.
 std::vector<EffectorError> ErrorsSeen(const CaptureBody& body, const LimbObservation& seen,
                                       const std::vector<EffectorError>& errors) {
   std::vector<EffectorError> kept;

@@ -25,7 +25,8 @@ struct RecoverInputs {
   /// Empty, or one flag per frame: true if the frame itself was marked. In a marked frame the solver starts at the
   /// angles that the pictures show, in any other frame at the angles of the last frame.
   std::vector<bool> marked = {};
-  /// Empty, or one per frame: true starts or true poses that replace the results of that stage, to measure its cost.
+  /// Empty, or one per frame: true start angles or true poses. They replace the result of the start stage or of the
+  /// solver, to measure the cost of that stage.
   std::vector<TreeState> known_starts = {}, known_poses = {};
 };
 
@@ -55,16 +56,16 @@ struct RecoveredFrame {
 /// earlier frame.
 std::vector<std::optional<RecoveredFrame>> RecoverFrames(const RecoverInputs& inputs, const RecoverOptions& options);
 
-/// True start or true pose of one frame, if the caller has them; they replace the results of that stage, to measure its
-/// cost.
+/// The true start or true pose of one frame, if known. It replaces the result of the start stage or of the solver, to
+/// measure the cost of that stage.
 struct KnownAngles {
   std::optional<TreeState> start, pose;
 };
 
-/// Recovers frame after frame as `RecoverFrames` does, for callers that need each frame at once.
+/// Recovers the frames one by one, with the results of `RecoverFrames`, for callers that need each frame at once.
 class FrameRecovery {
  public:
-  /// `body` must outlive this.
+  /// `body` must outlive this object.
   FrameRecovery(const CaptureBody& body, const RecoverOptions& options);
   FrameRecovery(const FrameRecovery&) = delete;
   FrameRecovery& operator=(const FrameRecovery&) = delete;
@@ -88,14 +89,15 @@ class FrameRecovery {
 /// not be empty.
 std::vector<RecoveredFrame> HoldFrames(std::span<const std::optional<RecoveredFrame>> frames);
 
-/// Converts the motion to a clip that WriteBvh can write: metres, Y up. `body` must be the one it was recovered with.
+/// Converts the motion to a clip that WriteBvh can write: metres, Y up. `body` must be the body with which `frames`
+/// were recovered.
 Clip ToClip(const CaptureBody& body, std::span<const RecoveredFrame> frames, double rate_hz, const std::string& name);
 
-/// Recovers a motion live: each skeleton comes from the marks up to its frame. Values that a frame lacks come from the
-/// frames before it (`BridgeLast`); later frames do not correct it.
+/// Recovers a motion live: each skeleton is computed from the marks up to its frame. Values that a frame lacks come
+/// from the frames before it (`BridgeLast`); later frames do not correct it.
 class LiveRecovery {
  public:
-  /// `body` must outlive this.
+  /// `body` must outlive this object.
   LiveRecovery(const CaptureBody& body, const RecoverOptions& recover, const BridgeOptions& bridge);
 
   /// Takes the next marked frame and returns its skeleton, or nothing while too little has been seen.
@@ -104,7 +106,7 @@ class LiveRecovery {
  private:
   const BridgeOptions bridge_;
   FrameRecovery recovery_;
-  std::vector<FrameMeasurement> latest_;  ///< the frames that can be bridged
+  std::vector<FrameMeasurement> latest_;  ///< the last frames, as many as BridgeLast uses
 };
 
 }  // namespace etude

@@ -17,7 +17,8 @@ struct ParabolaMinimum {
 };
 
 std::optional<ParabolaMinimum> FitParabola(const std::function<std::optional<double>(int offset)>& misfit, int frame) {
-  // Frames on either side: farther away, the misfit is not a parabola; with fewer frames, noise matters more.
+  // The parabola is fitted to this many frames on either side: farther away, the misfit is not a parabola; with fewer
+  // frames, noise matters more.
   constexpr int kReach = 2;
   double count = 0, x2 = 0, x4 = 0, f = 0, xf = 0, x2f = 0;
   for (int x = -kReach; x <= kReach; ++x) {
@@ -26,7 +27,7 @@ std::optional<ParabolaMinimum> FitParabola(const std::function<std::optional<dou
     count += 1, x2 += x * x, x4 += x * x * x * x;
     f += *here, xf += x * *here, x2f += x * x * *here;
   }
-  // Least squares of f + slope · x + bend · x².
+  // Fit f + slope · x + bend · x² by least squares.
   const double bend = (count * x2f - x2 * f) / (count * x4 - x2 * x2), slope = xf / x2;
   if (!(bend > 0)) return std::nullopt;
   const double shift = std::clamp(-0.5 * slope / bend, -1.0, 1.0);
@@ -38,7 +39,7 @@ std::optional<ParabolaMinimum> FitParabola(const std::function<std::optional<dou
 ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& misfit, int max_frames) {
   const std::optional<double> assumed = misfit(0);
   if (!assumed) return {};
-  // The best whole frame, then the minimum of the parabola around it.
+  // Find the best whole frame, then the minimum of the parabola around it.
   int best = 0, evaluated = 0;
   double min_misfit = *assumed, sum = 0;
   for (int offset = -max_frames; offset <= max_frames; ++offset) {
@@ -53,7 +54,8 @@ ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& m
   const ParabolaMinimum minimum = FitParabola(misfit, best).value_or(ParabolaMinimum{});
   // If the improvement over offset 0 is this small, nobody moved.
   constexpr double kNoBetter = 0.001, kNothing = 1e-4;  // a share of the misfit; squared pixels
-  // If there are at least 300 distances, noise alone stays below this ratio.
+  // Noise alone does not make the ratio of the mean misfit to the minimum this large if there are at least 300
+  // distances.
   constexpr double kTold = 1.25;
   const bool is_better = *assumed - min_misfit + minimum.gain > kNothing + kNoBetter * *assumed;
   const bool is_told = std::abs(best) < max_frames && sum / evaluated > kNothing + kTold * (min_misfit - minimum.gain);

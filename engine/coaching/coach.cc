@@ -9,8 +9,8 @@
 namespace etude {
 namespace {
 
-/// Distances of the hand tips in metres (ours): a Kinect's hands have errors of about 5 cm while moving, and palms are
-/// thick.
+/// Distances between the hand tips at which hands count as together and as apart, metres (ours): a Kinect's hands have
+/// errors of about 5 cm while moving, and palms are thick.
 constexpr double kTogether = 0.15, kApart = 0.4;
 constexpr int kTogetherFrames = 2, kSwingFrames = 15;
 

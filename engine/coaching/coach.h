@@ -39,15 +39,15 @@ struct StillnessState {
   int frames = 0;  ///< all frames since the counts began
 };
 
-/// Takes one frame at 30 Hz, and returns true if the body is seen and moves.
+/// Takes one frame at 30 Hz. Returns true if the body is seen and moves.
 bool SeeMotion(const SensedFrame& frame, StillnessState& state);
 /// Restarts the counts but keeps the joints' rest positions.
 void ResetCounts(StillnessState& state);
 
 /// The settings of a coach. Times are in seconds; values are ours where paper A gives none.
 struct CoachOptions {
-  /// The evidence at which a performance counts as right, in (0, 1]. It depends on the recogniser. To compare
-  /// recognisers, tune it so that their false-alarm rates are equal.
+  /// The evidence at which a performance counts as right, in (0, 1]. The right value depends on the recogniser: to
+  /// compare recognisers, choose values that give equal false-alarm rates.
   double right_from = 0.5;
   /// The delay of windows after the coach's repetition, because learners follow with a lag.
   double reaction_s = 0.3;
@@ -78,11 +78,11 @@ struct CoachOptions {
 /// The input of one frame.
 struct CoachInput {
   SeenFrame seen;  ///< the player; mirrored if players mirror the coach
-  /// From a follower that was asked for the move of the window in the last step's output.
+  /// The evidence from the follower that was asked for the move of the open window.
   Evidence evidence = {};
   std::optional<double> other_side = {};  ///< Evidence::asked for the mirror image, if it is computed
   std::optional<double> music_s = {};     ///< what is heard now, in seconds of the song; empty without music
-  /// For policy `oracle`: whether the requested performance was right; read in its last frame.
+  /// For policy `oracle`: true if the requested performance was right. It is read in the last frame of the performance.
   std::optional<bool> told_right = {};
   bool moment = false;  ///< for policy `yoked`: correct now, or as soon as the dance can be interrupted
 };
@@ -100,7 +100,7 @@ struct CoachState {
   StillnessState stillness;
   std::int64_t idle_since = 0;  ///< the last frame in which somebody took part
   PlayerHint stand = PlayerHint::kNone;
-  int stand_frames = 0;  ///< for how many frames another hint has been due
+  int stand_frames = 0;  ///< number of frames for which a hint other than the current one has been due
 
   // The dance.
   bool music_plays = false;
@@ -139,7 +139,7 @@ class Coach {
     std::vector<double> settings;  ///< one per setting of the policy; empty means the defaults
   };
 
-  /// Makes a coach. `transitions` must outlive it.
+  /// Makes a coach. `transitions` must outlive the coach.
   Coach(const DanceTransitions& transitions, const CoachOptions& options, PolicyChoice policy);
 
   const Dance& dance() const { return transitions_.dance(); }
@@ -150,8 +150,8 @@ class Coach {
   /// Returns a state in the dance's first frame, as after a clap.
   CoachState BeginDancing() const;
 
-  /// Plans the most likely transitions in advance, so that no frame of a live session waits for them: from every
-  /// window's end into every corrective act, and onwards from there. This does not change any result.
+  /// Plans the most likely transitions in advance, so that no frame of a live session waits for their planning: from
+  /// every window's end into every corrective act, and onwards from there. This does not change any result.
   void PlanAhead() const;
 
   /// Processes one frame. This is a pure function: the same inputs give the same outputs.

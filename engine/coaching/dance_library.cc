@@ -11,13 +11,13 @@
 namespace etude {
 namespace {
 
-/// How many frames after the beginning of the next repetition a leaving clip contains: enough for a window to close,
+/// A leaving clip contains this many frames after the beginning of the next repetition: enough for a window to close,
 /// for the longest wait of a transition, and for a join.
 constexpr std::size_t kLeavingFrames = 60;
-/// How many frames of an act an entering clip contains: half a second and the longest join.
+/// An entering clip contains this many frames of its act: half a second and the longest join.
 constexpr std::size_t kEnteringFrames = 15 + 30 + 1;
-/// How many frames before and after the beginning of a repetition a returning clip contains: a lead-in, so that players
-/// are already moving when the repetition begins, and the longest join.
+/// A returning clip contains this many frames before and after the beginning of its repetition: a lead-in, so that
+/// players are already moving when the repetition begins, and the longest join.
 constexpr std::size_t kBeforeFrames = 45, kIntoFrames = 30;
 
 BodyMotion Excerpt(const BodyMotion& motion, std::size_t first, std::size_t end) {
@@ -47,7 +47,7 @@ Result<DanceLibrary> DanceLibrary::Make(Dance dance) {
   for (const CoachAct& act : dance.acts) clips.Add(act.name, act.motion);
   for (const DanceMove& move : dance.moves) clips.Add("slow_" + move.name, move.slow);
 
-  // Add the excerpts of the dance that are left, one per repetition and one for the song's beginning.
+  // Add the excerpts at which transitions leave the dance, one per repetition and one for the song's beginning.
   const std::size_t frames = dance.motion.poses.size();
   const int count = static_cast<int>(dance.repetitions.size());
   const auto first_of = [&](int repetition) {
@@ -60,7 +60,7 @@ Result<DanceLibrary> DanceLibrary::Make(Dance dance) {
     clips.Add("dance from " + std::to_string(first), Excerpt(dance.motion, first, end));
     made.dance_frames_.push_back(first);
   }
-  // Add the beginnings of the acts and demonstrations, which are entered.
+  // Add the beginnings of the acts and demonstrations, at which transitions enter them.
   const std::size_t wholes = dance.acts.size() + dance.moves.size();
   for (std::size_t whole = 0; whole < wholes; ++whole) {
     clips.Add(clips.names[whole],

@@ -28,18 +28,18 @@ class DanceLibrary {
   /// clips.
   int ClipOfAct(std::string_view act) const;
   int ClipOfSlow(int move) const;
-  /// Returns the clip from which transitions leave the dance after this repetition's beginning, until some time into
-  /// the next repetition. The last one extends to the song's end.
+  /// Returns the excerpt of the dance from this repetition's beginning until some time into the next repetition; for
+  /// the last repetition, to the song's end. Transitions leave the dance from this clip.
   int ClipLeaving(int repetition) const;
-  /// Returns the beginning of a whole act or slow demonstration. Transitions enter this clip, so that they cannot skip
-  /// the main part.
+  /// Returns a clip of only the beginning of an act or slow demonstration, whose index is `whole`. Transitions enter
+  /// this clip, so that they cannot skip the main part.
   int ClipEntering(int whole) const;
-  /// Returns the clip through which transitions enter the dance at a repetition; it extends from some time before the
-  /// repetition's beginning to some time after it.
+  /// Returns the excerpt of the dance from some time before a repetition's beginning to some time after it. Transitions
+  /// return to the dance through this clip.
   int ClipReturning(int repetition) const;
 
-  /// Returns the clip that continues after `clip` was entered: for the beginning of a clip, that whole clip; else
-  /// `clip` itself.
+  /// Returns the clip that continues after `clip` was entered: if `clip` is the beginning of an act or slow
+  /// demonstration, that whole clip; else `clip` itself.
   int WholeOf(int clip) const;
   /// Returns the last repetition that has begun at a frame of the dance; −1 before the first.
   int RepetitionAt(double dance_frame) const;

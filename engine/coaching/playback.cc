@@ -12,8 +12,8 @@
 namespace etude {
 namespace {
 
-/// Returns the record's segments with the playing clip as clip 0, shortened by its first `skipped` frames, and the
-/// wanted clip as clip 1. Other clips on the way are appended to `clips`.
+/// Returns the record's segments with new clip indices: the playing clip, shortened by its first `skipped` frames, is
+/// clip 0, and the wanted clip is clip 1. Other clips on the way are appended to `clips`.
 std::vector<Segment> Renumbered(const TransitionRecord& record, int skipped, const std::vector<BodyMotion>& motions,
                                 std::vector<BodyMotion>& clips) {
   std::vector<Segment> segments = record.segments;
@@ -76,7 +76,7 @@ std::shared_ptr<const ShownPath> DanceTransitions::Splice(int from, int frame, c
   clips[0].rate_hz = motions[from].rate_hz;
   clips[0].poses.assign(motions[from].poses.begin() + skipped, motions[from].poses.end());
   clips[1] = motions[to];
-  // If the wanted clip is shown where it was authored, move the playing clip to the place where it is shown.
+  // If the wanted clip is shown where it was authored, move the playing clip to the place where it is shown now.
   if (home_from != nullptr) {
     for (BodyPose& pose : clips[0].poses) pose = home_from->Apply(pose);
   }
@@ -225,7 +225,8 @@ void Advance(Playback& playback, const DanceLibrary& library, double rate) {
 void LeaveFor(int clip, Playback& playback, const DanceTransitions& transitions) {
   const Leaving leaving = LeavingOf(playback, transitions.library());
   playback.path = transitions.Find(leaving.clip, leaving.frame, clip);
-  // The path's first frame follows the whole frame that was left; Advance will add 1 to it.
+  // The path's first frame follows the whole frame that was left. Advance will add 1 to `path_frame` before it is
+  // shown.
   playback.path_frame = leaving.beyond - 1;
   playback.place = leaving.place;
 }

@@ -13,7 +13,7 @@ namespace etude {
 /// The frames of a transition after the request, until only the wanted clip plays.
 struct ShownPath {
   int clip = 0;                                    ///< the wanted clip, as an index in the library
-  std::vector<BodyPose> frames;                    ///< in the frame of the clip that was left
+  std::vector<BodyPose> frames;                    ///< in the coordinates of the clip that was left
   std::size_t entered = 0;                         ///< index in `frames` from which the wanted clip plays
   int clip_frame = 0;                              ///< the wanted clip's frame at that index
   FloorMove place;                                 ///< the wanted clip's floor move
@@ -80,7 +80,7 @@ bool IsSettled(const Playback& playback);
 void Advance(Playback& playback, const DanceLibrary& library, double rate);
 /// Leaves what is playing, which must be settled, for a clip, from the next frame on.
 void LeaveFor(int clip, Playback& playback, const DanceTransitions& transitions);
-/// Does the same for a clip that is to be shown where it was authored.
+/// Leaves what is playing, like LeaveFor, for a clip that is shown at the place where it was authored.
 void LeaveForHome(int clip, Playback& playback, const DanceTransitions& transitions);
 
 }  // namespace etude

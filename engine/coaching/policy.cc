@@ -77,6 +77,7 @@ PolicyDecision AtMoments(const PolicyInput& /*input*/, Values /*values*/) {
 }  // namespace
 
 std::span<const Policy> AllPolicies() {
+  // The policies that need only the recogniser's evidence, then the two for experiments: `oracle` and `yoked`.
   static const std::vector<Policy> policies = {
       {.name = "at-first-mistake", .description = "corrects every mistake (paper A)", .decide = AtFirst},
       {.name = "never", .description = "never corrects: the dance goes on whatever the player does", .decide = Never},

@@ -37,7 +37,7 @@ struct PolicyDecision {
   std::string why;  ///< one sentence with numbers
 };
 
-/// A rule that decides when the coach interrupts, with its name in scenario files. All policies are pure functions.
+/// A rule that decides when the coach interrupts, with its name in scenario files. A policy is a pure function.
 struct Policy {
   std::string name;
   std::string description;     ///< one line for users

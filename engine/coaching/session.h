@@ -25,7 +25,7 @@ class CoachSession {
     const Coach* coach = nullptr;
     const Recogniser* recogniser = nullptr;  ///< taught the moves of the dance, in the same order
     FilterOptions filter = {};
-    /// A second follower judges the mirror image; it affects only words and computing time.
+    /// If true, a second follower judges the mirror image; it affects only words and computing time.
     bool tells_wrong_side = true;
   };
 
@@ -40,7 +40,7 @@ class CoachSession {
   CoachOutput Next(const SensedFrame& frame, const SessionInput& input = {});
 
   const CoachState& state() const { return state_; }
-  /// Replaces the state while no window is open; filters and followers keep theirs.
+  /// Replaces the state while no window is open; filters and followers keep their own states.
   void ReplaceState(CoachState state) { state_ = std::move(state); }
 
  private:

@@ -61,7 +61,7 @@ void Stepping::Watch() {
   if (moves || !is_asked) state_.idle_since = state_.frame;
   if (input_.moment) state_.moment_waits = true;
 
-  // Change the position hint if another one has been due for some time.
+  // Change the position hint if another hint has been due for some time.
   const PlayerHint hint = WhereToStand();
   state_.stand_frames = hint == state_.stand ? 0 : state_.stand_frames + 1;
   if (state_.stand_frames < kHintFrames) return;
@@ -285,7 +285,7 @@ void Stepping::FollowMusic(double dance_frame) {
   const double error_s = *input_.music_s - MusicAt(dance_, dance_frame);
   out_.beat_error_s = error_s;
   const int count = static_cast<int>(dance_.tags.size());
-  // At each tag that is reached, set the rate for the way to the next one.
+  // At each tag that is reached, set the rate for the way to the next tag.
   while (state_.next_tag < count && dance_frame >= static_cast<double>(dance_.tags[state_.next_tag].frame)) {
     const int tag = state_.next_tag++;
     if (options_.follows_tags) {

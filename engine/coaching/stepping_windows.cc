@@ -30,7 +30,8 @@ void Stepping::OpenWindowAt(double dance_frame) {
   const double opens = static_cast<double>(repetition.first) + options_.reaction_s * kJudgedRateHz;
   if (dance_frame < opens) return;
   ++state_.next_window;
-  // If the coach itself enters a repetition later than this, the player did not see all of it and is not asked for it.
+  // If the coach enters a repetition later than this, in frames, the player did not see all of it and is not asked for
+  // it.
   constexpr double kLateFrames = 3;
   if (dance_frame > opens + kLateFrames) return;
   state_.open = {.repetition = index, .move = repetition.move};
@@ -74,7 +75,7 @@ void Stepping::Remember(WindowVerdict verdict) {
     }
   }
   state_.decided = true;
-  // Record it; praise a right performance after a mistake.
+  // Record the verdict; praise a right performance after a mistake.
   const auto note = [&](CoachEvent event, std::string why) {
     CoachRecord& record = Note(event, std::move(why));
     record.repetition = window.repetition;

@@ -30,8 +30,8 @@ class Fields {
   /// `what` names the mapping in complaints, e.g. "a method of task ik". `node` must outlive this object.
   Fields(const Node& node, std::string what);
 
-  /// Each returns the value of `key`, or `fallback` (the empty list, nothing) if the key is absent or its value is
-  /// refused.
+  /// Each of these returns the value of `key`. If the key is absent or its value is refused, it returns `fallback`, or
+  /// an empty list or nothing where there is no such parameter.
   double Number(std::string_view key, double fallback, Range range = {});
   int Integer(std::string_view key, int fallback, Range range = {});
   bool Boolean(std::string_view key, bool fallback);
@@ -46,7 +46,7 @@ class Fields {
   /// Reads a text that must be present and not empty.
   std::string RequiredText(std::string_view key);
 
-  /// Returns the value of `key` unconverted, null if absent, and marks the key as known.
+  /// Returns the node at `key` without conversion, null if the key is absent, and marks the key as known.
   const Node* Raw(std::string_view key);
   const Node& node() const { return node_; }
 

@@ -14,8 +14,8 @@ namespace {
 constexpr int kMaxNesting = 32;
 constexpr int kMaxValues = 10'000;  // yaml-cpp's time grows with the square of the number of values
 
-/// Estimates the nesting of a text before yaml-cpp's recursive parser sees it: the deepest bracket or the longest run
-/// of list markers, whichever is larger. The estimate may be too high. Nesting by indentation is left to yaml-cpp's own
+/// Estimates the nesting of a text, because yaml-cpp's parser is recursive: the deepest bracket or the longest run of
+/// list markers, whichever is larger. The estimate may be too high. Nesting by indentation is left to yaml-cpp's own
 /// guard.
 int EstimateNesting(std::string_view text) {
   int deepest = 0;
@@ -97,7 +97,7 @@ class Builder {
         break;
       case YAML::NodeType::Map:
         node.kind = Node::Kind::kMapping;
-        // Keys are unique plain texts.
+        // Keys must be unique plain texts.
         for (const auto& pair : yaml) {
           const Place key_place = At(pair.first.Mark());
           if (!pair.first.IsScalar()) return Fail(key_place, "a key must be plain text");
@@ -126,8 +126,8 @@ class Builder {
   std::string file_;
 };
 
-/// Checks the event stream of a document before it is loaded. An alias (`*name`) repeats a whole subtree, so a few
-/// lines can expand to gigabytes. Loading expands aliases silently, so they must be found before.
+/// Checks the event stream of a document before the document is loaded. An alias (`*name`) repeats a whole subtree, so
+/// a few lines can expand to gigabytes. Loading expands aliases silently, so they must be found first.
 class DocumentCheck : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark&) override {}

@@ -13,8 +13,8 @@ namespace etude::engine {
 
 struct CaptureOptions {
   double rate_hz = 30;
-  int person = 0;        ///< index among the people found; 0 is the one seen most
-  double smooth_hz = 0;  ///< motion above this frequency is smoothed away; 0: no smoothing
+  int person = 0;        ///< index among the people found; person 0 has the most sightings
+  double smooth_hz = 0;  ///< cut-off frequency of the low-pass filter on the landmarks, Hz; 0: no smoothing
 };
 
 struct CapturedMotion {

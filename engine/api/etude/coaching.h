@@ -22,16 +22,17 @@ struct CoachOptions {
   std::string choice = "played";            ///< as TransitionOptions::choice, for transitions between clips
   std::string join = "planted-feet";        ///< as TransitionOptions::join
   std::string recogniser = "whole-body";    ///< or "dtw", "nearest"
-  bool smooths = false;                     ///< the stream goes through Kinect's own filter first
+  bool smooths = false;                     ///< filters the stream by Kinect's own smoothing filter before recognition
   bool mirrors = false;                     ///< players dance as in a mirror: the coach's left side is their right side
-  bool dances_at_once = false;              ///< begins without a clap
-  /// The evidence at or above which a performance is right, in (0, 1]; nullopt: the recogniser's own.
+  bool dances_at_once = false;              ///< starts with the dance instead of waiting for a clap
+  /// A performance is right if its evidence is at least this, in (0, 1]; nullopt: the recogniser's own threshold.
   std::optional<double> right_from = {};
   /// The place of the sensor, metres; players are asked to stand 1.5 to 3.6 m from it.
   glm::dvec3 sensor_m{0, 1, 2.75};
 };
 
-/// Paper A's coach with a sensor: watches a player, shows a dance, corrects, and says why. Frame by frame, at 30 Hz.
+/// Paper A's coach with a sensor: watches a player, shows a dance, corrects, and says why. It runs frame by frame at 30
+/// Hz.
 class ETUDE_API Coach {
  public:
   /// @param moves right performances of the moves of the dance, in its order. Throws BadInput for a dance that breaks

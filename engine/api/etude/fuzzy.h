@@ -19,7 +19,7 @@ ETUDE_API std::vector<PoseFeatures> ComputeFeatures(const BodyMotion& motion);
 /// Throws BadInput for features that are not finite.
 ETUDE_API double FuzzyDistance(const PoseFeatures& a, const PoseFeatures& b);
 
-/// A pair of frames that are shown as one: the playing clip is left at `from`, the wanted clip is entered at `to`.
+/// A pair of matching frames: a transition leaves the playing clip at `from` and enters the wanted clip at `to`.
 struct TransitionPoint {
   int from = 0;
   int to = 0;

@@ -20,13 +20,13 @@ struct RecogniserOptions {
 
 /// The evidence for moves in one frame, from this frame and those before it; all in 0…1.
 struct Evidence {
-  double asked = 0;             ///< that the requested move is right so far; never falls during one request
+  double asked = 0;             ///< evidence that the requested move is right so far; never falls during one request
   std::vector<double> spotted;  ///< per move: how much the motion looks like the end of a right performance of it
 };
 
 class RecogniserStream;
 
-/// A recogniser that was taught moves. It never changes, and several threads may use it.
+/// A recogniser that was taught moves. It is immutable, so several threads may use it.
 class ETUDE_API Recogniser {
  public:
   /// Throws BadInput for no moves, two moves with one name, a move without examples, examples without frames or with
@@ -46,7 +46,7 @@ class ETUDE_API Recogniser {
   std::shared_ptr<const Taught> taught_;
 };
 
-/// One stream, frame by frame.
+/// Recognises moves in one stream, frame by frame.
 class ETUDE_API RecogniserStream {
  public:
   RecogniserStream(RecogniserStream&&) noexcept;

@@ -15,14 +15,15 @@ struct FollowOptions {
   double stature_m = 1.74;  ///< height of the person, who has an average adult's limbs for that height; 0.5 to 2.5
   /// Poses of this person from which limb lengths are measured; `stature_m` is then ignored.
   std::vector<BodyPose> measured = {};
-  double rate_hz = 30;  ///< of the pictures, 1 to 1000; it determines how far a person can move between two pictures
+  double rate_hz = 30;  ///< frames per second, 1 to 1000; it limits how far a person can move between two pictures
 };
 
 /// Follows a person through films by outlines alone (engine/silhouettes), without marks or keypoints. Frames in which
-/// fewer than two cameras show a person have no pose. Works best for a person who fills half of the picture's height.
+/// fewer than two cameras show a person have no pose. The method works best for a person who fills half of the
+/// picture's height.
 /// @param cameras two or more fixed cameras without lens distortion: undistort the pictures first
-/// @param masks for each camera and frame, all cameras at the same moments; of the camera's size, or smaller by the
-/// same whole factor in both directions; all pixels but 0 show the person
+/// @param masks one mask per camera and frame; all cameras take a frame at the same moment. A mask has the size of its
+/// camera's picture, or is smaller by the same whole factor in both directions. Pixels other than 0 show the person.
 /// Throws BadInput for cameras and masks that do not fit each other, for lenses, and for limbs of length zero.
 ETUDE_API std::vector<std::optional<BodyPose>> TrackSilhouettes(std::span<const NamedCamera> cameras,
                                                                 std::span<const std::vector<Mask>> masks,

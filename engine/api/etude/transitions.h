@@ -50,17 +50,17 @@ struct BodyProportions {
 /// Clips prepared for transitions: performed by one body, tagged, and connected by in-betweens.
 class ETUDE_API TransitionLibrary {
  public:
-  /// The performing body is that of the first clip's first frame, or the given one (scenarios use
-  /// sim::ScenarioProportions). Throws BadInput for no clips, a clip with fewer than two frames or another rate than 30
-  /// Hz, positions that are not finite, a body without legs, and hips that are not 0.1 to 10 m high.
+  /// All clips are performed by a body of the given proportions (scenarios use sim::ScenarioProportions), by default
+  /// those of the first clip's first frame. Throws BadInput for no clips, a clip with fewer than two frames or another
+  /// rate than 30 Hz, positions that are not finite, a body without legs, and hips that are not 0.1 to 10 m high.
   explicit TransitionLibrary(std::span<const BodyMotion> clips, const std::optional<BodyProportions>& proportions = {});
   TransitionLibrary(TransitionLibrary&&) noexcept;
   TransitionLibrary& operator=(TransitionLibrary&&) noexcept;
   ~TransitionLibrary();
 
-  /// Makes the transition from frame `frame` of clip `from`, which is shown when clip `to` is requested. `budget_s` is
-  /// the longest wait for the wanted clip, 0 to 3600 seconds. Throws BadInput for a clip, frame, choice, join or
-  /// setting that does not exist, and for a setting out of its range.
+  /// Makes the transition from clip `from` to clip `to`, which is requested while frame `frame` of `from` is shown.
+  /// `budget_s` is the maximum wait for the wanted clip, 0 to 3600 seconds. Throws BadInput for a clip, frame, choice,
+  /// join or setting that does not exist, and for a setting out of its range.
   Transition Make(int from, int frame, int to, double budget_s = 1, const TransitionOptions& options = {}) const;
 
  private:

@@ -22,7 +22,7 @@ namespace {
 
 using DictionaryName = decltype(cv::aruco::DICT_4X4_1000);
 
-/// The largest dictionary of each family; OpenCV's smaller dictionaries are the first codes of these.
+/// The largest dictionary of each family; OpenCV's smaller dictionaries are the first codes of the largest.
 constexpr std::array<std::pair<DictionaryName, const char*>, 9> kDictionaries = {
     {{cv::aruco::DICT_4X4_1000, "DICT_4X4"},
      {cv::aruco::DICT_5X5_1000, "DICT_5X5"},
@@ -49,7 +49,7 @@ cv::Point2f Mapped(const cv::Mat& H, double x, double y) {
           static_cast<float>((H.at<double>(1, 0) * x + H.at<double>(1, 1) * y + H.at<double>(1, 2)) / w)};
 }
 
-/// Returns the homography from a marker's square, with corners (±1, ±1), to the picture.
+/// Returns the homography from a marker's square, with corners (±1, ±1), to its quadrilateral in the picture.
 cv::Mat HomographyOfQuad(const Quad& quad) {
   const Quad unit = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   return cv::getPerspectiveTransform(unit, quad);
@@ -114,7 +114,8 @@ class OpenCvFinder : public PrintedBoardFinder {
     return best;
   }
 
-  /// Returns column and row of the square of a marker; in layout 1 the first square holds a marker.
+  /// Returns the column and row of the square that holds a marker. In layout 0 the board's second square holds the
+  /// first marker, in layout 1 the first square does.
   std::array<int, 2> SquareOf(int id, int layout) const {
     for (int row = 0; row < board.rows; ++row) {
       for (int column = 0; column < board.columns; ++column) {
@@ -163,8 +164,8 @@ class OpenCvFinder : public PrintedBoardFinder {
     const std::map<int, Quad> markers = Markers(gray);
     constexpr std::size_t kMinMarkers = 3;
     if (markers.size() < kMinMarkers) return {};
-    // Choose the layout and ratio for which most corners are predicted consistently, then those of the smallest
-    // disagreement.
+    // Choose the layout and ratio that predict the most corners consistently; among equals, those with the smallest
+    // mean disagreement.
     constexpr double kMaxDisagreement = 0.2;
     double min_disagreement = 1e9;
     int layout = 0, share = 75;
@@ -220,8 +221,8 @@ class OpenCvFinder : public PrintedBoardFinder {
   }
 
   /// Refines the corners of a chessboard by cornerSubPix, with a window of 0.4 of the distance to the nearest
-  /// neighbour: findChessboardCornersSB leaves them 0.1 px off, most of it with a common bias. A corner that would move
-  /// by more than a pixel, as in strong blur, stays.
+  /// neighbour. This is needed because findChessboardCornersSB leaves errors of 0.1 px, mostly a bias that all corners
+  /// share. A corner that would move by more than a pixel, for example in strong blur, keeps its position.
   static void RefineChess(const cv::Mat& gray, const cv::Size& inner, Quad& corners) {
     constexpr double kOfSide = 0.4, kMaxMovePx = 1;
     constexpr int kMinHalf = 2, kMaxHalf = 20;
@@ -304,7 +305,7 @@ std::unique_ptr<PrintedBoardFinder> MakeOpenCvFinder(const PrintedBoard& board) 
 
 Result<OpenCvCalibration> CalibrateCamera(std::span<const TargetView> views, const PictureSize& size, LensModel lens) {
   constexpr double kOurPixelCentre = 0.5;
-  // The lens model as flags.
+  // Translate the lens model to OpenCV's flags.
   int flags = 0;
   switch (lens) {
     case LensModel::kPinhole:
@@ -318,7 +319,7 @@ Result<OpenCvCalibration> CalibrateCamera(std::span<const TargetView> views, con
     case LensModel::kAsInCamera:
       return Fail({}, "OpenCV's calibrateCamera keeps no lens parameter fixed");
   }
-  // Convert the views; OpenCV's pixel centres are at whole numbers, ours at halves.
+  // Convert the views; OpenCV's pixel centres are at integers, ours at half-integers.
   std::vector<std::vector<cv::Point3f>> object_points;
   std::vector<Quad> pixels;
   for (const TargetView& view : views) {
